@@ -1,0 +1,27 @@
+# Imported targets for what FindOpenSceneGraph gives only as paths, and for OSMesa. Headers are SYSTEM: their warnings are not ours.
+find_package(glm REQUIRED)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL GLX)
+find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgDB osgGA osgText osgViewer osgShadow)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(OSMESA REQUIRED osmesa)
+
+function(gnomon_import_osg kit)
+  string(TOUPPER ${kit} upper)
+  add_library(osg::${kit} INTERFACE IMPORTED)
+  set_target_properties(osg::${kit} PROPERTIES
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${${upper}_INCLUDE_DIR}"
+    INTERFACE_LINK_LIBRARIES "${${upper}_LIBRARY}")
+endfunction()
+foreach(kit osg osgUtil osgDB osgGA osgText osgViewer osgShadow)
+  gnomon_import_osg(${kit})
+endforeach()
+string(TOUPPER OpenThreads upper)
+add_library(osg::OpenThreads INTERFACE IMPORTED)
+set_target_properties(osg::OpenThreads PROPERTIES INTERFACE_LINK_LIBRARIES "${OPENTHREADS_LIBRARY}")
+target_link_libraries(osg::osg INTERFACE osg::OpenThreads)
+
+# libOSMesa must come before libGL in a program's list of libraries: libosg looks its GL functions up by name in that order.
+add_library(osmesa::osmesa INTERFACE IMPORTED)
+set_target_properties(osmesa::osmesa PROPERTIES
+  INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${OSMESA_INCLUDE_DIRS}"
+  INTERFACE_LINK_LIBRARIES "-Wl,--no-as-needed;-lOSMesa")

@@ -1,0 +1,7 @@
+# Warnings and sanitizers for this project's own targets: link them with `gnomon_warnings` (PRIVATE).
+add_library(gnomon_warnings INTERFACE)
+target_compile_options(gnomon_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  $<$<BOOL:${GNOMON_WERROR}>:-Werror>
+  $<$<BOOL:${GNOMON_SANITIZE}>:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>)
+target_link_options(gnomon_warnings INTERFACE $<$<BOOL:${GNOMON_SANITIZE}>:-fsanitize=address,undefined>)

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+/// Corners of the convex body that is left of a box [low, high] after cutting it by half-spaces
+/// (a point is kept where dot(halfSpace, (x, y, z, 1)) >= 0). A superset of its corners within the body is allowed.
+/// Empty if nothing is left or anything is not finite.
+std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high, const std::vector<glm::dvec4>& halfSpaces);
+
+/// Rectangle in normalised device coordinates, each within [-1, 1].
+struct ScreenRect {
+    glm::dvec2 low, high;
+};
+
+/// Bounds, on the screen, of the convex hull of homogeneous points in clip space, as far as it lies in front of the
+/// eye (clip w > 0). Conservative: never smaller than what is drawn, also where the hull passes behind the eye.
+/// nullopt if nothing of it can be seen. Points that are not finite make the whole screen the answer.
+std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints);
+
+} // namespace gnomon
