@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/Camera>
+#include <osg/GraphicsContext>
+#include <osg/Image>
+#include <osg/ref_ptr>
+
+#include <string>
+
+namespace gnomon {
+
+/// A picture without a display or a GPU: an OpenGL context that draws into memory (OSMesa).
+///
+///     gnomon::HeadlessContext context({256, 256});
+///     osgViewer::Viewer viewer;
+///     context.attach(*viewer.getCamera());
+///     viewer.setSceneData(scene);
+///     viewer.frame();
+///     osg::ref_ptr<osg::Image> picture = context.image();
+///
+/// Cost    width × height × (4 or 16 bytes colour + 4 bytes depth and stencil).
+/// Needs   libOSMesa, linked ahead of libGL (the CMake target gnomon::headless does).
+/// Limits  one viewer a context: OpenSceneGraph keeps display lists by context number. Outlives its viewer.
+/// Threads use from one thread; the viewer must be SingleThreaded (attach() to a Viewer's camera leaves that to you).
+class HeadlessContext {
+public:
+    struct Options {
+        int width = 800;         ///< pixels, 1 … 16384 (the driver's own limit if lower).
+        int height = 600;        ///< pixels, the same.
+        int depthBits = 24;      ///< 16, 24 or 32.
+        int stencilBits = 8;     ///< 0 or 8. Shadows need some.
+        bool floatColor = false; ///< 32-bit float colour instead of 8-bit.
+    };
+
+    HeadlessContext(int width, int height);
+    /// @throws std::runtime_error with one sentence if a size is out of range or the context cannot be made.
+    explicit HeadlessContext(const Options& options);
+    ~HeadlessContext();
+    HeadlessContext(const HeadlessContext&) = delete;
+    HeadlessContext& operator=(const HeadlessContext&) = delete;
+
+    osg::GraphicsContext* graphicsContext() const;
+    /// Makes `camera` draw into this context: graphics context, viewport and the aspect of a perspective projection.
+    void attach(osg::Camera& camera) const;
+    /// Copy of the colour buffer: RGBA, bottom row first as OSG keeps images; unsigned bytes, or floats with floatColor.
+    osg::ref_ptr<osg::Image> image() const;
+    /// Copy of the depth buffer, width × height GL_FLOAT in [0, 1]; of the stencil buffer, bytes.
+    osg::ref_ptr<osg::Image> depth() const;
+    osg::ref_ptr<osg::Image> stencil() const;
+    /// GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
+    std::string renderer() const;
+
+private:
+    class Window;
+    osg::ref_ptr<Window> _window;
+};
+
+} // namespace gnomon

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/PlanarCasters.h>
+#include <gnomon/ShadowTechnique.h>
+
+#include <osg/Vec4d>
+
+#include <vector>
+
+namespace gnomon {
+
+/// Shadow on one or several planes: the casters flattened along the light's rays (Blinn 1988).
+///
+/// The shadow lies where something in the scene lies in the plane; it ends at that thing's edges. With a named receiver
+/// (setReceiver) only that receives, whatever else lies in the plane.
+///
+/// Cost    one draw of the casters a plane and light, stencil only; no redraw of anything that does not receive.
+/// Needs   2 stencil bits.
+/// Limits  flat receivers; a caster is not shadowed by another. A plane casts on its lit side only.
+/// Threads any number of cull and draw threads; set properties between frames.
+/// Source: CS-4470 "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8; J. Blinn 1988.
+class GNOMON_EXPORT PlanarShadowNode : public ShadowTechnique {
+public:
+    PlanarShadowNode() = default;
+    explicit PlanarShadowNode(const osg::Vec4d& plane) { addPlane(plane); }
+    PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+    META_Node(gnomon, PlanarShadowNode)
+
+    /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the lit side; any length of normal.
+    /// Kept as given; one that is degenerate or not finite gets no shadow, and diagnose() says so.
+    void addPlane(const osg::Vec4d& plane);
+    void setPlanes(const std::vector<osg::Vec4d>& planes);
+    const std::vector<osg::Vec4d>& getPlanes() const { return _planes; }
+
+    osg::ref_ptr<MarkJob> prepare(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters) const override;
+
+    void resizeGLObjectBuffers(unsigned maxSize) override;
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
+protected:
+    ~PlanarShadowNode() override = default;
+
+private:
+    osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const osg::Vec4d& plane, unsigned index) const;
+
+    std::vector<osg::Vec4d> _planes;
+    mutable OpenThreads::Mutex _cacheMutex;
+    mutable std::vector<osg::ref_ptr<PlanarCasters>> _cache; ///< one a plane.
+};
+
+} // namespace gnomon

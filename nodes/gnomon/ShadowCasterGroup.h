@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/CasterMesh.h>
+#include <gnomon/Export.h>
+#include <gnomon/Selection.h>
+#include <gnomon/ShadowLight.h>
+
+#include <OpenThreads/Mutex>
+#include <osg/Group>
+#include <osg/LightSource>
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon {
+
+/// Group whose subgraph casts shadows. It wraps the scene or any part of it; the scene's own nodes stay as they are.
+/// Techniques (PlanarShadowNode, …) are its children, beside the scene:
+///
+///     osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
+///     group->addChild(scene);
+///     group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
+///
+/// Cost    a visit of the casters' nodes a frame and view to see that nothing changed; an extraction where something did.
+/// Needs   stencil bits for its techniques.
+/// Limits  see VertexTraverser for what is left out.
+/// Threads any number of cull and draw threads; set properties between frames.
+class GNOMON_EXPORT ShadowCasterGroup : public osg::Group {
+public:
+    /// How the light is taken away from the pixels it does not reach.
+    enum Composite {
+        RELIGHT, ///< exact: they are drawn once more without that light's diffuse and specular.
+        BLEND    ///< cheap: their colour is multiplied by a factor, once.
+    };
+
+    ShadowCasterGroup();
+    ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+    META_Node(gnomon, ShadowCasterGroup)
+
+    /// What casts, of this group's subgraph. Default: all of it.
+    void setCasters(const Selection& casters);
+    const Selection& getCasters() const { return _selection; }
+
+    void setComposite(Composite composite) { _composite = composite; }
+    Composite getComposite() const { return _composite; }
+
+    /// Factor of BLEND, 0 (black) … 1 (nothing); default 0.5. Clamped; NaN is refused with a warning.
+    void setDark(float factor);
+    float getDark() const { return _dark; }
+
+    /// Lights that cast, instead of all those that are on in the view. A LightSource may stand anywhere in the graph, moved by transforms.
+    void addLight(osg::LightSource* light);
+    /// A light given by its place in the group's frame, in double: for lamps far from the origin.
+    void addLight(const ShadowLight& light);
+    void removeLights();
+    const std::vector<osg::ref_ptr<osg::LightSource>>& getLightSources() const { return _lightSources; }
+    const std::vector<ShadowLight>& getLights() const { return _lights; }
+
+    /// The casters as they are now; extracted again only if something changed since the last call. Call it where reading the
+    /// graph is allowed: in update, event or cull.
+    osg::ref_ptr<const CasterMesh> casters() const;
+    /// Rises by one with each extraction; 0 before the first.
+    unsigned revision() const;
+
+protected:
+    ~ShadowCasterGroup() override = default;
+
+private:
+    Selection _selection;
+    Composite _composite = RELIGHT;
+    float _dark = 0.5f;
+    std::vector<osg::ref_ptr<osg::LightSource>> _lightSources;
+    std::vector<ShadowLight> _lights;
+
+    mutable OpenThreads::Mutex _mutex;
+    mutable osg::ref_ptr<const CasterMesh> _mesh;
+    mutable std::uint64_t _fingerprint = 0;
+    mutable unsigned _revision = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/CasterMesh.h>
+#include <gnomon/Export.h>
+#include <gnomon/MarkJob.h>
+#include <gnomon/Selection.h>
+#include <gnomon/ShadowLight.h>
+#include <gnomon/ViewFrame.h>
+
+#include <OpenThreads/Mutex>
+#include <osg/Geode>
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+class ShadowCasterGroup;
+
+/// Base of all shadow techniques: finds the pixels that a light does not reach. The compositor (ShadowBin) takes the
+/// light away from them.
+///
+/// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. In a cull traversal it
+/// registers itself with the ShadowBin of the stage being filled, and draws nothing else. After the whole cull the
+/// bin calls prepare() once a light, in each view.
+class GNOMON_EXPORT ShadowTechnique : public osg::Geode {
+public:
+    ShadowTechnique();
+    ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+    const char* libraryName() const override { return "gnomon"; }
+    const char* className() const override { return "ShadowTechnique"; }
+
+    /// What receives: the shadow ends at its edges. Default: everything opaque.
+    void setReceiver(const Selection& receiver) { _receiver = receiver; }
+    const Selection& getReceiver() const { return _receiver; }
+    bool hasReceiver() const { return _receiver != Selection(); }
+
+    /// Why there was no (or no full) shadow in the last frame, over all its views: one sentence a cause, with the node
+    /// and the remedy. Empty if all is well.
+    std::vector<std::string> diagnose() const;
+
+    void traverse(osg::NodeVisitor& visitor) override;
+
+    /// Called by the ShadowBin after the whole cull, once a light and view.
+    /// @return what to draw; null if this light casts nothing in this view (report() says why, where a user could wonder).
+    virtual osg::ref_ptr<MarkJob> prepare(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters) const = 0;
+
+    /// Notes a cause for diagnose(); repeated causes count once. Called in cull or draw.
+    void report(unsigned frame, const std::string& cause) const;
+    /// Forgets the causes of frames before `frame`.
+    void beginFrame(unsigned frame) const;
+    /// "PlanarShadowNode 'floor'": what a cause begins with.
+    std::string describe() const;
+
+protected:
+    ~ShadowTechnique() override = default;
+
+private:
+    Selection _receiver;
+    mutable OpenThreads::Mutex _causesMutex;
+    mutable std::vector<std::string> _causes;
+    mutable unsigned _causesFrame = 0;
+};
+
+} // namespace gnomon

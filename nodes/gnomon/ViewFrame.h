@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/Matrixd>
+#include <osg/Viewport>
+
+namespace gnomon {
+
+/// One view in one frame, as a technique sees it after cull. OSG's convention: row vectors, eye = group * eyeFromGroup.
+struct ViewFrame {
+    osg::Matrixd eyeFromGroup;       ///< modelview of the ShadowCasterGroup.
+    osg::Matrixd groupFromTechnique; ///< identity unless a transform stands between group and technique.
+    osg::Matrixd projection;         ///< as drawn, near and far included.
+    unsigned frameNumber = 0;
+};
+
+} // namespace gnomon
