@@ -3,6 +3,7 @@
 #include <osg/Camera>
 #include <osg/GraphicsContext>
 #include <osg/Image>
+#include <osg/Viewport>
 #include <osg/ref_ptr>
 
 #include <string>
@@ -11,17 +12,17 @@ namespace gnomon {
 
 /// A picture without a display or a GPU: an OpenGL context that draws into memory (OSMesa).
 ///
-///     gnomon::HeadlessContext context({256, 256});
+///     gnomon::HeadlessContext context(256, 256);
 ///     osgViewer::Viewer viewer;
 ///     context.attach(*viewer.getCamera());
 ///     viewer.setSceneData(scene);
 ///     viewer.frame();
 ///     osg::ref_ptr<osg::Image> picture = context.image();
 ///
-/// Cost    width × height × (4 or 16 bytes colour + 4 bytes depth and stencil).
+/// Cost    width × height × (8 or 32 bytes colour + 4 bytes depth and stencil).
 /// Needs   libOSMesa, linked ahead of libGL (the CMake target gnomon::headless does).
-/// Limits  one viewer a context: OpenSceneGraph keeps display lists by context number. Outlives its viewer.
-/// Threads use from one thread; the viewer must be SingleThreaded (attach() to a Viewer's camera leaves that to you).
+/// Limits  one viewer a context, OSG keeps GL objects by context number; the context outlives its viewer. Fixed size.
+/// Threads a viewer's draw thread may use it; image(), depth(), stencil() only while no other thread draws.
 class HeadlessContext {
 public:
     struct Options {
@@ -33,19 +34,28 @@ public:
     };
 
     HeadlessContext(int width, int height);
-    /// @throws std::runtime_error with one sentence if a size is out of range or the context cannot be made.
+    /// @throws std::runtime_error with one sentence if a value is out of range or the context cannot be made.
     explicit HeadlessContext(const Options& options);
     ~HeadlessContext();
     HeadlessContext(const HeadlessContext&) = delete;
     HeadlessContext& operator=(const HeadlessContext&) = delete;
 
     osg::GraphicsContext* graphicsContext() const;
-    /// Makes `camera` draw into this context: graphics context, viewport and the aspect of a perspective projection.
+
+    /// Makes `camera` draw into this context, into all of it: graphics context, viewport, and the aspect of a
+    /// perspective projection. A viewer the camera belongs to becomes SingleThreaded unless a threading model was
+    /// chosen before.
+    /// @throws std::logic_error if this context's viewer has gone already.
     void attach(osg::Camera& camera) const;
-    /// Copy of the colour buffer: RGBA, bottom row first as OSG keeps images; unsigned bytes, or floats with floatColor.
+    /// The same for a part of it, in pixels from the lower left corner.
+    void attach(osg::Camera& camera, osg::Viewport* part) const;
+
+    /// Copy of the colour buffer: RGBA, bottom row first as OSG keeps images; unsigned bytes, or floats with
+    /// floatColor.
     osg::ref_ptr<osg::Image> image() const;
-    /// Copy of the depth buffer, width × height GL_FLOAT in [0, 1]; of the stencil buffer, bytes.
+    /// Copy of the depth buffer, GL_FLOAT in [0, 1].
     osg::ref_ptr<osg::Image> depth() const;
+    /// Copy of the stencil buffer, unsigned bytes; all zero if there are no stencil bits.
     osg::ref_ptr<osg::Image> stencil() const;
     /// GL_RENDERER, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
     std::string renderer() const;
