@@ -8,16 +8,18 @@
 
 namespace gnomon {
 
+class ScreenPass;
+
 /// One technique's share of one view: marks, in draw, the pixels that one light does not reach.
 class GNOMON_EXPORT MarkJob : public osg::Referenced {
 public:
     /// Where marks can fall; everything the compositor does is cut to it.
     ScreenRect screenBounds{{-1.0, -1.0}, {1.0, 1.0}};
 
-    /// Sets `markBit` in the stencil buffer where the light does not reach. Colour and depth stay as they are; of the
-    /// other stencil bits only `scratchBit` may be used, and is zero before and after.
-    /// Called with a clean OpenGL state: no program, no texture, no stencil test, depth test off, colour writes off.
-    virtual void mark(osg::RenderInfo& renderInfo, unsigned markBit, unsigned scratchBit) const = 0;
+    /// Sets `bit` in the stencil buffer where the light does not reach. The bit is zero before, within the bounds;
+    /// other bits, colour and depth stay as they are. Called within a CleanState and `pass`, which is cut to the
+    /// bounds; state that is applied on top must be taken back by state.apply().
+    virtual void mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const = 0;
 
 protected:
     ~MarkJob() override = default;

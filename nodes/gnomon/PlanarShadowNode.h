@@ -26,13 +26,14 @@ public:
     PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, PlanarShadowNode)
 
-    /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the lit side; any length of normal.
-    /// Kept as given; one that is degenerate or not finite gets no shadow, and diagnose() says so.
-    void addPlane(const osg::Vec4d& plane);
+        /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the lit side; any length of
+        /// normal. Kept as given; one that is degenerate or not finite gets no shadow, and diagnose() says so.
+        void addPlane(const osg::Vec4d& plane);
     void setPlanes(const std::vector<osg::Vec4d>& planes);
     const std::vector<osg::Vec4d>& getPlanes() const { return _planes; }
 
-    osg::ref_ptr<MarkJob> prepare(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters) const override;
+    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+                                               const CasterMesh& casters) const override;
 
     void resizeGLObjectBuffers(unsigned maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
@@ -41,7 +42,9 @@ protected:
     ~PlanarShadowNode() override = default;
 
 private:
-    osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const osg::Vec4d& plane, unsigned index) const;
+    osg::ref_ptr<MarkJob> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters,
+                                     unsigned index, const glm::dvec4& groupPlane) const;
+    osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const glm::dvec4& plane, unsigned index) const;
 
     std::vector<osg::Vec4d> _planes;
     mutable OpenThreads::Mutex _cacheMutex;

@@ -14,6 +14,8 @@
 
 namespace gnomon {
 
+class CasterRevision;
+
 /// Group whose subgraph casts shadows. It wraps the scene or any part of it; the scene's own nodes stay as they are.
 /// Techniques (PlanarShadowNode, …) are its children, beside the scene:
 ///
@@ -21,10 +23,9 @@ namespace gnomon {
 ///     group->addChild(scene);
 ///     group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
 ///
-/// Cost    a visit of the casters' nodes a frame and view to see that nothing changed; an extraction where something did.
-/// Needs   stencil bits for its techniques.
-/// Limits  see VertexTraverser for what is left out.
-/// Threads any number of cull and draw threads; set properties between frames.
+/// Cost    a visit of the casters' nodes a frame and view to see that nothing changed; an extraction where something
+/// did. Needs   stencil bits for its techniques. Limits  see VertexTraverser for what is left out. Threads any number
+/// of cull and draw threads; set properties between frames.
 class GNOMON_EXPORT ShadowCasterGroup : public osg::Group {
 public:
     /// How the light is taken away from the pixels it does not reach.
@@ -37,8 +38,8 @@ public:
     ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowCasterGroup)
 
-    /// What casts, of this group's subgraph. Default: all of it.
-    void setCasters(const Selection& casters);
+        /// What casts, of this group's subgraph. Default: all of it.
+        void setCasters(const Selection& casters);
     const Selection& getCasters() const { return _selection; }
 
     void setComposite(Composite composite) { _composite = composite; }
@@ -48,7 +49,8 @@ public:
     void setDark(float factor);
     float getDark() const { return _dark; }
 
-    /// Lights that cast, instead of all those that are on in the view. A LightSource may stand anywhere in the graph, moved by transforms.
+    /// Lights that cast, instead of all those that are on in the view. A LightSource may stand anywhere in the graph,
+    /// moved by transforms.
     void addLight(osg::LightSource* light);
     /// A light given by its place in the group's frame, in double: for lamps far from the origin.
     void addLight(const ShadowLight& light);
@@ -56,14 +58,14 @@ public:
     const std::vector<osg::ref_ptr<osg::LightSource>>& getLightSources() const { return _lightSources; }
     const std::vector<ShadowLight>& getLights() const { return _lights; }
 
-    /// The casters as they are now; extracted again only if something changed since the last call. Call it where reading the
-    /// graph is allowed: in update, event or cull.
+    /// The casters as they are now; extracted again only if something changed since the last call. Call it where
+    /// reading the graph is allowed: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
     /// Rises by one with each extraction; 0 before the first.
     unsigned revision() const;
 
 protected:
-    ~ShadowCasterGroup() override = default;
+    ~ShadowCasterGroup() override;
 
 private:
     Selection _selection;
@@ -73,6 +75,7 @@ private:
     std::vector<ShadowLight> _lights;
 
     mutable OpenThreads::Mutex _mutex;
+    osg::ref_ptr<CasterRevision> _watch;
     mutable osg::ref_ptr<const CasterMesh> _mesh;
     mutable std::uint64_t _fingerprint = 0;
     mutable unsigned _revision = 0;

@@ -20,8 +20,8 @@ class ShadowCasterGroup;
 /// Base of all shadow techniques: finds the pixels that a light does not reach. The compositor (ShadowBin) takes the
 /// light away from them.
 ///
-/// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. In a cull traversal it
-/// registers itself with the ShadowBin of the stage being filled, and draws nothing else. After the whole cull the
+/// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. In a cull traversal
+/// it registers itself with the ShadowBin of the stage being filled, and draws nothing else. After the whole cull the
 /// bin calls prepare() once a light, in each view.
 class GNOMON_EXPORT ShadowTechnique : public osg::Geode {
 public:
@@ -42,8 +42,10 @@ public:
     void traverse(osg::NodeVisitor& visitor) override;
 
     /// Called by the ShadowBin after the whole cull, once a light and view.
-    /// @return what to draw; null if this light casts nothing in this view (report() says why, where a user could wonder).
-    virtual osg::ref_ptr<MarkJob> prepare(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters) const = 0;
+    /// @return what to draw; nothing if this light casts nothing in this view (report() says why, where a user could
+    /// wonder).
+    virtual std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+                                                       const CasterMesh& casters) const = 0;
 
     /// Notes a cause for diagnose(); repeated causes count once. Called in cull or draw.
     void report(unsigned frame, const std::string& cause) const;

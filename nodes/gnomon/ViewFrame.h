@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <osg/Matrixd>
-#include <osg/Viewport>
+#include <osgUtil/RenderLeaf>
+
+#include <set>
 
 namespace gnomon {
 
@@ -11,6 +13,8 @@ struct ViewFrame {
     osg::Matrixd groupFromTechnique; ///< identity unless a transform stands between group and technique.
     osg::Matrixd projection;         ///< as drawn, near and far included.
     unsigned frameNumber = 0;
+    const std::set<const osgUtil::RenderLeaf*>* receivers =
+        nullptr; ///< leaves of the named receiver; null if none is named.
 };
 
 } // namespace gnomon

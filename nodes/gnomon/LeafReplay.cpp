@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/LeafReplay.h>
+
+#include <osg/Light>
+#include <osgUtil/StateGraph>
+
+namespace gnomon {
+namespace {
+
+constexpr int maxLights = 8;
+
+void setColors(int light, const osg::Vec4& diffuse, const osg::Vec4& specular) {
+    const GLenum name = GL_LIGHT0 + static_cast<GLenum>(light);
+    glLightfv(name, GL_DIFFUSE, diffuse.ptr());
+    glLightfv(name, GL_SPECULAR, specular.ptr());
+}
+
+/// The colours that osg::State believes the light to have; OpenGL's own defaults if no osg::Light was ever applied.
+void restoreColors(const osg::State& state, int number) {
+    const auto* light = dynamic_cast<const osg::Light*>(
+        state.getLastAppliedAttribute(osg::StateAttribute::LIGHT, static_cast<unsigned>(number)));
+    const osg::Vec4 fallback = number == 0 ? osg::Vec4(1, 1, 1, 1) : osg::Vec4(0, 0, 0, 1);
+    setColors(number, light ? light->getDiffuse() : fallback, light ? light->getSpecular() : fallback);
+}
+
+} // namespace
+
+LeafReplay::LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay)
+    : _renderInfo(renderInfo),
+      _state(*renderInfo.getState()),
+      _overlay(overlay),
+      _stackSize(static_cast<unsigned>(_state.getStateSetStackSize())) {}
+
+LeafReplay::~LeafReplay() {
+    using A = osg::StateAttribute;
+    _state.popStateSetStackToSize(_stackSize);
+    darken(0);
+    _state.haveAppliedMode(GL_STENCIL_TEST, A::ON);
+    _state.haveAppliedAttribute(A::STENCIL);
+    if (!_overlay.onlyStencil) return;
+    _state.haveAppliedAttribute(A::DEPTH);
+    _state.haveAppliedAttribute(A::COLORMASK);
+}
+
+void LeafReplay::draw(const StageLeaf& entry, unsigned dark) {
+    if (_state.getAbortRendering()) return;
+    if (entry.bin != _bin) enter(entry.bin);
+    const osgUtil::RenderLeaf& leaf = *entry.leaf;
+    osgUtil::StateGraph* graph = leaf._parent;
+    _state.applyProjectionMatrix(leaf._projection.get());
+    _state.applyModelViewMatrix(leaf._modelview.get());
+    osgUtil::StateGraph::moveStateGraph(_state, _previous, graph->_parent);
+    _previous = graph->_parent;
+    _state.apply(graph->getStateSet());
+    if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
+    layOver();
+    darken(dark);
+    leaf._drawable->draw(_renderInfo);
+}
+
+/// A bin may have a state set of its own, which lies under those of its leaves.
+void LeafReplay::enter(osgUtil::RenderBin* bin) {
+    _state.popStateSetStackToSize(_stackSize);
+    _previous = nullptr;
+    _bin = bin;
+    std::vector<osg::StateSet*> sets;
+    for (; bin && bin != bin->getStage(); bin = bin->getParent())
+        if (bin->getStateSet()) sets.push_back(bin->getStateSet());
+    for (auto set = sets.rbegin(); set != sets.rend(); ++set) _state.pushStateSet(*set);
+}
+
+void LeafReplay::layOver() {
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(_overlay.stencilTest ? GL_EQUAL : GL_ALWAYS, static_cast<GLint>(_overlay.stencilReference),
+                  _overlay.stencilTest);
+    glStencilOp(GL_KEEP, GL_KEEP, _overlay.stencilWrite ? GL_REPLACE : GL_KEEP);
+    glStencilMask(_overlay.stencilWrite);
+    if (_overlay.onlyStencil) {
+        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        glDepthMask(GL_FALSE);
+        glDepthFunc(GL_EQUAL);
+    }
+}
+
+/// Again for each leaf: its own state may have set the light's colours.
+void LeafReplay::darken(unsigned lights) {
+    const osg::Vec4 black(0, 0, 0, 1);
+    for (int i = 0; i < maxLights; ++i) {
+        if (lights & (1u << i))
+            setColors(i, black, black);
+        else if (_dark & (1u << i))
+            restoreColors(_state, i);
+    }
+    _dark = lights;
+}
+
+} // namespace gnomon

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/StageLeaves.h>
+
+#include <osg/RenderInfo>
+#include <osg/State>
+
+namespace gnomon {
+
+/// Draws render leaves of the frame once more, with what the compositor wants of stencil, depth and lights laid over
+/// each leaf's own state.
+///
+/// Whatever a leaf's state sets, PROTECTED or not, what is laid over holds: it goes to OpenGL after the leaf's state
+/// and before its draw. At the end osg::State is told what it can no longer take for granted.
+class LeafReplay {
+public:
+    /// What is laid over each leaf.
+    struct Overlay {
+        unsigned stencilReference = 0; ///< drawn where (stencil & stencilTest) == (stencilReference & stencilTest);
+        unsigned stencilTest = 0;      ///< 0: everywhere.
+        unsigned stencilWrite = 0;     ///< bits set to stencilReference's where drawn.
+        bool onlyStencil = false;      ///< no colour, no depth, and only where the leaf's depth is the one that stands.
+    };
+
+    LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay);
+    ~LeafReplay(); ///< puts lights and state back; the stack of state sets is as it was.
+    LeafReplay(const LeafReplay&) = delete;
+    LeafReplay& operator=(const LeafReplay&) = delete;
+
+    /// @param dark  bit i: draw it without the diffuse and specular of OpenGL light i.
+    void draw(const StageLeaf& entry, unsigned dark = 0);
+
+private:
+    void enter(osgUtil::RenderBin* bin);
+    void layOver();
+    void darken(unsigned lights);
+
+    osg::RenderInfo& _renderInfo;
+    osg::State& _state;
+    const Overlay _overlay;
+    const unsigned _stackSize;
+    unsigned _dark = 0; ///< lights that are dark in OpenGL now.
+    osgUtil::RenderBin* _bin = nullptr;
+    osgUtil::StateGraph* _previous = nullptr; ///< whose state sets are on the stack.
+};
+
+} // namespace gnomon

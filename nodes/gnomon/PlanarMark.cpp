@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/PlanarMark.h>
+#include <gnomon/ScreenPass.h>
+
+#include <gnomon_shaders.h>
+
+#include <glm/gtc/type_ptr.hpp>
+#include <osg/GLExtensions>
+#include <osg/Program>
+#include <osg/State>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+constexpr GLenum clipAbovePlane = GL_CLIP_PLANE0; // the same value as GL_CLIP_DISTANCE0
+constexpr GLenum clipBelowLight = GL_CLIP_PLANE1;
+
+osg::StateSet* makeProgramState() {
+    auto* program = new osg::Program;
+    program->setName("gnomon planar mark");
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, shaders::planar_mark_vert));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, shaders::planar_mark_frag));
+    auto* set = new osg::StateSet;
+    set->setAttribute(program);
+    return set;
+}
+
+/// Shared by all views and contexts: osg::Program keeps what belongs to a context by its number.
+const osg::StateSet& programState() {
+    static const osg::ref_ptr<osg::StateSet> set = makeProgramState();
+    return *set;
+}
+
+void setUniform(const osg::State& state, const char* name, const glm::dvec4& value) {
+    const glm::vec4 rounded(value);
+    const auto* program = state.getLastAppliedProgramObject();
+    state.get<osg::GLExtensions>()->glUniform4fv(program->getUniformLocation(osg::Uniform::getNameID(name)), 1,
+                                                 glm::value_ptr(rounded));
+}
+
+void setUniform(const osg::State& state, const char* name, const glm::dmat4& value) {
+    const glm::mat4 rounded(value);
+    const auto* program = state.getLastAppliedProgramObject();
+    state.get<osg::GLExtensions>()->glUniformMatrix4fv(program->getUniformLocation(osg::Uniform::getNameID(name)), 1,
+                                                       GL_FALSE, glm::value_ptr(rounded));
+}
+
+/// How far from the plane's, in window depth, what lies in it may be drawn.
+///
+/// A rasteriser snaps vertices to a part of a pixel and interpolates depth in float: an eighth of a pixel's slope and
+/// 32 steps of the depth buffer hold both (tests/render/PlanarBandTest measures what is needed).
+double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
+    GLint depthBits = 24;
+    glGetIntegerv(GL_DEPTH_BITS, &depthBits);
+    const double slope =
+        std::abs(depth.x) / viewport.width() + std::abs(depth.y) / viewport.height(); // window depth a pixel
+    return slope / 8.0 + 32.0 * std::ldexp(1.0, -std::min(depthBits, 24));
+}
+
+} // namespace
+
+void PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+    osg::State& state = *renderInfo.getState();
+    pass.stencilEqual(bit, 0, bit);
+    state.apply(&programState());
+    setUniform(state, "clipFromCaster", clipFromCaster);
+    setUniform(state, "abovePlane", abovePlane);
+    setUniform(state, "belowLight", belowLight);
+    drawCasters(renderInfo);
+    state.apply();
+    if (cutToPlane) cut(state, pass, bit);
+}
+
+void PlanarMark::drawCasters(osg::RenderInfo& renderInfo) const {
+    if (reachesLight) glEnable(clipBelowLight);
+    if (casters->above) casters->above->draw(renderInfo);
+    if (casters->crossing) {
+        glEnable(clipAbovePlane);
+        casters->crossing->draw(renderInfo);
+        glDisable(clipAbovePlane);
+    }
+    if (reachesLight) glDisable(clipBelowLight);
+}
+
+/// Takes the marks back where what stands in the depth buffer is behind the plane, and where it is before it.
+void PlanarMark::cut(const osg::State& state, ScreenPass& pass, unsigned bit) const {
+    const double margin = 2.0 * tolerance(*state.getCurrentViewport(), depth); // in normalised device coordinates
+    pass.stencilEqual(0, 0, bit);
+    pass.testDepth(GL_LEQUAL);
+    pass.drawQuad(depth.z + margin, depth.x, depth.y);
+    pass.testDepth(GL_GREATER);
+    pass.drawQuad(depth.z - margin, depth.x, depth.y);
+}
+
+} // namespace gnomon

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ReplayFilter.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+bool isReceiver(const std::vector<const ShadowJob*>& jobs, const osgUtil::RenderLeaf* leaf) {
+    return std::any_of(jobs.begin(), jobs.end(),
+                       [leaf](const ShadowJob* job) { return job->receivers.count(leaf) > 0; });
+}
+
+unsigned lightsLostBy(const osgUtil::RenderLeaf* leaf, const std::vector<const ShadowJob*>& jobs) {
+    unsigned dark = 0;
+    for (const ShadowJob* job : jobs)
+        if (!job->receiverNamed || job->receivers.count(leaf)) dark |= 1u << job->light;
+    return dark;
+}
+
+/// Index of the last receiver, if only receivers and what is drawn over or before them can show where marks are.
+/// The number of leaves if that cannot be told.
+std::size_t lastReceiver(const std::vector<StageLeaf>& leaves, const std::vector<const ShadowJob*>& jobs,
+                         PlainTest& plain) {
+    if (std::any_of(jobs.begin(), jobs.end(), [](const ShadowJob* job) { return !job->receiverNamed; }))
+        return leaves.size();
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        if (!isReceiver(jobs, leaves[i].leaf)) continue;
+        if (!plain(*leaves[i].leaf)) return leaves.size();
+        last = i;
+    }
+    return last;
+}
+
+} // namespace
+
+bool overlap(const ScreenRect& a, const ScreenRect& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+ScreenRect united(const ScreenRect& a, const ScreenRect& b) {
+    return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
+ScreenRect common(const ScreenRect& a, const ScreenRect& b) {
+    return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
+}
+
+std::vector<ReplayedLeaf> leavesToReplay(const std::vector<StageLeaf>& leaves,
+                                         const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds,
+                                         bool filter) {
+    PlainTest plain;
+    const std::size_t last = filter ? lastReceiver(leaves, jobs, plain) : leaves.size();
+    std::vector<ReplayedLeaf> result;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        const osgUtil::RenderLeaf& leaf = *leaves[i].leaf;
+        if (i > last && plain(leaf)) continue;
+        const auto place = filter ? screenBoundsOf(leaf) : bounds;
+        if (place && overlap(*place, bounds)) result.push_back({leaves[i], lightsLostBy(&leaf, jobs)});
+    }
+    return result;
+}
+
+} // namespace gnomon

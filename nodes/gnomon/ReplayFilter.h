@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowBin.h>
+#include <gnomon/StageLeaves.h>
+
+#include <vector>
+
+namespace gnomon {
+
+/// A leaf to be drawn again, and the lights (bit i: light i) that it loses.
+struct ReplayedLeaf {
+    StageLeaf entry;
+    unsigned dark;
+};
+
+/// Which leaves must be drawn again so that marked pixels get exactly what a full redraw would give them.
+///
+/// Left out: leaves whose screen bounds miss `bounds`. If every job names its receiver, marks lie only where a receiver
+/// is what one sees; then a plain leaf (see PlainTest) drawn after the last receiver cannot show there and is left out
+/// too.
+std::vector<ReplayedLeaf> leavesToReplay(const std::vector<StageLeaf>& leaves,
+                                         const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds,
+                                         bool filter);
+
+bool overlap(const ScreenRect& a, const ScreenRect& b);
+ScreenRect united(const ScreenRect& a, const ScreenRect& b);
+ScreenRect common(const ScreenRect& a, const ScreenRect& b);
+
+} // namespace gnomon

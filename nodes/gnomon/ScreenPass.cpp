@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ScreenPass.h>
+
+#include <osg/GLExtensions>
+#include <osg/State>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+constexpr GLenum depthClamp = 0x864F; // GL_DEPTH_CLAMP: in OpenGL 3.2, not in OSG's headers of 3.6
+
+struct Interval {
+    GLint first;
+    GLsizei count;
+};
+
+/// Pixels whose centres lie in [low, high] of a side of the viewport, one more on either side against rounding.
+Interval pixels(double low, double high, double start, double size) {
+    const double first = std::max(0.0, std::floor((low + 1.0) / 2.0 * size) - 1.0);
+    const double last = std::min(size, std::ceil((high + 1.0) / 2.0 * size) + 1.0);
+    return {static_cast<GLint>(start + first), static_cast<GLsizei>(std::max(0.0, last - first))};
+}
+
+} // namespace
+
+CleanState::CleanState(osg::State& state, osg::Viewport* viewport) : _state(state), _set(new osg::StateSet) {
+    _set->setAttribute(viewport);
+    _set->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    _state.pushStateSet(_set.get());
+    _state.apply();
+}
+
+CleanState::~CleanState() { _state.popStateSet(); }
+
+ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds) : _state(state) {
+    const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
+    const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x.first, y.first, x.count, y.count);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glDepthMask(GL_FALSE);
+}
+
+ScreenPass::~ScreenPass() {
+    using A = osg::StateAttribute;
+    for (GLenum mode :
+         {GLenum(GL_SCISSOR_TEST), GLenum(GL_STENCIL_TEST), GLenum(GL_DEPTH_TEST), GLenum(GL_BLEND), depthClamp})
+        glDisable(mode);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glStencilMask(~0u);
+    for (A::Type type : {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::DEPTH, A::COLORMASK})
+        _state.haveAppliedAttribute(type);
+}
+
+void ScreenPass::clearStencil(unsigned bits) {
+    glStencilMask(bits);
+    glClearStencil(0);
+    glClear(GL_STENCIL_BUFFER_BIT);
+}
+
+void ScreenPass::stencilEqual(unsigned reference, unsigned test, unsigned write) {
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(test ? GL_EQUAL : GL_ALWAYS, static_cast<GLint>(reference), test);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilMask(write);
+}
+
+void ScreenPass::stencilAny(unsigned test) {
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_NOTEQUAL, 0, test);
+    glStencilMask(0);
+}
+
+void ScreenPass::writeFarDepth() {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    drawQuad(1.0);
+}
+
+void ScreenPass::multiplyColor(float factor) {
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
+    _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
+    drawQuad();
+}
+
+void ScreenPass::testDepth(GLenum function) {
+    glEnable(GL_DEPTH_TEST);
+    glEnable(depthClamp);
+    glDepthFunc(function);
+}
+
+void ScreenPass::drawQuad(double atCenter, double slopeX, double slopeY) {
+    _state.applyProjectionMatrix(nullptr);
+    _state.applyModelViewMatrix(nullptr);
+    glBegin(GL_TRIANGLE_STRIP);
+    for (const double y : {-1.0, 1.0})
+        for (const double x : {-1.0, 1.0}) glVertex3d(x, y, atCenter + x * slopeX + y * slopeY);
+    glEnd();
+}
+
+} // namespace gnomon

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Export.h>
+#include <gnomon/ScreenBounds.h>
+
+#include <osg/RenderInfo>
+#include <osg/StateSet>
+#include <osg/Viewport>
+
+namespace gnomon {
+
+/// OpenGL as OSG leaves it after an empty scene, with the depth test off: no program, texture, blending or culling, and
+/// the stage's viewport. Holds from construction to destruction; state sets that lay on the stack must have been popped
+/// before.
+class CleanState {
+public:
+    CleanState(osg::State& state, osg::Viewport* viewport);
+    ~CleanState();
+    CleanState(const CleanState&) = delete;
+    CleanState& operator=(const CleanState&) = delete;
+
+private:
+    osg::State& _state;
+    osg::ref_ptr<osg::StateSet> _set;
+};
+
+/// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
+/// Puts everything back at its end.
+class ScreenPass {
+public:
+    ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds);
+    ~ScreenPass();
+    ScreenPass(const ScreenPass&) = delete;
+    ScreenPass& operator=(const ScreenPass&) = delete;
+
+    void clearStencil(unsigned bits);
+    /// Pass where (stencil & test) == (reference & test), then set the bits of `write` to those of `reference`.
+    void stencilEqual(unsigned reference, unsigned test, unsigned write);
+    /// Pass where any bit of `test` is set.
+    void stencilAny(unsigned test);
+    void writeFarDepth();
+    void multiplyColor(float factor);
+    /// Passes where the quad's depth compares so with the one that stands; depths beyond near and far are clamped.
+    void testDepth(GLenum function);
+
+    /// Rectangle over the whole viewport; depth in normalised device coordinates, z = atCenter + x·slopeX + y·slopeY.
+    void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
+
+private:
+    osg::State& _state;
+};
+
+} // namespace gnomon

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Compositor.h>
+#include <gnomon/ShadowBin.h>
+#include <gnomon/StageLights.h>
+
+#include <OpenThreads/ScopedLock>
+#include <osg/Notify>
+#include <osgUtil/StateGraph>
+
+#include <atomic>
+#include <map>
+
+namespace gnomon {
+namespace {
+
+constexpr int highestNumber = 8; // below 9, where osg::OcclusionQueryNode draws, and 10, the transparent bin
+constexpr const char* binName = "gnomon::ShadowBin";
+
+/// Makes the bin known to osgUtil, which creates bins by name.
+const bool registered = [] {
+    osgUtil::RenderBin::addRenderBinPrototype(binName, new ShadowBin);
+    return true;
+}();
+
+std::atomic<unsigned> reservedBits{0};
+std::atomic<bool> filterLeaves{true};
+
+/// Takes the state sets of the leaf drawn last off the stack, as osgUtil does before positional state.
+void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
+    if (!previous) return;
+    osgUtil::StateGraph* pushed = previous->_parent ? previous->_parent->_parent : nullptr;
+    const auto count = static_cast<unsigned>(osgUtil::StateGraph::numToPop(pushed));
+    state.popStateSetStackToSize(static_cast<unsigned>(state.getStateSetStackSize()) - count);
+    previous = nullptr;
+}
+
+/// The casters of each group in one view, asked for once.
+class GroupCasters {
+public:
+    const CasterMesh& of(const ShadowCasterGroup& group) {
+        osg::ref_ptr<const CasterMesh>& mesh = _meshes[&group];
+        if (!mesh) mesh = group.casters();
+        return *mesh;
+    }
+
+private:
+    std::map<const ShadowCasterGroup*, osg::ref_ptr<const CasterMesh>> _meshes;
+};
+
+bool hasCasters(const EnlistedTechnique& entry, const CasterMesh& mesh) {
+    if (mesh.invalidTriangles > 0)
+        entry.technique->report(entry.frameNumber,
+                                "leaves out " + std::to_string(mesh.invalidTriangles) + " triangles of '" +
+                                    mesh.invalidNode +
+                                    "' and others: their vertices are not finite numbers or not there.");
+    if (!mesh.empty()) return true;
+    entry.technique->report(entry.frameNumber,
+                            "has nothing to cast: its group '" + entry.group->getName() +
+                                "' holds no triangles; add the scene to it, or look at its setCasters().");
+    return false;
+}
+
+ViewFrame viewOf(const EnlistedTechnique& entry) {
+    ViewFrame view;
+    view.eyeFromGroup = entry.eyeFromGroup;
+    view.groupFromTechnique = entry.groupFromTechnique;
+    view.projection = *entry.projection;
+    view.frameNumber = entry.frameNumber;
+    return view;
+}
+
+ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
+    ShadowJob job;
+    job.technique = entry.technique;
+    job.light = light.number;
+    job.composite = entry.group->getComposite();
+    job.dark = entry.group->getDark();
+    job.frameNumber = entry.frameNumber;
+    job.receiverNamed = entry.technique->hasReceiver();
+    return job;
+}
+
+} // namespace
+
+ShadowBin& ShadowBin::of(osgUtil::RenderStage* stage) {
+    for (int number = highestNumber;; --number) {
+        auto* bin = dynamic_cast<ShadowBin*>(stage->find_or_insert(number, binName));
+        if (bin) return *bin;
+    }
+}
+
+void ShadowBin::reserve(unsigned stencilBits) { reservedBits = stencilBits; }
+unsigned ShadowBin::reserved() { return reservedBits; }
+void ShadowBin::setFilter(bool filter) { filterLeaves = filter; }
+bool ShadowBin::getFilter() { return filterLeaves; }
+
+void ShadowBin::reset() {
+    osgUtil::RenderBin::reset();
+    _enlisted.clear();
+    _jobs.clear();
+}
+
+void ShadowBin::sortImplementation() {
+    _jobs.clear();
+    GroupCasters casters;
+    const std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
+    for (const EnlistedTechnique& entry : _enlisted) {
+        const CasterMesh& mesh = casters.of(*entry.group);
+        if (!hasCasters(entry, mesh)) continue;
+        const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
+        for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
+        prepare(entry, found.lights, mesh, leaves);
+    }
+    osgUtil::RenderBin::sortImplementation();
+}
+
+void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const CasterMesh& mesh,
+                        const std::vector<StageLeaf>& leaves) {
+    ViewFrame view = viewOf(entry);
+    std::set<const osgUtil::RenderLeaf*> receivers;
+    if (entry.technique->hasReceiver()) {
+        receivers = receiversAmong(leaves, entry.technique->getReceiver(), *getStage()->getInitialViewMatrix());
+        view.receivers = &receivers;
+    }
+    for (const ShadowLight& light : lights) {
+        ShadowJob job = jobFor(entry, light);
+        job.receivers = receivers;
+        for (const osg::ref_ptr<MarkJob>& marks : entry.technique->prepare(view, light, mesh)) {
+            job.marks = marks;
+            _jobs.push_back(job);
+        }
+    }
+}
+
+void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
+    if (!_jobs.empty()) {
+        popLeafState(*renderInfo.getState(), previous);
+        Compositor(renderInfo, *getStage(), leavesBelow(*getStage(), getBinNum())).compose(_jobs);
+        renderInfo.getState()->decrementDynamicObjectCount();
+    }
+    osgUtil::RenderBin::drawImplementation(renderInfo, previous);
+}
+
+/// The leaves drawn again, and the casters, may be dynamic: the frame is not done with them before this bin is.
+unsigned ShadowBin::computeNumberOfDynamicRenderLeaves() const {
+    return osgUtil::RenderBin::computeNumberOfDynamicRenderLeaves() + (_jobs.empty() ? 0u : 1u);
+}
+
+} // namespace gnomon

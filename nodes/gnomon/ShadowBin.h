@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Export.h>
+#include <gnomon/MarkJob.h>
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowTechnique.h>
+#include <gnomon/StageLeaves.h>
+
+#include <osgUtil/RenderBin>
+#include <osgUtil/RenderStage>
+
+#include <set>
+#include <vector>
+
+namespace gnomon {
+
+/// A technique met in the cull of one stage, and what it needs to know of the view.
+struct EnlistedTechnique {
+    osg::ref_ptr<const ShadowTechnique> technique;
+    osg::ref_ptr<const ShadowCasterGroup> group;
+    osg::Matrixd eyeFromGroup;
+    osg::Matrixd groupFromTechnique;
+    osg::ref_ptr<osg::RefMatrix> projection; ///< shared with the leaves: near and far are set in it after the cull.
+    unsigned frameNumber = 0;
+};
+
+/// A technique's job for one light in one view, and how its marks are to be used.
+struct ShadowJob {
+    osg::ref_ptr<const MarkJob> marks;
+    osg::ref_ptr<const ShadowTechnique> technique;
+    int light = 0; ///< OpenGL light number.
+    ShadowCasterGroup::Composite composite = ShadowCasterGroup::RELIGHT;
+    float dark = 1.0f;
+    unsigned frameNumber = 0;
+    bool receiverNamed = false;
+    std::set<const osgUtil::RenderLeaf*> receivers; ///< the leaves of the named receiver.
+};
+
+/// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
+///
+/// It runs after all opaque bins of the stage and before the transparent ones. Lights and leaves are asked for after
+/// the whole cull, so their order in the graph does not matter; nothing is kept from frame to frame or view to view.
+///
+/// Cost    scissored to where marks can fall: two stencil clears, one depth quad, and the leaves that the marks can
+/// touch, once more. Needs   one stencil bit a relit light, one more for named receivers or several techniques of one
+/// light. Limits  three relit lights; the others stay unshadowed, and diagnose() says so. Threads sort in the cull
+/// thread, draw in the draw thread, as every RenderBin.
+class GNOMON_EXPORT ShadowBin : public osgUtil::RenderBin {
+public:
+    ShadowBin() = default;
+    ShadowBin(const ShadowBin& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)
+        : osgUtil::RenderBin(other, copyOp) {}
+    osg::Object* cloneType() const override { return new ShadowBin; }
+    osg::Object* clone(const osg::CopyOp& copyOp) const override { return new ShadowBin(*this, copyOp); }
+    const char* libraryName() const override { return "gnomon"; }
+    const char* className() const override { return "ShadowBin"; }
+
+    /// The bin of `stage`, made if it has none: number 8, or the next lower one that another kind of bin has not taken.
+    static ShadowBin& of(osgUtil::RenderStage* stage);
+
+    /// Stencil bits (of 8) that belong to the application: never touched. Call before the first frame; default none.
+    static void reserve(unsigned stencilBits);
+    static unsigned reserved();
+
+    /// For tests and comparison: with false, every leaf of the stage is drawn again, whether marks can touch it or not.
+    static void setFilter(bool filter);
+    static bool getFilter();
+
+    void enlist(const EnlistedTechnique& technique) { _enlisted.push_back(technique); }
+
+    void reset() override;
+    void sortImplementation() override;
+    void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
+    unsigned computeNumberOfDynamicRenderLeaves() const override;
+
+protected:
+    ~ShadowBin() override = default;
+
+private:
+    void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const CasterMesh& mesh,
+                 const std::vector<StageLeaf>& leaves);
+
+    std::vector<EnlistedTechnique> _enlisted;
+    std::vector<ShadowJob> _jobs;
+};
+
+} // namespace gnomon

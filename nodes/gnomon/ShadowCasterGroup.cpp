@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/CasterRevision.h>
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/VertexTraverser.h>
+
+#include <OpenThreads/ScopedLock>
+#include <osg/Notify>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+}
+
+ShadowCasterGroup::ShadowCasterGroup() : _watch(new CasterRevision) {}
+
+ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp)
+    : osg::Group(other, copyOp),
+      _selection(other._selection),
+      _composite(other._composite),
+      _dark(other._dark),
+      _lightSources(other._lightSources),
+      _lights(other._lights),
+      _watch(new CasterRevision(other._selection)) {}
+
+ShadowCasterGroup::~ShadowCasterGroup() = default;
+
+void ShadowCasterGroup::setCasters(const Selection& casters) {
+    Lock lock(_mutex);
+    _selection = casters;
+    _watch = new CasterRevision(casters);
+    _mesh = nullptr;
+}
+
+void ShadowCasterGroup::setDark(float factor) {
+    if (std::isnan(factor)) {
+        OSG_WARN << "gnomon: ShadowCasterGroup::setDark(NaN) is refused: the factor is 0 (black) to 1 (nothing)."
+                 << std::endl;
+        return;
+    }
+    _dark = std::clamp(factor, 0.0f, 1.0f);
+}
+
+void ShadowCasterGroup::addLight(osg::LightSource* light) {
+    if (light) _lightSources.push_back(light);
+}
+
+void ShadowCasterGroup::addLight(const ShadowLight& light) { _lights.push_back(light); }
+
+void ShadowCasterGroup::removeLights() {
+    _lightSources.clear();
+    _lights.clear();
+}
+
+osg::ref_ptr<const CasterMesh> ShadowCasterGroup::casters() const {
+    auto* self = const_cast<ShadowCasterGroup*>(this); // a visitor asks for a mutable node, and changes nothing
+    Lock lock(_mutex);
+    _watch->reset();
+    self->accept(*_watch);
+    if (_mesh && _watch->value() == _fingerprint) return _mesh;
+    osg::ref_ptr<VertexTraverser> traverser = new VertexTraverser(_selection);
+    self->accept(*traverser);
+    _mesh = new CasterMesh(*traverser);
+    _fingerprint = _watch->value();
+    ++_revision;
+    return _mesh;
+}
+
+unsigned ShadowCasterGroup::revision() const {
+    Lock lock(_mutex);
+    return _revision;
+}
+
+} // namespace gnomon

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ScreenBounds.h>
+#include <gnomon/Selection.h>
+
+#include <osg/StateAttribute>
+#include <osgUtil/RenderLeaf>
+#include <osgUtil/RenderStage>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace gnomon {
+
+/// A leaf that a stage draws, and the innermost bin that draws it.
+struct StageLeaf {
+    osgUtil::RenderLeaf* leaf;
+    osgUtil::RenderBin* bin;
+};
+
+/// Every leaf that the stage draws before bin `number`, in the order in which it is drawn. Valid from the end of sort
+/// to the end of draw.
+std::vector<StageLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);
+
+/// Those of them that draw part of `receiver`. Reads the scene graph: call in cull.
+std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<StageLeaf>& leaves, const Selection& receiver,
+                                                    const osg::Matrixd& eyeFromWorld);
+
+/// True if any leaf of the stage is drawn with `mode` on.
+bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode mode);
+
+/// Tells leaves that are drawn in the plainest way: depth test LESS with writing, no blending, offset, stencil, depth
+/// range or colour mask. Such a leaf can show only where it is nearest, and never over something drawn before it at the
+/// same depth.
+class PlainTest {
+public:
+    bool operator()(const osgUtil::RenderLeaf& leaf);
+
+private:
+    std::map<const osgUtil::StateGraph*, bool> _known;
+};
+
+/// Where on the screen a leaf can draw; nullopt where nowhere.
+std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf);
+
+} // namespace gnomon

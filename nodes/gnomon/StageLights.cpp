@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/StageLeaves.h>
+#include <gnomon/StageLights.h>
+
+#include <osg/Light>
+#include <osgUtil/PositionalStateContainer>
+
+#include <map>
+
+namespace gnomon {
+namespace {
+
+/// A light as the stage will apply it.
+struct StageLight {
+    const osg::Light* light = nullptr;
+    osg::Vec4d inEye;
+};
+
+void collect(osgUtil::PositionalStateContainer* container, const osg::Matrixd& eyeFromContainer,
+             std::map<int, StageLight>& lights) {
+    if (!container) return;
+    for (const auto& [attribute, containerFromLight] : container->getAttrMatrixList()) {
+        const auto* light = dynamic_cast<const osg::Light*>(attribute.get());
+        if (!light) continue;
+        const osg::Vec4d given(light->getPosition());
+        const osg::Vec4d position = containerFromLight ? given * *containerFromLight : given;
+        lights[light->getLightNum()] = {light, position * eyeFromContainer}; // as in GL, the last one holds
+    }
+}
+
+std::map<int, StageLight> lightsIn(osgUtil::RenderStage& stage) {
+    std::map<int, StageLight> lights;
+    collect(stage.getInheritedPositionalStateContainer(), stage.getInheritedPositionalStateContainerMatrix(), lights);
+    collect(stage.getPositionalStateContainer(), osg::Matrixd(), lights);
+    return lights;
+}
+
+void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight>& inStage,
+                  const osg::Matrixd& groupFromEye, GroupLights& result) {
+    result.lights = group.getLights();
+    for (const auto& source : group.getLightSources()) {
+        const osg::Light* light = source->getLight();
+        const auto found = light ? inStage.find(light->getLightNum()) : inStage.end();
+        if (found != inStage.end() && found->second.light == light)
+            result.lights.push_back({light->getLightNum(), found->second.inEye * groupFromEye});
+        else
+            result.causes.push_back(
+                "waits for the LightSource '" + source->getName() +
+                "', which is not in this view's graph (or another light has its number): add it to the scene.");
+    }
+}
+
+} // namespace
+
+GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFromGroup, osgUtil::RenderStage& stage) {
+    const std::map<int, StageLight> inStage = lightsIn(stage);
+    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(eyeFromGroup);
+    GroupLights result;
+    if (!group.getLights().empty() || !group.getLightSources().empty()) {
+        addSetLights(group, inStage, groupFromEye, result);
+        return result;
+    }
+    for (const auto& [number, light] : inStage)
+        if (isModeOnAnywhere(stage, GL_LIGHT0 + static_cast<unsigned>(number)))
+            result.lights.push_back({number, light.inEye * groupFromEye});
+    if (result.lights.empty())
+        result.causes.push_back(
+            "finds no light that is on in this view: add an osg::LightSource and switch its mode on, or set one "
+            "with ShadowCasterGroup::addLight.");
+    return result;
+}
+
+} // namespace gnomon
