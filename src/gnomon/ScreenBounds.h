@@ -11,8 +11,10 @@ namespace gnomon {
 
 /// Corners of the convex body that is left of a box [low, high] after cutting it by half-spaces
 /// (a point is kept where dot(halfSpace, (x, y, z, 1)) >= 0). A superset of its corners within the body is allowed.
-/// Empty if nothing is left or anything is not finite.
-std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high, const std::vector<glm::dvec4>& halfSpaces);
+/// Empty if nothing is left, low > high anywhere, or anything is not finite. A half-space (0, 0, 0, c) keeps all or
+/// nothing. Source: I. Sutherland and G. Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974, a face at a time.
+std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high,
+                               const std::vector<glm::dvec4>& halfSpaces);
 
 /// Rectangle in normalised device coordinates, each within [-1, 1].
 struct ScreenRect {
@@ -21,6 +23,8 @@ struct ScreenRect {
 
 /// Bounds, on the screen, of the convex hull of homogeneous points in clip space, as far as it lies in front of the
 /// eye (clip w > 0). Conservative: never smaller than what is drawn, also where the hull passes behind the eye.
+/// Near and far planes do not count, so that it holds under depth clamp. Exact in double precision: whoever draws in
+/// single precision adds a pixel for the rounding of vertices.
 /// nullopt if nothing of it can be seen. Points that are not finite make the whole screen the answer.
 std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints);
 
