@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// addshadows FILE: shows a scene file in a window, with its shadow on the plane z = 0.
+#include <gnomon/PlanarShadowNode.h>
+#include <gnomon/ShadowCasterGroup.h>
+
+#include <osg/DisplaySettings>
+#include <osgDB/ReadFile>
+#include <osgViewer/Viewer>
+
+#include <iostream>
+
+int main(int argc, char** argv) {
+    osg::ref_ptr<osg::Node> scene = argc == 2 ? osgDB::readRefNodeFile(argv[1]) : nullptr;
+    if (!scene) {
+        std::cerr << "addshadows: one scene file with something in the plane z = 0 is needed, e.g. data/lab8.osgt.\n";
+        return 1;
+    }
+    osgViewer::Viewer viewer;
+    // [five lines]
+    osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
+    osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
+    group->addChild(scene);
+    group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
+    viewer.setSceneData(group);
+    // [/five lines]
+    viewer.setLightingMode(osg::View::SKY_LIGHT);
+    return viewer.run();
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "Shot.h"
+
+#include <gnomon/PlanarShadowNode.h>
+#include <gnomon/VertexTraverser.h>
+
+#include <osg/DisplaySettings>
+#include <osg/Stats>
+#include <osg/Timer>
+
+#include <algorithm>
+#include <cmath>
+#include <sys/resource.h>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr int warmUpFrames = 3; // OSG keeps two scene views; each compiles and settles in its first frame
+
+HeadlessContext::Options contextOptions(const ShotOptions& options) {
+    HeadlessContext::Options result;
+    result.width = options.width;
+    result.height = options.height;
+    return result;
+}
+
+/// Value below which the share `part` of the sorted times lies, between neighbours by straight line.
+double quantile(const std::vector<double>& sorted, double part) {
+    const double place = part * static_cast<double>(sorted.size() - 1);
+    const std::size_t below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, sorted.size() - 1);
+    return sorted[below] + (place - std::floor(place)) * (sorted[above] - sorted[below]);
+}
+
+nlohmann::json quartiles(std::vector<double> times) {
+    std::sort(times.begin(), times.end());
+    return {{"q1", quantile(times, 0.25)}, {"median", quantile(times, 0.5)}, {"q3", quantile(times, 0.75)}};
+}
+
+double peakMiB() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+std::string techniqueNames(const std::vector<ShadowSpec>& specs) {
+    std::string names;
+    for (const ShadowSpec& spec : specs) names += (names.empty() ? "" : " + ") + spec.text;
+    return names.empty() ? "none" : names;
+}
+
+} // namespace
+
+Shot::Shot(const ShotOptions& options, osg::Node& files)
+    : _options(options), _context(contextOptions(options)), _setup(setUpScene(options.view, files)) {
+    osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
+    _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
+    _viewer.setLightingMode(osg::View::NO_LIGHT);
+    _context.attach(*_viewer.getCamera());
+    placeCamera(*_viewer.getCamera(), options.view, _setup.bounds, double(options.width) / options.height);
+    _viewer.setSceneData(_setup.root);
+}
+
+void Shot::draw() {
+    for (int i = 0; i < _options.frameCount(); ++i) _viewer.frame();
+}
+
+nlohmann::json Shot::measure() {
+    const double first = timedFrame(true);
+    for (int i = 0; i < warmUpFrames; ++i) timedFrame(true), timedFrame(false);
+    std::vector<double> steady, moving, none;
+    for (int i = 0; i < _options.frameCount(); ++i) {
+        steady.push_back(timedFrame(true));
+        none.push_back(timedFrame(false));
+    }
+    for (int i = 0; i < _options.frameCount(); ++i) {
+        _setup.lights->turn(i + 1.0);
+        moving.push_back(timedFrame(true));
+        none.push_back(timedFrame(false));
+    }
+    _setup.lights->turn(0.0);
+    const unsigned draws = countDraws();
+    return {{"renderer", _context.renderer()},
+            {"technique", techniqueNames(_options.view.shadows)},
+            {"diagnosis", diagnose()},
+            {"triangles", countTriangles()},
+            {"draws", draws},
+            {"shadowPasses", shadowPasses()},
+            {"msFirst", first},
+            {"msSteady", quartiles(steady)},
+            {"msMoving", quartiles(moving)},
+            {"msNone", quartiles(none)},
+            {"peakMiB", peakMiB()}};
+}
+
+double Shot::timedFrame(bool shadows) {
+    _setup.show(shadows);
+    const osg::Timer_t start = osg::Timer::instance()->tick();
+    _viewer.frame();
+    return osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+}
+
+/// Drawables of the scene's own draw; OSG counts them, outside the timed frames. Leaves the picture as it is to be
+/// shown.
+unsigned Shot::countDraws() {
+    osg::Stats* stats = _viewer.getCamera()->getStats();
+    stats->collectStats("scene", true);
+    timedFrame(true);
+    stats->collectStats("scene", false);
+    double draws = 0.0;
+    stats->getAttribute(_viewer.getFrameStamp()->getFrameNumber(), "Visible number of drawables", draws);
+    return static_cast<unsigned>(draws);
+}
+
+nlohmann::json Shot::shadowPasses() const {
+    nlohmann::json passes = nlohmann::json::array();
+    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques)
+        if (const auto* planar = dynamic_cast<const PlanarShadowNode*>(technique.get()))
+            passes.push_back({{"technique", technique->getName()},
+                              {"planes", planar->getPlanes().size()},
+                              {"lights", _setup.lights->count()}});
+    return passes;
+}
+
+std::size_t Shot::countTriangles() const {
+    VertexTraverser traverser;
+    _setup.group->accept(traverser);
+    return traverser.getTriangles().size() / 3;
+}
+
+} // namespace gnomon::examples

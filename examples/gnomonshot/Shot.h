@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "SceneSetup.h"
+#include "ShotOptions.h"
+
+#include <gnomon/HeadlessContext.h>
+
+#include <osgViewer/Viewer>
+
+#include <nlohmann/json.hpp>
+
+namespace gnomon::examples {
+
+/// A viewer of one scene that draws into memory, and times what it draws.
+class Shot {
+public:
+    Shot(const ShotOptions& options, osg::Node& files);
+
+    /// Draws the frames asked for; nothing is timed.
+    void draw();
+    /// Draws and times frames: still ones, then ones under a moving light, each beside one without shadows.
+    /// @return what --stats writes.
+    nlohmann::json measure();
+    osg::ref_ptr<osg::Image> picture() const { return _context.image(); }
+    std::vector<std::string> diagnose() const { return _setup.diagnose(); }
+
+private:
+    double timedFrame(bool shadows);
+    unsigned countDraws();
+    nlohmann::json shadowPasses() const;
+    std::size_t countTriangles() const;
+
+    ShotOptions _options;
+    HeadlessContext _context; // before the viewer: it must outlive it
+    SceneSetup _setup;
+    osgViewer::Viewer _viewer;
+};
+
+} // namespace gnomon::examples

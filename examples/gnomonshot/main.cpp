@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// gnomonshot: scene files in, a picture with shadows out; no display, no GPU.
+#include "OutputFile.h"
+#include "SceneFile.h"
+#include "Shot.h"
+
+#include <iostream>
+#include <optional>
+
+namespace {
+
+using namespace gnomon::examples;
+
+void shoot(const ShotOptions& options) {
+    std::optional<OutputFile> picture, stats;
+    if (!options.out.empty()) picture.emplace(options.out).requireImage();
+    if (!options.stats.empty()) stats.emplace(options.stats);
+    Shot shot(options, *readScene(options.view.files, "gnomonshot"));
+    nlohmann::json measured;
+    stats ? void(measured = shot.measure()) : shot.draw();
+    for (const std::string& cause : shot.diagnose()) std::cerr << "gnomonshot: note: " << cause << std::endl;
+    if (picture) picture->write(*shot.picture());
+    if (stats) stats->write(measured.dump(2) + "\n");
+}
+
+int run(osg::ArgumentParser& arguments) {
+    const ShotOptions options = readShotOptions(arguments);
+    if (options.help)
+        std::cout << shotHelp();
+    else
+        shoot(options);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        osg::ArgumentParser arguments(&argc, argv);
+        return run(arguments);
+    } catch (const std::exception& error) {
+        std::cout << std::flush;
+        std::cerr << "gnomonshot: " << error.what() << std::endl;
+        return 1;
+    }
+}

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "CommandLine.h"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+[[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+
+bool looksLikeOption(const std::string& text) { return text.rfind("--", 0) == 0; }
+
+std::string shortNumber(double number) {
+    std::ostringstream out;
+    out << number;
+    return out.str();
+}
+
+std::string rangeText(double low, double high) { return shortNumber(low) + " to " + shortNumber(high); }
+
+/// The number that `text` is; NaN if it is none.
+double parse(const std::string& text) {
+    double number = 0.0;
+    const char* begin = text.c_str() + (text[0] == '+' ? 1 : 0);
+    const char* end = text.c_str() + text.size();
+    const std::from_chars_result read = std::from_chars(begin, end, number);
+    return read.ec == std::errc() && read.ptr == end ? number : std::nan("");
+}
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> parts(1);
+    for (const char c : text) c == ',' ? parts.emplace_back() : parts.back() += c;
+    return parts;
+}
+
+std::string takeArgument(osg::ArgumentParser& arguments, int position, const std::string& what) {
+    const bool there = position + 1 < arguments.argc() && !looksLikeOption(arguments[position + 1]);
+    if (!there) refuse(std::string(arguments[position]) + " needs a value: " + what + ".");
+    const std::string value = arguments[position + 1];
+    arguments.remove(position, 2);
+    return value;
+}
+
+void takeValue(const Option& option, const std::string& value) {
+    try {
+        option.take(value);
+    } catch (const std::invalid_argument& error) {
+        refuse(option.name + " " + value + " cannot be used; " + error.what());
+    }
+}
+
+void takeOne(osg::ArgumentParser& arguments, const Option& option, int position) {
+    if (!option.value.empty()) return takeValue(option, takeArgument(arguments, position, option.value));
+    arguments.remove(position);
+    option.take("");
+}
+
+} // namespace
+
+void readOptions(osg::ArgumentParser& arguments, const Options& table) {
+    for (const Option& option : table) {
+        int times = 0;
+        for (int position = arguments.find(option.name); position > 0; position = arguments.find(option.name)) {
+            if (++times > 1 && !option.repeats) refuse(option.name + " is given twice; once is allowed.");
+            takeOne(arguments, option, position);
+        }
+    }
+}
+
+void refuseUnknownOptions(osg::ArgumentParser& arguments) {
+    for (int i = 1; i < arguments.argc(); ++i)
+        if (arguments[i][0] == '-')
+            refuse(std::string("there is no option ") + arguments[i] + "; --help lists those there are.");
+}
+
+std::string describeOptions(const Options& table) {
+    std::ostringstream out;
+    for (const Option& option : table) {
+        out << "  " << option.name << (option.value.empty() ? "" : " " + option.value) << "\n      " << option.says;
+        if (option.repeats) out << "; may be repeated";
+        if (!option.fallback.empty()) out << " (default " << option.fallback << ")";
+        out << "\n";
+    }
+    return out.str();
+}
+
+double readNumber(const std::string& text, double low, double high) {
+    const double number = parse(text);
+    if (!(number >= low && number <= high)) refuse("allowed: a number from " + rangeText(low, high) + ".");
+    return number;
+}
+
+int readWhole(const std::string& text, int low, int high) {
+    const double number = parse(text);
+    if (!(number >= low && number <= high) || number != std::floor(number))
+        refuse("allowed: a whole number from " + std::to_string(low) + " to " + std::to_string(high) + ".");
+    return static_cast<int>(number);
+}
+
+std::vector<double> readNumbers(const std::string& text, std::size_t count, double low, double high) {
+    std::vector<double> numbers;
+    for (const std::string& part : split(text)) {
+        const double number = parse(part);
+        if (number >= low && number <= high) numbers.push_back(number);
+    }
+    if (numbers.size() != count || split(text).size() != count)
+        refuse("allowed: " + std::to_string(count) + " numbers from " + rangeText(low, high) +
+               ", commas between them.");
+    return numbers;
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/ArgumentParser>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// Largest magnitude of any number on the command line: far beyond any scene, and safe to square in double.
+constexpr double largestNumber = 1e12;
+
+/// One option of a program: what --help prints and what reads it.
+struct Option {
+    std::string name;                                   ///< "--light"
+    std::string value;                                  ///< "x,y,z,w"; empty: a flag
+    std::string says;                                   ///< unit, range and meaning
+    std::string fallback;                               ///< what holds without it
+    std::function<void(const std::string& value)> take; ///< @throws std::invalid_argument, "allowed: …"
+    bool repeats = false;
+};
+
+using Options = std::vector<Option>;
+
+/// Takes the options of `table` out of `arguments`.
+/// @throws std::invalid_argument, one sentence, for a value that cannot be used, is missing, or an option given twice.
+void readOptions(osg::ArgumentParser& arguments, const Options& table);
+
+/// @throws std::invalid_argument if an option is left over.
+void refuseUnknownOptions(osg::ArgumentParser& arguments);
+
+/// The table as --help prints it.
+std::string describeOptions(const Options& table);
+
+/// A number of decimal digits, nothing else around it. @throws std::invalid_argument unless low <= number <= high.
+double readNumber(const std::string& text, double low, double high);
+int readWhole(const std::string& text, int low, int high);
+/// `count` numbers with commas between them. @throws std::invalid_argument
+std::vector<double> readNumbers(const std::string& text, std::size_t count, double low = -largestNumber,
+                                double high = largestNumber);
+
+} // namespace gnomon::examples

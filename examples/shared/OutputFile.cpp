@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "OutputFile.h"
+
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+
+#include <algorithm>
+#include <fstream>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace gnomon::examples {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+    throw std::runtime_error("\"" + path.string() + "\" cannot be written: " + why + ".");
+}
+
+fs::path draftOf(const fs::path& path) {
+    const std::string name = "." + path.stem().string() + "-" + std::to_string(getpid()) + path.extension().string();
+    return path.parent_path() / name;
+}
+
+void requirePlace(const fs::path& path) {
+    std::error_code ignored;
+    const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+    if (!path.has_filename() || fs::is_directory(path, ignored))
+        refuse(path, "it is a directory; a file's name is needed");
+    if (!fs::is_directory(folder, ignored)) refuse(path, "there is no directory \"" + folder.string() + "\"");
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) refuse(path, "it is not an ordinary file");
+}
+
+/// Without alpha, which some formats refuse and no picture here needs.
+osg::ref_ptr<osg::Image> opaque(const osg::Image& image) {
+    osg::ref_ptr<osg::Image> result = new osg::Image;
+    result->allocateImage(image.s(), image.t(), 1, GL_RGB, GL_UNSIGNED_BYTE);
+    for (int y = 0; y < image.t(); ++y)
+        for (int x = 0; x < image.s(); ++x) std::copy_n(image.data(x, y), 3, result->data(x, y));
+    return result;
+}
+
+bool writeImage(const osg::Image& image, const fs::path& path) {
+    osgDB::Registry* registry = osgDB::Registry::instance();
+    return registry->writeImage(image, path.string(), registry->getOptions()).success();
+}
+
+/// True if what was written reads back with the picture's size, or cannot be read for want of a reader.
+bool whole(const osg::Image& image, const fs::path& path) {
+    std::error_code error;
+    if (fs::file_size(path, error) == 0 || error) return false;
+    const osg::ref_ptr<osg::Image> back = osgDB::readRefImageFile(path.string());
+    return !back || (back->s() == image.s() && back->t() == image.t());
+}
+
+} // namespace
+
+OutputFile::OutputFile(const std::string& path) : _path(path), _draft(draftOf(path)) {
+    requirePlace(_path);
+    if (!std::ofstream(_draft)) refuse(_path, "its directory takes no new file");
+}
+
+OutputFile::~OutputFile() {
+    std::error_code ignored;
+    fs::remove(_draft, ignored);
+}
+
+void OutputFile::requireImage() const {
+    osg::ref_ptr<osg::Image> dot = new osg::Image;
+    dot->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    std::fill(dot->data(), dot->data() + dot->getTotalSizeInBytes(), static_cast<unsigned char>(0));
+    if (!writeImage(*dot, _draft))
+        refuse(_path, "OpenSceneGraph writes no such images; png, jpg, bmp, tif, rgb are allowed");
+}
+
+void OutputFile::write(const osg::Image& image) {
+    if (!writeImage(*opaque(image), _draft) || !whole(image, _draft))
+        refuse(_path, "the picture was not written whole; is the disk full");
+    finish();
+}
+
+void OutputFile::write(const std::string& text) {
+    std::ofstream out(_draft, std::ios::binary);
+    out << text << std::flush;
+    if (!out) refuse(_path, "not all of it was written; is the disk full");
+    finish();
+}
+
+void OutputFile::finish() {
+    std::error_code error;
+    fs::rename(_draft, _path, error);
+    if (error) refuse(_path, error.message());
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/Image>
+
+#include <filesystem>
+#include <string>
+
+namespace gnomon::examples {
+
+/// A file that appears whole or not at all: written beside its place under another name, then renamed.
+class OutputFile {
+public:
+    /// Sees that the file can be written before any work is done for it.
+    /// @throws std::runtime_error, one sentence, if it cannot.
+    explicit OutputFile(const std::string& path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    /// @throws std::runtime_error if OSG has no writer for images of this name. Writes nothing that stays.
+    void requireImage() const;
+    /// Colours of an image of bytes, RGB or RGBA.
+    /// @throws std::runtime_error if not all of it could be written.
+    void write(const osg::Image& image);
+    void write(const std::string& text);
+
+private:
+    void finish();
+
+    std::filesystem::path _path;
+    std::filesystem::path _draft;
+};
+
+} // namespace gnomon::examples

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "SceneLights.h"
+
+#include <osg/LightModel>
+#include <osg/NodeVisitor>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr double sunAzimuth = 135.0, sunElevation = 45.0; // degrees; azimuth from north = +y through east = +x
+
+osg::Vec4d defaultSun() {
+    const double azimuth = osg::DegreesToRadians(sunAzimuth), elevation = osg::DegreesToRadians(sunElevation);
+    return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation), 0.0};
+}
+
+class LightFinder : public osg::NodeVisitor {
+public:
+    LightFinder() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+    void apply(osg::LightSource& source) override {
+        if (source.getLight()) found.push_back(&source);
+        traverse(source);
+    }
+    std::vector<osg::ref_ptr<osg::LightSource>> found;
+};
+
+std::vector<osg::ref_ptr<osg::LightSource>> lightsIn(osg::Node& scene) {
+    LightFinder finder;
+    scene.accept(finder);
+    return finder.found;
+}
+
+bool isLamp(const osg::Vec4d& place) { return std::abs(place.w()) > 1e-9; }
+
+osg::Vec3d point(const osg::Vec4d& place) { return osg::Vec3d(place.x(), place.y(), place.z()) / place.w(); }
+
+/// A lamp stands at the origin of its mount, which is in double; a sun's direction needs no more than float.
+void stand(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d& place) {
+    mount.setMatrix(isLamp(place) ? osg::Matrixd::translate(point(place)) : osg::Matrixd());
+    light.setPosition(isLamp(place) ? osg::Vec4(0, 0, 0, 1) : osg::Vec4(place));
+}
+
+osg::Vec4 grey(double level) {
+    const float l = static_cast<float>(level);
+    return {l, l, l, 1.0f};
+}
+
+} // namespace
+
+SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group)
+    : _group(&group), _scene(lightsIn(group)) {
+    for (const osg::Vec4d& place : options.lights) add(place, root);
+    if (count() == 0) add(defaultSun(), root);
+    root.getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
+    for (const Own& own : _own) own.source->setStateSetModes(*root.getOrCreateStateSet(), osg::StateAttribute::ON);
+    colour(options);
+    if (options.ambient) {
+        osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
+        model->setAmbientIntensity(grey(*options.ambient));
+        root.getOrCreateStateSet()->setAttributeAndModes(model);
+    }
+    tellGroup(osg::Matrixd());
+}
+
+void SceneLights::turn(double degrees) {
+    const osg::Matrixd turned = osg::Matrixd::rotate(osg::DegreesToRadians(degrees), osg::Vec3d(0, 0, 1));
+    for (const Own& own : _own) stand(*own.mount, *own.source->getLight(), own.place * turned);
+    tellGroup(turned);
+}
+
+void SceneLights::add(const osg::Vec4d& place, osg::Group& root) {
+    Own own{place, new osg::MatrixTransform, new osg::LightSource};
+    own.source->setLight(new osg::Light(static_cast<unsigned>(freeNumber())));
+    own.mount->addChild(own.source);
+    stand(*own.mount, *own.source->getLight(), place);
+    root.addChild(own.mount);
+    _own.push_back(own);
+}
+
+int SceneLights::freeNumber() const {
+    const auto uses = [](const osg::LightSource& source, int number) {
+        return source.getLight()->getLightNum() == number;
+    };
+    int number = 0;
+    const auto taken = [&] {
+        return std::any_of(_scene.begin(), _scene.end(), [&](const auto& s) { return uses(*s, number); }) ||
+               std::any_of(_own.begin(), _own.end(), [&](const Own& own) { return uses(*own.source, number); });
+    };
+    while (taken()) ++number;
+    return number;
+}
+
+void SceneLights::colour(const ViewOptions& options) {
+    std::vector<osg::ref_ptr<osg::LightSource>> all = _scene;
+    for (const Own& own : _own) all.push_back(own.source);
+    for (const osg::ref_ptr<osg::LightSource>& source : all) {
+        osg::Light& light = *source->getLight();
+        if (options.ambient) light.setAmbient(grey(0.0));
+        if (options.diffuse) light.setDiffuse(grey(*options.diffuse));
+    }
+}
+
+void SceneLights::tellGroup(const osg::Matrixd& turned) {
+    _group->removeLights();
+    for (const osg::ref_ptr<osg::LightSource>& source : _scene) _group->addLight(source.get());
+    for (const Own& own : _own)
+        _group->addLight(ShadowLight{own.source->getLight()->getLightNum(), own.place * turned});
+}
+
+} // namespace gnomon::examples

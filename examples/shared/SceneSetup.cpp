@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "SceneSetup.h"
+#include "Ground.h"
+#include "SceneBounds.h"
+
+#include <gnomon/NamedNode.h>
+
+#include <osg/MatrixTransform>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr double framingMargin = 1.15;    // of the scene's radius
+constexpr double framingAzimuth = 215.0;  // degrees, of the camera as seen from the scene
+constexpr double framingElevation = 30.0; // degrees
+
+osg::ref_ptr<osg::Node> upright(osg::Node& files, bool yUp) {
+    if (!yUp) return &files;
+    osg::ref_ptr<osg::MatrixTransform> turn = new osg::MatrixTransform(
+        osg::Matrixd(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1)); // (x, y, z) to (x, -z, y), without rounding
+    turn->addChild(&files);
+    return turn;
+}
+
+/// Side of the ground to put under the scene; 0: none.
+double groundSide(const ViewOptions& o, osg::Node& scene, const osg::BoundingBoxd& bounds) {
+    if (o.ground == "none" || findNamed(scene, "ground") || findNamed(scene, o.receiver)) return 0.0;
+    return o.ground == "auto" ? 4.0 * bounds.radius() : std::stod(o.ground);
+}
+
+Selection selectCasters(const std::string& casters, osg::Node& root) {
+    Selection selection;
+    if (casters == "all") return selection;
+    if (casters == "none") {
+        selection.mask = 0;
+        return selection;
+    }
+    const std::optional<NamedNode> found = findNamed(root, casters);
+    if (!found)
+        throw std::invalid_argument("--casters: no node is named \"" + casters + "\"; allowed: all, none, a name.");
+    selection.node = found->node;
+    return selection;
+}
+
+std::vector<ShadowSpec> withReceiver(std::vector<ShadowSpec> specs, const std::string& receiver) {
+    for (ShadowSpec& spec : specs)
+        if (spec.receiver.empty()) spec.receiver = receiver;
+    return specs;
+}
+
+osg::Vec3d framedEye(const ViewOptions& o, const osg::Vec3d& center, double radius, double aspect) {
+    const double halfHeight = std::tan(osg::DegreesToRadians(o.fovy) / 2.0);
+    const double half = std::atan(halfHeight * std::min(1.0, aspect));
+    const double distance = (radius > 0.0 ? radius : 1.0) * framingMargin / std::sin(half);
+    const double azimuth = osg::DegreesToRadians(framingAzimuth), elevation = osg::DegreesToRadians(framingElevation);
+    return center + osg::Vec3d(std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
+                               std::sin(elevation)) *
+                        distance;
+}
+
+osg::Vec3d chooseUp(const ViewOptions& o, osg::Vec3d view) {
+    view.normalize();
+    const osg::Vec3d up =
+        o.viewUp.value_or(std::abs(view.z()) > 1.0 - 1e-12 ? osg::Vec3d(0, 1, 0) : osg::Vec3d(0, 0, 1));
+    osg::Vec3d across = view ^ up;
+    if (!(across.length() > 1e-9 * up.length()))
+        throw std::invalid_argument("--viewup points along the view; it must stand at an angle to it.");
+    return up;
+}
+
+} // namespace
+
+void SceneSetup::show(bool shadows) {
+    for (const osg::ref_ptr<ShadowTechnique>& technique : techniques) technique->setNodeMask(shadows ? ~0u : 0u);
+}
+
+std::vector<std::string> SceneSetup::diagnose() const {
+    std::vector<std::string> causes;
+    for (const osg::ref_ptr<ShadowTechnique>& technique : techniques)
+        for (const std::string& cause : technique->diagnose())
+            if (std::find(causes.begin(), causes.end(), cause) == causes.end()) causes.push_back(cause);
+    return causes;
+}
+
+SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {
+    SceneSetup setup;
+    setup.root = new osg::Group;
+    setup.group = new ShadowCasterGroup;
+    osg::ref_ptr<osg::Node> scene = upright(files, options.yUp);
+    setup.bounds = sceneBounds(*scene);
+    setup.group->addChild(scene);
+    const double side = groundSide(options, *scene, setup.bounds);
+    if (side > 0.0) setup.group->addChild(makeGround(setup.bounds, side));
+    setup.root->addChild(setup.group);
+    setup.lights = std::make_unique<SceneLights>(options, *setup.root, *setup.group);
+    setup.group->setCasters(selectCasters(options.casters, *setup.group));
+    setup.techniques = addShadows(*setup.group, withReceiver(options.shadows, options.receiver));
+    return setup;
+}
+
+void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds, double aspect) {
+    const osg::Vec3d center = options.center.value_or(bounds.center());
+    const osg::Vec3d eye = options.eye.value_or(framedEye(options, center, bounds.radius(), aspect));
+    if (eye == center) throw std::invalid_argument("--eye is the scene's centre; give --center another point.");
+    camera.setViewMatrixAsLookAt(eye, center, chooseUp(options, center - eye));
+    if (options.zNear) camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+    camera.setProjectionMatrixAsPerspective(options.fovy, aspect, options.zNear.value_or(1.0),
+                                            options.zFar.value_or(1e4));
+    const osg::Vec3d& b = options.background;
+    camera.setClearColor(osg::Vec4(osg::Vec3(b), 1.0f));
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "SceneLights.h"
+#include "ViewOptions.h"
+
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowTechnique.h>
+
+#include <osg/BoundingBox>
+#include <osg/Camera>
+#include <osg/Group>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// A scene ready to be viewed: lights, ShadowCasterGroup, ground and techniques as the options ask.
+struct SceneSetup {
+    osg::ref_ptr<osg::Group> root;
+    osg::ref_ptr<ShadowCasterGroup> group;
+    std::vector<osg::ref_ptr<ShadowTechnique>> techniques;
+    std::unique_ptr<SceneLights> lights;
+    osg::BoundingBoxd bounds; ///< of the files, without the ground put under them; world.
+
+    /// Switches all shadows on or off.
+    void show(bool shadows);
+    /// Why shadows were missing in the last frame, all techniques.
+    std::vector<std::string> diagnose() const;
+};
+
+/// @throws std::invalid_argument, one sentence, if a name is not in the scene or a specification does not suit it.
+SceneSetup setUpScene(const ViewOptions& options, osg::Node& files);
+
+/// Places a perspective camera as the options ask; without an eye so that the scene fills the picture, seen from the
+/// south-west and above. @param aspect width / height.
+/// @throws std::invalid_argument, one sentence.
+void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds, double aspect);
+
+} // namespace gnomon::examples

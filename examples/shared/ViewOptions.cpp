@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "ViewOptions.h"
+
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+using Text = const std::string&;
+
+constexpr double smallestLength = 1e-9;
+constexpr std::size_t mostLights = 8;
+
+[[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+
+osg::Vec3d readVec3(Text text, double low = -largestNumber, double high = largestNumber) {
+    const std::vector<double> n = readNumbers(text, 3, low, high);
+    return {n[0], n[1], n[2]};
+}
+
+osg::Vec4d readLight(Text text) {
+    const std::vector<double> n = readNumbers(text, 4);
+    if (n[0] == 0.0 && n[1] == 0.0 && n[2] == 0.0 && n[3] == 0.0)
+        refuse("allowed: a direction with w = 0 that is not 0,0,0, or a position with w = 1.");
+    return {n[0], n[1], n[2], n[3]};
+}
+
+std::string readGround(Text text) {
+    if (text != "auto" && text != "none") readNumber(text, smallestLength, largestNumber);
+    return text;
+}
+
+bool readUp(Text text) {
+    if (text != "y" && text != "z") refuse("allowed: y, z.");
+    return text == "y";
+}
+
+void addSceneOptions(Options& table, ViewOptions& into) {
+    table.push_back({"--shadow", "SPEC", "how shadows are made, see below", "none",
+                     [&into](Text t) { into.shadows.push_back(parseShadowSpec(t)); }, true});
+    table.push_back({"--receiver", "NODENAME", "what shadows fall on, where SPEC names nothing", "ground",
+                     [&into](Text t) { into.receiver = t; }});
+    table.push_back(
+        {"--casters", "all|none|NODENAME", "what casts shadows", "all", [&into](Text t) { into.casters = t; }});
+    table.push_back({"--ground", "auto|none|SIZE",
+                     "white ground under a scene without a node named ground, at its lowest point: a square of this "
+                     "side,\n      auto 4 times the scene's radius",
+                     "auto", [&into](Text t) { into.ground = readGround(t); }});
+    table.push_back({"--up", "y|z", "the way up in the files; y turns them by 90 degrees about x, so that all is z up",
+                     "z", [&into](Text t) { into.yUp = readUp(t); }});
+}
+
+void addLightOptions(Options& table, ViewOptions& into) {
+    table.push_back({"--light", "x,y,z,w", "w = 0: the way towards a sun; w = 1: a lamp's position, scene's unit",
+                     "the scene's own, or a sun at azimuth 135, elevation 45 degrees (azimuth from north = +y through "
+                     "east = +x)",
+                     [&into](Text t) { into.lights.push_back(readLight(t)); }, true});
+    table.push_back({"--ambient", "A", "the scene's ambient light, 0 to 10; each light's own is then 0", "0.2, OSG's",
+                     [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
+    table.push_back({"--diffuse", "D", "each light's diffuse light, 0 to 10", "0.8, OSG's",
+                     [&into](Text t) { into.diffuse = readNumber(t, 0.0, 10.0); }});
+}
+
+void addCameraOptions(Options& table, ViewOptions& into) {
+    table.push_back({"--eye", "x,y,z", "where the camera is, scene's unit", "so that the scene fills the picture",
+                     [&into](Text t) { into.eye = readVec3(t); }});
+    table.push_back({"--center", "x,y,z", "what it looks at", "the scene's centre",
+                     [&into](Text t) { into.center = readVec3(t); }});
+    table.push_back({"--viewup", "x,y,z", "what is up in the picture", "0,0,1, or 0,1,0 when looking along z",
+                     [&into](Text t) { into.viewUp = readVec3(t); }});
+    table.push_back({"--fovy", "DEG", "angle of the picture's height, 1 to 170 degrees", "40",
+                     [&into](Text t) { into.fovy = readNumber(t, 1.0, 170.0); }});
+    table.push_back({"--near", "N", "distance of the near plane, scene's unit, used exactly; with --far", "computed",
+                     [&into](Text t) { into.zNear = readNumber(t, smallestLength, largestNumber); }});
+    table.push_back({"--far", "F", "distance of the far plane; with --near", "computed",
+                     [&into](Text t) { into.zFar = readNumber(t, smallestLength, largestNumber); }});
+    table.push_back({"--background", "r,g,b", "colour behind the scene, 0 to 1 each", "0.2,0.2,0.4",
+                     [&into](Text t) { into.background = readVec3(t, 0.0, 1.0); }});
+}
+
+void requireCamera(const ViewOptions& o) {
+    if (o.eye && o.center && *o.eye == *o.center) refuse("--eye and --center are the same point; they must differ.");
+    if (o.viewUp && o.viewUp->length2() == 0.0) refuse("--viewup 0,0,0 is no direction; any other is allowed.");
+    if (!o.viewUp || !o.eye || !o.center) return;
+    osg::Vec3d up = *o.viewUp, view = *o.center - *o.eye;
+    up.normalize();
+    view.normalize();
+    if ((up ^ view).length() < 1e-9) refuse("--viewup points along the view; it must stand at an angle to it.");
+}
+
+void requireDepthRange(const ViewOptions& o) {
+    if (o.zNear.has_value() != o.zFar.has_value()) refuse("--near and --far belong together; give both or none.");
+    if (o.zNear && !(*o.zNear < *o.zFar)) refuse("--near must be less than --far.");
+}
+
+} // namespace
+
+Options viewOptions(ViewOptions& into) {
+    Options table;
+    addSceneOptions(table, into);
+    addLightOptions(table, into);
+    addCameraOptions(table, into);
+    return table;
+}
+
+void requireConsistent(const ViewOptions& options) {
+    requireCamera(options);
+    requireDepthRange(options);
+    if (options.lights.size() > mostLights) refuse("--light is given more than 8 times; 1 to 8 lights are allowed.");
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "CommandLine.h"
+
+#include <gnomon/ShadowSpec.h>
+
+#include <osg/Vec3d>
+#include <osg/Vec4d>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// What the programs share: scene, lights, shadows and camera as the command line gives them.
+struct ViewOptions {
+    std::vector<std::string> files;
+    std::vector<ShadowSpec> shadows;
+    std::vector<osg::Vec4d> lights; ///< homogeneous, world.
+    std::optional<double> ambient;
+    std::optional<double> diffuse;
+    std::string receiver;        ///< for every shadow that names none itself.
+    std::string casters = "all"; ///< all, none, or a node's name.
+    std::string ground = "auto"; ///< auto, none, or the side's length.
+    bool yUp = false;
+    std::optional<osg::Vec3d> eye;
+    std::optional<osg::Vec3d> center;
+    std::optional<osg::Vec3d> viewUp;
+    double fovy = 40.0; ///< degrees, of the picture's height.
+    std::optional<double> zNear;
+    std::optional<double> zFar;
+    osg::Vec3d background{0.2, 0.2, 0.4};
+};
+
+/// The options of `into`, as a table.
+Options viewOptions(ViewOptions& into);
+
+/// What one option alone cannot tell. @throws std::invalid_argument, one sentence.
+void requireConsistent(const ViewOptions& options);
+
+} // namespace gnomon::examples

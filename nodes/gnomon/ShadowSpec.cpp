@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ShadowSpec.h>
+
+#include <gnomon/FlatParts.h>
+#include <gnomon/NamedNode.h>
+#include <gnomon/PlanarShadowNode.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace gnomon {
+namespace {
+
+constexpr const char* defaultReceiver = "ground";
+constexpr unsigned mostPlanes = 8;
+constexpr double smallestPart = 0.01; // of the largest
+
+using Techniques = std::vector<osg::ref_ptr<ShadowTechnique>>;
+using Adder = osg::ref_ptr<ShadowTechnique> (*)(const NamedNode& receiver);
+
+/// A key of the specification string. `take` reads its value into the spec; false if it is out of range.
+struct Key {
+    const char* name;
+    const char* range;
+    const char* fallback;
+    const char* says;
+    bool (*take)(ShadowSpec&, const std::string& value);
+};
+
+/// A technique; one without `add` draws nothing. Those planned have `built` false.
+struct Technique {
+    const char* name;
+    bool built;
+    const char* says;
+    Adder add;
+    std::vector<Key> keys;
+};
+
+bool takeComposite(ShadowSpec& spec, const std::string& value) {
+    if (value == "relight")
+        spec.composite = ShadowCasterGroup::RELIGHT;
+    else if (value == "blend")
+        spec.composite = ShadowCasterGroup::BLEND;
+    else
+        return false;
+    return true;
+}
+
+bool takeDark(ShadowSpec& spec, const std::string& value) {
+    float factor = -1.0f;
+    const char* end = value.data() + value.size();
+    const std::from_chars_result read = std::from_chars(value.data(), end, factor);
+    if (read.ec != std::errc() || read.ptr != end || !(factor >= 0.0f && factor <= 1.0f)) return false;
+    spec.dark = factor;
+    return true;
+}
+
+bool takeReceiver(ShadowSpec& spec, const std::string& value) {
+    spec.receiver = value;
+    return !value.empty();
+}
+
+/// Plane of the receiver's own frame, in the group's.
+osg::Vec4d inGroup(const osg::Vec4d& plane, const NamedNode& receiver) {
+    return osg::Matrixd::inverse(receiver.rootFromParent) * plane;
+}
+
+osg::ref_ptr<ShadowTechnique> makePlanar(const NamedNode& receiver) {
+    const std::vector<FlatPart> parts = flatParts(*receiver.node, mostPlanes);
+    if (parts.empty())
+        throw std::invalid_argument("the receiver \"" + receiver.node->getName() +
+                                    "\" has no flat part for planar to use.");
+    osg::ref_ptr<PlanarShadowNode> node = new PlanarShadowNode;
+    for (const FlatPart& part : parts)
+        if (part.area >= smallestPart * parts.front().area) node->addPlane(inGroup(part.plane, receiver));
+    return node;
+}
+
+const std::vector<Key>& sharedKeys() {
+    static const std::vector<Key> keys = {
+        {"composite", "relight, blend", "relight", "take exactly the light away, or darken by a factor", takeComposite},
+        {"dark", "0 to 1", "0.5", "with composite=blend: factor of the colour in shadow", takeDark},
+        {"receiver", "a node's name", defaultReceiver, "what the shadow falls on", takeReceiver},
+    };
+    return keys;
+}
+
+const std::vector<Technique>& techniques() {
+    static const std::vector<Technique> table = {
+        {"none", true, "no shadow", nullptr, {}},
+        {"planar", true, "the casters flattened onto the receiver's planes; exact on flat receivers", makePlanar, {}},
+        {"box", false, "", nullptr, {}},
+        {"hull", false, "", nullptr, {}},
+        {"drape", false, "", nullptr, {}},
+        {"map", false, "", nullptr, {}},
+        {"volume", false, "", nullptr, {}},
+        {"traced", false, "", nullptr, {}},
+        {"auto", false, "", nullptr, {}},
+    };
+    return table;
+}
+
+std::string join(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+[[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+
+const Technique& requireTechnique(const std::string& name) {
+    for (const Technique& technique : techniques()) {
+        if (name != technique.name) continue;
+        if (!technique.built) refuse("\"" + name + "\" is not built yet; built: " + join(shadowTechniques()) + ".");
+        return technique;
+    }
+    refuse("\"" + name + "\" is not a shadow technique; allowed: " + join(shadowTechniques()) + ".");
+}
+
+std::vector<Key> keysOf(const Technique& technique) {
+    std::vector<Key> keys = technique.keys;
+    keys.insert(keys.end(), sharedKeys().begin(), sharedKeys().end());
+    return keys;
+}
+
+const Key& requireKey(const Technique& technique, const std::vector<Key>& keys, const std::string& name) {
+    std::vector<std::string> names;
+    for (const Key& key : keys) {
+        if (name == key.name) return key;
+        names.push_back(key.name);
+    }
+    refuse(std::string("the technique ") + technique.name + " has no key \"" + name + "\"; allowed: " + join(names) +
+           ".");
+}
+
+void takePair(ShadowSpec& spec, const Technique& technique, const std::string& pair, std::set<std::string>& seen) {
+    const std::size_t equals = pair.find('=');
+    const std::string name = pair.substr(0, equals);
+    const std::vector<Key> keys = keysOf(technique);
+    const Key& key = requireKey(technique, keys, name);
+    if (!seen.insert(name).second) refuse("the key \"" + name + "\" is given twice in \"" + spec.text + "\".");
+    const std::string value = equals == std::string::npos ? "" : pair.substr(equals + 1);
+    if (!key.take(spec, value)) refuse(name + "=" + value + " cannot be used; allowed: " + key.range + ".");
+}
+
+void takePairs(ShadowSpec& spec, const Technique& technique, const std::string& pairs) {
+    std::set<std::string> seen;
+    for (std::size_t begin = 0; begin <= pairs.size();) {
+        const std::size_t comma = std::min(pairs.find(',', begin), pairs.size());
+        takePair(spec, technique, pairs.substr(begin, comma - begin), seen);
+        begin = comma + 1;
+    }
+}
+
+bool blends(const ShadowSpec& spec) { return spec.composite == ShadowCasterGroup::BLEND; }
+
+void setComposite(ShadowCasterGroup& group, const std::vector<ShadowSpec>& specs) {
+    for (const ShadowSpec& spec : specs) {
+        if (blends(spec) != blends(specs.front()))
+            refuse("composite=relight and composite=blend cannot be mixed; give every shadow the same.");
+        if (spec.dark && specs.front().dark != spec.dark) refuse("dark= differs; give every shadow the same.");
+    }
+    if (specs.empty()) return;
+    group.setComposite(blends(specs.front()) ? ShadowCasterGroup::BLEND : ShadowCasterGroup::RELIGHT);
+    if (specs.front().dark) group.setDark(*specs.front().dark);
+}
+
+NamedNode requireReceiver(osg::Node& root, const std::string& name) {
+    if (const std::optional<NamedNode> found = findNamed(root, name)) return *found;
+    const std::string names = join(nodeNames(root));
+    refuse("no node is named \"" + name +
+           "\" to receive the shadow; names in the scene: " + (names.empty() ? "none" : names) + ".");
+}
+
+osg::ref_ptr<ShadowTechnique> makeTechnique(ShadowCasterGroup& group, const ShadowSpec& spec) {
+    const Technique& technique = requireTechnique(spec.technique);
+    if (!technique.add) return nullptr;
+    const NamedNode receiver = requireReceiver(group, spec.receiver.empty() ? defaultReceiver : spec.receiver);
+    osg::ref_ptr<ShadowTechnique> node = technique.add(receiver);
+    Selection selection;
+    selection.node = receiver.node;
+    node->setReceiver(selection);
+    node->setName(spec.text);
+    return node;
+}
+
+void describeKeys(std::ostream& out, const std::vector<Key>& keys, const char* indent) {
+    for (const Key& key : keys)
+        out << indent << key.name << "=  " << key.says << "; allowed " << key.range << ", default " << key.fallback
+            << "\n";
+}
+
+} // namespace
+
+ShadowSpec parseShadowSpec(const std::string& text) {
+    ShadowSpec spec;
+    spec.text = text;
+    const std::size_t colon = text.find(':');
+    spec.technique = text.substr(0, colon);
+    const Technique& technique = requireTechnique(spec.technique);
+    if (colon != std::string::npos) takePairs(spec, technique, text.substr(colon + 1));
+    if (spec.dark && !blends(spec)) refuse("dark= is of use only with composite=blend; add it to \"" + text + "\".");
+    return spec;
+}
+
+std::vector<std::string> shadowTechniques() {
+    std::vector<std::string> names;
+    for (const Technique& technique : techniques())
+        if (technique.built) names.push_back(technique.name);
+    return names;
+}
+
+std::string shadowSpecHelp() {
+    std::ostringstream out;
+    for (const Technique& technique : techniques()) {
+        if (!technique.built) continue;
+        out << "  " << technique.name << "  " << technique.says << "\n";
+        describeKeys(out, technique.keys, "    ");
+    }
+    out << "  with any of them, as NAME:key=value,key=value\n";
+    describeKeys(out, sharedKeys(), "    ");
+    return out.str();
+}
+
+std::vector<osg::ref_ptr<ShadowTechnique>> addShadows(ShadowCasterGroup& group, const std::vector<ShadowSpec>& specs) {
+    Techniques made;
+    for (const ShadowSpec& spec : specs)
+        if (osg::ref_ptr<ShadowTechnique> node = makeTechnique(group, spec)) made.push_back(node);
+    setComposite(group, specs);
+    for (const osg::ref_ptr<ShadowTechnique>& node : made) group.addChild(node);
+    return made;
+}
+
+} // namespace gnomon

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Export.h>
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowTechnique.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What a specification string says: which technique, and how. The same text selects a technique everywhere.
+///
+///     none | planar                          the others that are planned are refused as not built yet
+///     NAME:key=value,key=value               planar:composite=blend,dark=0.4,receiver=floor
+struct ShadowSpec {
+    std::string text;                                      ///< as given.
+    std::string technique = "none";                        ///< one of shadowTechniques().
+    std::optional<ShadowCasterGroup::Composite> composite; ///< not given: RELIGHT.
+    std::optional<float> dark;                             ///< factor of BLEND, 0 … 1; not given: the group's 0.5.
+    std::string receiver; ///< name of the node that receives; empty: the node named "ground".
+};
+
+/// @throws std::invalid_argument, one sentence that names what is wrong and lists what is allowed.
+GNOMON_EXPORT ShadowSpec parseShadowSpec(const std::string& text);
+
+/// Names of the techniques that are built.
+GNOMON_EXPORT std::vector<std::string> shadowTechniques();
+
+/// Table of the techniques, their keys, ranges, units and defaults, for --help: lines of at most 120 characters.
+GNOMON_EXPORT std::string shadowSpecHelp();
+
+/// Adds what `specs` ask for as children of `group`, and sets its composite. The receiver is looked for under the
+/// group. planar: a plane for each flat part of the receiver, up to eight, the largest first, none under 1 % of the
+/// largest.
+/// @return the techniques added, in the order of `specs`; none for "none".
+/// @throws std::invalid_argument, one sentence, if the specs' composites differ, the receiver is not there or has
+/// nothing flat.
+GNOMON_EXPORT std::vector<osg::ref_ptr<ShadowTechnique>> addShadows(ShadowCasterGroup& group,
+                                                                    const std::vector<ShadowSpec>& specs);
+
+} // namespace gnomon
