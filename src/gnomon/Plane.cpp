@@ -50,10 +50,8 @@ std::optional<glm::dvec4> planeFromPoints(const glm::dvec3& p1, const glm::dvec3
 }
 
 std::optional<glm::dvec4> normalizedPlane(const glm::dvec4& plane) {
-    const double unit = powerOfTwoIn(largest(glm::dvec3(plane)));
-    const glm::dvec4 scaled = plane / unit;
-    const glm::dvec4 unitNormal = scaled / norm(glm::dvec3(scaled));
-    return isFinite(unitNormal) ? std::optional(unitNormal) : std::nullopt;
+    const glm::dvec4 normalized = plane / norm(glm::dvec3(plane));
+    return isFinite(normalized) ? std::optional(normalized) : std::nullopt;
 }
 
 double distance(const glm::dvec4& plane, const glm::dvec3& point) {
