@@ -8,33 +8,46 @@
 
 #include <vector>
 
+namespace osg {
+class Array;
+}
+
 namespace gnomon {
 
-/// Walks to the drawables that can cast: those of a Selection, without techniques, cameras, billboards and absolute transforms.
-/// Extraction (VertexTraverser) and change detection (CasterRevision) share it, so that they agree on what a caster is.
+/// Walks to the drawables that can cast: those of a Selection, without techniques, cameras, projections, text and
+/// whatever turns or scales with the view (billboards, such AutoTransforms) or does not move with its parents (absolute
+/// transforms). Extraction (VertexTraverser) and change detection (CasterRevision) share it, so that they agree on what
+/// a caster is.
+///
+/// Of an LOD it takes the children shown at the nearest range that a loaded child has (by pixels: the largest), not
+/// those that one view shows. The first matrix is that of the root: its own transform counts, its parents' do not.
 class GNOMON_EXPORT CasterVisitor : public osg::NodeVisitor {
 public:
     void reset() override;
     void apply(osg::Node& node) override;
+    void apply(osg::Drawable& drawable) override;
     void apply(osg::Geode& geode) override;
-    void apply(osg::Billboard& billboard) override;
+    void apply(osg::LOD& lod) override;
     void apply(osg::Transform& transform) override;
-    void apply(osg::Camera& camera) override;
+    void apply(osg::Billboard&) override {}
+    void apply(osg::Camera&) override {}
+    void apply(osg::Projection&) override {}
 
 protected:
     explicit CasterVisitor(const Selection& selection);
+    ~CasterVisitor() override = default;
 
+    /// Called for each caster, once for each way down to it.
+    virtual void applyCaster(osg::Drawable& drawable) = 0;
     /// From the frame of the drawable being visited to that of the root.
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
-    /// True once the selected node has been entered.
-    bool selected() const { return _inside > 0; }
+    /// What OpenSceneGraph's functors take for the vertices of a geometry; null if it has none.
+    static const osg::Array* verticesOf(const osg::Geometry& geometry);
 
 private:
-    void enter(osg::Node& node);
-
     Selection _selection;
     std::vector<osg::Matrixd> _matrices;
-    int _inside = 0;
+    int _inside = 0; ///< how often the selected node is on the way down.
 };
 
 } // namespace gnomon

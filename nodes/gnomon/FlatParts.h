@@ -16,8 +16,11 @@ struct FlatPart {
 };
 
 /// The planes that the triangles of a subgraph lie in, the largest area first; frame of the root, as VertexTraverser's.
-/// Triangles belong together where their planes agree within the vertices' own rounding. A table has six, a ground quad one.
-/// At most `limit` parts are returned.
+/// Triangles belong together where their planes agree within the vertices' own rounding and face the same way. A table
+/// top has six, a ground quad one. At most `limit` parts are returned. Triangles no higher than that rounding have no
+/// plane.
+///
+/// Cost    an extraction and a sort of the triangles; 150 bytes a triangle while it runs.
 GNOMON_EXPORT std::vector<FlatPart> flatParts(osg::Node& root, unsigned limit = 64);
 
 } // namespace gnomon

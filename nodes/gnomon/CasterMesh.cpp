@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/CasterMesh.h>
+#include <gnomon/VertexTraverser.h>
+
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+osg::BoundingBoxd boundsOf(const VertexTraverser& casters) {
+    osg::BoundingBoxd bounds;
+    for (unsigned index : casters.getTriangles()) bounds.expandBy(casters.getVertices()[index]);
+    return bounds;
+}
+
+} // namespace
+
+CasterMesh::CasterMesh(const VertexTraverser& casters)
+    : vertices(new osg::Vec3Array),
+      triangles(new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES)),
+      bounds(boundsOf(casters)),
+      rounding(casters.getRounding()),
+      invalidTriangles(casters.getInvalidTriangles()),
+      invalidNode(casters.getInvalidNode()),
+      sources(casters.getSources()) {
+    if (bounds.valid()) origin = bounds.center();
+    constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
+    std::vector<unsigned> places(casters.getVertices().size(), nowhere);
+    triangles->reserve(casters.getTriangles().size());
+    for (unsigned index : casters.getTriangles()) {
+        if (places[index] == nowhere) {
+            places[index] = static_cast<unsigned>(vertices->size());
+            vertices->push_back(osg::Vec3(casters.getVertices()[index] - origin));
+        }
+        triangles->push_back(places[index]);
+    }
+}
+
+} // namespace gnomon

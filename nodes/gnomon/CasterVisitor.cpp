@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/CasterVisitor.h>
+#include <gnomon/ShadowTechnique.h>
+
+#include <osg/AutoTransform>
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/Geometry>
+#include <osg/LOD>
+#include <osg/Projection>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <typeinfo>
+
+namespace gnomon {
+namespace {
+
+/// By name: the kit does not link osgText for this.
+bool isText(const osg::Drawable& drawable) {
+    return !drawable.asGeometry() && std::strcmp(drawable.libraryName(), "osgText") == 0;
+}
+
+/// Nearly every Geode is a plain one: the cast is for the others.
+bool isTechnique(const osg::Geode& geode) {
+    return typeid(geode) != typeid(osg::Geode) && dynamic_cast<const ShadowTechnique*>(&geode);
+}
+
+bool followsTheView(const osg::Transform& transform) {
+    const osg::AutoTransform* turning = transform.asAutoTransform();
+    return turning &&
+           (turning->getAutoScaleToScreen() || turning->getAutoRotateMode() != osg::AutoTransform::NO_ROTATION);
+}
+
+unsigned usableChildren(const osg::LOD& lod) { return std::min(lod.getNumChildren(), lod.getNumRanges()); }
+
+bool isShownAt(const osg::LOD& lod, unsigned child, float range) {
+    return lod.getMinRange(child) <= range && range < lod.getMaxRange(child);
+}
+
+/// The range, a distance or a size in pixels, that the most detailed child begins at.
+float finestRange(const osg::LOD& lod) {
+    const bool byDistance = lod.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT;
+    float finest = byDistance ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
+    for (unsigned i = 0; i < usableChildren(lod); ++i) {
+        const float start = lod.getMinRange(i);
+        if (!(start < lod.getMaxRange(i))) continue;
+        finest = byDistance ? std::min(finest, start) : std::max(finest, start);
+    }
+    return finest;
+}
+
+} // namespace
+
+CasterVisitor::CasterVisitor(const Selection& selection)
+    : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _selection(selection) {
+    setTraversalMask(selection.mask);
+    CasterVisitor::reset();
+}
+
+void CasterVisitor::reset() {
+    _matrices.assign(1, osg::Matrixd::identity());
+    _inside = _selection.node ? 0 : 1;
+}
+
+void CasterVisitor::apply(osg::Node& node) {
+    const int entered = &node == _selection.node ? 1 : 0;
+    _inside += entered;
+    traverse(node);
+    _inside -= entered;
+}
+
+void CasterVisitor::apply(osg::Drawable& drawable) {
+    const bool selected = _inside > 0 || &drawable == _selection.node;
+    if (selected && !isText(drawable)) applyCaster(drawable);
+}
+
+void CasterVisitor::apply(osg::Geode& geode) {
+    if (!isTechnique(geode)) apply(static_cast<osg::Node&>(geode));
+}
+
+void CasterVisitor::apply(osg::LOD& lod) {
+    const int entered = &lod == _selection.node ? 1 : 0;
+    const float finest = finestRange(lod);
+    _inside += entered;
+    for (unsigned i = 0; i < usableChildren(lod); ++i)
+        if (isShownAt(lod, i, finest)) lod.getChild(i)->accept(*this);
+    _inside -= entered;
+}
+
+void CasterVisitor::apply(osg::Transform& transform) {
+    if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF || followsTheView(transform)) return;
+    osg::Matrixd matrix = _matrices.back();
+    transform.computeLocalToWorldMatrix(matrix, this);
+    _matrices.push_back(matrix);
+    apply(static_cast<osg::Node&>(transform));
+    _matrices.pop_back();
+}
+
+const osg::Array* CasterVisitor::verticesOf(const osg::Geometry& geometry) {
+    if (geometry.getVertexArray()) return geometry.getVertexArray();
+    return geometry.getNumVertexAttribArrays() > 0 ? geometry.getVertexAttribArray(0) : nullptr;
+}
+
+} // namespace gnomon

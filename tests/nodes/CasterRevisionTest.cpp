@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "CountedNew.h"
+#include "Scene.h"
+
+#include <gnomon/CasterMesh.h>
+#include <gnomon/CasterRevision.h>
+
+#include <osg/LOD>
+#include <osg/ShapeDrawable>
+#include <osg/Switch>
+
+#include <gtest/gtest.h>
+
+using namespace scene;
+using Mode = osg::PrimitiveSet::Mode;
+
+namespace {
+
+/// A graph watched as a group watches its casters: by a value, and the mesh of that value.
+class Watched {
+public:
+    explicit Watched(osg::Node* root) : _root(root) { changed(); }
+
+    /// Whether the value differs from that of the call before.
+    bool changed() {
+        _revision.reset();
+        _root->accept(_revision);
+        const bool differs = _revision.value() != _value;
+        _value = _revision.value();
+        if (differs) extract();
+        return differs;
+    }
+
+private:
+    void extract() {
+        gnomon::VertexTraverser casters;
+        _root->accept(casters);
+        _mesh = new gnomon::CasterMesh(casters);
+    }
+
+    osg::ref_ptr<osg::Node> _root;
+    gnomon::CasterRevision _revision;
+    std::uint64_t _value = 0;
+    osg::ref_ptr<gnomon::CasterMesh> _mesh;
+};
+
+osg::Vec3Array& verticesOf(osg::Geometry& geometry) { return *static_cast<osg::Vec3Array*>(geometry.getVertexArray()); }
+
+osg::ref_ptr<osg::Geometry> indexed() {
+    return geometryOf(vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}),
+                      new osg::DrawElementsUInt(Mode::TRIANGLES, 3, std::array<GLuint, 3>{0, 1, 2}.data()));
+}
+
+/// Boxes under transforms, as a town has them.
+osg::ref_ptr<osg::Group> boxes(int count) {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    const osg::ref_ptr<osg::ShapeDrawable> box = new osg::ShapeDrawable(new osg::Box);
+    for (int i = 0; i < count; ++i) {
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrix::translate(2.0 * i, 0, 0));
+        place->addChild(geodeOf(box.get()));
+        root->addChild(place);
+    }
+    return root;
+}
+
+} // namespace
+
+TEST(CasterRevisionChanges, WithEachDrawableAddedRemovedOrReordered) {
+    const osg::ref_ptr<osg::Geode> geode = geodeOf(triangle().get());
+    Watched watched(geode.get());
+    geode->addDrawable(indexed());
+    EXPECT_TRUE(watched.changed());
+    const osg::ref_ptr<osg::Drawable> first = geode->getDrawable(0);
+    geode->setDrawable(0, geode->getDrawable(1));
+    geode->setDrawable(1, first);
+    EXPECT_TRUE(watched.changed());
+    geode->removeDrawable(first);
+    EXPECT_TRUE(watched.changed());
+    EXPECT_FALSE(watched.changed());
+}
+
+TEST(CasterRevisionChanges, WithATransformsMatrix) {
+    const osg::ref_ptr<osg::MatrixTransform> place = triangleAt(1);
+    Watched watched(place.get());
+    place->setMatrix(osg::Matrix::translate(std::nextafter(1.0, 2.0), 0, 0));
+    EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionChanges, WhenTwoObjectsChangePlaces) {
+    const osg::ref_ptr<osg::Group> root = boxes(2);
+    Watched watched(root.get());
+    auto& a = static_cast<osg::MatrixTransform&>(*root->getChild(0));
+    auto& b = static_cast<osg::MatrixTransform&>(*root->getChild(1));
+    const osg::Matrixd before = a.getMatrix();
+    a.setMatrix(b.getMatrix());
+    b.setMatrix(before);
+    EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionChanges, WithASwitchAMaskAndTheRangesOfAnLod) {
+    osg::ref_ptr<osg::Switch> choice = new osg::Switch;
+    osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+    choice->addChild(triangleAt(1));
+    choice->addChild(lod);
+    lod->addChild(triangleAt(2), 0, 10);
+    lod->addChild(triangleAt(3), 10, 100);
+    Watched watched(choice.get());
+    choice->setValue(0, false);
+    EXPECT_TRUE(watched.changed());
+    lod->setRange(0, 100, 1000);
+    EXPECT_TRUE(watched.changed());
+    lod->addChild(triangleAt(4), 0, 10);
+    EXPECT_TRUE(watched.changed());
+    lod->setNodeMask(0);
+    EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionChanges, WithAVertexArrayDirtiedResizedOrReplaced) {
+    const osg::ref_ptr<osg::Geometry> geometry = triangle();
+    Watched watched(geometry.get());
+    verticesOf(*geometry)[0].x() = 0.5f;
+    verticesOf(*geometry).dirty();
+    EXPECT_TRUE(watched.changed());
+    verticesOf(*geometry).push_back({1, 1, 1});
+    EXPECT_TRUE(watched.changed());
+    geometry->setVertexArray(vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}));
+    EXPECT_TRUE(watched.changed());
+    geometry->setVertexArray(nullptr);
+    EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionChanges, WithPrimitivesDirtiedResizedMovedReplacedOrOfAnotherMode) {
+    const osg::ref_ptr<osg::Geometry> geometry = indexed();
+    Watched watched(geometry.get());
+    auto& elements = static_cast<osg::DrawElementsUInt&>(*geometry->getPrimitiveSet(0));
+    elements[2] = 3;
+    elements.dirty();
+    EXPECT_TRUE(watched.changed());
+    for (GLuint index : {1u, 2u, 0u}) elements.push_back(index);
+    EXPECT_TRUE(watched.changed());
+    elements.setMode(Mode::TRIANGLE_STRIP);
+    EXPECT_TRUE(watched.changed());
+    osg::ref_ptr<osg::DrawArrays> arrays = new osg::DrawArrays(Mode::TRIANGLES, 0, 3);
+    geometry->setPrimitiveSet(0, arrays);
+    EXPECT_TRUE(watched.changed());
+    arrays->setFirst(1);
+    EXPECT_TRUE(watched.changed());
+    geometry->removePrimitiveSet(0);
+    EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionChanges, WithTheShapeOfAShapeDrawable) {
+    // Its arrays are deleted before the new ones, of the same sizes, are made: an allocator may well give the same
+    // places.
+    const osg::ref_ptr<osg::ShapeDrawable> shape = new osg::ShapeDrawable(new osg::Box(osg::Vec3(), 1.0f));
+    Watched watched(shape.get());
+    for (int i = 0; i < 100; ++i) {
+        shape->setShape(new osg::Box(osg::Vec3(), 2.0f + static_cast<float>(i)));
+        EXPECT_TRUE(watched.changed());
+    }
+}
+
+TEST(CasterRevisionChanges, WithTheBoundsOfADrawableThatIsNoGeometry) {
+    class Unknown : public osg::Drawable {};
+    const osg::ref_ptr<Unknown> unknown = new Unknown;
+    Watched watched(unknown.get());
+    EXPECT_FALSE(watched.changed());
+    unknown->setInitialBound(osg::BoundingBox(0, 0, 0, 1, 1, 1));
+    EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionStays, WhenWhatDoesNotCastChanges) {
+    const osg::ref_ptr<osg::Geometry> geometry = triangle();
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(geodeOf(geometry.get()));
+    Watched watched(root.get());
+    root->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    geometry->setColorArray(new osg::Vec4Array(1), osg::Array::BIND_OVERALL);
+    geometry->setNormalArray(new osg::Vec3Array(1), osg::Array::BIND_OVERALL);
+    geometry->dirtyDisplayList();
+    geometry->dirtyBound();
+    root->setName("another");
+    root->addChild(new osg::Group);
+    EXPECT_FALSE(watched.changed());
+}
+
+TEST(CasterRevisionStays, WhenAChildThatIsOffOrNotSelectedChanges) {
+    osg::ref_ptr<osg::Switch> choice = new osg::Switch;
+    const osg::ref_ptr<osg::MatrixTransform> off = triangleAt(1);
+    choice->addChild(off, false);
+    choice->addChild(triangleAt(2), true);
+    Watched watched(choice.get());
+    off->setMatrix(osg::Matrix::translate(9, 9, 9));
+    EXPECT_FALSE(watched.changed());
+}
+
+TEST(CasterRevision, TwoVisitorsAgree) {
+    const osg::ref_ptr<osg::Group> root = boxes(10);
+    gnomon::CasterRevision a, b;
+    root->accept(a);
+    root->accept(b);
+    EXPECT_EQ(a.value(), b.value());
+}
+
+TEST(CasterRevision, AllocatesNothingOnceWarm) {
+    const osg::ref_ptr<osg::Group> root = boxes(100);
+    gnomon::CasterRevision revision;
+    root->accept(revision);
+    const std::size_t before = countedNews();
+    for (int frame = 0; frame < 10; ++frame) {
+        revision.reset();
+        root->accept(revision);
+    }
+    EXPECT_EQ(countedNews(), before);
+    EXPECT_GT(before, 100u) << "the count does not work";
+}

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "Scene.h"
+
+#include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace scene;
+using gnomon::VertexTraverser;
+using Mode = osg::PrimitiveSet::Mode;
+
+namespace {
+
+/// Seven vertices told apart by x; their places make no two triangles alike.
+osg::ref_ptr<osg::Vec3Array> sevenVertices() {
+    return vec3s({{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 1, 0}, {4, 0, 1}, {5, 2, 0}, {6, 0, 3}});
+}
+
+using Indices = std::vector<std::array<int, 3>>;
+
+/// The corners by x, the lowest first: turning a triangle round does not change it.
+Indices turned(const std::vector<Corners>& triangles) {
+    Indices result;
+    for (const Corners& c : triangles) {
+        std::array<int, 3> x{};
+        for (std::size_t i = 0; i < 3; ++i) x[i] = static_cast<int>(c[i].x());
+        std::rotate(x.begin(), std::min_element(x.begin(), x.end()), x.end());
+        result.push_back(x);
+    }
+    return result;
+}
+
+Indices indicesOf(osg::PrimitiveSet* primitives) {
+    return turned(trianglesOf(*geometryOf(sevenVertices(), primitives)));
+}
+
+Indices indicesOf(Mode mode) { return indicesOf(new osg::DrawArrays(mode, 0, 7)); }
+
+template <class Array>
+osg::Vec3d lastVertexOf(const osg::ref_ptr<Array>& array) {
+    VertexTraverser casters;
+    geometryOf(array, new osg::DrawArrays(Mode::TRIANGLES, 0, 3))->accept(casters);
+    return casters.getVertices().size() == 3 ? casters.getVertices().back() : osg::Vec3d(-1, -1, -1);
+}
+
+template <class Array>
+osg::ref_ptr<Array> threeVertices(const typename Array::ElementDataType& last) {
+    osg::ref_ptr<Array> array = new Array(3);
+    (*array)[2] = last;
+    return array;
+}
+
+osg::Vec3d areaVector(const Corners& c) { return ((c[1] - c[0]) ^ (c[2] - c[0])) / 2.0; }
+
+} // namespace
+
+// The expected lists are those of the OpenGL specification, 2.6.1 (compatibility), written out for seven vertices.
+
+TEST(VertexTraverserModes, TrianglesLeaveOutAnIncompleteLastOne) {
+    EXPECT_EQ(indicesOf(Mode::TRIANGLES), (Indices{{0, 1, 2}, {3, 4, 5}}));
+}
+
+TEST(VertexTraverserModes, AStripTurnsEverySecondTriangleRound) {
+    EXPECT_EQ(indicesOf(Mode::TRIANGLE_STRIP), (Indices{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {3, 5, 4}, {4, 5, 6}}));
+}
+
+TEST(VertexTraverserModes, AFanAndAPolygonShareTheirFirstVertex) {
+    const Indices fan{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 6}};
+    EXPECT_EQ(indicesOf(Mode::TRIANGLE_FAN), fan);
+    EXPECT_EQ(indicesOf(Mode::POLYGON), fan);
+}
+
+TEST(VertexTraverserModes, QuadsAreTwoTrianglesEach) {
+    EXPECT_EQ(indicesOf(Mode::QUADS), (Indices{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(VertexTraverserModes, AQuadStripCrossesOverItsSecondPair) {
+    EXPECT_EQ(indicesOf(Mode::QUAD_STRIP), (Indices{{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}}));
+}
+
+TEST(VertexTraverserModes, NeighboursOfAnAdjacencyModeAreNoCorners) {
+    EXPECT_EQ(indicesOf(Mode::TRIANGLES_ADJACENCY), (Indices{{0, 2, 4}}));
+    EXPECT_EQ(indicesOf(Mode::TRIANGLE_STRIP_ADJACENCY), (Indices{{0, 2, 4}}));
+}
+
+TEST(VertexTraverserModes, PointsAndLinesHaveVerticesButNoTriangles) {
+    for (Mode mode : {Mode::POINTS, Mode::LINES, Mode::LINE_STRIP, Mode::LINE_LOOP}) {
+        VertexTraverser casters;
+        geometryOf(sevenVertices(), new osg::DrawArrays(mode, 0, 7))->accept(casters);
+        EXPECT_EQ(casters.getVertices().size(), 7u) << mode;
+        EXPECT_TRUE(casters.getTriangles().empty()) << mode;
+        EXPECT_EQ(casters.getInvalidTriangles(), 0u) << mode;
+    }
+}
+
+TEST(VertexTraverserModes, TwoVerticesAreNoTriangleInAnyMode) {
+    for (int mode = Mode::POINTS; mode <= Mode::POLYGON; ++mode)
+        EXPECT_TRUE(indicesOf(new osg::DrawArrays(static_cast<Mode>(mode), 0, 2)).empty()) << mode;
+}
+
+TEST(VertexTraverserIndices, DrawArraysBeginsAtItsFirst) {
+    EXPECT_EQ(indicesOf(new osg::DrawArrays(Mode::TRIANGLES, 4, 3)), (Indices{{4, 5, 6}}));
+}
+
+TEST(VertexTraverserIndices, EachLengthOfDrawArrayLengthsBeginsAnew) {
+    osg::ref_ptr<osg::DrawArrayLengths> fans = new osg::DrawArrayLengths(Mode::TRIANGLE_FAN, 0);
+    fans->push_back(3);
+    fans->push_back(4);
+    EXPECT_EQ(indicesOf(fans.get()), (Indices{{0, 1, 2}, {3, 4, 5}, {3, 5, 6}}));
+}
+
+TEST(VertexTraverserIndices, EachRangeOfMultiDrawArraysBeginsAnew) {
+    osg::ref_ptr<osg::MultiDrawArrays> strips = new osg::MultiDrawArrays(Mode::TRIANGLE_STRIP);
+    strips->add(1, 3);
+    strips->add(3, 4);
+    EXPECT_EQ(indicesOf(strips.get()), (Indices{{1, 2, 3}, {3, 4, 5}, {4, 6, 5}}));
+}
+
+TEST(VertexTraverserIndices, AllThreeWidthsOfIndexAreRead) {
+    const Indices expected{{1, 6, 2}};
+    EXPECT_EQ(indicesOf(new osg::DrawElementsUByte(Mode::TRIANGLES, 3, std::array<GLubyte, 3>{6, 2, 1}.data())),
+              expected);
+    EXPECT_EQ(indicesOf(new osg::DrawElementsUShort(Mode::TRIANGLES, 3, std::array<GLushort, 3>{6, 2, 1}.data())),
+              expected);
+    EXPECT_EQ(indicesOf(new osg::DrawElementsUInt(Mode::TRIANGLES, 3, std::array<GLuint, 3>{6, 2, 1}.data())),
+              expected);
+}
+
+TEST(VertexTraverserIndices, VerticesAreSharedBetweenTrianglesAndThePrimitivesOfADrawable) {
+    osg::ref_ptr<osg::Geometry> geometry = geometryOf(sevenVertices(), new osg::DrawArrays(Mode::TRIANGLE_STRIP, 0, 5));
+    geometry->addPrimitiveSet(new osg::DrawArrays(Mode::TRIANGLES, 0, 3));
+    VertexTraverser casters;
+    geometry->accept(casters);
+    EXPECT_EQ(casters.getVertices().size(), 5u); // the last two are not used
+    EXPECT_EQ(casters.getTriangles().size(), 3u * 4u);
+}
+
+TEST(VertexTraverserIndices, AnArrayOfManyDrawablesIsNotCopiedWhole) {
+    const osg::ref_ptr<osg::Vec3Array> shared = new osg::Vec3Array(3000);
+    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    for (int i = 0; i < 1000; ++i)
+        geode->addDrawable(geometryOf(shared, new osg::DrawArrays(Mode::TRIANGLES, 3 * i, 3)));
+    VertexTraverser casters;
+    geode->accept(casters);
+    EXPECT_EQ(casters.getVertices().size(), 3000u);
+}
+
+TEST(VertexTraverserIndices, TrianglesWithTwoEqualIndicesAreDropped) {
+    const std::array<GLuint, 9> stitched{0, 1, 1, 2, 2, 0, 0, 1, 2};
+    EXPECT_EQ(indicesOf(new osg::DrawElementsUInt(Mode::TRIANGLES, 9, stitched.data())), (Indices{{0, 1, 2}}));
+}
+
+TEST(VertexTraverserArrays, AllFloatAndDoubleArraysAreRead) {
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec2Array>({1, 2})), osg::Vec3d(1, 2, 0));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3Array>({1, 2, 3})), osg::Vec3d(1, 2, 3));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec2dArray>({1, 2})), osg::Vec3d(1, 2, 0));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3dArray>({1, 2, 3})), osg::Vec3d(1, 2, 3));
+}
+
+TEST(VertexTraverserArrays, TheFourthCoordinateDivides) {
+    const auto floats = arrayOf<osg::Vec4Array>({{0, 0, 0, 1}, {1, 0, 0, 1}, {2, 4, 6, 2}});
+    const auto doubles = arrayOf<osg::Vec4dArray>({{0, 0, 0, 1}, {1, 0, 0, 1}, {2, 4, 6, 2}});
+    EXPECT_EQ(lastVertexOf(floats), osg::Vec3d(1, 2, 3));
+    EXPECT_EQ(lastVertexOf(doubles), osg::Vec3d(1, 2, 3));
+}
+
+TEST(VertexTraverserArrays, DoublesKeepTheirDigitsFarFromTheOrigin) {
+    const osg::Vec3d utm(691606.123456789, 5335798.987654321, 519.5);
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3dArray>(utm)), utm);
+}
+
+TEST(VertexTraverserArrays, AttributeZeroStandsInForAMissingVertexArray) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexAttribArray(0, sevenVertices().get(), osg::Array::BIND_PER_VERTEX);
+    geometry->addPrimitiveSet(new osg::DrawArrays(Mode::TRIANGLES, 0, 3));
+    EXPECT_EQ(trianglesOf(*geometry).size(), 1u);
+}
+
+TEST(VertexTraverserShapes, ABoxIsTwelveTrianglesThatLookOutwards) {
+    osg::ref_ptr<osg::ShapeDrawable> box = new osg::ShapeDrawable(new osg::Box(osg::Vec3(), 2, 4, 6));
+    double surface = 0.0, volume = 0.0;
+    for (const Corners& c : trianglesOf(*box)) {
+        surface += areaVector(c).length();
+        volume += areaVector(c) * c[0] / 3.0;
+    }
+    EXPECT_EQ(trianglesOf(*box).size(), 12u);
+    EXPECT_DOUBLE_EQ(surface, 2.0 * (2 * 4 + 4 * 6 + 6 * 2));
+    EXPECT_DOUBLE_EQ(volume, 2.0 * 4 * 6);
+}
+
+TEST(VertexTraverserTransforms, ThirtyTwoNestedTransformsMultiply) {
+    // Each doubles x about the origin of its parent and moves by 1: x -> 2x + 1, 32 times, sends x to 2^32 (x + 1) - 1.
+    osg::ref_ptr<osg::Node> root = geodeOf(triangle().get());
+    for (int i = 0; i < 32; ++i) {
+        osg::ref_ptr<osg::MatrixTransform> above =
+            new osg::MatrixTransform(osg::Matrix::scale(2, 1, 1) * osg::Matrix::translate(1, 0, 0));
+        above->addChild(root);
+        root = above;
+    }
+    const Corners corners = trianglesOf(*root).at(0);
+    EXPECT_EQ(corners[0], osg::Vec3d(std::ldexp(1.0, 32) - 1.0, 0, 0));
+    EXPECT_EQ(corners[1], osg::Vec3d(std::ldexp(1.0, 33) - 1.0, 0, 0));
+    EXPECT_EQ(corners[2], osg::Vec3d(std::ldexp(1.0, 32) - 1.0, 1, 0));
+}
+
+TEST(VertexTraverserTransforms, AMirroredBoxStillLooksOutwards) {
+    for (const osg::Vec3d& scale :
+         {osg::Vec3d(-1, 1, 1), osg::Vec3d(1, -2, 3), osg::Vec3d(-1, -1, -1), osg::Vec3d(-2, -1, 1)}) {
+        osg::ref_ptr<osg::MatrixTransform> mirror = new osg::MatrixTransform(osg::Matrix::scale(scale));
+        mirror->addChild(geodeOf(new osg::ShapeDrawable(new osg::Box(osg::Vec3(5, 6, 7), 1.0f))));
+        double volume = 0.0;
+        for (const Corners& c : trianglesOf(*mirror)) volume += areaVector(c) * c[0] / 3.0;
+        EXPECT_NEAR(volume, std::abs(scale.x() * scale.y() * scale.z()), 1e-12); // sums of products below 1000
+    }
+}
+
+TEST(VertexTraverserTransforms, AnInstanceUnderEachOfItsParentsCounts) {
+    const osg::ref_ptr<osg::Geode> geode = geodeOf(triangle().get());
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (double x : {10.0, 20.0}) {
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrix::translate(x, 0, 0));
+        place->addChild(geode);
+        root->addChild(place);
+    }
+    EXPECT_EQ(startsOf(*root), (std::vector<double>{10, 20}));
+}
+
+TEST(VertexTraverserTransforms, TheRootsOwnTransformCountsAndItsParentsDoNot) {
+    osg::ref_ptr<osg::MatrixTransform> parent = new osg::MatrixTransform(osg::Matrix::translate(100, 0, 0));
+    const osg::ref_ptr<osg::MatrixTransform> root = triangleAt(3);
+    parent->addChild(root);
+    EXPECT_EQ(startsOf(*root), (std::vector<double>{3}));
+}
+
+TEST(VertexTraverserRounding, IsHalfAFloatStepOfTheLargestCoordinate) {
+    VertexTraverser casters; // 1024: floats below it are 2^-14 apart, and a value is off by half of that at most
+    osg::ref_ptr<osg::Vec3Array> vertices = vec3s({{0, 0, 0}, {1024, 0, 0}, {0, 1, 0}});
+    geometryOf(vertices, new osg::DrawArrays(Mode::TRIANGLES, 0, 3))->accept(casters);
+    EXPECT_NEAR(casters.getRounding(), std::ldexp(1.0, -14), std::ldexp(1.0, -23)); // the 1 in y adds a little
+}
+
+TEST(VertexTraverserRounding, IsScaledByTheTransformAndNotByItsTranslation) {
+    osg::ref_ptr<osg::MatrixTransform> far =
+        new osg::MatrixTransform(osg::Matrix::scale(8, 8, 8) * osg::Matrix::translate(6e6, 0, 0));
+    far->addChild(geodeOf(triangle().get()));
+    VertexTraverser near, placed;
+    triangle()->accept(near);
+    far->accept(placed);
+    EXPECT_GT(near.getRounding(), 0.0);
+    EXPECT_DOUBLE_EQ(placed.getRounding(), 8.0 * near.getRounding());
+}
+
+TEST(VertexTraverserRounding, DoublesHaveNone) {
+    VertexTraverser casters;
+    geometryOf(threeVertices<osg::Vec3dArray>({1e6, 1, 1}), new osg::DrawArrays(Mode::TRIANGLES, 0, 3))
+        ->accept(casters);
+    EXPECT_EQ(casters.getRounding(), 0.0);
+}
+
+TEST(VertexTraverserNearest, IsNearestInSpaceOrInPlan) {
+    VertexTraverser casters;
+    geometryOf(vec3s({{0, 0, 0}, {4, 0, 0}, {1, 0, 50}}), new osg::DrawArrays(Mode::TRIANGLES, 0, 3))->accept(casters);
+    EXPECT_EQ(casters.nearestVertex({1.2, 0, 0}), osg::Vec3d(0, 0, 0));
+    EXPECT_EQ(casters.nearestVertex({1.2, 0, 40}), osg::Vec3d(1, 0, 50));
+    EXPECT_EQ(casters.nearestVertexInPlan(1.2, 0), osg::Vec3d(1, 0, 50));
+    EXPECT_EQ(casters.nearestVertex({2, 0, 0}), osg::Vec3d(0, 0, 0)) << "of equals the first";
+}
+
+TEST(VertexTraverserNearest, ThereIsNoneInAnEmptySceneOrForAPointThatIsNotFinite) {
+    VertexTraverser empty, casters;
+    triangle()->accept(casters);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(empty.nearestVertex({0, 0, 0}));
+    EXPECT_FALSE(casters.nearestVertex({nan, 0, 0}));
+    EXPECT_FALSE(casters.nearestVertex({infinity, 0, 0}));
+    EXPECT_FALSE(casters.nearestVertexInPlan(0, nan));
+}
+
+TEST(VertexTraverser, ResetForgetsTheSceneBefore) {
+    VertexTraverser casters;
+    triangle()->accept(casters);
+    casters.reset();
+    EXPECT_TRUE(casters.getVertices().empty());
+    triangleAt(7)->accept(casters);
+    ASSERT_EQ(trianglesOf(casters).size(), 1u);
+    EXPECT_EQ(trianglesOf(casters)[0][0], osg::Vec3d(7, 0, 0));
+}
