@@ -19,7 +19,9 @@ using Result = osgDB::ReaderWriter::ReadResult;
 std::string quoted(const std::string& file) { return "\"" + file + "\""; }
 
 std::string damagedSentence(const std::string& file) {
-    return quoted(file) + " cannot be read: it is damaged, or not what its name says.";
+    return quoted(file) +
+           " cannot be read as a scene: it is damaged or not what its name says (obj, osgt, ive, stl, 3ds, "
+           "… can be read).";
 }
 
 /// While it lives, a crash prints one sentence and ends the program: readers of old formats trust their input.
@@ -63,9 +65,6 @@ Result read(const std::string& file, const std::string& program) {
 std::string whyNot(const std::string& file, const Result& result) {
     if (osgDB::findDataFile(file).empty() && result.status() != Result::ERROR_IN_READING_FILE)
         return "there is no file " + quoted(file) + ", or no reader for its type.";
-    if (result.status() == Result::FILE_NOT_HANDLED)
-        return quoted(file) +
-               " is not a scene file that OpenSceneGraph has a reader for (obj, osgt, ive, stl, 3ds, …).";
     return damagedSentence(file);
 }
 

@@ -26,7 +26,12 @@ osg::Vec4d readLight(Text text) {
 }
 
 std::string readGround(Text text) {
-    if (text != "auto" && text != "none") readNumber(text, smallestLength, largestNumber);
+    if (text == "auto" || text == "none") return text;
+    try {
+        readNumber(text, smallestLength, largestNumber);
+    } catch (const std::invalid_argument&) {
+        refuse("allowed: auto, none, or a side from 1e-09 to 1e+12.");
+    }
     return text;
 }
 

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "Program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <osg/Image>
+#include <osgDB/ReadFile>
+
+#include <cmath>
+
+namespace {
+
+using namespace gnomon::testing;
+using Arguments = std::vector<std::string>;
+
+const std::string scene = GNOMON_DATA "/lab8.osgt";
+
+class Gnomonshot : public ::testing::Test {
+protected:
+    Ending run(Arguments arguments) {
+        const Ending ending = runGnomonshot(arguments, folder.path());
+        EXPECT_EQ(ending.status, 0) << ending.err;
+        return ending;
+    }
+
+    osg::ref_ptr<osg::Image> load(const std::string& name) {
+        osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile((folder.path() / name).string());
+        EXPECT_TRUE(image) << name;
+        return image ? image : osg::ref_ptr<osg::Image>(new osg::Image);
+    }
+
+    /// Picture of `files` with these options, 160x120.
+    osg::ref_ptr<osg::Image> shoot(Arguments arguments) {
+        arguments.insert(arguments.end(), {"--out", "o.png"});
+        if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end())
+            arguments.insert(arguments.end(), {"--size", "160x120"});
+        run(arguments);
+        return load("o.png");
+    }
+
+    TemporaryFolder folder;
+};
+
+long countDifferent(const osg::Image& a, const osg::Image& b) {
+    EXPECT_TRUE(a.s() == b.s() && a.t() == b.t());
+    long count = 0;
+    for (int y = 0; y < a.t(); ++y)
+        for (int x = 0; x < a.s(); ++x) count += a.getColor(x, y) != b.getColor(x, y);
+    return count;
+}
+
+int red(const osg::Image& image, int x, int y) { return int(std::lround(image.getColor(x, y)[0] * 255.0f)); }
+
+/// A square plate of side 1 at height 1 over the origin, in z up or, with y up, turned.
+std::string plate(bool yUp) {
+    const char* z = "v -.5 -.5 1\nv .5 -.5 1\nv .5 .5 1\nv -.5 .5 1\n";
+    const char* y = "v -.5 1 .5\nv .5 1 .5\nv .5 1 -.5\nv -.5 1 -.5\n";
+    return std::string(yUp ? y : z) + "f 1 2 3\nf 1 3 4\n";
+}
+
+const Arguments fromAbove = {"--eye", "0,0,10", "--center", "0,0,0",  "--viewup",
+                             "0,1,0", "--fovy", "45",       "--size", "100x100"};
+
+Arguments operator+(Arguments a, const Arguments& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+TEST_F(Gnomonshot, WritesAPictureOfTheSizeAskedFor) {
+    const osg::ref_ptr<osg::Image> image = shoot({scene, "--size", "123x45"});
+    EXPECT_EQ(image->s(), 123);
+    EXPECT_EQ(image->t(), 45);
+    EXPECT_EQ(folder.list(), std::vector<std::string>{"o.png"}) << "nothing else is left";
+}
+
+TEST_F(Gnomonshot, WritesEveryFormatThatOsgWrites) {
+    for (const char* name : {"a.png", "a.jpg", "a.bmp", "a.tif", "a.rgb"}) {
+        run({scene, "--size", "40x30", "--out", name});
+        EXPECT_EQ(load(name)->s(), 40) << name;
+    }
+}
+
+TEST_F(Gnomonshot, DrawsNoShadowUnlessAsked) {
+    const osg::ref_ptr<osg::Image> without = shoot({scene});
+    EXPECT_EQ(countDifferent(*without, *shoot({scene, "--shadow", "none"})), 0);
+    EXPECT_GT(countDifferent(*without, *shoot({scene, "--shadow", "planar"})), 40);
+}
+
+TEST_F(Gnomonshot, DrawsTheSamePictureEveryTime) {
+    const osg::ref_ptr<osg::Image> once = shoot({scene, "--shadow", "planar"});
+    EXPECT_EQ(countDifferent(*once, *shoot({scene, "--shadow", "planar", "--frames", "5"})), 0);
+    EXPECT_EQ(countDifferent(*once, *shoot({scene, "--shadow", "planar", "--frames", "2", "--stats", "s.json"})), 0)
+        << "the light is back where it was given";
+}
+
+/// Ground lit 0.1 + 0.7 cos 45° = 0.595 of white, shadowed 0.1: 151.7 and 25.5 of 255.
+TEST_F(Gnomonshot, TakesAwayExactlyTheLight) {
+    folder.write("plate.obj", plate(false));
+    const osg::ref_ptr<osg::Image> image =
+        shoot(Arguments{"plate.obj", "-O", "noRotation", "--shadow", "planar", "--light", "1,0,1,0", "--ambient", "0.1",
+                        "--diffuse", "0.7", "--ground", "8"} +
+              fromAbove); // the ground is at the plate's own height
+    EXPECT_EQ(red(*image, 20, 50), 152);
+}
+
+TEST_F(Gnomonshot, ASunAt45DegreesMovesTheShadowByTheHeight) {
+    folder.write("both.obj", plate(false) + "v -.01 -.01 0\nv .01 -.01 0\nv .01 .01 0\nf 5 6 7\n");
+    const osg::ref_ptr<osg::Image> image =
+        shoot(Arguments{"both.obj", "-O", "noRotation", "--shadow", "planar", "--light", "1,0,1,0", "--ambient", "0.1",
+                        "--diffuse", "0.7", "--ground", "8"} +
+              fromAbove); // ground at z = 0; 100 pixels show 2 · 10 tan 22.5° = 8.28
+    const auto at = [&](double x, double y) { return red(*image, int(50 + x * 12.07), int(50 + y * 12.07)); };
+    EXPECT_NEAR(at(-1.1, 0.0), 25.5, 0.6);
+    EXPECT_NEAR(at(-1.4, 0.4), 25.5, 0.6);
+    EXPECT_EQ(at(-1.6, 0.0), 152);
+    EXPECT_EQ(at(1.1, 0.0), 152);
+    EXPECT_EQ(at(-1.1, 0.6), 152);
+}
+
+TEST_F(Gnomonshot, BlendMultipliesByTheFactor) {
+    const osg::ref_ptr<osg::Image> lit = shoot({scene});
+    const osg::ref_ptr<osg::Image> half = shoot({scene, "--shadow", "planar:composite=blend,dark=0.5"});
+    const osg::ref_ptr<osg::Image> black = shoot({scene, "--shadow", "planar:composite=blend,dark=0"});
+    ASSERT_GT(countDifferent(*lit, *half), 40);
+    for (int y = 0; y < lit->t(); ++y)
+        for (int x = 0; x < lit->s(); ++x)
+            if (red(*black, x, y) != red(*lit, x, y)) {
+                EXPECT_EQ(red(*black, x, y), 0);
+                EXPECT_NEAR(red(*half, x, y), red(*lit, x, y) / 2.0, 1.0);
+            }
+}
+
+TEST_F(Gnomonshot, TurnsScenesThatAreYUp) {
+    folder.write("z.obj", plate(false));
+    folder.write("y.obj", plate(true));
+    const Arguments rest = {"-O", "noRotation", "--shadow", "planar", "--light", "1,0.5,3,0"};
+    const osg::ref_ptr<osg::Image> z = shoot(Arguments{"z.obj"} + rest + fromAbove);
+    EXPECT_EQ(countDifferent(*z, *shoot(Arguments{"y.obj", "--up", "y"} + rest + fromAbove)), 0);
+    EXPECT_GT(countDifferent(*z, *shoot(Arguments{"y.obj"} + rest + fromAbove)), 0);
+}
+
+TEST_F(Gnomonshot, PutsGroundOnlyUnderScenesWithoutOne) {
+    folder.write("plate.obj", plate(false));
+    const osg::ref_ptr<osg::Image> none = shoot({"plate.obj", "--ground", "none"});
+    EXPECT_GT(countDifferent(*none, *shoot({"plate.obj"})), 1000);
+    EXPECT_GT(countDifferent(*shoot({"plate.obj", "--ground", "20"}), *shoot({"plate.obj"})), 1000);
+    EXPECT_EQ(countDifferent(*shoot({scene}), *shoot({scene, "--ground", "none"})), 0);
+}
+
+TEST_F(Gnomonshot, CastsOnlyWhatIsNamed) {
+    const osg::ref_ptr<osg::Image> lit = shoot({scene});
+    const long all = countDifferent(*lit, *shoot({scene, "--shadow", "planar"}));
+    const long cube = countDifferent(*lit, *shoot({scene, "--shadow", "planar", "--casters", "cube"}));
+    EXPECT_GT(cube, 0);
+    EXPECT_LT(cube, all);
+    EXPECT_EQ(countDifferent(*lit, *shoot({scene, "--shadow", "planar", "--casters", "none"})), 0);
+}
+
+TEST_F(Gnomonshot, UsesNearAndFarExactly) {
+    const Arguments view = {scene, "--eye", "0,-5,0.25", "--center", "0,0,0.25"};
+    const osg::ref_ptr<osg::Image> whole = shoot(view);
+    EXPECT_EQ(countDifferent(*whole, *shoot(view + Arguments{"--near", "0.1", "--far", "100"})), 0);
+    EXPECT_GT(countDifferent(*whole, *shoot(view + Arguments{"--near", "0.1", "--far", "4.8"})), 200);
+}
+
+TEST_F(Gnomonshot, DrawsLampsFarFromTheOriginAsNearIt) {
+    folder.write("plate.obj", plate(false));
+    const Arguments near = {"plate.obj", "-O", "noRotation", "--shadow", "planar",
+                            "--ground",  "8",  "--light",    "1,0,3,1"};
+    const osg::ref_ptr<osg::Image> at = shoot(near + fromAbove);
+    const Arguments far = {"plate.obj.6400000,0,0.trans",
+                           "-O",
+                           "noRotation",
+                           "--shadow",
+                           "planar",
+                           "--ground",
+                           "8",
+                           "--light",
+                           "6400001,0,3,1",
+                           "--eye",
+                           "6400000,0,10",
+                           "--center",
+                           "6400000,0,0",
+                           "--viewup",
+                           "0,1,0",
+                           "--fovy",
+                           "45",
+                           "--size",
+                           "100x100"};
+    EXPECT_EQ(countDifferent(*at, *shoot(far)), 0);
+}
+
+TEST_F(Gnomonshot, LooksStraightDownWithoutAViewUp) {
+    const Arguments down = {scene, "--eye", "0,0,10", "--center", "0,0,0"};
+    EXPECT_EQ(countDifferent(*shoot(down), *shoot(down + Arguments{"--viewup", "0,1,0"})), 0);
+}
+
+TEST_F(Gnomonshot, TakesSeveralFilesAndLights) {
+    folder.write("plate.obj", plate(false));
+    const osg::ref_ptr<osg::Image> one = shoot({scene, "--shadow", "planar"});
+    EXPECT_GT(countDifferent(*one, *shoot({scene, "plate.obj", "--shadow", "planar"})), 500);
+    EXPECT_GT(countDifferent(*one, *shoot({scene, "--shadow", "planar", "--light", "1,0,1,0", "--light", "0,1,1,0"})),
+              500);
+}
+
+TEST_F(Gnomonshot, WritesStats) {
+    run({scene, "--shadow", "planar", "--size", "80x60", "--frames", "3", "--stats", "s.json"});
+    const nlohmann::json stats = nlohmann::json::parse(readFile(folder.path() / "s.json"));
+    EXPECT_NE(stats.at("renderer").get<std::string>().find("llvmpipe"), std::string::npos);
+    EXPECT_EQ(stats.at("technique"), "planar");
+    EXPECT_EQ(stats.at("diagnosis"), nlohmann::json::array());
+    EXPECT_GT(stats.at("triangles"), 14);
+    EXPECT_EQ(stats.at("draws"), 3);
+    EXPECT_EQ(stats.at("shadowPasses").at(0), (nlohmann::json{{"technique", "planar"}, {"planes", 1}, {"lights", 1}}));
+    EXPECT_GT(stats.at("msFirst"), 0.0);
+    EXPECT_GT(stats.at("peakMiB"), 1.0);
+    for (const char* times : {"msSteady", "msMoving", "msNone"}) {
+        EXPECT_GT(stats.at(times).at("q1"), 0.0) << times;
+        EXPECT_LE(stats.at(times).at("q1"), stats.at(times).at("median")) << times;
+        EXPECT_LE(stats.at(times).at("median"), stats.at(times).at("q3")) << times;
+    }
+}
+
+TEST_F(Gnomonshot, SaysWhyThereIsNoShadow) {
+    const Ending ending = run({scene, "--shadow", "planar", "--light", "0,0,-1,0", "--out", "o.png"});
+    EXPECT_NE(ending.err.find("gnomonshot: note: "), std::string::npos) << ending.err;
+}
+
+TEST_F(Gnomonshot, HelpListsEveryOption) {
+    const std::string help = run({"--help"}).out;
+    for (const char* option : {"--shadow SPEC",
+                               "--light x,y,z,w",
+                               "--eye x,y,z",
+                               "--center x,y,z",
+                               "--viewup x,y,z",
+                               "--fovy DEG",
+                               "--near N",
+                               "--far F",
+                               "--size WxH",
+                               "--receiver NODENAME",
+                               "--casters all|none|NODENAME",
+                               "--ambient A",
+                               "--diffuse D",
+                               "--background r,g,b",
+                               "--frames N",
+                               "--out IMAGE",
+                               "--stats FILE.json",
+                               "--ground auto|none|SIZE",
+                               "--up y|z",
+                               "--help",
+                               "planar",
+                               "composite=",
+                               "azimuth 135"})
+        EXPECT_NE(help.find(option), std::string::npos) << option;
+}
+
+} // namespace

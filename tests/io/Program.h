@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gnomon::testing {
+
+/// How a program ended and what it said.
+struct Ending {
+    int status = -1; ///< exit status; 128 + signal if one ended it, 124 if it ran for more than a minute.
+    std::string out, err;
+
+    /// Last line of err, without its end.
+    std::string lastLine() const;
+};
+
+/// Runs gnomonshot as a shell would, in `folder`.
+Ending runGnomonshot(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
+/// An empty folder that goes when this does.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return _path; }
+    /// Names of all that is in it, sorted, hidden ones too.
+    std::vector<std::string> list() const;
+    void write(const std::string& name, const std::string& bytes) const;
+
+private:
+    std::filesystem::path _path;
+};
+
+std::string readFile(const std::filesystem::path& path);
+
+} // namespace gnomon::testing

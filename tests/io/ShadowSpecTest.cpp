@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/NamedNode.h>
+#include <gnomon/PlanarShadowNode.h>
+#include <gnomon/ShadowSpec.h>
+
+#include <gtest/gtest.h>
+
+#include <osg/Geode>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
+
+#include <stdexcept>
+
+namespace {
+
+using namespace gnomon;
+
+std::string refusal(const std::string& text) {
+    try {
+        parseShadowSpec(text);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+/// What addShadows() says of specifications for a group; "accepted" if nothing.
+std::string refusal(ShadowCasterGroup& group, const std::vector<std::string>& texts) {
+    std::vector<ShadowSpec> specs;
+    for (const std::string& text : texts) specs.push_back(parseShadowSpec(text));
+    try {
+        addShadows(group, specs);
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+/// Square of this side about the origin, z = 0, seen from above.
+osg::ref_ptr<osg::Geode> square(const std::string& name, float side) {
+    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(osg::createTexturedQuadGeometry(osg::Vec3(-side / 2, -side / 2, 0), osg::Vec3(side, 0, 0),
+                                                       osg::Vec3(0, side, 0)));
+    geode->setName(name);
+    return geode;
+}
+
+osg::ref_ptr<ShadowCasterGroup> groupOf(osg::Node* scene) {
+    osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
+    group->addChild(scene);
+    return group;
+}
+
+std::vector<osg::Vec4d> planesOf(ShadowCasterGroup& group, const std::string& text) {
+    const auto added = addShadows(group, {parseShadowSpec(text)});
+    return dynamic_cast<PlanarShadowNode&>(*added.at(0)).getPlanes();
+}
+
+void expectPlane(const osg::Vec4d& seen, const osg::Vec4d& expected) {
+    EXPECT_LT((seen / seen.length() - expected / expected.length()).length(), 1e-6)
+        << seen.x() << " " << seen.y() << " " << seen.z() << " " << seen.w();
+}
+
+TEST(ShadowSpec, ANameAloneHasNothingElseSet) {
+    const ShadowSpec spec = parseShadowSpec("planar");
+    EXPECT_EQ(spec.technique, "planar");
+    EXPECT_FALSE(spec.composite);
+    EXPECT_FALSE(spec.dark);
+    EXPECT_EQ(spec.receiver, "");
+}
+
+TEST(ShadowSpec, KeysAreRead) {
+    const ShadowSpec spec = parseShadowSpec("planar:composite=blend,dark=0.25,receiver=the floor");
+    EXPECT_EQ(spec.composite, ShadowCasterGroup::BLEND);
+    EXPECT_EQ(spec.dark, 0.25f);
+    EXPECT_EQ(spec.receiver, "the floor");
+    EXPECT_EQ(parseShadowSpec("planar:composite=relight").composite, ShadowCasterGroup::RELIGHT);
+}
+
+TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
+    EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique; allowed: none, planar.");
+    EXPECT_EQ(refusal(""), "\"\" is not a shadow technique; allowed: none, planar.");
+    EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique; allowed: none, planar.");
+}
+
+TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
+    for (const char* name : {"box", "hull", "drape", "map", "volume", "traced", "auto"})
+        EXPECT_EQ(refusal(std::string(name) + ":size=4"),
+                  "\"" + std::string(name) + "\" is not built yet; built: none, planar.");
+}
+
+TEST(ShadowSpec, UnknownKeysAreRefusedWithThoseAllowed) {
+    EXPECT_EQ(refusal("planar:size=4096"),
+              "the technique planar has no key \"size\"; allowed: composite, dark, receiver.");
+    EXPECT_EQ(refusal("planar:"), "the technique planar has no key \"\"; allowed: composite, dark, receiver.");
+    EXPECT_EQ(refusal("planar:composite=blend,"),
+              "the technique planar has no key \"\"; allowed: composite, dark, receiver.");
+}
+
+TEST(ShadowSpec, ValuesOutOfRangeAreRefusedWithTheRange) {
+    for (const char* value : {"-0.1", "1.01", "nan", "inf", "", "half", "0.5x", "1e99"})
+        EXPECT_EQ(refusal(std::string("planar:composite=blend,dark=") + value),
+                  std::string("dark=") + value + " cannot be used; allowed: 0 to 1.");
+    EXPECT_EQ(refusal("planar:composite=mix"), "composite=mix cannot be used; allowed: relight, blend.");
+    EXPECT_EQ(refusal("planar:receiver="), "receiver= cannot be used; allowed: a node's name.");
+    EXPECT_EQ(refusal("planar:receiver"), "receiver= cannot be used; allowed: a node's name.");
+}
+
+TEST(ShadowSpec, TheEndsOfARangeAreAllowed) {
+    EXPECT_EQ(parseShadowSpec("planar:composite=blend,dark=0").dark, 0.0f);
+    EXPECT_EQ(parseShadowSpec("planar:dark=1,composite=blend").dark, 1.0f);
+}
+
+TEST(ShadowSpec, AKeyGivenTwiceIsRefused) {
+    EXPECT_EQ(refusal("planar:receiver=a,receiver=b"),
+              "the key \"receiver\" is given twice in \"planar:receiver=a,receiver=b\".");
+}
+
+TEST(ShadowSpec, DarkWithoutBlendIsRefused) {
+    EXPECT_EQ(refusal("planar:dark=0.5"), "dark= is of use only with composite=blend; add it to \"planar:dark=0.5\".");
+}
+
+TEST(ShadowSpec, HelpNamesEveryTechniqueAndKey) {
+    const std::string help = shadowSpecHelp();
+    for (const std::string& name : shadowTechniques()) EXPECT_NE(help.find("  " + name + "  "), std::string::npos);
+    for (const char* key : {"composite=", "dark=", "receiver="}) EXPECT_NE(help.find(key), std::string::npos);
+}
+
+TEST(AddShadows, NoneAddsNothing) {
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("ground", 1));
+    EXPECT_TRUE(addShadows(*group, {parseShadowSpec("none")}).empty());
+    EXPECT_EQ(group->getNumChildren(), 1u);
+}
+
+TEST(AddShadows, PlanarTakesThePlaneOfTheNodeNamedGround) {
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("ground", 10));
+    const auto added = addShadows(*group, {parseShadowSpec("planar")});
+    ASSERT_EQ(added.size(), 1u);
+    EXPECT_EQ(group->getChild(1), added[0]);
+    EXPECT_EQ(added[0]->getReceiver().node, group->getChild(0));
+    ASSERT_EQ(dynamic_cast<PlanarShadowNode&>(*added[0]).getPlanes().size(), 1u);
+    expectPlane(dynamic_cast<PlanarShadowNode&>(*added[0]).getPlanes()[0], osg::Vec4d(0, 0, 1, 0));
+}
+
+TEST(AddShadows, PlanarFindsTheReceiverWhereTransformsPutIt) {
+    osg::ref_ptr<osg::MatrixTransform> above = new osg::MatrixTransform(
+        osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1, 0, 0)) * osg::Matrixd::translate(0, 5, 0));
+    osg::ref_ptr<osg::MatrixTransform> wall = new osg::MatrixTransform(osg::Matrixd::translate(0, 0, 2));
+    wall->setName("wall"); // z = 2 in `above` is y = -2 after its turn, y = 3 after its step; faces -y
+    wall->addChild(square("", 1));
+    above->addChild(wall);
+    const std::vector<osg::Vec4d> planes = planesOf(*groupOf(above), "planar:receiver=wall");
+    ASSERT_EQ(planes.size(), 1u);
+    expectPlane(planes[0], osg::Vec4d(0, -1, 0, 3));
+}
+
+TEST(AddShadows, PlanarTakesTheSixSidesOfABoxAndNoSliver) {
+    osg::ref_ptr<osg::Geode> box = new osg::Geode;
+    box->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(), 2.0f)));
+    box->addDrawable(osg::createTexturedQuadGeometry(osg::Vec3(3, 0, 3), osg::Vec3(0.1f, 0, 0), osg::Vec3(0, 0.1f, 0)));
+    box->setName("ground"); // the last quad is 0.01 square, less than 1 % of a side's 4
+    EXPECT_EQ(planesOf(*groupOf(box), "planar").size(), 6u);
+}
+
+TEST(AddShadows, AMissingReceiverIsRefusedWithTheNamesThereAre) {
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
+    EXPECT_EQ(refusal(*group, {"planar"}),
+              "no node is named \"ground\" to receive the shadow; names in the scene: floor.");
+    EXPECT_EQ(group->getNumChildren(), 1u) << "nothing is added when something is refused";
+}
+
+TEST(AddShadows, AReceiverWithNothingFlatIsRefused) {
+    osg::ref_ptr<osg::Group> empty = new osg::Group;
+    empty->setName("ground");
+    EXPECT_EQ(refusal(*groupOf(empty), {"planar"}), "the receiver \"ground\" has no flat part for planar to use.");
+}
+
+TEST(AddShadows, CompositeBelongsToTheWholeGroup) {
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("ground", 1));
+    EXPECT_EQ(refusal(*group, {"planar", "planar:composite=blend"}),
+              "composite=relight and composite=blend cannot be mixed; give every shadow the same.");
+    EXPECT_EQ(refusal(*group, {"planar:composite=blend,dark=0.3", "planar:composite=blend,dark=0.3"}), "accepted");
+    EXPECT_EQ(group->getComposite(), ShadowCasterGroup::BLEND);
+    EXPECT_FLOAT_EQ(group->getDark(), 0.3f);
+}
+
+TEST(NamedNode, IsTheFirstWithExactlyThatName) {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(1, 2, 3));
+    osg::ref_ptr<osg::Node> first = square("floor", 1);
+    first->setNodeMask(0);
+    moved->addChild(square("floor2", 1));
+    moved->addChild(first);
+    root->addChild(moved);
+    root->addChild(square("floor", 1));
+    const auto found = findNamed(*root, "floor");
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->node, first);
+    EXPECT_EQ(found->rootFromParent.getTrans(), osg::Vec3d(1, 2, 3));
+    EXPECT_FALSE(findNamed(*root, "Floor"));
+    EXPECT_FALSE(findNamed(*root, ""));
+}
+
+} // namespace
