@@ -4,8 +4,6 @@
 #include <osg/Geometry>
 #include <osg/PrimitiveSet>
 
-#include <cstring>
-
 namespace gnomon {
 namespace {
 
@@ -21,22 +19,6 @@ void CasterRevision::reset() {
     _hash = 0;
 }
 
-/// Each step is one to one, in the word and in what came before: two graphs that differ in one word never agree. The
-/// odd factor carries a difference up, the shift down again, so that it reaches all bits and the order of the words
-/// matters.
-void CasterRevision::mix(std::uint64_t bits) {
-    _hash = (_hash ^ bits) * 0x9e3779b97f4a7c15u + 1;
-    _hash ^= _hash >> 32;
-}
-
-void CasterRevision::mix(double value) {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    mix(bits);
-}
-
-void CasterRevision::mix(const void* address) { mix(std::uint64_t{reinterpret_cast<std::uintptr_t>(address)}); }
-
 void CasterRevision::mix(const osg::Matrixd& matrix) {
     for (int i = 0; i < 16; ++i) mix(matrix.ptr()[i]);
 }
@@ -47,10 +29,11 @@ void CasterRevision::mix(const osg::Geometry& geometry) {
     if (vertices) mix(word(vertices->getModifiedCount(), vertices->getNumElements()));
     mix(std::uint64_t{geometry.getNumPrimitiveSets()});
     for (const auto& primitives : geometry.getPrimitiveSetList()) {
+        const bool listed = primitives->getDrawElements() != nullptr; // then a look at the first would touch the list
         const unsigned indices = primitives->getNumIndices();
         mix(static_cast<const void*>(primitives.get()));
         mix(word(primitives->getModifiedCount(), indices));
-        mix(word(primitives->getMode(), indices > 0 ? primitives->index(0) : 0));
+        mix(word(primitives->getMode(), listed || indices == 0 ? 0 : primitives->index(0)));
     }
 }
 

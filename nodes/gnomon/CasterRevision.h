@@ -3,6 +3,7 @@
 #include <gnomon/CasterVisitor.h>
 
 #include <cstdint>
+#include <cstring>
 
 namespace osg {
 class Geometry;
@@ -32,9 +33,19 @@ protected:
     void applyCaster(osg::Drawable& drawable) override;
 
 private:
-    void mix(std::uint64_t bits);
-    void mix(double value);
-    void mix(const void* address);
+    /// Each step is one to one, in the word and in what came before: two graphs that differ in one word never agree.
+    /// The odd factor carries a difference up, the shift down again, so that it reaches all bits and the words' order
+    /// matters.
+    void mix(std::uint64_t bits) {
+        _hash = (_hash ^ bits) * 0x9e3779b97f4a7c15u + 1;
+        _hash ^= _hash >> 32;
+    }
+    void mix(double value) {
+        std::uint64_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        mix(bits);
+    }
+    void mix(const void* address) { mix(std::uint64_t{reinterpret_cast<std::uintptr_t>(address)}); }
     void mix(const osg::Matrixd& matrix);
     void mix(const osg::Geometry& geometry);
     void mixBounds(const osg::Drawable& drawable);
