@@ -3,7 +3,6 @@
 #include <gnomon/ReplayFilter.h>
 
 #include <algorithm>
-#include <set>
 
 namespace gnomon {
 namespace {
@@ -16,10 +15,6 @@ ScreenRect boundsOf(const std::vector<const ShadowJob*>& jobs) {
     return all;
 }
 
-void reportAll(const std::vector<const ShadowJob*>& jobs, const std::string& cause) {
-    for (const ShadowJob* job : jobs) job->technique->report(job->frameNumber, cause);
-}
-
 /// Bits of the stencil buffer that are there and not reserved, the highest first.
 std::vector<unsigned> freeBits(unsigned count, unsigned reserved) {
     std::vector<unsigned> bits;
@@ -30,17 +25,24 @@ std::vector<unsigned> freeBits(unsigned count, unsigned reserved) {
 
 } // namespace
 
-Compositor::Compositor(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves)
-    : _renderInfo(renderInfo), _state(*renderInfo.getState()), _stage(stage), _leaves(std::move(leaves)) {
+Compositor::Compositor(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves,
+                       bool clean)
+    : _renderInfo(renderInfo),
+      _state(*renderInfo.getState()),
+      _stage(stage),
+      _leaves(std::move(leaves)),
+      _clean(clean) {
     GLint count = 0;
     glGetIntegerv(GL_STENCIL_BITS, &count);
     _stencilBits = static_cast<unsigned>(std::max(count, 0));
-    const std::vector<unsigned> bits = freeBits(_stencilBits, ShadowBin::reserved());
-    for (std::size_t i = 0; i < bits.size() && i < mostRelitLights; ++i) _bits.lights.push_back(bits[i]);
+    std::vector<unsigned> bits = freeBits(_stencilBits, ShadowBin::reserved());
     if (bits.size() > 1) {
-        _bits.scratch = bits[std::min(bits.size() - 1, mostRelitLights)];
-        if (_bits.lights.size() == bits.size()) _bits.lights.pop_back();
+        const auto scratch = bits.begin() + static_cast<std::ptrdiff_t>(std::min(bits.size() - 1, mostRelitLights));
+        _bits.scratch = *scratch;
+        bits.erase(scratch);
     }
+    bits.resize(std::min(bits.size(), mostRelitLights));
+    _bits.lights = bits;
 }
 
 void Compositor::compose(const std::vector<ShadowJob>& jobs) {
@@ -53,75 +55,104 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs) {
         else
             blended[job.dark].push_back(&job);
     }
-    if (!relit.empty()) relight(relit);
-    for (const auto& [dark, group] : blended) blend(group, dark);
+    if (!relit.empty() && !composeDirectly(relit)) relight(relit);
+    for (const auto& [dark, group] : blended)
+        if (!composeDirectly(group)) blend(group, dark);
 }
 
 bool Compositor::canMark(const ShadowJob& job) const {
     const char* cause = nullptr;
     if (_stencilBits == 0)
-        cause = "finds no stencil bits in this framebuffer: ask for 8, by "
-                "osg::DisplaySettings::setMinimumNumStencilBits(8) before the "
-                "window is made or by a stencil attachment of the camera.";
+        cause =
+            "finds no stencil bits in this framebuffer: ask for 8, by "
+            "osg::DisplaySettings::setMinimumNumStencilBits(8) before the window is made or by a stencil attachment "
+            "of the camera.";
     else if (_bits.lights.empty())
         cause = "finds every stencil bit reserved: leave one to ShadowBin::reserve().";
-    else if (job.receiverNamed && !_bits.scratch)
-        cause = "needs a second stencil bit for its named receiver: leave two to ShadowBin::reserve().";
     if (cause) job.technique->report(job.frameNumber, cause);
     return !cause;
+}
+
+/// The short way for a single job: the leaves of its named receiver are drawn again at the depth that stands, and take
+/// the light away themselves. Possible unless some other leaf shows on a relit receiver.
+bool Compositor::composeDirectly(const Jobs& jobs) {
+    const ShadowJob& job = *jobs.front();
+    if (jobs.size() > 1 || !job.receiverNamed) return false;
+    const bool relit = job.composite == ShadowCasterGroup::RELIGHT;
+    const ScreenRect& bounds = job.marks->screenBounds;
+    std::vector<ReplayedLeaf> leaves = leavesToReplay(_leaves, jobs, bounds, ShadowBin::getFilter());
+    const auto other = [&job](const ReplayedLeaf& leaf) { return job.receivers.count(leaf.entry.leaf) == 0; };
+    if (relit && std::any_of(leaves.begin(), leaves.end(), other)) return false;
+    leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());
+    const unsigned bit = _bits.lights.front();
+    if (!_clean) clear(bit, bounds);
+    markInto(job, bit);
+    LeafReplay::Overlay overlay;
+    overlay.stencilFunction = GL_NOTEQUAL;
+    overlay.test = overlay.write = bit; // back to 0 where drawn: a pixel loses its light once
+    overlay.equalDepth = true;
+    overlay.factor = relit ? 1.0f : job.dark;
+    {
+        LeafReplay replay(_renderInfo, overlay);
+        for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, relit ? leaf.dark : 0);
+    }
+    clear(bit, bounds);
+    return true;
+}
+
+void Compositor::relight(const Jobs& wanted) {
+    const std::map<int, unsigned> bitOf = assignBits(wanted);
+    Jobs jobs;
+    std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(jobs),
+                 [&bitOf](const ShadowJob* job) { return bitOf.count(job->light) > 0; });
+    unsigned lightBits = 0;
+    for (const auto& entry : bitOf) lightBits |= entry.second;
+    const ScreenRect bounds = boundsOf(jobs);
+    mark(jobs, bitOf);
+    writeFarDepth(lightBits, bounds);
+    for (unsigned subset = 1; subset < (1u << bitOf.size()); ++subset) {
+        const Combination combination = combine(jobs, bitOf, subset);
+        if (overlap(combination.bounds, combination.bounds)) replay(combination, lightBits);
+    }
+    clear(lightBits, bounds);
 }
 
 std::map<int, unsigned> Compositor::assignBits(const Jobs& jobs) const {
     std::map<int, unsigned> bitOf;
     for (const ShadowJob* job : jobs) {
         if (bitOf.count(job->light)) continue;
-        if (bitOf.size() < _bits.lights.size())
-            bitOf[job->light] = _bits.lights[bitOf.size()];
+        const std::size_t used = bitOf.size();
+        if (used < _bits.lights.size())
+            bitOf[job->light] = _bits.lights[used];
         else
-            reportAll({job}, "leaves light " + std::to_string(job->light) + " unshadowed: at most " +
-                                 std::to_string(_bits.lights.size()) +
-                                 " lights can be relit here; blend takes any number.");
+            job->technique->report(job->frameNumber, "leaves light " + std::to_string(job->light) +
+                                                         " unshadowed: at most " + std::to_string(used) +
+                                                         " lights can be relit here; blend takes any number.");
     }
     return bitOf;
 }
 
-void Compositor::relight(const Jobs& wanted) {
-    const std::map<int, unsigned> bitOf = assignBits(wanted);
-    Jobs jobs;
-    unsigned lightBits = 0;
-    for (const ShadowJob* job : wanted)
-        if (bitOf.count(job->light)) jobs.push_back(job);
-    for (const auto& entry : bitOf) lightBits |= entry.second;
-    const ScreenRect bounds = boundsOf(jobs);
-    mark(jobs, bitOf, bounds);
-    {
-        CleanState clean(_state, _stage.getViewport());
-        ScreenPass pass(_state, *_stage.getViewport(), bounds);
-        pass.stencilAny(lightBits);
-        pass.writeFarDepth();
+Compositor::Combination Compositor::combine(const Jobs& jobs, const std::map<int, unsigned>& bitOf,
+                                            unsigned subset) const {
+    Combination combination{0, {}, {{-1.0, -1.0}, {1.0, 1.0}}};
+    unsigned index = 0;
+    for (const auto& [number, bit] : bitOf) {
+        if (!(subset & (1u << index++))) continue;
+        Jobs ofLight;
+        std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(ofLight),
+                     [light = number](const ShadowJob* job) { return job->light == light; });
+        combination.bits |= bit;
+        combination.bounds = common(combination.bounds, boundsOf(ofLight));
+        combination.jobs.insert(combination.jobs.end(), ofLight.begin(), ofLight.end());
     }
-    for (unsigned subset = 1; subset < (1u << bitOf.size()); ++subset) {
-        Combination combination;
-        combination.bounds = bounds;
-        unsigned index = 0;
-        for (const auto& [light, bit] : bitOf) {
-            if (!(subset & (1u << index++))) continue;
-            Jobs ofLight;
-            for (const ShadowJob* job : jobs)
-                if (job->light == light) ofLight.push_back(job);
-            combination.bits |= bit;
-            combination.bounds = common(combination.bounds, boundsOf(ofLight));
-            combination.jobs.insert(combination.jobs.end(), ofLight.begin(), ofLight.end());
-        }
-        if (overlap(combination.bounds, combination.bounds)) replay(combination, lightBits);
-    }
-    clear(lightBits | _bits.scratch, bounds);
+    return combination;
 }
 
 void Compositor::replay(const Combination& combination, unsigned lightBits) {
     LeafReplay::Overlay overlay;
-    overlay.stencilReference = combination.bits;
-    overlay.stencilTest = lightBits;
+    overlay.stencilFunction = GL_EQUAL;
+    overlay.reference = combination.bits;
+    overlay.test = lightBits;
     LeafReplay replay(_renderInfo, overlay);
     for (const ReplayedLeaf& leaf :
          leavesToReplay(_leaves, combination.jobs, combination.bounds, ShadowBin::getFilter()))
@@ -133,18 +164,17 @@ void Compositor::blend(const Jobs& jobs, float dark) {
     const ScreenRect bounds = boundsOf(jobs);
     std::map<int, unsigned> bitOf;
     for (const ShadowJob* job : jobs) bitOf[job->light] = bit;
-    mark(jobs, bitOf, bounds);
+    mark(jobs, bitOf);
     CleanState clean(_state, _stage.getViewport());
     ScreenPass pass(_state, *_stage.getViewport(), bounds);
-    pass.stencilAny(bit);
+    pass.takeStencil(bit);
     pass.multiplyColor(dark);
-    pass.clearStencil(bit | _bits.scratch);
 }
 
-void Compositor::mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf, const ScreenRect& bounds) {
+void Compositor::mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) {
     unsigned used = _bits.scratch;
     for (const auto& entry : bitOf) used |= entry.second;
-    clear(used, bounds);
+    if (!_clean) clear(used, boundsOf(jobs));
     unsigned marked = 0;
     for (const ShadowJob* job : jobs) {
         const unsigned bit = bitOf.at(job->light);
@@ -158,15 +188,11 @@ void Compositor::markOne(const ShadowJob& job, unsigned bit, bool fresh) {
     const bool direct = fresh && !job.receiverNamed;
     if (!direct && !_bits.scratch) {
         job.technique->report(job.frameNumber,
-                              "needs a second stencil bit beside another technique of its light: leave two to "
-                              "ShadowBin::reserve().");
+                              "needs a second stencil bit for its named receiver or beside another technique of its "
+                              "light: leave two to ShadowBin::reserve().");
         return;
     }
-    {
-        CleanState clean(_state, _stage.getViewport());
-        ScreenPass pass(_state, *_stage.getViewport(), job.marks->screenBounds);
-        job.marks->mark(_renderInfo, pass, direct ? bit : _bits.scratch);
-    }
+    markInto(job, direct ? bit : _bits.scratch);
     if (direct) return;
     if (job.receiverNamed)
         gate(job, bit);
@@ -175,13 +201,21 @@ void Compositor::markOne(const ShadowJob& job, unsigned bit, bool fresh) {
     clear(_bits.scratch, job.marks->screenBounds);
 }
 
+void Compositor::markInto(const ShadowJob& job, unsigned bit) {
+    CleanState clean(_state, _stage.getViewport());
+    ScreenPass pass(_state, *_stage.getViewport(), job.marks->screenBounds);
+    job.marks->mark(_renderInfo, pass, bit);
+}
+
 /// Hands marks on where the receiver is what one sees: its own leaves, drawn again, pass only at the depth that stands.
 void Compositor::gate(const ShadowJob& job, unsigned bit) {
     LeafReplay::Overlay overlay;
-    overlay.stencilReference = _bits.scratch | bit;
-    overlay.stencilTest = _bits.scratch;
-    overlay.stencilWrite = bit;
-    overlay.onlyStencil = true;
+    overlay.stencilFunction = GL_EQUAL;
+    overlay.reference = _bits.scratch | bit;
+    overlay.test = _bits.scratch;
+    overlay.write = bit;
+    overlay.equalDepth = true;
+    overlay.color = false;
     LeafReplay replay(_renderInfo, overlay);
     for (const StageLeaf& entry : _leaves) {
         if (!job.receivers.count(entry.leaf)) continue;
@@ -195,6 +229,13 @@ void Compositor::transfer(const ShadowJob& job, unsigned bit) {
     ScreenPass pass(_state, *_stage.getViewport(), job.marks->screenBounds);
     pass.stencilEqual(_bits.scratch | bit, _bits.scratch, bit);
     pass.drawQuad();
+}
+
+void Compositor::writeFarDepth(unsigned where, const ScreenRect& bounds) {
+    CleanState clean(_state, _stage.getViewport());
+    ScreenPass pass(_state, *_stage.getViewport(), bounds);
+    pass.stencilAny(where);
+    pass.writeFarDepth();
 }
 
 void Compositor::clear(unsigned bits, const ScreenRect& bounds) {

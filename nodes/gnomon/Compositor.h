@@ -12,7 +12,9 @@ namespace gnomon {
 /// What a ShadowBin does in draw: marks, takes light away where marked, and leaves the stencil bits it used at zero.
 class Compositor {
 public:
-    Compositor(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves);
+    /// @param leaves  what the stage drew before, in order.
+    /// @param clean   the stencil buffer is known to be zero.
+    Compositor(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves, bool clean);
 
     void compose(const std::vector<ShadowJob>& jobs);
 
@@ -24,21 +26,27 @@ private:
     };
     /// Jobs of the lights that are dark in one relight pass, and the bits that say so.
     struct Combination {
-        unsigned bits = 0;
+        unsigned bits;
         Jobs jobs;
         ScreenRect bounds;
     };
 
-    void relight(const Jobs& jobs);
+    bool canMark(const ShadowJob& job) const;
+    bool composeDirectly(const Jobs& jobs);
+    void relight(const Jobs& wanted);
     void blend(const Jobs& jobs, float dark);
-    void mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf, const ScreenRect& bounds);
+
+    std::map<int, unsigned> assignBits(const Jobs& jobs) const;
+    Combination combine(const Jobs& jobs, const std::map<int, unsigned>& bitOf, unsigned subset) const;
+    void replay(const Combination& combination, unsigned lightBits);
+
+    void mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf);
     void markOne(const ShadowJob& job, unsigned bit, bool fresh);
+    void markInto(const ShadowJob& job, unsigned bit);
     void gate(const ShadowJob& job, unsigned bit);
     void transfer(const ShadowJob& job, unsigned bit);
+    void writeFarDepth(unsigned where, const ScreenRect& bounds);
     void clear(unsigned bits, const ScreenRect& bounds);
-    void replay(const Combination& combination, unsigned lightBits);
-    std::map<int, unsigned> assignBits(const Jobs& jobs) const;
-    bool canMark(const ShadowJob& job) const;
 
     osg::RenderInfo& _renderInfo;
     osg::State& _state;
@@ -46,6 +54,7 @@ private:
     std::vector<StageLeaf> _leaves;
     Bits _bits;
     unsigned _stencilBits = 0;
+    bool _clean;
 };
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/LeafReplay.h>
 
+#include <osg/GLExtensions>
 #include <osg/Light>
 #include <osgUtil/StateGraph>
 
@@ -36,10 +37,9 @@ LeafReplay::~LeafReplay() {
     _state.popStateSetStackToSize(_stackSize);
     darken(0);
     _state.haveAppliedMode(GL_STENCIL_TEST, A::ON);
-    _state.haveAppliedAttribute(A::STENCIL);
-    if (!_overlay.onlyStencil) return;
-    _state.haveAppliedAttribute(A::DEPTH);
-    _state.haveAppliedAttribute(A::COLORMASK);
+    if (_overlay.factor < 1.0f) _state.haveAppliedMode(GL_BLEND, A::ON);
+    for (A::Type type : {A::STENCIL, A::DEPTH, A::COLORMASK, A::BLENDFUNC, A::BLENDCOLOR})
+        _state.haveAppliedAttribute(type);
 }
 
 void LeafReplay::draw(const StageLeaf& entry, unsigned dark) {
@@ -71,14 +71,18 @@ void LeafReplay::enter(osgUtil::RenderBin* bin) {
 
 void LeafReplay::layOver() {
     glEnable(GL_STENCIL_TEST);
-    glStencilFunc(_overlay.stencilTest ? GL_EQUAL : GL_ALWAYS, static_cast<GLint>(_overlay.stencilReference),
-                  _overlay.stencilTest);
-    glStencilOp(GL_KEEP, GL_KEEP, _overlay.stencilWrite ? GL_REPLACE : GL_KEEP);
-    glStencilMask(_overlay.stencilWrite);
-    if (_overlay.onlyStencil) {
-        glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glStencilFunc(_overlay.stencilFunction, static_cast<GLint>(_overlay.reference), _overlay.test);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilMask(_overlay.write);
+    if (!_overlay.color) glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    if (_overlay.equalDepth) {
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_EQUAL);
+    }
+    if (_overlay.factor < 1.0f) {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
+        _state.get<osg::GLExtensions>()->glBlendColor(_overlay.factor, _overlay.factor, _overlay.factor, 1.0f);
     }
 }
 

@@ -16,10 +16,12 @@ class LeafReplay {
 public:
     /// What is laid over each leaf.
     struct Overlay {
-        unsigned stencilReference = 0; ///< drawn where (stencil & stencilTest) == (stencilReference & stencilTest);
-        unsigned stencilTest = 0;      ///< 0: everywhere.
-        unsigned stencilWrite = 0;     ///< bits set to stencilReference's where drawn.
-        bool onlyStencil = false;      ///< no colour, no depth, and only where the leaf's depth is the one that stands.
+        GLenum stencilFunction = GL_ALWAYS; ///< compares (reference & test) with (stencil & test).
+        unsigned reference = 0, test = 0;
+        unsigned write = 0;      ///< bits that become those of `reference` where drawn.
+        bool equalDepth = false; ///< only where the leaf's depth is the one that stands; depth is not written.
+        bool color = true;
+        float factor = 1.0f; ///< below 1: what stands is multiplied by it, and the leaf's own colour does not matter.
     };
 
     LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ClosedParts.h>
 #include <gnomon/Convert.h>
 #include <gnomon/PlanarCasters.h>
 #include <gnomon/Plane.h>
@@ -28,7 +29,6 @@ double thicknessOf(const CasterMesh& mesh) {
 }
 
 osg::ref_ptr<osg::Geometry> geometryOf(const CasterMesh& mesh, osg::DrawElementsUInt* triangles) {
-    if (triangles->empty()) return nullptr;
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setUseDisplayList(false);
     geometry->setUseVertexBufferObjects(true);
@@ -37,42 +37,53 @@ osg::ref_ptr<osg::Geometry> geometryOf(const CasterMesh& mesh, osg::DrawElements
     return geometry;
 }
 
+/// osg::Vec3 and glm::vec3 are three floats each.
+ClosedParts solidsOf(const CasterMesh& mesh) {
+    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
+    return closedParts(reinterpret_cast<const glm::vec3*>(mesh.vertices->getDataPointer()), mesh.vertices->size(),
+                       &mesh.triangles->front(), mesh.triangles->size());
+}
+
 } // namespace
 
-PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane)
+PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool findSolids)
     : plane(groupPlane.x, groupPlane.y, groupPlane.z, distance(groupPlane, toGlm(mesh.origin))),
       low(std::numeric_limits<double>::infinity()),
       high(-low),
       thickness(thicknessOf(mesh)),
       _mesh(&mesh),
-      _groupPlane(groupPlane) {
+      _groupPlane(groupPlane),
+      _knowsSolids(findSolids) {
     const std::vector<double> heights = heightsAbove(mesh, plane);
-    osg::ref_ptr<osg::DrawElementsUInt> wholly = new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES);
-    osg::ref_ptr<osg::DrawElementsUInt> partly = new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES);
     const osg::DrawElementsUInt& all = *mesh.triangles;
+    const ClosedParts closed = findSolids ? solidsOf(mesh) : ClosedParts();
+    osg::ref_ptr<osg::DrawElementsUInt> lists[2][2]; // [crossing][solid]
+    for (auto& row : lists)
+        for (auto& list : row) list = new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES);
     for (unsigned i = 0; i + 2 < all.size(); i += 3) {
         const auto [lowest, top] = std::minmax({heights[all[i]], heights[all[i + 1]], heights[all[i + 2]]});
         if (!(top > thickness)) continue;
-        osg::DrawElementsUInt& kept = lowest < -thickness ? *partly : *wholly;
+        osg::DrawElementsUInt& list = *lists[lowest < -thickness][findSolids && closed.closed[i / 3]];
         for (unsigned corner = i; corner < i + 3; ++corner) {
-            kept.push_back(all[corner]);
+            list.push_back(findSolids ? closed.welded[all[corner]] : all[corner]);
             low = glm::min(low, vertexAt(mesh, all[corner]));
             high = glm::max(high, vertexAt(mesh, all[corner]));
         }
         highest = std::max(highest, top);
     }
-    above = geometryOf(mesh, wholly.get());
-    crossing = geometryOf(mesh, partly.get());
+    for (const bool crossing : {false, true})
+        for (const bool solid : {false, true})
+            if (!lists[crossing][solid]->empty())
+                parts.push_back({geometryOf(mesh, lists[crossing][solid]), crossing, solid});
+    crosses = !parts.empty() && parts.back().crossing;
 }
 
 void PlanarCasters::resizeGLObjectBuffers(unsigned maxSize) {
-    for (const auto& geometry : {above, crossing})
-        if (geometry) geometry->resizeGLObjectBuffers(maxSize);
+    for (const Part& part : parts) part.geometry->resizeGLObjectBuffers(maxSize);
 }
 
 void PlanarCasters::releaseGLObjects(osg::State* state) const {
-    for (const auto& geometry : {above, crossing})
-        if (geometry) geometry->releaseGLObjects(state);
+    for (const Part& part : parts) part.geometry->releaseGLObjects(state);
 }
 
 } // namespace gnomon

@@ -8,29 +8,39 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <vector>
+
 namespace gnomon {
 
 /// The casters that reach above one plane, ready to be drawn flattened: made once a revision and plane, never changed.
-/// Triangles in or under the plane are left out; those that cross it are kept apart, for only they need clipping there.
+/// Triangles in or under the plane are left out.
 class PlanarCasters : public osg::Referenced {
 public:
+    /// Triangles that are drawn alike.
+    struct Part {
+        osg::ref_ptr<osg::Geometry> geometry;
+        bool crossing; ///< they cross the plane and must be cut there; else they are wholly above it.
+        bool solid;    ///< they bound solids: those turned away from the light need not be drawn.
+    };
+
     /// @param groupPlane  unit normal, group frame.
-    PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane);
+    /// @param findSolids  look for solids (closedParts()): takes longer than all the rest, and halves the drawing.
+    PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool findSolids);
 
     bool madeFrom(const CasterMesh& mesh, const glm::dvec4& groupPlane) const {
         return _mesh == &mesh && _groupPlane == groupPlane;
     }
-    bool empty() const { return !above && !crossing; }
-
+    bool knowsSolids() const { return _knowsSolids; }
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
-    osg::ref_ptr<osg::Geometry> above;    ///< triangles wholly above the plane; null if there is none.
-    osg::ref_ptr<osg::Geometry> crossing; ///< triangles on both sides of it; null if there is none.
-    glm::dvec4 plane;                     ///< in the mesh's own frame: about mesh.origin.
-    glm::dvec3 low, high;                 ///< bounds of both, about mesh.origin.
-    double highest = 0.0;                 ///< greatest height above the plane.
-    double thickness = 0.0;               ///< height up to which a vertex counts as lying in the plane.
+    unsigned firstFrame = 0; ///< in which these were made.
+    std::vector<Part> parts;
+    glm::dvec4 plane;       ///< in the mesh's own frame: about mesh.origin.
+    glm::dvec3 low, high;   ///< bounds of all parts, about mesh.origin.
+    bool crosses = false;   ///< some part crosses the plane.
+    double highest = 0.0;   ///< greatest height above the plane.
+    double thickness = 0.0; ///< height up to which a vertex counts as lying in the plane.
 
 protected:
     ~PlanarCasters() override = default;
@@ -38,6 +48,7 @@ protected:
 private:
     osg::ref_ptr<const CasterMesh> _mesh; // kept, so that its address cannot be taken by the next revision
     glm::dvec4 _groupPlane;
+    bool _knowsSolids;
 };
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 #include <gnomon_shaders.h>
 
 #include <glm/gtc/type_ptr.hpp>
+#include <osg/CullFace>
 #include <osg/GLExtensions>
 #include <osg/Program>
 #include <osg/State>
@@ -18,33 +19,29 @@ namespace {
 constexpr GLenum clipAbovePlane = GL_CLIP_PLANE0; // the same value as GL_CLIP_DISTANCE0
 constexpr GLenum clipBelowLight = GL_CLIP_PLANE1;
 
-osg::StateSet* makeProgramState() {
-    auto* program = new osg::Program;
+osg::ref_ptr<osg::StateSet> programState(const std::string& defines) {
+    const std::string version = "#version 130\n";
+    osg::ref_ptr<osg::Program> program = new osg::Program;
     program->setName("gnomon planar mark");
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, shaders::planar_mark_vert));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, shaders::planar_mark_frag));
-    auto* set = new osg::StateSet;
+    program->addShader(new osg::Shader(osg::Shader::VERTEX, version + defines + shaders::planar_mark_vert));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, version + shaders::planar_mark_frag));
+    osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
     set->setAttribute(program);
+    set->setAttribute(new osg::CullFace(osg::CullFace::BACK));
     return set;
-}
-
-/// Shared by all views and contexts: osg::Program keeps what belongs to a context by its number.
-const osg::StateSet& programState() {
-    static const osg::ref_ptr<osg::StateSet> set = makeProgramState();
-    return *set;
 }
 
 void setUniform(const osg::State& state, const char* name, const glm::dvec4& value) {
     const glm::vec4 rounded(value);
-    const auto* program = state.getLastAppliedProgramObject();
-    state.get<osg::GLExtensions>()->glUniform4fv(program->getUniformLocation(osg::Uniform::getNameID(name)), 1,
+    const auto* current = state.getLastAppliedProgramObject();
+    state.get<osg::GLExtensions>()->glUniform4fv(current->getUniformLocation(osg::Uniform::getNameID(name)), 1,
                                                  glm::value_ptr(rounded));
 }
 
 void setUniform(const osg::State& state, const char* name, const glm::dmat4& value) {
     const glm::mat4 rounded(value);
-    const auto* program = state.getLastAppliedProgramObject();
-    state.get<osg::GLExtensions>()->glUniformMatrix4fv(program->getUniformLocation(osg::Uniform::getNameID(name)), 1,
+    const auto* current = state.getLastAppliedProgramObject();
+    state.get<osg::GLExtensions>()->glUniformMatrix4fv(current->getUniformLocation(osg::Uniform::getNameID(name)), 1,
                                                        GL_FALSE, glm::value_ptr(rounded));
 }
 
@@ -62,27 +59,33 @@ double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
 
 } // namespace
 
+PlanarPrograms::PlanarPrograms() : plain(programState("")), clipping(programState("#define CLIP\n")) {}
+
 void PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     osg::State& state = *renderInfo.getState();
     pass.stencilEqual(bit, 0, bit);
-    state.apply(&programState());
-    setUniform(state, "clipFromCaster", clipFromCaster);
-    setUniform(state, "abovePlane", abovePlane);
-    setUniform(state, "belowLight", belowLight);
-    drawCasters(renderInfo);
+    for (const PlanarCasters::Part& part : casters->parts) drawPart(renderInfo, part);
     state.apply();
     if (cutToPlane) cut(state, pass, bit);
 }
 
-void PlanarMark::drawCasters(osg::RenderInfo& renderInfo) const {
-    if (reachesLight) glEnable(clipBelowLight);
-    if (casters->above) casters->above->draw(renderInfo);
-    if (casters->crossing) {
-        glEnable(clipAbovePlane);
-        casters->crossing->draw(renderInfo);
-        glDisable(clipAbovePlane);
+void PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const {
+    osg::State& state = *renderInfo.getState();
+    const bool clips = part.crossing || reachesLight;
+    const bool culls = part.solid && !reachesLight; // a solid cut by the light's height may lack its upper faces
+    state.apply((clips ? programs->clipping : programs->plain).get());
+    setUniform(state, "clipFromCaster", clipFromCaster);
+    if (clips) {
+        setUniform(state, "abovePlane", abovePlane);
+        setUniform(state, "belowLight", belowLight);
     }
-    if (reachesLight) glDisable(clipBelowLight);
+    if (part.crossing) glEnable(clipAbovePlane);
+    if (reachesLight) glEnable(clipBelowLight);
+    if (culls) glEnable(GL_CULL_FACE);
+    glFrontFace(mirrored ? GL_CW : GL_CCW);
+    part.geometry->draw(renderInfo);
+    glFrontFace(GL_CCW);
+    for (const GLenum mode : {clipAbovePlane, clipBelowLight, GLenum(GL_CULL_FACE)}) glDisable(mode);
 }
 
 /// Takes the marks back where what stands in the depth buffer is behind the plane, and where it is before it.

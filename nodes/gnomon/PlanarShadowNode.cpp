@@ -59,6 +59,11 @@ bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
     return true;
 }
 
+/// True if the view turns round the sense in which a triangle's corners follow each other on the screen.
+bool isMirrored(const ViewFrame& view) {
+    return glm::determinant(glm::dmat3(toGlm(view.eyeFromGroup))) * view.projection(0, 0) * view.projection(1, 1) < 0.0;
+}
+
 bool receiverLiesIn(const ViewFrame& view, const glm::dvec4& groupPlane) {
     if (!view.receivers) return false;
     const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
@@ -79,7 +84,7 @@ double heightLimit(const PlanarClipPlanes& clip, const glm::dvec4& plane) {
 /// Where on the screen the flattened casters can lie.
 std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
     std::vector<glm::dvec4> halfSpaces;
-    if (mark.casters->crossing) halfSpaces.push_back(mark.abovePlane);
+    if (mark.casters->crosses) halfSpaces.push_back(mark.abovePlane);
     if (mark.reachesLight) halfSpaces.push_back(mark.belowLight);
     std::vector<glm::dvec4> corners;
     for (const glm::dvec3& corner : cutBox(mark.casters->low, mark.casters->high, halfSpaces))
@@ -89,8 +94,14 @@ std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
 
 } // namespace
 
+PlanarShadowNode::PlanarShadowNode() : _programs(new PlanarPrograms) {}
+
+PlanarShadowNode::PlanarShadowNode(const osg::Vec4d& plane) : PlanarShadowNode() { addPlane(plane); }
+
 PlanarShadowNode::PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp)
-    : ShadowTechnique(other, copyOp), _planes(other._planes) {}
+    : ShadowTechnique(other, copyOp), _planes(other._planes), _programs(new PlanarPrograms) {}
+
+PlanarShadowNode::~PlanarShadowNode() = default;
 
 void PlanarShadowNode::addPlane(const osg::Vec4d& plane) { _planes.push_back(plane); }
 
@@ -119,8 +130,8 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
         report(view.frameNumber, sentence(start, what, rest));
         return nullptr;
     };
-    const osg::ref_ptr<PlanarCasters> casters = castersAbove(mesh, groupPlane, index);
-    if (casters->empty())
+    const osg::ref_ptr<PlanarCasters> casters = castersAbove(mesh, groupPlane, index, view.frameNumber);
+    if (casters->parts.empty())
         return refuse("has nothing above its plane", _planes[index],
                       "to cast on it: look at the plane's place and the side its normal points to.");
     if (!isFinite(toGlm(light.inGroup)))
@@ -141,10 +152,12 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     osg::ref_ptr<PlanarMark> mark = new PlanarMark;
     const PlanarClipPlanes clip = planarClipPlanes(casters->plane, lightHere);
     mark->casters = casters;
+    mark->programs = _programs;
     mark->clipFromCaster = clipFromMesh * *flatten;
     mark->abovePlane = clip.abovePlane - glm::dvec4(0.0, 0.0, 0.0, casters->thickness);
     mark->belowLight = clip.belowLight;
     mark->reachesLight = heightLimit(clip, casters->plane) < casters->highest;
+    mark->mirrored = isMirrored(view);
     mark->cutToPlane = !receiverLiesIn(view, groupPlane);
     const auto bounds = boundsOf(*mark);
     const auto depth = depthOnScreen(casters->plane, clipFromMesh);
@@ -155,16 +168,21 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
 }
 
 osg::ref_ptr<PlanarCasters> PlanarShadowNode::castersAbove(const CasterMesh& mesh, const glm::dvec4& plane,
-                                                           unsigned index) const {
+                                                           unsigned index, unsigned frame) const {
     Lock lock(_cacheMutex);
     if (_cache.size() <= index) _cache.resize(index + 1);
     osg::ref_ptr<PlanarCasters>& cached = _cache[index];
-    if (!cached || !cached->madeFrom(mesh, plane)) cached = new PlanarCasters(mesh, plane);
+    const bool same = cached && cached->madeFrom(mesh, plane);
+    const bool keptStill = same && cached->firstFrame != frame; // then the search for solids pays from now on
+    if (same && (cached->knowsSolids() || !keptStill)) return cached;
+    cached = new PlanarCasters(mesh, plane, keptStill);
+    cached->firstFrame = frame;
     return cached;
 }
 
 void PlanarShadowNode::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
+    for (const auto& program : {_programs->plain, _programs->clipping}) program->resizeGLObjectBuffers(maxSize);
     Lock lock(_cacheMutex);
     for (const auto& casters : _cache)
         if (casters) casters->resizeGLObjectBuffers(maxSize);
@@ -172,6 +190,7 @@ void PlanarShadowNode::resizeGLObjectBuffers(unsigned maxSize) {
 
 void PlanarShadowNode::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
+    for (const auto& program : {_programs->plain, _programs->clipping}) program->releaseGLObjects(state);
     Lock lock(_cacheMutex);
     for (const auto& casters : _cache)
         if (casters) casters->releaseGLObjects(state);

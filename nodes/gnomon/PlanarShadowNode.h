@@ -9,6 +9,8 @@
 
 namespace gnomon {
 
+struct PlanarPrograms;
+
 /// Shadow on one or several planes: the casters flattened along the light's rays (Blinn 1988).
 ///
 /// The shadow lies where something in the scene lies in the plane; it ends at that thing's edges. With a named receiver
@@ -21,8 +23,8 @@ namespace gnomon {
 /// Source: CS-4470 "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8; J. Blinn 1988.
 class GNOMON_EXPORT PlanarShadowNode : public ShadowTechnique {
 public:
-    PlanarShadowNode() = default;
-    explicit PlanarShadowNode(const osg::Vec4d& plane) { addPlane(plane); }
+    PlanarShadowNode();
+    explicit PlanarShadowNode(const osg::Vec4d& plane);
     PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, PlanarShadowNode)
 
@@ -39,14 +41,16 @@ public:
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
-    ~PlanarShadowNode() override = default;
+    ~PlanarShadowNode() override;
 
 private:
     osg::ref_ptr<MarkJob> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters,
                                      unsigned index, const glm::dvec4& groupPlane) const;
-    osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const glm::dvec4& plane, unsigned index) const;
+    osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const glm::dvec4& plane, unsigned index,
+                                             unsigned frame) const;
 
     std::vector<osg::Vec4d> _planes;
+    osg::ref_ptr<PlanarPrograms> _programs;
     mutable OpenThreads::Mutex _cacheMutex;
     mutable std::vector<osg::ref_ptr<PlanarCasters>> _cache; ///< one a plane.
 };

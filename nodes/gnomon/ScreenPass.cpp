@@ -76,6 +76,12 @@ void ScreenPass::stencilAny(unsigned test) {
     glStencilMask(0);
 }
 
+void ScreenPass::takeStencil(unsigned bits) {
+    stencilAny(bits);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
+    glStencilMask(bits);
+}
+
 void ScreenPass::writeFarDepth() {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);

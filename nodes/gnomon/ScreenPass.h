@@ -38,6 +38,8 @@ public:
     void stencilEqual(unsigned reference, unsigned test, unsigned write);
     /// Pass where any bit of `test` is set.
     void stencilAny(unsigned test);
+    /// Pass where any bit of `bits` is set, and set them to 0.
+    void takeStencil(unsigned bits);
     void writeFarDepth();
     void multiplyColor(float factor);
     /// Passes where the quad's depth compares so with the one that stands; depths beyond near and far are clamped.

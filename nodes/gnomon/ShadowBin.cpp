@@ -94,6 +94,13 @@ unsigned ShadowBin::reserved() { return reservedBits; }
 void ShadowBin::setFilter(bool filter) { filterLeaves = filter; }
 bool ShadowBin::getFilter() { return filterLeaves; }
 
+void ShadowBin::enlist(const EnlistedTechnique& technique) {
+    _enlisted.push_back(technique);
+    osgUtil::RenderStage& stage = *getStage();
+    _stageClears = reserved() == 0 && (stage.getClearMask() & GL_DEPTH_BUFFER_BIT) && stage.getClearStencil() == 0;
+    if (_stageClears) stage.setClearMask(stage.getClearMask() | GL_STENCIL_BUFFER_BIT);
+}
+
 void ShadowBin::reset() {
     osgUtil::RenderBin::reset();
     _enlisted.clear();
@@ -135,7 +142,9 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
 void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (!_jobs.empty()) {
         popLeafState(*renderInfo.getState(), previous);
-        Compositor(renderInfo, *getStage(), leavesBelow(*getStage(), getBinNum())).compose(_jobs);
+        std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
+        const bool clean = _stageClears && !useStencil(leaves);
+        Compositor(renderInfo, *getStage(), std::move(leaves), clean).compose(_jobs);
         renderInfo.getState()->decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);

@@ -66,7 +66,9 @@ public:
     static void setFilter(bool filter);
     static bool getFilter();
 
-    void enlist(const EnlistedTechnique& technique) { _enlisted.push_back(technique); }
+    /// Also lets the stage clear its stencil buffer, if it clears depth and no bits are reserved: the two together cost
+    /// less than a clear of our bits later.
+    void enlist(const EnlistedTechnique& technique);
 
     void reset() override;
     void sortImplementation() override;
@@ -82,6 +84,7 @@ private:
 
     std::vector<EnlistedTechnique> _enlisted;
     std::vector<ShadowJob> _jobs;
+    bool _stageClears = false;
 };
 
 } // namespace gnomon

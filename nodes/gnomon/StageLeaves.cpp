@@ -79,6 +79,16 @@ bool resolvedMode(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode 
     return value & osg::StateAttribute::ON;
 }
 
+bool isModeOn(const std::vector<StageLeaf>& leaves, osg::StateAttribute::GLMode mode) {
+    std::set<const osgUtil::StateGraph*> seen;
+    for (const StageLeaf& entry : leaves) {
+        if (!seen.insert(entry.leaf->_parent).second) continue;
+        bool overridden = false;
+        if (resolvedMode(entry.leaf->_parent, mode, overridden)) return true;
+    }
+    return false;
+}
+
 bool isPlainDepth(const osg::StateAttribute* attribute) {
     const auto* depth = static_cast<const osg::Depth*>(attribute);
     return !depth || (depth->getFunction() == osg::Depth::LESS && depth->getWriteMask() && depth->getZNear() == 0.0 &&
@@ -121,14 +131,10 @@ std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<StageLeaf>
 }
 
 bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode mode) {
-    std::set<const osgUtil::StateGraph*> seen;
-    for (const StageLeaf& entry : leavesBelow(stage, INT_MAX)) {
-        if (!seen.insert(entry.leaf->_parent).second) continue;
-        bool overridden = false;
-        if (resolvedMode(entry.leaf->_parent, mode, overridden)) return true;
-    }
-    return false;
+    return isModeOn(leavesBelow(stage, INT_MAX), mode);
 }
+
+bool useStencil(const std::vector<StageLeaf>& leaves) { return isModeOn(leaves, GL_STENCIL_TEST); }
 
 bool PlainTest::operator()(const osgUtil::RenderLeaf& leaf) {
     const osgUtil::StateGraph* graph = leaf._parent;

@@ -31,6 +31,9 @@ std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<StageLeaf>
 /// True if any leaf of the stage is drawn with `mode` on.
 bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode mode);
 
+/// True if any of the leaves is drawn with the stencil test on.
+bool useStencil(const std::vector<StageLeaf>& leaves);
+
 /// Tells leaves that are drawn in the plainest way: depth test LESS with writing, no blending, offset, stencil, depth
 /// range or colour mask. Such a leaf can show only where it is nearest, and never over something drawn before it at the
 /// same depth.

@@ -1,3 +1,2 @@
-#version 130
 // Marks are made in the stencil buffer; colour writes are off.
 void main() { gl_FragColor = vec4(0.0); }

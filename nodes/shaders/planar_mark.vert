@@ -1,12 +1,16 @@
-#version 130
 // Flattens a caster's vertex onto the receiver's plane, and takes it on to clip space, in one matrix made in double.
 uniform mat4 clipFromCaster;
+
+#ifdef CLIP
 // What lies under the plane, or at and above a lamp, casts nothing: kept where the dot product is not negative.
 uniform vec4 abovePlane;
 uniform vec4 belowLight;
+#endif
 
 void main() {
     gl_Position = clipFromCaster * gl_Vertex;
+#ifdef CLIP
     gl_ClipDistance[0] = dot(abovePlane, gl_Vertex);
     gl_ClipDistance[1] = dot(belowLight, gl_Vertex);
+#endif
 }

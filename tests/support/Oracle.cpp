@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <support/Oracle.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace test {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+struct Ray {
+    glm::dvec3 start, along;
+};
+
+/// Smallest t > after at which the ray meets a triangle of the mesh (Möller and Trumbore 1997).
+double meets(const Ray& ray, const Mesh& mesh, double after) {
+    double nearest = never;
+    for (std::size_t i = 0; i + 2 < mesh.size(); i += 3) {
+        const glm::dvec3 e1 = mesh[i + 1] - mesh[i], e2 = mesh[i + 2] - mesh[i];
+        const glm::dvec3 p = glm::cross(ray.along, e2);
+        const double determinant = glm::dot(e1, p);
+        if (determinant == 0.0) continue;
+        const glm::dvec3 s = ray.start - mesh[i];
+        const double u = glm::dot(s, p) / determinant;
+        const glm::dvec3 q = glm::cross(s, e1);
+        const double v = glm::dot(ray.along, q) / determinant;
+        if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
+        const double t = glm::dot(e2, q) / determinant;
+        if (t > after) nearest = std::min(nearest, t);
+    }
+    return nearest;
+}
+
+glm::dvec3 unproject(const osg::Matrixd& worldFromClip, double x, double y, double z) {
+    const osg::Vec3d point = osg::Vec3d(x, y, z) * worldFromClip;
+    return {point.x(), point.y(), point.z()};
+}
+
+bool shadowed(const glm::dvec3& point, const std::vector<Mesh>& casters, const osg::Vec4d& light) {
+    const glm::dvec3 given(light.x(), light.y(), light.z());
+    const bool sun = light.w() == 0.0;
+    const Ray ray{point, sun ? glm::normalize(given) : given / light.w() - point};
+    for (const Mesh& caster : casters)
+        if (meets(ray, caster, 1e-9) < (sun ? never : 1.0)) return true;
+    return false;
+}
+
+Seen see(const Ray& ray, const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light) {
+    const double ground = meets(ray, receiver, 0.0);
+    double caster = never;
+    for (const Mesh& mesh : casters) caster = std::min(caster, meets(ray, mesh, 0.0));
+    if (std::min(ground, caster) == never) return Seen::Nothing;
+    if (caster <= ground) return Seen::Caster;
+    return shadowed(ray.start + ground * ray.along, casters, light) ? Seen::ShadowedReceiver : Seen::LitReceiver;
+}
+
+} // namespace
+
+int Mask::count(Seen what) const { return static_cast<int>(std::count(pixels.begin(), pixels.end(), what)); }
+
+bool Mask::atEdge(int x, int y) const {
+    for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u)
+            if (at(u, v) != at(x, y)) return true;
+    return false;
+}
+
+Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light, const View& view) {
+    const osg::Matrixd worldFromClip = osg::Matrixd::inverse(view.view * view.projection);
+    Mask mask;
+    mask.width = view.width;
+    mask.height = view.height;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const double u = (x + 0.5) / view.width * 2.0 - 1.0, v = (y + 0.5) / view.height * 2.0 - 1.0;
+            const glm::dvec3 start = unproject(worldFromClip, u, v, -1.0), end = unproject(worldFromClip, u, v, 1.0);
+            mask.pixels.push_back(see({start, end - start}, receiver, casters, light));
+        }
+    return mask;
+}
+
+Comparison compare(const Picture& actual, const Picture& lit, const Picture& dark, const Mask& mask) {
+    Comparison result;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x) {
+            const bool inShadow = mask.at(x, y) == Seen::ShadowedReceiver;
+            const bool right = actual.at(x, y) == (inShadow ? dark : lit).at(x, y);
+            const bool possible = actual.at(x, y) == lit.at(x, y) || actual.at(x, y) == dark.at(x, y);
+            const bool edge = mask.atEdge(x, y);
+            result.edges += edge;
+            result.wrongInside += !right && !edge;
+            result.wrongAtEdge += !possible && edge;
+            result.flipped += !right && edge;
+        }
+    return result;
+}
+
+} // namespace test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include <support/Scene.h>
+
+#include <osg/LightModel>
+#include <osg/Material>
+#include <osg/NodeVisitor>
+
+namespace test {
+namespace {
+
+osg::StateSet* whiteUnderOneLight() {
+    auto* state = new osg::StateSet;
+    auto* model = new osg::LightModel;
+    model->setAmbientIntensity({0.1f, 0.1f, 0.1f, 1.0f});
+    auto* material = new osg::Material;
+    material->setAmbient(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, 1.0f});
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, 1.0f});
+    state->setAttributeAndModes(model);
+    state->setAttributeAndModes(material);
+    state->setMode(GL_LIGHTING, osg::StateAttribute::ON);
+    state->setMode(GL_LIGHT0, osg::StateAttribute::ON);
+    return state;
+}
+
+struct Finder : osg::NodeVisitor {
+    explicit Finder(const std::string& wanted) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), name(wanted) {}
+    void apply(osg::Node& node) override {
+        if (!found && node.getName() == name) found = &node;
+        traverse(node);
+    }
+    std::string name;
+    osg::Node* found = nullptr;
+};
+
+} // namespace
+
+void Scene::addShadow(gnomon::ShadowTechnique* technique) {
+    if (!group) {
+        group = new gnomon::ShadowCasterGroup;
+        root->replaceChild(content, group);
+        group->addChild(content);
+    }
+    group->addChild(technique);
+}
+
+void Scene::takeLightAway() {
+    light->getLight()->setDiffuse({0.0f, 0.0f, 0.0f, 1.0f});
+    light->getLight()->setSpecular({0.0f, 0.0f, 0.0f, 1.0f});
+}
+
+Scene scene(const osg::Vec4d& light) {
+    Scene result;
+    result.root = new osg::Group;
+    result.root->setStateSet(whiteUnderOneLight());
+    result.light = new osg::LightSource;
+    result.light->getLight()->setPosition(osg::Vec4(light));
+    result.light->getLight()->setAmbient({0.3f, 0.3f, 0.3f, 1.0f});
+    result.light->getLight()->setDiffuse({0.7f, 0.7f, 0.7f, 1.0f});
+    result.light->getLight()->setSpecular({0.0f, 0.0f, 0.0f, 1.0f});
+    result.content = new osg::Group;
+    result.root->addChild(result.light);
+    result.root->addChild(result.content);
+    return result;
+}
+
+Scene groundScene(const std::vector<Mesh>& casters, double half, const osg::Vec4d& light) {
+    Scene result = scene(light);
+    result.content->addChild(node(square(half), "ground"));
+    for (const Mesh& caster : casters) result.content->addChild(node(caster, "caster"));
+    return result;
+}
+
+osg::ref_ptr<gnomon::PlanarShadowNode> planar(osg::Node* receiver) {
+    osg::ref_ptr<gnomon::PlanarShadowNode> technique = new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, 0.0));
+    if (receiver) technique->setReceiver({receiver});
+    return technique;
+}
+
+osg::Node* find(osg::Node& root, const std::string& name) {
+    Finder finder(name);
+    root.accept(finder);
+    return finder.found;
+}
+
+} // namespace test
