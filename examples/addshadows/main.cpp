@@ -5,6 +5,7 @@
 
 #include <osg/DisplaySettings>
 #include <osgDB/ReadFile>
+#include <osgGA/TrackballManipulator>
 #include <osgViewer/Viewer>
 
 #include <iostream>
@@ -23,6 +24,11 @@ int main(int argc, char** argv) {
     group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
     viewer.setSceneData(group);
     // [/five lines]
+    const osg::BoundingSphere& all = scene->getBound();
+    osg::ref_ptr<osgGA::TrackballManipulator> hand = new osgGA::TrackballManipulator;
+    hand->setHomePosition(all.center() + osg::Vec3d(-1, -2, 1.5) * all.radius(), all.center(), osg::Vec3d(0, 0, 1));
+    viewer.setCameraManipulator(hand);
     viewer.setLightingMode(osg::View::SKY_LIGHT);
+    viewer.getLight()->setPosition(osg::Vec4(1, -1, 2, 0));
     return viewer.run();
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "OutputFile.h"
 
-#include <osgDB/ReadFile>
+#include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -41,17 +42,15 @@ osg::ref_ptr<osg::Image> opaque(const osg::Image& image) {
     return result;
 }
 
-bool writeImage(const osg::Image& image, const fs::path& path) {
+/// The picture as a file of this ending; empty if OSG has no writer for it.
+std::string encode(const osg::Image& image, const fs::path& path) {
     osgDB::Registry* registry = osgDB::Registry::instance();
-    return registry->writeImage(image, path.string(), registry->getOptions()).success();
-}
-
-/// True if what was written reads back with the picture's size, or cannot be read for want of a reader.
-bool whole(const osg::Image& image, const fs::path& path) {
-    std::error_code error;
-    if (fs::file_size(path, error) == 0 || error) return false;
-    const osg::ref_ptr<osg::Image> back = osgDB::readRefImageFile(path.string());
-    return !back || (back->s() == image.s() && back->t() == image.t());
+    const std::string ending = path.extension().string();
+    osgDB::ReaderWriter* writer =
+        ending.empty() ? nullptr : registry->getReaderWriterForExtension(osgDB::convertToLowerCase(ending.substr(1)));
+    std::ostringstream bytes;
+    const bool written = writer && writer->writeImage(image, bytes, registry->getOptions()).success();
+    return written ? bytes.str() : "";
 }
 
 } // namespace
@@ -59,9 +58,12 @@ bool whole(const osg::Image& image, const fs::path& path) {
 OutputFile::OutputFile(const std::string& path) : _path(path), _draft(draftOf(path)) {
     requirePlace(_path);
     if (!std::ofstream(_draft)) refuse(_path, "its directory takes no new file");
+    removeDraft(); // so that none is left if something in between crashes
 }
 
-OutputFile::~OutputFile() {
+OutputFile::~OutputFile() { removeDraft(); }
+
+void OutputFile::removeDraft() const {
     std::error_code ignored;
     fs::remove(_draft, ignored);
 }
@@ -70,20 +72,16 @@ void OutputFile::requireImage() const {
     osg::ref_ptr<osg::Image> dot = new osg::Image;
     dot->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
     std::fill(dot->data(), dot->data() + dot->getTotalSizeInBytes(), static_cast<unsigned char>(0));
-    if (!writeImage(*dot, _draft))
+    if (encode(*dot, _path).empty())
         refuse(_path, "OpenSceneGraph writes no such images; png, jpg, bmp, tif, rgb are allowed");
 }
 
-void OutputFile::write(const osg::Image& image) {
-    if (!writeImage(*opaque(image), _draft) || !whole(image, _draft))
-        refuse(_path, "the picture was not written whole; is the disk full");
-    finish();
-}
+void OutputFile::write(const osg::Image& image) { write(encode(*opaque(image), _path)); }
 
 void OutputFile::write(const std::string& text) {
     std::ofstream out(_draft, std::ios::binary);
     out << text << std::flush;
-    if (!out) refuse(_path, "not all of it was written; is the disk full");
+    if (!out) refuse(_path, "not all of it was written; perhaps the disk is full");
     finish();
 }
 

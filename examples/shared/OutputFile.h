@@ -26,6 +26,7 @@ public:
 
 private:
     void finish();
+    void removeDraft() const;
 
     std::filesystem::path _path;
     std::filesystem::path _draft;

@@ -5,9 +5,8 @@
 
 #include <osg/Geode>
 #include <osg/ShapeDrawable>
+#include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
-
-#include <limits>
 
 namespace {
 
@@ -90,6 +89,20 @@ TEST_F(BadInput, TruncatedFile) {
             EXPECT_EQ(ending.status, drawn ? 0 : 1) << cut << " " << ending.err;
             if (!drawn) refusalOf(cut);
         }
+    }
+}
+
+/// One of these cuts crashes OSG 3.6.5's reader.
+TEST_F(BadInput, ReaderThatCrashes) {
+    osgDB::writeNodeFile(*osgDB::readRefNodeFile(scene), (folder.path() / "whole.osgb").string());
+    const std::string bytes = readFile(folder.path() / "whole.osgb");
+    for (std::size_t part = 1; part < 40; ++part) {
+        folder.write("cut.osgb", bytes.substr(0, bytes.size() * part / 40));
+        const Ending ending = runGnomonshot({"cut.osgb", "--out", "o.png"}, folder.path());
+        if (ending.status == 0) continue;
+        EXPECT_EQ(ending.status, 1) << part;
+        EXPECT_EQ(ending.lastLine().rfind("gnomonshot: \"cut.osgb\" ", 0), 0u) << ending.err;
+        EXPECT_EQ(folder.list(), (std::vector<std::string>{"cut.osgb", "whole.osgb"})) << part;
     }
 }
 

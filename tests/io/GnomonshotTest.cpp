@@ -166,8 +166,8 @@ TEST_F(Gnomonshot, UsesNearAndFarExactly) {
 
 TEST_F(Gnomonshot, DrawsLampsFarFromTheOriginAsNearIt) {
     folder.write("plate.obj", plate(false));
-    const Arguments near = {"plate.obj", "-O", "noRotation", "--shadow", "planar",
-                            "--ground",  "8",  "--light",    "1,0,3,1"};
+    const Arguments near = {"plate.obj", "-O", "noRotation", "--shadow",  "planar",
+                            "--ground",  "8",  "--light",    "1.25,0,3,1"};
     const osg::ref_ptr<osg::Image> at = shoot(near + fromAbove);
     const Arguments far = {"plate.obj.6400000,0,0.trans",
                            "-O",
@@ -177,7 +177,7 @@ TEST_F(Gnomonshot, DrawsLampsFarFromTheOriginAsNearIt) {
                            "--ground",
                            "8",
                            "--light",
-                           "6400001,0,3,1",
+                           "6400001.25,0,3,1",
                            "--eye",
                            "6400000,0,10",
                            "--center",
