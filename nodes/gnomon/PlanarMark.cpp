@@ -48,12 +48,12 @@ void setUniform(const osg::State& state, const char* name, const glm::dmat4& val
 /// How far from the plane's, in window depth, what lies in it may be drawn.
 ///
 /// A rasteriser snaps vertices to a part of a pixel and interpolates depth in float: an eighth of a pixel's slope and
-/// 32 steps of the depth buffer hold both (tests/render/PlanarBandTest measures what is needed).
+/// 32 steps of the depth buffer hold both but for a ground of many kilometres under a near plane of decimetres
+/// (tests/render/PlanarBandTest.cpp); a larger margin would reach up walls that stand in the plane.
 double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
     GLint depthBits = 24;
     glGetIntegerv(GL_DEPTH_BITS, &depthBits);
-    const double slope =
-        std::abs(depth.x) / viewport.width() + std::abs(depth.y) / viewport.height(); // window depth a pixel
+    const double slope = std::abs(depth.x) / viewport.width() + std::abs(depth.y) / viewport.height(); // a pixel
     return slope / 8.0 + 32.0 * std::ldexp(1.0, -std::min(depthBits, 24));
 }
 

@@ -13,12 +13,16 @@ struct PlanarPrograms;
 
 /// Shadow on one or several planes: the casters flattened along the light's rays (Blinn 1988).
 ///
-/// The shadow lies where something in the scene lies in the plane; it ends at that thing's edges. With a named receiver
-/// (setReceiver) only that receives, whatever else lies in the plane.
+/// The shadow lies where what one sees lies in the plane, and ends at that thing's edges. Name the receiver
+/// (setReceiver) where you can: only that receives then, to the pixel, and the leaves that it hides or that stand on it
+/// need not be drawn again. Without one the plane is told from everything else by depth.
 ///
-/// Cost    one draw of the casters a plane and light, stencil only; no redraw of anything that does not receive.
-/// Needs   2 stencil bits.
-/// Limits  flat receivers; a caster is not shadowed by another. A plane casts on its lit side only.
+/// Cost    one draw of the casters a plane and light, stencil only, and one of the receiver where marked; with no
+///         receiver named, one of every leaf that the marks can touch.
+/// Needs   1 stencil bit a light, 1 more for several planes or techniques of one light.
+/// Limits  flat receivers; a caster is not shadowed by another. A plane receives on its lit side only. Without a named
+///         receiver walls that stand in the plane take marks up to an eighth of a pixel's slope and 32 steps of depth
+///         high, and a ground of many kilometres under a near plane of decimetres may lose its shadow.
 /// Threads any number of cull and draw threads; set properties between frames.
 /// Source: CS-4470 "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8; J. Blinn 1988.
 class GNOMON_EXPORT PlanarShadowNode : public ShadowTechnique {
