@@ -147,7 +147,7 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     const glm::dmat4 clipFromMesh = glm::translate(toGlm(view.eyeFromGroup * view.projection), origin);
     if (!(glm::dot(casters->plane, eyeIn(clipFromMesh)) > 0.0))
         return refuse("is seen from behind its plane", _planes[index],
-                      "where the light does not reach: nothing to darken on that side.");
+                      "where the light does not reach: if that side is the lit one, turn the plane's normal round.");
 
     osg::ref_ptr<PlanarMark> mark = new PlanarMark;
     const PlanarClipPlanes clip = planarClipPlanes(casters->plane, lightHere);

@@ -50,9 +50,9 @@ private:
 bool hasCasters(const EnlistedTechnique& entry, const CasterMesh& mesh) {
     if (mesh.invalidTriangles > 0)
         entry.technique->report(entry.frameNumber,
-                                "leaves out " + std::to_string(mesh.invalidTriangles) + " triangles of '" +
-                                    mesh.invalidNode +
-                                    "' and others: their vertices are not finite numbers or not there.");
+                                "leaves out " + std::to_string(mesh.invalidTriangles) +
+                                    " triangles, the first of them in '" + mesh.invalidNode +
+                                    "': give every vertex finite coordinates and every index a vertex.");
     if (!mesh.empty()) return true;
     entry.technique->report(entry.frameNumber,
                             "has nothing to cast: its group '" + entry.group->getName() +

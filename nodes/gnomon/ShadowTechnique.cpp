@@ -37,7 +37,8 @@ GroupAbove groupAbove(const osg::NodePath& path) {
 
 void enlist(ShadowTechnique& technique, osgUtil::CullVisitor& cull) {
     const unsigned frame = frameOf(cull);
-    technique.beginFrame(frame);
+    osgUtil::RenderStage* stage = cull.getCurrentRenderBin()->getStage();
+    technique.beginFrame(frame, stage);
     const GroupAbove above = groupAbove(cull.getNodePath());
     if (!above.group) {
         technique.report(frame,
@@ -51,7 +52,7 @@ void enlist(ShadowTechnique& technique, osgUtil::CullVisitor& cull) {
     entry.eyeFromGroup = osg::Matrixd::inverse(above.groupFromTechnique) * *cull.getModelViewMatrix();
     entry.projection = cull.getProjectionMatrix();
     entry.frameNumber = frame;
-    ShadowBin::of(cull.getCurrentRenderBin()->getStage()).enlist(entry);
+    ShadowBin::of(stage).enlist(entry);
 }
 
 } // namespace
@@ -82,11 +83,14 @@ void ShadowTechnique::report(unsigned frame, const std::string& cause) const {
     OSG_INFO << "gnomon: " << sentence << std::endl;
 }
 
-void ShadowTechnique::beginFrame(unsigned frame) const {
+void ShadowTechnique::beginFrame(unsigned frame, const void* view) const {
     Lock lock(_causesMutex);
-    if (frame == _causesFrame) return;
-    _causesFrame = frame;
-    _causes.clear();
+    if (frame != _causesFrame || _causesViews.count(view)) {
+        _causesFrame = frame;
+        _causes.clear();
+        _causesViews.clear();
+    }
+    _causesViews.insert(view);
 }
 
 std::string ShadowTechnique::describe() const {

@@ -10,6 +10,7 @@
 #include <OpenThreads/Mutex>
 #include <osg/Geode>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,8 +50,9 @@ public:
 
     /// Notes a cause for diagnose(); repeated causes count once. Called in cull or draw.
     void report(unsigned frame, const std::string& cause) const;
-    /// Forgets the causes of frames before `frame`.
-    void beginFrame(unsigned frame) const;
+    /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
+    /// it) has been met in it before, as where nobody counts frames.
+    void beginFrame(unsigned frame, const void* view) const;
     /// "PlanarShadowNode 'floor'": what a cause begins with.
     std::string describe() const;
 
@@ -62,6 +64,7 @@ private:
     mutable OpenThreads::Mutex _causesMutex;
     mutable std::vector<std::string> _causes;
     mutable unsigned _causesFrame = 0;
+    mutable std::set<const void*> _causesViews; ///< met in that frame.
 };
 
 } // namespace gnomon
