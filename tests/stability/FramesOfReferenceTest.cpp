@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// The same scene far from the origin, and in other units: the same picture.
+#include "Trial.h"
+
+#include <osg/MatrixTransform>
+
+using namespace test;
+
+namespace {
+
+/// About the Earth's radius, on no axis; all three are exact in double.
+const osg::Vec3d farAway(5512345.25, -2743210.5, 1734567.75);
+const osg::Vec4d sun(1.0, 0.5, 1.0, 0.0), lamp(2.0, 1.0, 4.0, 1.0);
+
+Mesh scaled(Mesh mesh, double factor) {
+    for (glm::dvec3& v : mesh) v *= factor;
+    return mesh;
+}
+
+View slanting(double scale = 1.0) {
+    return perspective(osg::Vec3d(-8.0, -9.0, 6.0) * scale, {0.0, 0.0, 0.0}, 400, 300, 40.0, scale, 100.0 * scale);
+}
+
+View fromAboveAt(double scale = 1.0) {
+    View view;
+    view.width = 400;
+    view.height = 300;
+    view.view.makeLookAt({0.0, 0.0, 50.0 * scale}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
+    view.projection.makeOrtho(-4.0 * scale, 4.0 * scale, -3.0 * scale, 3.0 * scale, scale, 100.0 * scale);
+    return view;
+}
+
+Trial trialAt(const osg::Vec4d& light, bool fromTop, double scale = 1.0) {
+    Trial trial;
+    for (const Mesh& mesh : {sphere({-1.0, 1.0, 0.25}, 1.0, 24), house({1.5, -0.5}, {1.0, 1.5, 2.0}, 30.0),
+                             quad({-1.0, -1.5, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.25})})
+        trial.casters.push_back(scaled(mesh, scale));
+    trial.light = osg::Vec4d(light.x() * (light.w() == 0.0 ? 1.0 : scale), light.y() * (light.w() == 0.0 ? 1.0 : scale),
+                             light.z() * (light.w() == 0.0 ? 1.0 : scale), light.w());
+    trial.half = 8.0 * scale;
+    trial.view = fromTop ? fromAboveAt(scale) : slanting(scale);
+    return trial;
+}
+
+/// Relit, first and second frame, and blended to black.
+std::vector<Picture> pictures(const Scene& scene, osg::Node* root, const View& view) {
+    Camera camera(root, view);
+    std::vector<Picture> result{camera.frame(), camera.frame()};
+    scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    scene.group->setDark(0.0f);
+    result.push_back(camera.frame());
+    return result;
+}
+
+std::vector<Picture> pictures(const Trial& trial) {
+    const Scene scene = trial.buildWithShadow();
+    return pictures(scene, scene.root, trial.view);
+}
+
+int mostDifferent(const std::vector<Picture>& some, const std::vector<Picture>& others) {
+    int most = 0;
+    for (std::size_t i = 0; i < some.size(); ++i) most = std::max(most, some[i].different(others[i]));
+    return most;
+}
+
+View movedTo(const osg::Vec3d& place, View view) {
+    view.view.preMultTranslate(-place);
+    return view;
+}
+
+osg::ref_ptr<osg::MatrixTransform> placed(const osg::Vec3d& place) {
+    return new osg::MatrixTransform(osg::Matrixd::translate(place));
+}
+
+/// Runs `check` for sun and lamp, from above and slanting.
+template <class Check>
+void forEachLightAndView(const Check& check) {
+    for (const osg::Vec4d& light : {sun, lamp})
+        for (const bool fromTop : {true, false}) {
+            SCOPED_TRACE(testing::Message()
+                         << (light.w() == 0.0 ? "sun" : "lamp") << (fromTop ? " from above" : " slanting"));
+            check(light, fromTop);
+        }
+}
+
+} // namespace
+
+TEST(Place, OfTheOriginIsWhatRaysSay) { // what all others here are compared with
+    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
+        const Trial trial = trialAt(light, fromTop);
+        EXPECT_GT(truthOf(trial).shadowPixels(), 3000);
+        EXPECT_TRUE(isRight(trial));
+    });
+}
+
+TEST(Place, FarAwayByATransformAboveTheGroupChangesNoBit) {
+    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
+        const Trial trial = trialAt(light, fromTop);
+        const Scene scene = trial.buildWithShadow();
+        const auto transform = placed(farAway);
+        transform->addChild(scene.root);
+        EXPECT_EQ(mostDifferent(pictures(scene, transform, movedTo(farAway, trial.view)), pictures(trial)), 0);
+    });
+}
+
+TEST(Place, FarAwayByATransformInTheGroupChangesNoBit) {
+    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
+        const Trial trial = trialAt(light, fromTop);
+        Scene scene = trial.build();
+        scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, -farAway.z())));
+        const auto transform = placed(farAway), ofLight = placed(farAway);
+        scene.group->replaceChild(scene.content, transform);
+        transform->addChild(scene.content);
+        scene.root->replaceChild(scene.light, ofLight);
+        ofLight->addChild(scene.light);
+        EXPECT_EQ(mostDifferent(pictures(scene, scene.root, movedTo(farAway, trial.view)), pictures(trial)), 0);
+    });
+}
+
+TEST(Place, FarAwayOfALightGivenInDoubleChangesNoBit) {
+    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
+        const Trial trial = trialAt(light, fromTop);
+        Scene scene = trial.build();
+        scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, -farAway.z())));
+        scene.group->addLight({0, light + osg::Vec4d(farAway, 0.0) * light.w()});
+        const auto transform = placed(farAway), ofLight = placed(farAway);
+        scene.group->replaceChild(scene.content, transform);
+        transform->addChild(scene.content);
+        scene.root->replaceChild(scene.light, ofLight);
+        ofLight->addChild(scene.light);
+        EXPECT_EQ(mostDifferent(pictures(scene, scene.root, movedTo(farAway, trial.view)), pictures(trial)), 0);
+    });
+}
+
+TEST(Scale, ByAPowerOfTwoChangesNoBit) {
+    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
+        const auto expected = pictures(trialAt(light, fromTop));
+        for (const double factor : {1.0 / 1024.0, 1024.0}) {
+            SCOPED_TRACE(factor);
+            EXPECT_EQ(mostDifferent(pictures(trialAt(light, fromTop, factor)), expected), 0);
+        }
+    });
+}
+
+/// Other factors round the corners anew: a pixel whose centre is within 10⁻⁷ of an edge may change sides, with or
+/// without shadows.
+TEST(Scale, ByAThousandChangesNoMoreThanTwoPixelsOfAHundredThousand) {
+    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
+        const auto expected = pictures(trialAt(light, fromTop));
+        for (const double factor : {1e-3, 1e3}) {
+            SCOPED_TRACE(factor);
+            EXPECT_LE(mostDifferent(pictures(trialAt(light, fromTop, factor)), expected), 400 * 300 / 50000);
+        }
+    });
+}

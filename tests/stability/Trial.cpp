@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "Trial.h"
+
+#include <algorithm>
+
+namespace test {
+namespace {
+
+using gnomon::ShadowCasterGroup;
+
+::testing::AssertionResult judged(const Comparison& found) {
+    if (found.wrongInside == 0 && found.wrongAtEdge == 0) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << found.wrongInside << " pixels away from edges are wrong, "
+                                         << found.wrongAtEdge << " at edges are neither lit nor dark";
+}
+
+void blendToBlack(Scene& scene) {
+    scene.group->setComposite(ShadowCasterGroup::BLEND);
+    scene.group->setDark(0.0f);
+}
+
+} // namespace
+
+Scene Trial::buildWithShadow() const {
+    Scene result = build();
+    result.addShadow(planar());
+    return result;
+}
+
+Truth truthOf(const Trial& trial, const osg::Vec4d& lightOfRays) {
+    Scene lit = trial.build(), dark = trial.build();
+    dark.takeLightAway();
+    return {render(lit.root, trial.view), render(dark.root, trial.view),
+            castRays(square(trial.half), trial.casters, lightOfRays, trial.view)};
+}
+
+Truth truthOf(const Trial& trial) { return truthOf(trial, trial.light); }
+
+Picture black(const Picture& sizeOf) {
+    Picture result = sizeOf;
+    std::fill(result.pixels.begin(), result.pixels.end(), grey(0));
+    return result;
+}
+
+::testing::AssertionResult shows(const Picture& actual, const Truth& truth) {
+    return judged(compare(actual, truth.lit, truth.dark, truth.mask));
+}
+
+::testing::AssertionResult showsInBlack(const Picture& actual, const Truth& truth) {
+    return judged(compare(actual, truth.lit, black(truth.lit), truth.mask));
+}
+
+::testing::AssertionResult same(const Picture& actual, const Picture& expected) {
+    if (actual.pixels.size() != expected.pixels.size()) return ::testing::AssertionFailure() << "sizes differ";
+    if (const int different = actual.different(expected))
+        return ::testing::AssertionFailure() << different << " pixels differ";
+    return ::testing::AssertionSuccess();
+}
+
+::testing::AssertionResult isRight(Scene& scene, const View& view, const Truth& truth) {
+    Camera camera(scene.root, view);
+    for (const char* frame : {"first", "second"})
+        if (auto relit = shows(camera.frame(), truth); !relit) return relit << ", relit, " << frame << " frame";
+    blendToBlack(scene);
+    if (auto blended = showsInBlack(camera.frame(), truth); !blended) return blended << ", blended";
+    return ::testing::AssertionSuccess();
+}
+
+::testing::AssertionResult isRight(const Trial& trial) {
+    Scene scene = trial.buildWithShadow();
+    return isRight(scene, trial.view, truthOf(trial));
+}
+
+::testing::AssertionResult isUnshadowed(Scene& scene, const View& view, const Picture& lit) {
+    Camera camera(scene.root, view);
+    for (const char* frame : {"first", "second"})
+        if (auto relit = same(camera.frame(), lit); !relit) return relit << ", relit, " << frame << " frame";
+    blendToBlack(scene);
+    if (auto blended = same(camera.frame(), lit); !blended) return blended << ", blended";
+    return ::testing::AssertionSuccess();
+}
+
+::testing::AssertionResult isUnshadowed(const Trial& trial) {
+    Scene scene = trial.buildWithShadow();
+    return isUnshadowed(scene, trial.view, render(trial.build().root, trial.view));
+}
+
+} // namespace test

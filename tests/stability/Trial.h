@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gtest/gtest.h>
+#include <support/Oracle.h>
+#include <support/Scene.h>
+
+#include <vector>
+
+namespace test {
+
+/// A ground at z = 0, casters over it and one light, seen by one view.
+struct Trial {
+    std::vector<Mesh> casters;
+    osg::Vec4d light{1.0, 0.0, 1.0, 0.0};
+    View view = fromAbove(4.0, 128);
+    double half = 8.0; ///< of the ground's side.
+
+    Scene build() const { return groundScene(casters, half, light); }
+    /// The same with shadows on z = 0.
+    Scene buildWithShadow() const;
+};
+
+/// What a trial ought to show: two pictures drawn without Gnomon, and rays that choose between them.
+struct Truth {
+    Picture lit, dark;
+    Mask mask;
+
+    int shadowPixels() const { return mask.count(Seen::ShadowedReceiver); }
+};
+Truth truthOf(const Trial& trial);
+/// The same, its shadow cast by another light than the one that shines: for lamps too far for a ray's parameter.
+Truth truthOf(const Trial& trial, const osg::Vec4d& lightOfRays);
+
+Picture black(const Picture& sizeOf);
+
+/// The picture has the dark one's colours where the rays meet a caster, the lit one's elsewhere, bit for bit; at edges
+/// either, since a rasteriser may decide about a pixel's centre on an edge otherwise than a ray in double.
+::testing::AssertionResult shows(const Picture& actual, const Truth& truth);
+/// The same where BLEND makes shadows black: seen also where the light's own share is nothing.
+::testing::AssertionResult showsInBlack(const Picture& actual, const Truth& truth);
+::testing::AssertionResult same(const Picture& actual, const Picture& expected);
+
+/// Frames 1 to 3 (relit without and with what is known of solids, then blended to black) are what the rays say.
+::testing::AssertionResult isRight(Scene& scene, const View& view, const Truth& truth);
+::testing::AssertionResult isRight(const Trial& trial);
+/// Neither relit nor blended to black does the picture differ from `lit`, by any bit.
+::testing::AssertionResult isUnshadowed(Scene& scene, const View& view, const Picture& lit);
+::testing::AssertionResult isUnshadowed(const Trial& trial);
+
+} // namespace test
