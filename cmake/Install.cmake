@@ -1,0 +1,12 @@
+# cmake --install puts headers, libraries and a package file in place: find_package(gnomon) then gives gnomon::gnomon and gnomon::headless.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+install(TARGETS gnomon gnomon_math gnomon_headless EXPORT gnomonTargets)
+foreach(room src nodes)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/gnomon DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/gnomonConfig.cmake ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
+  ${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)

@@ -1,0 +1,9 @@
+# cmake -DBUILD=… -DPROGRAM=… -DSCRATCH=… -DGENERATOR=… -P install_and_run.cmake
+file(REMOVE_RECURSE ${SCRATCH})
+foreach(step
+    "${CMAKE_COMMAND};--install;${BUILD};--prefix;${SCRATCH}/installed"
+    "${CMAKE_COMMAND};-G;${GENERATOR};-S;${PROGRAM};-B;${SCRATCH}/build;-DCMAKE_PREFIX_PATH=${SCRATCH}/installed"
+    "${CMAKE_COMMAND};--build;${SCRATCH}/build"
+    "${SCRATCH}/build/program")
+  execute_process(COMMAND ${step} COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
