@@ -13,9 +13,9 @@ namespace {
 
 constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
 
-/// False for NaN too.
-bool fitsFloat(const osg::Vec3d& v) {
-    constexpr double most = std::numeric_limits<float>::max();
+/// False for NaN too. Beyond 10¹⁸ a float's square overflows, and one such vertex would take all others' precision away.
+bool isUsable(const osg::Vec3d& v) {
+    constexpr double most = 1e18;
     return std::abs(v.x()) <= most && std::abs(v.y()) <= most && std::abs(v.z()) <= most;
 }
 
@@ -131,7 +131,7 @@ private:
         const double w = _components == 4 ? coordinate(index, 3) : 1.0;
         const osg::Vec3d local = osg::Vec3d(coordinate(index, 0), coordinate(index, 1), coordinate(index, 2)) / w;
         const osg::Vec3d inRoot = local * _rootFromLocal;
-        if (!fitsFloat(inRoot)) return nowhere;
+        if (!isUsable(inRoot)) return nowhere;
         if (_floats) _reach = larger(_reach, absolute(local) * (w == 1.0 ? 1.0 : 2.0)); // w is rounded as well
         _result._vertices.push_back(inRoot);
         return static_cast<unsigned>(_result._vertices.size() - 1);

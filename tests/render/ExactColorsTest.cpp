@@ -37,14 +37,6 @@ Scene build(const Case& given) {
     return scene;
 }
 
-Picture dark(const Case& given) {
-    Scene scene = build(given);
-    scene.takeLightAway();
-    if (auto* again = scene.root->getStateSet()->getAttribute(osg::StateAttribute::LIGHT))
-        static_cast<osg::Light*>(again)->setDiffuse({0.0f, 0.0f, 0.0f, 1.0f});
-    return render(scene.root, given.view);
-}
-
 void texture(Scene& scene) {
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(8, 8, 1, GL_RGB, GL_UNSIGNED_BYTE);
@@ -75,10 +67,32 @@ void fog(Scene& scene) {
     scene.root->getOrCreateStateSet()->setAttributeAndModes(attribute);
 }
 
-/// A receiver whose own state set applies the light again, colours and all.
-void lightInStateSet(Scene& scene) {
-    osg::ref_ptr<osg::Light> again = new osg::Light(*scene.light->getLight());
-    scene.root->getOrCreateStateSet()->setAttributeAndModes(again);
+/// Two halves of the ground, each with a state set that applies the light again, colours and all.
+void lightInStateSets(Scene& scene) {
+    osg::ref_ptr<osg::Group> halves = new osg::Group;
+    for (const double left : {-8.0, 0.0}) {
+        const osg::ref_ptr<osg::Geode> half = node(quad({left, -8.0, 0.0}, {8.0, 0.0, 0.0}, {0.0, 16.0, 0.0}));
+        half->getOrCreateStateSet()->setAttributeAndModes(new osg::Light(*scene.light->getLight()));
+        halves->addChild(half);
+    }
+    halves->setName("ground");
+    scene.content->replaceChild(find(*scene.content, "ground"), halves);
+}
+
+void takeLightAwayFromStateSets(Scene& scene) {
+    osg::Group* halves = find(*scene.root, "ground")->asGroup();
+    for (unsigned i = 0; i < halves->getNumChildren(); ++i) {
+        osg::StateSet* state = halves->getChild(i)->getStateSet();
+        if (auto* light = state ? state->getAttribute(osg::StateAttribute::LIGHT) : nullptr)
+            static_cast<osg::Light*>(light)->setDiffuse({0.0f, 0.0f, 0.0f, 1.0f});
+    }
+}
+
+Picture dark(const Case& given) {
+    Scene scene = build(given);
+    scene.takeLightAway();
+    takeLightAwayFromStateSets(scene);
+    return render(scene.root, given.view);
 }
 
 View orthographic() {
@@ -133,6 +147,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"Specular", {1.0, 0.0, 1.0, 0.0}, slanted, true, specular},
                     Case{"Fog", {1.0, 0.0, 1.0, 0.0}, slanted, true, fog},
                     Case{"UnnamedFog", {1.0, 0.0, 1.0, 0.0}, slanted, false, fog},
-                    Case{"LightInStateSet", {1.0, 0.0, 1.0, 0.0}, slanted, true, lightInStateSet},
-                    Case{"UnnamedLightInStateSet", {1.0, 0.0, 1.0, 0.0}, slanted, false, lightInStateSet}),
+                    Case{"LightInStateSets", {1.0, 0.0, 1.0, 0.0}, slanted, true, lightInStateSets},
+                    Case{"UnnamedLightInStateSets", {1.0, 0.0, 1.0, 0.0}, slanted, false, lightInStateSets}),
     [](const auto& given) { return given.param.name; });

@@ -129,12 +129,57 @@ TEST(ExactShape, MirroredAndOpenAndInsideOutCastersCastTheSameShadow) {
     EXPECT_EQ(changedBy(solid, osg::Matrixd::scale(-1.0, 1.0, 1.0), view), expected);
 }
 
-TEST(ExactShape, MirroredViewShowsTheMirroredShadow) {
-    const Mesh solid = box({-1.0, -1.0, 1.0}, {1.0, 1.0, 2.0});
+// Two sheets that meet in a ridge: open, and turned away from the light in one of the two windings.
+TEST(ExactShape, OpenSheetsCastWhicheverWayTheyFace) {
+    Mesh tent = joined({quad({-1.0, -1.0, 1.0}, {1.0, 0.0, 0.5}, {0.0, 2.0, 0.0}),
+                        quad({0.0, -1.0, 1.5}, {1.0, 0.0, -0.5}, {0.0, 2.0, 0.0})});
+    const std::vector<bool> up = changedBy(tent, osg::Matrixd(), fromAbove(4.0));
+    for (std::size_t i = 0; i < tent.size(); i += 3) std::swap(tent[i], tent[i + 1]);
+    EXPECT_EQ(changedBy(tent, osg::Matrixd(), fromAbove(4.0)), up);
+    EXPECT_GT(std::count(up.begin(), up.end(), true), 1000);
+}
+
+namespace {
+
+/// How many pixels of ground are dark under an overhead sun and a box of 2 × 2 m that casts but is not drawn.
+int shadowedInside(const Mesh& solid, double mirror) {
+    Scene scene = groundScene({}, 4.0, {0.0, 0.0, 1.0, 0.0});
+    const osg::ref_ptr<osg::Geode> invisible = node(solid);
+    invisible->setNodeMask(2u);
+    scene.content->addChild(invisible);
+    scene.addShadow(planar(find(*scene.root, "ground")));
     View view = fromAbove(4.0);
-    const std::vector<bool> plain = changedBy(solid, osg::Matrixd(), view);
-    view.view = osg::Matrixd::scale(-1.0, 1.0, 1.0) * view.view;
-    std::vector<bool> mirrored = changedBy(solid, osg::Matrixd(), view);
-    for (int y = 0; y < 256; ++y) std::reverse(mirrored.begin() + y * 256, mirrored.begin() + (y + 1) * 256);
-    EXPECT_EQ(mirrored, plain);
+    view.view = osg::Matrixd::scale(mirror, 1.0, 1.0) * view.view;
+    Camera camera(scene.root, view);
+    camera.viewer().getCamera()->setCullMask(~2u);
+    camera.frame();
+    camera.frame(); // from now on solids are known
+    return camera.frame().count(shadowedGround);
+}
+
+} // namespace
+
+// One sees the ground inside the solid: it lies in the shadow of its roof, whichever way its faces or the view are
+// turned.
+TEST(ExactShape, GroundInsideASolidIsShadowedByItsRoof) {
+    const Mesh solid = box({-1.0, -1.0, -1.0}, {1.0, 1.0, 2.0});
+    Mesh insideOut = solid;
+    for (std::size_t i = 0; i < insideOut.size(); i += 3) std::swap(insideOut[i], insideOut[i + 1]);
+    for (const double mirror : {1.0, -1.0}) {
+        EXPECT_EQ(shadowedInside(solid, mirror), 64 * 64) << "mirror " << mirror;
+        EXPECT_EQ(shadowedInside(insideOut, mirror), 64 * 64) << "inside out, mirror " << mirror;
+    }
+}
+
+TEST(ExactShape, ReceiverDrawnTwiceIsBlendedOnce) {
+    Scene scene = groundScene({square(1.0, 1.0)}, 4.0);
+    osg::ref_ptr<osg::Group> both = new osg::Group;
+    for (int i = 0; i < 2; ++i) both->addChild(node(square(4.0)));
+    scene.content->addChild(both);
+    scene.addShadow(planar(both));
+    scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    scene.group->setCasters({find(*scene.root, "caster")});
+    const Picture picture = render(scene.root, fromAbove(4.0));
+    EXPECT_GT(picture.count(litGround / 2), 1000);
+    EXPECT_EQ(picture.count(litGround / 2) + picture.count(litGround), 256 * 256);
 }

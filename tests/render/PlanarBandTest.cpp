@@ -44,13 +44,14 @@ Difference unnamedAgainstNamed(const Range& range) {
 } // namespace
 
 TEST(PlanarBand, NoShadowIsMissingOnGroundsFromMetresToKilometres) {
-    for (const Range& range :
-         {Range{8, 1, 100, 10, 14}, Range{8, 0.1, 1000, 10, 14}, Range{100, 1, 1000, 10, 30},
-          Range{1000, 1, 5000, 20, 60}, Range{9000, 1, 20000, 20, 300}, Range{9000, 1, 20000, 400, 900}}) {
+    for (const Range& range : {Range{8, 1, 100, 10, 14}, Range{8, 0.5, 100, 1.0, 4}, Range{20, 0.1, 100, 0.3, 2},
+                               Range{2, 0.05, 10, 0.05, 1}, Range{2, 0.05, 10, 0.03, 0.5}, Range{8, 0.1, 1000, 10, 14},
+                               Range{100, 1, 1000, 10, 30}, Range{1000, 1, 5000, 20, 60},
+                               Range{9000, 1, 20000, 20, 300}, Range{9000, 1, 20000, 400, 900}}) {
         const Difference found = unnamedAgainstNamed(range);
         EXPECT_GT(found.shadow, 5000);
         EXPECT_EQ(found.missing, 0) << range.groundHalf << " near " << range.near;
-        // The feet of walls: 32 steps of 24-bit depth are a pixel high at most in these views, and the feet are some
+        // The feet of walls: the margin is a pixel high at most in these views, and the feet are some
         // thousand pixels long beside tens of thousands of shadow.
         EXPECT_LE(found.extra, found.shadow / 100) << range.groundHalf << " near " << range.near;
     }
