@@ -47,10 +47,10 @@ void setUniform(const osg::State& state, const char* name, const glm::dmat4& val
 
 /// How far from the plane's, in window depth, what lies in it may be drawn.
 ///
-/// A rasteriser interpolates depth in float: on llvmpipe 32 steps of the depth buffer hold that, but for a ground of many
-/// kilometres under a near plane of decimetres (tests/render/PlanarBandTest.cpp). And it snaps vertices to a part of a
-/// pixel, which OpenGL lets be as coarse as a sixteenth: an eighth of a pixel's slope. A larger margin would reach up
-/// walls that stand in the plane.
+/// A rasteriser interpolates depth in float: on llvmpipe 32 steps of the depth buffer hold that, but for a ground of
+/// many kilometres under a near plane of decimetres (tests/render/PlanarBandTest.cpp). And it snaps vertices to a part
+/// of a pixel, which OpenGL lets be as coarse as a sixteenth: an eighth of a pixel's slope. A larger margin would reach
+/// up walls that stand in the plane.
 double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
     GLint depthBits = 24;
     glGetIntegerv(GL_DEPTH_BITS, &depthBits);

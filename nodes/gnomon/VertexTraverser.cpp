@@ -13,7 +13,8 @@ namespace {
 
 constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
 
-/// False for NaN too. Beyond 10¹⁸ a float's square overflows, and one such vertex would take all others' precision away.
+/// False for NaN too. Beyond 10¹⁸ a float's square overflows, and one such vertex would take all others' precision
+/// away.
 bool isUsable(const osg::Vec3d& v) {
     constexpr double most = 1e18;
     return std::abs(v.x()) <= most && std::abs(v.y()) <= most && std::abs(v.z()) <= most;
