@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/CasterRevision.h>
+#include <gnomon/CopiedNodes.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowTechnique.h>
 #include <gnomon/VertexTraverser.h>
 
 #include <OpenThreads/ScopedLock>
@@ -23,9 +25,24 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _dark(other._dark),
       _lightSources(other._lightSources),
       _lights(other._lights),
-      _watch(new CasterRevision(other._selection)) {}
+      _watch(new CasterRevision(other._selection)) {
+    followCopies(other);
+}
 
 ShadowCasterGroup::~ShadowCasterGroup() = default;
+
+void ShadowCasterGroup::followCopies(const ShadowCasterGroup& original) {
+    const CopiedNodes copied(original, *this);
+    setCasters({copied.of(_selection.node.get()), _selection.mask});
+    for (osg::ref_ptr<osg::LightSource>& source : _lightSources)
+        if (auto* own = dynamic_cast<osg::LightSource*>(copied.of(source.get()))) source = own;
+    copied.forEachCopy([&copied](osg::Node& node) {
+        auto* technique = dynamic_cast<ShadowTechnique*>(&node);
+        if (!technique) return;
+        const Selection& receiver = technique->getReceiver();
+        technique->setReceiver({copied.of(receiver.node.get()), receiver.mask});
+    });
+}
 
 void ShadowCasterGroup::setCasters(const Selection& casters) {
     Lock lock(_mutex);

@@ -68,6 +68,9 @@ protected:
     ~ShadowCasterGroup() override;
 
 private:
+    /// In a deep copy, what casts, shines and receives are the copy's own nodes.
+    void followCopies(const ShadowCasterGroup& original);
+
     Selection _selection;
     Composite _composite = RELIGHT;
     float _dark = 0.5f;
