@@ -25,6 +25,14 @@ struct PlanarPrograms;
 ///         high, and a ground of many kilometres under a near plane of decimetres may lose its shadow.
 /// Threads any number of cull and draw threads; set properties between frames.
 /// Source: CS-4470 "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8; J. Blinn 1988.
+///
+/// In a file (.osgt, .osgb, .osgx), where what is left out has its default, here no receiver named and no plane:
+///
+///     gnomon::PlanarShadowNode {
+///       UniqueID 2
+///       Receiver { Mask 0xffffffff Node TRUE { osg::Geode { UniqueID 7 } } }
+///       Planes 1 { 0 0 1 -0.1 }
+///     }
 class GNOMON_EXPORT PlanarShadowNode : public ShadowTechnique {
 public:
     PlanarShadowNode();

@@ -66,6 +66,11 @@ void ShadowCasterGroup::addLight(osg::LightSource* light) {
 
 void ShadowCasterGroup::addLight(const ShadowLight& light) { _lights.push_back(light); }
 
+void ShadowCasterGroup::setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources) {
+    _lightSources.clear();
+    for (const osg::ref_ptr<osg::LightSource>& source : sources) addLight(source);
+}
+
 void ShadowCasterGroup::removeLights() {
     _lightSources.clear();
     _lights.clear();

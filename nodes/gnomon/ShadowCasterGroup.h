@@ -23,13 +23,25 @@ class CasterRevision;
 ///     group->addChild(scene);
 ///     group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
 ///
+/// In a file (.osgt, .osgb, .osgx); what is left out has its default, here all casts, RELIGHT, 0.5, every light:
+///
+///     gnomon::ShadowCasterGroup {
+///       UniqueID 1
+///       Children 2 { ... }
+///       Casters { Mask 0xff Node FALSE }
+///       Composite BLEND
+///       Dark 0.3
+///       LightSources 1 { osg::LightSource { UniqueID 9 } }
+///       Lights 1 { 0 433000.25 5410000.5 60 1 }
+///     }
+///
 /// Cost    a visit of the casters' nodes a frame and view to see that nothing changed; an extraction where something
 /// did. Needs   stencil bits for its techniques. Limits  see VertexTraverser for what is left out. Threads any number
 /// of cull and draw threads; set properties between frames.
 class GNOMON_EXPORT ShadowCasterGroup : public osg::Group {
 public:
     /// How the light is taken away from the pixels it does not reach.
-    enum Composite {
+    enum Composite : int {
         RELIGHT, ///< exact: they are drawn once more without that light's diffuse and specular.
         BLEND    ///< cheap: their colour is multiplied by a factor, once.
     };
@@ -42,7 +54,8 @@ public:
         void setCasters(const Selection& casters);
     const Selection& getCasters() const { return _selection; }
 
-    void setComposite(Composite composite) { _composite = composite; }
+    /// Default RELIGHT, which any value that is none of the two stands for too.
+    void setComposite(Composite composite) { _composite = composite == BLEND ? BLEND : RELIGHT; }
     Composite getComposite() const { return _composite; }
 
     /// Factor of BLEND, 0 (black) … 1 (nothing); default 0.5. Clamped; NaN is refused with a warning.
@@ -55,7 +68,10 @@ public:
     /// A light given by its place in the group's frame, in double: for lamps far from the origin.
     void addLight(const ShadowLight& light);
     void removeLights();
+    /// All of one kind in place of those that were.
+    void setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources);
     const std::vector<osg::ref_ptr<osg::LightSource>>& getLightSources() const { return _lightSources; }
+    void setLights(const std::vector<ShadowLight>& lights) { _lights = lights; }
     const std::vector<ShadowLight>& getLights() const { return _lights; }
 
     /// The casters as they are now; extracted again only if something changed since the last call. Call it where

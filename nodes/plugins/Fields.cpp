@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "Fields.h"
+
+#include <iomanip>
+
+namespace gnomon::fields {
+
+bool writeSelection(osgDB::OutputStream& out, const Selection& selection) {
+    out << out.BEGIN_BRACKET << std::endl;
+    out << out.PROPERTY("Mask") << std::hex << std::showbase << selection.mask << std::dec << std::noshowbase;
+    out << std::endl;
+    out << out.PROPERTY("Node") << selection.node.valid();
+    if (selection.node) {
+        out << out.BEGIN_BRACKET << std::endl;
+        out.writeObject(selection.node.get());
+        out << out.END_BRACKET;
+    }
+    out << std::endl << out.END_BRACKET << std::endl;
+    return true;
+}
+
+Selection readSelection(osgDB::InputStream& in) {
+    Selection selection;
+    bool hasNode = false;
+    in >> in.BEGIN_BRACKET;
+    in >> in.PROPERTY("Mask") >> std::hex >> selection.mask >> std::dec;
+    in >> in.PROPERTY("Node") >> hasNode;
+    if (hasNode) {
+        in >> in.BEGIN_BRACKET;
+        selection.node = in.readObjectOfType<osg::Node>();
+        in >> in.END_BRACKET;
+    }
+    in >> in.END_BRACKET;
+    return selection;
+}
+
+} // namespace gnomon::fields

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Selection.h>
+
+#include <osgDB/InputStream>
+#include <osgDB/OutputStream>
+#include <osgDB/Serializer>
+
+#include <charconv>
+#include <string>
+#include <vector>
+
+/// What the wrappers share: numbers, lists and selections in files.
+namespace gnomon::fields {
+
+/// OSG's own text has six digits and is read without correct rounding. These keep every bit: the shortest text that
+/// reads back as the same number.
+template <typename Number>
+void writeExact(osgDB::OutputStream& out, Number value) {
+    if (out.isBinary()) {
+        out << value;
+        return;
+    }
+    char text[32];
+    out << std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+/// Text that is no number makes the whole file refused.
+template <typename Number>
+Number readExact(osgDB::InputStream& in) {
+    Number value{};
+    if (in.isBinary()) {
+        in >> value;
+        return value;
+    }
+    std::string word;
+    in >> word;
+    const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (result.ec != std::errc() || result.ptr != word.data() + word.size())
+        in.throwException("gnomon: '" + word + "' is not a number.");
+    return value;
+}
+
+template <typename Vector>
+void writeExactVector(osgDB::OutputStream& out, const Vector& vector) {
+    for (int i = 0; i < Vector::num_components; ++i) writeExact(out, vector[i]);
+}
+
+template <typename Vector>
+Vector readExactVector(osgDB::InputStream& in) {
+    Vector vector;
+    for (int i = 0; i < Vector::num_components; ++i) vector[i] = readExact<typename Vector::value_type>(in);
+    return vector;
+}
+
+/// Its length, then an item a line between brackets.
+template <typename Item, typename WriteItem>
+bool writeList(osgDB::OutputStream& out, const std::vector<Item>& list, WriteItem writeItem) {
+    out.writeSize(list.size());
+    out << out.BEGIN_BRACKET << std::endl;
+    for (const Item& item : list) {
+        writeItem(item);
+        out << std::endl;
+    }
+    out << out.END_BRACKET << std::endl;
+    return true;
+}
+
+/// Stops where the file fails: a length that is garbage costs nothing.
+template <typename ReadItem>
+auto readList(osgDB::InputStream& in, ReadItem readItem) {
+    std::vector<decltype(readItem())> list;
+    const unsigned size = in.readSize();
+    in >> in.BEGIN_BRACKET;
+    for (unsigned i = 0; i < size && !in.getException(); ++i) list.push_back(readItem());
+    in >> in.END_BRACKET;
+    return list;
+}
+
+/// The node is written as an object: where it stands in the graph too, the file refers to it by its number.
+bool writeSelection(osgDB::OutputStream& out, const Selection& selection);
+Selection readSelection(osgDB::InputStream& in);
+
+/// A float property that keeps every bit in text as well.
+template <typename Class>
+class ExactFloat : public osgDB::PropByValSerializer<Class, float> {
+    using Base = osgDB::PropByValSerializer<Class, float>;
+
+public:
+    using Base::Base;
+
+    bool read(osgDB::InputStream& in, osg::Object& object) override {
+        if (in.isBinary() || in.matchString(this->_name))
+            (static_cast<Class&>(object).*this->_setter)(readExact<float>(in));
+        return true;
+    }
+
+    bool write(osgDB::OutputStream& out, const osg::Object& object) override {
+        const float value = (static_cast<const Class&>(object).*this->_getter)();
+        if (!out.isBinary() && value == this->_defaultValue) return true;
+        out << out.PROPERTY(this->_name.c_str());
+        writeExact(out, value);
+        out << std::endl;
+        return true;
+    }
+};
+
+} // namespace gnomon::fields

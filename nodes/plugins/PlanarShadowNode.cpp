@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "Fields.h"
+
+#include <gnomon/PlanarShadowNode.h>
+
+#include <osgDB/ObjectWrapper>
+
+using namespace gnomon;
+
+static bool checkPlanes(const PlanarShadowNode& node) { return !node.getPlanes().empty(); }
+
+static bool readPlanes(osgDB::InputStream& in, PlanarShadowNode& node) {
+    node.setPlanes(fields::readList(in, [&] { return fields::readExactVector<osg::Vec4d>(in); }));
+    return true;
+}
+
+static bool writePlanes(osgDB::OutputStream& out, const PlanarShadowNode& node) {
+    return fields::writeList(out, node.getPlanes(),
+                             [&](const osg::Vec4d& plane) { fields::writeExactVector(out, plane); });
+}
+
+REGISTER_OBJECT_WRAPPER(gnomon_PlanarShadowNode, new gnomon::PlanarShadowNode, gnomon::PlanarShadowNode,
+                        "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
+                        "gnomon::PlanarShadowNode") {
+    ADD_USER_SERIALIZER(Planes);
+}

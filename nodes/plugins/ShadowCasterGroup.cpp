@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "Fields.h"
+
+#include <gnomon/ShadowCasterGroup.h>
+
+#include <osgDB/ObjectWrapper>
+
+using namespace gnomon;
+
+static bool checkCasters(const ShadowCasterGroup& group) { return group.getCasters() != Selection(); }
+
+static bool readCasters(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setCasters(fields::readSelection(in));
+    return true;
+}
+
+static bool writeCasters(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeSelection(out, group.getCasters());
+}
+
+static bool checkLightSources(const ShadowCasterGroup& group) { return !group.getLightSources().empty(); }
+
+static bool readLightSources(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setLightSources(fields::readList(in, [&] { return in.readObjectOfType<osg::LightSource>(); }));
+    return true;
+}
+
+static bool writeLightSources(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeList(out, group.getLightSources(), [&](const auto& source) { out.writeObject(source.get()); });
+}
+
+static bool checkLights(const ShadowCasterGroup& group) { return !group.getLights().empty(); }
+
+static bool readLights(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setLights(fields::readList(in, [&] {
+        ShadowLight light;
+        in >> light.number;
+        light.inGroup = fields::readExactVector<osg::Vec4d>(in);
+        return light;
+    }));
+    return true;
+}
+
+static bool writeLights(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeList(out, group.getLights(), [&](const ShadowLight& light) {
+        out << light.number;
+        fields::writeExactVector(out, light.inGroup);
+    });
+}
+
+REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup, gnomon::ShadowCasterGroup,
+                        "osg::Object osg::Node osg::Group gnomon::ShadowCasterGroup") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    ADD_USER_SERIALIZER(Casters);
+    osg::ref_ptr composite = new osgDB::EnumSerializer<MyClass, MyClass::Composite, void>(
+        "Composite", fresh->getComposite(), &MyClass::getComposite, &MyClass::setComposite);
+    composite->add("RELIGHT", MyClass::RELIGHT);
+    composite->add("BLEND", MyClass::BLEND);
+    wrapper->addSerializer(composite, osgDB::BaseSerializer::RW_ENUM);
+    wrapper->addSerializer(
+        new fields::ExactFloat<MyClass>("Dark", fresh->getDark(), &MyClass::getDark, &MyClass::setDark),
+        osgDB::BaseSerializer::RW_FLOAT);
+    ADD_USER_SERIALIZER(LightSources);
+    ADD_USER_SERIALIZER(Lights);
+}
