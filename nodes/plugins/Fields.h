@@ -90,13 +90,14 @@ public:
     using Base::Base;
 
     bool read(osgDB::InputStream& in, osg::Object& object) override {
-        if (in.isBinary() || in.matchString(this->_name))
-            (static_cast<Class&>(object).*this->_setter)(readExact<float>(in));
+        const typename Base::Setter setter = this->_setter;
+        if (in.isBinary() || in.matchString(this->_name)) (static_cast<Class&>(object).*setter)(readExact<float>(in));
         return true;
     }
 
     bool write(osgDB::OutputStream& out, const osg::Object& object) override {
-        const float value = (static_cast<const Class&>(object).*this->_getter)();
+        const typename Base::Getter getter = this->_getter;
+        const float value = (static_cast<const Class&>(object).*getter)();
         if (!out.isBinary() && value == this->_defaultValue) return true;
         out << out.PROPERTY(this->_name.c_str());
         writeExact(out, value);
