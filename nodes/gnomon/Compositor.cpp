@@ -23,6 +23,13 @@ std::vector<unsigned> freeBits(unsigned count, unsigned reserved) {
     return bits;
 }
 
+/// Its own name or that of the nearest named node above it, else its class.
+std::string nameOf(const osg::Node& node) {
+    for (const osg::Node* above = &node; above; above = above->getNumParents() ? above->getParent(0) : nullptr)
+        if (!above->getName().empty()) return above->getName();
+    return node.className();
+}
+
 } // namespace
 
 Compositor::Compositor(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves,
@@ -81,8 +88,10 @@ bool Compositor::composeDirectly(const Jobs& jobs) {
     const bool relit = job.composite == ShadowCasterGroup::RELIGHT;
     const ScreenRect& bounds = job.marks->screenBounds;
     std::vector<ReplayedLeaf> leaves = leavesToReplay(_leaves, jobs, bounds, ShadowBin::getFilter());
+    PlainTest plain;
     const auto other = [&job](const ReplayedLeaf& leaf) { return job.receivers.count(leaf.entry.leaf) == 0; };
-    if (relit && std::any_of(leaves.begin(), leaves.end(), other)) return false;
+    const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
+    if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
     leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());
     const unsigned bit = _bits.lights.front();
     if (!_clean) clear(bit, bounds);
@@ -92,10 +101,9 @@ bool Compositor::composeDirectly(const Jobs& jobs) {
     overlay.test = overlay.write = bit; // back to 0 where drawn: a pixel loses its light once
     overlay.equalDepth = true;
     overlay.factor = relit ? 1.0f : job.dark;
-    {
-        LeafReplay replay(_renderInfo, overlay);
-        for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, relit ? leaf.dark : 0);
-    }
+    if (!relit)
+        for (ReplayedLeaf& leaf : leaves) leaf.dark = 0;
+    replay(leaves, overlay, jobs);
     clear(bit, bounds);
     return true;
 }
@@ -109,7 +117,7 @@ void Compositor::relight(const Jobs& wanted) {
     for (const auto& entry : bitOf) lightBits |= entry.second;
     const ScreenRect bounds = boundsOf(jobs);
     mark(jobs, bitOf);
-    writeFarDepth(lightBits, bounds);
+    resetMarked(lightBits, bounds);
     for (unsigned subset = 1; subset < (1u << bitOf.size()); ++subset) {
         const Combination combination = combine(jobs, bitOf, subset);
         if (overlap(combination.bounds, combination.bounds)) replay(combination, lightBits);
@@ -153,10 +161,20 @@ void Compositor::replay(const Combination& combination, unsigned lightBits) {
     overlay.stencilFunction = GL_EQUAL;
     overlay.reference = combination.bits;
     overlay.test = lightBits;
+    replay(leavesToReplay(_leaves, combination.jobs, combination.bounds, ShadowBin::getFilter()), overlay,
+           combination.jobs);
+}
+
+void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs) {
+    overlay.unlit = jobs.front()->dark;
     LeafReplay replay(_renderInfo, overlay);
-    for (const ReplayedLeaf& leaf :
-         leavesToReplay(_leaves, combination.jobs, combination.bounds, ShadowBin::getFilter()))
-        replay.draw(leaf.entry, leaf.dark);
+    for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.dark);
+    for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
+        for (const ShadowJob* job : jobs)
+            job->technique->report(job->frameNumber,
+                                   "cannot take a light from '" + nameOf(*leaf->_drawable) +
+                                       "', which is unlit or whose program reads no gl_LightSource: it is drawn in its "
+                                       "own colour times setDark(); light it by OpenGL, or do not let it receive.");
 }
 
 void Compositor::blend(const Jobs& jobs, float dark) {
@@ -231,10 +249,13 @@ void Compositor::transfer(const ShadowJob& job, unsigned bit) {
     pass.drawQuad();
 }
 
-void Compositor::writeFarDepth(unsigned where, const ScreenRect& bounds) {
+/// Before a full redraw: nothing stands where marked. A leaf that blends over nothing must find the background there.
+void Compositor::resetMarked(unsigned where, const ScreenRect& bounds) {
     CleanState clean(_state, _stage.getViewport());
     ScreenPass pass(_state, *_stage.getViewport(), bounds);
     pass.stencilAny(where);
+    const bool background = _stage.getClearMask() & GL_COLOR_BUFFER_BIT;
+    if (background && gnomon::blend(_leaves)) pass.writeColor(_stage.getClearColor());
     pass.writeFarDepth();
 }
 

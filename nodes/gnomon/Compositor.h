@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/LeafReplay.h>
+#include <gnomon/ReplayFilter.h>
 #include <gnomon/ScreenPass.h>
 #include <gnomon/ShadowBin.h>
 
@@ -39,13 +40,14 @@ private:
     std::map<int, unsigned> assignBits(const Jobs& jobs) const;
     Combination combine(const Jobs& jobs, const std::map<int, unsigned>& bitOf, unsigned subset) const;
     void replay(const Combination& combination, unsigned lightBits);
+    void replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs);
 
     void mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf);
     void markOne(const ShadowJob& job, unsigned bit, bool fresh);
     void markInto(const ShadowJob& job, unsigned bit);
     void gate(const ShadowJob& job, unsigned bit);
     void transfer(const ShadowJob& job, unsigned bit);
-    void writeFarDepth(unsigned where, const ScreenRect& bounds);
+    void resetMarked(unsigned where, const ScreenRect& bounds);
     void clear(unsigned bits, const ScreenRect& bounds);
 
     osg::RenderInfo& _renderInfo;

@@ -5,6 +5,8 @@
 #include <osg/Light>
 #include <osgUtil/StateGraph>
 
+#include <string>
+
 namespace gnomon {
 namespace {
 
@@ -22,6 +24,21 @@ void restoreColors(const osg::State& state, int number) {
         state.getLastAppliedAttribute(osg::StateAttribute::LIGHT, static_cast<unsigned>(number)));
     const osg::Vec4 fallback = number == 0 ? osg::Vec4(1, 1, 1, 1) : osg::Vec4(0, 0, 0, 1);
     setColors(number, light ? light->getDiffuse() : fallback, light ? light->getSpecular() : fallback);
+}
+
+/// OSG's own list of a program's uniforms leaves the built-in ones out, so OpenGL is asked.
+bool readsLights(const osg::GLExtensions& gl, GLuint program) {
+    GLint count = 0;
+    gl.glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLint i = 0; i < count; ++i) {
+        char name[64] = {}; // cut off if longer: only how it begins matters
+        GLint size = 0;
+        GLenum type = 0;
+        gl.glGetActiveUniform(program, static_cast<GLuint>(i), sizeof name, nullptr, &size, &type, name);
+        for (const std::string light : {"gl_LightSource", "gl_FrontLightProduct", "gl_BackLightProduct"})
+            if (std::string(name).compare(0, light.size(), light) == 0) return true;
+    }
+    return false;
 }
 
 } // namespace
@@ -54,8 +71,35 @@ void LeafReplay::draw(const StageLeaf& entry, unsigned dark) {
     _state.apply(graph->getStateSet());
     if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
     layOver();
-    darken(dark);
+    const bool faded = dark && !canBeRelit();
+    darken(faded ? 0 : dark);
+    if (faded)
+        drawFaded(leaf);
+    else
+        leaf._drawable->draw(_renderInfo);
+}
+
+bool LeafReplay::canBeRelit() {
+    const osg::Program::PerContextProgram* program = _state.getLastAppliedProgramObject();
+    if (!program) return _state.getLastAppliedMode(GL_LIGHTING);
+    const auto [known, isNew] = _readsLights.insert({program, false});
+    if (isNew) known->second = readsLights(*_state.get<osg::GLExtensions>(), program->getHandle());
+    return known->second;
+}
+
+/// Its own colour times a factor, whatever colour stands; a leaf that blends by itself stays as it is.
+void LeafReplay::drawFaded(const osgUtil::RenderLeaf& leaf) {
+    _notRelit.push_back(&leaf);
+    const bool blends = _state.getLastAppliedMode(GL_BLEND);
+    if (!blends) {
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_CONSTANT_COLOR, GL_ZERO);
+        _state.get<osg::GLExtensions>()->glBlendColor(_overlay.unlit, _overlay.unlit, _overlay.unlit, 1.0f);
+    }
     leaf._drawable->draw(_renderInfo);
+    if (!blends) glDisable(GL_BLEND);
+    for (auto type : {osg::StateAttribute::BLENDFUNC, osg::StateAttribute::BLENDCOLOR})
+        _state.haveAppliedAttribute(type);
 }
 
 /// A bin may have a state set of its own, which lies under those of its leaves.

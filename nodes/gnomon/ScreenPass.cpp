@@ -89,6 +89,16 @@ void ScreenPass::writeFarDepth() {
     drawQuad(1.0);
 }
 
+void ScreenPass::writeColor(const osg::Vec4& color) {
+    GLfloat current[4];
+    glGetFloatv(GL_CURRENT_COLOR, current);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glColor4fv(color.ptr());
+    drawQuad();
+    glColor4fv(current);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+}
+
 void ScreenPass::multiplyColor(float factor) {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
     glEnable(GL_BLEND);

@@ -5,6 +5,7 @@
 
 #include <osg/RenderInfo>
 #include <osg/StateSet>
+#include <osg/Vec4>
 #include <osg/Viewport>
 
 namespace gnomon {
@@ -41,6 +42,7 @@ public:
     /// Pass where any bit of `bits` is set, and set them to 0.
     void takeStencil(unsigned bits);
     void writeFarDepth();
+    void writeColor(const osg::Vec4& color);
     void multiplyColor(float factor);
     /// Passes where the quad's depth compares so with the one that stands; depths beyond near and far are clamped.
     void testDepth(GLenum function);

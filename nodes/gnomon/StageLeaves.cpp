@@ -136,6 +136,8 @@ bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode m
 
 bool useStencil(const std::vector<StageLeaf>& leaves) { return isModeOn(leaves, GL_STENCIL_TEST); }
 
+bool blend(const std::vector<StageLeaf>& leaves) { return isModeOn(leaves, GL_BLEND); }
+
 bool PlainTest::operator()(const osgUtil::RenderLeaf& leaf) {
     const osgUtil::StateGraph* graph = leaf._parent;
     const auto known = _known.find(graph);

@@ -34,6 +34,9 @@ bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode m
 /// True if any of the leaves is drawn with the stencil test on.
 bool useStencil(const std::vector<StageLeaf>& leaves);
 
+/// True if any of the leaves blends with what stands.
+bool blend(const std::vector<StageLeaf>& leaves);
+
 /// Tells leaves that are drawn in the plainest way: depth test LESS with writing, no blending, offset, stencil, depth
 /// range or colour mask. Such a leaf can show only where it is nearest, and never over something drawn before it at the
 /// same depth.

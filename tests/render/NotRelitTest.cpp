@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Receivers that OpenGL's lights do not light, and receivers that blend.
+#include <support/Oracle.h>
+#include <support/Picture.h>
+#include <support/Scene.h>
+
+#include <gtest/gtest.h>
+#include <osg/BlendFunc>
+#include <osg/Program>
+
+#include <cmath>
+#include <functional>
+
+using namespace test;
+
+namespace {
+
+const View slanted = perspective({-10.0, -14.0, 12.0}, {0.0, 0.0, 0.0});
+const std::vector<Mesh> twoCasters = {house({-2.0, 1.0}, {2.0, 2.0, 2.0}, 30.0), sphere({3.0, 2.0, 3.0}, 1.0, 24)};
+
+osg::ref_ptr<osg::Program> program(const char* vertex, const char* fragment) {
+    osg::ref_ptr<osg::Program> result = new osg::Program;
+    result->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
+    result->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
+    return result;
+}
+
+using Change = std::function<void(osg::StateSet&)>;
+
+void unlit(osg::StateSet& state) { state.setMode(GL_LIGHTING, osg::StateAttribute::OFF); }
+
+void constantProgram(osg::StateSet& state) {
+    state.setAttribute(program("void main() { gl_Position = ftransform(); }",
+                               "void main() { gl_FragColor = vec4(0.8, 0.6, 0.4, 1.0); }"));
+}
+
+void litProgram(osg::StateSet& state) {
+    state.setAttribute(program("varying vec4 color;\n"
+                               "void main() { gl_Position = ftransform();\n"
+                               "  vec3 n = normalize(gl_NormalMatrix * gl_Normal);\n"
+                               "  float c = max(dot(n, normalize(gl_LightSource[0].position.xyz)), 0.0);\n"
+                               "  color = 0.3 * vec4(1.0) + c * gl_LightSource[0].diffuse; }",
+                               "varying vec4 color; void main() { gl_FragColor = color; }"));
+}
+
+void blending(osg::StateSet& state) {
+    state.setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE));
+}
+
+struct Case {
+    std::string name;
+    Change change;
+    bool named;
+    bool relit; ///< false: the receiver takes a factor instead
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& given) { return out << given.name; }
+
+Scene build(const Case& given) {
+    Scene scene = groundScene(twoCasters);
+    given.change(*find(*scene.root, "ground")->getOrCreateStateSet());
+    return scene;
+}
+
+Picture halved(Picture picture) {
+    for (std::uint32_t& pixel : picture.pixels) {
+        std::uint32_t result = pixel & 0xff000000u;
+        for (int shift = 0; shift < 24; shift += 8) result |= (((pixel >> shift) & 0xffu) / 2u) << shift;
+        pixel = result;
+    }
+    return picture;
+}
+
+/// Pixels whose channels differ by more than one: half of an odd byte may be rounded up or down.
+int farFrom(const Picture& a, const Picture& b, const Mask& mask) {
+    int result = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            if (mask.atEdge(x, y)) continue;
+            for (int shift = 0; shift < 32; shift += 8) {
+                const int p = (a.at(x, y) >> shift) & 0xff, q = (b.at(x, y) >> shift) & 0xff;
+                if (std::abs(p - q) > 1) {
+                    ++result;
+                    break;
+                }
+            }
+        }
+    return result;
+}
+
+class Receivers : public testing::TestWithParam<Case> {};
+
+} // namespace
+
+TEST_P(Receivers, TakeTheShadowTheyCanAndSayIfItIsNotExact) {
+    const Case& given = GetParam();
+    Scene lit = build(given), gone = build(given), shadowed = build(given);
+    gone.takeLightAway();
+    const auto technique = planar(given.named ? find(*shadowed.root, "ground") : nullptr);
+    shadowed.addShadow(technique);
+    const Picture litPicture = render(lit.root, slanted);
+    const Picture dark = given.relit ? render(gone.root, slanted) : halved(litPicture);
+    const Mask mask = castRays(square(8.0), twoCasters, {1.0, 0.0, 1.0, 0.0}, slanted);
+    Picture expected = litPicture;
+    for (std::size_t i = 0; i < expected.pixels.size(); ++i)
+        if (mask.pixels[i] == Seen::ShadowedReceiver) expected.pixels[i] = dark.pixels[i];
+    EXPECT_GT(expected.different(litPicture), 1000) << "the case shows no shadow to judge";
+    const Picture actual = render(shadowed.root, slanted);
+    EXPECT_EQ(farFrom(actual, expected, mask), 0);
+    const std::vector<std::string> causes = technique->diagnose();
+    ASSERT_EQ(causes.size(), given.relit ? 0u : 1u);
+    if (!causes.empty()) {
+        EXPECT_NE(causes[0].find("'ground'"), std::string::npos) << causes[0];
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Planar, Receivers,
+                         testing::Values(Case{"Unlit", unlit, true, false}, Case{"UnlitUnnamed", unlit, false, false},
+                                         Case{"ConstantProgram", constantProgram, true, false},
+                                         Case{"ConstantProgramUnnamed", constantProgram, false, false},
+                                         Case{"LitProgram", litProgram, true, true},
+                                         Case{"LitProgramUnnamed", litProgram, false, true},
+                                         Case{"Blending", blending, true, true},
+                                         Case{"BlendingUnnamed", blending, false, true}),
+                         [](const auto& given) { return given.param.name; });
