@@ -1,6 +1,6 @@
 # Imported targets for what FindOpenSceneGraph gives only as paths, and for OSMesa. Headers are SYSTEM: their warnings are not ours.
 find_package(glm REQUIRED)
-find_package(OpenGL REQUIRED COMPONENTS OpenGL GLX)
+find_package(OpenGL REQUIRED COMPONENTS OpenGL GLX EGL)
 find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgDB osgGA osgText osgViewer osgShadow)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED osmesa)

@@ -1,44 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/HeadlessContext.h>
+#include <gnomon/OffscreenContext.h>
 
 #include <osgViewer/GraphicsWindow>
 #include <osgViewer/View>
 #include <osgViewer/ViewerBase>
 
-#include <GL/osmesa.h>
-
 #include <algorithm>
-#include <new>
 #include <stdexcept>
-#include <vector>
 
 namespace gnomon {
 namespace {
 
 constexpr int largestSide = 16384;
 
-std::runtime_error failure(const std::string& sentence) { return std::runtime_error("HeadlessContext: " + sentence); }
-
-std::string sizeText(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
-
 void requireSize(const HeadlessContext::Options& o, int limit) {
     const bool fits = o.width >= 1 && o.height >= 1 && o.width <= limit && o.height <= limit;
     if (!fits)
-        throw failure("a picture of " + sizeText(o.width, o.height) + " pixels cannot be made; allowed are 1x1 to " +
-                      sizeText(limit, limit) + ".");
+        throw headlessFailure("a picture of " + sizeText(o.width, o.height) +
+                              " pixels cannot be made; allowed are 1x1 to " + sizeText(limit, limit) + ".");
 }
 
 void requireBits(const HeadlessContext::Options& o) {
     if (o.depthBits != 16 && o.depthBits != 24 && o.depthBits != 32)
-        throw failure(std::to_string(o.depthBits) + " depth bits cannot be had; allowed are 16, 24 and 32.");
+        throw headlessFailure(std::to_string(o.depthBits) + " depth bits cannot be had; allowed are 16, 24 and 32.");
     if (o.stencilBits != 0 && o.stencilBits != 8)
-        throw failure(std::to_string(o.stencilBits) + " stencil bits cannot be had; allowed are 0 and 8.");
-}
-
-OSMesaContext createOSMesa(const HeadlessContext::Options& o) {
-    OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, o.depthBits, o.stencilBits, 0, nullptr);
-    if (!context) throw failure("OSMesa gives no context with these depth and stencil bits.");
-    return context;
+        throw headlessFailure(std::to_string(o.stencilBits) + " stencil bits cannot be had; allowed are 0 and 8.");
 }
 
 int integer(GLenum name) {
@@ -76,27 +63,22 @@ void keepOneThread(osg::View* view) {
 
 } // namespace
 
-/// The window OSG sees. The OSMesa context lives as long as this object, so that the last picture can still be read
+/// The window OSG sees. The context lives as long as this object, so that the last picture can still be read
 /// after a viewer has closed it.
 class HeadlessContext::Window : public osgViewer::GraphicsWindowEmbedded {
 public:
-    explicit Window(const Options& options)
+    Window(const Options& options, std::unique_ptr<OffscreenContext> context)
         : osgViewer::GraphicsWindowEmbedded(traitsOf(options).get()),
           _type(options.floatColor ? GL_FLOAT : GL_UNSIGNED_BYTE),
-          _context(createOSMesa(options)) {
+          _context(std::move(context)) {
         getEventQueue()->syncWindowRectangleWithGraphicsContext();
     }
 
-    /// Allocates the colour buffer and draws nothing into it. @throws std::runtime_error
+    /// Draws nothing. @throws std::runtime_error
     void start(const Options& options) {
-        const std::size_t bytes =
-            (options.floatColor ? 16u : 4u) * std::size_t(options.width) * std::size_t(options.height);
-        try {
-            _buffer.assign(bytes, 0);
-        } catch (const std::bad_alloc&) {
-            throw failure("there is no memory for " + sizeText(options.width, options.height) + " pixels.");
-        }
         const Current current(*this);
+        _context->prepare(options);
+        setDefaultFboId(_context->framebuffer());
         requireWorking(options);
     }
 
@@ -107,13 +89,15 @@ public:
     bool makeCurrentImplementation() override { return bind(); }
     bool makeContextCurrentImplementation(osg::GraphicsContext*) override { return bind(); }
     bool releaseContextImplementation() override { return unbind(); }
-    void swapBuffersImplementation() override { glFinish(); } // brings the picture into _buffer
+    void swapBuffersImplementation() override { glFinish(); } // a frame ends when its picture is there
 
     osg::ref_ptr<osg::Image> color() {
+        const unsigned char* pixels = _context->pixels();
+        if (!pixels) return read(GL_RGBA, _type);
         const Current current(*this);
         glFinish();
         osg::ref_ptr<osg::Image> image = emptyImage(*_traits, GL_RGBA, _type);
-        std::copy(_buffer.begin(), _buffer.end(), image->data());
+        std::copy_n(pixels, image->getTotalSizeInBytes(), image->data());
         return image;
     }
 
@@ -132,7 +116,6 @@ public:
 protected:
     ~Window() override {
         if (_current == this) unbind();
-        OSMesaDestroyContext(_context);
     }
 
 private:
@@ -140,7 +123,8 @@ private:
     class Current {
     public:
         explicit Current(Window& window) : _before(_current) {
-            if (!window.bind()) throw failure("the OSMesa context cannot be made current.");
+            if (!window.bind())
+                throw headlessFailure("the " + window._context->name() + " context cannot be made current.");
         }
         ~Current() { _before ? _before->bind() : unbind(); }
         Current(const Current&) = delete;
@@ -151,30 +135,32 @@ private:
     };
 
     bool bind() {
-        if (!OSMesaMakeCurrent(_context, _buffer.data(), _type, _traits->width, _traits->height)) return false;
+        if (!_context->bind()) return false;
         _current = this;
         return true;
     }
 
     static bool unbind() {
+        Window* before = _current;
         _current = nullptr;
-        return OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0) != GL_FALSE;
+        return !before || before->_context->unbind();
     }
 
     void requireWorking(const Options& options) {
         const GLubyte* name = glGetString(GL_RENDERER);
-        if (!name) throw failure("OpenGL calls do not reach OSMesa; link libOSMesa ahead of libGL.");
+        if (!name)
+            throw headlessFailure("OpenGL calls do not reach " + _context->name() + "; " + _context->linkRemedy() +
+                                  ".");
         _renderer = reinterpret_cast<const char*>(name);
         requireSize(options, std::min(largestSide, integer(GL_MAX_VIEWPORT_DIMS)));
         if (integer(GL_DEPTH_BITS) < options.depthBits || integer(GL_STENCIL_BITS) < options.stencilBits)
-            throw failure("OSMesa gives fewer depth or stencil bits than asked for.");
+            throw headlessFailure(_context->name() + " gives fewer depth or stencil bits than asked for.");
     }
 
     static thread_local Window* _current;
 
     GLenum _type;
-    OSMesaContext _context;
-    std::vector<unsigned char> _buffer;
+    std::unique_ptr<OffscreenContext> _context;
     std::string _renderer;
     bool _closed = false;
 };
@@ -192,7 +178,7 @@ HeadlessContext::HeadlessContext(int width, int height)
 HeadlessContext::HeadlessContext(const Options& options) {
     requireSize(options, largestSide);
     requireBits(options);
-    _window = new Window(options);
+    _window = new Window(options, makeOffscreenContext(options));
     _window->start(options);
 }
 

@@ -10,7 +10,8 @@
 
 namespace gnomon {
 
-/// A picture without a display or a GPU: an OpenGL context that draws into memory (OSMesa).
+/// A picture without a display: an OpenGL context that draws into memory, through OSMesa (no GPU) or EGL (a GPU where
+/// there is one). Which of them is the choice of the library linked.
 ///
 ///     gnomon::HeadlessContext context(256, 256);
 ///     osgViewer::Viewer viewer;
@@ -20,7 +21,8 @@ namespace gnomon {
 ///     osg::ref_ptr<osg::Image> picture = context.image();
 ///
 /// Cost    width × height × (8 or 32 bytes colour + 4 bytes depth and stencil).
-/// Needs   libOSMesa, linked ahead of libGL (the CMake target gnomon::headless does).
+/// Needs   the CMake target gnomon::headless (libOSMesa, ahead of libGL), or gnomon::headless_egl (libEGL and libGL; a
+///         driver's or Mesa's EGL at run time). A program links one of them.
 /// Limits  one viewer a context, OSG keeps GL objects by context number; the context outlives its viewer. Fixed size.
 /// Threads a viewer's draw thread may use it; image(), depth(), stencil() only while no other thread draws.
 class HeadlessContext {

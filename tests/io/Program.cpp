@@ -29,9 +29,9 @@ std::string Ending::lastLine() const {
     return last;
 }
 
-Ending runGnomonshot(const std::vector<std::string>& arguments, const fs::path& folder) {
+Ending runProgram(const std::string& program, const std::vector<std::string>& arguments, const fs::path& folder) {
     const TemporaryFolder said;
-    std::string command = "cd " + quoted(folder) + " && exec timeout 60 " + quoted(GNOMONSHOT);
+    std::string command = "cd " + quoted(folder) + " && exec timeout 60 " + quoted(program);
     for (const std::string& argument : arguments) command += " " + quoted(argument);
     command += " >" + quoted(said.path() / "out") + " 2>" + quoted(said.path() / "err") + " </dev/null";
     Ending ending;
@@ -39,6 +39,10 @@ Ending runGnomonshot(const std::vector<std::string>& arguments, const fs::path& 
     ending.out = readFile(said.path() / "out");
     ending.err = readFile(said.path() / "err");
     return ending;
+}
+
+Ending runGnomonshot(const std::vector<std::string>& arguments, const fs::path& folder) {
+    return runProgram(GNOMONSHOT, arguments, folder);
 }
 
 TemporaryFolder::TemporaryFolder() {

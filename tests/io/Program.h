@@ -15,7 +15,10 @@ struct Ending {
     std::string lastLine() const;
 };
 
-/// Runs gnomonshot as a shell would, in `folder`.
+/// Runs a program as a shell would, in `folder`.
+Ending runProgram(const std::string& program, const std::vector<std::string>& arguments,
+                  const std::filesystem::path& folder);
+/// Runs gnomonshot so.
 Ending runGnomonshot(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
 /// An empty folder that goes when this does.
