@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
@@ -90,6 +91,7 @@ int SceneLights::freeNumber() const {
                std::any_of(_own.begin(), _own.end(), [&](const Own& own) { return uses(*own.source, number); });
     };
     while (taken()) ++number;
+    if (number > 7) throw std::invalid_argument("more than 8 lights: OpenGL has 8, those of the scene included.");
     return number;
 }
 

@@ -2,6 +2,8 @@
 #include <gnomon/CasterMesh.h>
 #include <gnomon/VertexTraverser.h>
 
+#include <osg/BufferObject>
+
 #include <limits>
 
 namespace gnomon {
@@ -23,6 +25,8 @@ CasterMesh::CasterMesh(const VertexTraverser& casters)
       invalidTriangles(casters.getInvalidTriangles()),
       invalidNode(casters.getInvalidNode()),
       sources(casters.getSources()) {
+    // Attached here, for the first geometry to use the array would do so, perhaps in one of several threads.
+    vertices->setVertexBufferObject(new osg::VertexBufferObject);
     if (bounds.valid()) origin = bounds.center();
     constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
     std::vector<unsigned> places(casters.getVertices().size(), nowhere);

@@ -62,9 +62,24 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs) {
         else
             blended[job.dark].push_back(&job);
     }
-    if (!relit.empty() && !composeDirectly(relit)) relight(relit);
+    if (!relit.empty() && !composeDirectly(relit)) {
+        if (useStencil(_leaves))
+            blendInstead(relit, blended);
+        else
+            relight(relit);
+    }
     for (const auto& [dark, group] : blended)
         if (!composeDirectly(group)) blend(group, dark);
+}
+
+/// A leaf with a stencil test of its own cannot be drawn again under ours.
+void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended) {
+    for (const ShadowJob* job : jobs) {
+        blended[job->dark].push_back(job);
+        job->technique->report(job->frameNumber,
+                               "blends instead of relighting, for something opaque in this view has a stencil test of "
+                               "its own: draw that in a bin above 8, or set BLEND.");
+    }
 }
 
 bool Compositor::canMark(const ShadowJob& job) const {
@@ -186,7 +201,7 @@ void Compositor::blend(const Jobs& jobs, float dark) {
     CleanState clean(_state, _stage.getViewport());
     ScreenPass pass(_state, *_stage.getViewport(), bounds);
     pass.takeStencil(bit);
-    pass.multiplyColor(dark);
+    pass.multiplyColor(dark, writtenChannels(_leaves));
 }
 
 void Compositor::mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) {
@@ -222,7 +237,8 @@ void Compositor::markOne(const ShadowJob& job, unsigned bit, bool fresh) {
 void Compositor::markInto(const ShadowJob& job, unsigned bit) {
     CleanState clean(_state, _stage.getViewport());
     ScreenPass pass(_state, *_stage.getViewport(), job.marks->screenBounds);
-    job.marks->mark(_renderInfo, pass, bit);
+    const std::string cause = job.marks->mark(_renderInfo, pass, bit);
+    if (!cause.empty()) job.technique->report(job.frameNumber, cause);
 }
 
 /// Hands marks on where the receiver is what one sees: its own leaves, drawn again, pass only at the depth that stands.

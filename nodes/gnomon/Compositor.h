@@ -35,6 +35,7 @@ private:
     bool canMark(const ShadowJob& job) const;
     bool composeDirectly(const Jobs& jobs);
     void relight(const Jobs& wanted);
+    static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended);
     void blend(const Jobs& jobs, float dark);
 
     std::map<int, unsigned> assignBits(const Jobs& jobs) const;

@@ -6,6 +6,8 @@
 #include <osg/Referenced>
 #include <osg/RenderInfo>
 
+#include <string>
+
 namespace gnomon {
 
 class ScreenPass;
@@ -19,7 +21,8 @@ public:
     /// Sets `bit` in the stencil buffer where the light does not reach. The bit is zero before, within the bounds;
     /// other bits, colour and depth stay as they are. Called within a CleanState and `pass`, which is cut to the
     /// bounds; state that is applied on top must be taken back by state.apply().
-    virtual void mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const = 0;
+    /// @return why nothing could be marked, as a cause for ShadowTechnique::report(); empty if all is well.
+    virtual std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const = 0;
 
 protected:
     ~MarkJob() override = default;

@@ -62,19 +62,23 @@ double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
 
 PlanarPrograms::PlanarPrograms() : plain(programState("")), clipping(programState("#define CLIP\n")) {}
 
-void PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     osg::State& state = *renderInfo.getState();
     pass.stencilEqual(bit, 0, bit);
-    for (const PlanarCasters::Part& part : casters->parts) drawPart(renderInfo, part);
+    bool drawn = true;
+    for (const PlanarCasters::Part& part : casters->parts) drawn = drawPart(renderInfo, part) && drawn;
     state.apply();
     if (cutToPlane) cut(state, pass, bit);
+    return drawn ? "" : "cannot build its program in this context: it needs OpenGL 3.0 with GLSL 1.30 or later.";
 }
 
-void PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const {
+/// @return false if the program is not to be had.
+bool PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const {
     osg::State& state = *renderInfo.getState();
     const bool clips = part.crossing || reachesLight;
     const bool culls = part.solid && !reachesLight; // a solid cut by the light's height may lack its upper faces
     state.apply((clips ? programs->clipping : programs->plain).get());
+    if (!state.getLastAppliedProgramObject()) return false;
     setUniform(state, "clipFromCaster", clipFromCaster);
     if (clips) {
         setUniform(state, "abovePlane", abovePlane);
@@ -87,6 +91,7 @@ void PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part
     part.geometry->draw(renderInfo);
     glFrontFace(GL_CCW);
     for (const GLenum mode : {clipAbovePlane, clipBelowLight, GLenum(GL_CULL_FACE)}) glDisable(mode);
+    return true;
 }
 
 /// Takes the marks back where what stands in the depth buffer is behind the plane, and where it is before it.

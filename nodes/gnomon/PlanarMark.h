@@ -32,13 +32,13 @@ public:
     /// The plane on the screen, normalised device coordinates: z = depth.x·x + depth.y·y + depth.z.
     glm::dvec3 depth{0.0};
 
-    void mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
 
 protected:
     ~PlanarMark() override = default;
 
 private:
-    void drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const;
+    bool drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const;
     void cut(const osg::State& state, ScreenPass& pass, unsigned bit) const;
 };
 

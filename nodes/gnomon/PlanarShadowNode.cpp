@@ -12,6 +12,7 @@
 #include <osg/io_utils>
 #include <osgUtil/RenderLeaf>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -130,7 +131,7 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
         report(view.frameNumber, sentence(start, what, rest));
         return nullptr;
     };
-    const osg::ref_ptr<PlanarCasters> casters = castersAbove(mesh, groupPlane, index, view.frameNumber);
+    const osg::ref_ptr<PlanarCasters> casters = castersAbove(mesh, groupPlane, view.frameNumber);
     if (casters->parts.empty())
         return refuse("has nothing above its plane", _planes[index],
                       "to cast on it: look at the plane's place and the side its normal points to.");
@@ -167,33 +168,36 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     return mark;
 }
 
+/// From the cache, which keeps what was used last: two meshes a plane, so that a node under two groups makes neither again.
 osg::ref_ptr<PlanarCasters> PlanarShadowNode::castersAbove(const CasterMesh& mesh, const glm::dvec4& plane,
-                                                           unsigned index, unsigned frame) const {
+                                                           unsigned frame) const {
     Lock lock(_cacheMutex);
-    if (_cache.size() <= index) _cache.resize(index + 1);
-    osg::ref_ptr<PlanarCasters>& cached = _cache[index];
-    const bool same = cached && cached->madeFrom(mesh, plane);
-    const bool keptStill = same && cached->firstFrame != frame; // then the search for solids pays from now on
-    if (same && (cached->knowsSolids() || !keptStill)) return cached;
-    cached = new PlanarCasters(mesh, plane, keptStill);
-    cached->firstFrame = frame;
-    return cached;
+    const auto found =
+        std::find_if(_cache.begin(), _cache.end(), [&](const auto& entry) { return entry->madeFrom(mesh, plane); });
+    osg::ref_ptr<PlanarCasters> casters = found == _cache.end() ? nullptr : *found;
+    if (casters) _cache.erase(found);
+    const bool keptStill = casters && casters->firstFrame != frame; // then the search for solids pays from now on
+    if (!casters || (keptStill && !casters->knowsSolids())) {
+        casters = new PlanarCasters(mesh, plane, keptStill);
+        casters->firstFrame = frame;
+    }
+    _cache.push_back(casters);
+    if (_cache.size() > 2 * _planes.size()) _cache.erase(_cache.begin());
+    return casters;
 }
 
 void PlanarShadowNode::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
     for (const auto& program : {_programs->plain, _programs->clipping}) program->resizeGLObjectBuffers(maxSize);
     Lock lock(_cacheMutex);
-    for (const auto& casters : _cache)
-        if (casters) casters->resizeGLObjectBuffers(maxSize);
+    for (const auto& casters : _cache) casters->resizeGLObjectBuffers(maxSize);
 }
 
 void PlanarShadowNode::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
     for (const auto& program : {_programs->plain, _programs->clipping}) program->releaseGLObjects(state);
     Lock lock(_cacheMutex);
-    for (const auto& casters : _cache)
-        if (casters) casters->releaseGLObjects(state);
+    for (const auto& casters : _cache) casters->releaseGLObjects(state);
 }
 
 } // namespace gnomon

@@ -22,7 +22,8 @@ struct PlanarPrograms;
 /// Needs   1 stencil bit a light, 1 more for several planes or techniques of one light.
 /// Limits  flat receivers; a caster is not shadowed by another. A plane receives on its lit side only. Without a named
 ///         receiver walls that stand in the plane take marks up to an eighth of a pixel's slope and 32 steps of depth
-///         high, and a ground of many kilometres under a near plane of decimetres may lose its shadow.
+///         high; a ground of many kilometres under a near plane of decimetres may lose its shadow, and one drawn
+///         with a polygon offset or a depth range of its own does. Alpha-tested casters cast as if they were solid.
 /// Threads any number of cull and draw threads; set properties between frames.
 /// Source: CS-4470 "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8; J. Blinn 1988.
 ///
@@ -58,13 +59,12 @@ protected:
 private:
     osg::ref_ptr<MarkJob> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters,
                                      unsigned index, const glm::dvec4& groupPlane) const;
-    osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const glm::dvec4& plane, unsigned index,
-                                             unsigned frame) const;
+    osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const glm::dvec4& plane, unsigned frame) const;
 
     std::vector<osg::Vec4d> _planes;
     osg::ref_ptr<PlanarPrograms> _programs;
     mutable OpenThreads::Mutex _cacheMutex;
-    mutable std::vector<osg::ref_ptr<PlanarCasters>> _cache; ///< one a plane.
+    mutable std::vector<osg::ref_ptr<PlanarCasters>> _cache; ///< used last at the end.
 };
 
 } // namespace gnomon

@@ -99,8 +99,8 @@ void ScreenPass::writeColor(const osg::Vec4& color) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 
-void ScreenPass::multiplyColor(float factor) {
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+void ScreenPass::multiplyColor(float factor, const Channels& channels) {
+    glColorMask(channels.red, channels.green, channels.blue, GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
     _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/Export.h>
 #include <gnomon/ScreenBounds.h>
+#include <gnomon/StageLeaves.h>
 
 #include <osg/RenderInfo>
 #include <osg/StateSet>
@@ -43,7 +44,7 @@ public:
     void takeStencil(unsigned bits);
     void writeFarDepth();
     void writeColor(const osg::Vec4& color);
-    void multiplyColor(float factor);
+    void multiplyColor(float factor, const Channels& channels);
     /// Passes where the quad's depth compares so with the one that stands; depths beyond near and far are clamped.
     void testDepth(GLenum function);
 

@@ -8,6 +8,7 @@
 #include <osgUtil/StateGraph>
 
 #include <atomic>
+#include <limits>
 #include <map>
 
 namespace gnomon {
@@ -58,6 +59,22 @@ bool hasCasters(const EnlistedTechnique& entry, const CasterMesh& mesh) {
                             "has nothing to cast: its group '" + entry.group->getName() +
                                 "' holds no triangles; add the scene to it, or look at its setCasters().");
     return false;
+}
+
+const osg::Node& rootOf(const osg::Node& node) { return node.getNumParents() ? rootOf(*node.getParent(0)) : node; }
+
+/// A receiver that is out of sight is nothing to report; one that can never be seen to receive is.
+void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage) {
+    const Selection& receiver = entry.technique->getReceiver();
+    const std::vector<StageLeaf> all = leavesBelow(stage, std::numeric_limits<int>::max());
+    if (!receiversAmong(all, receiver, *stage.getInitialViewMatrix()).empty())
+        entry.technique->report(
+            entry.frameNumber,
+            "names a receiver that is drawn after the shadows, in a bin above 8 as transparent things "
+            "are: name one that is opaque.");
+    else if (receiver.node && &rootOf(*receiver.node) != &rootOf(*entry.group))
+        entry.technique->report(entry.frameNumber, "names the receiver '" + receiver.node->getName() +
+                                                       "', which is not in this graph: add it to the scene.");
 }
 
 ViewFrame viewOf(const EnlistedTechnique& entry) {
@@ -128,6 +145,10 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
     if (entry.technique->hasReceiver()) {
         receivers = receiversAmong(leaves, entry.technique->getReceiver(), *getStage()->getInitialViewMatrix());
         view.receivers = &receivers;
+    }
+    if (view.receivers && receivers.empty()) {
+        reportNoReceiver(entry, *getStage());
+        return;
     }
     for (const ShadowLight& light : lights) {
         ShadowJob job = jobFor(entry, light);

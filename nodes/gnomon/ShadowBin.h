@@ -38,13 +38,17 @@ struct ShadowJob {
 
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
 ///
-/// It runs after all opaque bins of the stage and before the transparent ones. Lights and leaves are asked for after
-/// the whole cull, so their order in the graph does not matter; nothing is kept from frame to frame or view to view.
+/// It runs after all opaque bins of the stage and before the transparent ones. Lights and leaves are asked for after the
+/// whole cull, so their order in the graph does not matter; nothing is kept from frame to frame or view to view.
 ///
-/// Cost    scissored to where marks can fall: two stencil clears, one depth quad, and the leaves that the marks can
-/// touch, once more. Needs   one stencil bit a relit light, one more for named receivers or several techniques of one
-/// light. Limits  three relit lights; the others stay unshadowed, and diagnose() says so. Threads sort in the cull
-/// thread, draw in the draw thread, as every RenderBin.
+/// Cost    scissored to where marks can fall: the marks, a stencil clear, and the leaves that the marks can touch, once
+///         more. One job with a named receiver that nothing else shows on: its leaves alone, at equal depth.
+/// Needs   one stencil bit a relit light, one more for several jobs or for receivers that others show on. A stage that
+///         clears depth clears stencil too, unless bits are reserved.
+/// Limits  three relit lights; the others stay unshadowed. Unlit receivers, and those whose program reads no OpenGL
+///         light, take a factor; where an opaque leaf has a stencil test of its own all is blended. diagnose() says so.
+///         Bin 8 is taken: transparent things and whatever shall not receive belong in a higher one.
+/// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
 class GNOMON_EXPORT ShadowBin : public osgUtil::RenderBin {
 public:
     ShadowBin() = default;

@@ -64,7 +64,18 @@ void ShadowCasterGroup::addLight(osg::LightSource* light) {
     if (light) _lightSources.push_back(light);
 }
 
-void ShadowCasterGroup::addLight(const ShadowLight& light) { _lights.push_back(light); }
+void ShadowCasterGroup::addLight(const ShadowLight& light) {
+    if (light.number >= 0 && light.number < 8)
+        _lights.push_back(light);
+    else
+        OSG_WARN << "gnomon: ShadowCasterGroup::addLight refuses light " << light.number
+                 << ": OpenGL's lights are 0 to 7." << std::endl;
+}
+
+void ShadowCasterGroup::setLights(const std::vector<ShadowLight>& lights) {
+    _lights.clear();
+    for (const ShadowLight& light : lights) addLight(light);
+}
 
 void ShadowCasterGroup::setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources) {
     _lightSources.clear();

@@ -65,13 +65,14 @@ public:
     /// Lights that cast, instead of all those that are on in the view. A LightSource may stand anywhere in the graph,
     /// moved by transforms.
     void addLight(osg::LightSource* light);
-    /// A light given by its place in the group's frame, in double: for lamps far from the origin.
+    /// A light given by its place in the group's frame, in double: for lamps far from the origin. Refused with a warning
+    /// if its number is none of OpenGL's, 0 to 7.
     void addLight(const ShadowLight& light);
     void removeLights();
     /// All of one kind in place of those that were.
     void setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources);
     const std::vector<osg::ref_ptr<osg::LightSource>>& getLightSources() const { return _lightSources; }
-    void setLights(const std::vector<ShadowLight>& lights) { _lights = lights; }
+    void setLights(const std::vector<ShadowLight>& lights);
     const std::vector<ShadowLight>& getLights() const { return _lights; }
 
     /// The casters as they are now; extracted again only if something changed since the last call. Call it where

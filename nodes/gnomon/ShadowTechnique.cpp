@@ -45,6 +45,11 @@ void enlist(ShadowTechnique& technique, osgUtil::CullVisitor& cull) {
                          "has no ShadowCasterGroup above it: make it a child of the group that holds the casters.");
         return;
     }
+    if (cull.getViewport() != stage->getViewport()) {
+        technique.report(frame, "is under a nested camera with a viewport of its own, whose shadows would fall "
+                                "elsewhere: set that camera's render order to PRE_RENDER or POST_RENDER.");
+        return;
+    }
     EnlistedTechnique entry;
     entry.technique = &technique;
     entry.group = above.group;

@@ -9,6 +9,7 @@
 
 #include <climits>
 #include <cmath>
+#include <unordered_map>
 
 namespace gnomon {
 namespace {
@@ -30,19 +31,6 @@ struct Ways {
     bool some = false, all = true;
 };
 
-Ways waysUnder(const osg::Node& node, const Selection& selection) {
-    if (!(node.getNodeMask() & selection.mask)) return {false, false};
-    if (&node == selection.node) return {true, true};
-    if (node.getNumParents() == 0) return {!selection.node, !selection.node};
-    Ways ways;
-    for (unsigned i = 0; i < node.getNumParents(); ++i) {
-        const Ways way = waysUnder(*node.getParent(i), selection);
-        ways.some = ways.some || way.some;
-        ways.all = ways.all && way.all;
-    }
-    return ways;
-}
-
 bool nearlyEqual(const osg::Matrixd& a, const osg::Matrixd& b) {
     double difference = 0.0, size = 0.0;
     for (int i = 0; i < 16; ++i) {
@@ -52,20 +40,70 @@ bool nearlyEqual(const osg::Matrixd& a, const osg::Matrixd& b) {
     return difference <= 1e-9 * size; // the same product of doubles taken in another order
 }
 
-/// One of several instances of a drawable: the one whose way from above gives this leaf's modelview.
-bool isInstanceUnder(const osgUtil::RenderLeaf& leaf, const Selection& selection, const osg::Matrixd& eyeFromWorld) {
-    for (const osg::NodePath& path : leaf._drawable->getParentalNodePaths()) {
-        bool under = !selection.node;
-        bool visible = true;
-        for (const osg::Node* node : path) {
-            under = under || node == selection.node;
-            visible = visible && (!under || (node->getNodeMask() & selection.mask));
-        }
-        if (under && visible && nearlyEqual(osg::computeLocalToWorld(path) * eyeFromWorld, *leaf._modelview))
-            return true;
+/// Tells the leaves of a receiver. Looks at each node and each drawable's ways once, however many leaves share them.
+class ReceiverTest {
+public:
+    ReceiverTest(const Selection& selection, const osg::Matrixd& eyeFromWorld)
+        : _selection(selection), _eyeFromWorld(eyeFromWorld) {}
+
+    bool operator()(const osgUtil::RenderLeaf& leaf) {
+        const Ways ways = waysUnder(*leaf._drawable);
+        return ways.some && (ways.all || isInstance(leaf));
     }
-    return false;
-}
+
+private:
+    /// Instances of one drawable under the selection, by the x of where they stand in eye space.
+    using Places = std::multimap<double, osg::Matrixd>;
+
+    Ways waysUnder(const osg::Node& node) {
+        const auto [known, isNew] = _ways.insert({&node, {false, false}});
+        if (!isNew || !(node.getNodeMask() & _selection.mask)) return known->second;
+        Ways ways;
+        if (&node == _selection.node)
+            ways = {true, true};
+        else if (node.getNumParents() == 0)
+            ways = {!_selection.node, !_selection.node};
+        for (unsigned i = 0; &node != _selection.node && i < node.getNumParents(); ++i) {
+            const Ways way = waysUnder(*node.getParent(i));
+            ways.some = ways.some || way.some;
+            ways.all = ways.all && way.all;
+        }
+        return _ways[&node] = ways;
+    }
+
+    /// One of several instances of a drawable: one whose way from above gives this leaf's modelview.
+    bool isInstance(const osgUtil::RenderLeaf& leaf) {
+        const auto [places, isNew] = _places.insert({leaf._drawable.get(), {}});
+        if (isNew) places->second = placesOf(*leaf._drawable);
+        const osg::Matrixd& here = *leaf._modelview;
+        const double margin = 1e-9 * (1.0 + std::abs(here(3, 0)) + std::abs(here(3, 1)) + std::abs(here(3, 2)));
+        const auto end = places->second.upper_bound(here(3, 0) + margin);
+        for (auto place = places->second.lower_bound(here(3, 0) - margin); place != end; ++place)
+            if (nearlyEqual(place->second, here)) return true;
+        return false;
+    }
+
+    Places placesOf(const osg::Drawable& drawable) const {
+        Places places;
+        for (const osg::NodePath& path : drawable.getParentalNodePaths()) {
+            bool under = !_selection.node;
+            bool visible = true;
+            for (const osg::Node* node : path) {
+                under = under || node == _selection.node;
+                visible = visible && (!under || (node->getNodeMask() & _selection.mask));
+            }
+            if (!under || !visible) continue;
+            const osg::Matrixd place = osg::computeLocalToWorld(path) * _eyeFromWorld;
+            places.insert({place(3, 0), place});
+        }
+        return places;
+    }
+
+    const Selection& _selection;
+    const osg::Matrixd& _eyeFromWorld;
+    std::unordered_map<const osg::Node*, Ways> _ways;
+    std::unordered_map<const osg::Drawable*, Places> _places;
+};
 
 /// Value of a mode after all state sets from the root to `graph`, as osg::State resolves it.
 bool resolvedMode(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool& overridden) {
@@ -77,6 +115,22 @@ bool resolvedMode(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode 
     if (overridden && !(value & osg::StateAttribute::PROTECTED)) return on;
     overridden = value & osg::StateAttribute::OVERRIDE;
     return value & osg::StateAttribute::ON;
+}
+
+/// The colour mask after all state sets from the root to `graph`; null: all channels.
+const osg::ColorMask* resolvedMask(const osgUtil::StateGraph* graph) {
+    const osg::ColorMask* found = nullptr;
+    std::vector<const osg::StateSet*> sets; // innermost first
+    for (; graph; graph = graph->_parent)
+        if (graph->getStateSet()) sets.push_back(graph->getStateSet());
+    bool overridden = false;
+    for (auto set = sets.rbegin(); set != sets.rend(); ++set) {
+        const auto* pair = (*set)->getAttributePair(osg::StateAttribute::COLORMASK);
+        if (!pair || (overridden && !(pair->second & osg::StateAttribute::PROTECTED))) continue;
+        found = static_cast<const osg::ColorMask*>(pair->first.get());
+        overridden = pair->second & osg::StateAttribute::OVERRIDE;
+    }
+    return found;
 }
 
 bool isModeOn(const std::vector<StageLeaf>& leaves, osg::StateAttribute::GLMode mode) {
@@ -122,11 +176,10 @@ std::vector<StageLeaf> leavesBelow(osgUtil::RenderStage& stage, int number) {
 
 std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<StageLeaf>& leaves, const Selection& receiver,
                                                     const osg::Matrixd& eyeFromWorld) {
+    ReceiverTest isReceiver(receiver, eyeFromWorld);
     std::set<const osgUtil::RenderLeaf*> result;
-    for (const StageLeaf& entry : leaves) {
-        const Ways ways = waysUnder(*entry.leaf->_drawable, receiver);
-        if (ways.some && (ways.all || isInstanceUnder(*entry.leaf, receiver, eyeFromWorld))) result.insert(entry.leaf);
-    }
+    for (const StageLeaf& entry : leaves)
+        if (isReceiver(*entry.leaf)) result.insert(entry.leaf);
     return result;
 }
 
@@ -135,6 +188,19 @@ bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode m
 }
 
 bool useStencil(const std::vector<StageLeaf>& leaves) { return isModeOn(leaves, GL_STENCIL_TEST); }
+
+Channels writtenChannels(const std::vector<StageLeaf>& leaves) {
+    Channels written;
+    std::set<const osgUtil::StateGraph*> seen;
+    for (const StageLeaf& entry : leaves) {
+        if (!seen.insert(entry.leaf->_parent).second) continue;
+        const osg::ColorMask* mask = resolvedMask(entry.leaf->_parent);
+        written.red = written.red || !mask || mask->getRedMask();
+        written.green = written.green || !mask || mask->getGreenMask();
+        written.blue = written.blue || !mask || mask->getBlueMask();
+    }
+    return written;
+}
 
 bool blend(const std::vector<StageLeaf>& leaves) { return isModeOn(leaves, GL_BLEND); }
 

@@ -34,6 +34,14 @@ bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode m
 /// True if any of the leaves is drawn with the stencil test on.
 bool useStencil(const std::vector<StageLeaf>& leaves);
 
+/// Colour channels.
+struct Channels {
+    bool red = false, green = false, blue = false;
+};
+
+/// Those that any of the leaves writes: fewer than all in anaglyph stereo, for one.
+Channels writtenChannels(const std::vector<StageLeaf>& leaves);
+
 /// True if any of the leaves blends with what stands.
 bool blend(const std::vector<StageLeaf>& leaves);
 

@@ -61,7 +61,10 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
         return result;
     }
     for (const auto& [number, light] : inStage)
-        if (isModeOnAnywhere(stage, GL_LIGHT0 + static_cast<unsigned>(number)))
+        if (number < 0 || number > 7)
+            result.causes.push_back("leaves out light " + std::to_string(number) +
+                                    ": OpenGL's lights are 0 to 7; renumber it.");
+        else if (isModeOnAnywhere(stage, GL_LIGHT0 + static_cast<unsigned>(number)))
             result.lights.push_back({number, light.inEye * groupFromEye});
     if (result.lights.empty())
         result.causes.push_back(

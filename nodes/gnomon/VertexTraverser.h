@@ -26,8 +26,7 @@ namespace gnomon {
 ///
 /// Cost    one pass over the vertices; 24 bytes a vertex, 12 a triangle, and 8 a vertex of the largest array.
 /// Limits  billboards, text, absolute transforms and cameras inside the subgraph are left out; instanced primitives
-/// count
-///         once, and what a vertex shader moves stays where it was; integer vertex arrays are left out, as by every
+///         count once, and what a vertex shader moves stays where it was; integer vertex arrays are left out, as by every
 ///         functor of OpenSceneGraph's.
 /// Threads reads the graph as a cull traversal does.
 /// Source: ARL-TN-156, its vertex traverser, with the transforms that it ignored.

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// What a user's graph may hold against the compositor: the right pixel, or the reason why not.
+#include <support/Picture.h>
+#include <support/Scene.h>
+
+#include <gtest/gtest.h>
+#include <osg/ColorMask>
+#include <osg/MatrixTransform>
+#include <osg/Stencil>
+
+using namespace test;
+
+namespace {
+
+const View slanted = perspective({-6.0, -10.0, 6.0}, {0.0, 0.0, 0.0}, 300, 200);
+
+Scene boxScene() { return groundScene({box({-1.0, -1.0, 1.0}, {1.0, 1.0, 2.0})}); }
+
+void expectOneCause(const gnomon::ShadowTechnique& technique, const std::string& part) {
+    const std::vector<std::string> causes = technique.diagnose();
+    ASSERT_EQ(causes.size(), 1u) << (causes.size() > 1 ? causes[1] : "");
+    EXPECT_NE(causes[0].find(part), std::string::npos) << causes[0];
+}
+
+} // namespace
+
+TEST(HostileGraph, LeafHiddenByItsOwnStencilTestStaysHidden) {
+    for (const bool named : {false, true}) {
+        Scene scene = boxScene();
+        const osg::ref_ptr<osg::Geode> hidden = node(square(4.0, 0.5));
+        osg::ref_ptr<osg::Stencil> never = new osg::Stencil;
+        never->setFunction(osg::Stencil::EQUAL, 1, 1u);
+        hidden->getOrCreateStateSet()->setAttributeAndModes(never);
+        scene.content->addChild(hidden);
+        const Picture lit = render(scene.root, slanted);
+        const auto technique = planar(named ? find(*scene.root, "ground") : nullptr);
+        scene.addShadow(technique);
+        scene.group->setCasters({find(*scene.root, "caster")});
+        const Picture shadowed = render(scene.root, slanted);
+        int changed = 0, other = 0; // every changed pixel is the ground's, blended
+        for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
+            changed += shadowed.pixels[i] != lit.pixels[i];
+            other += shadowed.pixels[i] != lit.pixels[i] && shadowed.pixels[i] != grey(litGround / 2);
+        }
+        EXPECT_GT(changed, 500);
+        EXPECT_EQ(other, 0);
+        expectOneCause(*technique, "stencil test");
+    }
+}
+
+TEST(HostileGraph, BlendKeepsToTheChannelsThatTheSceneWrites) {
+    for (const bool named : {false, true}) {
+        Scene scene = boxScene();
+        scene.root->getOrCreateStateSet()->setAttribute(new osg::ColorMask(true, false, false, true));
+        const Picture lit = render(scene.root, slanted);
+        scene.addShadow(planar(named ? find(*scene.root, "ground") : nullptr));
+        scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+        const Picture shadowed = render(scene.root, slanted);
+        int red = 0, others = 0;
+        for (std::size_t i = 0; i < lit.pixels.size(); ++i) {
+            const std::uint32_t difference = lit.pixels[i] ^ shadowed.pixels[i];
+            red += (difference & 0xffu) != 0;
+            others += (difference & 0xffffff00u) != 0;
+        }
+        EXPECT_GT(red, 500);
+        EXPECT_EQ(others, 0);
+    }
+}
+
+TEST(HostileGraph, ReceiverThatCannotReceiveIsNamedAsTheCause) {
+    Scene transparent = boxScene();
+    find(*transparent.root, "ground")->getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    const auto above = planar(find(*transparent.root, "ground"));
+    transparent.addShadow(above);
+    render(transparent.root, slanted);
+    expectOneCause(*above, "bin above 8");
+
+    Scene scene = boxScene();
+    const osg::ref_ptr<osg::Geode> elsewhere = node(square(1.0), "elsewhere");
+    const auto outside = planar(elsewhere);
+    scene.addShadow(outside);
+    const Picture first = render(scene.root, slanted);
+    expectOneCause(*outside, "'elsewhere', which is not in this graph");
+    EXPECT_EQ(first.different(render(boxScene().root, slanted)), 0);
+}
+
+TEST(HostileGraph, ReceiverOutOfSightIsNoCause) {
+    Scene scene = boxScene();
+    const auto technique = planar(find(*scene.root, "ground"));
+    scene.addShadow(technique);
+    render(scene.root, perspective({0.0, 0.0, 5.0}, {0.0, 1.0, 50.0}));
+    EXPECT_TRUE(technique->diagnose().empty());
+}
+
+TEST(HostileGraph, NestedCameraWithItsOwnViewportIsRefusedWithTheReason) {
+    Scene scene = boxScene();
+    const auto technique = planar();
+    scene.addShadow(technique);
+    osg::ref_ptr<osg::Camera> nested = new osg::Camera;
+    nested->setRenderOrder(osg::Camera::NESTED_RENDER);
+    nested->setReferenceFrame(osg::Transform::RELATIVE_RF);
+    nested->setViewport(10, 10, 50, 50);
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(nested);
+    nested->addChild(scene.root);
+    render(root, slanted);
+    expectOneCause(*technique, "nested camera");
+}
+
+TEST(HostileGraph, LightNumbersThatOpenGLLacksAreRefused) {
+    const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
+    for (const int number : {-1, 8, 40}) group->addLight({number, osg::Vec4d(0.0, 0.0, 1.0, 0.0)});
+    EXPECT_TRUE(group->getLights().empty());
+    group->setLights({{7, osg::Vec4d(0.0, 0.0, 1.0, 0.0)}, {8, osg::Vec4d(0.0, 0.0, 1.0, 0.0)}});
+    EXPECT_EQ(group->getLights().size(), 1u);
+}
+
+// Half of 2,000 instances of one tile receive: each leaf must be told apart.
+TEST(HostileGraph, InstancesAreToldApartOnceEach) {
+    Scene scene = test::scene();
+    const osg::ref_ptr<osg::Geode> tile = node(square(0.05));
+    osg::ref_ptr<osg::Group> half = new osg::Group;
+    for (int i = 0; i < 2000; ++i) {
+        osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrixd::translate(i % 50 * 0.1 - 2.45, i / 50 * 0.1 - 1.95, 0.0));
+        place->addChild(tile);
+        if (i / 50 < 20)
+            half->addChild(place);
+        else
+            scene.content->addChild(place);
+    }
+    scene.content->addChild(half);
+    scene.content->addChild(
+        node(square(6.0, 8.0), "caster")); // its shadow, 8 m to the left, covers all tiles up to x = -2
+    scene.addShadow(planar(half));
+    scene.group->setCasters({find(*scene.root, "caster")});
+    View view = fromAbove(2.5);
+    view.view.makeLookAt({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}); // under the caster
+    Camera camera(scene.root, view);
+    const Picture picture = camera.frame();
+    // Columns of tiles to x = -2, rows to y = 0: 0.5 × 2 m of 51.2² pixels each, to a pixel around.
+    EXPECT_NEAR(picture.count(shadowedGround), 0.5 * 2.0 * 51.2 * 51.2, 2.0 * (0.5 + 2.0) * 51.2);
+}
