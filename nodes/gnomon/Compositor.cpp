@@ -59,7 +59,7 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs) {
         if (!canMark(job)) continue;
         if (job.composite == ShadowCasterGroup::RELIGHT)
             relit.push_back(&job);
-        else
+        else if (job.dark < 1.0f) // a factor of 1 changes nothing
             blended[job.dark].push_back(&job);
     }
     if (!relit.empty() && !composeDirectly(relit)) {
@@ -75,7 +75,7 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs) {
 /// A leaf with a stencil test of its own cannot be drawn again under ours.
 void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended) {
     for (const ShadowJob* job : jobs) {
-        blended[job->dark].push_back(job);
+        if (job->dark < 1.0f) blended[job->dark].push_back(job);
         job->technique->report(job->frameNumber,
                                "blends instead of relighting, for something opaque in this view has a stencil test of "
                                "its own: draw that in a bin above 8, or set BLEND.");

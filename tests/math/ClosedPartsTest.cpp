@@ -24,7 +24,7 @@ struct Soup {
         return std::count(closed.begin(), closed.end(), true);
     }
     void add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-        positions.insert(positions.end(), {a, b, c});
+        for (const glm::vec3& corner : {a, b, c}) positions.push_back(corner);
     }
     void add(const Soup& other) { positions.insert(positions.end(), other.positions.begin(), other.positions.end()); }
     Soup moved(const glm::vec3& by) const {
