@@ -63,7 +63,7 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs) {
             blended[job.dark].push_back(&job);
     }
     if (!relit.empty() && !composeDirectly(relit)) {
-        if (useStencil(_leaves))
+        if (isModeOn(_leaves, GL_STENCIL_TEST))
             blendInstead(relit, blended);
         else
             relight(relit);
@@ -271,7 +271,7 @@ void Compositor::resetMarked(unsigned where, const ScreenRect& bounds) {
     ScreenPass pass(_state, *_stage.getViewport(), bounds);
     pass.stencilAny(where);
     const bool background = _stage.getClearMask() & GL_COLOR_BUFFER_BIT;
-    if (background && gnomon::blend(_leaves)) pass.writeColor(_stage.getClearColor());
+    if (background && isModeOn(_leaves, GL_BLEND)) pass.writeColor(_stage.getClearColor());
     pass.writeFarDepth();
 }
 

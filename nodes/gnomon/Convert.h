@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-/// OpenSceneGraph's types to GLM's and back. A transform's osg::Matrixd (row vectors, row by row) and its glm::dmat4
+/// OpenSceneGraph's types to GLM's. A transform's osg::Matrixd (row vectors, row by row) and its glm::dmat4
 /// (column vectors, column by column) have the same bytes; only the order of a product turns round.
 namespace gnomon {
 
@@ -18,11 +18,8 @@ inline glm::dmat4 toGlm(const osg::Matrixd& matrix) {
     std::memcpy(&result[0][0], matrix.ptr(), 16 * sizeof(double));
     return result;
 }
-inline osg::Matrixd toOsg(const glm::dmat4& matrix) { return osg::Matrixd(&matrix[0][0]); }
 
 inline glm::dvec3 toGlm(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
 inline glm::dvec4 toGlm(const osg::Vec4d& v) { return {v.x(), v.y(), v.z(), v.w()}; }
-inline osg::Vec3d toOsg(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-inline osg::Vec4d toOsg(const glm::dvec4& v) { return {v.x, v.y, v.z, v.w}; }
 
 } // namespace gnomon

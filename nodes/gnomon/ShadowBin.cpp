@@ -164,7 +164,7 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
     if (!_jobs.empty()) {
         popLeafState(*renderInfo.getState(), previous);
         std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
-        const bool clean = _stageClears && !useStencil(leaves);
+        const bool clean = _stageClears && !isModeOn(leaves, GL_STENCIL_TEST);
         Compositor(renderInfo, *getStage(), std::move(leaves), clean).compose(_jobs);
         renderInfo.getState()->decrementDynamicObjectCount();
     }

@@ -133,16 +133,6 @@ const osg::ColorMask* resolvedMask(const osgUtil::StateGraph* graph) {
     return found;
 }
 
-bool isModeOn(const std::vector<StageLeaf>& leaves, osg::StateAttribute::GLMode mode) {
-    std::set<const osgUtil::StateGraph*> seen;
-    for (const StageLeaf& entry : leaves) {
-        if (!seen.insert(entry.leaf->_parent).second) continue;
-        bool overridden = false;
-        if (resolvedMode(entry.leaf->_parent, mode, overridden)) return true;
-    }
-    return false;
-}
-
 bool isPlainDepth(const osg::StateAttribute* attribute) {
     const auto* depth = static_cast<const osg::Depth*>(attribute);
     return !depth || (depth->getFunction() == osg::Depth::LESS && depth->getWriteMask() && depth->getZNear() == 0.0 &&
@@ -183,11 +173,15 @@ std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<StageLeaf>
     return result;
 }
 
-bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode mode) {
-    return isModeOn(leavesBelow(stage, INT_MAX), mode);
+bool isModeOn(const std::vector<StageLeaf>& leaves, osg::StateAttribute::GLMode mode) {
+    std::set<const osgUtil::StateGraph*> seen;
+    for (const StageLeaf& entry : leaves) {
+        if (!seen.insert(entry.leaf->_parent).second) continue;
+        bool overridden = false;
+        if (resolvedMode(entry.leaf->_parent, mode, overridden)) return true;
+    }
+    return false;
 }
-
-bool useStencil(const std::vector<StageLeaf>& leaves) { return isModeOn(leaves, GL_STENCIL_TEST); }
 
 Channels writtenChannels(const std::vector<StageLeaf>& leaves) {
     Channels written;
@@ -201,8 +195,6 @@ Channels writtenChannels(const std::vector<StageLeaf>& leaves) {
     }
     return written;
 }
-
-bool blend(const std::vector<StageLeaf>& leaves) { return isModeOn(leaves, GL_BLEND); }
 
 bool PlainTest::operator()(const osgUtil::RenderLeaf& leaf) {
     const osgUtil::StateGraph* graph = leaf._parent;

@@ -28,11 +28,8 @@ std::vector<StageLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);
 std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<StageLeaf>& leaves, const Selection& receiver,
                                                     const osg::Matrixd& eyeFromWorld);
 
-/// True if any leaf of the stage is drawn with `mode` on.
-bool isModeOnAnywhere(osgUtil::RenderStage& stage, osg::StateAttribute::GLMode mode);
-
-/// True if any of the leaves is drawn with the stencil test on.
-bool useStencil(const std::vector<StageLeaf>& leaves);
+/// True if any of the leaves is drawn with `mode` on.
+bool isModeOn(const std::vector<StageLeaf>& leaves, osg::StateAttribute::GLMode mode);
 
 /// Colour channels.
 struct Channels {
@@ -41,9 +38,6 @@ struct Channels {
 
 /// Those that any of the leaves writes: fewer than all in anaglyph stereo, for one.
 Channels writtenChannels(const std::vector<StageLeaf>& leaves);
-
-/// True if any of the leaves blends with what stands.
-bool blend(const std::vector<StageLeaf>& leaves);
 
 /// Tells leaves that are drawn in the plainest way: depth test LESS with writing, no blending, offset, stencil, depth
 /// range or colour mask. Such a leaf can show only where it is nearest, and never over something drawn before it at the

@@ -5,6 +5,7 @@
 #include <osg/Light>
 #include <osgUtil/PositionalStateContainer>
 
+#include <limits>
 #include <map>
 
 namespace gnomon {
@@ -60,11 +61,12 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
         addSetLights(group, inStage, groupFromEye, result);
         return result;
     }
+    const std::vector<StageLeaf> leaves = leavesBelow(stage, std::numeric_limits<int>::max());
     for (const auto& [number, light] : inStage)
         if (number < 0 || number > 7)
             result.causes.push_back("leaves out light " + std::to_string(number) +
                                     ": OpenGL's lights are 0 to 7; renumber it.");
-        else if (isModeOnAnywhere(stage, GL_LIGHT0 + static_cast<unsigned>(number)))
+        else if (isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(number)))
             result.lights.push_back({number, light.inEye * groupFromEye});
     if (result.lights.empty())
         result.causes.push_back(

@@ -103,16 +103,25 @@ TEST(Place, FarAwayByATransformAboveTheGroupChangesNoBit) {
     });
 }
 
+namespace {
+
+/// Puts the content, within the group, and the light each under a transform to `farAway`.
+void moveContentAndLight(Scene& scene) {
+    const auto transform = placed(farAway), ofLight = placed(farAway);
+    scene.group->replaceChild(scene.content, transform);
+    transform->addChild(scene.content);
+    scene.root->replaceChild(scene.light, ofLight);
+    ofLight->addChild(scene.light);
+}
+
+} // namespace
+
 TEST(Place, FarAwayByATransformInTheGroupChangesNoBit) {
     forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         Scene scene = trial.build();
         scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, -farAway.z())));
-        const auto transform = placed(farAway), ofLight = placed(farAway);
-        scene.group->replaceChild(scene.content, transform);
-        transform->addChild(scene.content);
-        scene.root->replaceChild(scene.light, ofLight);
-        ofLight->addChild(scene.light);
+        moveContentAndLight(scene);
         EXPECT_EQ(mostDifferent(pictures(scene, scene.root, movedTo(farAway, trial.view)), pictures(trial)), 0);
     });
 }
@@ -123,11 +132,7 @@ TEST(Place, FarAwayOfALightGivenInDoubleChangesNoBit) {
         Scene scene = trial.build();
         scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, -farAway.z())));
         scene.group->addLight({0, light + osg::Vec4d(farAway, 0.0) * light.w()});
-        const auto transform = placed(farAway), ofLight = placed(farAway);
-        scene.group->replaceChild(scene.content, transform);
-        transform->addChild(scene.content);
-        scene.root->replaceChild(scene.light, ofLight);
-        ofLight->addChild(scene.light);
+        moveContentAndLight(scene);
         EXPECT_EQ(mostDifferent(pictures(scene, scene.root, movedTo(farAway, trial.view)), pictures(trial)), 0);
     });
 }
