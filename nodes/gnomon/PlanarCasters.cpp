@@ -46,13 +46,14 @@ ClosedParts solidsOf(const CasterMesh& mesh) {
 
 } // namespace
 
-PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool findSolids)
+PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under, bool findSolids)
     : plane(groupPlane.x, groupPlane.y, groupPlane.z, distance(groupPlane, toGlm(mesh.origin))),
       low(std::numeric_limits<double>::infinity()),
       high(-low),
       thickness(thicknessOf(mesh)),
       _mesh(&mesh),
       _groupPlane(groupPlane),
+      _under(under),
       _knowsSolids(findSolids) {
     const std::vector<double> heights = heightsAbove(mesh, plane);
     const osg::DrawElementsUInt& all = *mesh.triangles;
@@ -62,7 +63,7 @@ PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlan
         for (auto& list : row) list = new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES);
     for (unsigned i = 0; i + 2 < all.size(); i += 3) {
         const auto [lowest, top] = std::minmax({heights[all[i]], heights[all[i + 1]], heights[all[i + 2]]});
-        if (!(top > thickness)) continue;
+        if (!(top > thickness || (under && lowest < -thickness))) continue;
         osg::DrawElementsUInt& list = *lists[lowest < -thickness][findSolids && closed.closed[i / 3]];
         for (unsigned corner = i; corner < i + 3; ++corner) {
             list.push_back(findSolids ? closed.welded[all[corner]] : all[corner]);

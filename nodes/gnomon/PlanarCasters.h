@@ -13,7 +13,7 @@
 namespace gnomon {
 
 /// The casters that reach above one plane, ready to be drawn flattened: made once a revision and plane, never changed.
-/// Triangles in or under the plane are left out.
+/// Triangles in the plane are left out, and those under it unless asked for.
 class PlanarCasters : public osg::Referenced {
 public:
     /// Triangles that are drawn alike.
@@ -24,11 +24,12 @@ public:
     };
 
     /// @param groupPlane  unit normal, group frame.
+    /// @param under       keep what lies under the plane, too.
     /// @param findSolids  look for solids (closedParts()): takes longer than all the rest, and halves the drawing.
-    PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool findSolids);
+    PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under, bool findSolids);
 
-    bool madeFrom(const CasterMesh& mesh, const glm::dvec4& groupPlane) const {
-        return _mesh == &mesh && _groupPlane == groupPlane;
+    bool madeFrom(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under) const {
+        return _mesh == &mesh && _groupPlane == groupPlane && _under == under;
     }
     bool knowsSolids() const { return _knowsSolids; }
     void resizeGLObjectBuffers(unsigned maxSize);
@@ -48,6 +49,7 @@ protected:
 private:
     osg::ref_ptr<const CasterMesh> _mesh; // kept, so that its address cannot be taken by the next revision
     glm::dvec4 _groupPlane;
+    bool _under;
     bool _knowsSolids;
 };
 

@@ -65,18 +65,27 @@ PlanarPrograms::PlanarPrograms() : plain(programState("")), clipping(programStat
 std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     osg::State& state = *renderInfo.getState();
     pass.stencilEqual(bit, 0, bit);
+    if (!cures.offset) fightReceiver();
+    const bool drawn = drawParts(renderInfo);
+    if (cutToPlane) cut(state, pass, bit);
+    if (!cures.stencil) darken(renderInfo, pass, bit);
+    return drawn ? "" : "cannot build its program in this context: it needs OpenGL 3.0 with GLSL 1.30 or later.";
+}
+
+/// @return false if some program is not to be had.
+bool PlanarMark::drawParts(osg::RenderInfo& renderInfo) const {
     bool drawn = true;
     for (const PlanarCasters::Part& part : casters->parts) drawn = drawPart(renderInfo, part) && drawn;
-    state.apply();
-    if (cutToPlane) cut(state, pass, bit);
-    return drawn ? "" : "cannot build its program in this context: it needs OpenGL 3.0 with GLSL 1.30 or later.";
+    renderInfo.getState()->apply();
+    return drawn;
 }
 
 /// @return false if the program is not to be had.
 bool PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const {
     osg::State& state = *renderInfo.getState();
-    const bool clips = part.crossing || reachesLight;
-    const bool culls = part.solid && !reachesLight; // a solid cut by the light's height may lack its upper faces
+    const bool clips = cures.clip && (part.crossing || reachesLight);
+    // A solid cut by the light's height may lack its upper faces; without the stencil cure each face darkens for itself.
+    const bool culls = part.solid && !reachesLight && cures.stencil;
     state.apply((clips ? programs->clipping : programs->plain).get());
     if (!state.getLastAppliedProgramObject()) return false;
     setUniform(state, "clipFromCaster", clipFromCaster);
@@ -84,14 +93,37 @@ bool PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part
         setUniform(state, "abovePlane", abovePlane);
         setUniform(state, "belowLight", belowLight);
     }
-    if (part.crossing) glEnable(clipAbovePlane);
-    if (reachesLight) glEnable(clipBelowLight);
+    if (clips && part.crossing) glEnable(clipAbovePlane);
+    if (clips && reachesLight) glEnable(clipBelowLight);
     if (culls) glEnable(GL_CULL_FACE);
     glFrontFace(mirrored ? GL_CW : GL_CCW);
     part.geometry->draw(renderInfo);
+    if (!cures.clip && reachesLight) {
+        setUniform(state, "clipFromCaster", -clipFromCaster); // the same map: OpenGL draws only the half with w > 0
+        part.geometry->draw(renderInfo);
+    }
     glFrontFace(GL_CCW);
     for (const GLenum mode : {clipAbovePlane, clipBelowLight, GLenum(GL_CULL_FACE)}) glDisable(mode);
     return true;
+}
+
+/// Without the offset cure: what is drawn must be nearer than what stands there, at the depth that rounding gives both.
+void PlanarMark::fightReceiver() const {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+}
+
+/// Without the stencil cure: each triangle darkens for itself where marked; then no marks are left.
+void PlanarMark::darken(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+    pass.stencilAny(bit);
+    glDisable(GL_DEPTH_TEST);
+    if (!cures.offset) fightReceiver();
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
+    renderInfo.getState()->get<osg::GLExtensions>()->glBlendColor(dark, dark, dark, 1.0f);
+    drawParts(renderInfo);
+    pass.clearStencil(bit);
 }
 
 /// Takes the marks back where what stands in the depth buffer is behind the plane, and where it is before it.

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/MarkJob.h>
 #include <gnomon/PlanarCasters.h>
+#include <gnomon/PlanarCures.h>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -29,6 +30,8 @@ public:
     bool reachesLight = false; ///< some caster is as high as the light.
     bool mirrored = false;     ///< the view turns the sense of triangles round.
     bool cutToPlane = true;    ///< marks hold only where what one sees lies in the plane.
+    PlanarCures cures;
+    float dark = 0.5f; ///< factor that each triangle takes of what it covers; without the stencil cure only.
     /// The plane on the screen, normalised device coordinates: z = depth.x·x + depth.y·y + depth.z.
     glm::dvec3 depth{0.0};
 
@@ -38,7 +41,10 @@ protected:
     ~PlanarMark() override = default;
 
 private:
+    bool drawParts(osg::RenderInfo& renderInfo) const;
     bool drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const;
+    void darken(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
+    void fightReceiver() const;
     void cut(const osg::State& state, ScreenPass& pass, unsigned bit) const;
 };
 

@@ -4,6 +4,7 @@
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
+#include <gnomon/ShadowCasterGroup.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/gtc/matrix_access.hpp>
@@ -84,6 +85,7 @@ double heightLimit(const PlanarClipPlanes& clip, const glm::dvec4& plane) {
 
 /// Where on the screen the flattened casters can lie.
 std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
+    if (!mark.cures.clip) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
     std::vector<glm::dvec4> halfSpaces;
     if (mark.casters->crosses) halfSpaces.push_back(mark.abovePlane);
     if (mark.reachesLight) halfSpaces.push_back(mark.belowLight);
@@ -93,6 +95,12 @@ std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
     return screenBounds(corners);
 }
 
+/// Of the nearest group above; 0.5, as of any new group, where there is none.
+float darkAbove(const osg::Node& node) {
+    if (const auto* group = dynamic_cast<const ShadowCasterGroup*>(&node)) return group->getDark();
+    return node.getNumParents() ? darkAbove(*node.getParent(0)) : 0.5f;
+}
+
 } // namespace
 
 PlanarShadowNode::PlanarShadowNode() : _programs(new PlanarPrograms) {}
@@ -100,7 +108,7 @@ PlanarShadowNode::PlanarShadowNode() : _programs(new PlanarPrograms) {}
 PlanarShadowNode::PlanarShadowNode(const osg::Vec4d& plane) : PlanarShadowNode() { addPlane(plane); }
 
 PlanarShadowNode::PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp)
-    : ShadowTechnique(other, copyOp), _planes(other._planes), _programs(new PlanarPrograms) {}
+    : ShadowTechnique(other, copyOp), _planes(other._planes), _cures(other._cures), _programs(new PlanarPrograms) {}
 
 PlanarShadowNode::~PlanarShadowNode() = default;
 
@@ -159,7 +167,9 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     mark->belowLight = clip.belowLight;
     mark->reachesLight = heightLimit(clip, casters->plane) < casters->highest;
     mark->mirrored = isMirrored(view);
-    mark->cutToPlane = !receiverLiesIn(view, groupPlane);
+    mark->cures = _cures;
+    if (!_cures.stencil) mark->dark = darkAbove(*this);
+    mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, groupPlane);
     const auto bounds = boundsOf(*mark);
     const auto depth = depthOnScreen(casters->plane, clipFromMesh);
     if (!bounds || !depth) return nullptr; // out of sight: nothing to say
@@ -172,13 +182,13 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
 osg::ref_ptr<PlanarCasters> PlanarShadowNode::castersAbove(const CasterMesh& mesh, const glm::dvec4& plane,
                                                            unsigned frame) const {
     Lock lock(_cacheMutex);
-    const auto found =
-        std::find_if(_cache.begin(), _cache.end(), [&](const auto& entry) { return entry->madeFrom(mesh, plane); });
+    const auto found = std::find_if(_cache.begin(), _cache.end(),
+                                    [&](const auto& entry) { return entry->madeFrom(mesh, plane, !_cures.clip); });
     osg::ref_ptr<PlanarCasters> casters = found == _cache.end() ? nullptr : *found;
     if (casters) _cache.erase(found);
     const bool keptStill = casters && casters->firstFrame != frame; // then the search for solids pays from now on
     if (!casters || (keptStill && !casters->knowsSolids())) {
-        casters = new PlanarCasters(mesh, plane, keptStill);
+        casters = new PlanarCasters(mesh, plane, !_cures.clip, keptStill);
         casters->firstFrame = frame;
     }
     _cache.push_back(casters);

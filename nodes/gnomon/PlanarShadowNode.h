@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/PlanarCasters.h>
+#include <gnomon/PlanarCures.h>
 #include <gnomon/ShadowTechnique.h>
 
 #include <osg/Vec4d>
@@ -25,14 +26,28 @@ struct PlanarPrograms;
 ///         high; a ground of many kilometres under a near plane of decimetres may lose its shadow, and one drawn
 ///         with a polygon offset or a depth range of its own does. Alpha-tested casters cast as if they were solid.
 /// Threads any number of cull and draw threads; set properties between frames.
+/// Cures   three classic faults of planar shadows are cured; each cure can be switched off, to show its fault:
+///
+///         stencil  off: each flattened triangle darkens what it covers by the group's setDark(), be it relight or blend,
+///                  so that a pixel under n of them takes the factor n times. What lies in the plane receives, whatever
+///                  receiver is named. Costs the casters' draw twice.
+///         offset   off: the flattened triangles are tested at their own depth against what stands there, nothing between
+///                  the two, as they would be if they were drawn: they fight the receiver for each pixel. Which pixels
+///                  win is the rounding's, and differs from one OpenGL to the next.
+///         clip     off: what lies under the plane, or above a lamp, casts as well: an anti-shadow, where the line
+///                  through it and the light meets the plane. What lies in the plane never casts. The marks' bounds are
+///                  then the whole screen.
+///
 /// Source: CS-4470 "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8; J. Blinn 1988.
 ///
-/// In a file (.osgt, .osgb, .osgx), where what is left out has its default, here no receiver named and no plane:
+/// In a file (.osgt, .osgb, .osgx), where what is left out has its default, here no receiver named, no plane, all
+/// cures on:
 ///
 ///     gnomon::PlanarShadowNode {
 ///       UniqueID 2
 ///       Receiver { Mask 0xffffffff Node TRUE { osg::Geode { UniqueID 7 } } }
 ///       Planes 1 { 0 0 1 -0.1 }
+///       ClipCure FALSE
 ///     }
 class GNOMON_EXPORT PlanarShadowNode : public ShadowTechnique {
 public:
@@ -46,6 +61,16 @@ public:
         void addPlane(const osg::Vec4d& plane);
     void setPlanes(const std::vector<osg::Vec4d>& planes);
     const std::vector<osg::Vec4d>& getPlanes() const { return _planes; }
+
+    /// A pixel is darkened once, however many triangles fall on it. Default on.
+    void setStencilCure(bool on) { _cures.stencil = on; }
+    bool getStencilCure() const { return _cures.stencil; }
+    /// Marks do not fight the receiver for depth. Default on.
+    void setOffsetCure(bool on) { _cures.offset = on; }
+    bool getOffsetCure() const { return _cures.offset; }
+    /// Casts only what lies between plane and light. Default on.
+    void setClipCure(bool on) { _cures.clip = on; }
+    bool getClipCure() const { return _cures.clip; }
 
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const CasterMesh& casters) const override;
@@ -62,6 +87,7 @@ private:
     osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const glm::dvec4& plane, unsigned frame) const;
 
     std::vector<osg::Vec4d> _planes;
+    PlanarCures _cures;
     osg::ref_ptr<PlanarPrograms> _programs;
     mutable OpenThreads::Mutex _cacheMutex;
     mutable std::vector<osg::ref_ptr<PlanarCasters>> _cache; ///< used last at the end.

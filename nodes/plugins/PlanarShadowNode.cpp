@@ -22,5 +22,9 @@ static bool writePlanes(osgDB::OutputStream& out, const PlanarShadowNode& node) 
 REGISTER_OBJECT_WRAPPER(gnomon_PlanarShadowNode, new gnomon::PlanarShadowNode, gnomon::PlanarShadowNode,
                         "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
                         "gnomon::PlanarShadowNode") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
     ADD_USER_SERIALIZER(Planes);
+    ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
+    ADD_BOOL_SERIALIZER(OffsetCure, fresh->getOffsetCure());
+    ADD_BOOL_SERIALIZER(ClipCure, fresh->getClipCure());
 }

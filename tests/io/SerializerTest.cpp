@@ -92,6 +92,20 @@ TEST_P(SceneFile, KeepsTheCompositeAndItsFactor) {
     }
 }
 
+TEST_P(SceneFile, KeepsEachCureOfPlanarShadows) {
+    for (int off = 0; off < 3; ++off) {
+        osg::ref_ptr<PlanarShadowNode> node = new PlanarShadowNode;
+        node->setStencilCure(off != 0);
+        node->setOffsetCure(off != 1);
+        node->setClipCure(off != 2);
+        const auto copy = test::throughFile(*node, kind());
+        ASSERT_TRUE(copy);
+        EXPECT_EQ(copy->getStencilCure(), off != 0);
+        EXPECT_EQ(copy->getOffsetCure(), off != 1);
+        EXPECT_EQ(copy->getClipCure(), off != 2);
+    }
+}
+
 TEST_P(SceneFile, KeepsMasksWithoutANode) {
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
     group->setCasters({nullptr, 0xdeadbeefu});
@@ -170,6 +184,7 @@ TEST_P(SceneFile, LoadsDefaultsAsDefaults) {
     ASSERT_TRUE(node);
     EXPECT_FALSE(node->hasReceiver());
     EXPECT_TRUE(node->getPlanes().empty());
+    EXPECT_TRUE(node->getStencilCure() && node->getOffsetCure() && node->getClipCure());
 }
 
 TEST_P(SceneFile, DrawsTheSamePictureOnceLoaded) {
@@ -206,7 +221,8 @@ gnomon::ShadowCasterGroup {
   UniqueID 1
   Children 1 { gnomon::PlanarShadowNode { UniqueID 2
       Receiver { Mask 0xff Node FALSE }
-      Planes 2 { 0 0 1 -.5  1e0 0 0 3 } } }
+      Planes 2 { 0 0 1 -.5  1e0 0 0 3 }
+      ClipCure FALSE } }
   Casters { Mask 0xf0 Node FALSE }
   Composite BLEND
   Dark 0.25
@@ -222,6 +238,7 @@ gnomon::ShadowCasterGroup {
     const auto& node = childOf<PlanarShadowNode>(*group, 0);
     EXPECT_EQ(node.getReceiver().mask, 0xffu);
     EXPECT_EQ(node.getPlanes(), (std::vector<osg::Vec4d>{{0.0, 0.0, 1.0, -0.5}, {1.0, 0.0, 0.0, 3.0}}));
+    EXPECT_TRUE(node.getStencilCure() && node.getOffsetCure() && !node.getClipCure());
 }
 
 } // namespace
