@@ -142,7 +142,7 @@ TEST_P(PlanarCures, WithoutClipABoxThroughThePlaneThrowsBoth) {
 
 TEST_P(PlanarCures, SwitchedOnAgainLeaveNothingOfTheirFault) {
     const View slanted = perspective({-6.0, -9.0, 7.0}, {0.0, 0.0, 0.0});
-    Watched watched({box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0}), box({1.5, -0.5, -1.5}, {2.5, 0.5, 0.5})}, slanted,
+    Watched watched({box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0}), box({1.5, -0.5, -2.0}, {2.5, 0.5, -0.5})}, slanted,
                     GetParam());
     const Picture cured = watched.frame();
     for (const Cure& cure : cures) {
