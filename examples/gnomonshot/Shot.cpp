@@ -19,8 +19,8 @@ constexpr int warmUpFrames = 3; // OSG keeps two scene views; each compiles and 
 
 HeadlessContext::Options contextOptions(const ShotOptions& options) {
     HeadlessContext::Options result;
-    result.width = options.width;
-    result.height = options.height;
+    result.width = options.view.width;
+    result.height = options.view.height;
     return result;
 }
 
@@ -43,12 +43,6 @@ double peakMiB() {
     return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-std::string techniqueNames(const std::vector<ShadowSpec>& specs) {
-    std::string names;
-    for (const ShadowSpec& spec : specs) names += (names.empty() ? "" : " + ") + spec.text;
-    return names.empty() ? "none" : names;
-}
-
 } // namespace
 
 Shot::Shot(const ShotOptions& options, osg::Node& files)
@@ -57,7 +51,7 @@ Shot::Shot(const ShotOptions& options, osg::Node& files)
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
     _viewer.setLightingMode(osg::View::NO_LIGHT);
     _context.attach(*_viewer.getCamera());
-    placeCamera(*_viewer.getCamera(), options.view, _setup.bounds, double(options.width) / options.height);
+    placeCamera(*_viewer.getCamera(), options.view, _setup.bounds);
     _viewer.setSceneData(_setup.root);
 }
 

@@ -10,10 +10,9 @@ namespace gnomon::examples {
 /// What gnomonshot's command line asks for.
 struct ShotOptions {
     ViewOptions view;
-    int width = 800, height = 600; ///< pixels
-    std::optional<int> frames;     ///< 1, or 20 with stats.
-    std::string out;               ///< picture; empty: none.
-    std::string stats;             ///< JSON file; empty: none.
+    std::optional<int> frames; ///< 1, or 20 with stats.
+    std::string out;           ///< picture; empty: none.
+    std::string stats;         ///< JSON file; empty: none.
     bool help = false;
 
     int frameCount() const { return frames.value_or(stats.empty() ? 1 : 20); }

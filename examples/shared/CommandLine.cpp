@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
 
+#include <osgDB/Registry>
+
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -75,6 +77,15 @@ void refuseUnknownOptions(osg::ArgumentParser& arguments) {
         if (arguments[i][0] == '-')
             refuse(std::string("there is no option ") + arguments[i] + "; --help lists those there are.");
 }
+
+/// They take the argument that follows them, whether it is there or not.
+void readOsgOptions(osg::ArgumentParser& arguments) {
+    for (const char* name : {"-O", "-e", "-l"})
+        if (arguments.find(name) == arguments.argc() - 1) refuse(std::string(name) + " needs a value.");
+    osgDB::Registry::instance()->readCommandLine(arguments);
+}
+
+std::string osgOptionsHelp() { return "  -O TEXT, -e EXT, -l LIBRARY\n      as in other OpenSceneGraph programs\n"; }
 
 std::string describeOptions(const Options& table) {
     std::ostringstream out;

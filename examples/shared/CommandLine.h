@@ -30,6 +30,10 @@ void readOptions(osg::ArgumentParser& arguments, const Options& table);
 /// @throws std::invalid_argument if an option is left over.
 void refuseUnknownOptions(osg::ArgumentParser& arguments);
 
+/// Takes OpenSceneGraph's own options out: -O, -e, -l. @throws std::invalid_argument if one lacks its value.
+void readOsgOptions(osg::ArgumentParser& arguments);
+std::string osgOptionsHelp();
+
 /// The table as --help prints it.
 std::string describeOptions(const Options& table);
 

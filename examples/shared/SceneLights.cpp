@@ -44,6 +44,23 @@ void stand(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d& pla
     light.setPosition(isLamp(place) ? osg::Vec4(0, 0, 0, 1) : osg::Vec4(place));
 }
 
+/// From `seenFrom` to the light, times w where that is not 0.
+osg::Vec3d wayTo(const osg::Vec4d& place, const osg::Vec3d& seenFrom) {
+    const osg::Vec3d way = osg::Vec3d(place.x(), place.y(), place.z()) - seenFrom * place.w();
+    return place.w() < 0.0 ? -way : way;
+}
+
+/// To the bit as it was given where it is not moved.
+osg::Vec4d moved(const osg::Vec4d& given, const SceneLights::Direction& by, const osg::Vec3d& centre) {
+    if (by.azimuth == 0.0 && by.elevation == 0.0) return given;
+    const osg::Vec3d up(0, 0, 1), way = wayTo(given, centre), across = way ^ up;
+    const osg::Vec3d axis = across.length2() > 0.0 ? across : osg::Vec3d(1, 0, 0);
+    const osg::Vec3d now = way * osg::Matrixd::rotate(osg::DegreesToRadians(by.elevation), axis) *
+                           osg::Matrixd::rotate(-osg::DegreesToRadians(by.azimuth), up);
+    const double w = std::abs(given.w());
+    return {now + centre * w, w};
+}
+
 osg::Vec4 grey(double level) {
     const float l = static_cast<float>(level);
     return {l, l, l, 1.0f};
@@ -63,17 +80,28 @@ SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCas
         model->setAmbientIntensity(grey(*options.ambient));
         root.getOrCreateStateSet()->setAttributeAndModes(model);
     }
-    tellGroup(osg::Matrixd());
+    tellGroup();
 }
 
-void SceneLights::turn(double degrees) {
-    const osg::Matrixd turned = osg::Matrixd::rotate(osg::DegreesToRadians(degrees), osg::Vec3d(0, 0, 1));
-    for (const Own& own : _own) stand(*own.mount, *own.source->getLight(), own.place * turned);
-    tellGroup(turned);
+std::optional<SceneLights::Direction> SceneLights::given(const osg::Vec3d& seenFrom) const {
+    if (_own.empty()) return std::nullopt;
+    const osg::Vec3d way = wayTo(_own.front().given, seenFrom);
+    return Direction{osg::RadiansToDegrees(std::atan2(way.x(), way.y())),
+                     osg::RadiansToDegrees(std::atan2(way.z(), std::hypot(way.x(), way.y())))};
 }
+
+void SceneLights::move(const Direction& by, const osg::Vec3d& centre) {
+    for (Own& own : _own) {
+        own.place = moved(own.given, by, centre);
+        stand(*own.mount, *own.source->getLight(), own.place);
+    }
+    tellGroup();
+}
+
+void SceneLights::turn(double degrees) { move({-degrees, 0.0}, osg::Vec3d()); }
 
 void SceneLights::add(const osg::Vec4d& place, osg::Group& root) {
-    Own own{place, new osg::MatrixTransform, new osg::LightSource};
+    Own own{place, place, new osg::MatrixTransform, new osg::LightSource};
     own.source->setLight(new osg::Light(static_cast<unsigned>(freeNumber())));
     own.mount->addChild(own.source);
     stand(*own.mount, *own.source->getLight(), place);
@@ -105,11 +133,10 @@ void SceneLights::colour(const ViewOptions& options) {
     }
 }
 
-void SceneLights::tellGroup(const osg::Matrixd& turned) {
+void SceneLights::tellGroup() {
     _group->removeLights();
     for (const osg::ref_ptr<osg::LightSource>& source : _scene) _group->addLight(source.get());
-    for (const Own& own : _own)
-        _group->addLight(ShadowLight{own.source->getLight()->getLightNum(), own.place * turned});
+    for (const Own& own : _own) _group->addLight(ShadowLight{own.source->getLight()->getLightNum(), own.place});
 }
 
 } // namespace gnomon::examples

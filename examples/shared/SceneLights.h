@@ -7,6 +7,7 @@
 #include <osg/Group>
 #include <osg/MatrixTransform>
 
+#include <optional>
 #include <vector>
 
 namespace gnomon::examples {
@@ -19,6 +20,16 @@ public:
     /// lights.
     SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group);
 
+    /// Way from a point to a light. Degrees; azimuth from north = +y through east = +x, elevation from level.
+    struct Direction {
+        double azimuth, elevation;
+    };
+    /// Of the first of the program's own lights, as it was given; nullopt if all are the scene's.
+    std::optional<Direction> given(const osg::Vec3d& seenFrom) const;
+    /// Stands the program's own lights elsewhere than they were given: turned about the vertical through `centre`,
+    /// degrees, clockwise from above, and raised, degrees.
+    void move(const Direction& by, const osg::Vec3d& centre);
+
     /// Turns the program's own lights to this angle about up, from where they were given. Degrees, anticlockwise from
     /// above.
     void turn(double degrees);
@@ -27,7 +38,7 @@ public:
 
 private:
     struct Own {
-        osg::Vec4d place;
+        osg::Vec4d given, place; ///< place: where it is now.
         osg::ref_ptr<osg::MatrixTransform> mount;
         osg::ref_ptr<osg::LightSource> source;
     };
@@ -35,7 +46,7 @@ private:
     void add(const osg::Vec4d& place, osg::Group& root);
     int freeNumber() const;
     void colour(const ViewOptions& options);
-    void tellGroup(const osg::Matrixd& turned);
+    void tellGroup();
 
     osg::ref_ptr<ShadowCasterGroup> _group;
     std::vector<Own> _own;

@@ -46,15 +46,11 @@ Selection selectCasters(const std::string& casters, osg::Node& root) {
     return selection;
 }
 
-std::vector<ShadowSpec> withReceiver(std::vector<ShadowSpec> specs, const std::string& receiver) {
-    for (ShadowSpec& spec : specs)
-        if (spec.receiver.empty()) spec.receiver = receiver;
-    return specs;
-}
+double aspectOf(const ViewOptions& o) { return double(o.width) / o.height; }
 
-osg::Vec3d framedEye(const ViewOptions& o, const osg::Vec3d& center, double radius, double aspect) {
+osg::Vec3d framedEye(const ViewOptions& o, const osg::Vec3d& center, double radius) {
     const double halfHeight = std::tan(osg::DegreesToRadians(o.fovy) / 2.0);
-    const double half = std::atan(halfHeight * std::min(1.0, aspect));
+    const double half = std::atan(halfHeight * std::min(1.0, aspectOf(o)));
     const double distance = (radius > 0.0 ? radius : 1.0) * framingMargin / std::sin(half);
     const double azimuth = osg::DegreesToRadians(framingAzimuth), elevation = osg::DegreesToRadians(framingElevation);
     return center + osg::Vec3d(std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
@@ -86,6 +82,14 @@ std::vector<std::string> SceneSetup::diagnose() const {
     return causes;
 }
 
+void SceneSetup::cast(std::vector<ShadowSpec> specs) {
+    for (const osg::ref_ptr<ShadowTechnique>& technique : techniques) group->removeChild(technique);
+    techniques.clear();
+    for (ShadowSpec& spec : specs)
+        if (spec.receiver.empty()) spec.receiver = receiver;
+    techniques = addShadows(*group, specs);
+}
+
 SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {
     SceneSetup setup;
     setup.root = new osg::Group;
@@ -98,17 +102,23 @@ SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {
     setup.root->addChild(setup.group);
     setup.lights = std::make_unique<SceneLights>(options, *setup.root, *setup.group);
     setup.group->setCasters(selectCasters(options.casters, *setup.group));
-    setup.techniques = addShadows(*setup.group, withReceiver(options.shadows, options.receiver));
+    setup.receiver = options.receiver;
+    setup.cast(options.shadows);
     return setup;
 }
 
-void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds, double aspect) {
+Lookout lookout(const ViewOptions& options, const osg::BoundingBoxd& bounds) {
     const osg::Vec3d center = options.center.value_or(bounds.center());
-    const osg::Vec3d eye = options.eye.value_or(framedEye(options, center, bounds.radius(), aspect));
+    const osg::Vec3d eye = options.eye.value_or(framedEye(options, center, bounds.radius()));
     if (eye == center) throw std::invalid_argument("--eye is the scene's centre; give --center another point.");
-    camera.setViewMatrixAsLookAt(eye, center, chooseUp(options, center - eye));
+    return {eye, center, chooseUp(options, center - eye)};
+}
+
+void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds) {
+    const Lookout place = lookout(options, bounds);
+    camera.setViewMatrixAsLookAt(place.eye, place.center, place.up);
     if (options.zNear) camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
-    camera.setProjectionMatrixAsPerspective(options.fovy, aspect, options.zNear.value_or(1.0),
+    camera.setProjectionMatrixAsPerspective(options.fovy, aspectOf(options), options.zNear.value_or(1.0),
                                             options.zFar.value_or(1e4));
     const osg::Vec3d& b = options.background;
     camera.setClearColor(osg::Vec4(osg::Vec3(b), 1.0f));

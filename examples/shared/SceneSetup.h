@@ -23,6 +23,10 @@ struct SceneSetup {
     std::vector<osg::ref_ptr<ShadowTechnique>> techniques;
     std::unique_ptr<SceneLights> lights;
     osg::BoundingBoxd bounds; ///< of the files, without the ground put under them; world.
+    std::string receiver;     ///< for every shadow that names none itself.
+
+    /// Puts these in the place of the shadows so far. @throws as setUpScene(); there are no shadows then.
+    void cast(std::vector<ShadowSpec> specs);
 
     /// Switches all shadows on or off.
     void show(bool shadows);
@@ -34,8 +38,15 @@ struct SceneSetup {
 SceneSetup setUpScene(const ViewOptions& options, osg::Node& files);
 
 /// Places a perspective camera as the options ask; without an eye so that the scene fills the picture, seen from the
-/// south-west and above. @param aspect width / height.
+/// south-west and above.
 /// @throws std::invalid_argument, one sentence.
-void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds, double aspect);
+void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds);
+
+/// Where the camera is to stand and what it looks at.
+struct Lookout {
+    osg::Vec3d eye, center, up;
+};
+/// @throws std::invalid_argument, one sentence.
+Lookout lookout(const ViewOptions& options, const osg::BoundingBoxd& bounds);
 
 } // namespace gnomon::examples

@@ -10,6 +10,7 @@ using Text = const std::string&;
 
 constexpr double smallestLength = 1e-9;
 constexpr std::size_t mostLights = 8;
+constexpr int largestSide = 16384;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
@@ -38,6 +39,17 @@ std::string readGround(Text text) {
 bool readUp(Text text) {
     if (text != "y" && text != "z") refuse("allowed: y, z.");
     return text == "y";
+}
+
+void takeSize(ViewOptions& into, Text text) {
+    const std::size_t cross = text.find('x');
+    try {
+        into.width = readWhole(text.substr(0, cross), 1, largestSide);
+        into.height = cross == std::string::npos ? 0 : readWhole(text.substr(cross + 1), 1, largestSide);
+    } catch (const std::invalid_argument&) {
+        into.height = 0;
+    }
+    if (into.height == 0) refuse("allowed: WIDTHxHEIGHT from 1x1 to 16384x16384 pixels.");
 }
 
 void addSceneOptions(Options& table, ViewOptions& into) {
@@ -81,6 +93,8 @@ void addCameraOptions(Options& table, ViewOptions& into) {
                      [&into](Text t) { into.zFar = readNumber(t, smallestLength, largestNumber); }});
     table.push_back({"--background", "r,g,b", "colour behind the scene, 0 to 1 each", "0.2,0.2,0.4",
                      [&into](Text t) { into.background = readVec3(t, 0.0, 1.0); }});
+    table.push_back({"--size", "WxH", "of the picture, 1x1 to 16384x16384 pixels", "800x600",
+                     [&into](Text t) { takeSize(into, t); }});
 }
 
 void requireCamera(const ViewOptions& o) {
@@ -106,6 +120,18 @@ Options viewOptions(ViewOptions& into) {
     addLightOptions(table, into);
     addCameraOptions(table, into);
     return table;
+}
+
+void readFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
+    refuseUnknownOptions(arguments);
+    for (int i = 1; i < arguments.argc(); ++i) into.files.push_back(arguments[i]);
+    if (into.files.empty()) refuse("no scene file is given; --help says how.");
+}
+
+std::string techniqueNames(const std::vector<ShadowSpec>& specs) {
+    std::string names;
+    for (const ShadowSpec& spec : specs) names += (names.empty() ? "" : " + ") + spec.text;
+    return names.empty() ? "none" : names;
 }
 
 void requireConsistent(const ViewOptions& options) {

@@ -31,10 +31,18 @@ struct ViewOptions {
     std::optional<double> zNear;
     std::optional<double> zFar;
     osg::Vec3d background{0.2, 0.2, 0.4};
+    int width = 800, height = 600; ///< of the picture, pixels.
 };
 
 /// The options of `into`, as a table.
 Options viewOptions(ViewOptions& into);
+
+/// Takes what is left of the command line as scene files. @throws std::invalid_argument if there is none, or something
+/// is an option.
+void readFiles(osg::ArgumentParser& arguments, ViewOptions& into);
+
+/// Names of several specifications, "none" without any.
+std::string techniqueNames(const std::vector<ShadowSpec>& specs);
 
 /// What one option alone cannot tell. @throws std::invalid_argument, one sentence.
 void requireConsistent(const ViewOptions& options);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/Camera>
+#include <osgGA/GUIEventHandler>
+#include <osgText/Text>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// Lines of text in the window's lower left corner, asked for anew each frame.
+class Hud : public osgGA::GUIEventHandler {
+public:
+    using Lines = std::function<std::vector<std::string>()>;
+    explicit Hud(Lines lines);
+
+    /// To be put into the scene, under no transform.
+    osg::Camera* camera() { return _camera; }
+    /// Hides or shows it.
+    void toggle();
+
+    bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
+
+private:
+    void fit(double width, double height);
+    void write();
+
+    Lines _lines;
+    osg::ref_ptr<osg::Camera> _camera;
+    osg::ref_ptr<osgText::Text> _text;
+    std::string _written;
+};
+
+} // namespace gnomon::examples

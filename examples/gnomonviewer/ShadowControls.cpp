@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "ShadowControls.h"
+
+#include <gnomon/PlanarShadowNode.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+const char* onOff(bool on) { return on ? "on" : "OFF"; }
+
+std::string whole(double number) { return std::to_string(std::lround(number)); }
+
+/// 0 to 360.
+double compass(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
+
+} // namespace
+
+ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : _setup(setup) {
+    const std::string given = options.shadows.empty() ? "none" : options.shadows.front().technique;
+    for (const std::string& name : shadowTechniques()) {
+        if (name == given) _chosen = _choices.size();
+        const bool asGiven = name == given && !options.shadows.empty();
+        _choices.push_back(asGiven ? options.shadows : Specs{parseShadowSpec(name)});
+    }
+}
+
+void ShadowControls::nextTechnique() {
+    _chosen = (_chosen + 1) % _choices.size();
+    const ShadowCasterGroup::Composite composite = _setup.group->getComposite();
+    cast();
+    _setup.group->setComposite(composite);
+    applyCures();
+}
+
+void ShadowControls::cast() {
+    _refusal.clear();
+    try {
+        _setup.cast(_choices[_chosen]);
+    } catch (const std::invalid_argument& error) {
+        _refusal = error.what();
+    }
+}
+
+void ShadowControls::toggleComposite() {
+    const bool blends = _setup.group->getComposite() == ShadowCasterGroup::BLEND;
+    _setup.group->setComposite(blends ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
+}
+
+void ShadowControls::turnLight(double degrees) {
+    _moved.azimuth = compass(_moved.azimuth + degrees);
+    _setup.lights->move(_moved, _setup.bounds.center());
+}
+
+void ShadowControls::raiseLight(double degrees) {
+    const auto given = _setup.lights->given(_setup.bounds.center());
+    if (!given) return;
+    _moved.elevation = std::clamp(_moved.elevation + degrees, -90.0 - given->elevation, 90.0 - given->elevation);
+    _setup.lights->move(_moved, _setup.bounds.center());
+}
+
+void ShadowControls::toggle(bool PlanarCures::*cure) {
+    _cures.*cure = !(_cures.*cure);
+    applyCures();
+}
+
+void ShadowControls::applyCures() {
+    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
+        auto* planar = dynamic_cast<PlanarShadowNode*>(technique.get());
+        if (!planar) continue;
+        planar->setStencilCure(_cures.stencil);
+        planar->setOffsetCure(_cures.offset);
+        planar->setClipCure(_cures.clip);
+    }
+}
+
+std::vector<std::string> ShadowControls::describe() const {
+    const bool blends = _setup.group->getComposite() == ShadowCasterGroup::BLEND;
+    std::vector<std::string> lines = {"shadow: " + techniqueNames(_choices[_chosen]),
+                                      std::string("composite: ") + (blends ? "blend" : "relight"),
+                                      "light: " + describeLight(), "cures: " + describeCures()};
+    lines.push_back("h shows all keys, g hides this text");
+    if (!_refusal.empty()) lines.push_back(_refusal);
+    for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
+    return lines;
+}
+
+std::string ShadowControls::describeLight() const {
+    const auto given = _setup.lights->given(_setup.bounds.center());
+    if (!given) return "the scene's own, which stays";
+    return "azimuth " + whole(compass(given->azimuth + _moved.azimuth)) + ", elevation " +
+           whole(given->elevation + _moved.elevation) + " degrees";
+}
+
+std::string ShadowControls::describeCures() const {
+    return std::string("stencil ") + onOff(_cures.stencil) + ", offset " + onOff(_cures.offset) + ", clip " +
+           onOff(_cures.clip);
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "SceneSetup.h"
+
+#include <gnomon/PlanarCures.h>
+
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// What a user changes while looking: technique, composite, where the light is, and the cures of planar shadows.
+class ShadowControls {
+public:
+    ShadowControls(const ViewOptions& options, SceneSetup& setup);
+
+    /// Next of shadowTechniques(); that of the command line as it was given there.
+    void nextTechnique();
+    void toggleComposite();
+    /// Degrees, clockwise from above, about the scene's centre.
+    void turnLight(double degrees);
+    /// Degrees; stops overhead and underfoot.
+    void raiseLight(double degrees);
+    void toggle(bool PlanarCures::*cure);
+
+    /// How things stand, a line each, and why shadows are missing.
+    std::vector<std::string> describe() const;
+
+private:
+    using Specs = std::vector<ShadowSpec>;
+
+    void cast();
+    void applyCures();
+    std::string describeLight() const;
+    std::string describeCures() const;
+
+    SceneSetup& _setup;
+    std::vector<Specs> _choices;
+    std::size_t _chosen = 0;
+    std::string _refusal; ///< why the chosen technique does not suit the scene.
+    SceneLights::Direction _moved{0.0, 0.0};
+    PlanarCures _cures;
+};
+
+} // namespace gnomon::examples

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "Desktop.h"
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/extensions/XTest.h>
+
+#include <csignal>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdexcept>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace gnomon::testing {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+constexpr milliseconds limit{10000}, pause{20};
+
+[[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
+
+/// Until `done` holds, at most `time`. @return whether it does.
+bool waitFor(milliseconds time, const std::function<bool()>& done) {
+    for (const Clock::time_point end = Clock::now() + time; Clock::now() < end; std::this_thread::sleep_for(pause))
+        if (done()) return true;
+    return done();
+}
+
+std::vector<char*> pointers(const std::vector<std::string>& words) {
+    std::vector<char*> result;
+    for (const std::string& word : words) result.push_back(const_cast<char*>(word.c_str()));
+    result.push_back(nullptr);
+    return result;
+}
+
+/// In the child: ends with the test, says what it says into files of its folder.
+[[noreturn]] void become(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                         const std::vector<std::string>& environment) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const std::string said = std::filesystem::path(command[0]).filename().string() + ".err";
+    const int out = chdir(folder.c_str()) == 0 ? open(said.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600) : -1;
+    dup2(out, STDOUT_FILENO);
+    dup2(out, STDERR_FILENO);
+    for (const std::string& variable : environment) putenv(const_cast<char*>(variable.c_str()));
+    execvp(command[0].c_str(), pointers(command).data());
+    _exit(127);
+}
+
+/// What is written into a pipe, up to the end of a line.
+std::string readLine(int pipe, milliseconds time) {
+    std::string line;
+    for (const Clock::time_point end = Clock::now() + time; Clock::now() < end;) {
+        pollfd ready{pipe, POLLIN, 0};
+        char letter = 0;
+        if (poll(&ready, 1, int(pause.count())) == 0) continue;
+        if (read(pipe, &letter, 1) != 1 || letter == '\n') return line;
+        line += letter;
+    }
+    return "";
+}
+
+} // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                           const std::vector<std::string>& environment, int keepOpen) {
+    _id = fork();
+    if (_id < 0) fail("no process can be made");
+    if (_id > 0) return;
+    if (keepOpen >= 0) fcntl(keepOpen, F_SETFD, 0);
+    become(command, folder, environment);
+}
+
+ChildProcess::~ChildProcess() {
+    if (ended(milliseconds(0))) return;
+    kill(_id, SIGTERM);
+    if (ended(milliseconds(2000))) return;
+    kill(_id, SIGKILL);
+    ended(limit);
+}
+
+std::optional<int> ChildProcess::ended(milliseconds time) {
+    waitFor(time, [this] {
+        int how = 0;
+        if (!_status && waitpid(_id, &how, WNOHANG) == _id)
+            _status = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
+        return _status.has_value();
+    });
+    return _status;
+}
+
+Desktop::Desktop(const std::filesystem::path& folder) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) fail("no pipe can be made");
+    _server =
+        std::make_unique<ChildProcess>(std::vector<std::string>{XVFB, "-displayfd", std::to_string(ends[1]), "-screen",
+                                                                "0", "1024x768x24", "-nolisten", "tcp"},
+                                       folder, std::vector<std::string>{}, ends[1]);
+    close(ends[1]);
+    const std::string number = readLine(ends[0], limit);
+    close(ends[0]);
+    if (number.empty()) fail("Xvfb does not come up");
+    _name = ":" + number;
+    _display = XOpenDisplay(_name.c_str());
+    if (!_display) fail("the display " + _name + " cannot be opened");
+}
+
+Desktop::~Desktop() {
+    if (_display) XCloseDisplay(_display);
+}
+
+unsigned long Desktop::find(unsigned long parent, const std::string& name) const {
+    char* title = nullptr;
+    XFetchName(_display, parent, &title);
+    const bool same = title && name == title;
+    XFree(title);
+    if (same) return parent;
+    Window root = 0, above = 0, *children = nullptr, found = 0;
+    unsigned count = 0;
+    XQueryTree(_display, parent, &root, &above, &children, &count);
+    for (unsigned i = 0; i < count && !found; ++i) found = find(children[i], name);
+    XFree(children);
+    return found;
+}
+
+void Desktop::useWindow(const std::string& name) {
+    const Window root = DefaultRootWindow(_display);
+    if (!waitFor(limit, [&] { return (_window = find(root, name)) != 0; })) fail("no window " + name + " appears");
+    const Screenshot now = picture();
+    XTestFakeMotionEvent(_display, 0, 50 + now.width / 2, 50 + now.height / 2, 0);
+    XFlush(_display);
+}
+
+void Desktop::press(const std::string& key) {
+    const KeyCode code = XKeysymToKeycode(_display, XStringToKeysym(key.c_str()));
+    if (code == 0) fail("there is no key " + key);
+    for (const int down : {True, False}) XTestFakeKeyEvent(_display, code, down, 0);
+    XFlush(_display);
+}
+
+Screenshot Desktop::picture() {
+    XWindowAttributes place{};
+    XGetWindowAttributes(_display, _window, &place);
+    Screenshot result{place.width, place.height, {}};
+    XImage* image =
+        XGetImage(_display, _window, 0, 0, unsigned(place.width), unsigned(place.height), AllPlanes, ZPixmap);
+    if (!image) fail("the window has no picture");
+    for (int y = 0; y < place.height; ++y)
+        for (int x = 0; x < place.width; ++x)
+            result.pixels.push_back(static_cast<std::uint32_t>(XGetPixel(image, x, y) & 0xffffffu));
+    XDestroyImage(image);
+    return result;
+}
+
+Screenshot Desktop::pictureWhere(const std::string& what, const std::function<bool(const Screenshot&)>& wanted,
+                                 bool still) {
+    Screenshot before, now = picture();
+    const bool seen = waitFor(limit, [&] {
+        before = now;
+        now = picture();
+        return wanted(now) && (!still || now == before);
+    });
+    if (!seen) fail("within 10 s there was no picture where " + what);
+    return now;
+}
+
+} // namespace gnomon::testing

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+struct _XDisplay;
+
+namespace gnomon::testing {
+
+/// A program that runs beside the test, and ends with this at the latest.
+class ChildProcess {
+public:
+    /// @param keepOpen  a file descriptor that the program gets, too; -1: none.
+    ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& folder,
+                 const std::vector<std::string>& environment = {}, int keepOpen = -1);
+    ~ChildProcess();
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    /// Its exit status, 128 + signal if one ended it; nullopt if it still runs after `limit`.
+    std::optional<int> ended(std::chrono::milliseconds limit);
+
+private:
+    pid_t _id = -1;
+    std::optional<int> _status;
+};
+
+/// Pixels 0x00RRGGBB, top row first.
+struct Screenshot {
+    int width = 0, height = 0;
+    std::vector<std::uint32_t> pixels;
+
+    std::uint32_t at(int x, int y) const { return pixels[static_cast<std::size_t>(y * width + x)]; }
+    bool operator==(const Screenshot& other) const { return width == other.width && pixels == other.pixels; }
+    bool operator!=(const Screenshot& other) const { return !(*this == other); }
+};
+
+/// An X server of its own, 1024 × 768 in memory, with a keyboard that tests press.
+class Desktop {
+public:
+    /// @throws std::runtime_error if the server does not come up.
+    explicit Desktop(const std::filesystem::path& folder);
+    ~Desktop();
+
+    std::string name() const { return _name; } ///< for DISPLAY
+    /// Waits for a window of this name and puts the pointer into its middle. @throws std::runtime_error
+    void useWindow(const std::string& name);
+    /// A letter, a digit or an X key name as "Escape".
+    void press(const std::string& key);
+    Screenshot picture();
+    /// The first picture for which `wanted` holds, twice the same in a row if `still`.
+    /// @throws std::runtime_error with `what` if there is none within 10 s.
+    Screenshot pictureWhere(const std::string& what, const std::function<bool(const Screenshot&)>& wanted,
+                            bool still = true);
+
+private:
+    unsigned long find(unsigned long parent, const std::string& name) const;
+
+    std::unique_ptr<ChildProcess> _server;
+    std::string _name;
+    _XDisplay* _display = nullptr;
+    unsigned long _window = 0;
+};
+
+} // namespace gnomon::testing

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+// gnomonviewer as a user has it before him: a window on an X server, keys, and what is then to be seen.
+#include "Desktop.h"
+#include "Program.h"
+
+#include <gtest/gtest.h>
+
+#include <osg/Matrixd>
+#include <osg/Vec4d>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace gnomon::testing;
+using Pixels = std::vector<bool>;
+
+const osg::Vec3d eye(-1.0, -3.6, 2.2), center(-0.15, 0.1, 0.1), lamp(2.0, -1.5, 2.5);
+constexpr int width = 480, height = 360;
+
+Pixels changed(const Screenshot& a, const Screenshot& b) {
+    Pixels result(a.pixels.size(), true);
+    for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i) result[i] = a.pixels[i] != b.pixels[i];
+    return result;
+}
+
+int count(const Pixels& pixels) { return int(std::count(pixels.begin(), pixels.end(), true)); }
+
+/// Pixels of `a` that are not in `b`.
+int beyond(const Pixels& a, const Pixels& b) {
+    int result = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) result += a[i] && !b[i];
+    return result;
+}
+
+constexpr std::uint32_t background = 0x333366u;
+
+bool isGrey(std::uint32_t pixel) { return (pixel & 0xffu) == ((pixel >> 8) & 0xffu) && (pixel & 0xffu) == pixel >> 16; }
+
+/// The text stands on a dark ground, which reaches almost into the lower left corner, where there is else lit ground.
+bool hasText(const Screenshot& p) { return isGrey(p.at(7, p.height - 7)) && p.at(7, p.height - 7) < 0x606060u; }
+
+// The scene of data/lab8.osgt, by rays: a white ground of side 4, a sphere and a cube upon it.
+
+/// How far along from + t · way the sphere is met first; infinite if not.
+double meetSphere(const osg::Vec3d& from, const osg::Vec3d& way) {
+    const osg::Vec3d away = from - osg::Vec3d(-0.5, 0.0, 0.25);
+    const double a = way * way, b = away * way, c = away * away - 0.25, root = b * b - a * c;
+    const double t = (-b - std::sqrt(root)) / a;
+    return t > 0.0 ? t : INFINITY;
+}
+
+double meetCube(const osg::Vec3d& from, const osg::Vec3d& way) {
+    const osg::Vec3d low(0.25, -0.25, 0.0), high(0.75, 0.25, 0.5);
+    double enter = 0.0, leave = INFINITY;
+    for (int i = 0; i < 3; ++i) {
+        const double one = (low[i] - from[i]) / way[i], other = (high[i] - from[i]) / way[i];
+        enter = std::max(enter, std::min(one, other));
+        leave = std::min(leave, std::max(one, other));
+    }
+    return enter <= leave ? enter : INFINITY;
+}
+
+bool isShadowed(double x, double y, const osg::Vec3d& light) {
+    const osg::Matrixd clip = osg::Matrixd::lookAt(eye, center, osg::Vec3d(0, 0, 1)) *
+                              osg::Matrixd::perspective(40.0, double(width) / height, 1.0, 100.0);
+    const osg::Vec3d way =
+        osg::Vec3d(x / width * 2.0 - 1.0, 1.0 - y / height * 2.0, 1.0) * osg::Matrixd::inverse(clip) - eye;
+    const double t = -eye.z() / way.z();
+    const osg::Vec3d ground = eye + way * t;
+    if (!(t > 0.0) || std::abs(ground.x()) > 2.0 || std::abs(ground.y()) > 2.0) return false;
+    if (std::min(meetSphere(eye, way), meetCube(eye, way)) < t) return false;
+    return std::min(meetSphere(ground, light - ground), meetCube(ground, light - ground)) < 1.0;
+}
+
+/// Where the sphere's edge meets the ground a sliver of shadow is thinner than the tolerance at edges.
+constexpr int atFeet = 5;
+
+/// Pixels that differ from the rays' answer and have no neighbour of another answer.
+int misplaced(const Pixels& shadow, const osg::Vec3d& light) {
+    const auto answer = [&](int x, int y) { return isShadowed(x + 0.5, y + 0.5, light); };
+    int result = 0;
+    for (int y = 2; y < height - 2; ++y)
+        for (int x = 2; x < width - 2; ++x) {
+            if (shadow[std::size_t(y * width + x)] == answer(x, y)) continue;
+            bool edge = false; // OSG's sphere is of flat pieces, up to two pixels inside the true one
+            for (const int d : {-2, 2})
+                edge = edge || answer(x + d, y) != answer(x, y) || answer(x, y + d) != answer(x, y);
+            result += !edge;
+        }
+    return result;
+}
+
+class Viewer : public testing::Test {
+protected:
+    /// Starts the viewer and hides its text.
+    void start(const std::vector<std::string>& options = {"--shadow", "planar"}) {
+        std::vector<std::string> command = {
+            GNOMONVIEWER, GNOMON_DATA "/lab8.osgt", "--light", "2,-1.5,2.5,1", "--eye", "-1,-3.6,2.2",
+            "--center",   "-0.15,0.1,0.1",          "--size",  "480x360"};
+        command.insert(command.end(), options.begin(), options.end());
+        program = std::make_unique<ChildProcess>(command, folder.path(),
+                                                 std::vector<std::string>{"DISPLAY=" + desktop.name()});
+        desktop.useWindow("gnomonviewer");
+        withText = desktop.pictureWhere("the scene and the text are drawn", [](const Screenshot& p) {
+            return p.width == width && p.at(0, 0) == background && hasText(p);
+        });
+        first = pressed("g");
+    }
+
+    /// The picture after a key that changes it.
+    Screenshot pressed(const std::string& key, int times = 1) {
+        Screenshot now = desktop.picture();
+        for (int i = 0; i < times; ++i) {
+            const Screenshot before = now;
+            desktop.press(key);
+            now = desktop.pictureWhere(key + " has changed it", [&](const Screenshot& p) { return p != before; });
+        }
+        return now;
+    }
+
+    /// Presses a key after which the picture must be that, to the bit.
+    void expectAfter(const std::string& key, const Screenshot& expected) {
+        desktop.press(key);
+        EXPECT_NO_THROW(
+            desktop.pictureWhere(key + " has brought it back", [&](const Screenshot& p) { return p == expected; }));
+    }
+
+    TemporaryFolder folder;
+    Desktop desktop{folder.path()};
+    std::unique_ptr<ChildProcess> program;
+    Screenshot withText, first; ///< first: with shadow, without text.
+};
+
+} // namespace
+
+TEST_F(Viewer, ShowsTheShadowWhereRaysFindItAndNTakesItAway) {
+    start();
+    const Screenshot none = pressed("n");
+    const Pixels shadow = changed(first, none);
+    EXPECT_GT(count(shadow), 5000);
+    EXPECT_LE(misplaced(shadow, lamp), atFeet);
+    expectAfter("n", first);
+}
+
+TEST_F(Viewer, StartsWithoutShadowUnlessAskedForOne) {
+    start({});
+    const Screenshot planar = pressed("n");
+    EXPECT_LE(misplaced(changed(first, planar), lamp), atFeet);
+    expectAfter("n", first);
+}
+
+TEST_F(Viewer, RelightAndBlendDifferInShadowPixelsOnly) {
+    start();
+    const Pixels shadow = changed(first, pressed("n"));
+    expectAfter("n", first);
+    const Pixels differ = changed(first, pressed("r"));
+    EXPECT_GT(count(differ), count(shadow) / 2);
+    EXPECT_EQ(beyond(differ, shadow), 0);
+    pressed("n"); // the composite stays when the technique changes
+    EXPECT_EQ(changed(first, pressed("n")), differ);
+    expectAfter("r", first);
+}
+
+TEST_F(Viewer, JKUDMoveTheLightAndItsShadow) {
+    start();
+    const double a = osg::DegreesToRadians(-15.0);
+    const osg::Vec3d turned(lamp.x() * std::cos(a) - lamp.y() * std::sin(a),
+                            lamp.x() * std::sin(a) + lamp.y() * std::cos(a), lamp.z());
+    const auto shadow = [this] {
+        const Screenshot with = desktop.picture(), without = pressed("n");
+        pressed("n");
+        return changed(with, without);
+    };
+    pressed("k", 3);
+    EXPECT_LE(misplaced(shadow(), turned), atFeet);
+    const osg::Vec3d pivot(0.0, 0.0, 0.25), way = turned - pivot; // the scene's centre
+    const double level = std::hypot(way.x(), way.y()),
+                 elevation = std::atan2(way.z(), level) + osg::DegreesToRadians(10.0);
+    const osg::Vec3d raised = pivot + osg::Vec3d(way.x() / level * std::cos(elevation),
+                                                 way.y() / level * std::cos(elevation), std::sin(elevation)) *
+                                          way.length();
+    pressed("u", 2);
+    EXPECT_LE(misplaced(shadow(), raised), atFeet);
+    pressed("d", 2);
+    pressed("j", 2);
+    expectAfter("j", first);
+}
+
+TEST_F(Viewer, XShowsDoubleDarkeningOfTheGround) {
+    start();
+    const Screenshot none = pressed("n");
+    expectAfter("n", first);
+    const Pixels shadow = changed(first, none);
+    const Screenshot off = pressed("x");
+    int twice = 0;
+    for (std::size_t i = 0; i < off.pixels.size(); ++i) {
+        const int grey = int(none.pixels[i] & 0xffu), now = int(off.pixels[i] & 0xffu);
+        twice += isGrey(none.pixels[i]) && std::abs(now - grey / 4) <= 1;
+    }
+    EXPECT_LE(beyond(changed(off, none), shadow), 20) << "more than the feet of sphere and cube";
+    EXPECT_GT(twice, count(shadow) / 2); // a ray through a solid goes in and out
+    expectAfter("x", first);
+}
+
+TEST_F(Viewer, OShowsTheFightWithTheGround) {
+    start();
+    const Pixels shadow = changed(first, pressed("n"));
+    expectAfter("n", first);
+    const Pixels lit = changed(first, pressed("o"));
+    EXPECT_GT(count(lit), count(shadow) / 20);
+    EXPECT_LT(count(lit), count(shadow) * 19 / 20);
+    EXPECT_EQ(beyond(lit, shadow), 0);
+    expectAfter("o", first);
+}
+
+TEST_F(Viewer, PShowsTheAntiShadowOfWhatIsUnderground) {
+    start();
+    const Screenshot none = pressed("n");
+    expectAfter("n", first);
+    const Pixels anti = changed(first, pressed("p"));
+    EXPECT_GT(count(anti), 30); // the sphere's lowest quarter is under the ground, and the sphere hides most of it
+    EXPECT_EQ(beyond(changed(first, none), anti), count(changed(first, none))) << "lit before";
+    for (std::size_t i = 0; i < anti.size(); ++i) EXPECT_TRUE(!anti[i] || isGrey(none.pixels[i])) << "on the ground";
+    expectAfter("p", first);
+}
+
+TEST_F(Viewer, CuresStayOffWhenTheTechniqueChanges) {
+    start();
+    const Screenshot off = pressed("x");
+    pressed("n");
+    expectAfter("n", off);
+}
+
+TEST_F(Viewer, GHidesTheTextAndNothingElse) {
+    start();
+    const Pixels text = changed(withText, first);
+    EXPECT_GT(count(text), 1000);
+    for (int y = 0; y < height / 2; ++y)
+        for (int x = 0; x < width; ++x) EXPECT_FALSE(text[std::size_t(y * width + x)]) << x << " " << y;
+    expectAfter("g", withText);
+}
+
+TEST_F(Viewer, TheTextSaysWhatIsSwitched) {
+    start();
+    expectAfter("g", withText);
+    const auto textOf = [](const Screenshot& p) {
+        return std::vector<std::uint32_t>(p.pixels.end() - width * 120, p.pixels.end());
+    };
+    for (const char* key : {"n", "r", "k", "u", "x", "o", "p"}) {
+        const auto before = textOf(desktop.picture());
+        desktop.press(key);
+        EXPECT_NO_THROW(desktop.pictureWhere(std::string(key) + " shows in the text",
+                                             [&](const Screenshot& p) { return textOf(p) != before; }));
+    }
+}
+
+TEST_F(Viewer, SShowsStatisticsAndHHelp) {
+    start();
+    desktop.press("s");
+    desktop.pictureWhere(
+        "the frame rate is shown", [this](const Screenshot& p) { return p != first; }, false);
+    for (int i = 0; i < 3; ++i) desktop.press("s");
+    expectAfter("s", first); // five kinds, the last is none
+    EXPECT_GT(count(changed(first, pressed("h"))), 5000);
+    expectAfter("h", first);
+}
+
+TEST_F(Viewer, WShowsTheWireFrameThroughWhichTheBackgroundIsSeen) {
+    start();
+    const auto seen = [](const Screenshot& p) { return std::count(p.pixels.begin(), p.pixels.end(), background); };
+    const Screenshot wire = pressed("w");
+    EXPECT_GT(seen(wire), 2 * seen(first));
+    pressed("w");
+    expectAfter("w", first);
+}
+
+TEST_F(Viewer, CWritesTheWindowsPicture) {
+    start();
+    desktop.press("c");
+    osg::ref_ptr<osg::Image> file;
+    const std::string path = folder.path() / "gnomonviewer_0_0.png";
+    desktop.pictureWhere("the file is whole", [&](const Screenshot&) {
+        return std::filesystem::exists(path) && (file = osgDB::readRefImageFile(path)) && file->data();
+    });
+    ASSERT_EQ(file->s(), width);
+    ASSERT_EQ(file->t(), height);
+    int different = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const unsigned char* p = file->data(x, height - 1 - y);
+            different += first.at(x, y) != (unsigned(p[0]) << 16 | unsigned(p[1]) << 8 | p[2]);
+        }
+    EXPECT_EQ(different, 0);
+}
+
+TEST_F(Viewer, FFillsTheScreenAndGivesItBack) {
+    start();
+    desktop.press("f");
+    desktop.pictureWhere("it fills the screen", [](const Screenshot& p) {
+        return p.width == 1024 && p.height == 768 && isGrey(p.at(512, 600)) && p.at(512, 600) > 0x808080u;
+    });
+    desktop.press("f"); // back to a window, of 640 × 480 as osgviewer chooses it on this screen
+    const Screenshot window = desktop.pictureWhere("it is a window again", [](const Screenshot& p) {
+        return p.width == 640 && p.at(0, 0) == background && isGrey(p.at(320, 440)) && p.at(320, 440) > 0x808080u;
+    });
+    EXPECT_EQ(window.height, 480);
+}
+
+TEST_F(Viewer, NumberKeysChangeTheWayToMoveAndKeepTheSceneInSight) {
+    start();
+    for (const char* key : {"2", "3", "4", "5", "6", "7", "1"}) {
+        desktop.press(key);
+        const bool shown = hasText(desktop.picture());
+        desktop.press("g"); // when the text changes the key before has been seen to
+        desktop.pictureWhere(
+            "the text changes", [&](const Screenshot& p) { return hasText(p) != shown; }, false);
+        const Screenshot now = desktop.picture();
+        EXPECT_GT(std::count_if(now.pixels.begin(), now.pixels.end(), isGrey), width * height / 10) << key;
+    }
+    expectAfter("space", withText); // home; the text has been switched seven times
+}
+
+TEST_F(Viewer, EscapeEndsItWithStatus0) {
+    start();
+    desktop.press("Escape");
+    EXPECT_EQ(program->ended(std::chrono::seconds(10)), 0) << readFile(folder.path() / "gnomonviewer.err");
+}
+
+namespace {
+
+/// Runs it where no window can be had; bad input must be found before one is missed.
+Ending runWithoutDisplay(const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = {"-u", "DISPLAY", GNOMONVIEWER};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return runProgram("env", all, std::filesystem::temp_directory_path());
+}
+
+void expectRefused(const std::vector<std::string>& arguments, const std::string& part) {
+    const Ending ending = runWithoutDisplay(arguments);
+    EXPECT_EQ(ending.status, 1);
+    EXPECT_EQ(ending.out, "");
+    EXPECT_EQ(std::count(ending.err.begin(), ending.err.end(), '\n'), 1) << ending.err;
+    EXPECT_EQ(ending.err.rfind("gnomonviewer: ", 0), 0u) << ending.err;
+    EXPECT_NE(ending.err.find(part), std::string::npos) << ending.err;
+}
+
+} // namespace
+
+TEST(ViewerInput, SaysInOneSentenceWhatItCannotDo) {
+    expectRefused({GNOMON_DATA "/lab8.osgt"}, "no window can be opened");
+    expectRefused({}, "no scene file");
+    expectRefused({"/nowhere.osgt"}, "there is no file");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--shadow", "moon"}, "not a shadow technique");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--size", "0x5"}, "allowed: WIDTHxHEIGHT");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--out", "x.png"}, "no option --out");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--shadow", "planar", "--receiver", "sea"}, "no node is named \"sea\"");
+}
+
+TEST(ViewerInput, HelpListsOptionsWithDefaultsAndTheKeys) {
+    const Ending ending = runWithoutDisplay({"--help"});
+    EXPECT_EQ(ending.status, 0);
+    EXPECT_EQ(ending.err, "");
+    for (const char* part :
+         {"--shadow SPEC", "--light x,y,z,w", "--size WxH", "(default 800x600)", "KEYS", "  n  ", "  x  "})
+        EXPECT_NE(ending.out.find(part), std::string::npos) << part;
+}
