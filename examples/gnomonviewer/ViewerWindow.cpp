@@ -34,6 +34,17 @@ private:
     osg::NotifySeverity _before;
 };
 
+/// Goes back to where the others do; OSG's own goes to the south, level, at a distance that nobody gave.
+class Spherical : public osgGA::SphericalManipulator {
+public:
+    void home(double) override {
+        osg::Vec3d eye, center, up;
+        getHomePosition(eye, center, up);
+        setDistance((eye - center).length());
+        setByMatrix(osg::Matrixd::inverse(osg::Matrixd::lookAt(eye, center, up)));
+    }
+};
+
 /// Speaks for all manipulators in a line or two: each one's own lines would crowd the others off the help.
 class Hands : public osgGA::KeySwitchMatrixManipulator {
 public:
@@ -53,7 +64,7 @@ osg::ref_ptr<osgGA::KeySwitchMatrixManipulator> makeHands() {
     hands->addMatrixManipulator('4', "Terrain", new osgGA::TerrainManipulator);
     hands->addMatrixManipulator('5', "Orbit", new osgGA::OrbitManipulator);
     hands->addMatrixManipulator('6', "FirstPerson", new osgGA::FirstPersonManipulator);
-    hands->addMatrixManipulator('7', "Spherical", new osgGA::SphericalManipulator);
+    hands->addMatrixManipulator('7', "Spherical", new Spherical);
     return hands;
 }
 
