@@ -12,7 +12,9 @@ namespace {
 
 const Mesh caster = box({-1.5, -1.0, 1.5}, {3.5, 1.0, 2.5});
 const Mesh standing = quad({1.0, -3.0, 0.3}, {1.5, 0.0, 0.0}, {0.0, 1.4, 1.0});
-const Mesh standingLate = quad({-3.2, -2.5, 0.3}, {1.4, 0.0, 0.0}, {0.0, 1.2, 0.8});
+/// Two: over the box's shadow, and away from all shadows but its own.
+const Mesh standingLate = joined({quad({-3.2, -2.5, 0.3}, {1.4, 0.0, 0.0}, {0.0, 1.2, 0.8}),
+                                  quad({-6.2, 1.0, 0.3}, {1.4, 0.0, 0.0}, {0.0, 1.2, 0.8})});
 const Mesh leftHalf = quad({-8.0, -8.0, 0.0}, {8.0, 0.0, 0.0}, {0.0, 16.0, 0.0});
 const std::vector<Mesh> castersAndScreens = {caster, standing, standingLate};
 
@@ -101,10 +103,12 @@ TwoReceivers twoReceivers(const osg::Vec4d& light) {
     result.receivers->addChild(result.left = node(tiles(-8.0), "left"));
     result.receivers->addChild(result.right = node(tiles(0.0), "right"));
     for (osg::Node* each : {result.left.get(), result.right.get()}) each->getOrCreateStateSet(); // so drawn first
+    result.casters = new osg::Group;
+    result.casters->addChild(node(caster, "caster"));
+    result.casters->addChild(result.screen = node(standing, "screen"));
+    result.casters->addChild(result.late = node(standingLate, "late"));
     result.content->addChild(result.receivers);
-    result.content->addChild(node(caster, "caster"));
-    result.content->addChild(result.screen = node(standing, "screen"));
-    result.content->addChild(result.late = node(standingLate, "late"));
+    result.content->addChild(result.casters);
     result.late->getOrCreateStateSet()->setRenderBinDetails(11, "RenderBin");
     result.root->addChild(result.fill = fillLight());
     result.root->getStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
@@ -164,6 +168,7 @@ osg::ref_ptr<gnomon::PlanarShadowNode> castOnReceivers(TwoReceivers& scene, Rece
     const auto technique = planar(named ? scene.receivers.get() : nullptr);
     if (receiving == Receiving::NamedAmongOthers) makeUnplain(*scene.screen);
     scene.addShadow(technique);
+    scene.group->setCasters({scene.casters});
     scene.group->setDark(0.0f);
     if (!scene.discovered) scene.group->addLight(scene.light);
     return technique;

@@ -17,8 +17,9 @@ namespace test {
 /// receiver and of its shadow; one is drawn before the shadows and one after.
 struct TwoReceivers : Scene {
     osg::ref_ptr<osg::Group> receivers;    ///< named "receivers"; holds `left` and `right`.
+    osg::ref_ptr<osg::Group> casters;      ///< holds the box and the screens: marks are looked for no further.
     osg::ref_ptr<osg::Geode> left, right;  ///< x from -8 to 0 and from 0 to 8; corners every 2.
-    osg::ref_ptr<osg::Geode> screen, late; ///< before `right`; before `left`, and in bin 11.
+    osg::ref_ptr<osg::Geode> screen, late; ///< before `right`; before `left` in two parts, in bin 11.
     osg::ref_ptr<osg::LightSource> fill;   ///< shines from elsewhere, and casts no shadow.
     osg::Vec4d lightInWorld;               ///< where the light that casts is, for the rays.
     bool discovered = false;               ///< the group is told no light: it finds those that are on.
