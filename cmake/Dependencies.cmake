@@ -1,7 +1,7 @@
 # Imported targets for what FindOpenSceneGraph gives only as paths, and for OSMesa. Headers are SYSTEM: their warnings are not ours.
 find_package(glm REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL GLX EGL)
-find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgDB osgGA osgText osgViewer osgShadow)
+find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgDB osgFX osgGA osgText osgViewer osgShadow)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED osmesa)
 
@@ -12,7 +12,7 @@ function(gnomon_import_osg kit)
     INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${${upper}_INCLUDE_DIR}"
     INTERFACE_LINK_LIBRARIES "${${upper}_LIBRARY}")
 endfunction()
-foreach(kit osg osgUtil osgDB osgGA osgText osgViewer osgShadow)
+foreach(kit osg osgUtil osgDB osgFX osgGA osgText osgViewer osgShadow)
   gnomon_import_osg(${kit})
 endforeach()
 string(TOUPPER OpenThreads upper)
