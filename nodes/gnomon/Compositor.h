@@ -2,8 +2,8 @@
 #pragma once
 #include <gnomon/LeafReplay.h>
 #include <gnomon/ReplayFilter.h>
-#include <gnomon/ScreenPass.h>
-#include <gnomon/ShadowBin.h>
+#include <gnomon/StageDraw.h>
+#include <gnomon/StencilMarks.h>
 
 #include <map>
 #include <vector>
@@ -11,20 +11,14 @@
 namespace gnomon {
 
 /// What a ShadowBin does in draw: marks, takes light away where marked, and leaves the stencil bits it used at zero.
+/// Jobs with soft edges go to the SoftCompositor.
 class Compositor {
 public:
-    /// @param leaves  what the stage drew before, in order.
-    /// @param clean   the stencil buffer is known to be zero.
-    Compositor(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves, bool clean);
+    explicit Compositor(StageDraw draw);
 
     void compose(const std::vector<ShadowJob>& jobs);
 
 private:
-    using Jobs = std::vector<const ShadowJob*>;
-    struct Bits {
-        std::vector<unsigned> lights;
-        unsigned scratch = 0;
-    };
     /// Jobs of the lights that are dark in one relight pass, and the bits that say so.
     struct Combination {
         unsigned bits;
@@ -33,6 +27,8 @@ private:
     };
 
     bool canMark(const ShadowJob& job) const;
+    bool areSoft(const Jobs& jobs) const;
+    void relightAny(const Jobs& jobs, std::map<float, Jobs>& blended);
     bool composeDirectly(const Jobs& jobs);
     void relight(const Jobs& wanted);
     static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended);
@@ -43,21 +39,12 @@ private:
     void replay(const Combination& combination, unsigned lightBits);
     void replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs);
 
-    void mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf);
-    void markOne(const ShadowJob& job, unsigned bit, bool fresh);
-    void markInto(const ShadowJob& job, unsigned bit);
-    void gate(const ShadowJob& job, unsigned bit);
-    void transfer(const ShadowJob& job, unsigned bit);
-    void resetMarked(unsigned where, const ScreenRect& bounds);
-    void clear(unsigned bits, const ScreenRect& bounds);
+    void mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) const;
+    void resetMarked(unsigned where, const ScreenRect& bounds) const;
 
-    osg::RenderInfo& _renderInfo;
-    osg::State& _state;
-    osgUtil::RenderStage& _stage;
-    std::vector<StageLeaf> _leaves;
-    Bits _bits;
-    unsigned _stencilBits = 0;
-    bool _clean;
+    const StageDraw _draw;
+    std::vector<unsigned> _lightBits;
+    unsigned _scratch = 0;
 };
 
 } // namespace gnomon

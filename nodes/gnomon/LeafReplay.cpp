@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/IndexClusters.h>
 #include <gnomon/LeafReplay.h>
+#include <gnomon/ScreenPass.h>
 
+#include <osg/ColorMask>
 #include <osg/GLExtensions>
 #include <osg/Light>
 #include <osgUtil/StateGraph>
-
-#include <string>
 
 namespace gnomon {
 namespace {
@@ -26,41 +27,40 @@ void restoreColors(const osg::State& state, int number) {
     setColors(number, light ? light->getDiffuse() : fallback, light ? light->getSpecular() : fallback);
 }
 
-/// OSG's own list of a program's uniforms leaves the built-in ones out, so OpenGL is asked.
-bool readsLights(const osg::GLExtensions& gl, GLuint program) {
-    GLint count = 0;
-    gl.glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
-    for (GLint i = 0; i < count; ++i) {
-        char name[64] = {}; // cut off if longer: only how it begins matters
-        GLint size = 0;
-        GLenum type = 0;
-        gl.glGetActiveUniform(program, static_cast<GLuint>(i), sizeof name, nullptr, &size, &type, name);
-        for (const std::string light : {"gl_LightSource", "gl_FrontLightProduct", "gl_BackLightProduct"})
-            if (std::string(name).compare(0, light.size(), light) == 0) return true;
-    }
-    return false;
-}
-
 } // namespace
 
 LeafReplay::LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay)
     : _renderInfo(renderInfo),
       _state(*renderInfo.getState()),
       _overlay(overlay),
+      _lights(_state, _overlay.lightUniforms),
       _stackSize(static_cast<unsigned>(_state.getStateSetStackSize())) {}
 
 LeafReplay::~LeafReplay() {
-    using A = osg::StateAttribute;
     _state.popStateSetStackToSize(_stackSize);
     darken(0);
-    _state.haveAppliedMode(GL_STENCIL_TEST, A::ON);
-    if (_overlay.factor < 1.0f) _state.haveAppliedMode(GL_BLEND, A::ON);
-    for (A::Type type : {A::STENCIL, A::DEPTH, A::COLORMASK, A::BLENDFUNC, A::BLENDCOLOR})
-        _state.haveAppliedAttribute(type);
+    leaveDefaults(_state);
 }
 
 void LeafReplay::draw(const StageLeaf& entry, unsigned dark) {
     if (_state.getAbortRendering()) return;
+    apply(entry);
+    layOver();
+    const bool faded = dark && !_lights.canLose(dark);
+    darken(faded ? 0 : dark);
+    if (faded) return drawFaded(*entry.leaf);
+    _lights.darken(dark);
+    drawGeometry(*entry.leaf);
+    _lights.restore();
+}
+
+bool LeafReplay::canBeRelit(const StageLeaf& entry, unsigned dark) {
+    apply(entry);
+    return _lights.canLose(dark);
+}
+
+/// All of the leaf's own state.
+void LeafReplay::apply(const StageLeaf& entry) {
     if (entry.bin != _bin) enter(entry.bin);
     const osgUtil::RenderLeaf& leaf = *entry.leaf;
     osgUtil::StateGraph* graph = leaf._parent;
@@ -70,34 +70,32 @@ void LeafReplay::draw(const StageLeaf& entry, unsigned dark) {
     _previous = graph->_parent;
     _state.apply(graph->getStateSet());
     if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
-    layOver();
-    const bool faded = dark && !canBeRelit();
-    darken(faded ? 0 : dark);
-    if (faded)
-        drawFaded(leaf);
-    else
-        leaf._drawable->draw(_renderInfo);
 }
 
-bool LeafReplay::canBeRelit() {
-    const osg::Program::PerContextProgram* program = _state.getLastAppliedProgramObject();
-    if (!program) return _state.getLastAppliedMode(GL_LIGHTING);
-    const auto [known, isNew] = _readsLights.insert({program, false});
-    if (isNew) known->second = readsLights(*_state.get<osg::GLExtensions>(), program->getHandle());
-    return known->second;
+/// Programs may move vertices to where no cluster's box is.
+void LeafReplay::drawGeometry(const osgUtil::RenderLeaf& leaf) {
+    const osg::Geometry* geometry = leaf._drawable->asGeometry();
+    const bool whole = !_overlay.clusters || !geometry || _state.getLastAppliedProgramObject() ||
+                       _state.useVertexArrayObject(geometry->getUseVertexArrayObject());
+    const osg::ref_ptr<const IndexClusters> clusters = whole ? nullptr : IndexClusters::of(*leaf._drawable);
+    if (!clusters) return leaf._drawable->draw(_renderInfo);
+    IndexClusters::draw(_renderInfo, *geometry,
+                        clusters->touching(_overlay.bounds, *leaf._modelview * *leaf._projection));
 }
 
-/// Its own colour times a factor, whatever colour stands; a leaf that blends by itself stays as it is.
+/// Its own colour times a factor, whatever colour stands; a leaf that itself reads what stands stays as it is.
 void LeafReplay::drawFaded(const osgUtil::RenderLeaf& leaf) {
     _notRelit.push_back(&leaf);
-    const bool blends = _state.getLastAppliedMode(GL_BLEND);
-    if (!blends) {
+    const bool fades = _overlay.color == Color::Replace && !_state.getLastAppliedMode(GL_BLEND) &&
+                       !_state.getLastAppliedMode(GL_COLOR_LOGIC_OP);
+    if (fades) {
         glEnable(GL_BLEND);
         glBlendFunc(GL_CONSTANT_COLOR, GL_ZERO);
-        _state.get<osg::GLExtensions>()->glBlendColor(_overlay.unlit, _overlay.unlit, _overlay.unlit, 1.0f);
+        setBlendColor(_overlay.unlit);
     }
-    leaf._drawable->draw(_renderInfo);
-    if (!blends) glDisable(GL_BLEND);
+    drawGeometry(leaf);
+    if (!fades) return;
+    glDisable(GL_BLEND);
     for (auto type : {osg::StateAttribute::BLENDFUNC, osg::StateAttribute::BLENDCOLOR})
         _state.haveAppliedAttribute(type);
 }
@@ -113,22 +111,51 @@ void LeafReplay::enter(osgUtil::RenderBin* bin) {
     for (auto set = sets.rbegin(); set != sets.rend(); ++set) _state.pushStateSet(*set);
 }
 
+/// The same for every leaf, so that osg::State need not know before the end.
 void LeafReplay::layOver() {
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(_overlay.stencilFunction, static_cast<GLint>(_overlay.reference), _overlay.test);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glStencilMask(_overlay.write);
-    if (!_overlay.color) glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    if (_overlay.equalDepth) {
+    if (_overlay.equalDepth || _overlay.keepDepth) {
         glDepthMask(GL_FALSE);
-        glDepthFunc(GL_EQUAL);
+        if (_overlay.equalDepth) glDepthFunc(GL_EQUAL);
     }
-    if (_overlay.factor < 1.0f) {
+    layColorOver();
+}
+
+void LeafReplay::layColorOver() {
+    const auto blend = [](GLenum source, GLenum destination) {
         glEnable(GL_BLEND);
-        glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
-        _state.get<osg::GLExtensions>()->glBlendColor(_overlay.factor, _overlay.factor, _overlay.factor, 1.0f);
+        glBlendFunc(source, destination);
+    };
+    switch (_overlay.color) {
+    case Color::Replace:
+        return;
+    case Color::None:
+        return glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    case Color::Factor:
+        blend(GL_ZERO, GL_CONSTANT_COLOR);
+        return setBlendColor(_overlay.factor);
+    case Color::Mix:
+        blend(GL_ONE_MINUS_DST_ALPHA, GL_DST_ALPHA);
+        return keepAlpha();
+    case Color::Add:
+        blend(GL_DST_ALPHA, GL_ONE);
+        return keepAlpha();
     }
 }
+
+void LeafReplay::keepAlpha() {
+    const auto* mask =
+        static_cast<const osg::ColorMask*>(_state.getLastAppliedAttribute(osg::StateAttribute::COLORMASK));
+    if (mask)
+        glColorMask(mask->getRedMask(), mask->getGreenMask(), mask->getBlueMask(), GL_FALSE);
+    else
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+}
+
+void LeafReplay::setBlendColor(float grey) { _state.get<osg::GLExtensions>()->glBlendColor(grey, grey, grey, 1.0f); }
 
 /// Again for each leaf: its own state may have set the light's colours.
 void LeafReplay::darken(unsigned lights) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ProgramLights.h>
+#include <gnomon/ScreenBounds.h>
 #include <gnomon/StageLeaves.h>
 
-#include <osg/Program>
 #include <osg/RenderInfo>
 #include <osg/State>
 
-#include <map>
 #include <vector>
 
 namespace gnomon {
@@ -15,18 +15,33 @@ namespace gnomon {
 /// each leaf's own state.
 ///
 /// Whatever a leaf's state sets, PROTECTED or not, what is laid over holds: it goes to OpenGL after the leaf's state
-/// and before its draw. At the end osg::State is told what it can no longer take for granted.
+/// and before its draw. At the end osg::State is told what it can no longer take for granted. Of a big geometry only the
+/// clusters that can touch `Overlay::bounds` are drawn.
 class LeafReplay {
 public:
+    /// What becomes of a leaf's colour.
+    enum class Color {
+        Replace, ///< as the leaf itself would have it.
+        None,    ///< not written.
+        Factor,  ///< what stands is multiplied by `Overlay::factor`.
+        Mix,     ///< what stands times destination alpha, and the leaf's colour times the rest; alpha stays.
+        Add      ///< the leaf's colour times destination alpha is added to what stands; alpha stays.
+    };
+
     /// What is laid over each leaf.
     struct Overlay {
         GLenum stencilFunction = GL_ALWAYS; ///< compares (reference & test) with (stencil & test).
         unsigned reference = 0, test = 0;
         unsigned write = 0;      ///< bits that become those of `reference` where drawn.
         bool equalDepth = false; ///< only where the leaf's depth is the one that stands; depth is not written.
-        bool color = true;
-        float unlit = 0.5f;  ///< a leaf that should lose a light and cannot is drawn in its own colour times this.
-        float factor = 1.0f; ///< below 1: what stands is multiplied by it, and the leaf's own colour does not matter.
+        bool keepDepth = false;  ///< depth is not written.
+        Color color = Color::Replace;
+        float factor = 1.0f;
+        float unlit =
+            0.5f; ///< Replace: a leaf that should lose a light and cannot is drawn in its own colour times this.
+        bool clusters = true; ///< draw only those clusters of a big geometry that touch `bounds`.
+        ScreenRect bounds{{-1.0, -1.0}, {1.0, 1.0}};
+        std::vector<LightUniform> lightUniforms; ///< by which programs read lights.
     };
 
     LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay);
@@ -37,22 +52,29 @@ public:
     /// @param dark  bit i: draw it without the diffuse and specular of OpenGL light i.
     void draw(const StageLeaf& entry, unsigned dark = 0);
 
-    /// Leaves drawn so far that could not lose a light: lighting is off, or a program reads no OpenGL light.
+    /// True if the leaf can lose all lights of `dark`, see ProgramLights. Draws nothing.
+    bool canBeRelit(const StageLeaf& entry, unsigned dark);
+
+    /// Leaves drawn so far that could not lose a light.
     const std::vector<const osgUtil::RenderLeaf*>& notRelit() const { return _notRelit; }
 
 private:
+    void apply(const StageLeaf& entry);
     void enter(osgUtil::RenderBin* bin);
     void layOver();
+    void layColorOver();
+    void keepAlpha();
+    void setBlendColor(float grey);
     void darken(unsigned lights);
-    bool canBeRelit();
+    void drawGeometry(const osgUtil::RenderLeaf& leaf);
     void drawFaded(const osgUtil::RenderLeaf& leaf);
 
     osg::RenderInfo& _renderInfo;
     osg::State& _state;
     const Overlay _overlay;
+    ProgramLights _lights;
     const unsigned _stackSize;
     unsigned _dark = 0; ///< lights that are dark in OpenGL now.
-    std::map<const osg::Program::PerContextProgram*, bool> _readsLights;
     std::vector<const osgUtil::RenderLeaf*> _notRelit;
     osgUtil::RenderBin* _bin = nullptr;
     osgUtil::StateGraph* _previous = nullptr; ///< whose state sets are on the stack.

@@ -16,7 +16,7 @@ bool isReceiver(const std::vector<const ShadowJob*>& jobs, const osgUtil::Render
 unsigned lightsLostBy(const osgUtil::RenderLeaf* leaf, const std::vector<const ShadowJob*>& jobs) {
     unsigned dark = 0;
     for (const ShadowJob* job : jobs)
-        if (!job->receiverNamed || job->receivers.count(leaf)) dark |= 1u << job->light;
+        if (job->isReceiver(*leaf)) dark |= 1u << job->light;
     return dark;
 }
 
@@ -36,6 +36,16 @@ std::size_t lastReceiver(const std::vector<StageLeaf>& leaves, const std::vector
 }
 
 } // namespace
+
+std::vector<ReplayedLeaf> notOfView(const ShadowJob& job, const std::vector<StageLeaf>& leaves) {
+    std::vector<ReplayedLeaf> result;
+    for (const StageLeaf& entry : leaves) {
+        if (job.isOfView(*entry.leaf)) continue;
+        const auto place = screenBoundsOf(*entry.leaf);
+        if (place && overlap(*place, job.marks->screenBounds)) result.push_back({entry, 0});
+    }
+    return result;
+}
 
 bool overlap(const ScreenRect& a, const ScreenRect& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;

@@ -44,17 +44,29 @@ ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const S
     glDepthMask(GL_FALSE);
 }
 
-ScreenPass::~ScreenPass() {
+ScreenPass::~ScreenPass() { leaveDefaults(_state); }
+
+/// osg::State sets an attribute again only if it ever had one of its type: so OpenGL itself is set, too.
+void leaveDefaults(osg::State& state) {
     using A = osg::StateAttribute;
     for (GLenum mode :
-         {GLenum(GL_SCISSOR_TEST), GLenum(GL_STENCIL_TEST), GLenum(GL_DEPTH_TEST), GLenum(GL_BLEND), depthClamp})
+         {GLenum(GL_SCISSOR_TEST), GLenum(GL_STENCIL_TEST), GLenum(GL_DEPTH_TEST), GLenum(GL_BLEND), depthClamp}) {
         glDisable(mode);
+        state.haveAppliedMode(mode, A::OFF);
+    }
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
+    glStencilFunc(GL_ALWAYS, 0, ~0u);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     glStencilMask(~0u);
+    glBlendFunc(GL_ONE, GL_ZERO);
+    state.get<osg::GLExtensions>()->glBlendColor(0.0f, 0.0f, 0.0f, 0.0f);
+    if (const osg::Viewport* viewport = state.getCurrentViewport()) // as osgUtil::RenderStage leaves it
+        glScissor(static_cast<GLint>(viewport->x()), static_cast<GLint>(viewport->y()),
+                  static_cast<GLsizei>(viewport->width()), static_cast<GLsizei>(viewport->height()));
     for (A::Type type : {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::DEPTH, A::COLORMASK})
-        _state.haveAppliedAttribute(type);
+        state.haveAppliedAttribute(type);
 }
 
 void ScreenPass::clearStencil(unsigned bits) {
@@ -76,8 +88,8 @@ void ScreenPass::stencilAny(unsigned test) {
     glStencilMask(0);
 }
 
-void ScreenPass::takeStencil(unsigned bits) {
-    stencilAny(bits);
+void ScreenPass::takeStencil(unsigned test, unsigned bits) {
+    stencilAny(test);
     glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
     glStencilMask(bits);
 }
@@ -90,12 +102,9 @@ void ScreenPass::writeFarDepth() {
 }
 
 void ScreenPass::writeColor(const osg::Vec4& color) {
-    GLfloat current[4];
-    glGetFloatv(GL_CURRENT_COLOR, current);
+    glDisable(GL_BLEND);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glColor4fv(color.ptr());
-    drawQuad();
-    glColor4fv(current);
+    drawColor(color);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 
@@ -105,6 +114,40 @@ void ScreenPass::multiplyColor(float factor, const Channels& channels) {
     glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
     _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
     drawQuad();
+}
+
+void ScreenPass::setAlpha(float value) {
+    glDisable(GL_BLEND);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    drawColor({0.0f, 0.0f, 0.0f, value});
+}
+
+void ScreenPass::fadeAlpha(float factor) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    drawColor({0.0f, 0.0f, 0.0f, factor});
+}
+
+void ScreenPass::multiplyAlpha() {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+}
+
+void ScreenPass::multiplyColorByAlpha(const Channels& channels) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ZERO, GL_DST_ALPHA);
+    glColorMask(channels.red, channels.green, channels.blue, GL_FALSE);
+    drawQuad();
+}
+
+void ScreenPass::drawColor(const osg::Vec4& color) {
+    GLfloat current[4];
+    glGetFloatv(GL_CURRENT_COLOR, current);
+    glColor4fv(color.ptr());
+    drawQuad();
+    glColor4fv(current);
 }
 
 void ScreenPass::testDepth(GLenum function) {

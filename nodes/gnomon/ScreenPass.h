@@ -26,6 +26,9 @@ private:
     osg::ref_ptr<osg::StateSet> _set;
 };
 
+/// Puts OpenGL's stencil, depth, blending, scissor and colour mask to their defaults and tells osg::State so.
+void leaveDefaults(osg::State& state);
+
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
 /// Puts everything back at its end.
 class ScreenPass {
@@ -40,11 +43,17 @@ public:
     void stencilEqual(unsigned reference, unsigned test, unsigned write);
     /// Pass where any bit of `test` is set.
     void stencilAny(unsigned test);
-    /// Pass where any bit of `bits` is set, and set them to 0.
-    void takeStencil(unsigned bits);
+    /// Pass where any bit of `test` is set, and set `bits` to 0.
+    void takeStencil(unsigned test, unsigned bits);
     void writeFarDepth();
     void writeColor(const osg::Vec4& color);
     void multiplyColor(float factor, const Channels& channels);
+    /// Alpha alone: set; alpha = factor + (1 - factor) alpha.
+    void setAlpha(float value);
+    void fadeAlpha(float factor);
+    /// What is drawn next multiplies alpha by its own, and writes nothing else.
+    void multiplyAlpha();
+    void multiplyColorByAlpha(const Channels& channels);
     /// Passes where the quad's depth compares so with the one that stands; depths beyond near and far are clamped.
     void testDepth(GLenum function);
 
@@ -52,6 +61,8 @@ public:
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
 
 private:
+    void drawColor(const osg::Vec4& color);
+
     osg::State& _state;
 };
 

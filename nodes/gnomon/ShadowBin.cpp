@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Compositor.h>
 #include <gnomon/ShadowBin.h>
+#include <gnomon/SoftMarkJob.h>
 #include <gnomon/StageLights.h>
 
 #include <OpenThreads/ScopedLock>
@@ -16,6 +17,14 @@ namespace {
 
 constexpr int highestNumber = 8; // below 9, where osg::OcclusionQueryNode draws, and 10, the transparent bin
 constexpr const char* binName = "gnomon::ShadowBin";
+
+/// The same but for near and far, which a nested camera finds for itself.
+bool sameLens(const osg::Matrixd& a, const osg::Matrixd& b) {
+    for (int row = 0; row < 4; ++row)
+        for (const int column : {0, 1, 3})
+            if (a(row, column) != b(row, column)) return false;
+    return true;
+}
 
 /// Makes the bin known to osgUtil, which creates bins by name.
 const bool registered = [] {
@@ -93,11 +102,21 @@ ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     job.composite = entry.group->getComposite();
     job.dark = entry.group->getDark();
     job.frameNumber = entry.frameNumber;
+    job.projection = entry.projection;
     job.receiverNamed = entry.technique->hasReceiver();
+    job.lightUniforms = entry.group->getLightUniforms();
     return job;
 }
 
 } // namespace
+
+const SoftMarkJob* ShadowJob::softMarks() const { return dynamic_cast<const SoftMarkJob*>(marks.get()); }
+
+bool ShadowJob::isReceiver(const osgUtil::RenderLeaf& leaf) const {
+    return receiverNamed ? receivers.count(&leaf) > 0 : isOfView(leaf);
+}
+
+bool ShadowJob::isOfView(const osgUtil::RenderLeaf& leaf) const { return sameLens(*leaf._projection, *projection); }
 
 ShadowBin& ShadowBin::of(osgUtil::RenderStage* stage) {
     for (int number = highestNumber;; --number) {
@@ -120,6 +139,7 @@ void ShadowBin::enlist(const EnlistedTechnique& technique) {
 
 void ShadowBin::reset() {
     osgUtil::RenderBin::reset();
+    setSortMode(getDefaultRenderBinSortMode());
     _enlisted.clear();
     _jobs.clear();
 }
@@ -135,7 +155,19 @@ void ShadowBin::sortImplementation() {
         for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
         prepare(entry, found.lights, mesh, leaves);
     }
+    sortAsAsked();
     osgUtil::RenderBin::sortImplementation();
+}
+
+/// Leaves that asked for a bin of this number got this one, which must sort as the kind they named.
+void ShadowBin::sortAsAsked() {
+    for (const osgUtil::StateGraph* graph : getStateGraphList())
+        for (; graph; graph = graph->_parent) {
+            const osg::StateSet* set = graph->getStateSet();
+            if (!set || !set->useRenderBinDetails() || set->getBinNumber() != getBinNum()) continue;
+            const osgUtil::RenderBin* kind = osgUtil::RenderBin::getRenderBinPrototype(set->getBinName());
+            if (kind) setSortMode(kind->getSortMode());
+        }
 }
 
 void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const CasterMesh& mesh,
@@ -165,7 +197,7 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
         popLeafState(*renderInfo.getState(), previous);
         std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
         const bool clean = _stageClears && !isModeOn(leaves, GL_STENCIL_TEST);
-        Compositor(renderInfo, *getStage(), std::move(leaves), clean).compose(_jobs);
+        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean)).compose(_jobs);
         renderInfo.getState()->decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);

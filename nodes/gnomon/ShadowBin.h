@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Export.h>
+#include <gnomon/LightUniform.h>
 #include <gnomon/MarkJob.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
@@ -13,6 +14,8 @@
 #include <vector>
 
 namespace gnomon {
+
+class SoftMarkJob;
 
 /// A technique met in the cull of one stage, and what it needs to know of the view.
 struct EnlistedTechnique {
@@ -32,8 +35,17 @@ struct ShadowJob {
     ShadowCasterGroup::Composite composite = ShadowCasterGroup::RELIGHT;
     float dark = 1.0f;
     unsigned frameNumber = 0;
+    osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
     bool receiverNamed = false;
     std::set<const osgUtil::RenderLeaf*> receivers; ///< the leaves of the named receiver.
+    std::vector<LightUniform> lightUniforms;        ///< of the group.
+
+    /// The marks, if their edges are soft; else null.
+    const SoftMarkJob* softMarks() const;
+    /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this view.
+    bool isReceiver(const osgUtil::RenderLeaf& leaf) const;
+    /// True if the leaf is seen through the technique's lens, unlike what a nested camera lays over the view.
+    bool isOfView(const osgUtil::RenderLeaf& leaf) const;
 };
 
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
@@ -47,7 +59,8 @@ struct ShadowJob {
 ///         clears depth clears stencil too, unless bits are reserved.
 /// Limits  three relit lights; the others stay unshadowed. Unlit receivers, and those whose program reads no OpenGL
 ///         light, take a factor; where an opaque leaf has a stencil test of its own all is blended. diagnose() says so.
-///         Bin 8 is taken: transparent things and whatever shall not receive belong in a higher one.
+///         What is in bin 8 is drawn after the shadows: transparent things and whatever shall not receive belong there
+///         or higher.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
 class GNOMON_EXPORT ShadowBin : public osgUtil::RenderBin {
 public:
@@ -83,6 +96,7 @@ protected:
     ~ShadowBin() override = default;
 
 private:
+    void sortAsAsked();
     void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const CasterMesh& mesh,
                  const std::vector<StageLeaf>& leaves);
 

@@ -13,8 +13,18 @@
 
 namespace gnomon {
 namespace {
+
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+/// Warns otherwise.
+bool isLightNumber(int number, const char* method) {
+    if (number >= 0 && number < 8) return true;
+    OSG_WARN << "gnomon: ShadowCasterGroup::" << method << " refuses light " << number
+             << ": OpenGL's lights are 0 to 7." << std::endl;
+    return false;
 }
+
+} // namespace
 
 ShadowCasterGroup::ShadowCasterGroup() : _watch(new CasterRevision) {}
 
@@ -25,6 +35,7 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _dark(other._dark),
       _lightSources(other._lightSources),
       _lights(other._lights),
+      _lightUniforms(other._lightUniforms),
       _watch(new CasterRevision(other._selection)) {
     followCopies(other);
 }
@@ -65,11 +76,7 @@ void ShadowCasterGroup::addLight(osg::LightSource* light) {
 }
 
 void ShadowCasterGroup::addLight(const ShadowLight& light) {
-    if (light.number >= 0 && light.number < 8)
-        _lights.push_back(light);
-    else
-        OSG_WARN << "gnomon: ShadowCasterGroup::addLight refuses light " << light.number
-                 << ": OpenGL's lights are 0 to 7." << std::endl;
+    if (isLightNumber(light.number, "addLight")) _lights.push_back(light);
 }
 
 void ShadowCasterGroup::setLights(const std::vector<ShadowLight>& lights) {
@@ -80,6 +87,15 @@ void ShadowCasterGroup::setLights(const std::vector<ShadowLight>& lights) {
 void ShadowCasterGroup::setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources) {
     _lightSources.clear();
     for (const osg::ref_ptr<osg::LightSource>& source : sources) addLight(source);
+}
+
+void ShadowCasterGroup::addLightUniform(const LightUniform& uniform) {
+    if (isLightNumber(uniform.number, "addLightUniform")) _lightUniforms.push_back(uniform);
+}
+
+void ShadowCasterGroup::setLightUniforms(const std::vector<LightUniform>& uniforms) {
+    _lightUniforms.clear();
+    for (const LightUniform& uniform : uniforms) addLightUniform(uniform);
 }
 
 void ShadowCasterGroup::removeLights() {

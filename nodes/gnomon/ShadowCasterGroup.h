@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/CasterMesh.h>
 #include <gnomon/Export.h>
+#include <gnomon/LightUniform.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 
@@ -33,6 +34,7 @@ class CasterRevision;
 ///       Dark 0.3
 ///       LightSources 1 { osg::LightSource { UniqueID 9 } }
 ///       Lights 1 { 0 433000.25 5410000.5 60 1 }
+///       LightUniforms 1 { 0 "sunColor" }
 ///     }
 ///
 /// Cost    a visit of the casters' nodes a frame and view to see that nothing changed; an extraction where something
@@ -75,6 +77,13 @@ public:
     void setLights(const std::vector<ShadowLight>& lights);
     const std::vector<ShadowLight>& getLights() const { return _lights; }
 
+    /// Uniforms by which programs of receivers read the colours of lights: relight sets them to 0 where the light does not
+    /// reach, as it does the OpenGL light's own colours. Default none. Not for elements of arrays. A uniform whose light
+    /// number is none of OpenGL's, 0 to 7, is refused with a warning.
+    void addLightUniform(const LightUniform& uniform);
+    void setLightUniforms(const std::vector<LightUniform>& uniforms);
+    const std::vector<LightUniform>& getLightUniforms() const { return _lightUniforms; }
+
     /// The casters as they are now; extracted again only if something changed since the last call. Call it where
     /// reading the graph is allowed: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
@@ -93,6 +102,7 @@ private:
     float _dark = 0.5f;
     std::vector<osg::ref_ptr<osg::LightSource>> _lightSources;
     std::vector<ShadowLight> _lights;
+    std::vector<LightUniform> _lightUniforms;
 
     mutable OpenThreads::Mutex _mutex;
     osg::ref_ptr<CasterRevision> _watch;

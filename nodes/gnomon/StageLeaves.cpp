@@ -144,16 +144,32 @@ bool isPlainMask(const osg::StateAttribute* attribute) {
     return !mask || (mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask() && mask->getAlphaMask());
 }
 
+/// True if the set gives `mode` this value, ON or OFF.
+bool gives(const osg::StateSet& set, osg::StateAttribute::GLMode mode, unsigned value) {
+    using A = osg::StateAttribute;
+    const auto given = set.getMode(mode);
+    return !(given & A::INHERIT) && (given & A::ON) == value;
+}
+
 bool isPlainSet(const osg::StateSet& set) {
     using A = osg::StateAttribute;
-    const auto mentions = [&set](A::GLMode mode, unsigned value) {
-        const auto given = set.getMode(mode);
-        return !(given & A::INHERIT) && (given & A::ON) == value;
-    };
-    return !mentions(GL_BLEND, A::ON) && !mentions(GL_STENCIL_TEST, A::ON) &&
-           !mentions(GL_POLYGON_OFFSET_FILL, A::ON) && !mentions(GL_COLOR_LOGIC_OP, A::ON) &&
-           !mentions(GL_DEPTH_TEST, A::OFF) && isPlainDepth(set.getAttribute(A::DEPTH)) &&
+    return !gives(set, GL_BLEND, A::ON) && !gives(set, GL_STENCIL_TEST, A::ON) &&
+           !gives(set, GL_POLYGON_OFFSET_FILL, A::ON) && !gives(set, GL_COLOR_LOGIC_OP, A::ON) &&
+           !gives(set, GL_DEPTH_TEST, A::OFF) && isPlainDepth(set.getAttribute(A::DEPTH)) &&
            isPlainMask(set.getAttribute(A::COLORMASK));
+}
+
+bool isOpaqueSet(const osg::StateSet& set) {
+    using A = osg::StateAttribute;
+    const auto* depth = static_cast<const osg::Depth*>(set.getAttribute(A::DEPTH));
+    return !gives(set, GL_BLEND, A::ON) && !gives(set, GL_COLOR_LOGIC_OP, A::ON) &&
+           !gives(set, GL_DEPTH_TEST, A::OFF) && (!depth || depth->getWriteMask());
+}
+
+std::string nameOf(const osg::Node& node) {
+    for (const osg::Node* above = &node; above; above = above->getNumParents() ? above->getParent(0) : nullptr)
+        if (!above->getName().empty()) return above->getName();
+    return node.className();
 }
 
 } // namespace
@@ -196,15 +212,21 @@ Channels writtenChannels(const std::vector<StageLeaf>& leaves) {
     return written;
 }
 
-bool PlainTest::operator()(const osgUtil::RenderLeaf& leaf) {
+bool LeafTest::operator()(const osgUtil::RenderLeaf& leaf) {
     const osgUtil::StateGraph* graph = leaf._parent;
     const auto known = _known.find(graph);
     if (known != _known.end()) return known->second;
-    bool plain = true;
-    for (const auto* above = graph; above && plain; above = above->_parent)
-        plain = !above->getStateSet() || isPlainSet(*above->getStateSet());
-    return _known[graph] = plain;
+    bool holds = true;
+    for (const auto* above = graph; above && holds; above = above->_parent)
+        holds = !above->getStateSet() || _holds(*above->getStateSet());
+    return _known[graph] = holds;
 }
+
+PlainTest::PlainTest() : LeafTest(isPlainSet) {}
+
+OpaqueTest::OpaqueTest() : LeafTest(isOpaqueSet) {}
+
+std::string nameOf(const osgUtil::RenderLeaf& leaf) { return nameOf(*leaf._drawable); }
 
 std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace gnomon {
@@ -39,16 +40,34 @@ struct Channels {
 /// Those that any of the leaves writes: fewer than all in anaglyph stereo, for one.
 Channels writtenChannels(const std::vector<StageLeaf>& leaves);
 
-/// Tells leaves that are drawn in the plainest way: depth test LESS with writing, no blending, offset, stencil, depth
-/// range or colour mask. Such a leaf can show only where it is nearest, and never over something drawn before it at the
-/// same depth.
-class PlainTest {
+/// Tells leaves by how they are drawn; asks each of their state sets once.
+class LeafTest {
 public:
     bool operator()(const osgUtil::RenderLeaf& leaf);
 
+protected:
+    explicit LeafTest(bool (*holds)(const osg::StateSet&)) : _holds(holds) {}
+
 private:
+    bool (*_holds)(const osg::StateSet&);
     std::map<const osgUtil::StateGraph*, bool> _known;
 };
+
+/// Drawn in the plainest way: depth test LESS with writing, no blending, offset, stencil, depth range or colour mask.
+/// Such a leaf can show only where it is nearest, and never over something drawn before it at the same depth.
+class PlainTest : public LeafTest {
+public:
+    PlainTest();
+};
+
+/// Writes depth and does not blend: where its depth stands, its colour is what one sees.
+class OpaqueTest : public LeafTest {
+public:
+    OpaqueTest();
+};
+
+/// Its drawable's name or that of the nearest named node above it, else its class.
+std::string nameOf(const osgUtil::RenderLeaf& leaf);
 
 /// Where on the screen a leaf can draw; nullopt where nowhere.
 std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf);

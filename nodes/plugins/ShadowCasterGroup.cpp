@@ -48,6 +48,25 @@ static bool writeLights(osgDB::OutputStream& out, const ShadowCasterGroup& group
     });
 }
 
+static bool checkLightUniforms(const ShadowCasterGroup& group) { return !group.getLightUniforms().empty(); }
+
+static bool readLightUniforms(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setLightUniforms(fields::readList(in, [&] {
+        LightUniform uniform;
+        in >> uniform.number;
+        in.readWrappedString(uniform.name);
+        return uniform;
+    }));
+    return true;
+}
+
+static bool writeLightUniforms(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeList(out, group.getLightUniforms(), [&](const LightUniform& uniform) {
+        out << uniform.number;
+        out.writeWrappedString(uniform.name);
+    });
+}
+
 REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup, gnomon::ShadowCasterGroup,
                         "osg::Object osg::Node osg::Group gnomon::ShadowCasterGroup") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
@@ -62,4 +81,5 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup,
         osgDB::BaseSerializer::RW_FLOAT);
     ADD_USER_SERIALIZER(LightSources);
     ADD_USER_SERIALIZER(Lights);
+    ADD_USER_SERIALIZER(LightUniforms);
 }

@@ -68,6 +68,15 @@ TEST_P(SceneFile, KeepsPlanesThatAreNotFinite) {
     EXPECT_EQ(copy->getPlanes()[0][2], -INFINITY);
 }
 
+TEST_P(SceneFile, KeepsUniformsOfLights) {
+    osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
+    const std::vector<gnomon::LightUniform> uniforms = {{7, "sun colour \"quoted\""}, {0, "sun.diffuse"}};
+    group->setLightUniforms(uniforms);
+    const auto copy = test::throughFile(*group, kind());
+    ASSERT_TRUE(copy);
+    EXPECT_EQ(copy->getLightUniforms(), uniforms);
+}
+
 TEST_P(SceneFile, KeepsNumbersAndPlacesOfLights) {
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
     group->setLights({{7, delicate[0]}, {0, delicate[1]}, {3, delicate[2]}});

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Export.h>
+#include <gnomon/ScreenBounds.h>
+
+#include <osg/BoundingBox>
+#include <osg/Geometry>
+#include <osg/Matrixd>
+#include <osg/RenderInfo>
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon {
+
+/// A big geometry in runs of 64 triangles or fewer, in the order in which it draws them, each with its box: so that part
+/// of it can be drawn again from the same arrays.
+class GNOMON_EXPORT IndexClusters : public osg::Referenced {
+public:
+    static constexpr unsigned trianglesInRun = 16;
+
+    /// Consecutive corners within one primitive set.
+    struct Run {
+        unsigned primitiveSet, first, count;
+    };
+
+    /// Those of a drawable as it is now; null where it must be drawn whole: it is small, no plain osg::Geometry, or has
+    /// primitives other than triangles, quads and triangle strips, instances, a draw callback or a bounding box that is
+    /// not its vertices'. Made once a revision of its arrays and kept while the drawable lives. Any thread.
+    static osg::ref_ptr<const IndexClusters> of(const osg::Drawable& drawable);
+
+    /// Runs that can touch a part of the screen, neighbours joined.
+    std::vector<Run> touching(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal) const;
+
+    /// Draws runs of the geometry that these clusters are of, as it draws itself.
+    static void draw(osg::RenderInfo& renderInfo, const osg::Geometry& geometry, const std::vector<Run>& runs);
+
+protected:
+    ~IndexClusters() override = default;
+
+private:
+    struct Cluster {
+        Run run;
+        osg::BoundingBox box;
+    };
+    explicit IndexClusters(const osg::Geometry& geometry);
+    void cut(const osg::PrimitiveSet& primitives, unsigned index, const osg::Vec3Array& vertices);
+
+    std::vector<Cluster> _clusters;
+};
+
+} // namespace gnomon

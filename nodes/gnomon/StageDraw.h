@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ScreenPass.h>
+#include <gnomon/StageLeaves.h>
+
+#include <osg/RenderInfo>
+#include <osgUtil/RenderStage>
+
+#include <vector>
+
+namespace gnomon {
+
+/// One stage while the compositor draws in it: what was drawn before, and what its framebuffer offers.
+class StageDraw {
+public:
+    /// @param leaves  what the stage drew before, in order.
+    /// @param clean   the stencil buffer is known to be zero.
+    StageDraw(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves, bool clean);
+
+    /// One step, cut to `bounds`, from and back to OpenGL's defaults.
+    template <typename Step>
+    void pass(const ScreenRect& bounds, Step step) const {
+        CleanState cleanState(state, stage.getViewport());
+        ScreenPass screen(state, *stage.getViewport(), bounds);
+        step(screen);
+    }
+    void clear(unsigned stencil, const ScreenRect& bounds) const;
+    /// Before marks: what others left in these bits would be taken for marks wherever leaves are drawn again.
+    void clearLeftovers(unsigned stencil) const;
+
+    osg::RenderInfo& renderInfo;
+    osg::State& state;
+    osgUtil::RenderStage& stage;
+    const std::vector<StageLeaf> leaves;
+    const bool clean;
+    bool hasStencil = false, hasAlpha = false;
+    std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.
+};
+
+} // namespace gnomon

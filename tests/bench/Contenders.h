@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <support/Picture.h>
+#include <support/Scene.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+/// One way to draw a scene, in a context of its own.
+struct Contender {
+    std::string name;
+    osg::ref_ptr<osg::Group> root;
+    std::unique_ptr<test::Camera> camera;
+    std::vector<double> wall, cpu; ///< milliseconds a frame; cpu over all threads of the process
+};
+
+/// A scene as it is, with osgShadow::ShadowMap at its defaults if asked.
+Contender contender(const std::string& name, osg::Group* root, const test::View& view, bool shadowMap = false);
+
+/// Draws all contenders in turn, frame by frame, after ten to warm up: shaders are compiled then, buffers filled. Prints
+/// medians, quartiles and what each adds to the first, as a share of what the last adds.
+void race(std::vector<Contender>& contenders, int frames);
+
+/// --frames N and --help. @return nullopt after --help.
+std::optional<int> framesAsked(int argc, char** argv, const std::string& describes);
+
+} // namespace bench
