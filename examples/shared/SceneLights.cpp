@@ -83,6 +83,11 @@ SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCas
     tellGroup();
 }
 
+void SceneLights::shineOn(osg::Node& node) const {
+    for (const osg::ref_ptr<osg::LightSource>& source : _scene)
+        source->setStateSetModes(*node.getOrCreateStateSet(), osg::StateAttribute::ON);
+}
+
 std::optional<SceneLights::Direction> SceneLights::given(const osg::Vec3d& seenFrom) const {
     if (_own.empty()) return std::nullopt;
     const osg::Vec3d way = wayTo(_own.front().given, seenFrom);

@@ -20,6 +20,9 @@ public:
     /// lights.
     SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group);
 
+    /// Switches the scene's own lights on for a node beside the scene, which may have them on for itself only.
+    void shineOn(osg::Node& node) const;
+
     /// Way from a point to a light. Degrees; azimuth from north = +y through east = +x, elevation from level.
     struct Direction {
         double azimuth, elevation;

@@ -98,9 +98,11 @@ SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {
     setup.bounds = sceneBounds(*scene);
     setup.group->addChild(scene);
     const double side = groundSide(options, *scene, setup.bounds);
-    if (side > 0.0) setup.group->addChild(makeGround(setup.bounds, side));
+    osg::ref_ptr<osg::Node> ground = side > 0.0 ? makeGround(setup.bounds, side) : nullptr;
+    if (ground) setup.group->addChild(ground);
     setup.root->addChild(setup.group);
     setup.lights = std::make_unique<SceneLights>(options, *setup.root, *setup.group);
+    if (ground) setup.lights->shineOn(*ground);
     setup.group->setCasters(selectCasters(options.casters, *setup.group));
     setup.receiver = options.receiver;
     setup.cast(options.shadows);

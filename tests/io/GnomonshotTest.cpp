@@ -148,6 +148,29 @@ TEST_F(Gnomonshot, PutsGroundOnlyUnderScenesWithoutOne) {
     EXPECT_EQ(countDifferent(*shoot({scene}), *shoot({scene, "--ground", "none"})), 0);
 }
 
+/// A light of the file's own, from 45°, on for the file's own box only.
+const std::string boxUnderItsLight = R"(#Ascii Scene
+#Version 161
+#Generator by hand
+osg::Group { UniqueID 1
+  StateSet TRUE { osg::StateSet { UniqueID 2 ModeList 1 { GL_LIGHT2 ON } } }
+  Children 2 {
+    osg::LightSource { UniqueID 3 Light TRUE { osg::Light { UniqueID 4 LightNum 2
+      Ambient 0 0 0 1 Diffuse 1 1 1 1 Position 1 0 1 0 } } }
+    osg::Geode { UniqueID 5 Drawables 1 { osg::ShapeDrawable { UniqueID 6
+      Shape TRUE { osg::Box { UniqueID 7 Center 0 0 1 HalfLengths 0.5 0.5 0.5 } } } } } } }
+)";
+
+TEST_F(Gnomonshot, LightsItsGroundByTheScenesOwnLights) {
+    folder.write("lit.osgt", boxUnderItsLight);
+    const Arguments above = {"lit.osgt", "--eye", "0,0,6", "--center", "0,0,0", "--viewup", "0,1,0"};
+    Arguments shadowed = above;
+    shadowed.insert(shadowed.end(), {"--shadow", "planar"});
+    const auto plain = shoot(above);
+    EXPECT_GT(red(*plain, 110, 60), 150);
+    EXPECT_GT(countDifferent(*plain, *shoot(shadowed)), 50);
+}
+
 TEST_F(Gnomonshot, CastsOnlyWhatIsNamed) {
     const osg::ref_ptr<osg::Image> lit = shoot({scene});
     const long all = countDifferent(*lit, *shoot({scene, "--shadow", "planar"}));
