@@ -109,6 +109,15 @@ Frames unshadowed(const TwoGrounds& place, const Trial& trial, bool dark) {
     return frames(camera);
 }
 
+Picture cropped(const Picture& picture, int left, int bottom, int width, int height) {
+    Picture part;
+    part.width = width;
+    part.height = height;
+    for (int y = bottom; y < bottom + height; ++y)
+        for (int x = left; x < left + width; ++x) part.pixels.push_back(picture.at(x, y));
+    return part;
+}
+
 ::testing::AssertionResult judge(const Picture& actual, const Picture& lit, const Picture& dark, const Mask& mask) {
     if (mask.count(Seen::ShadowedReceiver) < 200) return ::testing::AssertionFailure() << "no shadow to judge";
     const Comparison found = compare(actual, lit, dark, mask);

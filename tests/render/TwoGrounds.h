@@ -56,6 +56,7 @@ struct Frames {
 Frames frames(Camera& camera);
 /// Without Gnomon; dark: as if no receiver got the light.
 Frames unshadowed(const TwoGrounds& place, const Trial& trial, bool dark);
+Picture cropped(const Picture& picture, int left, int bottom, int width, int height);
 ::testing::AssertionResult judge(const Picture& actual, const Picture& lit, const Picture& dark, const Mask& mask);
 
 } // namespace test

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// What is drawn into: textures, framebuffers with and without stencil, alpha or several samples; and a stencil buffer
+// that the application uses too.
+#include "GlComplaints.h"
+#include "TwoGrounds.h"
+
+#include <gnomon/ShadowBin.h>
+#include <osg/Depth>
+#include <osg/GLExtensions>
+#include <osg/Stencil>
+#include <osg/Texture2D>
+
+#include <algorithm>
+#include <memory>
+
+using namespace test;
+
+namespace {
+
+struct Target {
+    GLenum color = GL_RGBA8;
+    osg::Camera::BufferComponent depth = osg::Camera::PACKED_DEPTH_STENCIL_BUFFER;
+    GLenum depthFormat = GL_DEPTH24_STENCIL8_EXT;
+    unsigned samples = 0;
+};
+
+enum Drawn { Lit, Dark, Shadowed };
+
+/// Draws a scene into a framebuffer object and shows it on a quad as wide as the window.
+struct Rtt {
+    Rtt(const TwoGrounds& place, const Target& target, Drawn drawn, bool besideTheScene = false) {
+        Scene scene = place.build();
+        if (drawn == Dark) scene.takeLightAway();
+        if (drawn == Shadowed) technique = place.addShadow(scene);
+        texture->setTextureSize(place.view.width, place.view.height);
+        texture->setInternalFormat(static_cast<GLint>(target.color));
+        texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+        texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+        osg::ref_ptr<osg::Group> root = new osg::Group;
+        root->addChild(cameraInto(target, place.view, scene.root));
+        const osg::ref_ptr<osg::Camera> shown = show();
+        root->addChild(shown);
+        View window = place.view;
+        if (besideTheScene) {
+            root->addChild(scene.root);
+            window.width *= 2;
+            shown->setRenderOrder(osg::Camera::POST_RENDER);
+            shown->setViewport(place.view.width, 0, place.view.width, place.view.height);
+        }
+        camera = std::make_unique<Camera>(root, window);
+        camera->viewer().getCamera()->setViewport(0, 0, place.view.width, place.view.height);
+        complaints = std::make_unique<GlComplaints>(*camera);
+        osg::GraphicsContext& context = *camera->context().graphicsContext();
+        context.getState()->get<osg::GLExtensions>()->glRenderbufferStorageMultisampleCoverageNV = nullptr; // a stub
+    }
+
+    osg::ref_ptr<osg::Camera> cameraInto(const Target& target, const View& view, osg::Node* scene) {
+        osg::ref_ptr<osg::Camera> into = new osg::Camera;
+        into->setRenderOrder(osg::Camera::PRE_RENDER);
+        into->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+        into->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+        into->setViewport(0, 0, view.width, view.height);
+        into->setViewMatrix(view.view);
+        into->setProjectionMatrix(view.projection);
+        into->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+        into->setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
+        into->attach(osg::Camera::COLOR_BUFFER0, texture, 0, 0, false, target.samples, target.samples);
+        into->attach(target.depth, target.depthFormat);
+        if (target.samples) into->setImplicitBufferAttachmentMask(0, 0);
+        into->addChild(scene);
+        return into;
+    }
+
+    osg::ref_ptr<osg::Camera> show() {
+        osg::ref_ptr<osg::Geometry> quad =
+            osg::createTexturedQuadGeometry({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.0f, 0.0f, 1.0f, 1.0f);
+        quad->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
+        quad->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+        osg::ref_ptr<osg::Camera> over = new osg::Camera;
+        over->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+        over->setProjectionMatrix(osg::Matrixd::ortho2D(0.0, 1.0, 0.0, 1.0));
+        over->setRenderOrder(osg::Camera::NESTED_RENDER);
+        over->addChild(quad);
+        return over;
+    }
+
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+    osg::ref_ptr<gnomon::PlanarShadowNode> technique;
+    std::unique_ptr<Camera> camera;
+    std::unique_ptr<GlComplaints> complaints;
+};
+
+::testing::AssertionResult isExactInto(const TwoGrounds& place, const Target& target) {
+    Rtt lit(place, target, Lit), dark(place, target, Dark), shadowed(place, target, Shadowed);
+    const Picture litPicture = lit.camera->frame(), darkPicture = dark.camera->frame();
+    const Frames actual = frames(*shadowed.camera);
+    const Mask mask = place.mask();
+    if (auto first = judge(actual.first, litPicture, darkPicture, mask); !first) return first << ", first frame";
+    if (auto third = judge(actual.third, litPicture, darkPicture, mask); !third) return third << ", third frame";
+    if (!shadowed.technique->diagnose().empty())
+        return ::testing::AssertionFailure() << shadowed.technique->diagnose()[0];
+    if (!shadowed.complaints->all().empty()) return ::testing::AssertionFailure() << shadowed.complaints->all()[0];
+    return ::testing::AssertionSuccess();
+}
+
+/// Whether each channel of `actual` lies between those of the other two.
+bool between(std::uint32_t actual, std::uint32_t a, std::uint32_t b) {
+    bool result = true;
+    for (int shift = 0; shift < 32; shift += 8) {
+        const auto channel = [shift](std::uint32_t pixel) { return (pixel >> shift) & 0xffu; };
+        const auto [low, high] = std::minmax({channel(a), channel(b)});
+        result = result && channel(actual) >= low && channel(actual) <= high;
+    }
+    return result;
+}
+
+/// An edge between the rays of a pixel, of which (x, y) is the first of two by two, or near it: slivers fall between rays.
+bool atEdge(const Mask& mask, int x, int y) {
+    bool edge = false;
+    for (int v = std::max(0, y - 1); v <= std::min(mask.height - 1, y + 2); ++v)
+        for (int u = std::max(0, x - 1); u <= std::min(mask.width - 1, x + 2); ++u) edge = edge || mask.atEdge(u, v);
+    return edge;
+}
+
+/// Puts reserved bits back.
+struct Reservation {
+    explicit Reservation(unsigned bits) { gnomon::ShadowBin::reserve(bits); }
+    ~Reservation() { gnomon::ShadowBin::reserve(0); }
+};
+
+class FillStencil : public osg::Camera::DrawCallback {
+public:
+    explicit FillStencil(unsigned value) : _value(static_cast<GLint>(value)) {}
+    void operator()(osg::RenderInfo& renderInfo) const override {
+        glDisable(GL_SCISSOR_TEST);
+        renderInfo.getState()->haveAppliedMode(GL_SCISSOR_TEST, osg::StateAttribute::OFF);
+        glStencilMask(~0u);
+        glClearStencil(_value);
+        glClear(GL_STENCIL_BUFFER_BIT);
+        renderInfo.getState()->haveAppliedAttribute(osg::StateAttribute::STENCIL);
+    }
+
+private:
+    const GLint _value;
+};
+
+class Buffers : public testing::TestWithParam<TwoGrounds> {};
+INSTANTIATE_TEST_SUITE_P(Planar, Buffers, testing::ValuesIn(allTwoGrounds()),
+                         [](const auto& place) { return nameOf(place.param); });
+
+} // namespace
+
+TEST_P(Buffers, TextureWithPackedDepthAndStencil) { EXPECT_TRUE(isExactInto(GetParam(), {})); }
+
+TEST_P(Buffers, TextureWithoutAlpha) { EXPECT_TRUE(isExactInto(GetParam(), {GL_RGB8})); }
+
+// The same nodes in two stages of one frame: on the left as the window shows them, on the right as the texture does.
+TEST_P(Buffers, TextureAndWindowShowOneSceneAtOnce) {
+    const TwoGrounds& place = GetParam();
+    const int width = place.view.width, height = place.view.height;
+    const auto picture = [&](Drawn drawn) {
+        Rtt both(place, {}, drawn, true);
+        return frames(*both.camera).third;
+    };
+    const Picture actual = picture(Shadowed), lit = picture(Lit), dark = picture(Dark);
+    for (const int left : {0, width}) {
+        const auto half = [=](const Picture& whole) { return cropped(whole, left, 0, width, height); };
+        EXPECT_TRUE(judge(half(actual), half(lit), half(dark), place.mask())) << left;
+    }
+}
+
+TEST_P(Buffers, WithoutStencilNothingIsDrawnAndDiagnoseSaysWhy) {
+    const Target target{GL_RGBA8, osg::Camera::DEPTH_BUFFER, GL_DEPTH_COMPONENT24};
+    Rtt lit(GetParam(), target, Lit), shadowed(GetParam(), target, Shadowed);
+    const Frames expected = frames(*lit.camera), actual = frames(*shadowed.camera);
+    EXPECT_EQ(actual.first.different(expected.first), 0);
+    EXPECT_EQ(actual.third.different(expected.third), 0);
+    ASSERT_EQ(shadowed.technique->diagnose().size(), 1u);
+    EXPECT_NE(shadowed.technique->diagnose()[0].find("no stencil bits"), std::string::npos);
+    EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
+}
+
+TEST_P(Buffers, FourSamplesSmoothTheShadowsEdges) {
+    const Target target{GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, 4};
+    Rtt lit(GetParam(), target, Lit), dark(GetParam(), target, Dark), shadowed(GetParam(), target, Shadowed);
+    const Picture litPicture = lit.camera->frame(), darkPicture = dark.camera->frame(),
+                  actual = frames(*shadowed.camera).third;
+    TwoGrounds fine = GetParam(); // four rays a pixel, for the samples' sake
+    fine.view.width *= 2;
+    fine.view.height *= 2;
+    const Mask mask = fine.mask();
+    int wrong = 0, outside = 0, smooth = 0;
+    for (int y = 0; y < actual.height; ++y)
+        for (int x = 0; x < actual.width; ++x) {
+            const std::uint32_t is = actual.at(x, y), l = litPicture.at(x, y), d = darkPicture.at(x, y);
+            if (!atEdge(mask, 2 * x, 2 * y)) wrong += is != (mask.at(2 * x, 2 * y) == Seen::ShadowedReceiver ? d : l);
+            outside += !between(is, l, d);
+            smooth += is != l && is != d;
+        }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(outside, 0);
+    EXPECT_GT(smooth, 50);
+    EXPECT_EQ(shadowed.technique->diagnose(), std::vector<std::string>());
+    EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
+}
+
+// A quad in a higher bin that draws only where all stencil bits are zero.
+TEST_P(Buffers, StencilOfALaterBinFindsZeros) {
+    Trial trial;
+    trial.change = [](Scene& scene) {
+        const osg::ref_ptr<osg::Geode> glaze = node(square(6.0, 0.01));
+        osg::StateSet* set = glaze->getOrCreateStateSet();
+        osg::ref_ptr<osg::Stencil> zero = new osg::Stencil;
+        zero->setFunction(osg::Stencil::EQUAL, 0, ~0u);
+        set->setAttributeAndModes(zero);
+        set->setAttributeAndModes(new osg::Depth(osg::Depth::ALWAYS, 0.0, 1.0, false));
+        set->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+        set->setRenderBinDetails(12, "RenderBin");
+        scene.root->addChild(glaze);
+    };
+    Scene scene = GetParam().build();
+    trial.change(scene);
+    GetParam().addShadow(scene);
+    Camera camera(scene.root, GetParam().view);
+    const Frames actual = frames(camera), expected = unshadowed(GetParam(), trial, false);
+    EXPECT_EQ(actual.first.different(expected.first), 0);
+    EXPECT_EQ(actual.third.different(expected.third), 0);
+}
+
+// Before each frame the application fills its bits.
+TEST_P(Buffers, ReservedBitsKeepWhatTheApplicationWroteThere) {
+    const Frames lit = unshadowed(GetParam(), {}, false), dark = unshadowed(GetParam(), {}, true);
+    for (const unsigned reserved : {0x0fu, 0xf0u})
+        for (const unsigned filled : {0xffu, 0xaau}) {
+            SCOPED_TRACE(testing::Message() << "reserved " << reserved << ", filled with " << filled);
+            const Reservation kept(reserved);
+            Scene scene = GetParam().build();
+            const auto technique = GetParam().addShadow(scene);
+            Camera camera(scene.root, GetParam().view);
+            camera.viewer().getCamera()->setPreDrawCallback(new FillStencil(filled & reserved));
+            const Frames actual = frames(camera);
+            EXPECT_TRUE(judge(actual.first, lit.first, dark.first, GetParam().mask()));
+            EXPECT_TRUE(judge(actual.third, lit.third, dark.third, GetParam().mask()));
+            const osg::ref_ptr<osg::Image> stencil = camera.context().stencil();
+            const auto end = stencil->data() + stencil->getTotalSizeInBytes();
+            EXPECT_TRUE(std::all_of(stencil->data(), end, [=](auto v) { return v == (filled & reserved); }));
+            EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+        }
+}
