@@ -187,11 +187,13 @@ void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Ove
     for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.dark);
     for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
         for (const ShadowJob* job : jobs)
-            job->technique->report(job->frameNumber,
-                                   "cannot take a light from '" + nameOf(*leaf) +
-                                       "', which is unlit or whose program reads no gl_LightSource: it is drawn in its "
-                                       "own colour times setDark(); light it by OpenGL, name the uniform of its light "
-                                       "with ShadowCasterGroup::addLightUniform(), or do not let it receive.");
+            if (job->isReceiver(*leaf) && job->marks->canReach(*leaf))
+                job->technique->report(
+                    job->frameNumber,
+                    "cannot take a light from '" + nameOf(*leaf) +
+                        "', which is unlit or whose program reads no gl_LightSource: it is drawn in its "
+                        "own colour times setDark(); light it by OpenGL, name the uniform of its light "
+                        "with ShadowCasterGroup::addLightUniform(), or do not let it receive.");
 }
 
 void Compositor::blend(const Jobs& jobs, float dark) {

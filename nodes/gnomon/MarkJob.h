@@ -5,6 +5,7 @@
 
 #include <osg/Referenced>
 #include <osg/RenderInfo>
+#include <osgUtil/RenderLeaf>
 
 #include <string>
 
@@ -23,6 +24,9 @@ public:
     /// bounds; state that is applied on top must be taken back by state.apply().
     /// @return why nothing could be marked, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const = 0;
+
+    /// False if it is known that no mark falls on this leaf, as a cause of diagnose() should be about what receives.
+    virtual bool canReach(const osgUtil::RenderLeaf&) const { return true; }
 
 protected:
     ~MarkJob() override = default;

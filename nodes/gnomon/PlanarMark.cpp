@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/PlanarMark.h>
+#include <gnomon/Plane.h>
 #include <gnomon/ScreenPass.h>
 
 #include <gnomon_shaders.h>
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -61,6 +64,20 @@ double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
 } // namespace
 
 PlanarPrograms::PlanarPrograms() : plain(programState("")), clipping(programState("#define CLIP\n")) {}
+
+bool PlanarMark::canReach(const osgUtil::RenderLeaf& leaf) const {
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    const auto plane = normalizedPlane(glm::transpose(toGlm(*leaf._modelview)) * eyePlane);
+    if (!box.valid() || !plane) return true;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (unsigned i = 0; i < 8; ++i) {
+        const double height = distance(*plane, toGlm(osg::Vec3d(box.corner(i))));
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+    }
+    const double margin = 0.01 * (box._max - box._min).length();
+    return lowest <= margin && highest >= -margin;
+}
 
 std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     osg::State& state = *renderInfo.getState();

@@ -35,6 +35,10 @@ public:
     /// The plane on the screen, normalised device coordinates: z = depth.x·x + depth.y·y + depth.z.
     glm::dvec3 depth{0.0};
 
+    glm::dvec4 eyePlane{0.0}; ///< unit normal.
+
+    /// True if the leaf's box comes to the plane but for a hundredth of its size.
+    bool canReach(const osgUtil::RenderLeaf& leaf) const override;
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
 
 protected:

@@ -66,13 +66,10 @@ bool isMirrored(const ViewFrame& view) {
     return glm::determinant(glm::dmat3(toGlm(view.eyeFromGroup))) * view.projection(0, 0) * view.projection(1, 1) < 0.0;
 }
 
-bool receiverLiesIn(const ViewFrame& view, const glm::dvec4& groupPlane) {
+bool receiverLiesIn(const ViewFrame& view, const glm::dvec4& eyePlane) {
     if (!view.receivers) return false;
-    const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
-    if (!eyePlane) return false;
-    for (const osgUtil::RenderLeaf* leaf : *view.receivers)
-        if (!liesIn(*leaf, *eyePlane)) return false;
-    return true;
+    return std::all_of(view.receivers->begin(), view.receivers->end(),
+                       [&](const osgUtil::RenderLeaf* leaf) { return liesIn(*leaf, eyePlane); });
 }
 
 /// Height above the plane from which on PlanarClipPlanes::belowLight cuts; infinite for a sun.
@@ -169,10 +166,12 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     mark->mirrored = isMirrored(view);
     mark->cures = _cures;
     if (!_cures.stencil) mark->dark = darkAbove(*this);
-    mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, groupPlane);
+    const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
     const auto bounds = boundsOf(*mark);
     const auto depth = depthOnScreen(casters->plane, clipFromMesh);
-    if (!bounds || !depth) return nullptr; // out of sight: nothing to say
+    if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
+    mark->eyePlane = *eyePlane;
+    mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);
     mark->screenBounds = *bounds;
     mark->depth = *depth;
     return mark;

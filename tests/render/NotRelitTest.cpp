@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <osg/BlendFunc>
 #include <osg/Program>
+#include <osg/VertexProgram>
 
 #include <cmath>
 #include <functional>
@@ -42,6 +43,28 @@ void litProgram(osg::StateSet& state) {
                                "  color = 0.3 * vec4(1.0) + c * gl_LightSource[0].diffuse; }",
                                "varying vec4 color; void main() { gl_FragColor = color; }"));
 }
+
+void positionProgram(osg::StateSet& state) {
+    state.setAttribute(program("varying float c;\n"
+                               "void main() { gl_Position = ftransform();\n"
+                               "  vec3 n = normalize(gl_NormalMatrix * gl_Normal);\n"
+                               "  c = max(dot(n, normalize(gl_LightSource[0].position.xyz)), 0.0); }",
+                               "varying float c; void main() { gl_FragColor = vec4(0.3 + 0.6 * c); }"));
+}
+
+/// Colour: 0.6, or the light's diffuse and 0.2.
+void assembly(osg::StateSet& state, const std::string& colour) {
+    osg::ref_ptr<osg::VertexProgram> program = new osg::VertexProgram;
+    program->setVertexProgram("!!ARBvp1.0\n"
+                              "OPTION ARB_position_invariant;\n"
+                              "PARAM grey = { 0.2, 0.2, 0.2, 1.0 };\n" +
+                              colour + "END\n");
+    state.setAttributeAndModes(program);
+}
+
+void unlitAssembly(osg::StateSet& state) { assembly(state, "MUL result.color, grey, 3.0;\n"); }
+
+void litAssembly(osg::StateSet& state) { assembly(state, "ADD result.color, grey, state.light[0].diffuse;\n"); }
 
 void blending(osg::StateSet& state) {
     state.setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE));
@@ -114,12 +137,14 @@ TEST_P(Receivers, TakeTheShadowTheyCanAndSayIfItIsNotExact) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Planar, Receivers,
-                         testing::Values(Case{"Unlit", unlit, true, false}, Case{"UnlitUnnamed", unlit, false, false},
-                                         Case{"ConstantProgram", constantProgram, true, false},
-                                         Case{"ConstantProgramUnnamed", constantProgram, false, false},
-                                         Case{"LitProgram", litProgram, true, true},
-                                         Case{"LitProgramUnnamed", litProgram, false, true},
-                                         Case{"Blending", blending, true, true},
-                                         Case{"BlendingUnnamed", blending, false, true}),
-                         [](const auto& given) { return given.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Planar, Receivers,
+    testing::Values(Case{"Unlit", unlit, true, false}, Case{"UnlitUnnamed", unlit, false, false},
+                    Case{"ConstantProgram", constantProgram, true, false},
+                    Case{"ConstantProgramUnnamed", constantProgram, false, false},
+                    Case{"PositionProgram", positionProgram, true, false},
+                    Case{"PositionProgramUnnamed", positionProgram, false, false},
+                    Case{"UnlitAssembly", unlitAssembly, true, false}, Case{"LitAssembly", litAssembly, true, true},
+                    Case{"LitProgram", litProgram, true, true}, Case{"LitProgramUnnamed", litProgram, false, true},
+                    Case{"Blending", blending, true, true}, Case{"BlendingUnnamed", blending, false, true}),
+    [](const auto& given) { return given.param.name; });

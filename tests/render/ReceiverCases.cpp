@@ -14,8 +14,7 @@ void expectExact(const ReceiverParam& param) {
         EXPECT_EQ(found.wrongLit, 0);
         EXPECT_EQ(found.wrongAny, 0);
         const bool unnamed = receiving == Receiving::Unnamed;
-        const std::size_t causes = unnamed && given.othersUnlit ? found.causes.size() : given.causes;
-        EXPECT_EQ(found.causes.size(), causes) << (found.causes.empty() ? "" : found.causes.front());
+        EXPECT_EQ(found.causes.size(), given.causes) << (found.causes.empty() ? "" : found.causes.front());
         if (unnamed && !given.exactUnnamed) continue;
         EXPECT_EQ(found.wrongInside, 0);
         EXPECT_EQ(found.wrongAtEdge, 0);

@@ -12,6 +12,7 @@
 #include <osg/Fog>
 #include <osg/FrontFace>
 #include <osg/LightModel>
+#include <osg/LogicOp>
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/PolygonOffset>
@@ -200,6 +201,8 @@ void foggy(TwoReceivers& scene) {
     stateOf(*scene.right).setAttributeAndModes(fog);
 }
 
+void logicOp(TwoReceivers& scene) { stateOf(*scene.right).setAttributeAndModes(new osg::LogicOp(osg::LogicOp::XOR)); }
+
 void culled(TwoReceivers& scene) {
     stateOf(*scene.left).setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
     stateOf(*scene.right).setAttributeAndModes(new osg::FrontFace(osg::FrontFace::CLOCKWISE));
@@ -326,11 +329,6 @@ void offsetBoth(TwoReceivers& scene) {
     stateOf(*scene.receivers).setAttributeAndModes(new osg::PolygonOffset(1.0f, 1.0f));
 }
 
-ReceiverCase othersUnlit(ReceiverCase given) {
-    given.othersUnlit = true;
-    return given;
-}
-
 class ReceiverStates : public testing::TestWithParam<ReceiverParam> {};
 
 } // namespace
@@ -356,7 +354,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(Modes, ReceiverStates,
                          testing::Combine(testing::Values(ReceiverCase{"LightForcedOn", lightForcedOn},
                                                           ReceiverCase{"LightingForcedOn", lightingForcedOn},
-                                                          othersUnlit({"LightingOnlyHere", lightingOnlyHere}),
+                                                          ReceiverCase{"LightingOnlyHere", lightingOnlyHere},
                                                           ReceiverCase{"OtherLightOff", otherLightOff},
                                                           ReceiverCase{"Overridden", overridden},
                                                           ReceiverCase{"Nested", nested},
@@ -366,9 +364,9 @@ INSTANTIATE_TEST_SUITE_P(Modes, ReceiverStates,
 
 INSTANTIATE_TEST_SUITE_P(
     Pixels, ReceiverStates,
-    testing::Combine(testing::Values(ReceiverCase{"AlphaTested", alphaTested}, ReceiverCase{"Culled", culled},
-                                     ReceiverCase{"MaskedChannels", maskedChannels}, ReceiverCase{"Clipped", clipped},
-                                     ReceiverCase{"Scissored", scissored},
+    testing::Combine(testing::Values(ReceiverCase{"AlphaTested", alphaTested}, ReceiverCase{"LogicOp", logicOp},
+                                     ReceiverCase{"Culled", culled}, ReceiverCase{"MaskedChannels", maskedChannels},
+                                     ReceiverCase{"Clipped", clipped}, ReceiverCase{"Scissored", scissored},
                                      ReceiverCase{"DepthLessOrEqual", depthLessOrEqual},
                                      ReceiverCase{"DepthRange", depthRange, false, false},
                                      ReceiverCase{"OffsetBack", offsetBack, false, false},

@@ -59,8 +59,7 @@ struct ReceiverCase {
     bool exactUnnamed = true;
     /// What else the picture without the light needs; for receivers that cannot lose a light and take a factor of 0.
     std::function<void(TwoReceivers&)> alsoDark = [](TwoReceivers&) {};
-    std::size_t causes = 0;   ///< sentences that diagnose() is to give.
-    bool othersUnlit = false; ///< unnamed, diagnose() names more: things that receive too and cannot lose a light.
+    std::size_t causes = 0; ///< sentences that diagnose() is to give.
 };
 std::ostream& operator<<(std::ostream& out, const ReceiverCase& given);
 
