@@ -227,23 +227,41 @@ TEST_P(Buffers, StencilOfALaterBinFindsZeros) {
     EXPECT_EQ(actual.third.different(expected.third), 0);
 }
 
-// Before each frame the application fills its bits.
-TEST_P(Buffers, ReservedBitsKeepWhatTheApplicationWroteThere) {
+// Before each frame the application fills the stencil buffer, its own bits and ours.
+TEST_P(Buffers, ReservedBitsKeepWhatTheApplicationWroteThereAndOursNeedNotBeZero) {
     const Frames lit = unshadowed(GetParam(), {}, false), dark = unshadowed(GetParam(), {}, true);
-    for (const unsigned reserved : {0x0fu, 0xf0u})
+    for (const unsigned reserved : {0x00u, 0x0fu, 0xf0u})
         for (const unsigned filled : {0xffu, 0xaau}) {
             SCOPED_TRACE(testing::Message() << "reserved " << reserved << ", filled with " << filled);
             const Reservation kept(reserved);
             Scene scene = GetParam().build();
             const auto technique = GetParam().addShadow(scene);
             Camera camera(scene.root, GetParam().view);
-            camera.viewer().getCamera()->setPreDrawCallback(new FillStencil(filled & reserved));
+            camera.viewer().getCamera()->setPreDrawCallback(new FillStencil(filled));
             const Frames actual = frames(camera);
             EXPECT_TRUE(judge(actual.first, lit.first, dark.first, GetParam().mask()));
             EXPECT_TRUE(judge(actual.third, lit.third, dark.third, GetParam().mask()));
             const osg::ref_ptr<osg::Image> stencil = camera.context().stencil();
             const auto end = stencil->data() + stencil->getTotalSizeInBytes();
-            EXPECT_TRUE(std::all_of(stencil->data(), end, [=](auto v) { return v == (filled & reserved); }));
+            EXPECT_TRUE(
+                std::all_of(stencil->data(), end, [=](auto v) { return (v & reserved) == (filled & reserved); }));
             EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
         }
+}
+
+// The camera clears to a value of the application's, so that the stage cannot clear for us.
+TEST_P(Buffers, StencilClearedToAnotherValue) {
+    Trial trial;
+    trial.set = [](Camera& camera) {
+        camera.viewer().getCamera()->setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+        camera.viewer().getCamera()->setClearStencil(0xff);
+    };
+    Scene scene = GetParam().build();
+    GetParam().addShadow(scene);
+    Camera camera(scene.root, GetParam().view);
+    trial.set(camera);
+    const Frames actual = frames(camera), lit = unshadowed(GetParam(), trial, false),
+                 dark = unshadowed(GetParam(), trial, true);
+    EXPECT_TRUE(judge(actual.first, lit.first, dark.first, GetParam().mask()));
+    EXPECT_TRUE(judge(actual.third, lit.third, dark.third, GetParam().mask()));
 }

@@ -43,14 +43,10 @@ const Name values[] = {{"program", currentProgram, 1},
                        {"back stencil z fail", 0x8802, 1},
                        {"back stencil z pass", 0x8803, 1},
                        {"back stencil reference", 0x8CA3, 1},
-                       {"back stencil value mask", 0x8CA4, 1},
-                       {"back stencil write mask", 0x8CA5, 1},
                        NAME(GL_COLOR_WRITEMASK, 4),
                        NAME(GL_DEPTH_WRITEMASK, 1),
-                       NAME(GL_STENCIL_WRITEMASK, 1),
                        NAME(GL_STENCIL_FUNC, 1),
                        NAME(GL_STENCIL_REF, 1),
-                       NAME(GL_STENCIL_VALUE_MASK, 1),
                        NAME(GL_STENCIL_FAIL, 1),
                        NAME(GL_STENCIL_PASS_DEPTH_FAIL, 1),
                        NAME(GL_STENCIL_PASS_DEPTH_PASS, 1),
@@ -87,6 +83,12 @@ const Name values[] = {{"program", currentProgram, 1},
                        NAME(GL_FOG_COLOR, 4),
                        NAME(GL_PACK_ALIGNMENT, 1),
                        NAME(GL_UNPACK_ALIGNMENT, 1)};
+
+/// Of eight bits, whatever stands above them.
+const Name stencilMasks[] = {NAME(GL_STENCIL_WRITEMASK, 1),
+                             NAME(GL_STENCIL_VALUE_MASK, 1),
+                             {"back stencil value mask", 0x8CA4, 1},
+                             {"back stencil write mask", 0x8CA5, 1}};
 
 const Name capabilities[] = {NAME(GL_LIGHTING, 1),
                              NAME(GL_BLEND, 1),
@@ -155,6 +157,11 @@ GlSnapshot glSnapshot() {
     for (const Name& name : values)
         snapshot[name.text] = asked(name.count, [&](float* to) { glGetFloatv(name.value, to); });
     for (const Name& name : capabilities) snapshot[name.text] = {static_cast<float>(glIsEnabled(name.value))};
+    for (const Name& name : stencilMasks) {
+        GLint mask = 0;
+        glGetIntegerv(name.value, &mask);
+        snapshot[name.text] = {static_cast<float>(mask & 0xff)};
+    }
     addNumbered(snapshot);
     addTextures(snapshot);
     while (glGetError()) {

@@ -71,7 +71,6 @@ void rich(osg::StateSet& set) {
 }
 
 void withAProgram(osg::StateSet& set) {
-    offButGiven(set);
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->addShader(new osg::Shader(osg::Shader::VERTEX,
                                        "void main() { gl_Position = ftransform(); vec3 n = gl_NormalMatrix * gl_Normal;"
@@ -117,6 +116,9 @@ std::vector<GlSnapshot> seen(const TwoGrounds& place, void (*state)(osg::StateSe
     return result;
 }
 
+/// Then OpenGL keeps what the compositor left, for osg::State has nothing to set.
+void nothing(osg::StateSet&) {}
+
 struct Kind {
     const char* name;
     void (*set)(osg::StateSet&);
@@ -147,7 +149,7 @@ TEST(GlComplaints, HearAnErrorWithItsText) {
 
 TEST_P(GlState, IsThatOfAFrameWithoutGnomon) {
     const auto& [place, composite] = GetParam();
-    for (const Kind& kind : {Kind{"plain", plain}, {"rich", rich}, {"program", withAProgram}}) {
+    for (const Kind& kind : {Kind{"plain", plain}, {"rich", rich}, {"program", withAProgram}, {"nothing", nothing}}) {
         const std::vector<GlSnapshot> expected = seen(place, kind.set, nullptr),
                                       actual = seen(place, kind.set, &composite);
         for (std::size_t i = 0; i < expected.size(); ++i)

@@ -180,9 +180,7 @@ TEST_P(Ordering, BlendingDecalBlendsOverTheShadowedGround) {
 
 TEST_P(Ordering, OverlayStaysAsItIs) {
     using C = osg::Camera;
-    if (GetParam().named != Named::Nothing) {
-        EXPECT_TRUE(isExact(GetParam(), overlay(C::NESTED_RENDER, 0)));
-    }
+    EXPECT_TRUE(isExact(GetParam(), overlay(C::NESTED_RENDER, 0)));
     EXPECT_TRUE(isExact(GetParam(), overlay(C::NESTED_RENDER, 11)));
     EXPECT_TRUE(isExact(GetParam(), overlay(C::POST_RENDER, 0)));
 }
@@ -192,6 +190,11 @@ TEST_P(Ordering, GlassBlendsOverTheShadowedGround) {
     EXPECT_TRUE(isExact(GetParam(), panes(4, "DepthSortedBin")));
     EXPECT_TRUE(isExact(GetParam(), panes(4, "TraversalOrderBin")));
     EXPECT_TRUE(isExact(GetParam(), panes(-2, "DepthSortedBin")));
+}
+
+TEST_P(Ordering, GlassInABinOfTheCompositorsNumberIsSorted) {
+    EXPECT_TRUE(isExact(GetParam(), panes(8, "DepthSortedBin")));
+    EXPECT_TRUE(isExact(GetParam(), panes(8, "TraversalOrderBin")));
 }
 
 TEST_P(Ordering, ThingsInABinOfTheCompositorsNumberAreDrawn) {
