@@ -68,7 +68,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
                                     ": OpenGL's lights are 0 to 7; renumber it.");
         else if (isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(number)))
             result.lights.push_back({number, light.inEye * groupFromEye});
-    if (result.lights.empty())
+    if (result.lights.empty() && (inStage.empty() || !leaves.empty())) // with nothing in sight, nobody can tell
         result.causes.push_back(
             "finds no light that is on in this view: add an osg::LightSource and switch its mode on, or set one "
             "with ShadowCasterGroup::addLight.");

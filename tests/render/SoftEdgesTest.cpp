@@ -157,6 +157,16 @@ TEST(SoftEdges, OneLightMayHaveBothKindsOfEdges) {
     EXPECT_EQ(errors.litChanged, 0);
 }
 
+TEST(SoftEdges, OfTwoLightsOneMayHaveBothKindsOfEdges) {
+    const Errors errors = errorsOf(2, 0.3f,
+                                   {disc(80.0, 75.0, 10.0, 50.0, 0), disc(110.0, 70.0, 30.0, 30.0, 0),
+                                    disc(120.0, 80.0, 15.0, 45.0, 1)},
+                                   relight);
+    EXPECT_LE(errors.largest, 3.0);
+    EXPECT_EQ(errors.litChanged, 0);
+    EXPECT_EQ(errors.alphaLost, 0);
+}
+
 TEST(SoftEdges, BlendDarkensByTheShareOfTheFactor) {
     for (const float dark : {0.0f, 0.3f, 0.5f, 0.9f}) {
         const auto shadow = disc(100.0, 75.0, 20.0, 60.0);
