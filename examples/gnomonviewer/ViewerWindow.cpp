@@ -15,6 +15,8 @@
 #include <osgGA/TrackballManipulator>
 #include <osgViewer/ViewerEventHandlers>
 
+#include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -68,6 +70,12 @@ osg::ref_ptr<osgGA::KeySwitchMatrixManipulator> makeHands() {
     return hands;
 }
 
+/// Where DISPLAY names none OSG would open a window on whatever screen is numbered 0, perhaps another user's.
+bool namesDisplay() {
+    const char* name = std::getenv("DISPLAY");
+    return name && std::strchr(name, ':');
+}
+
 osgViewer::ScreenCaptureHandler* makeCapture() {
     using Capture = osgViewer::ScreenCaptureHandler;
     return new Capture(new Capture::WriteToFile("gnomonviewer", "png", Capture::WriteToFile::SEQUENTIAL_NUMBER));
@@ -89,13 +97,13 @@ ViewerWindow::ViewerWindow(const ViewOptions& options, osg::Node& files)
 
 void ViewerWindow::openWindow(const ViewOptions& options) {
     const Silence silence;
-    _viewer.setUpViewInWindow(corner, corner, options.width, options.height);
-    _viewer.realize();
+    if (namesDisplay()) _viewer.setUpViewInWindow(corner, corner, options.width, options.height);
     osgViewer::Viewer::Windows windows;
     _viewer.getWindows(windows);
     if (windows.empty())
         throw std::runtime_error("no window can be opened: DISPLAY must name an X server with OpenGL and a stencil "
                                  "buffer; gnomonshot draws without one.");
+    _viewer.realize();
     windows.front()->setWindowName("gnomonviewer");
 }
 

@@ -337,8 +337,8 @@ TEST_F(Viewer, EscapeEndsItWithStatus0) {
 namespace {
 
 /// Runs it where no window can be had; bad input must be found before one is missed.
-Ending runWithoutDisplay(const std::vector<std::string>& arguments) {
-    std::vector<std::string> all = {"-u", "DISPLAY", GNOMONVIEWER};
+Ending runWithoutDisplay(const std::vector<std::string>& arguments, const std::string& display = "") {
+    std::vector<std::string> all = {"DISPLAY=" + display, GNOMONVIEWER};
     all.insert(all.end(), arguments.begin(), arguments.end());
     return runProgram("env", all, std::filesystem::temp_directory_path());
 }
@@ -356,6 +356,8 @@ void expectRefused(const std::vector<std::string>& arguments, const std::string&
 
 TEST(ViewerInput, SaysInOneSentenceWhatItCannotDo) {
     expectRefused({GNOMON_DATA "/lab8.osgt"}, "no window can be opened");
+    for (const char* display : {"nonsense", ":9999"})
+        EXPECT_EQ(runWithoutDisplay({GNOMON_DATA "/lab8.osgt"}, display).status, 1) << display;
     expectRefused({}, "no scene file");
     expectRefused({"/nowhere.osgt"}, "there is no file");
     expectRefused({GNOMON_DATA "/lab8.osgt", "--shadow", "moon"}, "not a shadow technique");
