@@ -3,6 +3,7 @@
 
 #include <OpenThreads/Mutex>
 #include <OpenThreads/ScopedLock>
+#include <osg/GLExtensions>
 #include <osg/State>
 #include <osg/VertexArrayState>
 #include <osg/observer_ptr>
@@ -113,15 +114,24 @@ const char* indicesOf(const osg::DrawElements& elements, osg::State& state, bool
     return reinterpret_cast<const char*>(buffer->getOffset(elements.getBufferIndex()));
 }
 
-void drawRun(const osg::PrimitiveSet& primitives, const IndexClusters::Run& run, osg::State& state, bool useBuffers) {
-    const auto count = static_cast<GLsizei>(run.count);
+/// Runs of one primitive set, in one call: calls cost more than small runs do.
+void drawRuns(const osg::PrimitiveSet& primitives, const IndexClusters::Run* runs, std::size_t number,
+              osg::State& state, bool useBuffers) {
+    const osg::GLExtensions& gl = *state.get<osg::GLExtensions>();
+    const auto drawn = static_cast<GLsizei>(number);
+    std::vector<GLsizei> counts(number);
+    for (std::size_t i = 0; i < number; ++i) counts[i] = static_cast<GLsizei>(runs[i].count);
     if (const osg::DrawElements* elements = primitives.getDrawElements()) {
         const std::size_t size = elements->getTotalDataSize() / elements->getNumIndices();
-        glDrawElements(elements->getMode(), count, indexType(*elements),
-                       indicesOf(*elements, state, useBuffers) + run.first * size);
+        const char* indices = indicesOf(*elements, state, useBuffers);
+        std::vector<const void*> places(number);
+        for (std::size_t i = 0; i < number; ++i) places[i] = indices + runs[i].first * size;
+        gl.glMultiDrawElements(elements->getMode(), counts.data(), indexType(*elements), places.data(), drawn);
     } else {
         const auto& arrays = static_cast<const osg::DrawArrays&>(primitives);
-        glDrawArrays(arrays.getMode(), arrays.getFirst() + static_cast<GLint>(run.first), count);
+        std::vector<GLint> firsts(number);
+        for (std::size_t i = 0; i < number; ++i) firsts[i] = arrays.getFirst() + static_cast<GLint>(runs[i].first);
+        gl.glMultiDrawArrays(arrays.getMode(), firsts.data(), counts.data(), drawn);
     }
 }
 
@@ -212,11 +222,12 @@ void IndexClusters::draw(osg::RenderInfo& renderInfo, const osg::Geometry& geome
     state.bindVertexArrayObject(arrays);
     arrays->setVertexBufferObjectSupported(useBuffers);
     geometry.drawVertexArraysImplementation(renderInfo);
-    unsigned dispatched = ~0u;
-    for (const Run& run : runs) {
+    for (std::size_t begin = 0, end; begin < runs.size(); begin = end) {
+        const unsigned set = runs[begin].primitiveSet;
+        for (end = begin; end < runs.size() && runs[end].primitiveSet == set;) ++end;
         osg::AttributeDispatchers& perSet = state.getAttributeDispatchers();
-        if (perSet.active() && dispatched != run.primitiveSet) perSet.dispatch(dispatched = run.primitiveSet);
-        drawRun(*geometry.getPrimitiveSet(run.primitiveSet), run, state, useBuffers);
+        if (perSet.active()) perSet.dispatch(set);
+        drawRuns(*geometry.getPrimitiveSet(set), &runs[begin], end - begin, state, useBuffers);
     }
     if (!useBuffers) return;
     arrays->unbindVertexBufferObject();
