@@ -54,11 +54,14 @@ struct ShadowJob {
 /// whole cull, so their order in the graph does not matter; nothing is kept from frame to frame or view to view.
 ///
 /// Cost    scissored to where marks can fall: the marks, a stencil clear, and the leaves that the marks can touch, once
-///         more. One job with a named receiver that nothing else shows on: its leaves alone, at equal depth.
+///         more, big ones in part (IndexClusters). One job with a named receiver that nothing else shows on: its leaves
+///         alone, at equal depth. Soft edges: a few more steps, and each set of lights that are gone once more.
 /// Needs   one stencil bit a relit light, one more for several jobs or for receivers that others show on. A stage that
-///         clears depth clears stencil too, unless bits are reserved.
+///         clears depth clears stencil too, unless bits are reserved. For soft edges alpha bits; alpha is 1 afterwards
+///         within the marks' bounds. Without them edges are hard.
 /// Limits  three relit lights; the others stay unshadowed. Unlit receivers, and those whose program reads no OpenGL
-///         light, take a factor; where an opaque leaf has a stencil test of its own all is blended. diagnose() says so.
+///         light's colour, take a factor; where an opaque leaf has a stencil test of its own all is blended; under soft
+///         edges what blends or writes no depth takes the factor. diagnose() says so.
 ///         What is in bin 8 is drawn after the shadows: transparent things and whatever shall not receive belong there
 ///         or higher.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
