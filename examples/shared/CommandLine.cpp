@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
@@ -61,6 +62,17 @@ void takeOne(osg::ArgumentParser& arguments, const Option& option, int position)
 }
 
 } // namespace
+
+int runProgram(const char* name, int argc, char** argv, int (*run)(osg::ArgumentParser& arguments)) {
+    try {
+        osg::ArgumentParser arguments(&argc, argv);
+        return run(arguments);
+    } catch (const std::exception& error) {
+        std::cout << std::flush;
+        std::cerr << name << ": " << error.what() << std::endl;
+        return 1;
+    }
+}
 
 void readOptions(osg::ArgumentParser& arguments, const Options& table) {
     for (const Option& option : table) {

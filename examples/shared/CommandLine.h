@@ -23,6 +23,9 @@ struct Option {
 
 using Options = std::vector<Option>;
 
+/// What main() returns: what `run` returns, or 1 after one sentence on standard error if it throws.
+int runProgram(const char* name, int argc, char** argv, int (*run)(osg::ArgumentParser& arguments));
+
 /// Takes the options of `table` out of `arguments`.
 /// @throws std::invalid_argument, one sentence, for a value that cannot be used, is missing, or an option given twice.
 void readOptions(osg::ArgumentParser& arguments, const Options& table);
