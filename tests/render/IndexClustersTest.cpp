@@ -50,9 +50,10 @@ osg::ref_ptr<osg::PrimitiveSet> cells(GLenum mode) {
 
 osg::ref_ptr<osg::Geometry> geometryWith(osg::PrimitiveSet* primitives) {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setVertexArray(hills());
+    const osg::ref_ptr<osg::Vec3Array> vertices = hills();
+    geometry->setVertexArray(vertices);
     osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
-    for (const osg::Vec3& v : *hills()) {
+    for (const osg::Vec3& v : *vertices) {
         osg::Vec3 normal(-0.8f * std::cos(2.0f * v.x()), 0.6f * std::sin(1.5f * v.y()), 1.0f);
         normal.normalize();
         normals->push_back(normal);
