@@ -9,6 +9,17 @@ namespace {
 
 constexpr std::size_t mostRelitLights = 3;
 
+/// Jobs that share a lens: what one view sees, another view that is laid over it must not take for its own.
+std::vector<Jobs> byView(const Jobs& jobs) {
+    std::vector<Jobs> views;
+    for (const ShadowJob* job : jobs) {
+        const auto same = [job](const Jobs& view) { return view.front()->isOfView(*job->projection); };
+        const auto view = std::find_if(views.begin(), views.end(), same);
+        (view == views.end() ? views.emplace_back() : *view).push_back(job);
+    }
+    return views;
+}
+
 } // namespace
 
 Compositor::Compositor(StageDraw draw) : _draw(std::move(draw)), _lightBits(_draw.bits) {
@@ -32,12 +43,15 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs) {
             blended[job.dark].push_back(&job);
     }
     if (!relit.empty()) relightAny(relit, blended);
-    for (const auto& [dark, group] : blended) {
-        if (areSoft(group))
-            SoftCompositor(_draw).blend(group, dark);
-        else if (!composeDirectly(group))
-            blend(group, dark);
-    }
+    for (const auto& [dark, group] : blended)
+        for (const Jobs& view : byView(group)) blendAny(view, dark);
+}
+
+void Compositor::blendAny(const Jobs& jobs, float dark) {
+    if (areSoft(jobs))
+        SoftCompositor(_draw).blend(jobs, dark);
+    else if (!composeDirectly(jobs))
+        blend(jobs, dark);
 }
 
 /// In the cheapest way that is right.
@@ -83,6 +97,8 @@ bool Compositor::canMark(const ShadowJob& job) const {
             "finds no stencil bits in this framebuffer: ask for 8, by "
             "osg::DisplaySettings::setMinimumNumStencilBits(8) before the window is made or by a stencil attachment "
             "of the camera.";
+    else if (_draw.stage.getClearDepth() < 1.0)
+        cause = "does not know this view's depth buffer, which is cleared to less than 1: clear it to 1.";
     else if (_lightBits.empty())
         cause = "finds every stencil bit reserved: leave one to ShadowBin::reserve().";
     if (cause) job.technique->report(job.frameNumber, cause);
@@ -101,7 +117,8 @@ bool Compositor::composeDirectly(const Jobs& jobs) {
     const auto other = [&job](const ReplayedLeaf& leaf) { return job.receivers.count(leaf.entry.leaf) == 0; };
     const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
     if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
-    if (!relit && !notOfView(job, _draw.leaves).empty()) return false;
+    const bool hindered = !notOfView(job, _draw.leaves).empty() || isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP);
+    if (!relit && hindered) return false;
     leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());
     const unsigned bit = _lightBits.front();
     _draw.clearLeftovers(bit);
@@ -205,7 +222,7 @@ void Compositor::blend(const Jobs& jobs, float dark) {
     for (const ShadowJob* job : jobs) writeWhereSeen(_draw, notOfView(*job, _draw.leaves), 0, bit, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.takeStencil(bit, bit);
-        screen.multiplyColor(dark, writtenChannels(_draw.leaves));
+        screen.multiplyColor(dark);
     });
 }
 

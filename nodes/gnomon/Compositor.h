@@ -32,6 +32,7 @@ private:
     bool composeDirectly(const Jobs& jobs);
     void relight(const Jobs& wanted);
     static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended);
+    void blendAny(const Jobs& jobs, float dark);
     void blend(const Jobs& jobs, float dark);
 
     std::map<int, unsigned> assignBits(const Jobs& jobs) const;

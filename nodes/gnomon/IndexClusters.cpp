@@ -16,29 +16,32 @@
 namespace gnomon {
 namespace {
 
-/// How the corners of a mode make triangles: runs start at multiples of `step` and share `overlap` corners.
+/// How the corners of a mode are cut into runs, which share `overlap` of them.
 struct Cutting {
-    unsigned cornersInRun = 0, step = 1, overlap = 0;
+    unsigned cornersInRun = 0, overlap = 0;
 };
 
 Cutting cuttingOf(GLenum mode) {
     constexpr unsigned triangles = IndexClusters::trianglesInRun;
     switch (mode) {
     case GL_TRIANGLES:
-        return {3 * triangles, 3, 0};
+        return {3 * triangles, 0};
     case GL_QUADS:
-        return {2 * triangles, 4, 0};
+        return {2 * triangles, 0};
     case GL_TRIANGLE_STRIP:
-        return {triangles, 2, 2}; // an even start keeps the sense of its triangles
+        return {triangles, 2}; // an even start keeps the sense of its triangles
     default:
         return {};
     }
 }
 
+/// Indirect ones are lists of indices to OSG as well, and draw something else.
 bool canBeCut(const osg::PrimitiveSet& primitives) {
-    const auto type = primitives.getType();
+    using P = osg::PrimitiveSet;
+    const auto types = {P::DrawArraysPrimitiveType, P::DrawElementsUBytePrimitiveType,
+                        P::DrawElementsUShortPrimitiveType, P::DrawElementsUIntPrimitiveType};
     return cuttingOf(primitives.getMode()).cornersInRun > 0 && primitives.getNumInstances() == 0 &&
-           (type == osg::PrimitiveSet::DrawArraysPrimitiveType || primitives.getDrawElements());
+           std::find(types.begin(), types.end(), primitives.getType()) != types.end();
 }
 
 /// Smaller ones are drawn as fast as their parts are found.
@@ -53,24 +56,33 @@ bool isBig(const osg::Geometry& geometry) {
 /// A geometry that draws just its arrays, where they say.
 bool isPlain(const osg::Geometry& geometry) {
     const auto& sets = geometry.getPrimitiveSetList();
-    return typeid(geometry) == typeid(osg::Geometry) && !geometry.getDrawCallback() &&
-           !geometry.getComputeBoundingBoxCallback() && !geometry.getInitialBound().valid() &&
-           dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray()) &&
+    return typeid(geometry) == typeid(osg::Geometry) && !geometry.containsDeprecatedData() &&
+           !geometry.getDrawCallback() && !geometry.getComputeBoundingBoxCallback() &&
+           !geometry.getInitialBound().valid() && dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray()) &&
            std::all_of(sets.begin(), sets.end(), [](const auto& set) { return canBeCut(*set); });
 }
 
-using Fingerprint = std::vector<std::uint64_t>;
+/// What clusters were made of, to be compared with what a geometry holds now.
+struct Origin {
+    std::vector<osg::observer_ptr<osg::BufferData>> parts; ///< a new one may stand at the address of one that is gone
+    std::vector<std::uint64_t> counts;
 
-Fingerprint fingerprintOf(const osg::Geometry& geometry) {
+    bool operator==(const Origin& other) const {
+        const auto holds = [](const auto& mine, const auto& theirs) { return mine.valid() && mine == theirs; };
+        return counts == other.counts &&
+               std::equal(parts.begin(), parts.end(), other.parts.begin(), other.parts.end(), holds);
+    }
+};
+
+Origin originOf(const osg::Geometry& geometry) {
     const auto word = [](unsigned high, unsigned low) { return std::uint64_t{high} << 32 | low; };
-    const auto address = [](const void* pointer) { return std::uint64_t{reinterpret_cast<std::uintptr_t>(pointer)}; };
     const osg::Array& vertices = *geometry.getVertexArray();
-    Fingerprint result = {address(&vertices), word(vertices.getModifiedCount(), vertices.getNumElements())};
+    Origin result{{const_cast<osg::Array*>(&vertices)}, {word(vertices.getModifiedCount(), vertices.getNumElements())}};
     for (const auto& set : geometry.getPrimitiveSetList()) {
         const auto* arrays = dynamic_cast<const osg::DrawArrays*>(set.get());
-        result.push_back(address(set.get()));
-        result.push_back(word(set->getModifiedCount(), set->getNumIndices()));
-        result.push_back(word(set->getMode(), arrays ? static_cast<unsigned>(arrays->getFirst()) : 0u));
+        result.parts.emplace_back(set.get());
+        result.counts.push_back(word(set->getModifiedCount(), set->getNumIndices()));
+        result.counts.push_back(word(set->getMode(), arrays ? static_cast<unsigned>(arrays->getFirst()) : 0u));
     }
     return result;
 }
@@ -138,25 +150,24 @@ void drawRuns(const osg::PrimitiveSet& primitives, const IndexClusters::Run* run
 /// What was made of each drawable, as long as it lives.
 class Cache {
 public:
-    osg::ref_ptr<const IndexClusters> find(const osg::Geometry& geometry, const Fingerprint& fingerprint) {
+    osg::ref_ptr<const IndexClusters> find(const osg::Geometry& geometry, const Origin& origin) {
         OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
         const auto entry = _entries.find(&geometry);
-        const bool holds =
-            entry != _entries.end() && entry->second.drawable.valid() && entry->second.fingerprint == fingerprint;
+        const bool holds = entry != _entries.end() && entry->second.drawable.valid() && entry->second.origin == origin;
         return holds ? entry->second.clusters : nullptr;
     }
 
-    void keep(const osg::Geometry& geometry, const Fingerprint& fingerprint, const IndexClusters* clusters) {
+    void keep(const osg::Geometry& geometry, const Origin& origin, const IndexClusters* clusters) {
         OpenThreads::ScopedLock<OpenThreads::Mutex> lock(_mutex);
         for (auto entry = _entries.begin(); entry != _entries.end();)
             entry = entry->second.drawable.valid() ? std::next(entry) : _entries.erase(entry);
-        _entries[&geometry] = {const_cast<osg::Geometry*>(&geometry), fingerprint, clusters};
+        _entries[&geometry] = {const_cast<osg::Geometry*>(&geometry), origin, clusters};
     }
 
 private:
     struct Entry {
         osg::observer_ptr<osg::Geometry> drawable;
-        Fingerprint fingerprint;
+        Origin origin;
         osg::ref_ptr<const IndexClusters> clusters;
     };
     OpenThreads::Mutex _mutex;
@@ -169,11 +180,11 @@ osg::ref_ptr<const IndexClusters> IndexClusters::of(const osg::Drawable& drawabl
     static Cache cache;
     const osg::Geometry* geometry = drawable.asGeometry();
     if (!geometry || !isBig(*geometry) || !isPlain(*geometry)) return nullptr;
-    const Fingerprint fingerprint = fingerprintOf(*geometry);
-    osg::ref_ptr<const IndexClusters> clusters = cache.find(*geometry, fingerprint);
+    const Origin origin = originOf(*geometry);
+    osg::ref_ptr<const IndexClusters> clusters = cache.find(*geometry, origin);
     if (clusters) return clusters;
     clusters = new IndexClusters(*geometry);
-    cache.keep(*geometry, fingerprint, clusters);
+    cache.keep(*geometry, origin, clusters);
     return clusters;
 }
 

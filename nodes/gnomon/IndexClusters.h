@@ -13,7 +13,7 @@
 
 namespace gnomon {
 
-/// A big geometry in runs of 64 triangles or fewer, in the order in which it draws them, each with its box: so that part
+/// A big geometry in runs of 16 triangles or fewer, in the order in which it draws them, each with its box: so that part
 /// of it can be drawn again from the same arrays.
 class GNOMON_EXPORT IndexClusters : public osg::Referenced {
 public:
@@ -26,7 +26,8 @@ public:
 
     /// Those of a drawable as it is now; null where it must be drawn whole: it is small, no plain osg::Geometry, or has
     /// primitives other than triangles, quads and triangle strips, instances, a draw callback or a bounding box that is
-    /// not its vertices'. Made once a revision of its arrays and kept while the drawable lives. Any thread.
+    /// not its vertices'. Made once a revision of its arrays and kept about as long as the drawable lives. Any thread.
+    /// Not for what a program, primitive restart or a vertex array object draws: that the caller asks of the state.
     static osg::ref_ptr<const IndexClusters> of(const osg::Drawable& drawable);
 
     /// Runs that can touch a part of the screen, neighbours joined.

@@ -72,12 +72,19 @@ void LeafReplay::apply(const StageLeaf& entry) {
     if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
 }
 
-/// Programs may move vertices to where no cluster's box is.
+/// Programs may move vertices to where no cluster's box is; a restarted strip's corners do not alternate from its start.
+bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry) {
+    constexpr GLenum vertexProgram = 0x8620, restart = 0x8F9D, restartFixedIndex = 0x8D69;
+    return _overlay.clusters && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
+           !_state.getLastAppliedMode(vertexProgram) && !_state.getLastAppliedMode(restart) &&
+           !_state.getLastAppliedMode(restartFixedIndex) &&
+           !_state.useVertexArrayObject(geometry.getUseVertexArrayObject());
+}
+
 void LeafReplay::drawGeometry(const osgUtil::RenderLeaf& leaf) {
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
-    const bool whole = !_overlay.clusters || !geometry || _state.getLastAppliedProgramObject() ||
-                       _state.useVertexArrayObject(geometry->getUseVertexArrayObject());
-    const osg::ref_ptr<const IndexClusters> clusters = whole ? nullptr : IndexClusters::of(*leaf._drawable);
+    const bool cut = geometry && canDrawClusters(leaf, *geometry);
+    const osg::ref_ptr<const IndexClusters> clusters = cut ? IndexClusters::of(*geometry) : nullptr;
     if (!clusters) return leaf._drawable->draw(_renderInfo);
     IndexClusters::draw(_renderInfo, *geometry,
                         clusters->touching(_overlay.bounds, *leaf._modelview * *leaf._projection));
@@ -89,15 +96,14 @@ void LeafReplay::drawFaded(const osgUtil::RenderLeaf& leaf) {
     const bool fades = _overlay.color == Color::Replace && !_state.getLastAppliedMode(GL_BLEND) &&
                        !_state.getLastAppliedMode(GL_COLOR_LOGIC_OP);
     if (fades) {
-        glEnable(GL_BLEND);
-        glBlendFunc(GL_CONSTANT_COLOR, GL_ZERO);
+        addBlended(_state, GL_CONSTANT_COLOR, GL_ZERO);
         setBlendColor(_overlay.unlit);
     }
     drawGeometry(leaf);
     if (!fades) return;
     glDisable(GL_BLEND);
-    for (auto type : {osg::StateAttribute::BLENDFUNC, osg::StateAttribute::BLENDCOLOR})
-        _state.haveAppliedAttribute(type);
+    using A = osg::StateAttribute;
+    for (A::Type type : {A::BLENDFUNC, A::BLENDCOLOR, A::BLENDEQUATION}) _state.haveAppliedAttribute(type);
 }
 
 /// A bin may have a state set of its own, which lies under those of its leaves.
@@ -125,10 +131,7 @@ void LeafReplay::layOver() {
 }
 
 void LeafReplay::layColorOver() {
-    const auto blend = [](GLenum source, GLenum destination) {
-        glEnable(GL_BLEND);
-        glBlendFunc(source, destination);
-    };
+    const auto blend = [this](GLenum source, GLenum destination) { addBlended(_state, source, destination); };
     switch (_overlay.color) {
     case Color::Replace:
         return;

@@ -16,7 +16,7 @@ namespace gnomon {
 ///
 /// Whatever a leaf's state sets, PROTECTED or not, what is laid over holds: it goes to OpenGL after the leaf's state
 /// and before its draw. At the end osg::State is told what it can no longer take for granted. Of a big geometry only the
-/// clusters that can touch `Overlay::bounds` are drawn.
+/// clusters that can touch `Overlay::bounds` are drawn, if neither a program nor a vertex array object draws it.
 class LeafReplay {
 public:
     /// What becomes of a leaf's colour.
@@ -66,6 +66,7 @@ private:
     void keepAlpha();
     void setBlendColor(float grey);
     void darken(unsigned lights);
+    bool canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry);
     void drawGeometry(const osgUtil::RenderLeaf& leaf);
     void drawFaded(const osgUtil::RenderLeaf& leaf);
 
@@ -75,6 +76,7 @@ private:
     ProgramLights _lights;
     const unsigned _stackSize;
     unsigned _dark = 0; ///< lights that are dark in OpenGL now.
+    FilledTest _filled;
     std::vector<const osgUtil::RenderLeaf*> _notRelit;
     osgUtil::RenderBin* _bin = nullptr;
     osgUtil::StateGraph* _previous = nullptr; ///< whose state sets are on the stack.

@@ -135,10 +135,7 @@ void PlanarMark::darken(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned 
     pass.stencilAny(bit);
     glDisable(GL_DEPTH_TEST);
     if (!cures.offset) fightReceiver();
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
-    renderInfo.getState()->get<osg::GLExtensions>()->glBlendColor(dark, dark, dark, 1.0f);
+    pass.beginMultiply(dark);
     drawParts(renderInfo);
     pass.clearStencil(bit);
 }

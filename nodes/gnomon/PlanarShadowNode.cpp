@@ -4,7 +4,6 @@
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
-#include <gnomon/ShadowCasterGroup.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/gtc/matrix_access.hpp>
@@ -92,12 +91,6 @@ std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
     return screenBounds(corners);
 }
 
-/// Of the nearest group above; 0.5, as of any new group, where there is none.
-float darkAbove(const osg::Node& node) {
-    if (const auto* group = dynamic_cast<const ShadowCasterGroup*>(&node)) return group->getDark();
-    return node.getNumParents() ? darkAbove(*node.getParent(0)) : 0.5f;
-}
-
 } // namespace
 
 PlanarShadowNode::PlanarShadowNode() : _programs(new PlanarPrograms) {}
@@ -165,7 +158,7 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     mark->reachesLight = heightLimit(clip, casters->plane) < casters->highest;
     mark->mirrored = isMirrored(view);
     mark->cures = _cures;
-    if (!_cures.stencil) mark->dark = darkAbove(*this);
+    mark->dark = view.dark;
     const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
     const auto bounds = boundsOf(*mark);
     const auto depth = depthOnScreen(casters->plane, clipFromMesh);

@@ -14,6 +14,24 @@ bool contains(const std::string& text, const char* word) { return text.find(word
 
 bool namesColor(const std::string& source) { return contains(source, "diffuse") || contains(source, "specular"); }
 
+/// True if GLSL text uses what a light colours: a product of light and material, a light's colour, or a light as a whole.
+bool usesLightColor(const std::string& source) {
+    if (contains(source, "LightProduct")) return true;
+    const std::string name = "gl_LightSource";
+    for (std::size_t at = source.find(name); at != std::string::npos; at = source.find(name, at + 1)) {
+        const std::size_t bracket =
+            source.find(']', at); // an index that itself has brackets is taken for a whole light
+        const std::size_t next =
+            bracket == std::string::npos ? bracket : source.find_first_not_of(" \t\r\n", bracket + 1);
+        if (next == std::string::npos || source[next] != '.') return true;
+        const std::size_t member = source.find_first_not_of(" \t\r\n", next + 1);
+        for (const char* color : {"diffuse", "specular"})
+            if (member != std::string::npos && source.compare(member, std::string(color).size(), color) == 0)
+                return true;
+    }
+    return false;
+}
+
 /// OSG's own list of a program's uniforms leaves the built-in ones out, so OpenGL is asked.
 bool readsLights(const osg::GLExtensions& gl, GLuint program) {
     GLint count = 0;
@@ -30,11 +48,11 @@ bool readsLights(const osg::GLExtensions& gl, GLuint program) {
 }
 
 /// OpenGL may list all of a light where its position alone is read: the text tells better, if there is one.
-bool textNamesColor(const osg::Program& program) {
+bool textUsesColor(const osg::Program& program) {
     bool hasText = false;
     for (unsigned i = 0; i < program.getNumShaders(); ++i) {
         const std::string& source = program.getShader(i)->getShaderSource();
-        if (namesColor(source)) return true;
+        if (usesLightColor(source)) return true;
         hasText = hasText || !source.empty();
     }
     return !hasText;
@@ -88,14 +106,17 @@ bool ProgramLights::canLose(unsigned dark) {
     const auto [known, isNew] = _readsColors.insert({program, false});
     if (isNew)
         known->second = readsLights(*_state.get<osg::GLExtensions>(), program->getHandle()) &&
-                        textNamesColor(*program->getProgram());
+                        textUsesColor(*program->getProgram());
     return known->second || readsUniforms(*program, dark);
 }
 
 bool ProgramLights::readsUniforms(const Program& program, unsigned dark) const {
     unsigned read = 0;
-    for (const LightUniform& uniform : _uniforms)
-        if (program.getUniformLocation(uniform.name) >= 0) read |= 1u << uniform.number;
+    for (const LightUniform& uniform : _uniforms) {
+        const auto active = program.getActiveUniforms().find(osg::Uniform::getNameID(uniform.name));
+        const bool isColor = active != program.getActiveUniforms().end() && componentsOf(active->second._type) > 0;
+        if (isColor) read |= 1u << uniform.number;
+    }
     return (dark & ~read) == 0;
 }
 

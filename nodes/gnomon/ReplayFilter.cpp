@@ -38,17 +38,11 @@ std::size_t lastReceiver(const std::vector<StageLeaf>& leaves, const std::vector
 } // namespace
 
 std::vector<ReplayedLeaf> notOfView(const ShadowJob& job, const std::vector<StageLeaf>& leaves) {
+    TouchTest touches(job.marks->screenBounds);
     std::vector<ReplayedLeaf> result;
-    for (const StageLeaf& entry : leaves) {
-        if (job.isOfView(*entry.leaf)) continue;
-        const auto place = screenBoundsOf(*entry.leaf);
-        if (place && overlap(*place, job.marks->screenBounds)) result.push_back({entry, 0});
-    }
+    for (const StageLeaf& entry : leaves)
+        if (!job.isOfView(*entry.leaf) && touches(*entry.leaf)) result.push_back({entry, 0});
     return result;
-}
-
-bool overlap(const ScreenRect& a, const ScreenRect& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
 ScreenRect united(const ScreenRect& a, const ScreenRect& b) {
@@ -63,13 +57,13 @@ std::vector<ReplayedLeaf> leavesToReplay(const std::vector<StageLeaf>& leaves,
                                          const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds,
                                          bool filter) {
     PlainTest plain;
+    TouchTest touches(bounds);
     const std::size_t last = filter ? lastReceiver(leaves, jobs, plain) : leaves.size();
     std::vector<ReplayedLeaf> result;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const osgUtil::RenderLeaf& leaf = *leaves[i].leaf;
         if (i > last && plain(leaf)) continue;
-        const auto place = filter ? screenBoundsOf(leaf) : bounds;
-        if (place && overlap(*place, bounds)) result.push_back({leaves[i], lightsLostBy(&leaf, jobs)});
+        if (!filter || touches(leaf)) result.push_back({leaves[i], lightsLostBy(&leaf, jobs)});
     }
     return result;
 }

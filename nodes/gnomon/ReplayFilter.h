@@ -25,7 +25,6 @@ std::vector<ReplayedLeaf> leavesToReplay(const std::vector<StageLeaf>& leaves,
 /// Leaves that a nested camera lays over the view of a job: no shadow of that view falls on them.
 std::vector<ReplayedLeaf> notOfView(const ShadowJob& job, const std::vector<StageLeaf>& leaves);
 
-bool overlap(const ScreenRect& a, const ScreenRect& b);
 ScreenRect united(const ScreenRect& a, const ScreenRect& b);
 ScreenRect common(const ScreenRect& a, const ScreenRect& b);
 

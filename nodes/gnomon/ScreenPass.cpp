@@ -35,7 +35,9 @@ CleanState::CleanState(osg::State& state, osg::Viewport* viewport) : _state(stat
 
 CleanState::~CleanState() { _state.popStateSet(); }
 
-ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds) : _state(state) {
+ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
+                       const Channels& channels)
+    : _state(state), _channels(channels) {
     const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
     const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
     glEnable(GL_SCISSOR_TEST);
@@ -65,8 +67,14 @@ void leaveDefaults(osg::State& state) {
     if (const osg::Viewport* viewport = state.getCurrentViewport()) // as osgUtil::RenderStage leaves it
         glScissor(static_cast<GLint>(viewport->x()), static_cast<GLint>(viewport->y()),
                   static_cast<GLsizei>(viewport->width()), static_cast<GLsizei>(viewport->height()));
-    for (A::Type type : {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::DEPTH, A::COLORMASK})
+    for (A::Type type : {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::BLENDEQUATION, A::DEPTH, A::COLORMASK})
         state.haveAppliedAttribute(type);
+}
+
+void addBlended(const osg::State& state, GLenum source, GLenum destination) {
+    glEnable(GL_BLEND);
+    glBlendFunc(source, destination);
+    state.get<osg::GLExtensions>()->glBlendEquation(GL_FUNC_ADD);
 }
 
 void ScreenPass::clearStencil(unsigned bits) {
@@ -103,17 +111,20 @@ void ScreenPass::writeFarDepth() {
 
 void ScreenPass::writeColor(const osg::Vec4& color) {
     glDisable(GL_BLEND);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glColorMask(_channels.red, _channels.green, _channels.blue, GL_TRUE);
     drawColor(color);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 
-void ScreenPass::multiplyColor(float factor, const Channels& channels) {
-    glColorMask(channels.red, channels.green, channels.blue, GL_FALSE);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
-    _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
+void ScreenPass::multiplyColor(float factor) {
+    beginMultiply(factor);
     drawQuad();
+}
+
+void ScreenPass::beginMultiply(float factor) {
+    glColorMask(_channels.red, _channels.green, _channels.blue, GL_FALSE);
+    addBlended(_state, GL_ZERO, GL_CONSTANT_COLOR);
+    _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
 }
 
 void ScreenPass::setAlpha(float value) {
@@ -123,22 +134,19 @@ void ScreenPass::setAlpha(float value) {
 }
 
 void ScreenPass::fadeAlpha(float factor) {
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    addBlended(_state, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
     drawColor({0.0f, 0.0f, 0.0f, factor});
 }
 
 void ScreenPass::multiplyAlpha() {
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ZERO, GL_SRC_ALPHA);
+    addBlended(_state, GL_ZERO, GL_SRC_ALPHA);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
 }
 
-void ScreenPass::multiplyColorByAlpha(const Channels& channels) {
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ZERO, GL_DST_ALPHA);
-    glColorMask(channels.red, channels.green, channels.blue, GL_FALSE);
+void ScreenPass::multiplyColorByAlpha() {
+    addBlended(_state, GL_ZERO, GL_DST_ALPHA);
+    glColorMask(_channels.red, _channels.green, _channels.blue, GL_FALSE);
     drawQuad();
 }
 

@@ -29,11 +29,15 @@ private:
 /// Puts OpenGL's stencil, depth, blending, scissor and colour mask to their defaults and tells osg::State so.
 void leaveDefaults(osg::State& state);
 
+/// Switches blending on: what is drawn times `source` is added to what stands times `destination`.
+void addBlended(const osg::State& state, GLenum source, GLenum destination);
+
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
 /// Puts everything back at its end.
 class ScreenPass {
 public:
-    ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds);
+    /// @param channels  that colours may be written to.
+    ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds, const Channels& channels);
     ~ScreenPass();
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;
@@ -47,13 +51,15 @@ public:
     void takeStencil(unsigned test, unsigned bits);
     void writeFarDepth();
     void writeColor(const osg::Vec4& color);
-    void multiplyColor(float factor, const Channels& channels);
+    void multiplyColor(float factor);
+    /// What is drawn next multiplies what stands by the factor, whatever its own colour.
+    void beginMultiply(float factor);
     /// Alpha alone: set; alpha = factor + (1 - factor) alpha.
     void setAlpha(float value);
     void fadeAlpha(float factor);
     /// What is drawn next multiplies alpha by its own, and writes nothing else.
     void multiplyAlpha();
-    void multiplyColorByAlpha(const Channels& channels);
+    void multiplyColorByAlpha();
     /// Passes where the quad's depth compares so with the one that stands; depths beyond near and far are clamped.
     void testDepth(GLenum function);
 
@@ -64,6 +70,7 @@ private:
     void drawColor(const osg::Vec4& color);
 
     osg::State& _state;
+    const Channels _channels;
 };
 
 } // namespace gnomon

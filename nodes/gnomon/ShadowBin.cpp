@@ -91,6 +91,7 @@ ViewFrame viewOf(const EnlistedTechnique& entry) {
     view.eyeFromGroup = entry.eyeFromGroup;
     view.groupFromTechnique = entry.groupFromTechnique;
     view.projection = *entry.projection;
+    view.dark = entry.group->getDark();
     view.frameNumber = entry.frameNumber;
     return view;
 }
@@ -116,7 +117,7 @@ bool ShadowJob::isReceiver(const osgUtil::RenderLeaf& leaf) const {
     return receiverNamed ? receivers.count(&leaf) > 0 : isOfView(leaf);
 }
 
-bool ShadowJob::isOfView(const osgUtil::RenderLeaf& leaf) const { return sameLens(*leaf._projection, *projection); }
+bool ShadowJob::isOfView(const osg::Matrixd& lens) const { return sameLens(lens, *projection); }
 
 ShadowBin& ShadowBin::of(osgUtil::RenderStage* stage) {
     for (int number = highestNumber;; --number) {

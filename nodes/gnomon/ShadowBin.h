@@ -45,7 +45,8 @@ struct ShadowJob {
     /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this view.
     bool isReceiver(const osgUtil::RenderLeaf& leaf) const;
     /// True if the leaf is seen through the technique's lens, unlike what a nested camera lays over the view.
-    bool isOfView(const osgUtil::RenderLeaf& leaf) const;
+    bool isOfView(const osgUtil::RenderLeaf& leaf) const { return isOfView(*leaf._projection); }
+    bool isOfView(const osg::Matrixd& lens) const;
 };
 
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
@@ -62,6 +63,8 @@ struct ShadowJob {
 /// Limits  three relit lights; the others stay unshadowed. Unlit receivers, and those whose program reads no OpenGL
 ///         light's colour, take a factor; where an opaque leaf has a stencil test of its own all is blended; under soft
 ///         edges what blends or writes no depth takes the factor. diagnose() says so.
+///         Under soft edges opaque layers at the very same depth are mixed one after the other. A leaf that sets no
+///         colour of its own and takes that of the leaf before it may take another. Reversed depth is refused.
 ///         What is in bin 8 is drawn after the shadows: transparent things and whatever shall not receive belong there
 ///         or higher.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.

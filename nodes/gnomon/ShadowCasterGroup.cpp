@@ -79,7 +79,7 @@ void ShadowCasterGroup::addLight(const ShadowLight& light) {
     if (isLightNumber(light.number, "addLight")) _lights.push_back(light);
 }
 
-void ShadowCasterGroup::setLights(const std::vector<ShadowLight>& lights) {
+void ShadowCasterGroup::setLights(std::vector<ShadowLight> lights) { // by value: it may be the group's own
     _lights.clear();
     for (const ShadowLight& light : lights) addLight(light);
 }
@@ -93,7 +93,7 @@ void ShadowCasterGroup::addLightUniform(const LightUniform& uniform) {
     if (isLightNumber(uniform.number, "addLightUniform")) _lightUniforms.push_back(uniform);
 }
 
-void ShadowCasterGroup::setLightUniforms(const std::vector<LightUniform>& uniforms) {
+void ShadowCasterGroup::setLightUniforms(std::vector<LightUniform> uniforms) {
     _lightUniforms.clear();
     for (const LightUniform& uniform : uniforms) addLightUniform(uniform);
 }

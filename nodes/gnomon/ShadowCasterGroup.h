@@ -74,14 +74,14 @@ public:
     /// All of one kind in place of those that were.
     void setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources);
     const std::vector<osg::ref_ptr<osg::LightSource>>& getLightSources() const { return _lightSources; }
-    void setLights(const std::vector<ShadowLight>& lights);
+    void setLights(std::vector<ShadowLight> lights);
     const std::vector<ShadowLight>& getLights() const { return _lights; }
 
     /// Uniforms by which programs of receivers read the colours of lights: relight sets them to 0 where the light does not
     /// reach, as it does the OpenGL light's own colours. Default none. Not for elements of arrays. A uniform whose light
     /// number is none of OpenGL's, 0 to 7, is refused with a warning.
     void addLightUniform(const LightUniform& uniform);
-    void setLightUniforms(const std::vector<LightUniform>& uniforms);
+    void setLightUniforms(std::vector<LightUniform> uniforms);
     const std::vector<LightUniform>& getLightUniforms() const { return _lightUniforms; }
 
     /// The casters as they are now; extracted again only if something changed since the last call. Call it where

@@ -128,7 +128,9 @@ SoftCompositor::Leaves SoftCompositor::setAside(Leaves& leaves, const Jobs& jobs
     OpaqueTest opaque;
     Leaves aside, mixed;
     for (const ReplayedLeaf& leaf : leaves) {
-        if (!opaque(*leaf.entry.leaf))
+        const auto ofView = [&leaf](const ShadowJob* job) { return job->isOfView(*leaf.entry.leaf); };
+        const bool laidOver = leaf.dark == 0 && !std::all_of(jobs.begin(), jobs.end(), ofView);
+        if (!opaque(*leaf.entry.leaf) || laidOver)
             aside.push_back(leaf);
         else if (leaf.dark)
             (judge.canBeRelit(leaf.entry, leaf.dark) ? mixed : aside).push_back(leaf);
@@ -159,7 +161,7 @@ void SoftCompositor::multiplyByFactor(const Lights& lights, float factor, const 
         screen.stencilAny(_faded);
         screen.fadeAlpha(factor);
         screen.takeStencil(_faded, bitsOf(lights) | _faded);
-        screen.multiplyColorByAlpha(writtenChannels(_draw.leaves));
+        screen.multiplyColorByAlpha();
     });
 }
 
@@ -168,7 +170,7 @@ void SoftCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs&
         weigh(lights, 0, boundsOf(jobs));
         _draw.pass(boundsOf(jobs), [&](ScreenPass& screen) {
             screen.stencilAny(bitsOf(lights));
-            screen.multiplyColorByAlpha(writtenChannels(_draw.leaves));
+            screen.multiplyColorByAlpha();
         });
     }
     for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(leaves, lights, lost, jobs);
@@ -194,10 +196,9 @@ void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned
     unsigned dark = 0;
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (lost & (1u << i)) dark |= 1u << lights[i].number;
-    for (const ReplayedLeaf& leaf : leaves) {
-        const auto place = ShadowBin::getFilter() ? screenBoundsOf(*leaf.entry.leaf) : bounds;
-        if (place && overlap(*place, bounds)) replay.draw(leaf.entry, leaf.dark & dark);
-    }
+    TouchTest touches(bounds);
+    for (const ReplayedLeaf& leaf : leaves)
+        if (!ShadowBin::getFilter() || touches(*leaf.entry.leaf)) replay.draw(leaf.entry, leaf.dark & dark);
 }
 
 /// Where pixels can lose all of these lights; with a light of two bits in use, which one stencil test cannot ask for,
@@ -259,7 +260,7 @@ void SoftCompositor::blend(const Jobs& jobs, float dark) const {
     }
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.fadeAlpha(dark);
-        screen.multiplyColorByAlpha(writtenChannels(_draw.leaves));
+        screen.multiplyColorByAlpha();
         screen.setAlpha(1.0f);
     });
 }

@@ -4,9 +4,12 @@
 
 #include <osg/ColorMask>
 #include <osg/Depth>
+#include <osg/Geometry>
+#include <osg/PolygonMode>
 #include <osg/Transform>
 #include <osgUtil/StateGraph>
 
+#include <algorithm>
 #include <climits>
 #include <cmath>
 #include <unordered_map>
@@ -166,6 +169,24 @@ bool isOpaqueSet(const osg::StateSet& set) {
            !gives(set, GL_DEPTH_TEST, A::OFF) && (!depth || depth->getWriteMask());
 }
 
+bool isFilledSet(const osg::StateSet& set) {
+    const auto* mode = static_cast<const osg::PolygonMode*>(set.getAttribute(osg::StateAttribute::POLYGONMODE));
+    return !mode || (mode->getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
+                     mode->getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL);
+}
+
+/// nullopt where it can draw nowhere.
+std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    if (!box.valid()) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
+    const glm::dmat4 clipFromLocal = toGlm(*leaf._modelview * *leaf._projection);
+    std::vector<glm::dvec4> corners;
+    corners.reserve(8);
+    for (unsigned i = 0; i < 8; ++i)
+        corners.push_back(clipFromLocal * glm::dvec4(toGlm(osg::Vec3d(box.corner(i))), 1.0));
+    return screenBounds(corners);
+}
+
 std::string nameOf(const osg::Node& node) {
     for (const osg::Node* above = &node; above; above = above->getNumParents() ? above->getParent(0) : nullptr)
         if (!above->getName().empty()) return above->getName();
@@ -228,15 +249,25 @@ OpaqueTest::OpaqueTest() : LeafTest(isOpaqueSet) {}
 
 std::string nameOf(const osgUtil::RenderLeaf& leaf) { return nameOf(*leaf._drawable); }
 
-std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
-    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    if (!box.valid()) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
-    const glm::dmat4 clipFromLocal = toGlm(*leaf._modelview * *leaf._projection);
-    std::vector<glm::dvec4> corners;
-    corners.reserve(8);
-    for (unsigned i = 0; i < 8; ++i)
-        corners.push_back(clipFromLocal * glm::dvec4(toGlm(osg::Vec3d(box.corner(i))), 1.0));
-    return screenBounds(corners);
+FilledTest::FilledTest() : LeafTest(isFilledSet) {}
+
+bool FilledTest::operator()(const osgUtil::RenderLeaf& leaf) {
+    const osg::Geometry* geometry = leaf._drawable->asGeometry();
+    const auto hasArea = [](const auto& primitives) { return primitives->getMode() >= GL_TRIANGLES; };
+    if (geometry &&
+        !std::all_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), hasArea))
+        return false;
+    return LeafTest::operator()(leaf);
+}
+
+bool TouchTest::operator()(const osgUtil::RenderLeaf& leaf) {
+    if (!_filled(leaf)) return true;
+    const auto place = screenBoundsOf(leaf);
+    return place && overlap(*place, _bounds);
+}
+
+bool overlap(const ScreenRect& a, const ScreenRect& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
 } // namespace gnomon

@@ -69,7 +69,24 @@ public:
 /// Its drawable's name or that of the nearest named node above it, else its class.
 std::string nameOf(const osgUtil::RenderLeaf& leaf);
 
-/// Where on the screen a leaf can draw; nullopt where nowhere.
-std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf);
+/// Drawn as filled triangles: points and lines are wider than what they are made of.
+class FilledTest : public LeafTest {
+public:
+    FilledTest();
+    bool operator()(const osgUtil::RenderLeaf& leaf);
+};
+
+/// Tells whether a leaf can draw in a part of the screen.
+class TouchTest {
+public:
+    explicit TouchTest(const ScreenRect& bounds) : _bounds(bounds) {}
+    bool operator()(const osgUtil::RenderLeaf& leaf);
+
+private:
+    const ScreenRect _bounds;
+    FilledTest _filled;
+};
+
+bool overlap(const ScreenRect& a, const ScreenRect& b);
 
 } // namespace gnomon

@@ -36,11 +36,19 @@ std::map<int, StageLight> lightsIn(osgUtil::RenderStage& stage) {
     return lights;
 }
 
+std::string notOpenGL(int number) {
+    return "leaves out light " + std::to_string(number) + ": OpenGL's lights are 0 to 7; renumber it.";
+}
+
 void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight>& inStage,
                   const osg::Matrixd& groupFromEye, GroupLights& result) {
     result.lights = group.getLights();
     for (const auto& source : group.getLightSources()) {
         const osg::Light* light = source->getLight();
+        if (light && (light->getLightNum() < 0 || light->getLightNum() > 7)) {
+            result.causes.push_back(notOpenGL(light->getLightNum()));
+            continue;
+        }
         const auto found = light ? inStage.find(light->getLightNum()) : inStage.end();
         if (found != inStage.end() && found->second.light == light)
             result.lights.push_back({light->getLightNum(), found->second.inEye * groupFromEye});
@@ -64,8 +72,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
     const std::vector<StageLeaf> leaves = leavesBelow(stage, std::numeric_limits<int>::max());
     for (const auto& [number, light] : inStage)
         if (number < 0 || number > 7)
-            result.causes.push_back("leaves out light " + std::to_string(number) +
-                                    ": OpenGL's lights are 0 to 7; renumber it.");
+            result.causes.push_back(notOpenGL(number));
         else if (isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(number)))
             result.lights.push_back({number, light.inEye * groupFromEye});
     if (result.lights.empty() && (inStage.empty() || !leaves.empty())) // with nothing in sight, nobody can tell

@@ -73,11 +73,9 @@ void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
     overlay.bounds = job.marks->screenBounds;
     overlay.clusters = ShadowBin::getFilter();
     LeafReplay replay(_draw.renderInfo, overlay);
-    for (const StageLeaf& entry : _draw.leaves) {
-        if (!job.receivers.count(entry.leaf)) continue;
-        const auto place = screenBoundsOf(*entry.leaf);
-        if (place && overlap(*place, job.marks->screenBounds)) replay.draw(entry);
-    }
+    TouchTest touches(job.marks->screenBounds);
+    for (const StageLeaf& entry : _draw.leaves)
+        if (job.receivers.count(entry.leaf) && touches(*entry.leaf)) replay.draw(entry);
 }
 
 void StencilMarks::transfer(const ShadowJob& job, unsigned bit) const {

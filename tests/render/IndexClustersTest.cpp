@@ -7,7 +7,8 @@
 #include <gnomon/IndexClusters.h>
 #include <gnomon/ShadowBin.h>
 #include <gtest/gtest.h>
-#include <osg/TriangleIndexFunctor>
+#include <osg/PrimitiveSetIndirect>
+#include <osg/VertexProgram>
 
 #include <cmath>
 #include <functional>
@@ -225,5 +226,33 @@ TEST(IndexClusters, WhatCannotBeCutIsDrawnWhole) {
     geometry = make();
     geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 5));
     EXPECT_FALSE(gnomon::IndexClusters::of(*geometry));
+    geometry = make();
+    geometry->addPrimitiveSet(new osg::DrawElementsIndirectUInt(GL_TRIANGLES));
+    EXPECT_FALSE(gnomon::IndexClusters::of(*geometry));
     EXPECT_FALSE(gnomon::IndexClusters::of(*node(square(1.0))->getDrawable(0)));
+}
+
+// A vertex program of assembly moves what it draws away from the boxes of its clusters.
+TEST(IndexClusters, WhatAProgramMovesIsDrawnWhole) {
+    osg::ref_ptr<osg::Geometry> geometry = geometryWith(cells<osg::DrawElementsUInt>(GL_TRIANGLES));
+    osg::ref_ptr<osg::VertexProgram> moving = new osg::VertexProgram;
+    moving->setVertexProgram("!!ARBvp1.0\n"
+                             "PARAM mvp[4] = { state.matrix.mvp };\n"
+                             "TEMP p;\n"
+                             "ADD p, vertex.position, { -3.0, 0.0, 0.0, 0.0 };\n"
+                             "DP4 result.position.x, mvp[0], p;\n"
+                             "DP4 result.position.y, mvp[1], p;\n"
+                             "DP4 result.position.z, mvp[2], p;\n"
+                             "DP4 result.position.w, mvp[3], p;\n"
+                             "ADD result.color, state.light[0].diffuse, state.light[0].ambient;\nEND\n");
+    geometry->getOrCreateStateSet()->setAttributeAndModes(moving);
+    Scene scene = sceneOf(geometry);
+    scene.addShadow(disc(25.0));
+    const Picture filtered = render(scene.root, view);
+    gnomon::ShadowBin::setFilter(false);
+    const Picture whole = render(scene.root, view);
+    gnomon::ShadowBin::setFilter(true);
+    EXPECT_EQ(filtered.different(whole), 0);
+    Scene lit = sceneOf(geometry);
+    EXPECT_GT(render(lit.root, view).different(whole), 1000) << "there is no shadow to compare";
 }

@@ -94,6 +94,30 @@ TEST(LightUniforms, UnnamedOneLeavesTheFactorAndTheReason) {
     EXPECT_NE(technique->diagnose()[0].find("addLightUniform"), std::string::npos);
 }
 
+TEST(LightUniforms, OneThatIsNoColourLeavesTheFactorAndTheReason) {
+    const Case given{"float", "vec3(0.5 * sunColor)", new osg::Uniform("sunColor", 1.0f), nullptr, true};
+    Scene scene = build(given, given.uniform);
+    osg::StateSet* state = find(*scene.root, "ground")->getStateSet();
+    state->setAttribute(programReading("int", "vec3(0.5 * float(sunColor))"));
+    state->removeUniform("sunColor");
+    state->addUniform(new osg::Uniform("sunColor", 1));
+    const auto technique = planar(find(*scene.root, "ground"));
+    scene.addShadow(technique);
+    scene.group->addLightUniform({0, "sunColor"});
+    render(scene.root, slanted);
+    EXPECT_EQ(technique->diagnose().size(), 1u);
+}
+
+TEST(LightUniforms, MayBeSetToThemselves) {
+    const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
+    group->addLightUniform({1, "a"});
+    group->addLight({2, osg::Vec4d(0.0, 0.0, 1.0, 0.0)});
+    group->setLightUniforms(group->getLightUniforms());
+    group->setLights(group->getLights());
+    EXPECT_EQ(group->getLightUniforms().size(), 1u);
+    EXPECT_EQ(group->getLights().size(), 1u);
+}
+
 TEST(LightUniforms, LightNumbersThatOpenGLLacksAreRefused) {
     const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
     for (const int number : {-1, 8}) group->addLightUniform({number, "sunColor"});

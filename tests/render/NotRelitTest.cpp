@@ -52,6 +52,17 @@ void positionProgram(osg::StateSet& state) {
                                "varying float c; void main() { gl_FragColor = vec4(0.3 + 0.6 * c); }"));
 }
 
+/// The material's diffuse colour, but not the light's.
+void materialProgram(osg::StateSet& state) {
+    state.setAttribute(program("varying float c; varying vec4 diffuseColor;\n"
+                               "void main() { gl_Position = ftransform();\n"
+                               "  vec3 n = normalize(gl_NormalMatrix * gl_Normal);\n"
+                               "  c = max(dot(n, normalize(gl_LightSource [0] . position.xyz)), 0.0);\n"
+                               "  diffuseColor = gl_FrontMaterial.diffuse; }",
+                               "varying float c; varying vec4 diffuseColor;\n"
+                               "void main() { gl_FragColor = (0.3 + 0.6 * c) * diffuseColor; }"));
+}
+
 /// Colour: 0.6, or the light's diffuse and 0.2.
 void assembly(osg::StateSet& state, const std::string& colour) {
     osg::ref_ptr<osg::VertexProgram> program = new osg::VertexProgram;
@@ -144,6 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"ConstantProgramUnnamed", constantProgram, false, false},
                     Case{"PositionProgram", positionProgram, true, false},
                     Case{"PositionProgramUnnamed", positionProgram, false, false},
+                    Case{"MaterialProgram", materialProgram, true, false},
                     Case{"UnlitAssembly", unlitAssembly, true, false}, Case{"LitAssembly", litAssembly, true, true},
                     Case{"LitProgram", litProgram, true, true}, Case{"LitProgramUnnamed", litProgram, false, true},
                     Case{"Blending", blending, true, true}, Case{"BlendingUnnamed", blending, false, true}),
