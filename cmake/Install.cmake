@@ -1,8 +1,8 @@
-# cmake --install puts headers, libraries and a package file in place: find_package(gnomon) then gives gnomon::gnomon, gnomon::headless and gnomon::headless_egl.
+# cmake --install puts headers, libraries and a package file in place: find_package(gnomon) then gives gnomon::gnomon, gnomon::metrics, gnomon::headless and gnomon::headless_egl.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS gnomon gnomon_math gnomon_headless gnomon_headless_egl EXPORT gnomonTargets)
+install(TARGETS gnomon gnomon_math gnomon_metrics gnomon_headless gnomon_headless_egl EXPORT gnomonTargets)
 foreach(room src nodes)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/gnomon DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 endforeach()

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/metrics/BoundaryDistance.h>
+#include <gnomon/metrics/Flicker.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <utility>
+
+namespace gnomon::metrics {
+namespace {
+
+constexpr double flickering = 0.25;
+constexpr double onCentre = 1e-6; // px: rounding of a reprojection; such a place is its pixel's centre
+
+/// Where a pixel was one frame before: up to four pixels and their weights.
+struct Fetch {
+    std::array<std::size_t, 4> pixel{};
+    std::array<double, 4> weight{};
+    bool known = false;
+
+    template <typename T>
+    double of(const Grid<T>& grid) const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < 4; ++i)
+            if (weight[i] > 0.0) sum += weight[i] * static_cast<double>(grid.cells[pixel[i]]);
+        return sum;
+    }
+};
+
+/// In px, with pixel centres at whole numbers; NaN behind the eye.
+glm::dvec2 placeIn(const FlickerFrame& frame, const glm::dvec3& position) {
+    const glm::dvec4 clip = frame.clipFromPosition * glm::dvec4(position, 1.0);
+    if (!(clip.w > 0.0)) return glm::dvec2(std::nan(""));
+    const glm::dvec2 size(frame.facing.width, frame.facing.height);
+    glm::dvec2 place = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size - 0.5;
+    for (int axis = 0; axis < 2; ++axis)
+        if (std::abs(place[axis] - std::round(place[axis])) < onCentre) place[axis] = std::round(place[axis]);
+    return place;
+}
+
+bool isInside(const glm::dvec2& place, const Mask& mask) {
+    return place.x >= 0.0 && place.y >= 0.0 && place.x <= mask.width - 1 && place.y <= mask.height - 1;
+}
+
+/// Adds one of the four pixels; false if it is not the same surface.
+bool addPixel(const FlickerFrame& last, int receiver, int x, int y, double weight, std::size_t slot, Fetch& fetch) {
+    if (!(weight > 0.0)) return true;
+    fetch.pixel[slot] =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(last.facing.width) + static_cast<std::size_t>(x);
+    fetch.weight[slot] = weight;
+    return last.facing.cells[fetch.pixel[slot]] && last.truth.receiver.cells[fetch.pixel[slot]] == receiver;
+}
+
+Fetch fetchFrom(const FlickerFrame& last, const FlickerFrame& frame, std::size_t pixel) {
+    Fetch fetch;
+    const glm::dvec2 place = placeIn(last, frame.truth.position.cells[pixel]);
+    if (!isInside(place, last.facing)) return fetch;
+    const int x = static_cast<int>(place.x), y = static_cast<int>(place.y);
+    const double fx = place.x - x, fy = place.y - y;
+    const int id = frame.truth.receiver.cells[pixel];
+    fetch.known = addPixel(last, id, x, y, (1 - fx) * (1 - fy), 0, fetch) &&
+                  addPixel(last, id, x + 1, y, fx * (1 - fy), 1, fetch) &&
+                  addPixel(last, id, x, y + 1, (1 - fx) * fy, 2, fetch) &&
+                  addPixel(last, id, x + 1, y + 1, fx * fy, 3, fetch);
+    return fetch;
+}
+
+/// |V_k(p) - V_{k-1}(p')|, negative where p' is not known, and how the truth changed there.
+struct Changes {
+    Picture shown, truth;
+};
+
+Changes changesBetween(const FlickerFrame& last, const FlickerFrame& frame) {
+    Changes changes{Picture(frame.facing.width, frame.facing.height, -1.0),
+                    Picture(frame.facing.width, frame.facing.height)};
+    for (std::size_t i = 0; i < frame.facing.cells.size(); ++i) {
+        const Fetch fetch = frame.facing.cells[i] ? fetchFrom(last, frame, i) : Fetch();
+        if (!fetch.known) continue;
+        changes.shown.cells[i] = std::abs(frame.visibility.cells[i] - fetch.of(last.visibility));
+        changes.truth.cells[i] = std::max(std::abs(frame.truth.lit.cells[i] - fetch.of(last.truth.lit)),
+                                          std::abs(frame.truth.litCentre.cells[i] - fetch.of(last.truth.litCentre)));
+    }
+    return changes;
+}
+
+double greatestAround(const Picture& picture, int x, int y) {
+    double greatest = 0.0;
+    for (int ny = y - 1; ny <= y + 1; ++ny)
+        for (int nx = x - 1; nx <= x + 1; ++nx)
+            if (picture.holds(nx, ny)) greatest = std::max(greatest, picture.at(nx, ny));
+    return greatest;
+}
+
+std::optional<double> ratio(double part, std::size_t whole) {
+    return whole ? std::optional(part / static_cast<double>(whole)) : std::nullopt;
+}
+
+} // namespace
+
+void FlickerMeter::compare(const FlickerFrame& frame) {
+    const Changes changes = changesBetween(_last, frame);
+    for (int y = 0; y < frame.facing.height; ++y)
+        for (int x = 0; x < frame.facing.width; ++x) {
+            if (changes.shown.at(x, y) < 0.0) continue;
+            const double e = std::max(0.0, changes.shown.at(x, y) - greatestAround(changes.truth, x, y));
+            ++_known;
+            _sum += e;
+            _flickering += e > flickering;
+        }
+    _facing += count(frame.facing);
+}
+
+void FlickerMeter::add(FlickerFrame frame) {
+    if (_frames > 0) compare(frame);
+    ++_frames;
+    const std::optional<BoundaryDistance> boundary = boundaryDistance(frame.visibility, frame.truth.lit, frame.facing);
+    if (boundary) _offsets.push_back(boundary->signedMean);
+    _last = std::move(frame);
+}
+
+std::optional<double> FlickerMeter::energy() const { return ratio(_sum, _known); }
+std::optional<double> FlickerMeter::share() const { return ratio(static_cast<double>(_flickering), _facing); }
+
+std::optional<double> FlickerMeter::crawl() const {
+    if (_offsets.size() < 2) return std::nullopt;
+    const double size = static_cast<double>(_offsets.size());
+    double mean = 0.0, squares = 0.0;
+    for (const double offset : _offsets) mean += offset / size;
+    for (const double offset : _offsets) squares += (offset - mean) * (offset - mean);
+    return std::sqrt(squares / size);
+}
+
+} // namespace gnomon::metrics

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/metrics/Intensity.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace gnomon::metrics {
+namespace {
+
+/// Root of a mean of squares.
+struct RootMeanSquare {
+    double sum = 0.0;
+    std::size_t count = 0;
+
+    void add(double square) {
+        sum += square;
+        ++count;
+    }
+    std::optional<double> value() const {
+        return count ? std::optional(std::sqrt(sum / static_cast<double>(count))) : std::nullopt;
+    }
+};
+
+} // namespace
+
+IntensityError intensityError(const Picture& visibility, const Picture& lit, const Mask& facing) {
+    RootMeanSquare all, penumbra;
+    for (std::size_t i = 0; i < facing.cells.size(); ++i) {
+        if (!facing.cells[i]) continue;
+        const double t = lit.cells[i], error = visibility.cells[i] - t;
+        all.add(error * error);
+        if (t > 0.02 && t < 0.98) penumbra.add(error * error);
+    }
+    return {all.value(), penumbra.value()};
+}
+
+std::optional<double> shadedError(const Grid<glm::dvec3>& picture, const Grid<glm::dvec3>& truth, const Mask& within) {
+    RootMeanSquare all;
+    for (std::size_t i = 0; i < within.cells.size(); ++i) {
+        const glm::dvec3 error = picture.cells[i] - truth.cells[i];
+        const double square = glm::dot(error, error) / 3.0;
+        if (within.cells[i] && std::isfinite(square)) all.add(square);
+    }
+    return all.value();
+}
+
+} // namespace gnomon::metrics

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/metrics/PixelSets.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace gnomon::metrics {
+namespace {
+
+constexpr double terminatorCosine = 0.05;
+constexpr std::array<std::pair<int, int>, 5> plus{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+/// Whether the pixel and its 4 neighbours, as far as the picture goes, truly are and are drawn as one surface.
+bool agrees(const Grid<int>& truth, const Grid<int>& drawn, int x, int y) {
+    const int id = truth.at(x, y);
+    for (const auto& [dx, dy] : plus)
+        if (truth.holds(x + dx, y + dy) && (truth.at(x + dx, y + dy) != id || drawn.at(x + dx, y + dy) != id))
+            return false;
+    return id != 0;
+}
+
+Mask agreeingIds(const Grid<int>& truth, const Grid<int>& drawn) {
+    Mask mask(truth.width, truth.height);
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) mask.at(x, y) = agrees(truth, drawn, x, y);
+    return mask;
+}
+
+double droppedShare(const Mask& agreeing, const Grid<int>& truth, const Grid<int>& drawn) {
+    std::size_t surface = 0;
+    for (std::size_t i = 0; i < truth.cells.size(); ++i) surface += truth.cells[i] != 0 || drawn.cells[i] != 0;
+    return surface ? 1.0 - static_cast<double>(count(agreeing)) / static_cast<double>(surface) : 0.0;
+}
+
+bool shadowedByItself(const TruthMaps& truth, std::size_t i) {
+    if (truth.blocker.empty() || truth.edgeLength.empty()) return false;
+    return truth.blocker.cells[i] == truth.receiver.cells[i] &&
+           truth.blockerDistance.cells[i] < 2.0 * truth.edgeLength.cells[i];
+}
+
+void sortPixel(const TruthMaps& truth, std::size_t i, PixelSets& sets) {
+    const double cosine = truth.facing.cells[i], lit = truth.lit.cells[i];
+    sets.facing.cells[i] = cosine > terminatorCosine;
+    sets.certain.cells[i] = cosine > terminatorCosine && !(lit > 0.0 && lit < 1.0);
+    sets.terminator.cells[i] = cosine > 0.0 && cosine <= terminatorCosine;
+    sets.selfShadowed.cells[i] = cosine > terminatorCosine && shadowedByItself(truth, i);
+}
+
+} // namespace
+
+PixelSets pixelSets(const TruthMaps& truth, const Picture& visibility) {
+    const Grid<int>& drawn = truth.drawn.empty() ? truth.receiver : truth.drawn;
+    PixelSets sets;
+    sets.agreeing = agreeingIds(truth.receiver, drawn);
+    sets.droppedShare = droppedShare(sets.agreeing, truth.receiver, drawn);
+    const Mask none(truth.receiver.width, truth.receiver.height);
+    sets.facing = sets.certain = sets.terminator = sets.selfShadowed = none;
+    for (std::size_t i = 0; i < visibility.cells.size(); ++i) {
+        if (!std::isfinite(visibility.cells[i])) sets.agreeing.cells[i] = 0;
+        if (sets.agreeing.cells[i]) sortPixel(truth, i, sets);
+    }
+    return sets;
+}
+
+} // namespace gnomon::metrics

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/metrics/ShadowMetrics.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace gnomon::metrics {
+namespace {
+
+constexpr double lostShadow = 0.2;
+
+template <typename T>
+void require(const Picture& visibility, const Grid<T>& grid, bool optional, const char* name) {
+    if (visibility.sameSize(grid) || (optional && grid.empty())) return;
+    throw std::invalid_argument(std::string("the truth's ") + name + " is not of the pictures' size.");
+}
+
+void requireSizes(const Picture& visibility, const TruthMaps& truth) {
+    require(visibility, truth.lit, false, "lit");
+    require(visibility, truth.litCentre, false, "litCentre");
+    require(visibility, truth.blockerDistance, false, "blockerDistance");
+    require(visibility, truth.receiver, false, "receiver");
+    require(visibility, truth.facing, false, "facing");
+    require(visibility, truth.drawn, true, "drawn");
+    require(visibility, truth.litByDisc, true, "litByDisc");
+    require(visibility, truth.blocker, true, "blocker");
+    require(visibility, truth.edgeLength, true, "edgeLength");
+    require(visibility, truth.position, true, "position");
+}
+
+std::size_t unmeasuredPixels(const Picture& visibility, const TruthMaps& truth) {
+    std::size_t pixels = 0;
+    for (std::size_t i = 0; i < visibility.cells.size(); ++i)
+        pixels += truth.receiver.cells[i] != 0 && truth.facing.cells[i] > 0.0 && !std::isfinite(visibility.cells[i]);
+    return pixels;
+}
+
+Catastrophes catastrophes(const Visibility& visibility, const ShadowMetrics& metrics) {
+    const Confusion& raw = metrics.raw;
+    Catastrophes result;
+    result.notFinite = visibility.notFinite;
+    result.allShadowed = raw.lit + raw.falseLit == 0 && raw.falseShadow > 0;
+    result.allLit = raw.shadow + raw.falseShadow == 0 && raw.falseLit > 0;
+    result.lostShadow = metrics.headline.intersectionOverUnion() < lostShadow;
+    return result;
+}
+
+void countSets(const PixelSets& sets, ShadowMetrics& metrics) {
+    metrics.agreeing = count(sets.agreeing);
+    metrics.facing = count(sets.facing);
+    metrics.certain = count(sets.certain);
+    metrics.droppedShare = sets.droppedShare;
+    metrics.sound = sets.sound();
+}
+
+} // namespace
+
+ShadowMetrics shadowMetrics(const Visibility& visibility, const TruthMaps& truth, const CauseLimits& limits) {
+    const Picture& v = visibility.value;
+    requireSizes(v, truth);
+    const PixelSets sets = pixelSets(truth, v);
+    ShadowMetrics metrics;
+    countSets(sets, metrics);
+    metrics.unmeasured = unmeasuredPixels(v, truth);
+    metrics.headline = confusion(v, truth, sets.certain);
+    metrics.raw = confusion(v, truth, sets.facing);
+    metrics.terminator = confusion(v, truth, sets.terminator);
+    metrics.selfShadowed = confusion(v, truth, sets.selfShadowed);
+    metrics.boundary = boundaryDistance(v, truth.lit, sets.facing);
+    metrics.causes = causeSplit(v, truth, sets, limits);
+    metrics.pointSun = intensityError(v, truth.lit, sets.facing);
+    if (!truth.litByDisc.empty()) metrics.discSun = intensityError(v, truth.litByDisc, sets.facing);
+    metrics.catastrophes = catastrophes(visibility, metrics);
+    return metrics;
+}
+
+} // namespace gnomon::metrics
