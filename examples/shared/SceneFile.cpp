@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "SceneFile.h"
+#include "CrashGuard.h"
 #include "SceneBounds.h"
 
 #include <osg/Group>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
 
-#include <array>
-#include <csignal>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace gnomon::examples {
 namespace {
@@ -23,33 +21,6 @@ std::string damagedSentence(const std::string& file) {
            " cannot be read as a scene: it is damaged or not what its name says (obj, osgt, ive, stl, 3ds, "
            "… can be read).";
 }
-
-/// While it lives, a crash prints one sentence and ends the program: readers of old formats trust their input.
-class CrashGuard {
-public:
-    explicit CrashGuard(const std::string& sentence) {
-        _sentence = sentence + "\n";
-        for (std::size_t i = 0; i < signals.size(); ++i) _before[i] = std::signal(signals[i], say);
-    }
-    ~CrashGuard() {
-        for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], _before[i]);
-    }
-    CrashGuard(const CrashGuard&) = delete;
-    CrashGuard& operator=(const CrashGuard&) = delete;
-
-private:
-    static constexpr std::array<int, 4> signals = {SIGSEGV, SIGABRT, SIGFPE, SIGBUS};
-
-    static void say(int) {
-        const ssize_t written = write(STDERR_FILENO, _sentence.data(), _sentence.size());
-        _exit(written > 0 ? 1 : 2);
-    }
-
-    static std::string _sentence;
-    std::array<void (*)(int), signals.size()> _before{};
-};
-
-std::string CrashGuard::_sentence;
 
 /// Reads, with every way of failing turned into a result.
 Result read(const std::string& file, const std::string& program) {

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "Report.h"
+
+#include <iomanip>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace gnomon::examples {
+namespace {
+
+using namespace metrics;
+using nlohmann::json;
+
+std::string number(double value) {
+    std::ostringstream out;
+    out << std::setprecision(4) << value;
+    return out.str();
+}
+
+std::string number(const std::optional<double>& value) { return value ? number(*value) : "none"; }
+std::string percent(const std::optional<double>& share) { return share ? number(100.0 * *share) + " %" : "none"; }
+std::string pixels(std::size_t count) { return std::to_string(count) + " px"; }
+
+std::string boundaryText(const std::optional<BoundaryDistance>& boundary) {
+    if (!boundary) return "none: one picture, or both, has no boundary";
+    return "mean " + number(boundary->mean) + " px, 95 % below " + number(boundary->p95) + " px, greatest " +
+           number(boundary->max) + " px, outwards " + number(boundary->signedMean) + " px";
+}
+
+std::string intensityText(const IntensityError& error) {
+    return number(error.all) + " (in penumbrae " + number(error.penumbra) + ")";
+}
+
+std::string wrongText(const Confusion& confusion) {
+    return std::to_string(confusion.falseShadow + confusion.falseLit) + " of " + pixels(confusion.pixels()) + " wrong";
+}
+
+std::string catastropheText(const Catastrophes& catastrophes) {
+    std::string text;
+    if (catastrophes.notFinite) text += pixels(catastrophes.notFinite) + " are no numbers; ";
+    if (catastrophes.allShadowed) text += "all is shadowed; ";
+    if (catastrophes.allLit) text += "all is lit; ";
+    if (catastrophes.lostShadow) text += "intersection over union below 0.2; ";
+    return text.empty() ? "none" : text.substr(0, text.size() - 2);
+}
+
+std::string awayAndRaw(const std::string& away, const std::string& raw) {
+    return away + " away from edges, " + raw + " raw";
+}
+
+std::string halvesText(const Confusion& away) {
+    return "; away from edges false shadow " + percent(away.falseShadowShare()) + ", missed shadow " +
+           percent(away.falseLitShare());
+}
+
+std::string falseShadowText(const CauseSplit& c) {
+    return "acne " + pixels(c.acne) + " (" + percent(c.acneShare) + " of what is lit), halo " + pixels(c.halo);
+}
+
+std::string missedShadowText(const CauseSplit& c) {
+    return "peter-panning " + pixels(c.peterPanning) + " (" + percent(c.peterPanningShare) + " of contact, gap " +
+           number(c.gap) + " m), leak " + pixels(c.leak) + ", erosion " + pixels(c.erosion);
+}
+
+std::string judgedText(const ShadowMetrics& m) {
+    return awayAndRaw(std::to_string(m.certain), std::to_string(m.facing)) + "; " + percent(m.droppedShare) +
+           " of the surface dropped, " + pixels(m.unmeasured) + " not measured";
+}
+
+std::vector<std::pair<std::string, std::string>> lines(const ShadowMetrics& m) {
+    const Confusion &away = m.headline, &raw = m.raw;
+    return {
+        {"boundary", boundaryText(m.boundary)},
+        {"misclassified", awayAndRaw(percent(away.misclassified()), percent(raw.misclassified()))},
+        {"balanced error", awayAndRaw(percent(away.balancedError()), percent(raw.balancedError())) + halvesText(away)},
+        {"IoU", awayAndRaw(number(away.intersectionOverUnion()), number(raw.intersectionOverUnion()))},
+        {"false shadow", falseShadowText(m.causes)},
+        {"missed shadow", missedShadowText(m.causes)},
+        {"over-dark", pixels(m.causes.overDark) + ", over-bright " + pixels(m.causes.overBright)},
+        {"RMSE", intensityText(m.pointSun) + " of a point sun, " + intensityText(m.discSun) + " of the sun's disc"},
+        {"apart", "terminator " + wrongText(m.terminator) + ", smooth self-shadow " + wrongText(m.selfShadowed)},
+        {"pixels judged", judgedText(m)},
+        {"catastrophes", catastropheText(m.catastrophes)}};
+}
+
+json jsonOf(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+json jsonOf(const Confusion& c) {
+    return {{"pixels", c.pixels()},
+            {"falseShadow", c.falseShadow},
+            {"falseLit", c.falseLit},
+            {"misclassified", jsonOf(c.misclassified())},
+            {"falseShadowShare", jsonOf(c.falseShadowShare())},
+            {"falseLitShare", jsonOf(c.falseLitShare())},
+            {"balancedError", jsonOf(c.balancedError())},
+            {"iou", c.intersectionOverUnion()}};
+}
+
+json jsonOf(const std::optional<BoundaryDistance>& b) {
+    if (!b) return nullptr;
+    return {{"mean", b->mean},
+            {"p95", b->p95},
+            {"max", b->max},
+            {"signedMean", b->signedMean},
+            {"drawnLength", b->drawnLength},
+            {"trueLength", b->trueLength}};
+}
+
+json jsonOf(const CauseSplit& c) {
+    return {{"acne", c.acne},
+            {"halo", c.halo},
+            {"peterPanning", c.peterPanning},
+            {"leak", c.leak},
+            {"erosion", c.erosion},
+            {"overDark", c.overDark},
+            {"overBright", c.overBright},
+            {"acneShare", jsonOf(c.acneShare)},
+            {"peterPanningShare", jsonOf(c.peterPanningShare)},
+            {"gapMetres", jsonOf(c.gap)}};
+}
+
+json jsonOf(const IntensityError& e) { return {{"all", jsonOf(e.all)}, {"penumbra", jsonOf(e.penumbra)}}; }
+
+json jsonOf(const Catastrophes& c) {
+    return {{"notFinitePixels", c.notFinite},
+            {"allShadowed", c.allShadowed},
+            {"allLit", c.allLit},
+            {"lostShadow", c.lostShadow},
+            {"any", c.any()}};
+}
+
+json setsOf(const ShadowMetrics& m) {
+    return {{"R", m.agreeing},
+            {"R+", m.facing},
+            {"Rc", m.certain},
+            {"unmeasured", m.unmeasured},
+            {"droppedShare", m.droppedShare},
+            {"sound", m.sound}};
+}
+
+} // namespace
+
+std::string reportText(const ShadowMetrics& m) {
+    std::ostringstream out;
+    for (const auto& [name, text] : lines(m)) out << std::left << std::setw(15) << name << text << "\n";
+    return out.str();
+}
+
+json reportJson(const ShadowMetrics& m) {
+    return {{"pixels", setsOf(m)},
+            {"awayFromEdges", jsonOf(m.headline)},
+            {"raw", jsonOf(m.raw)},
+            {"terminator", jsonOf(m.terminator)},
+            {"selfShadowed", jsonOf(m.selfShadowed)},
+            {"boundaryPixels", jsonOf(m.boundary)},
+            {"causes", jsonOf(m.causes)},
+            {"rmsePointSun", jsonOf(m.pointSun)},
+            {"rmseDiscSun", jsonOf(m.discSun)},
+            {"catastrophes", jsonOf(m.catastrophes)}};
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/metrics/Grid.h>
+#include <osg/Image>
+
+#include <string>
+
+namespace gnomon::examples {
+
+/// An image file by OSG's readers. @throws std::runtime_error, one sentence, if there is none or it cannot be read.
+/// @param program  whose name goes before that sentence should a reader crash.
+osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& program);
+
+/// A picture's grey, the mean of red, green and blue as they stand in the file, which must be linear. Bytes and shorts
+/// go from 0 to 1; 32-bit floats (.tif, .osgb, .osgt, .osgx, .ktx in OSG 3.6.5) keep every value, NaN too.
+/// @throws std::runtime_error, one sentence, for other kinds of pixels.
+metrics::Picture readGrey(const std::string& file, const std::string& program);
+
+} // namespace gnomon::examples

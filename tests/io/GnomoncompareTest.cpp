@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+// gnomoncompare as users run it, on the box of tests/math/metrics: pictures and truth through files and back.
+#include "../math/metrics/BoxOnGround.h"
+#include "Program.h"
+#include "TruthFile.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <osg/ValueObject>
+#include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace {
+
+using namespace gnomon::testing;
+using gnomon::examples::truthImage;
+using gnomon::examples::truthOf;
+using gnomon::metrics::Picture;
+using gnomon::metrics::TruthMaps;
+using gnomon::test::BoxOnGround;
+using gnomon::test::filled;
+using gnomon::test::perfect;
+using nlohmann::json;
+using Arguments = std::vector<std::string>;
+
+/// A grey picture as floats.
+osg::ref_ptr<osg::Image> floats(const Picture& picture) {
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(picture.width, picture.height, 1, GL_LUMINANCE, GL_FLOAT);
+    for (std::size_t i = 0; i < picture.cells.size(); ++i)
+        reinterpret_cast<float*>(image->data())[i] = static_cast<float>(picture.cells[i]);
+    return image;
+}
+
+/// As bytes up to 200, in colours whose mean is the grey, reddish and bluish by turns.
+osg::ref_ptr<osg::Image> bytes(const Picture& picture) {
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(picture.width, picture.height, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    for (std::size_t i = 0; i < picture.cells.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const long tint = (i % 2 ? 30 : -30) * (1 - long(c));
+            image->data()[3 * i + c] = static_cast<unsigned char>(std::lround(200.0 * picture.cells[i]) + tint);
+        }
+    return image;
+}
+
+class Gnomoncompare : public ::testing::Test {
+protected:
+    void save(const osg::Image& image, const std::string& name) {
+        ASSERT_TRUE(osgDB::writeImageFile(image, (folder.path() / name).string()));
+    }
+
+    /// B, S and the truth; A is `visibility`.
+    void saveAll(const Picture& visibility, const TruthMaps& truth = BoxOnGround().truth()) {
+        save(*floats(visibility), "a.tif");
+        save(*floats(Picture(visibility.width, visibility.height, 1.0)), "b.tif");
+        save(*floats(Picture(visibility.width, visibility.height, 0.0)), "s.tif");
+        save(*truthImage(truth), "t.osgb");
+    }
+
+    Ending run(Arguments more, const std::string& a = "a.tif", const std::string& b = "b.tif",
+               const std::string& t = "t.osgb") {
+        more.insert(more.begin(), {"--casting", a, "--not-casting", b, "--truth", t});
+        return runProgram(GNOMONCOMPARE, more, folder.path());
+    }
+
+    json numbers(const Arguments& more = {}) {
+        Arguments all = more;
+        all.insert(all.end(), {"--json", "n.json"});
+        const Ending ending = run(all);
+        EXPECT_EQ(ending.status, 0) << ending.err;
+        return json::parse(readFile(folder.path() / "n.json"));
+    }
+
+    /// The one sentence of a run that must be refused and leave no file.
+    std::string refusal(const Ending& ending) {
+        EXPECT_EQ(ending.status, 1);
+        EXPECT_EQ(ending.out.find("boundary"), std::string::npos) << ending.out;
+        EXPECT_FALSE(std::filesystem::exists(folder.path() / "n.json"));
+        const std::string prefix = "gnomoncompare: ", line = ending.lastLine();
+        EXPECT_EQ(line.substr(0, prefix.size()), prefix) << ending.err;
+        return line.substr(std::min(line.size(), prefix.size()));
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(Gnomoncompare, ATruePictureHasNoError) {
+    saveAll(perfect());
+    const json n = numbers({"--shadowed", "s.tif"});
+    EXPECT_EQ(n["awayFromEdges"]["misclassified"], 0.0);
+    EXPECT_EQ(n["awayFromEdges"]["iou"], 1.0);
+    EXPECT_EQ(n["boundaryPixels"]["max"], 0.0);
+    EXPECT_EQ(n["rmsePointSun"]["all"], 0.0);
+    EXPECT_EQ(n["rmseDiscSun"]["all"], nullptr);
+    EXPECT_EQ(n["catastrophes"]["any"], false);
+    EXPECT_EQ(n["pixels"]["sound"], true);
+}
+
+TEST_F(Gnomoncompare, PlantedFaultsReachTheirNumbers) {
+    const Picture hole = filled(perfect(), 50, 44, 6, 6, 1.0);
+    saveAll(filled(filled(hole, 40, 32, 6, 32, 1.0), 100, 10, 2, 2, 0.0)); // a leak, a lifted base, acne
+    const json causes = numbers()["causes"];
+    EXPECT_EQ(causes["leak"], 36);
+    EXPECT_EQ(causes["peterPanning"], 160);
+    EXPECT_EQ(causes["acne"], 4);
+    EXPECT_EQ(causes["halo"], 0);
+    EXPECT_EQ(causes["erosion"], 0);
+    EXPECT_NEAR(causes["gapMetres"].get<double>(), 0.25, 1e-5); // positions are floats
+}
+
+TEST_F(Gnomoncompare, ANarrowerContactMakesPeterPanningErosion) {
+    saveAll(filled(perfect(), 40, 32, 6, 32, 1.0));
+    const json causes = numbers({"--contact", "0.2"})["causes"]; // columns 41 and 42
+    EXPECT_EQ(causes["peterPanning"], 64);
+    EXPECT_EQ(causes["erosion"], 96);
+}
+
+TEST_F(Gnomoncompare, WhatIsAttachedCanBeWidened) {
+    saveAll(filled(perfect(), 50, 67, 1, 1, 0.0)); // 3.5 px from the boundary
+    EXPECT_EQ(numbers()["causes"]["acne"], 1);
+    EXPECT_EQ(numbers({"--attached", "4"})["causes"]["halo"], 1);
+}
+
+TEST_F(Gnomoncompare, PicturesOfBytesAndAnAmbientLevelGiveTheSameShadow) {
+    saveAll(perfect());
+    save(*bytes(gnomon::test::picture(128, 96, [v = perfect()](int x, int y) { return 0.2 + 0.8 * v.at(x, y); })),
+         "a.png");
+    save(*bytes(Picture(128, 96, 1.0)), "b.png");
+    const Ending ending = run({"--ambient", "0.15686", "--json", "n.json"}, "a.png", "b.png");
+    ASSERT_EQ(ending.status, 0) << ending.err;
+    const json n = json::parse(readFile(folder.path() / "n.json"));
+    EXPECT_EQ(n["awayFromEdges"]["misclassified"], 0.0);
+    EXPECT_NEAR(n["boundaryPixels"]["p95"].get<double>(), 0.0, 0.02); // bytes
+}
+
+TEST_F(Gnomoncompare, TheOverlayShowsMissedRedAndFalseBlue) {
+    Picture wrong = filled(filled(perfect(), 50, 44, 6, 6, 1.0), 100, 10, 4, 4, 0.0);
+    wrong.at(110, 80) = std::nan("");
+    saveAll(wrong);
+    ASSERT_EQ(run({"--overlay", "o.png"}).status, 0);
+    const osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile((folder.path() / "o.png").string());
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->s(), 128);
+    EXPECT_EQ(image->t(), 96);
+    const auto at = [&](unsigned x, unsigned y) { return image->getColor(x, y); };
+    EXPECT_TRUE(at(52, 46).r() > 0.8 && at(52, 46).b() < 0.2);
+    EXPECT_TRUE(at(101, 11).b() > 0.9 && at(101, 11).r() < 0.2);
+    EXPECT_TRUE(at(110, 80).r() == 1.0f && at(110, 80).g() == 0.0f && at(110, 80).b() == 1.0f);
+    EXPECT_EQ(at(60, 60).r(), at(60, 60).b()); // grey where it is right
+    EXPECT_LT(at(60, 60).r(), at(90, 60).r()); // dark in shadow
+    EXPECT_LT(at(20, 40).r(), at(90, 60).r()); // and where it is not judged
+}
+
+TEST_F(Gnomoncompare, TheReportNamesEveryMetric) {
+    saveAll(filled(perfect(), 40, 32, 6, 32, 1.0));
+    const std::string text = run({}).out;
+    for (const char* word :
+         {"boundary", "misclassified", "balanced error", "IoU", "acne 0 px", "halo 0 px", "peter-panning 160 px",
+          "gap 0.25 m", "leak 0 px", "erosion 0 px", "over-dark", "RMSE", "catastrophes   none"})
+        EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
+}
+
+TEST_F(Gnomoncompare, CatastrophesAreNumbersAndNotFailures) {
+    Picture black(128, 96, 0.0);
+    black.at(3, 3) = std::numeric_limits<double>::infinity();
+    saveAll(black);
+    const json n = numbers();
+    EXPECT_EQ(n["catastrophes"]["allShadowed"], true);
+    EXPECT_EQ(n["catastrophes"]["notFinitePixels"], 1);
+    EXPECT_EQ(n["boundaryPixels"], nullptr);
+    EXPECT_NE(run({}).out.find("all is shadowed"), std::string::npos);
+}
+
+TEST_F(Gnomoncompare, TooMuchDroppedIsSaid) {
+    TruthMaps truth = BoxOnGround().truth();
+    truth.drawn = truth.receiver;
+    for (int x = 0; x < 128; ++x)
+        for (int y = 80; y < 90; ++y) truth.drawn.at(x, y) = 7;
+    saveAll(perfect(), truth);
+    EXPECT_NE(run({}).lastLine().find("more than 5 % of the surface is dropped"), std::string::npos);
+    EXPECT_EQ(numbers()["pixels"]["sound"], false);
+}
+
+TEST_F(Gnomoncompare, RefusesFilesThatAreMissingOrDamaged) {
+    saveAll(perfect());
+    EXPECT_EQ(refusal(run({"--json", "n.json"}, "gone.tif")),
+              "there is no file \"gone.tif\", or no reader for its type.");
+    EXPECT_EQ(refusal(run({"--shadowed", "gone.tif"})), "there is no file \"gone.tif\", or no reader for its type.");
+    EXPECT_EQ(refusal(run({}, "a.tif", "b.tif", "gone.osgb")),
+              "there is no file \"gone.osgb\", or no reader for its type.");
+    const std::string whole = readFile(folder.path() / "t.osgb");
+    folder.write("cut.osgb", whole.substr(0, whole.size() / 2));
+    EXPECT_NE(refusal(run({}, "a.tif", "b.tif", "cut.osgb")).find("\"cut.osgb\""), std::string::npos);
+    folder.write("empty.tif", "");
+    EXPECT_NE(refusal(run({}, "empty.tif")).find("\"empty.tif\""), std::string::npos);
+}
+
+TEST_F(Gnomoncompare, RefusesSizesThatDiffer) {
+    saveAll(perfect());
+    save(*floats(Picture(64, 96, 1.0)), "small.tif");
+    EXPECT_EQ(refusal(run({}, "a.tif", "small.tif")),
+              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px; one size is needed.");
+    EXPECT_EQ(refusal(run({"--shadowed", "small.tif"})),
+              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px; one size is needed.");
+    EXPECT_EQ(refusal(run({"--json", "n.json"}, "small.tif", "small.tif")),
+              "\"t.osgb\" is 128 x 96 px and \"small.tif\" 64 x 96 px; one size is needed.");
+}
+
+TEST_F(Gnomoncompare, RefusesATruthThatIsNone) {
+    saveAll(perfect());
+    EXPECT_EQ(refusal(run({}, "a.tif", "b.tif", "b.tif")),
+              "\"b.tif\" is no truth: it is not an image of floats with a named layer for each map.");
+    const auto spoilt = [&](const std::function<void(TruthMaps&)>& spoil) {
+        TruthMaps truth = BoxOnGround().truth();
+        spoil(truth);
+        save(*truthImage(truth), "spoilt.osgb");
+        return refusal(run({}, "a.tif", "b.tif", "spoilt.osgb"));
+    };
+    EXPECT_EQ(spoilt([](TruthMaps& t) { t.facing = {}; }), "\"spoilt.osgb\" is no truth: it has no layer \"facing\".");
+    const std::string noNumber =
+        "\"spoilt.osgb\" is no truth: a pixel of its surface holds NaN, or a share outside 0 to 1.";
+    EXPECT_EQ(spoilt([](TruthMaps& t) { t.lit.at(5, 5) = std::nan(""); }), noNumber);
+    EXPECT_EQ(spoilt([](TruthMaps& t) { t.lit.at(5, 5) = 16.0; }), noNumber);
+    EXPECT_EQ(spoilt([](TruthMaps& t) { t.facing.at(5, 5) = std::nan(""); }), noNumber);
+    EXPECT_EQ(spoilt([](TruthMaps& t) { t.receiver.at(5, 5) = -1; }),
+              "\"spoilt.osgb\" is no truth: its layer \"receiver\" holds what is no id.");
+}
+
+TEST_F(Gnomoncompare, RefusesWhatCannotBeJudged) {
+    TruthMaps truth = BoxOnGround().truth();
+    truth.receiver = gnomon::metrics::Grid<int>(128, 96, 0);
+    saveAll(perfect(), truth);
+    EXPECT_NE(refusal(run({})).find("no pixel can be judged"), std::string::npos);
+}
+
+TEST_F(Gnomoncompare, RefusesOptionsItCannotUse) {
+    saveAll(perfect());
+    const auto refused = [&](const Arguments& all) { return refusal(runProgram(GNOMONCOMPARE, all, folder.path())); };
+    EXPECT_EQ(refused({}), "--casting is needed; --help says what it is.");
+    EXPECT_EQ(refused({"--casting", "a.tif", "--not-casting", "b.tif"}), "--truth is needed; --help says what it is.");
+    EXPECT_NE(refusal(run({"a.tif"})).find("nothing to do with \"a.tif\""), std::string::npos);
+    EXPECT_NE(refusal(run({"--tolerance", "3"})).find("--tolerance"), std::string::npos);
+    EXPECT_NE(refusal(run({"--contact", "near"})).find("--contact near cannot be used"), std::string::npos);
+    EXPECT_EQ(refusal(run({"--shadowed", "s.tif", "--ambient", "0"})),
+              "--shadowed and --ambient are given; one of them is allowed.");
+    EXPECT_NE(refusal(run({"--overlay", "o.txt"})).find("\"o.txt\" cannot be written"), std::string::npos);
+    EXPECT_NE(refusal(run({"--json", "gone/n.json"})).find("there is no directory"), std::string::npos);
+}
+
+TEST_F(Gnomoncompare, HelpNamesEveryOptionAndEveryLayer) {
+    const Ending ending = runProgram(GNOMONCOMPARE, {"--help"}, folder.path());
+    EXPECT_EQ(ending.status, 0);
+    for (const char* word : {"--casting", "--not-casting", "--shadowed", "--ambient", "--truth", "--overlay", "--json",
+                             "--contact", "--attached", "litCentre", "blockerDistance", "litByDisc", "towardsLight"})
+        EXPECT_NE(ending.out.find(word), std::string::npos) << word;
+}
+
+TEST(TruthFile, KeepsEveryMap) {
+    TruthMaps truth = BoxOnGround{{}, 0.3}.truth();
+    truth.drawn = truth.receiver;
+    truth.drawn.at(3, 4) = 16777216;
+    truth.blocker = truth.drawn;
+    truth.litByDisc = truth.lit;
+    truth.edgeLength = truth.facing;
+    truth.up = {0, 1, 0};
+    const TemporaryFolder folder;
+    for (const char* name : {"t.osgb", "t.osgt", "t.osgx"}) {
+        const std::string file = (folder.path() / name).string();
+        ASSERT_TRUE(osgDB::writeImageFile(*truthImage(truth), file));
+        const TruthMaps back = gnomon::examples::readTruth(file, "test");
+        EXPECT_EQ(back.lit.cells, truth.lit.cells); // sixteenths
+        EXPECT_EQ(back.litCentre.cells, truth.litCentre.cells);
+        EXPECT_EQ(back.receiver.cells, truth.receiver.cells);
+        EXPECT_EQ(back.drawn.cells, truth.drawn.cells);
+        EXPECT_EQ(back.blocker.cells, truth.blocker.cells);
+        EXPECT_EQ(back.litByDisc.cells, truth.litByDisc.cells);
+        EXPECT_NEAR(back.edgeLength.at(9, 9), truth.edgeLength.at(9, 9), 1e-7);
+        EXPECT_NEAR(back.blockerDistance.at(50, 40), truth.blockerDistance.at(50, 40), 1e-6);
+        EXPECT_TRUE(std::isinf(back.blockerDistance.at(100, 40)));
+        EXPECT_NEAR(back.position.at(77, 11).x, truth.position.at(77, 11).x, 1e-6);
+        EXPECT_NEAR(back.position.at(77, 11).y, truth.position.at(77, 11).y, 1e-6);
+        EXPECT_EQ(back.towardsLight, truth.towardsLight);
+        EXPECT_EQ(back.up, truth.up);
+    }
+}
+
+TEST(TruthFile, LeavesOutWhatIsNotThere) {
+    TruthMaps truth = BoxOnGround().truth();
+    truth.position = {};
+    const TruthMaps back = truthOf(*truthImage(truth), "memory");
+    EXPECT_TRUE(back.position.empty());
+    EXPECT_TRUE(back.drawn.empty());
+    EXPECT_TRUE(back.litByDisc.empty());
+}
+
+} // namespace
