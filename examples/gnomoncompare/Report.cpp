@@ -79,6 +79,7 @@ std::vector<std::pair<std::string, std::string>> lines(const ShadowMetrics& m) {
         {"missed shadow", missedShadowText(m.causes)},
         {"over-dark", pixels(m.causes.overDark) + ", over-bright " + pixels(m.causes.overBright)},
         {"RMSE", intensityText(m.pointSun) + " of a point sun, " + intensityText(m.discSun) + " of the sun's disc"},
+        {"thin", "RMSE " + intensityText(m.thin) + " of a point sun, both filtered by 4 x 4 px"},
         {"apart", "terminator " + wrongText(m.terminator) + ", smooth self-shadow " + wrongText(m.selfShadowed)},
         {"pixels judged", judgedText(m)},
         {"catastrophes", catastropheText(m.catastrophes)}};
@@ -157,6 +158,7 @@ json reportJson(const ShadowMetrics& m) {
             {"causes", jsonOf(m.causes)},
             {"rmsePointSun", jsonOf(m.pointSun)},
             {"rmseDiscSun", jsonOf(m.discSun)},
+            {"rmsePointSunFiltered4x4", jsonOf(m.thin)},
             {"catastrophes", jsonOf(m.catastrophes)}};
 }
 

@@ -98,6 +98,7 @@ TEST_F(Gnomoncompare, ATruePictureHasNoError) {
     EXPECT_EQ(n["boundaryPixels"]["max"], 0.0);
     EXPECT_EQ(n["rmsePointSun"]["all"], 0.0);
     EXPECT_EQ(n["rmseDiscSun"]["all"], nullptr);
+    EXPECT_EQ(n["rmsePointSunFiltered4x4"]["all"], 0.0);
     EXPECT_EQ(n["catastrophes"]["any"], false);
     EXPECT_EQ(n["pixels"]["sound"], true);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/metrics/Intensity.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -21,6 +22,16 @@ struct RootMeanSquare {
     }
 };
 
+constexpr int box = 4; // px
+
+/// Mean of the box whose lower left pixel is (x, y).
+template <typename T>
+double boxMean(const Grid<T>& grid, int x, int y) {
+    double sum = 0.0;
+    for (int i = 0; i < box * box; ++i) sum += static_cast<double>(grid.at(x + i % box, y + i / box));
+    return sum / (box * box);
+}
+
 } // namespace
 
 IntensityError intensityError(const Picture& visibility, const Picture& lit, const Mask& facing) {
@@ -32,6 +43,19 @@ IntensityError intensityError(const Picture& visibility, const Picture& lit, con
         if (t > 0.02 && t < 0.98) penumbra.add(error * error);
     }
     return {all.value(), penumbra.value()};
+}
+
+IntensityError thinIntensityError(const Picture& visibility, const Picture& lit, const Mask& facing) {
+    const int width = std::max(0, facing.width - box + 1), height = std::max(0, facing.height - box + 1);
+    Picture shown(width, height), truth(width, height);
+    Mask whole(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            whole.at(x, y) = boxMean(facing, x, y) == 1.0;
+            shown.at(x, y) = boxMean(visibility, x, y);
+            truth.at(x, y) = boxMean(lit, x, y);
+        }
+    return intensityError(shown, truth, whole);
 }
 
 std::optional<double> shadedError(const Grid<glm::dvec3>& picture, const Grid<glm::dvec3>& truth, const Mask& within) {

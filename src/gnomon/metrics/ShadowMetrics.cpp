@@ -70,6 +70,7 @@ ShadowMetrics shadowMetrics(const Visibility& visibility, const TruthMaps& truth
     metrics.causes = causeSplit(v, truth, sets, limits);
     metrics.pointSun = intensityError(v, truth.lit, sets.facing);
     if (!truth.litByDisc.empty()) metrics.discSun = intensityError(v, truth.litByDisc, sets.facing);
+    metrics.thin = thinIntensityError(v, truth.lit, sets.facing);
     metrics.catastrophes = catastrophes(visibility, metrics);
     return metrics;
 }

@@ -29,6 +29,7 @@ struct ShadowMetrics {
     std::optional<BoundaryDistance> boundary;
     CauseSplit causes;
     IntensityError pointSun, discSun; ///< the second is empty without truth.litByDisc
+    IntensityError thin;              ///< of a point sun, both filtered by 4 x 4 px
     Catastrophes catastrophes;
 };
 

@@ -161,6 +161,24 @@ TEST(IntensityError, AWideFilterWinsAgainstTheDiscAndLosesAgainstThePoint) {
     EXPECT_FALSE(measured(wide).discSun.all); // without a disc in the truth
 }
 
+TEST(ThinIntensityError, APoleAQuarterPixelThinIsRightAtEveryPlaceOfItsPixel) {
+    const Picture pole = picture(16, 16, [](int x, int) { return x == 8 ? 0.75 : 1.0; });
+    const Picture hard = picture(16, 16, [](int x, int y) { return x == 8 && y % 4 == 0 ? 0.0 : 1.0; }); // by chance
+    EXPECT_NEAR(thinIntensityError(hard, pole, Mask(16, 16, 1)).all.value(), 0.0, rounding);
+    EXPECT_GT(intensityError(hard, pole, Mask(16, 16, 1)).all.value(), 0.1);
+    const double lost = thinIntensityError(Picture(16, 16, 1.0), pole, Mask(16, 16, 1)).all.value();
+    EXPECT_NEAR(lost, std::sqrt(4.0 / 13.0) / 16.0,
+                rounding); // 4 of 13 columns of boxes hold the pole, each 1/16 of it
+}
+
+TEST(ThinIntensityError, LeavesOutBoxesThatAreNotWhollyInTheSetAndSmallPictures) {
+    Mask half(16, 16, 1);
+    for (int y = 0; y < 16; ++y) half.at(8, y) = 0;
+    const Picture spoilt = picture(16, 16, [](int x, int) { return x == 8 ? std::nan("") : 1.0; });
+    EXPECT_EQ(thinIntensityError(spoilt, Picture(16, 16, 1.0), half).all, 0.0);
+    EXPECT_FALSE(thinIntensityError(Picture(3, 3), Picture(3, 3), Mask(3, 3, 1)).all);
+}
+
 TEST(ShadedError, IsOverPixelsAndChannels) {
     const Grid<glm::dvec3> truth(2, 2, glm::dvec3(0.5));
     Grid<glm::dvec3> shown = truth;
