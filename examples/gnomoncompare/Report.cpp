@@ -29,6 +29,7 @@ std::string boundaryText(const std::optional<BoundaryDistance>& boundary) {
 }
 
 std::string intensityText(const IntensityError& error) {
+    if (!error.all) return "none";
     return number(error.all) + " (in penumbrae " + number(error.penumbra) + ")";
 }
 
@@ -60,7 +61,7 @@ std::string falseShadowText(const CauseSplit& c) {
 
 std::string missedShadowText(const CauseSplit& c) {
     return "peter-panning " + pixels(c.peterPanning) + " (" + percent(c.peterPanningShare) + " of contact, gap " +
-           number(c.gap) + " m), leak " + pixels(c.leak) + ", erosion " + pixels(c.erosion);
+           (c.gap ? number(*c.gap) + " m" : "none") + "), leak " + pixels(c.leak) + ", erosion " + pixels(c.erosion);
 }
 
 std::string judgedText(const ShadowMetrics& m) {
