@@ -75,13 +75,4 @@ int run(osg::ArgumentParser& arguments) {
 
 } // namespace
 
-int main(int argc, char** argv) {
-    try {
-        osg::ArgumentParser arguments(&argc, argv);
-        return run(arguments);
-    } catch (const std::exception& error) {
-        std::cout << std::flush;
-        std::cerr << program << ": " << error.what() << std::endl;
-        return 1;
-    }
-}
+int main(int argc, char** argv) { return gnomon::examples::runProgram(program, argc, argv, run); }
