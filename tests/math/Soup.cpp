@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "Soup.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <cmath>
+
+namespace test {
+
+void Soup::triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    for (const glm::dvec3& v : {a, b, c}) {
+        indices.push_back(static_cast<unsigned>(vertices.size()));
+        vertices.emplace_back(v);
+    }
+}
+
+void Soup::quad(const glm::dvec3& corner, const glm::dvec3& side, const glm::dvec3& up) {
+    triangle(corner, corner + side, corner + side + up);
+    triangle(corner, corner + side + up, corner + up);
+}
+
+void Soup::ground(double half, double height) {
+    quad({-half, -half, height}, {2.0 * half, 0.0, 0.0}, {0.0, 2.0 * half, 0.0});
+}
+
+void Soup::box(const glm::dvec3& low, const glm::dvec3& high) {
+    const glm::dvec3 x(high.x - low.x, 0.0, 0.0), y(0.0, high.y - low.y, 0.0), z(0.0, 0.0, high.z - low.z);
+    quad(low, y, x);
+    quad(low + z, x, y);
+    quad(low, x, z);
+    quad(low + y, z, x);
+    quad(low, z, y);
+    quad(low + x, y, z);
+}
+
+void Soup::sphere(const glm::dvec3& centre, double radius, int slices) {
+    const auto at = [&](int slice, int stack) {
+        const double around = glm::two_pi<double>() * slice / slices, down = glm::two_pi<double>() * stack / slices;
+        return centre + radius * glm::dvec3(std::sin(down) * std::cos(around), std::sin(down) * std::sin(around),
+                                            std::cos(down));
+    };
+    for (int stack = 0; stack < slices / 2; ++stack)
+        for (int slice = 0; slice < slices; ++slice) {
+            const int next = (slice + 1) % slices;
+            if (stack > 0) triangle(at(slice, stack), at(slice, stack + 1), at(next, stack));
+            if (stack + 1 < slices / 2) triangle(at(next, stack), at(slice, stack + 1), at(next, stack + 1));
+        }
+}
+
+void Soup::town(int side) {
+    for (int i = 0; i < side * side; ++i) {
+        const glm::dvec3 low(5.0 * (i % side) - 2.5 * side + 1.0, 5.0 * (i / side) - 2.5 * side + 1.0, 0.0);
+        const int variety = (i * 7919) % 97; // sizes that do not repeat along rows
+        box(low, low + glm::dvec3(1.5 + variety % 5 * 0.3, 1.5 + variety % 7 * 0.2, 1.0 + variety % 11 * 0.3));
+    }
+}
+
+gnomon::RayHit bruteForce(const Soup& soup, const gnomon::Ray& ray) {
+    gnomon::RayHit nearest;
+    const glm::dvec3 start = ray.start - soup.origin;
+    for (std::size_t i = 0; i < soup.size(); ++i) {
+        const glm::dvec3 a = soup.corner(i, 0), e1 = soup.corner(i, 1) - a, e2 = soup.corner(i, 2) - a;
+        const glm::dvec3 p = glm::cross(ray.along, e2);
+        const double determinant = glm::dot(e1, p);
+        if (determinant == 0.0) continue;
+        const glm::dvec3 s = start - a, q = glm::cross(s, e1);
+        const double u = glm::dot(s, p) / determinant, v = glm::dot(ray.along, q) / determinant;
+        const double t = glm::dot(e2, q) / determinant;
+        if (u < 0.0 || v < 0.0 || u + v > 1.0 || t < 0.0 || t > ray.reach || t >= nearest.distance) continue;
+        nearest.triangle = static_cast<unsigned>(i);
+        nearest.distance = t;
+        nearest.normal = glm::normalize(glm::cross(e1, e2));
+    }
+    return nearest;
+}
+
+glm::dvec3 randomDirection(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+}
+
+} // namespace test

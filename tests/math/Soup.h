@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/RayScene.h>
+
+#include <random>
+#include <vector>
+
+namespace test {
+
+/// Triangles of a test's scene, corners not shared; each shape counter-clockwise from outside.
+struct Soup {
+    std::vector<glm::vec3> vertices;
+    std::vector<unsigned> indices;
+    glm::dvec3 origin{0.0};
+
+    void triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+    void quad(const glm::dvec3& corner, const glm::dvec3& side, const glm::dvec3& up);
+    void ground(double half, double height = 0.0);
+    void box(const glm::dvec3& low, const glm::dvec3& high);
+    void sphere(const glm::dvec3& centre, double radius, int slices);
+    /// `side` × `side` boxes of various sizes on z = 0, pitch 5, about the origin.
+    void town(int side);
+
+    std::size_t size() const { return indices.size() / 3; }
+    glm::dvec3 corner(std::size_t triangle, int i) const { return glm::dvec3(vertices[indices[3 * triangle + i]]); }
+    gnomon::TriangleSoup view() const {
+        return {vertices.data(), vertices.size(), indices.data(), indices.size(), origin};
+    }
+};
+
+/// The nearest hit by testing every triangle in double, without any of Gnomon's code (Möller and Trumbore 1997).
+gnomon::RayHit bruteForce(const Soup& soup, const gnomon::Ray& ray);
+
+/// Evenly spread over the sphere of directions.
+glm::dvec3 randomDirection(std::mt19937& random);
+
+} // namespace test
