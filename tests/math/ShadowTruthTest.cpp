@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: MIT
+// The truth image against shadows that need no rays: polygons and ellipses on planes, areas, the penumbra of a half-plane.
+#include "Soup.h"
+
+#include <gnomon/ShadowTruth.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+using gnomon::RayScene;
+using gnomon::TruthImage;
+using gnomon::TruthPixel;
+using gnomon::TruthView;
+using test::Soup;
+
+namespace {
+
+const glm::dvec3 utm(432100.25, 6400000.5, 812.0);
+
+glm::dmat4 perspective(const glm::dvec3& eye, const glm::dvec3& about = glm::dvec3(0.0)) {
+    return glm::perspective(glm::radians(40.0), 4.0 / 3.0, 1.0, 100.0) *
+           glm::lookAt(about + eye, about, glm::dvec3(0.0, 0.0, 1.0));
+}
+
+/// Straight down; without a turn +x to the right.
+glm::dmat4 plan(double half, const glm::dvec3& up = {0.0, 1.0, 0.0}) {
+    return glm::ortho(-half, half, -half, half, 1.0, 100.0) *
+           glm::lookAt(glm::dvec3(0.0, 0.0, 50.0), glm::dvec3(0.0), up);
+}
+
+TruthImage truthOf(const Soup& soup, const TruthView& view) {
+    const RayScene scene(soup.view());
+    return shadowTruth(scene, scene, view);
+}
+
+/// A plane z = slope.x·x + slope.y·y.
+struct Ground {
+    glm::dvec2 slope{0.0};
+    double at(double x, double y) const { return slope.x * x + slope.y * y; }
+};
+
+/// Where the line through a point and the light meets the ground, in plan.
+glm::dvec2 shadowOf(const glm::dvec3& point, const glm::dvec4& light, const Ground& ground) {
+    const glm::dvec3 along = light.w == 0.0 ? glm::dvec3(light) : glm::dvec3(light) / light.w - point;
+    const double t = (ground.at(point.x, point.y) - point.z) / (along.z - ground.at(along.x, along.y));
+    return glm::dvec2(point + t * along);
+}
+
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Convex hull, counter-clockwise (Andrew 1979).
+std::vector<glm::dvec2> hull(std::vector<glm::dvec2> points) {
+    std::sort(points.begin(), points.end(),
+              [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::vector<glm::dvec2> result;
+    for (int pass = 0; pass < 2; ++pass) {
+        const std::size_t start = result.size();
+        for (const glm::dvec2& p : points) {
+            while (result.size() >= start + 2 && turn(result.end()[-2], result.back(), p) <= 0.0) result.pop_back();
+            result.push_back(p);
+        }
+        result.pop_back();
+        std::reverse(points.begin(), points.end());
+    }
+    return result;
+}
+
+bool within(const std::vector<glm::dvec2>& polygon, const glm::dvec2& p) {
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        if (turn(polygon[i], polygon[(i + 1) % polygon.size()], p) < 0.0) return false;
+    return true;
+}
+
+double area(const std::vector<glm::dvec2>& polygon) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        twice += turn(polygon[0], polygon[i], polygon[(i + 1) % polygon.size()]);
+    return twice / 2.0;
+}
+
+/// Shadow of the convex hull of triangles from `first` on.
+std::vector<glm::dvec2> polygonOf(const Soup& soup, std::size_t first, const glm::dvec4& light, const Ground& ground) {
+    std::vector<glm::dvec2> points;
+    for (std::size_t i = first; i < soup.size(); ++i)
+        for (int corner = 0; corner < 3; ++corner) points.push_back(shadowOf(soup.corner(i, corner), light, ground));
+    return hull(points);
+}
+
+/// Of the first two triangles, the ground: pixels that are no edge, and those that the closed form calls otherwise.
+struct Count {
+    int pixels = 0, shadowed = 0, wrong = 0;
+};
+
+Count compare(const TruthImage& image, const std::function<bool(const glm::dvec3&)>& inShadow) {
+    Count count;
+    for (const TruthPixel& pixel : image.pixels) {
+        if (!pixel.seen() || pixel.receiver > 1 || pixel.isEdge()) continue;
+        ++count.pixels;
+        count.shadowed += !pixel.litCentre;
+        count.wrong += pixel.litCentre == inShadow(pixel.position);
+    }
+    return count;
+}
+
+void expectPolygon(const Soup& soup, const glm::dvec4& light, const Ground& ground, const char* name) {
+    const std::vector<glm::dvec2> polygon = polygonOf(soup, 2, light, ground);
+    const TruthImage image = truthOf(soup, {perspective({-7.0, -11.0, 9.0}), 640, 480, light});
+    const Count count = compare(image, [&](const glm::dvec3& p) { return within(polygon, glm::dvec2(p)); });
+    EXPECT_GT(count.shadowed, 3000) << name;
+    EXPECT_GT(count.pixels, 2 * count.shadowed) << name;
+    EXPECT_LE(count.wrong, count.pixels / 10000) << name;
+}
+
+Soup onGround(const Ground& ground = {}) {
+    Soup soup;
+    const auto at = [&](double x, double y) { return glm::dvec3(x, y, ground.at(x, y)); };
+    soup.quad(at(-9.0, -9.0), at(9.0, -9.0) - at(-9.0, -9.0), at(-9.0, 9.0) - at(-9.0, -9.0));
+    return soup;
+}
+
+/// Six-sided, upright, between the ground and z = top.
+void addPrism(Soup& soup, const Ground& ground, double top) {
+    const auto at = [&](int i, bool high) {
+        const double around = glm::two_pi<double>() * i / 6.0, x = 1.5 * std::cos(around), y = 1.5 * std::sin(around);
+        return glm::dvec3(x, y, high ? top : ground.at(x, y));
+    };
+    for (int i = 0; i < 6; ++i) {
+        soup.triangle(at(i, false), at(i + 1, false), at(i + 1, true));
+        soup.triangle(at(i, false), at(i + 1, true), at(i, true));
+        if (i >= 2) soup.triangle(at(0, true), at(i - 1, true), at(i, true));
+    }
+}
+
+TEST(ShadowTruth, OfABoxOnAPlaneIsAPolygon) {
+    Soup soup = onGround();
+    soup.box({-1.0, -1.2, 0.0}, {1.3, 1.0, 2.0});
+    expectPolygon(soup, {1.0, 0.4, 1.1, 0.0}, {}, "sun");
+    expectPolygon(soup, {1.0, 0.3, 0.35, 0.0}, {}, "low sun");
+    expectPolygon(soup, {2.0, 1.5, 4.5, 1.0}, {}, "lamp");
+    expectPolygon(soup, {1.0, 0.75, 2.25, 0.5}, {}, "lamp, homogeneous");
+}
+
+TEST(ShadowTruth, OfAPrismOnATiltedPlaneIsAPolygon) {
+    const Ground ground{{0.25, -0.15}};
+    Soup soup = onGround(ground);
+    addPrism(soup, ground, 2.5);
+    expectPolygon(soup, {-0.6, 0.4, 1.0, 0.0}, ground, "sun");
+    expectPolygon(soup, {-2.0, 1.0, 5.0, 1.0}, ground, "lamp");
+}
+
+TEST(ShadowTruth, OfASphereOnAPlaneIsAnEllipse) {
+    constexpr double radius = 1.5, height = 55.0;
+    const double sine = std::sin(glm::radians(height)), cosine = std::cos(glm::radians(height));
+    Soup soup = onGround();
+    soup.sphere({0.0, 0.0, radius}, radius, 256);
+    const TruthImage image = truthOf(soup, {perspective({-7.0, -11.0, 9.0}), 640, 480, {cosine, 0.0, sine, 0.0}});
+    const Count count = compare(image, [&](const glm::dvec3& p) {
+        const double x = (p.x + radius * cosine / sine) * sine; // semi-axes R / sin and R
+        return x * x + p.y * p.y < radius * radius;
+    });
+    EXPECT_GT(count.shadowed, 5000);
+    EXPECT_LE(count.wrong, count.pixels / 10000);
+}
+
+TEST(ShadowTruth, HasTheAreaOfThePolygon) {
+    Soup ground = onGround(), box;
+    box.box({-1.0, -1.2, 1.0}, {1.3, 1.0, 2.0});
+    const glm::dvec4 light(1.0, 0.4, 1.1, 0.0);
+    const RayScene seen(ground.view()), casters(box.view());
+    const TruthImage image = shadowTruth(seen, casters, {plan(5.0, {0.3, 1.0, 0.0}), 200, 200, light});
+    double dark = 0.0;
+    for (const TruthPixel& pixel : image.pixels) dark += 1.0 - double(pixel.lit);
+    const double expected = area(polygonOf(box, 0, light, {}));
+    EXPECT_NEAR(dark * 0.05 * 0.05, expected, 0.001 * expected);
+}
+
+TEST(ShadowTruth, TellsReceiverPlaceAndBlocker) {
+    Soup soup = onGround();
+    soup.box({-1.0, -1.0, 1.5}, {1.0, 1.0, 2.0});
+    soup.quad({-1.0, -1.0, 8.0}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}); // behind the lamp
+    const TruthImage image = truthOf(soup, {perspective({0.0, -12.0, 1.0}), 320, 240, {0.0, 0.0, 6.0, 1.0}});
+    int under = 0, sides = 0;
+    for (const TruthPixel& pixel : image.pixels) {
+        if (!pixel.seen()) continue;
+        EXPECT_NEAR(glm::length(pixel.normal), 1.0, 1e-12);
+        EXPECT_GT(glm::dot(pixel.normal, glm::dvec3(0.0, -12.0, 1.0) - pixel.position), 0.0);
+        if (pixel.receiver > 1 || glm::length(glm::dvec2(pixel.position)) > 0.8) {
+            sides += pixel.facing <= 0.0;
+            continue;
+        }
+        EXPECT_FALSE(pixel.litCentre);
+        EXPECT_TRUE(pixel.blocker == 2 || pixel.blocker == 3) << "the box's bottom is met first";
+        EXPECT_NEAR(pixel.position.z, 0.0, 1e-6);
+        EXPECT_NEAR(pixel.facing, glm::normalize(glm::dvec3(0.0, 0.0, 6.0) - pixel.position).z, 1e-12);
+        EXPECT_NEAR(pixel.blockerDistance * pixel.facing, 1.5, 1e-3);
+        ++under;
+    }
+    EXPECT_GT(under, 3);
+    EXPECT_GT(sides, 3);
+}
+
+TEST(ShadowTruth, SeesWhatOpenGLWouldDrawBetweenNearAndFar) {
+    Soup soup = onGround();
+    soup.quad({-9.0, -9.0, 49.5}, {18.0, 0.0, 0.0}, {0.0, 18.0, 0.0}); // nearer than near
+    const TruthImage image = truthOf(soup, {plan(10.0), 100, 80, {0.3, 0.2, 1.0, 0.0}});
+    for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 100; ++x) {
+            const glm::dvec2 centre((x + 0.5) / 5.0 - 10.0, (y + 0.5) / 4.0 - 10.0);
+            const bool seen = std::max(std::abs(centre.x), std::abs(centre.y)) < 9.0;
+            ASSERT_EQ(image.at(x, y).seen(), seen) << x << " " << y;
+            if (!seen) continue;
+            EXPECT_LE(image.at(x, y).receiver, 1u);
+            EXPECT_NEAR(glm::length(glm::dvec2(image.at(x, y).position) - centre), 0.0, 1e-9);
+        }
+}
+
+TEST(ShadowTruth, OfWhatFacesAwayIsUnlitWithoutABlocker) {
+    const TruthImage image = truthOf(onGround(), {plan(5.0), 20, 20, {0.3, 0.2, -1.0, 0.0}});
+    for (const TruthPixel& pixel : image.pixels) {
+        EXPECT_FALSE(pixel.litCentre);
+        EXPECT_EQ(pixel.lit, 0.0f);
+        EXPECT_LT(pixel.facing, 0.0);
+    }
+}
+
+TEST(ShadowTruth, IsTheSameFarFromTheOrigin) {
+    Soup soup = onGround();
+    soup.box({-1.0, -1.2, 0.0}, {1.3, 1.0, 2.0});
+    for (const glm::dvec4 light : {glm::dvec4(1.0, 0.4, 1.1, 0.0), glm::dvec4(2.0, 1.5, 4.5, 1.0)}) {
+        const TruthImage here = truthOf(soup, {perspective({-7.0, -11.0, 9.0}), 320, 240, light});
+        Soup moved = soup;
+        moved.origin = utm;
+        const glm::dvec4 movedLight = light + light.w * glm::dvec4(utm, 0.0);
+        const TruthImage there = truthOf(moved, {perspective({-7.0, -11.0, 9.0}, utm), 320, 240, movedLight});
+        int different = 0;
+        for (std::size_t i = 0; i < here.pixels.size(); ++i)
+            different += here.pixels[i].litCentre != there.pixels[i].litCentre ||
+                         std::abs(here.pixels[i].lit - there.pixels[i].lit) > 0.13f;
+        EXPECT_LE(different, 320 * 240 / 10000);
+    }
+}
+
+TEST(ShadowTruth, FlatGroundsNeverShadowThemselves) {
+    for (const double elevation : {1.0, 5.0, 45.0}) {
+        const double angle = glm::radians(elevation);
+        const TruthImage image =
+            truthOf(onGround({{0.13, 0.07}}),
+                    {perspective({-7.0, -11.0, 9.0}), 320, 240, {-std::cos(angle), 0.0, std::sin(angle), 0.0}});
+        for (const TruthPixel& pixel : image.pixels) ASSERT_TRUE(!pixel.seen() || pixel.lit == 1.0f) << elevation;
+    }
+}
+
+TEST(ShadowTruth, ASunHasThePenumbraOfADiscBehindAHalfPlane) {
+    Soup ground = onGround(), roof;
+    roof.quad({-9.0, 0.0, 10.0}, {18.0, 0.0, 0.0}, {0.0, 18.0, 0.0}); // covers y > 0
+    const RayScene seen(ground.view()), casters(roof.view());
+    const TruthView view{plan(0.1), 64, 64, {0.0, 0.0, 1.0, 0.0}};
+    const TruthImage image = softShadowTruth(seen, casters, view, 0.533, 8);
+    const double half = 10.0 * std::tan(glm::radians(0.533 / 2.0));
+    double squares = 0.0;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const double t = std::clamp(-((y + 0.5) / 320.0 - 0.1) / half, -1.0, 1.0);
+            const double expected = 0.5 + (t * std::sqrt(1.0 - t * t) + std::asin(t)) / glm::pi<double>();
+            squares += std::pow(double(image.at(x, y).lit) - expected, 2.0);
+        }
+    EXPECT_LT(std::sqrt(squares / (64 * 64)), 0.01);
+    EXPECT_NEAR(image.at(32, 0).lit, 1.0, 1e-6);
+    EXPECT_NEAR(image.at(32, 63).lit, 0.0, 1e-6);
+}
+
+TEST(ShadowTruth, FloorCountsCentresOnTheOtherSideOfHalf) {
+    TruthImage image;
+    image.pixels.resize(10);
+    EXPECT_EQ(image.floor(), 0.0);
+    for (TruthPixel& pixel : image.pixels) {
+        pixel.receiver = 0;
+        pixel.facing = 1.0;
+        pixel.litCentre = true;
+        pixel.lit = 1.0f;
+    }
+    image.pixels[1].lit = 0.5f;
+    image.pixels[2].lit = 7.0f / 16.0f; // wrong
+    image.pixels[3].litCentre = false;  // wrong
+    image.pixels[4].lit = 0.0f;         // away from the light, and not seen
+    image.pixels[4].facing = -0.1;
+    image.pixels[5].lit = 0.0f;
+    image.pixels[5].receiver = gnomon::RayHit::none;
+    EXPECT_EQ(image.floor(), 0.25);
+    EXPECT_TRUE(image.pixels[2].isEdge());
+    EXPECT_FALSE(image.pixels[0].isEdge());
+    EXPECT_FALSE(image.pixels[4].isEdge());
+}
+
+} // namespace
