@@ -4,6 +4,7 @@
 #include <gnomon/FlatParts.h>
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
+#include <gnomon/TracedShadowTechnique.h>
 
 #include <algorithm>
 #include <charconv>
@@ -19,7 +20,8 @@ constexpr unsigned mostPlanes = 8;
 constexpr double smallestPart = 0.01; // of the largest
 
 using Techniques = std::vector<osg::ref_ptr<ShadowTechnique>>;
-using Adder = osg::ref_ptr<ShadowTechnique> (*)(const NamedNode& receiver);
+/// `receiver` is null where none is named and the technique can do without.
+using Adder = osg::ref_ptr<ShadowTechnique> (*)(const NamedNode* receiver);
 
 /// A key of the specification string. `take` reads its value into the spec; false if it is out of range.
 struct Key {
@@ -36,6 +38,7 @@ struct Technique {
     bool built;
     const char* says;
     Adder add;
+    bool onEverything; ///< what receives where no receiver is named: everything, or the node named "ground".
     std::vector<Key> keys;
 };
 
@@ -68,7 +71,8 @@ osg::Vec4d inGroup(const osg::Vec4d& plane, const NamedNode& receiver) {
     return osg::Matrixd::inverse(receiver.rootFromParent) * plane;
 }
 
-osg::ref_ptr<ShadowTechnique> makePlanar(const NamedNode& receiver) {
+osg::ref_ptr<ShadowTechnique> makePlanar(const NamedNode* named) {
+    const NamedNode& receiver = *named;
     const std::vector<FlatPart> parts = flatParts(*receiver.node, mostPlanes);
     if (parts.empty())
         throw std::invalid_argument("the receiver \"" + receiver.node->getName() +
@@ -79,26 +83,38 @@ osg::ref_ptr<ShadowTechnique> makePlanar(const NamedNode& receiver) {
     return node;
 }
 
+osg::ref_ptr<ShadowTechnique> makeTraced(const NamedNode*) { return new TracedShadowTechnique; }
+
 const std::vector<Key>& sharedKeys() {
     static const std::vector<Key> keys = {
         {"composite", "relight, blend", "relight", "take exactly the light away, or darken by a factor", takeComposite},
         {"dark", "0 to 1", "0.5", "with composite=blend: factor of the colour in shadow", takeDark},
-        {"receiver", "a node's name", defaultReceiver, "what the shadow falls on", takeReceiver},
+        {"receiver", "a node's name", "everything; planar: ground", "what the shadow falls on", takeReceiver},
     };
     return keys;
 }
 
 const std::vector<Technique>& techniques() {
     static const std::vector<Technique> table = {
-        {"none", true, "no shadow", nullptr, {}},
-        {"planar", true, "the casters flattened onto the receiver's planes; exact on flat receivers", makePlanar, {}},
-        {"box", false, "", nullptr, {}},
-        {"hull", false, "", nullptr, {}},
-        {"drape", false, "", nullptr, {}},
-        {"map", false, "", nullptr, {}},
-        {"volume", false, "", nullptr, {}},
-        {"traced", false, "", nullptr, {}},
-        {"auto", false, "", nullptr, {}},
+        {"none", true, "no shadow", nullptr, true, {}},
+        {"planar",
+         true,
+         "the casters flattened onto the receiver's planes; exact on flat receivers",
+         makePlanar,
+         false,
+         {}},
+        {"box", false, "", nullptr, true, {}},
+        {"hull", false, "", nullptr, true, {}},
+        {"drape", false, "", nullptr, true, {}},
+        {"map", false, "", nullptr, true, {}},
+        {"volume", false, "", nullptr, true, {}},
+        {"traced",
+         true,
+         "a ray a pixel towards the light, by Embree; exact on everything that is seen",
+         makeTraced,
+         true,
+         {}},
+        {"auto", false, "", nullptr, true, {}},
     };
     return table;
 }
@@ -178,10 +194,12 @@ NamedNode requireReceiver(osg::Node& root, const std::string& name) {
 osg::ref_ptr<ShadowTechnique> makeTechnique(ShadowCasterGroup& group, const ShadowSpec& spec) {
     const Technique& technique = requireTechnique(spec.technique);
     if (!technique.add) return nullptr;
-    const NamedNode receiver = requireReceiver(group, spec.receiver.empty() ? defaultReceiver : spec.receiver);
-    osg::ref_ptr<ShadowTechnique> node = technique.add(receiver);
+    std::optional<NamedNode> receiver;
+    if (!spec.receiver.empty() || !technique.onEverything)
+        receiver = requireReceiver(group, spec.receiver.empty() ? defaultReceiver : spec.receiver);
+    osg::ref_ptr<ShadowTechnique> node = technique.add(receiver ? &*receiver : nullptr);
     Selection selection;
-    selection.node = receiver.node;
+    if (receiver) selection.node = receiver->node;
     node->setReceiver(selection);
     node->setName(spec.text);
     return node;

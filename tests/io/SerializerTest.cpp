@@ -4,6 +4,7 @@
 
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <support/Picture.h>
 #include <support/Scene.h>
@@ -202,6 +203,21 @@ TEST_P(SceneFile, DrawsTheSamePictureOnceLoaded) {
     scene.addShadow(test::planar(test::find(*scene.content, "ground")));
     scene.group->setComposite(ShadowCasterGroup::BLEND);
     scene.group->setDark(0.3f);
+    scene.group->addLight(scene.light);
+    const auto copy = test::throughFile(*scene.root, kind());
+    ASSERT_TRUE(copy);
+    const test::View view = test::perspective({-6.0, -8.0, 8.0}, {0.0, 0.0, 0.0});
+    const test::Picture before = test::render(scene.root, view);
+    EXPECT_EQ(test::render(copy, view).different(before), 0);
+    scene.group->removeChild(1);
+    EXPECT_GT(test::render(scene.root, view).different(before), 500) << "there is no shadow to compare";
+}
+
+TEST_P(SceneFile, DrawsTheSameTracedPictureOnceLoaded) {
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+    technique->setReceiver({test::find(*scene.content, "ground")});
+    scene.addShadow(technique);
     scene.group->addLight(scene.light);
     const auto copy = test::throughFile(*scene.root, kind());
     ASSERT_TRUE(copy);

@@ -79,15 +79,15 @@ TEST(ShadowSpec, KeysAreRead) {
 }
 
 TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
-    EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique; allowed: none, planar.");
-    EXPECT_EQ(refusal(""), "\"\" is not a shadow technique; allowed: none, planar.");
-    EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique; allowed: none, planar.");
+    EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique; allowed: none, planar, traced.");
+    EXPECT_EQ(refusal(""), "\"\" is not a shadow technique; allowed: none, planar, traced.");
+    EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique; allowed: none, planar, traced.");
 }
 
 TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
-    for (const char* name : {"box", "hull", "drape", "map", "volume", "traced", "auto"})
+    for (const char* name : {"box", "hull", "drape", "map", "volume", "auto"})
         EXPECT_EQ(refusal(std::string(name) + ":size=4"),
-                  "\"" + std::string(name) + "\" is not built yet; built: none, planar.");
+                  "\"" + std::string(name) + "\" is not built yet; built: none, planar, traced.");
 }
 
 TEST(ShadowSpec, UnknownKeysAreRefusedWithThoseAllowed) {
@@ -161,6 +161,17 @@ TEST(AddShadows, PlanarTakesTheSixSidesOfABoxAndNoSliver) {
     box->addDrawable(osg::createTexturedQuadGeometry(osg::Vec3(3, 0, 3), osg::Vec3(0.1f, 0, 0), osg::Vec3(0, 0.1f, 0)));
     box->setName("ground"); // the last quad is 0.01 square, less than 1 % of a side's 4
     EXPECT_EQ(planesOf(*groupOf(box), "planar").size(), 6u);
+}
+
+TEST(AddShadows, TracedReceivesEverywhereUnlessAReceiverIsNamed) {
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
+    const auto added = addShadows(*group, {parseShadowSpec("traced"), parseShadowSpec("traced:receiver=floor")});
+    ASSERT_EQ(added.size(), 2u);
+    EXPECT_FALSE(added[0]->hasReceiver());
+    EXPECT_EQ(added[1]->getReceiver().node, group->getChild(0));
+    EXPECT_STREQ(added[0]->className(), "TracedShadowTechnique");
+    EXPECT_EQ(refusal(*groupOf(square("floor", 1)), {"traced:receiver=roof"}),
+              "no node is named \"roof\" to receive the shadow; names in the scene: floor.");
 }
 
 TEST(AddShadows, AMissingReceiverIsRefusedWithTheNamesThereAre) {

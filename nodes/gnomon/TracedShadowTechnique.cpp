@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/TracedCasters.h>
+#include <gnomon/TracedMark.h>
+#include <gnomon/TracedShadowTechnique.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <osg/io_utils>
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace gnomon {
+namespace {
+
+/// About `origin`, with a w of 0 and a direction of length 1, or a w of 1; nullopt if it is nowhere.
+std::optional<glm::dvec4> usableLight(const osg::Vec4d& inGroup, const osg::Vec3d& origin) {
+    const glm::dvec4 given = toGlm(inGroup);
+    const glm::dvec4 light = given.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(given)), 0.0)
+                                            : glm::dvec4(glm::dvec3(given) / given.w - toGlm(origin), 1.0);
+    if (!(std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z))) return std::nullopt;
+    return light;
+}
+
+/// The casters' box and everything behind it as the light sees it: each corner, and where its shadow goes.
+std::optional<ScreenRect> boundsOf(const CasterMesh& mesh, const TracedMark& mark) {
+    std::vector<glm::dvec4> points;
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner = toGlm(mesh.bounds.corner(i) - mesh.origin), light(mark.light);
+        points.push_back(mark.clipFromScene * glm::dvec4(corner, 1.0));
+        points.push_back(mark.clipFromScene * glm::dvec4(mark.light.w == 0.0 ? -light : corner - light, 0.0));
+    }
+    return screenBounds(points);
+}
+
+} // namespace
+
+TracedShadowTechnique::TracedShadowTechnique() : _casters(new TracedCasters) {}
+
+TracedShadowTechnique::TracedShadowTechnique(const TracedShadowTechnique& other, const osg::CopyOp& copyOp)
+    : ShadowTechnique(other, copyOp), _casters(new TracedCasters) {}
+
+TracedShadowTechnique::~TracedShadowTechnique() = default;
+
+std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                                  const CasterMesh& mesh) const {
+    const auto usable = usableLight(light.inGroup, mesh.origin);
+    if (!usable) {
+        std::ostringstream cause;
+        cause << "cannot use the light at (" << light.inGroup << "), which is nowhere: set the light's position.";
+        report(view.frameNumber, cause.str());
+        return {};
+    }
+    osg::ref_ptr<TracedMark> mark = new TracedMark;
+    mark->light = *usable;
+    mark->clipFromScene = glm::translate(toGlm(view.eyeFromGroup * view.projection), toGlm(mesh.origin));
+    const auto bounds = boundsOf(mesh, *mark);
+    if (!bounds) return {}; // out of sight: nothing to say
+    mark->screenBounds = *bounds;
+    try {
+        mark->scene = _casters->of(mesh, describe());
+    } catch (const std::exception& failure) {
+        report(view.frameNumber, std::string("casts no shadow: ") + failure.what());
+        return {};
+    }
+    return {mark};
+}
+
+unsigned TracedShadowTechnique::builds() const { return _casters->builds(); }
+
+} // namespace gnomon

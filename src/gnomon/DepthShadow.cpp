@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/DepthShadow.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+constexpr double stepsOff = 4.0;
+constexpr double snapsOff = 2.0;
+
+class DepthTracer {
+public:
+    DepthTracer(const RayScene& scene, const DepthPicture& picture, const glm::dmat4& clipFromScene,
+                const glm::dvec4& light)
+        : _scene(scene), _picture(picture), _sceneFromClip(glm::inverse(clipFromScene)), _light(light) {}
+
+    /// @param x,y  counted from the part's corner.
+    bool blocked(int x, int y) const;
+
+private:
+    double depth(int x, int y) const {
+        return double(_picture.depths[std::size_t(y) * std::size_t(_picture.width) + std::size_t(x)]);
+    }
+    /// Change of depth from one pixel to the next, on the surface that is seen: to the nearer neighbour in depth.
+    double slope(int x, int y, int dx, int dy) const;
+    glm::dvec3 start(int x, int y) const;
+
+    const RayScene& _scene;
+    const DepthPicture& _picture;
+    const glm::dmat4 _sceneFromClip;
+    const glm::dvec4 _light;
+};
+
+double DepthTracer::slope(int x, int y, int dx, int dy) const {
+    double least = 1.0;
+    for (const int side : {-1, 1}) {
+        const int u = x + side * dx, v = y + side * dy;
+        if (u < 0 || v < 0 || u >= _picture.width || v >= _picture.height) continue;
+        least = std::min(least, std::abs(depth(u, v) - depth(x, y)));
+    }
+    return least < 1.0 ? least : 0.0;
+}
+
+/// Where a pixel's ray to the light starts: as far before the surface as its depth may be wrong.
+glm::dvec3 DepthTracer::start(int x, int y) const {
+    const double snapped = snapsOff * _picture.subpixel * (slope(x, y, 1, 0) + slope(x, y, 0, 1));
+    const double before = depth(x, y) - stepsOff * _picture.step - snapped;
+    const glm::dvec4 clip(2.0 * (_picture.x + x + 0.5) / _picture.viewportWidth - 1.0,
+                          2.0 * (_picture.y + y + 0.5) / _picture.viewportHeight - 1.0, 2.0 * before - 1.0, 1.0);
+    const glm::dvec4 point = _sceneFromClip * clip;
+    const glm::dvec4 nearer = point - _sceneFromClip[2] * (2.0 * _picture.step);
+    const glm::dvec3 place = glm::dvec3(point) / point.w;
+    return _scene.lifted(place, glm::normalize(glm::dvec3(nearer) / nearer.w - place));
+}
+
+bool DepthTracer::blocked(int x, int y) const {
+    if (!(depth(x, y) < 1.0)) return false;
+    const glm::dvec3 from = start(x, y), light(_light);
+    if (_light.w == 0.0) return _scene.blocked({from, light});
+    return _scene.blocked({from, light / _light.w - from, 1.0});
+}
+
+} // namespace
+
+std::vector<std::uint8_t> depthShadow(const RayScene& scene, const DepthPicture& picture,
+                                      const glm::dmat4& clipFromScene, const glm::dvec4& light) {
+    const DepthTracer tracer(scene, picture, clipFromScene, light);
+    const std::size_t stride = (std::size_t(picture.width) + 7) / 8;
+    std::vector<std::uint8_t> bits(stride * std::size_t(picture.height), 0);
+    tbb::parallel_for(0, picture.height, [&](int y) {
+        std::uint8_t* row = bits.data() + stride * std::size_t(y);
+        for (int x = 0; x < picture.width; ++x)
+            if (tracer.blocked(x, y)) row[x / 8] = static_cast<std::uint8_t>(row[x / 8] | (0x80 >> (x % 8)));
+    });
+    return bits;
+}
+
+} // namespace gnomon

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+// Traced shadows against the truth image; several lights, composites, receivers, live changes.
+#include <support/Scene.h>
+#include <support/Truth.h>
+
+#include <gnomon/TracedShadowTechnique.h>
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+using test::Mesh;
+using test::Picture;
+using test::Scene;
+
+namespace {
+
+struct Case {
+    std::string name;
+    std::vector<Mesh> meshes; ///< the first is named "ground".
+    osg::Vec4d light;
+    test::View view;
+};
+
+/// Seen from inside: the corners go round the other way.
+Mesh insideOut(Mesh mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.size(); i += 3) std::swap(mesh[i], mesh[i + 1]);
+    return mesh;
+}
+
+Case labEight() {
+    return {
+        "lab 8",
+        {test::square(8.0), test::sphere({-2.0, 0.0, 2.5}, 1.0, 64), test::house({2.0, 0.0}, {2.0, 2.0, 2.0}, 30.0)},
+        {1.0, 0.3, 1.2, 0.0},
+        test::perspective({-8.0, -14.0, 10.0}, {0.0, 0.0, 0.0}, 640, 480)};
+}
+
+Case town() {
+    std::vector<Mesh> meshes = test::town(20);
+    meshes.insert(meshes.begin(), test::square(55.0));
+    return {"town",
+            meshes,
+            {1.0, 0.3, 0.7, 0.0},
+            test::perspective({-50.0, -70.0, 40.0}, {0.0, 0.0, 0.0}, 640, 480, 40.0, 1.0, 300.0)};
+}
+
+Case room() {
+    return {"room",
+            {test::square(5.0, 0.001), insideOut(test::box({-5.0, -5.0, 0.0}, {5.0, 5.0, 4.0})),
+             test::house({1.5, 1.0}, {1.5, 1.0, 1.2}, 25.0), test::house({-1.8, 0.5}, {1.0, 1.0, 2.0}, -40.0),
+             test::sphere({0.2, -0.5, 1.5}, 0.5, 64)},
+            {0.3, 0.4, 3.2, 1.0},
+            test::perspective({-3.5, -4.7, 3.0}, {0.5, 1.0, 0.8}, 640, 480, 70.0, 0.1, 30.0)};
+}
+
+Scene build(const Case& given) {
+    Scene result = test::scene(given.light);
+    for (std::size_t i = 0; i < given.meshes.size(); ++i)
+        result.content->addChild(test::node(given.meshes[i], i ? "caster" : "ground"));
+    return result;
+}
+
+struct Result {
+    Picture lit, dark, traced;
+    test::TruthComparison comparison;
+    std::vector<std::string> causes;
+};
+
+Result draw(const Case& given) {
+    Result result;
+    Scene lit = build(given), dark = build(given), shadowed = build(given);
+    dark.takeLightAway();
+    const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+    shadowed.addShadow(technique);
+    result.lit = test::render(lit.root, given.view);
+    result.dark = test::render(dark.root, given.view);
+    result.traced = test::render(shadowed.root, given.view);
+    result.comparison =
+        test::compare(result.traced, result.lit, result.dark, test::truthOf(given.meshes, given.light, given.view));
+    result.causes = technique->diagnose();
+    return result;
+}
+
+TEST(Traced, IsAsGoodAsOneRayAPixelCanBe) {
+    for (const Case& given : {labEight(), town(), room()}) {
+        const Result result = draw(given);
+        std::cout << given.name << ": " << result.comparison << "\n";
+        EXPECT_TRUE(result.comparison.good()) << given.name << ": " << result.comparison;
+        EXPECT_GT(result.comparison.shadowed, 2000) << given.name;
+        EXPECT_GT(result.comparison.edges, 300) << given.name;
+        EXPECT_LT(result.comparison.shadowed, result.comparison.pixels) << given.name;
+        EXPECT_EQ(result.causes, std::vector<std::string>());
+    }
+}
+
+/// A level square of `side` × `side` small ones.
+Mesh tiles(double half, int side) {
+    Mesh mesh;
+    const double pitch = 2.0 * half / side;
+    for (int i = 0; i < side * side; ++i) {
+        const Mesh tile =
+            test::quad({i % side * pitch - half, i / side * pitch - half, 0.0}, {pitch, 0.0, 0.0}, {0.0, pitch, 0.0});
+        mesh.insert(mesh.end(), tile.begin(), tile.end());
+    }
+    return mesh;
+}
+
+/// What is not lit on a level square under a light of `elevation` degrees, seen from `height`.
+int unlit(double half, double height, double elevation, double near, double far, int side = 1) {
+    const double angle = elevation / 57.29577951308232;
+    Case given{"flat",
+               {tiles(half, side)},
+               {std::cos(angle), 0.2, std::sin(angle), 0.0},
+               test::perspective({-half / 2.0, -half / 2.0, height}, {0.0, 0.0, 0.0}, 320, 240, 40.0, near, far)};
+    Scene lit = build(given), shadowed = build(given);
+    shadowed.addShadow(new gnomon::TracedShadowTechnique);
+    return test::render(shadowed.root, given.view).different(test::render(lit.root, given.view));
+}
+
+TEST(Traced, FlatGroundsAreFreeOfAcne) {
+    for (double elevation : {2.0, 20.0, 80.0}) {
+        EXPECT_EQ(unlit(8.0, 3.0, elevation, 1.0, 100.0), 0) << elevation;
+        EXPECT_EQ(unlit(8.0, 0.1, elevation, 0.1, 100.0), 0) << elevation << ", along the ground";
+        EXPECT_EQ(unlit(8.0, 60.0, elevation, 0.01, 100.0), 0)
+            << elevation << ", with a depth buffer that is coarse there";
+        EXPECT_EQ(unlit(8.0, 0.5, elevation, 4.0, 20.0, 200), 0) << elevation << ", with one that is fine, and small triangles";
+        EXPECT_EQ(unlit(0.008, 0.003, elevation, 0.001, 0.1), 0) << elevation << ", in millimetres";
+        EXPECT_EQ(unlit(500.0, 2.0, elevation, 0.5, 2000.0), 0) << elevation << ", to the horizon";
+    }
+}
+
+TEST(Traced, NothingLeaksWhereABoxStandsOnTheGround) {
+    Case given = labEight();
+    given.meshes = {test::square(8.0), test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})};
+    given.view = test::perspective({2.0, 9.0, 2.0}, {0.0, 1.0, 0.0}, 640, 480, 20.0);
+    given.light = {0.3, -1.0, 0.8, 0.0};
+    const Result result = draw(given);
+    std::cout << "contact: " << result.comparison << "\n";
+    EXPECT_TRUE(result.comparison.good()) << result.comparison;
+    EXPECT_LE(result.comparison.certain, result.comparison.pixels / 10000);
+}
+
+TEST(Traced, FindsTheProjectionThatIsDrawnUnderAutomaticNearAndFar) {
+    const Case given = labEight();
+    Scene lit = build(given), dark = build(given), shadowed = build(given);
+    dark.takeLightAway();
+    shadowed.addShadow(new gnomon::TracedShadowTechnique);
+    const auto picture = [&](Scene& scene) {
+        test::Camera camera(scene.root, given.view);
+        camera.viewer().getCamera()->setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
+        return camera.frame();
+    };
+    const test::TruthComparison comparison = test::compare(picture(shadowed), picture(lit), picture(dark),
+                                                           test::truthOf(given.meshes, given.light, given.view));
+    EXPECT_TRUE(comparison.good()) << comparison;
+}
+
+TEST(Traced, IsTheSamePictureFarFromTheOrigin) {
+    const osg::Vec3d utm(432100.25, 6400000.5, 812.0);
+    for (const bool lamp : {false, true}) {
+        Case given = labEight();
+        if (lamp) given.light = {3.0, -2.0, 7.0, 1.0};
+        const auto picture = [&](const osg::Vec3d& offset) {
+            Scene scene = build(given);
+            scene.addShadow(new gnomon::TracedShadowTechnique);
+            if (lamp)
+                scene.group->addLight(
+                    {0,
+                     {given.light.x() + offset.x(), given.light.y() + offset.y(), given.light.z() + offset.z(), 1.0}});
+            osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(offset));
+            scene.group->replaceChild(scene.content, place);
+            place->addChild(scene.content);
+            if (lamp) {
+                place->addChild(scene.light);
+                scene.root->removeChild(scene.light);
+            }
+            test::View view = given.view;
+            view.view = osg::Matrixd::translate(-offset) * view.view;
+            return test::render(scene.root, view);
+        };
+        EXPECT_LE(picture(utm).different(picture({})), 640 * 480 / 10000) << (lamp ? "lamp" : "sun");
+    }
+}
+
+TEST(Traced, BlendDarkensTheSamePixelsOnceAndLeavesTheSkyAlone) {
+    const Case given = labEight();
+    const Result relit = draw(given);
+    Scene scene = build(given);
+    scene.addShadow(new gnomon::TracedShadowTechnique);
+    scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    const Picture blended = test::render(scene.root, given.view);
+    int wrong = 0, ground = 0;
+    for (std::size_t i = 0; i < blended.pixels.size(); ++i) {
+        if (relit.lit.pixels[i] == relit.dark.pixels[i] && relit.lit.pixels[i] != 0xff400000u) continue; // unlit anyway
+        const bool marked = relit.traced.pixels[i] != relit.lit.pixels[i];
+        ground += marked;
+        const unsigned expected = ((relit.lit.pixels[i] & 0xffu) * (marked ? 1u : 2u) + 1u) / 2u;
+        wrong += std::abs(int(blended.pixels[i] & 0xffu) - int(expected)) > (marked ? 1 : 0);
+    }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(ground, 5000);
+}
+
+TEST(Traced, TakesEachOfSeveralLightsFromWhereItDoesNotReach) {
+    const Case given = labEight();
+    const osg::Vec4d second(-1.0, -0.5, 0.9, 0.0);
+    const auto picture = [&](bool traced, bool firstOff, bool secondOff) {
+        Scene scene = build(given);
+        osg::ref_ptr<osg::LightSource> more = new osg::LightSource;
+        more->getLight()->setLightNum(1);
+        more->getLight()->setPosition(osg::Vec4(second));
+        more->getLight()->setAmbient({0.0f, 0.0f, 0.0f, 1.0f});
+        more->getLight()->setDiffuse(secondOff ? osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f) : osg::Vec4(0.1f, 0.2f, 0.3f, 1.0f));
+        more->getLight()->setSpecular({0.0f, 0.0f, 0.0f, 1.0f});
+        scene.root->addChild(more);
+        scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+        if (firstOff) scene.takeLightAway();
+        if (traced) scene.addShadow(new gnomon::TracedShadowTechnique);
+        return test::render(scene.root, given.view);
+    };
+    const Picture combination[2][2] = {{picture(false, false, false), picture(false, false, true)},
+                                       {picture(false, true, false), picture(false, true, true)}};
+    const Picture traced = picture(true, false, false);
+    const gnomon::TruthImage a = test::truthOf(given.meshes, given.light, given.view),
+                             b = test::truthOf(given.meshes, second, given.view);
+    int wrong = 0, both = 0;
+    for (std::size_t i = 0; i < traced.pixels.size(); ++i) {
+        if (a.pixels[i].isEdge() || b.pixels[i].isEdge() || !a.pixels[i].seen()) continue;
+        wrong += traced.pixels[i] != combination[!a.pixels[i].litCentre][!b.pixels[i].litCentre].pixels[i];
+        both +=
+            !a.pixels[i].litCentre && !b.pixels[i].litCentre && a.pixels[i].facing > 0.0 && b.pixels[i].facing > 0.0;
+    }
+    EXPECT_GT(both, 100);
+    EXPECT_LE(wrong, 640 * 480 / 2000) << "silhouettes, where the rasteriser decides";
+}
+
+TEST(Traced, ANamedReceiverIsAllThatReceives) {
+    const Case given = labEight();
+    Scene scene = build(given), everything = build(given), lit = build(given);
+    const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+    technique->setReceiver({test::find(*scene.root, "ground")});
+    scene.addShadow(technique);
+    everything.addShadow(new gnomon::TracedShadowTechnique);
+    const Picture named = test::render(scene.root, given.view), all = test::render(everything.root, given.view),
+                  none = test::render(lit.root, given.view);
+    EXPECT_GT(named.different(none), 5000);
+    const gnomon::TruthImage truth = test::truthOf(given.meshes, given.light, given.view);
+    int wrong = 0;
+    for (std::size_t i = 0; i < named.pixels.size(); ++i) {
+        if (!truth.pixels[i].seen() || truth.pixels[i].isEdge()) continue;
+        wrong += named.pixels[i] != (truth.pixels[i].receiver < 2 ? all : none).pixels[i];
+    }
+    EXPECT_LE(wrong, 640 * 480 / 2000) << "silhouettes, where the rasteriser decides";
+}
+
+TEST(Traced, BuildsOnceARevisionHoweverManyFramesAndLights) {
+    const Case given = labEight();
+    Scene scene = build(given);
+    const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+    osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+    mover->addChild(test::node(test::box({3.0, 3.0, 1.0}, {4.0, 4.0, 2.0})));
+    scene.content->addChild(mover);
+    scene.addShadow(technique);
+    scene.group->addLight({0, given.light});
+    scene.group->addLight({1, {0.0, 0.5, 1.0, 0.0}});
+    test::Camera camera(scene.root, given.view);
+    const Picture first = camera.frame();
+    EXPECT_EQ(camera.frame().different(first), 0);
+    EXPECT_EQ(technique->builds(), 1u);
+    mover->setMatrix(osg::Matrixd::translate(0.0, -2.0, 0.0));
+    EXPECT_GT(camera.frame().different(first), 100);
+    EXPECT_EQ(technique->builds(), 2u);
+}
+
+TEST(Traced, ALightThatIsNowhereIsDiagnosed) {
+    const Case given = labEight();
+    for (const osg::Vec4d& light :
+         {osg::Vec4d(0.0, 0.0, 0.0, 0.0), osg::Vec4d(std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0, 1.0)}) {
+        Scene scene = build(given), lit = build(given);
+        const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+        scene.addShadow(technique);
+        scene.group->addLight({0, light});
+        EXPECT_EQ(test::render(scene.root, given.view).different(test::render(lit.root, given.view)), 0);
+        ASSERT_EQ(technique->diagnose().size(), 1u);
+        EXPECT_NE(technique->diagnose()[0].find("which is nowhere"), std::string::npos) << technique->diagnose()[0];
+    }
+}
+
+TEST(Traced, ShadowsOutOfSightCostNothingAndSayNothing) {
+    Case given = labEight();
+    given.view = test::perspective({0.0, -40.0, 5.0}, {0.0, -80.0, 5.0}, 64, 48);
+    Scene scene = build(given);
+    const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+    scene.addShadow(technique);
+    scene.group->addLight({0, given.light});
+    test::render(scene.root, given.view);
+    EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+}
+
+} // namespace

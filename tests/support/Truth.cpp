@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <support/Truth.h>
+
+#include <gnomon/Convert.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <ostream>
+
+namespace test {
+namespace {
+
+bool onSamePlane(const gnomon::TruthPixel& a, const gnomon::TruthPixel& b) {
+    return b.seen() && glm::dot(a.normal, b.normal) > 1.0 - 1e-9 &&
+           std::abs(glm::dot(a.normal, b.position - a.position)) < 1e-4;
+}
+
+bool counts(const gnomon::TruthImage& truth, int x, int y) {
+    if (x < 1 || y < 1 || x + 1 >= truth.width || y + 1 >= truth.height) return false;
+    const gnomon::TruthPixel& pixel = truth.at(x, y);
+    if (!pixel.seen() || !(pixel.facing > 0.05)) return false;
+    for (int v = y - 1; v <= y + 1; ++v)
+        for (int u = x - 1; u <= x + 1; ++u)
+            if (!onSamePlane(pixel, truth.at(u, v))) return false;
+    return true;
+}
+
+} // namespace
+
+gnomon::TruthImage truthOf(const std::vector<Mesh>& meshes, const osg::Vec4d& light, const View& view) {
+    const Mesh all = joined(meshes);
+    std::vector<glm::vec3> vertices(all.begin(), all.end());
+    std::vector<unsigned> indices;
+    for (unsigned i = 0; i < all.size(); ++i) indices.push_back(i);
+    const gnomon::RayScene scene({vertices.data(), vertices.size(), indices.data(), indices.size(), glm::dvec3(0.0)});
+    return gnomon::shadowTruth(
+        scene, scene, {gnomon::toGlm(view.view * view.projection), view.width, view.height, gnomon::toGlm(light)});
+}
+
+std::ostream& operator<<(std::ostream& out, const TruthComparison& r) {
+    return out << r.pixels << " pixels, " << r.shadowed << " shadowed, " << r.edges << " edges; wrong " << r.wrong
+               << ", floor " << r.floor << ", certain " << r.certain << ", neither " << r.neither;
+}
+
+TruthComparison compare(const Picture& actual, const Picture& lit, const Picture& dark,
+                        const gnomon::TruthImage& truth) {
+    TruthComparison result;
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) {
+            result.neither += actual.at(x, y) != lit.at(x, y) && actual.at(x, y) != dark.at(x, y);
+            if (!counts(truth, x, y) || lit.at(x, y) == dark.at(x, y)) continue;
+            const gnomon::TruthPixel& pixel = truth.at(x, y);
+            const bool shadow = pixel.lit < 0.5f, wrong = (actual.at(x, y) == dark.at(x, y)) != shadow;
+            ++result.pixels;
+            result.shadowed += shadow;
+            result.edges += pixel.isEdge();
+            result.wrong += wrong;
+            result.certain += wrong && !pixel.isEdge();
+            result.floor += pixel.litCentre == shadow;
+        }
+    return result;
+}
+
+} // namespace test

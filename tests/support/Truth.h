@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <support/Mesh.h>
+#include <support/Picture.h>
+
+#include <gnomon/ShadowTruth.h>
+#include <osg/Vec4d>
+
+#include <vector>
+
+namespace test {
+
+/// The truth image of what `node(mesh)` draws of these, each of which casts and receives.
+gnomon::TruthImage truthOf(const std::vector<Mesh>& meshes, const osg::Vec4d& light, const View& view);
+
+/// A picture against the truth, over pixels in which nothing but one plane is seen, in them and beside them, and which
+/// face the light by more than a cosine of 0.05.
+struct TruthComparison {
+    int pixels = 0, shadowed = 0, edges = 0;
+    int wrong = 0;   ///< on the other side of T_a = 1/2.
+    int floor = 0;   ///< centre rays that are.
+    int certain = 0; ///< of `wrong`, those that are no edge pixels.
+    int neither = 0; ///< neither the lit nor the dark colour: must be 0.
+
+    /// Misclassified <= 1.05 × floor + 0.01 %.
+    bool good() const { return neither == 0 && wrong <= 1.05 * floor + 0.0001 * pixels; }
+};
+std::ostream& operator<<(std::ostream& out, const TruthComparison& result);
+
+/// @param lit,dark  the same frame without shadows, and without the light's diffuse and specular.
+TruthComparison compare(const Picture& actual, const Picture& lit, const Picture& dark,
+                        const gnomon::TruthImage& truth);
+
+} // namespace test
