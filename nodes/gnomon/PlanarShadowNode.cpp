@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/LightProbe.h>
 #include <gnomon/PlanarMark.h>
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
@@ -168,6 +169,21 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     mark->screenBounds = *bounds;
     mark->depth = *depth;
     return mark;
+}
+
+/// A ray from the foot of the point in the plane, lifted off it: what lies in the plane never casts.
+bool PlanarShadowNode::isLit(const LightProbe& probe, const glm::dvec3& point) const {
+    const auto shadows = [&](const osg::Vec4d& given) {
+        const auto inGroup = transformedPlane(toGlm(probe.groupFromTechnique), toGlm(given));
+        if (!inGroup) return false;
+        const glm::dvec3 normal(*inGroup);
+        const glm::dvec4 plane(normal, distance(*inGroup, toGlm(probe.origin)));
+        const double height = distance(plane, point);
+        if (!(std::abs(height) <= 1e-5 * probe.casters.reach())) return false;
+        if (!planarShadowMatrix(plane, probe.light)) return false;
+        return !probe.reaches(probe.casters.lifted(point - height * normal, normal));
+    };
+    return std::none_of(_planes.begin(), _planes.end(), shadows);
 }
 
 /// From the cache, which keeps what was used last: two meshes a plane, so that a node under two groups makes neither again.

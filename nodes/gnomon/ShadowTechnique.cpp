@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/LightProbe.h>
 #include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
@@ -73,6 +74,8 @@ void ShadowTechnique::traverse(osg::NodeVisitor& visitor) {
     if (osgUtil::CullVisitor* cull = visitor.asCullVisitor()) enlist(*this, *cull);
     osg::Geode::traverse(visitor);
 }
+
+bool ShadowTechnique::isLit(const LightProbe& probe, const glm::dvec3& point) const { return probe.reachesFrom(point); }
 
 std::vector<std::string> ShadowTechnique::diagnose() const {
     Lock lock(_causesMutex);

@@ -8,6 +8,7 @@
 #include <gnomon/ViewFrame.h>
 
 #include <OpenThreads/Mutex>
+#include <glm/vec3.hpp>
 #include <osg/Geode>
 
 #include <set>
@@ -17,6 +18,7 @@
 namespace gnomon {
 
 class ShadowCasterGroup;
+struct LightProbe;
 
 /// Base of all shadow techniques: finds the pixels that a light does not reach. The compositor (ShadowBin) takes the
 /// light away from them.
@@ -47,6 +49,11 @@ public:
     /// wonder).
     virtual std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                        const CasterMesh& casters) const = 0;
+
+    /// Whether the light reaches a point as this technique draws it; see ShadowQuery, which asks.
+    /// Default: whether a ray from there to the light meets no caster.
+    /// @param point  about the probe's origin.
+    virtual bool isLit(const LightProbe& probe, const glm::dvec3& point) const;
 
     /// Notes a cause for diagnose(); repeated causes count once. Called in cull or draw.
     void report(unsigned frame, const std::string& cause) const;

@@ -3,27 +3,17 @@
 #include <gnomon/TracedCasters.h>
 #include <gnomon/TracedMark.h>
 #include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/UsableLight.h>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <osg/io_utils>
 
-#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
 namespace gnomon {
 namespace {
-
-/// About `origin`, with a w of 0 and a direction of length 1, or a w of 1; nullopt if it is nowhere.
-std::optional<glm::dvec4> usableLight(const osg::Vec4d& inGroup, const osg::Vec3d& origin) {
-    const glm::dvec4 given = toGlm(inGroup);
-    const glm::dvec4 light = given.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(given)), 0.0)
-                                            : glm::dvec4(glm::dvec3(given) / given.w - toGlm(origin), 1.0);
-    if (!(std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z))) return std::nullopt;
-    return light;
-}
 
 /// The casters' box and everything behind it as the light sees it: each corner, and where its shadow goes.
 std::optional<ScreenRect> boundsOf(const CasterMesh& mesh, const TracedMark& mark) {

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/RayScene.h>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <osg/Matrixd>
+#include <osg/Vec3d>
+
+#include <limits>
+
+namespace gnomon {
+
+/// What a ShadowTechnique needs to answer for one light and one revision of the casters, without a view.
+struct LightProbe {
+    const RayScene& casters; ///< about `origin`.
+    osg::Vec3d origin;       ///< group frame.
+    glm::dvec4 light;        ///< about `origin`: w = 0 the way towards a sun, length 1; w = 1 a lamp's position.
+    osg::Matrixd groupFromTechnique; ///< see ViewFrame.
+
+    /// The way to the light; of a lamp the whole way.
+    glm::dvec3 towardsLight(const glm::dvec3& point) const {
+        return light.w == 0.0 ? glm::dvec3(light) : glm::dvec3(light) - point;
+    }
+    /// True if no caster is between the light and a point that may lie on a caster: on which one, and so its
+    /// normal, a short ray past the point tells.
+    bool reachesFrom(const glm::dvec3& point) const {
+        const glm::dvec3 along = glm::normalize(towardsLight(point)), step = casters.lifted(point, along) - point;
+        const RayHit surface = casters.closest({point + 16.0 * step, -32.0 * step, 1.0});
+        if (!surface) return reaches(point + step);
+        return reaches(casters.lifted(point, glm::dot(surface.normal, along) > 0.0 ? surface.normal : -surface.normal));
+    }
+    /// True if no caster is between `start` and the light.
+    bool reaches(const glm::dvec3& start) const {
+        const double infinity = std::numeric_limits<double>::infinity();
+        return !casters.blocked({start, towardsLight(start), light.w == 0.0 ? infinity : 1.0});
+    }
+};
+
+} // namespace gnomon
