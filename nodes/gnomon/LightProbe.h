@@ -23,13 +23,17 @@ struct LightProbe {
     glm::dvec3 towardsLight(const glm::dvec3& point) const {
         return light.w == 0.0 ? glm::dvec3(light) : glm::dvec3(light) - point;
     }
-    /// True if no caster is between the light and a point that may lie on a caster: on which one, and so its
-    /// normal, a short ray past the point tells.
+    /// True if no caster is between the light and a point that may lie on a caster.
+    ///
+    /// A ray that gets through is right. One that does not may have met the surface it starts on, if it grazes that: then
+    /// another from further on gets through, and a short one past the point tells which surface it is, and its normal.
     bool reachesFrom(const glm::dvec3& point) const {
-        const glm::dvec3 along = glm::normalize(towardsLight(point)), step = casters.lifted(point, along) - point;
+        const glm::dvec3 step = casters.margin(point) * glm::normalize(towardsLight(point));
+        if (reaches(point + step)) return true;
+        if (!reaches(point + 16.0 * step)) return false;
         const RayHit surface = casters.closest({point + 16.0 * step, -32.0 * step, 1.0});
-        if (!surface) return reaches(point + step);
-        return reaches(casters.lifted(point, glm::dot(surface.normal, along) > 0.0 ? surface.normal : -surface.normal));
+        if (!surface) return false;
+        return reaches(casters.lifted(point, glm::dot(surface.normal, step) > 0.0 ? surface.normal : -surface.normal));
     }
     /// True if no caster is between `start` and the light.
     bool reaches(const glm::dvec3& start) const {

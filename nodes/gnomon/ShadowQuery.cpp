@@ -63,7 +63,7 @@ bool ShadowQuery::isLit(const osg::Vec3d& point) const {
 
 bool ShadowQuery::isBlocked(const osg::Vec3d& from, const osg::Vec3d& to) const {
     const glm::dvec3 a = toGlm(from - _origin), b = toGlm(to - _origin), along = glm::normalize(b - a);
-    const glm::dvec3 start = _scene->lifted(a, along), end = _scene->lifted(b, -along);
+    const glm::dvec3 start = a + _scene->margin(a) * along, end = b - _scene->margin(b) * along;
     if (!(glm::dot(end - start, along) > 0.0)) return false;
     return _scene->blocked({start, end - start, 1.0});
 }

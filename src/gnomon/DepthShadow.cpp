@@ -56,7 +56,7 @@ glm::dvec3 DepthTracer::start(int x, int y) const {
     const glm::dvec4 point = _sceneFromClip * clip;
     const glm::dvec4 nearer = point - _sceneFromClip[2] * (2.0 * _picture.step);
     const glm::dvec3 place = glm::dvec3(point) / point.w;
-    return _scene.lifted(place, glm::normalize(glm::dvec3(nearer) / nearer.w - place));
+    return place + _scene.margin(place) * glm::normalize(glm::dvec3(nearer) / nearer.w - place);
 }
 
 bool DepthTracer::blocked(int x, int y) const {

@@ -22,7 +22,7 @@ struct DepthPicture {
 ///
 /// A depth is not exact. Here it is taken to be right to 4 steps of the buffer and to what twice the rasteriser's
 /// snapping moves it, by its slope to the nearer of the neighbours on either side. The ray starts as much nearer to the
-/// eye, and a few steps of a float more (RayScene::lifted()). Between surface and eye nothing can be, or it would be
+/// eye, and a few steps of a float more (RayScene::margin()). Between surface and eye nothing can be, or it would be
 /// seen: so the start is never behind a thing, nothing leaks at contacts, and needs no normal; and it is always on the
 /// seen side of its own surface, so that what is flat does not shadow itself. What faces away from the light shadows
 /// itself, as it must. How far the start moves: with 24 bits 2.4·10⁻⁷·z²/near, that is 2.4 mm at 100 m under a near

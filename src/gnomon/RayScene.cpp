@@ -2,6 +2,7 @@
 #include <gnomon/RayScene.h>
 
 #include <embree3/rtcore.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -203,6 +204,11 @@ void RayScene::blocked(const Ray* rays, std::size_t count, std::uint8_t* answers
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) answers[i] = blocked(rays[i]);
     });
+}
+
+double RayScene::margin(const glm::dvec3& point) const {
+    const glm::dvec3 local = glm::abs(point - _embree->origin);
+    return stepsAbove(static_cast<float>(std::max({local.x, local.y, local.z, _embree->reach / 16.0})), liftSteps);
 }
 
 glm::dvec3 RayScene::lifted(const glm::dvec3& point, const glm::dvec3& normal) const {

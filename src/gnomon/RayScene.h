@@ -80,6 +80,10 @@ public:
     /// 2019, ch. 6. Theirs takes 1/65536 unit near the origin, which holds for one unit only: here the scene's size rules.
     glm::dvec3 lifted(const glm::dvec3& point, const glm::dvec3& normal) const;
 
+    /// The largest step that lifted() takes along any axis there: how far to move a start along a direction that is no
+    /// normal. lifted() itself must not be given one, for its steps differ from axis to axis and turn it.
+    double margin(const glm::dvec3& point) const;
+
     /// Triangles that were left out.
     std::size_t leftOut() const;
     /// Half of the longest side of the bounds, about the origin: 0 for an empty scene.

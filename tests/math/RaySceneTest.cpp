@@ -183,6 +183,16 @@ TEST(RayScene, LiftsByLessThanTwoMillimetresInAHundredMetres) {
     EXPECT_NEAR(scene.lifted({99.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}).x, 99.0, 0.002);
 }
 
+TEST(RayScene, ItsMarginIsTheLargestStepOfALift) {
+    Soup soup;
+    soup.ground(100.0);
+    soup.origin = utm;
+    const RayScene scene(soup.view());
+    const glm::dvec3 point(3.0, 70.0, 0.5), moved = scene.lifted(utm + point, {0.0, 1.0, 0.0}) - utm - point;
+    EXPECT_NEAR(scene.margin(utm + point), moved.y, 1e-8);
+    EXPECT_GT(moved.y, 1e-3);
+}
+
 TEST(RayScene, LeavesOutTrianglesThatAreNone) {
     Soup soup;
     soup.triangle({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {3.0, 3.0, 3.0});
