@@ -126,7 +126,8 @@ TEST(Traced, FlatGroundsAreFreeOfAcne) {
         EXPECT_EQ(unlit(8.0, 0.1, elevation, 0.1, 100.0), 0) << elevation << ", along the ground";
         EXPECT_EQ(unlit(8.0, 60.0, elevation, 0.01, 100.0), 0)
             << elevation << ", with a depth buffer that is coarse there";
-        EXPECT_EQ(unlit(8.0, 0.5, elevation, 4.0, 20.0, 200), 0) << elevation << ", with one that is fine, and small triangles";
+        EXPECT_EQ(unlit(8.0, 0.5, elevation, 4.0, 20.0, 200), 0)
+            << elevation << ", with one that is fine, and small triangles";
         EXPECT_EQ(unlit(0.008, 0.003, elevation, 0.001, 0.1), 0) << elevation << ", in millimetres";
         EXPECT_EQ(unlit(500.0, 2.0, elevation, 0.5, 2000.0), 0) << elevation << ", to the horizon";
     }
