@@ -89,7 +89,7 @@ TEST(HostileState, ABlendingReceiverIsTheSameInAnaglyphStereoWithoutSeparation) 
 TEST(HostileState, WidePointsBesideTheShadowAreDrawnAgainWhereTheyReachIn) {
     Scene scene = boxScene();
     osg::ref_ptr<osg::Vec3Array> spot = new osg::Vec3Array(1);
-    spot->front().set(-2.2f, -2.0f, 0.5f);
+    spot->front().set(-2.35f, 1.41f, 0.3f); // ten pixels to the left of the marks' bounds, and 30 pixels wide each way
     osg::ref_ptr<osg::Geometry> point = new osg::Geometry;
     point->setVertexArray(spot);
     osg::ref_ptr<osg::Vec4Array> red = new osg::Vec4Array(1);
@@ -99,6 +99,7 @@ TEST(HostileState, WidePointsBesideTheShadowAreDrawnAgainWhereTheyReachIn) {
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     geode->addDrawable(point);
     geode->getOrCreateStateSet()->setAttribute(new osg::Point(60.0f));
+    geode->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF); // or it would look like the ground
     scene.content->addChild(geode);
     scene.addShadow(disc(30.0, 30.0));
     const Picture filtered = render(scene.root, view);
