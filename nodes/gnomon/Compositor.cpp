@@ -7,8 +7,6 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t mostRelitLights = 3;
-
 /// Jobs that share a lens: what one view sees, another view that is laid over it must not take for its own.
 std::vector<Jobs> byView(const Jobs& jobs) {
     std::vector<Jobs> views;
@@ -112,13 +110,12 @@ bool Compositor::composeDirectly(const Jobs& jobs) {
     if (jobs.size() > 1 || !job.receiverNamed) return false;
     const bool relit = job.composite == ShadowCasterGroup::RELIGHT;
     const ScreenRect& bounds = job.marks->screenBounds;
-    std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw.leaves, jobs, bounds, ShadowBin::getFilter());
+    std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw.leaves, jobs, bounds);
     PlainTest plain;
     const auto other = [&job](const ReplayedLeaf& leaf) { return job.receivers.count(leaf.entry.leaf) == 0; };
     const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
     if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
-    const bool hindered = !notOfView(job, _draw.leaves).empty() || isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP);
-    if (!relit && hindered) return false;
+    if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfView(job, _draw.leaves).empty())) return false;
     leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());
     const unsigned bit = _lightBits.front();
     _draw.clearLeftovers(bit);
@@ -192,13 +189,11 @@ void Compositor::replay(const Combination& combination, unsigned lightBits) {
     overlay.reference = combination.bits;
     overlay.test = lightBits;
     overlay.bounds = combination.bounds;
-    replay(leavesToReplay(_draw.leaves, combination.jobs, combination.bounds, ShadowBin::getFilter()), overlay,
-           combination.jobs);
+    replay(leavesToReplay(_draw.leaves, combination.jobs, combination.bounds), overlay, combination.jobs);
 }
 
 void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs) {
     overlay.unlit = jobs.front()->dark;
-    overlay.clusters = ShadowBin::getFilter();
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw.renderInfo, overlay);
     for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.dark);

@@ -2,6 +2,7 @@
 #include <gnomon/IndexClusters.h>
 #include <gnomon/LeafReplay.h>
 #include <gnomon/ScreenPass.h>
+#include <gnomon/ShadowBin.h>
 
 #include <osg/ColorMask>
 #include <osg/GLExtensions>
@@ -75,7 +76,7 @@ void LeafReplay::apply(const StageLeaf& entry) {
 /// Programs may move vertices to where no cluster's box is; a restarted strip's corners do not alternate from its start.
 bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry) {
     constexpr GLenum vertexProgram = 0x8620, restart = 0x8F9D, restartFixedIndex = 0x8D69;
-    return _overlay.clusters && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
+    return ShadowBin::getFilter() && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
            !_state.getLastAppliedMode(vertexProgram) && !_state.getLastAppliedMode(restart) &&
            !_state.getLastAppliedMode(restartFixedIndex) &&
            !_state.useVertexArrayObject(geometry.getUseVertexArrayObject());

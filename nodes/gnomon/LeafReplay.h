@@ -39,9 +39,8 @@ public:
         float factor = 1.0f;
         float unlit =
             0.5f; ///< Replace: a leaf that should lose a light and cannot is drawn in its own colour times this.
-        bool clusters = true; ///< draw only those clusters of a big geometry that touch `bounds`.
-        ScreenRect bounds{{-1.0, -1.0}, {1.0, 1.0}};
-        std::vector<LightUniform> lightUniforms; ///< by which programs read lights.
+        ScreenRect bounds{{-1.0, -1.0}, {1.0, 1.0}}; ///< nothing need be drawn outside.
+        std::vector<LightUniform> lightUniforms;     ///< by which programs read lights.
     };
 
     LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay);

@@ -54,8 +54,8 @@ ScreenRect common(const ScreenRect& a, const ScreenRect& b) {
 }
 
 std::vector<ReplayedLeaf> leavesToReplay(const std::vector<StageLeaf>& leaves,
-                                         const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds,
-                                         bool filter) {
+                                         const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds) {
+    const bool filter = ShadowBin::getFilter();
     PlainTest plain;
     TouchTest touches(bounds);
     const std::size_t last = filter ? lastReceiver(leaves, jobs, plain) : leaves.size();

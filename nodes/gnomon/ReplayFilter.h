@@ -19,8 +19,7 @@ struct ReplayedLeaf {
 /// is what one sees; then a plain leaf (see PlainTest) drawn after the last receiver cannot show there and is left out
 /// too.
 std::vector<ReplayedLeaf> leavesToReplay(const std::vector<StageLeaf>& leaves,
-                                         const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds,
-                                         bool filter);
+                                         const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds);
 
 /// Leaves that a nested camera lays over the view of a job: no shadow of that view falls on them.
 std::vector<ReplayedLeaf> notOfView(const ShadowJob& job, const std::vector<StageLeaf>& leaves);

@@ -36,8 +36,8 @@ CleanState::CleanState(osg::State& state, osg::Viewport* viewport) : _state(stat
 CleanState::~CleanState() { _state.popStateSet(); }
 
 ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
-                       const Channels& channels)
-    : _state(state), _channels(channels) {
+                       const std::vector<StageLeaf>& leaves)
+    : _state(state), _leaves(leaves) {
     const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
     const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
     glEnable(GL_SCISSOR_TEST);
@@ -111,7 +111,7 @@ void ScreenPass::writeFarDepth() {
 
 void ScreenPass::writeColor(const osg::Vec4& color) {
     glDisable(GL_BLEND);
-    glColorMask(_channels.red, _channels.green, _channels.blue, GL_TRUE);
+    openChannels(GL_TRUE);
     drawColor(color);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
@@ -122,7 +122,7 @@ void ScreenPass::multiplyColor(float factor) {
 }
 
 void ScreenPass::beginMultiply(float factor) {
-    glColorMask(_channels.red, _channels.green, _channels.blue, GL_FALSE);
+    openChannels(GL_FALSE);
     addBlended(_state, GL_ZERO, GL_CONSTANT_COLOR);
     _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
 }
@@ -146,8 +146,14 @@ void ScreenPass::multiplyAlpha() {
 
 void ScreenPass::multiplyColorByAlpha() {
     addBlended(_state, GL_ZERO, GL_DST_ALPHA);
-    glColorMask(_channels.red, _channels.green, _channels.blue, GL_FALSE);
+    openChannels(GL_FALSE);
     drawQuad();
+}
+
+/// Fewer than all in anaglyph stereo, for one.
+void ScreenPass::openChannels(GLboolean alpha) const {
+    const Channels channels = writtenChannels(_leaves);
+    glColorMask(channels.red, channels.green, channels.blue, alpha);
 }
 
 void ScreenPass::drawColor(const osg::Vec4& color) {

@@ -36,8 +36,9 @@ void addBlended(const osg::State& state, GLenum source, GLenum destination);
 /// Puts everything back at its end.
 class ScreenPass {
 public:
-    /// @param channels  that colours may be written to.
-    ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds, const Channels& channels);
+    /// @param leaves  what was drawn: colours are written to their channels only. Must outlive this.
+    ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
+               const std::vector<StageLeaf>& leaves);
     ~ScreenPass();
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;
@@ -67,10 +68,11 @@ public:
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
 
 private:
+    void openChannels(GLboolean alpha) const;
     void drawColor(const osg::Vec4& color);
 
     osg::State& _state;
-    const Channels _channels;
+    const std::vector<StageLeaf>& _leaves;
 };
 
 } // namespace gnomon

@@ -8,8 +8,6 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t mostLights = 3;
-
 template <typename Lights>
 unsigned bitsOf(const Lights& lights) {
     unsigned bits = 0;
@@ -25,13 +23,6 @@ Jobs jobsOf(const Lights& lights) {
         if (light.soft) jobs.push_back(light.soft);
     }
     return jobs;
-}
-
-LeafReplay::Overlay overlayFor(const ScreenRect& bounds) {
-    LeafReplay::Overlay overlay;
-    overlay.bounds = bounds;
-    overlay.clusters = ShadowBin::getFilter();
-    return overlay;
 }
 
 void report(const Jobs& jobs, const std::string& cause) {
@@ -57,7 +48,7 @@ void SoftCompositor::relight(const Jobs& wanted) const {
     if (jobs.empty()) return;
     const ScreenRect bounds = boundsOf(jobs);
     mark(lights);
-    Leaves leaves = leavesToReplay(_draw.leaves, jobs, bounds, ShadowBin::getFilter());
+    Leaves leaves = leavesToReplay(_draw.leaves, jobs, bounds);
     const Leaves aside = setAside(leaves, jobs);
     if (!aside.empty()) darkenAside(aside, lights, jobs);
     mix(leaves, lights, jobs);
@@ -83,7 +74,7 @@ SoftCompositor::Lights SoftCompositor::lightsOf(const Jobs& wanted) const {
             report({job}, "has hard edges beside another technique with soft ones of the same light.");
         }
     }
-    for (; lights.size() > mostLights; lights.pop_back())
+    for (; lights.size() > mostRelitLights; lights.pop_back())
         report(jobsOf(Lights{lights.back()}), "leaves light " + std::to_string(lights.back().number) +
                                                   " unshadowed: at most three lights can be relit here; blend takes "
                                                   "any number.");
@@ -182,7 +173,8 @@ void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned
     if (!overlap(bounds, bounds)) return;
     const bool single = lights.size() == 1;
     weigh(lights, single ? 0 : lost, bounds);
-    LeafReplay::Overlay overlay = overlayFor(bounds);
+    LeafReplay::Overlay overlay;
+    overlay.bounds = bounds;
     for (std::size_t i = 0; i < lights.size(); ++i)
         if ((lost & (1u << i)) && !lights[i].isMixed()) overlay.test |= lights[i].bits();
     overlay.stencilFunction =

@@ -7,12 +7,7 @@
 namespace gnomon {
 
 StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<StageLeaf> before, bool isClean)
-    : renderInfo(info),
-      state(*info.getState()),
-      stage(drawn),
-      leaves(std::move(before)),
-      channels(writtenChannels(leaves)),
-      clean(isClean) {
+    : renderInfo(info), state(*info.getState()), stage(drawn), leaves(std::move(before)), clean(isClean) {
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
     glGetIntegerv(GL_ALPHA_BITS, &alpha);

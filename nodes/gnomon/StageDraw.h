@@ -21,7 +21,7 @@ public:
     template <typename Step>
     void pass(const ScreenRect& bounds, Step step) const {
         CleanState cleanState(state, stage.getViewport());
-        ScreenPass screen(state, *stage.getViewport(), bounds, channels);
+        ScreenPass screen(state, *stage.getViewport(), bounds, leaves);
         step(screen);
     }
     void clear(unsigned stencil, const ScreenRect& bounds) const;
@@ -32,7 +32,6 @@ public:
     osg::State& state;
     osgUtil::RenderStage& stage;
     const std::vector<StageLeaf> leaves;
-    const Channels channels; ///< that the leaves write.
     const bool clean;
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.

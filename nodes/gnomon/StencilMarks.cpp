@@ -28,7 +28,6 @@ void writeWhereSeen(const StageDraw& draw, const std::vector<ReplayedLeaf>& leav
         overlay.equalDepth = equal;
         overlay.keepDepth = true;
         overlay.bounds = bounds;
-        overlay.clusters = ShadowBin::getFilter();
         LeafReplay replay(draw.renderInfo, overlay);
         for (const ReplayedLeaf& leaf : leaves)
             if (opaque(*leaf.entry.leaf) == equal) replay.draw(leaf.entry);
@@ -71,7 +70,6 @@ void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
     overlay.equalDepth = true;
     overlay.color = LeafReplay::Color::None;
     overlay.bounds = job.marks->screenBounds;
-    overlay.clusters = ShadowBin::getFilter();
     LeafReplay replay(_draw.renderInfo, overlay);
     TouchTest touches(job.marks->screenBounds);
     for (const StageLeaf& entry : _draw.leaves)

@@ -10,6 +10,9 @@ namespace gnomon {
 
 using Jobs = std::vector<const ShadowJob*>;
 
+/// Each further light doubles the passes.
+constexpr std::size_t mostRelitLights = 3;
+
 /// Where all the jobs' marks can fall.
 ScreenRect boundsOf(const Jobs& jobs);
 /// Those of all the jobs' groups.

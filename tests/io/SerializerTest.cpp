@@ -42,6 +42,18 @@ class SceneFile : public testing::TestWithParam<const char*> {
 protected:
     static void SetUpTestSuite() { test::usePluginsOfThisBuild(); }
     std::string kind() const { return GetParam(); }
+
+    /// The scene's group is given its light; through a file and back it must look the same, shadow and all.
+    void expectSamePictureOnceLoaded(test::Scene& scene) const {
+        scene.group->addLight(scene.light);
+        const auto copy = test::throughFile(*scene.root, kind());
+        ASSERT_TRUE(copy);
+        const test::View view = test::perspective({-6.0, -8.0, 8.0}, {0.0, 0.0, 0.0});
+        const test::Picture before = test::render(scene.root, view);
+        EXPECT_EQ(test::render(copy, view).different(before), 0);
+        scene.group->removeChild(1);
+        EXPECT_GT(test::render(scene.root, view).different(before), 500) << "there is no shadow to compare";
+    }
 };
 INSTANTIATE_TEST_SUITE_P(EveryKind, SceneFile, testing::Values("osgt", "osgb", "osgx"),
                          [](const auto& test) { return std::string(test.param); });
@@ -198,19 +210,11 @@ TEST_P(SceneFile, LoadsDefaultsAsDefaults) {
 }
 
 TEST_P(SceneFile, DrawsTheSamePictureOnceLoaded) {
-    const osg::Vec4d sun(1.0, 0.3, 1.0, 0.0);
-    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, sun);
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
     scene.addShadow(test::planar(test::find(*scene.content, "ground")));
     scene.group->setComposite(ShadowCasterGroup::BLEND);
     scene.group->setDark(0.3f);
-    scene.group->addLight(scene.light);
-    const auto copy = test::throughFile(*scene.root, kind());
-    ASSERT_TRUE(copy);
-    const test::View view = test::perspective({-6.0, -8.0, 8.0}, {0.0, 0.0, 0.0});
-    const test::Picture before = test::render(scene.root, view);
-    EXPECT_EQ(test::render(copy, view).different(before), 0);
-    scene.group->removeChild(1);
-    EXPECT_GT(test::render(scene.root, view).different(before), 500) << "there is no shadow to compare";
+    expectSamePictureOnceLoaded(scene);
 }
 
 TEST_P(SceneFile, DrawsTheSameTracedPictureOnceLoaded) {
@@ -218,14 +222,7 @@ TEST_P(SceneFile, DrawsTheSameTracedPictureOnceLoaded) {
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     technique->setReceiver({test::find(*scene.content, "ground")});
     scene.addShadow(technique);
-    scene.group->addLight(scene.light);
-    const auto copy = test::throughFile(*scene.root, kind());
-    ASSERT_TRUE(copy);
-    const test::View view = test::perspective({-6.0, -8.0, 8.0}, {0.0, 0.0, 0.0});
-    const test::Picture before = test::render(scene.root, view);
-    EXPECT_EQ(test::render(copy, view).different(before), 0);
-    scene.group->removeChild(1);
-    EXPECT_GT(test::render(scene.root, view).different(before), 500) << "there is no shadow to compare";
+    expectSamePictureOnceLoaded(scene);
 }
 
 TEST(SceneFileText, SaysNothingOfDefaults) {

@@ -130,6 +130,12 @@ protected:
 
     /// From planar shadows on through the other techniques, of which there is one, to none; from there n leads back.
     Screenshot withoutShadow() { return pressed("n", 2); }
+    /// The first picture without its shadow, which n then brings back.
+    Screenshot glimpseWithoutShadow() {
+        const Screenshot none = withoutShadow();
+        expectAfter("n", first);
+        return none;
+    }
 
     TemporaryFolder folder;
     Desktop desktop{folder.path()};
@@ -158,8 +164,7 @@ TEST_F(Viewer, StartsWithoutShadowUnlessAskedForOne) {
 
 TEST_F(Viewer, RelightAndBlendDifferInShadowPixelsOnly) {
     start();
-    const Pixels shadow = changed(first, withoutShadow());
-    expectAfter("n", first);
+    const Pixels shadow = changed(first, glimpseWithoutShadow());
     const Pixels differ = changed(first, pressed("r"));
     EXPECT_GT(count(differ), count(shadow) / 2);
     EXPECT_EQ(beyond(differ, shadow), 0);
@@ -195,8 +200,7 @@ TEST_F(Viewer, JKUDMoveTheLightAndItsShadow) {
 
 TEST_F(Viewer, XShowsDoubleDarkeningOfTheGround) {
     start();
-    const Screenshot none = withoutShadow();
-    expectAfter("n", first);
+    const Screenshot none = glimpseWithoutShadow();
     const Pixels shadow = changed(first, none);
     const Screenshot off = pressed("x");
     int twice = 0;
@@ -211,8 +215,7 @@ TEST_F(Viewer, XShowsDoubleDarkeningOfTheGround) {
 
 TEST_F(Viewer, OShowsTheFightWithTheGround) {
     start();
-    const Pixels shadow = changed(first, withoutShadow());
-    expectAfter("n", first);
+    const Pixels shadow = changed(first, glimpseWithoutShadow());
     const Pixels lit = changed(first, pressed("o"));
     EXPECT_GT(count(lit), count(shadow) / 20);
     EXPECT_LT(count(lit), count(shadow) * 19 / 20);
@@ -222,8 +225,7 @@ TEST_F(Viewer, OShowsTheFightWithTheGround) {
 
 TEST_F(Viewer, PShowsTheAntiShadowOfWhatIsUnderground) {
     start();
-    const Screenshot none = withoutShadow();
-    expectAfter("n", first);
+    const Screenshot none = glimpseWithoutShadow();
     const Pixels anti = changed(first, pressed("p"));
     EXPECT_GT(count(anti), 30); // the sphere's lowest quarter is under the ground, and the sphere hides most of it
     EXPECT_EQ(beyond(changed(first, none), anti), count(changed(first, none))) << "lit before";

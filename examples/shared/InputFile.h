@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osgDB/Registry>
+
+#include <string>
+
+namespace gnomon::examples {
+
+/// What a file is to hold, in words.
+struct FileKind {
+    const char* article; ///< "a scene"
+    const char* formats; ///< "obj, osgt, …"
+};
+
+std::string quoted(const std::string& file);
+/// That the file cannot be read as what it is to hold.
+std::string damagedSentence(const std::string& file, const FileKind& kind);
+
+/// Reads by one of osgDB::Registry's methods, -O options included. A reader that crashes on a damaged file ends the
+/// program with the damaged file's sentence and status 1.
+/// @return an object, of whatever class.
+/// @throws std::runtime_error, one sentence, for a file that is missing, a directory, damaged or of another type.
+using ReadResult = osgDB::ReaderWriter::ReadResult;
+using ReadMethod = ReadResult (*)(osgDB::Registry& registry, const std::string& file);
+ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, ReadMethod read);
+
+} // namespace gnomon::examples
