@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/metrics/ShadowMetrics.h>
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// Milliseconds a frame beyond the same frame without shadows, measured in turns with it.
+struct AddedTime {
+    double q1 = 0.0, median = 0.0, q3 = 0.0;
+};
+
+/// What shadows cost: wall time, and processor time over all threads.
+struct ChartCost {
+    double first = 0.0;                    ///< ms, wall, first frame beyond the first frame without shadows.
+    AddedTime steadyWall, steadyProcessor; ///< the camera moves, nothing else.
+    AddedTime movingWall, movingProcessor; ///< the light moves.
+    double memory = 0.0;                   ///< MiB beyond the scene without shadows, where it can be told.
+    unsigned draws = 0, passes = 0;        ///< a steady frame: drawables drawn; passes over casters or receivers.
+};
+
+/// One technique at one setting in one scene.
+struct ChartPoint {
+    std::string scene;     ///< ChartScene::name.
+    std::string kit;       ///< "Gnomon" or "osgShadow".
+    std::string technique; ///< curve's name: "planar", "ShadowMap", …
+    std::string setting;   ///< the point on the curve: "size 1024", "defaults", "best".
+    std::vector<std::pair<std::string, std::string>> settings; ///< all that differ from the technique's own defaults.
+    std::optional<ChartCost> cost;
+    std::optional<metrics::ShadowMetrics> errors;
+    std::optional<double> shadedRmse; ///< of the shaded picture against the traced one, linear, 0 to 1.
+    std::optional<double> flickerEnergy, flickerShare, crawl; ///< see metrics::FlickerMeter.
+    std::string picture, overlay;   ///< PNG files, relative to the results' folder; may be empty.
+    std::vector<std::string> notes; ///< diagnosis, complaints of OpenGL.
+    std::string failure;            ///< one sentence if it could not be measured; else empty.
+
+    /// It failed, or its picture is catastrophic.
+    bool catastrophic() const { return !failure.empty() || (errors && errors->catastrophes.any()); }
+};
+
+struct ChartSceneResult {
+    std::string name, title;
+    std::size_t triangles = 0;
+    double misclassifiedFloor = 0.0;                       ///< share; what one perfect ray a pixel gets wrong.
+    std::optional<double> boundaryFloor;                   ///< px, 95th percentile of the same.
+    double frame = 0.0;                                    ///< ms, wall, median of a frame without shadows.
+    std::string truthPicture;                              ///< PNG, relative to the results' folder.
+    std::vector<std::pair<std::string, std::string>> view; ///< light, camera, size, as gnomonshot's options take them.
+};
+
+struct ChartResults {
+    std::vector<std::pair<std::string, std::string>> made; ///< command, date, versions, renderer, processor, load …
+    bool complete = false;                                 ///< false: interrupted, or still under way.
+    std::vector<ChartSceneResult> scenes;
+    std::vector<ChartPoint> points;
+};
+
+} // namespace gnomon::examples
