@@ -16,9 +16,9 @@ class TracedCasters;
 /// Where surfaces are is read from the depth buffer, so that whatever draws, shaders and all, receives; see depthShadow()
 /// for how a depth's own error is kept from showing.
 ///
-/// Cost    0.15 to 0.3 µs of one core a pixel within the casters' and shadows' bounds, on all cores, and reading the depth
-///         buffer; whenever the casters change, a tree over them: 0.5 to 1 µs a triangle. No draw of any geometry, but
-///         the compositor's. Building for more than a second tells its progress on stderr, if that is a terminal.
+/// Cost    0.1 to 0.35 µs of one core a pixel within the casters' and shadows' bounds, on all cores, and reading the depth
+///         buffer; whenever the casters change, a tree over them: 0.6 to 0.8 µs a triangle, see RayScene. No draw of any
+///         geometry, but the compositor's. Building for more than a second tells its progress on stderr, if that is a terminal.
 /// Needs   Embree, a depth buffer that can be read; 1 stencil bit a light, 1 more where a receiver is named.
 /// Limits  a sample a pixel, hard edges. Facets, not smoothed normals, decide what is turned away from the light: low-poly
 ///         models show them near the terminator. Alpha-tested casters cast as if they were solid. Not in multisampled

@@ -43,7 +43,9 @@ struct RayHit {
 /// Embree traverses in single precision about the scene's origin; the distance that is returned is then worked out in
 /// double from the ray and the triangle's plane, so that a hit point is as good as the ray.
 ///
-/// Cost    building: 0.5 to 1 µs a triangle, about 150 bytes a triangle; a ray: well under a microsecond.
+/// Cost    building, of one core: 0.57 µs a triangle of a terrain of 3,000,000, 0.76 of a town of as many; 90 bytes a
+///         triangle where corners are shared, 120 where each triangle has three of its own, 30 more while building. A ray:
+///         0.1 to 0.35 µs of one core.
 /// Needs   Embree 3 (libembree3) on x86-64 with SSE2, or ARM.
 /// Limits  a ray is decided with an error of some 10⁻⁶ of the distance between ray and origin: what is thinner is hit or
 ///         missed by chance, and so is a surface that the ray starts on; see lifted(). Triangles of no area, with

@@ -53,7 +53,8 @@ struct TruthImage {
 /// @param seen     what is looked at, receivers and casters alike.
 /// @param casters  what blocks light; may be the same scene. With a frame of rays in common.
 ///
-/// Cost    34 rays a pixel: about 4 s for a megapixel of a town, on 2 cores.
+/// Cost    34 rays a pixel: for a megapixel 3.5 s on 2 cores in a town of 3,000,000 triangles, 2 s over a sphere, 4.3 s on
+///         a terrain.
 /// Limits  those of RayScene: what is thinner than 2·10⁻⁵ of the coordinates about the scene's origin, or stands nearer to
 ///         a surface than that, is lost. Geometric normals: a facet near the terminator is in its own mesh's shadow where
 ///         a smooth shading would light it.
