@@ -81,6 +81,8 @@ RTCIntersectContext context() {
 struct RayScene::Embree {
     ~Embree() { rtcReleaseScene(scene); }
 
+    static void passThroughHoles(const RTCFilterFunctionNArguments* arguments);
+
     void take(const TriangleSoup& soup);
     void commit(const Progress& progress);
     RTCRay ray(const Ray& ray) const;
@@ -92,13 +94,23 @@ struct RayScene::Embree {
     const glm::vec3* vertices = nullptr; ///< Embree's own copy.
     const unsigned* indices = nullptr;   ///< the same; only of triangles that are kept.
     std::vector<unsigned> kept;          ///< for each of them, its place among those given.
+    std::function<bool(unsigned, double, double)> solidAt;
     std::size_t leftOut = 0;
     double reach = 0.0;
 };
 
+/// Embree asks it of each hit that it finds; single rays only are cast, so that N is 1.
+void RayScene::Embree::passThroughHoles(const RTCFilterFunctionNArguments* arguments) {
+    const Embree& self = *static_cast<const Embree*>(arguments->geometryUserPtr);
+    const unsigned triangle = self.kept[RTCHitN_primID(arguments->hit, arguments->N, 0)];
+    const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
+    if (!self.solidAt(triangle, double(u), double(v))) arguments->valid[0] = 0;
+}
+
 /// Copies what is usable.
 void RayScene::Embree::take(const TriangleSoup& soup) {
     origin = soup.origin;
+    solidAt = soup.solidAt;
     kept.reserve(soup.indexCount / 3);
     for (std::size_t i = 0; i + 2 < soup.indexCount; i += 3)
         if (isTriangle(soup, soup.indices + i)) kept.push_back(static_cast<unsigned>(i / 3));
@@ -115,6 +127,11 @@ void RayScene::Embree::take(const TriangleSoup& soup) {
             std::copy_n(soup.indices + 3 * std::size_t{kept[i]}, 3, corners + 3 * i);
         vertices = points;
         indices = corners;
+        if (solidAt) {
+            rtcSetGeometryUserData(geometry, this);
+            rtcSetGeometryIntersectFilterFunction(geometry, passThroughHoles);
+            rtcSetGeometryOccludedFilterFunction(geometry, passThroughHoles);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
     }

@@ -16,6 +16,10 @@ struct TriangleSoup {
     const unsigned* indices = nullptr; ///< three a triangle.
     std::size_t indexCount = 0;
     glm::dvec3 origin{0.0}; ///< in the frame of the rays; near the middle of the triangles, for precision.
+    /// Whether a triangle, by its place among those given, is there at a point: `u` and `v` are the point's barycentric
+    /// weights of the second and third corner. Rays go on through what is not. Empty: all is solid. Kept as long as the
+    /// scene, and asked by any thread that casts rays.
+    std::function<bool(unsigned triangle, double u, double v)> solidAt{};
 };
 
 /// A ray, or with reach 1 the line from `start` to `start + along`.

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "Cutout.h"
+
+#include <osg/Node>
+#include <osg/State>
+
+#include <cmath>
+
+namespace gnomon::examples {
+namespace {
+
+bool isOn(const osg::State::ModeMap& modes, GLenum mode) {
+    const auto found = modes.find(mode);
+    return found != modes.end() && !found->second.valueVec.empty() &&
+           (found->second.valueVec.back() & osg::StateAttribute::ON);
+}
+
+const osg::StateAttribute* attribute(const osg::State::AttributeMap& attributes, osg::StateAttribute::Type type) {
+    const auto found = attributes.find({type, 0});
+    if (found == attributes.end() || found->second.attributeVec.empty()) return nullptr;
+    return found->second.attributeVec.back().first;
+}
+
+const osg::AlphaFunc* alphaTest(const osg::State& state) {
+    if (!isOn(state.getModeMap(), GL_ALPHA_TEST)) return nullptr;
+    return dynamic_cast<const osg::AlphaFunc*>(attribute(state.getAttributeMap(), osg::StateAttribute::ALPHAFUNC));
+}
+
+const osg::Texture2D* texture(const osg::State& state) {
+    const auto& modes = state.getTextureModeMapList();
+    const auto& attributes = state.getTextureAttributeMapList();
+    if (modes.empty() || attributes.empty() || !isOn(modes.front(), GL_TEXTURE_2D)) return nullptr;
+    return dynamic_cast<const osg::Texture2D*>(attribute(attributes.front(), osg::StateAttribute::TEXTURE));
+}
+
+/// OpenSceneGraph's own rules of inheritance; nothing is sent to OpenGL.
+void push(osg::State& state, const osg::NodePath& path, const osg::Drawable& drawable) {
+    for (const osg::Node* node : path)
+        if (node != &drawable && node->getStateSet()) state.pushStateSet(node->getStateSet());
+    if (drawable.getStateSet()) state.pushStateSet(drawable.getStateSet());
+}
+
+bool passes(osg::AlphaFunc::ComparisonFunction how, double alpha, double reference) {
+    switch (how) {
+    case osg::AlphaFunc::NEVER:
+        return false;
+    case osg::AlphaFunc::LESS:
+        return alpha < reference;
+    case osg::AlphaFunc::EQUAL:
+        return alpha == reference;
+    case osg::AlphaFunc::LEQUAL:
+        return alpha <= reference;
+    case osg::AlphaFunc::GREATER:
+        return alpha > reference;
+    case osg::AlphaFunc::NOTEQUAL:
+        return alpha != reference;
+    case osg::AlphaFunc::GEQUAL:
+        return alpha >= reference;
+    default:
+        return true;
+    }
+}
+
+int wrapped(int texel, int size, osg::Texture::WrapMode how) {
+    const int turn = ((texel % size) + size) % size;
+    if (how == osg::Texture::REPEAT) return turn;
+    if (how == osg::Texture::MIRROR) return ((texel - turn) / size) % 2 ? size - 1 - turn : turn;
+    return std::min(std::max(texel, 0), size - 1);
+}
+
+} // namespace
+
+std::optional<Cutout> Cutout::of(const osg::NodePath& path, const osg::Drawable& drawable) {
+    const osg::ref_ptr<osg::State> state = new osg::State;
+    push(*state, path, drawable);
+    const osg::AlphaFunc* test = alphaTest(*state);
+    const osg::Texture2D* image = texture(*state);
+    if (!test || test->getFunction() == osg::AlphaFunc::ALWAYS || !image || !image->getImage() ||
+        !image->getImage()->data())
+        return std::nullopt;
+    return Cutout(*test, *image);
+}
+
+Cutout::Cutout(const osg::AlphaFunc& test, const osg::Texture2D& texture)
+    : _test(&test), _texture(&texture), _image(texture.getImage()) {}
+
+double Cutout::alphaOf(int column, int row) const {
+    const auto s = static_cast<unsigned>(wrapped(column, _image->s(), _texture->getWrap(osg::Texture::WRAP_S)));
+    const auto t = static_cast<unsigned>(wrapped(row, _image->t(), _texture->getWrap(osg::Texture::WRAP_T)));
+    return double(_image->getColor(s, t).a());
+}
+
+/// As the texture's own filter for magnification mixes texels.
+double Cutout::alphaAt(const osg::Vec2d& texcoord) const {
+    const double s = texcoord.x() * _image->s(), t = texcoord.y() * _image->t();
+    if (_texture->getFilter(osg::Texture::MAG_FILTER) == osg::Texture::NEAREST)
+        return alphaOf(static_cast<int>(std::floor(s)), static_cast<int>(std::floor(t)));
+    const double left = std::floor(s - 0.5), low = std::floor(t - 0.5), x = s - 0.5 - left, y = t - 0.5 - low;
+    const int column = static_cast<int>(left), row = static_cast<int>(low);
+    return (1.0 - y) * ((1.0 - x) * alphaOf(column, row) + x * alphaOf(column + 1, row)) +
+           y * ((1.0 - x) * alphaOf(column, row + 1) + x * alphaOf(column + 1, row + 1));
+}
+
+bool Cutout::keeps(const osg::Vec2d& texcoord) const {
+    return passes(_test->getFunction(), alphaAt(texcoord), double(_test->getReferenceValue()));
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "SceneTruth.h"
+#include "SceneTriangles.h"
+
+#include <gnomon/Convert.h>
+#include <gnomon/HeadlessContext.h>
+#include <gnomon/ShadowTruth.h>
+
+#include <osg/BoundingBox>
+#include <osgViewer/Viewer>
+
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+using metrics::Grid;
+using metrics::Picture;
+
+constexpr double discDegrees = 0.533; // the sun's, seen from the Earth
+constexpr int discStrata = 4;         // a side: 16 rays for each of a pixel's 16
+
+bool isFinite(const osg::Vec3d& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
+
+osg::Vec3d middleOf(const SceneTriangles& triangles) {
+    osg::BoundingBoxd bounds;
+    for (const unsigned corner : triangles.indices)
+        if (isFinite(triangles.vertices[corner])) bounds.expandBy(triangles.vertices[corner]);
+    if (!bounds.valid()) throw std::runtime_error("there is no truth about the scene: it has no triangles.");
+    return bounds.center();
+}
+
+std::unique_ptr<RayScene> treeOf(const SceneTriangles& triangles, const osg::Vec3d& origin) {
+    std::vector<glm::vec3> vertices;
+    vertices.reserve(triangles.vertices.size());
+    for (const osg::Vec3d& v : triangles.vertices) vertices.push_back(glm::vec3(toGlm(v - origin)));
+    TriangleSoup soup;
+    soup.vertices = vertices.data();
+    soup.vertexCount = vertices.size();
+    soup.indices = triangles.indices.data();
+    soup.indexCount = triangles.indices.size();
+    if (triangles.hasCutouts())
+        soup.solidAt = [&triangles](unsigned triangle, double u, double v) {
+            return triangles.solidAt(triangle, u, v);
+        };
+    return std::make_unique<RayScene>(soup);
+}
+
+/// What the scene's own state draws where, told by its depth alone.
+class DepthCamera {
+public:
+    DepthCamera(osg::Node& scene, const SceneCamera& camera) : _context(camera.width, camera.height) {
+        _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
+        _context.attach(*_viewer.getCamera());
+        _viewer.getCamera()->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+        _viewer.getCamera()->setProjectionMatrix(camera.projection);
+        _viewer.getCamera()->setViewMatrix(camera.view);
+        _viewer.setSceneData(&scene);
+    }
+    osg::ref_ptr<osg::Image> depth() {
+        _viewer.frame();
+        return _context.depth();
+    }
+
+private:
+    HeadlessContext _context; // before the viewer: it must outlive it
+    osgViewer::Viewer _viewer;
+};
+
+/// Window depth of a surface at a pixel's centre, and how far it may be off where that very surface is drawn.
+struct Depth {
+    double value = 0.0, tolerance = 0.0;
+};
+
+/// A plane is a plane in clip space too, so that its depth is linear over the screen. Half a pixel for where the
+/// rasteriser takes a sample and rounds corners to, eight steps of a 24-bit buffer for its float arithmetic.
+Depth depthOf(const TruthPixel& pixel, const TruthView& view, const glm::dmat4& worldFromClip) {
+    const glm::dvec4 clip = view.clipFromWorld * glm::dvec4(pixel.position, 1.0);
+    const glm::dvec4 plane =
+        glm::transpose(worldFromClip) * glm::dvec4(pixel.normal, -glm::dot(pixel.normal, pixel.position));
+    const double across = std::abs(plane.x / plane.z) / view.width, up = std::abs(plane.y / plane.z) / view.height;
+    return {0.5 + 0.5 * clip.z / clip.w, 0.5 * (across + up) + std::ldexp(8.0, -24)};
+}
+
+/// The truth's receivers, but 0 where something else than they is drawn.
+Grid<int> drawnIds(const TruthImage& truth, const Grid<int>& receiver, const TruthView& view, const osg::Image& depth) {
+    const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
+    Grid<int> drawn(truth.width, truth.height);
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) {
+            if (!truth.at(x, y).seen()) continue;
+            const Depth expected = depthOf(truth.at(x, y), view, worldFromClip);
+            const float* actual = reinterpret_cast<const float*>(depth.data(unsigned(x), unsigned(y)));
+            if (std::abs(double(*actual) - expected.value) <= expected.tolerance) drawn.at(x, y) = receiver.at(x, y);
+        }
+    return drawn;
+}
+
+metrics::TruthMaps emptyMaps(int width, int height) {
+    metrics::TruthMaps maps;
+    maps.lit = maps.blockerDistance = maps.facing = maps.edgeLength = Picture(width, height);
+    maps.litCentre = metrics::Mask(width, height);
+    maps.receiver = maps.blocker = Grid<int>(width, height);
+    maps.position = Grid<glm::dvec3>(width, height);
+    return maps;
+}
+
+/// Ids of objects from 1, 0 is none.
+int idOf(const SceneTriangles& triangles, unsigned triangle) {
+    return triangle == RayHit::none ? 0 : static_cast<int>(triangles.object[triangle]) + 1;
+}
+
+metrics::TruthMaps mapsOf(const TruthImage& truth, const SceneTriangles& triangles) {
+    metrics::TruthMaps maps = emptyMaps(truth.width, truth.height);
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+        const TruthPixel& pixel = truth.pixels[i];
+        maps.lit.cells[i] = double(pixel.lit);
+        if (!pixel.seen()) continue;
+        maps.litCentre.cells[i] = pixel.litCentre;
+        maps.blockerDistance.cells[i] = pixel.blockerDistance;
+        maps.receiver.cells[i] = idOf(triangles, pixel.receiver);
+        maps.blocker.cells[i] = idOf(triangles, pixel.blocker);
+        maps.facing.cells[i] = pixel.facing;
+        maps.edgeLength.cells[i] = triangles.longestEdge(pixel.receiver);
+        maps.position.cells[i] = pixel.position;
+    }
+    return maps;
+}
+
+} // namespace
+
+struct SceneTruth::Parts {
+    explicit Parts(osg::Node& node)
+        : scene(&node), triangles(sceneTriangles(node)), origin(middleOf(triangles)), tree(treeOf(triangles, origin)) {}
+
+    TruthView view(const SceneCamera& camera, const osg::Vec4d& light) const {
+        const osg::Vec4d local(light - osg::Vec4d(origin * light.w(), 0.0));
+        return {toGlm(osg::Matrixd::translate(origin) * camera.view * camera.projection), camera.width, camera.height,
+                toGlm(local)};
+    }
+
+    const osg::ref_ptr<osg::Node> scene;
+    const SceneTriangles triangles;
+    const osg::Vec3d origin;
+    const std::unique_ptr<RayScene> tree;
+};
+
+SceneTruth::SceneTruth(osg::Node& scene) : _parts(new Parts(scene)) {}
+SceneTruth::~SceneTruth() = default;
+
+metrics::TruthMaps SceneTruth::maps(const SceneCamera& camera, const osg::Vec4d& light) const {
+    const TruthView view = _parts->view(camera, light);
+    const TruthImage truth = shadowTruth(*_parts->tree, *_parts->tree, view);
+    metrics::TruthMaps maps = mapsOf(truth, _parts->triangles);
+    maps.drawn = drawnIds(truth, maps.receiver, view, *DepthCamera(*_parts->scene, camera).depth());
+    if (light.w() == 0.0) maps.towardsLight = {light.x(), light.y(), light.z()};
+    return maps;
+}
+
+metrics::Picture SceneTruth::litByDisc(const SceneCamera& camera, const osg::Vec4d& light) const {
+    const RayScene& tree = *_parts->tree;
+    const TruthImage truth = softShadowTruth(tree, tree, _parts->view(camera, light), discDegrees, discStrata);
+    metrics::Picture result(truth.width, truth.height);
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i) result.cells[i] = double(truth.pixels[i].lit);
+    return result;
+}
+
+osg::Vec3d SceneTruth::origin() const { return _parts->origin; }
+std::size_t SceneTruth::triangles() const { return _parts->triangles.count(); }
+
+} // namespace gnomon::examples

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+// The truth of a scene graph: objects, transforms, alpha tests, what is drawn; and techniques against it on real models.
+#include <SceneTruth.h>
+#include <support/Picture.h>
+#include <support/Scene.h>
+
+#include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/metrics/PixelSets.h>
+#include <gtest/gtest.h>
+#include <osg/AlphaFunc>
+#include <osg/Camera>
+#include <osg/ComputeBoundsVisitor>
+#include <osg/Geometry>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/Texture2D>
+#include <osgDB/ReadFile>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+using gnomon::examples::SceneCamera;
+using gnomon::examples::SceneTruth;
+using gnomon::metrics::TruthMaps;
+
+namespace {
+
+SceneCamera cameraOf(const test::View& view) { return {view.view, view.projection, view.width, view.height}; }
+
+/// Pixels of an object.
+int count(const gnomon::metrics::Grid<int>& ids, int id) {
+    return static_cast<int>(std::count(ids.cells.begin(), ids.cells.end(), id));
+}
+
+/// A ground of half side 4 and, 2 above it, a lid of half side 1 given as one of 2 under a transform that halves it.
+osg::ref_ptr<osg::Group> lidOverGround(const osg::Vec3d& at = {}) {
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(at));
+    place->addChild(test::node(test::square(4.0), "ground"));
+    osg::ref_ptr<osg::MatrixTransform> half =
+        new osg::MatrixTransform(osg::Matrixd::scale(0.5, 0.5, 0.5) * osg::Matrixd::translate(0.0, 0.0, 2.0));
+    half->addChild(test::node(test::square(2.0), "lid"));
+    place->addChild(half);
+    return place;
+}
+
+TEST(SceneTruth, KnowsObjectsUnderTransformsWhatBlocksThemAndHowFarAway) {
+    const SceneTruth truth(*lidOverGround());
+    EXPECT_EQ(truth.triangles(), 4u);
+    const TruthMaps maps = truth.maps(cameraOf(test::fromAbove(4.0, 160)), {2.0, 0.0, 2.0, 0.0});
+    // From above the lid covers 40 x 40 px of 160 x 160; its shadow, a square of its size, falls 2 to the left.
+    EXPECT_EQ(count(maps.receiver, 1), 160 * 160 - 40 * 40);
+    EXPECT_EQ(count(maps.receiver, 2), 40 * 40);
+    EXPECT_EQ(count(maps.blocker, 2), 40 * 40) << "40 × 40 px two to the left, beside the lid as it is seen";
+    for (int y = 0; y < 160; ++y)
+        for (int x = 0; x < 160; ++x) {
+            const bool shadow = x >= 20 && x < 60 && y >= 60 && y < 100;
+            ASSERT_EQ(maps.litCentre.at(x, y) == 0, shadow) << x << ", " << y;
+            ASSERT_EQ(maps.lit.at(x, y), shadow ? 0.0 : 1.0) << x << ", " << y;
+            ASSERT_NEAR(maps.blockerDistance.at(x, y), shadow ? std::sqrt(8.0) : 0.0, 1e-2) << "the start is lifted";
+            ASSERT_NEAR(maps.facing.at(x, y), std::sqrt(0.5), 1e-9);
+        }
+    EXPECT_NEAR(maps.edgeLength.at(80, 80), std::sqrt(8.0), 1e-6) << "the lid's diagonal, as it stands in the world";
+    EXPECT_NEAR(maps.position.at(80, 80).z + truth.origin().z(), 2.0, 1e-6);
+}
+
+TEST(SceneTruth, FindsEveryPixelDrawnAsItIsTrueButWhereItSeesSomethingElse) {
+    const test::View view = test::perspective({-5.0, -7.0, 5.0}, {0.0, 0.0, 0.5}, 320, 240);
+    osg::ref_ptr<osg::Group> scene = lidOverGround();
+    const TruthMaps plain = SceneTruth(*scene).maps(cameraOf(view), {1.0, 0.0, 2.0, 0.0});
+    int seen = 0, other = 0;
+    for (std::size_t i = 0; i < plain.receiver.cells.size(); ++i) {
+        seen += plain.receiver.cells[i] != 0;
+        other += plain.receiver.cells[i] != plain.drawn.cells[i];
+    }
+    EXPECT_GT(seen, 20000);
+    EXPECT_LT(other, 20) << "silhouettes, where the rasteriser decides";
+
+    osg::ref_ptr<osg::Camera> unseen = new osg::Camera; // drawn, and no part of the truth
+    unseen->setReferenceFrame(osg::Transform::RELATIVE_RF);
+    unseen->setRenderOrder(osg::Camera::NESTED_RENDER);
+    unseen->addChild(test::node(test::quad({-0.5, -2.0, 0.5}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0})));
+    scene->addChild(unseen);
+    const TruthMaps hidden = SceneTruth(*scene).maps(cameraOf(view), {1.0, 0.0, 2.0, 0.0});
+    scene->removeChild(unseen);
+    scene->addChild(unseen->getChild(0)); // now as an object of its own: where it is seen is known
+    const TruthMaps third = SceneTruth(*scene).maps(cameraOf(view), {1.0, 0.0, 2.0, 0.0});
+    int covered = 0, wrong = 0;
+    for (std::size_t i = 0; i < hidden.drawn.cells.size(); ++i) {
+        const bool cover = third.receiver.cells[i] == 3;
+        covered += cover;
+        wrong += (hidden.drawn.cells[i] != hidden.receiver.cells[i]) != cover;
+    }
+    EXPECT_GT(covered, 500);
+    EXPECT_LT(wrong, 60) << "silhouettes";
+}
+
+/// Stripes that stand along y: texel columns 0 and 2 of 4 are there, 1 and 3 not.
+osg::ref_ptr<osg::Geode> fence(bool tested, osg::Texture::FilterMode filter) {
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(4, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (unsigned x = 0; x < 4; ++x) image->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, x % 2 ? 0.0f : 1.0f), x, 0);
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    texture->setFilter(osg::Texture::MAG_FILTER, filter);
+    texture->setFilter(osg::Texture::MIN_FILTER, filter);
+    texture->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT);
+    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(osg::createTexturedQuadGeometry({-1, -1, 2}, {2, 0, 0}, {0, 2, 0}));
+    osg::StateSet& state = *geode->getOrCreateStateSet();
+    state.setTextureAttributeAndModes(0, texture);
+    state.setAttribute(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
+    state.setMode(GL_ALPHA_TEST, tested);
+    return geode;
+}
+
+TEST(SceneTruth, TexelsThatFailTheAlphaTestNeitherAreSeenNorBlock) {
+    for (const bool tested : {true, false})
+        for (const auto filter : {osg::Texture::NEAREST, osg::Texture::LINEAR}) {
+            osg::ref_ptr<osg::Group> scene = new osg::Group;
+            scene->addChild(test::node(test::square(4.0)));
+            scene->addChild(fence(tested, filter));
+            const TruthMaps maps = SceneTruth(*scene).maps(cameraOf(test::fromAbove(4.0, 160)), {2.0, 0.0, 2.0, 0.0});
+            // The fence is 40 px wide, a stripe 10; columns 60 to 99 show it, 20 to 59 its shadow. Where filtered, alpha
+            // passes 1/2 half way between texel centres: at the same places.
+            for (int x = 20; x < 100; ++x) {
+                const bool there = !tested || (x / 10) % 2 == 0;
+                ASSERT_EQ(maps.receiver.at(x, 80), x >= 60 && there ? 2 : 1) << x << (tested ? " tested" : "");
+                const bool dark = x < 60 && there;
+                ASSERT_EQ(maps.litCentre.at(x, 80) == 0, dark) << x << (tested ? " tested" : "");
+            }
+        }
+}
+
+TEST(SceneTruth, AnAlphaTestAboveTheSurfaceRulesAsOverridesSay) {
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(test::node(test::square(4.0)));
+    scene->addChild(fence(true, osg::Texture::NEAREST));
+    scene->getOrCreateStateSet()->setMode(GL_ALPHA_TEST, osg::StateAttribute::OFF);
+    const SceneCamera camera = cameraOf(test::fromAbove(4.0, 160));
+    EXPECT_EQ(count(SceneTruth(*scene).maps(camera, {2.0, 0.0, 2.0, 0.0}).receiver, 2), 20 * 40);
+    scene->getOrCreateStateSet()->setMode(GL_ALPHA_TEST, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+    EXPECT_EQ(count(SceneTruth(*scene).maps(camera, {2.0, 0.0, 2.0, 0.0}).receiver, 2), 40 * 40);
+}
+
+TEST(SceneTruth, IsTheSameAtUtmCoordinates) {
+    const osg::Vec3d utm(432100.25, 6400000.5, 812.0);
+    test::View view = test::perspective({-5.0, -7.0, 5.0}, {0.0, 0.0, 0.5}, 160, 120);
+    const TruthMaps here = SceneTruth(*lidOverGround()).maps(cameraOf(view), {3.0, 1.0, 6.0, 1.0});
+    view.view = osg::Matrixd::translate(-utm) * view.view;
+    const TruthMaps there =
+        SceneTruth(*lidOverGround(utm)).maps(cameraOf(view), {3.0 + utm.x(), 1.0 + utm.y(), 6.0 + utm.z(), 1.0});
+    int different = 0;
+    for (std::size_t i = 0; i < here.lit.cells.size(); ++i)
+        different += here.lit.cells[i] != there.lit.cells[i] || here.drawn.cells[i] != there.drawn.cells[i];
+    EXPECT_LE(different, 2) << "samples within a rounding of an edge";
+}
+
+TEST(SceneTruth, OfNothingIsRefused) {
+    osg::ref_ptr<osg::Group> empty = new osg::Group;
+    EXPECT_THROW(SceneTruth truth(*empty), std::runtime_error);
+    empty->addChild(test::node(test::Mesh(3, glm::dvec3(std::numeric_limits<double>::quiet_NaN()))));
+    EXPECT_THROW(SceneTruth truth(*empty), std::runtime_error);
+}
+
+// Techniques on real models --------------------------------------------------------------------------------------
+
+/// A technique's picture beside the truth.
+struct Judgement {
+    std::size_t pixels = 0, shadowed = 0, wrong = 0, floor = 0;
+    double dropped = 0.0;
+    bool good() const { return double(wrong) <= 1.05 * double(floor) + 0.0001 * double(pixels); }
+};
+
+std::ostream& operator<<(std::ostream& out, const Judgement& j) {
+    return out << j.pixels << " px, " << j.shadowed << " shadowed, wrong " << j.wrong << ", floor " << j.floor << ", "
+               << 100.0 * j.dropped << " % dropped";
+}
+
+/// White and without textures, so that lit and shadowed pixels differ.
+void whiten(osg::Node& model) {
+    osg::StateSet& state = *model.getOrCreateStateSet();
+    osg::ref_ptr<osg::Material> white = new osg::Material;
+    for (const auto face : {osg::Material::FRONT_AND_BACK}) {
+        white->setAmbient(face, {1.0f, 1.0f, 1.0f, 1.0f});
+        white->setDiffuse(face, {1.0f, 1.0f, 1.0f, 1.0f});
+        white->setSpecular(face, {0.0f, 0.0f, 0.0f, 1.0f});
+    }
+    const auto forced = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+    state.setAttributeAndModes(white, forced);
+    state.setMode(GL_LIGHTING, forced);
+    state.setMode(GL_NORMALIZE, forced);
+    state.setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+}
+
+struct Model {
+    std::string name, file;
+    osg::Vec4d light;
+};
+
+void PrintTo(const Model& model, std::ostream* out) { *out << model.file; }
+
+/// The model on a ground of four times its radius.
+struct Stage {
+    osg::ref_ptr<osg::Group> things = new osg::Group;
+    test::View view;
+};
+
+Stage stageOf(const Model& model) {
+    Stage stage;
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(model.file);
+    if (!node) throw std::runtime_error(model.file + " is missing: scripts/install-packages models installs it.");
+    osg::ComputeBoundsVisitor bounds;
+    node->accept(bounds);
+    const osg::BoundingBox& box = bounds.getBoundingBox();
+    const double radius = double(box.radius());
+    osg::ref_ptr<osg::MatrixTransform> place =
+        new osg::MatrixTransform(osg::Matrixd::translate(-box.center().x(), -box.center().y(), -box.zMin()));
+    place->addChild(node);
+    stage.things->addChild(test::node(test::square(2.0 * radius), "ground"));
+    stage.things->addChild(place);
+    whiten(*stage.things);
+    stage.view = test::perspective({-1.2 * radius, -2.4 * radius, 1.8 * radius}, {0.0, 0.0, 0.3 * radius}, 800, 600,
+                                   40.0, 0.2 * radius, 8.0 * radius);
+    return stage;
+}
+
+gnomon::metrics::Picture visibility(const test::Picture& actual, const test::Picture& lit, const test::Picture& dark) {
+    gnomon::metrics::Picture result(actual.width, actual.height, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < actual.pixels.size(); ++i)
+        if (lit.pixels[i] != dark.pixels[i] &&
+            (actual.pixels[i] == lit.pixels[i] || actual.pixels[i] == dark.pixels[i]))
+            result.cells[i] = actual.pixels[i] == lit.pixels[i] ? 1.0 : 0.0;
+    return result;
+}
+
+/// @param only  whose pixels count; 0: all.
+Judgement judge(const gnomon::metrics::Picture& visibility, const TruthMaps& truth, int only) {
+    const gnomon::metrics::PixelSets sets = gnomon::metrics::pixelSets(truth, visibility);
+    Judgement result;
+    result.dropped = sets.droppedShare;
+    for (std::size_t i = 0; i < visibility.cells.size(); ++i) {
+        if (!sets.facing.cells[i] || (only && truth.receiver.cells[i] != only)) continue;
+        const bool lit = truth.lit.cells[i] >= 0.5;
+        ++result.pixels;
+        result.shadowed += !lit;
+        result.wrong += (visibility.cells[i] == 1.0) != lit;
+        result.floor += (truth.litCentre.cells[i] != 0) != lit;
+    }
+    return result;
+}
+
+Judgement judge(const Stage& stage, const osg::Vec4d& light, gnomon::ShadowTechnique* technique, int only) {
+    test::Scene lit = test::scene(light), dark = test::scene(light), shadowed = test::scene(light);
+    for (test::Scene* scene : {&lit, &dark, &shadowed}) scene->content->addChild(stage.things);
+    dark.takeLightAway();
+    shadowed.addShadow(technique);
+    const test::Picture drawn = test::render(shadowed.root, stage.view);
+    const gnomon::metrics::Picture v =
+        visibility(drawn, test::render(lit.root, stage.view), test::render(dark.root, stage.view));
+    const SceneTruth truth(*stage.things);
+    return judge(v, truth.maps(cameraOf(stage.view), light), only);
+}
+
+class RealModel : public testing::TestWithParam<Model> {};
+
+TEST_P(RealModel, TracedIsAsGoodAsOneRayAPixelCanBeAndPlanarOnItsPlane) {
+    const Model& model = GetParam();
+    const Stage stage = stageOf(model);
+    const Judgement traced = judge(stage, model.light, new gnomon::TracedShadowTechnique, 0);
+    const osg::ref_ptr<gnomon::PlanarShadowNode> node = test::planar(test::find(*stage.things, "ground"));
+    const Judgement planar = judge(stage, model.light, node, 1);
+    std::cout << model.name << ": traced " << traced << "\n" << model.name << ": planar " << planar << "\n";
+    EXPECT_TRUE(traced.good()) << traced;
+    EXPECT_TRUE(planar.good()) << planar;
+    EXPECT_GT(planar.shadowed, 3000u);
+    EXPECT_GT(traced.shadowed, planar.shadowed) << "a model shadows itself too";
+    EXPECT_LT(traced.dropped, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, RealModel,
+    testing::Values(Model{"bunny", "/usr/share/glmark2/models/bunny.obj", {1.0, 0.4, 1.2, 0.0}},
+                    Model{"flyer", "/usr/share/inventor/data/models/vehicles/kittyHawk.iv", {0.6, -0.8, 1.5, 0.0}},
+                    Model{"casting", "/usr/share/opencascade/data/stl/TR12J_OCC.stl", {-0.8, 0.5, 1.0, 0.0}}),
+    [](const auto& each) { return each.param.name; });
+
+} // namespace
