@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Report.h"
 
+#include "JsonFields.h"
+
 #include <iomanip>
 #include <sstream>
 #include <utility>
@@ -86,30 +88,30 @@ std::vector<std::pair<std::string, std::string>> lines(const ShadowMetrics& m) {
         {"catastrophes", catastropheText(m.catastrophes)}};
 }
 
-json jsonOf(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
-
-json jsonOf(const Confusion& c) {
+json partJson(const Confusion& c) {
     return {{"pixels", c.pixels()},
+            {"shadow", c.shadow},
+            {"lit", c.lit},
             {"falseShadow", c.falseShadow},
             {"falseLit", c.falseLit},
             {"misclassified", jsonOf(c.misclassified())},
             {"falseShadowShare", jsonOf(c.falseShadowShare())},
             {"falseLitShare", jsonOf(c.falseLitShare())},
             {"balancedError", jsonOf(c.balancedError())},
-            {"iou", c.intersectionOverUnion()}};
+            {"iou", jsonOf(c.intersectionOverUnion())}};
 }
 
-json jsonOf(const std::optional<BoundaryDistance>& b) {
+json partJson(const std::optional<BoundaryDistance>& b) {
     if (!b) return nullptr;
-    return {{"mean", b->mean},
-            {"p95", b->p95},
-            {"max", b->max},
-            {"signedMean", b->signedMean},
-            {"drawnLength", b->drawnLength},
-            {"trueLength", b->trueLength}};
+    return {{"mean", jsonOf(b->mean)},
+            {"p95", jsonOf(b->p95)},
+            {"max", jsonOf(b->max)},
+            {"signedMean", jsonOf(b->signedMean)},
+            {"drawnLength", jsonOf(b->drawnLength)},
+            {"trueLength", jsonOf(b->trueLength)}};
 }
 
-json jsonOf(const CauseSplit& c) {
+json partJson(const CauseSplit& c) {
     return {{"acne", c.acne},
             {"halo", c.halo},
             {"peterPanning", c.peterPanning},
@@ -122,9 +124,9 @@ json jsonOf(const CauseSplit& c) {
             {"gapMetres", jsonOf(c.gap)}};
 }
 
-json jsonOf(const IntensityError& e) { return {{"all", jsonOf(e.all)}, {"penumbra", jsonOf(e.penumbra)}}; }
+json partJson(const IntensityError& e) { return {{"all", jsonOf(e.all)}, {"penumbra", jsonOf(e.penumbra)}}; }
 
-json jsonOf(const Catastrophes& c) {
+json partJson(const Catastrophes& c) {
     return {{"notFinitePixels", c.notFinite},
             {"allShadowed", c.allShadowed},
             {"allLit", c.allLit},
@@ -137,8 +139,64 @@ json setsOf(const ShadowMetrics& m) {
             {"R+", m.facing},
             {"Rc", m.certain},
             {"unmeasured", m.unmeasured},
-            {"droppedShare", m.droppedShare},
+            {"droppedShare", jsonOf(m.droppedShare)},
             {"sound", m.sound}};
+}
+
+void read(const json& from, Confusion& to) {
+    readField(from, "shadow", to.shadow);
+    readField(from, "falseShadow", to.falseShadow);
+    readField(from, "falseLit", to.falseLit);
+    readField(from, "lit", to.lit);
+}
+
+void read(const json& from, BoundaryDistance& to) {
+    readField(from, "mean", to.mean);
+    readField(from, "p95", to.p95);
+    readField(from, "max", to.max);
+    readField(from, "signedMean", to.signedMean);
+    readField(from, "drawnLength", to.drawnLength);
+    readField(from, "trueLength", to.trueLength);
+}
+
+void read(const json& from, CauseSplit& to) {
+    readField(from, "acne", to.acne);
+    readField(from, "halo", to.halo);
+    readField(from, "peterPanning", to.peterPanning);
+    readField(from, "leak", to.leak);
+    readField(from, "erosion", to.erosion);
+    readField(from, "overDark", to.overDark);
+    readField(from, "overBright", to.overBright);
+    readField(from, "acneShare", to.acneShare);
+    readField(from, "peterPanningShare", to.peterPanningShare);
+    readField(from, "gapMetres", to.gap);
+}
+
+void read(const json& from, IntensityError& to) {
+    readField(from, "all", to.all);
+    readField(from, "penumbra", to.penumbra);
+}
+
+void read(const json& from, Catastrophes& to) {
+    readField(from, "notFinitePixels", to.notFinite);
+    readField(from, "allShadowed", to.allShadowed);
+    readField(from, "allLit", to.allLit);
+    readField(from, "lostShadow", to.lostShadow);
+}
+
+template <typename Part>
+void readPart(const json& report, const char* name, Part& part) {
+    const json& from = objectField(report, name);
+    readInside(name, [&] { read(from, part); });
+}
+
+void readSets(const json& from, ShadowMetrics& to) {
+    readField(from, "R", to.agreeing);
+    readField(from, "R+", to.facing);
+    readField(from, "Rc", to.certain);
+    readField(from, "unmeasured", to.unmeasured);
+    readField(from, "droppedShare", to.droppedShare);
+    readField(from, "sound", to.sound);
 }
 
 } // namespace
@@ -151,16 +209,34 @@ std::string reportText(const ShadowMetrics& m) {
 
 json reportJson(const ShadowMetrics& m) {
     return {{"pixels", setsOf(m)},
-            {"awayFromEdges", jsonOf(m.headline)},
-            {"raw", jsonOf(m.raw)},
-            {"terminator", jsonOf(m.terminator)},
-            {"selfShadowed", jsonOf(m.selfShadowed)},
-            {"boundaryPixels", jsonOf(m.boundary)},
-            {"causes", jsonOf(m.causes)},
-            {"rmsePointSun", jsonOf(m.pointSun)},
-            {"rmseDiscSun", jsonOf(m.discSun)},
-            {"rmsePointSunFiltered4x4", jsonOf(m.thin)},
-            {"catastrophes", jsonOf(m.catastrophes)}};
+            {"awayFromEdges", partJson(m.headline)},
+            {"raw", partJson(m.raw)},
+            {"terminator", partJson(m.terminator)},
+            {"selfShadowed", partJson(m.selfShadowed)},
+            {"boundaryPixels", partJson(m.boundary)},
+            {"causes", partJson(m.causes)},
+            {"rmsePointSun", partJson(m.pointSun)},
+            {"rmseDiscSun", partJson(m.discSun)},
+            {"rmsePointSunFiltered4x4", partJson(m.thin)},
+            {"catastrophes", partJson(m.catastrophes)}};
+}
+
+ShadowMetrics reportOf(const json& report) {
+    ShadowMetrics m;
+    const json& sets = objectField(report, "pixels");
+    readInside("pixels", [&] { readSets(sets, m); });
+    readPart(report, "awayFromEdges", m.headline);
+    readPart(report, "raw", m.raw);
+    readPart(report, "terminator", m.terminator);
+    readPart(report, "selfShadowed", m.selfShadowed);
+    if (!objectField(report, "boundaryPixels", true).is_null())
+        readPart(report, "boundaryPixels", m.boundary.emplace());
+    readPart(report, "causes", m.causes);
+    readPart(report, "rmsePointSun", m.pointSun);
+    readPart(report, "rmseDiscSun", m.discSun);
+    readPart(report, "rmsePointSunFiltered4x4", m.thin);
+    readPart(report, "catastrophes", m.catastrophes);
+    return m;
 }
 
 } // namespace gnomon::examples

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "ResultsFile.h"
+
+#include "InputFile.h"
+#include "JsonFields.h"
+#include "OutputFile.h"
+#include "ResultsCsv.h"
+#include "ResultsJson.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string bytesOf(const std::string& file) {
+    std::error_code ignored;
+    std::ifstream in(file, std::ios::binary);
+    if (!in || fs::is_directory(file, ignored))
+        throw std::runtime_error("there is no file " + quoted(file) + "; a results.json of gnomonchart is needed.");
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace
+
+void saveResults(const ChartResults& results, const std::string& folder) {
+    // Text from drivers and file names need not be UTF-8: what is not becomes U+FFFD.
+    const std::string text = jsonOf(results).dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+    OutputFile((fs::path(folder) / "results.json").string()).write(text);
+    OutputFile((fs::path(folder) / "results.csv").string()).write(csvOf(results));
+}
+
+ChartResults loadResults(const std::string& file) {
+    const std::string bytes = bytesOf(file);
+    const json parsed = json::parse(bytes, nullptr, false);
+    const std::string begin = quoted(file) + " cannot be read as results of gnomonchart";
+    if (parsed.is_discarded()) throw std::runtime_error(begin + ": it is no whole JSON file.");
+    ChartResults results;
+    readInside(begin, [&] { results = chartResultsOf(parsed); });
+    return results;
+}
+
+} // namespace gnomon::examples
