@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Shot.h"
+#include "SceneBounds.h"
+#include "SceneTruth.h"
 
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/VertexTraverser.h>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <sys/resource.h>
 
 namespace gnomon::examples {
@@ -85,6 +88,15 @@ nlohmann::json Shot::measure() {
             {"msMoving", quartiles(moving)},
             {"msNone", quartiles(none)},
             {"peakMiB", peakMiB()}};
+}
+
+metrics::TruthMaps Shot::truth() {
+    const std::vector<osg::Vec4d> lights = _setup.lights->places();
+    if (lights.size() != 1)
+        throw std::runtime_error("--truth is that of one light; there are " + std::to_string(lights.size()) + ".");
+    const SceneCamera camera =
+        sceneCamera(*_viewer.getCamera(), _options.view.width, _options.view.height, sceneBounds(*_setup.group));
+    return SceneTruth(*_setup.group).maps(camera, lights.front());
 }
 
 double Shot::timedFrame(bool shadows) {

@@ -4,6 +4,7 @@
 #include "ShotOptions.h"
 
 #include <gnomon/HeadlessContext.h>
+#include <gnomon/metrics/TruthMaps.h>
 
 #include <osgViewer/Viewer>
 
@@ -22,6 +23,8 @@ public:
     /// @return what --stats writes.
     nlohmann::json measure();
     osg::ref_ptr<osg::Image> picture() const { return _context.image(); }
+    /// What is true of the picture. @throws std::runtime_error, one sentence, if there is not one light.
+    metrics::TruthMaps truth();
     std::vector<std::string> diagnose() const { return _setup.diagnose(); }
 
 private:

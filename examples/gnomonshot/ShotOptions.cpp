@@ -19,6 +19,9 @@ void addShotOptions(Options& table, ShotOptions& into) {
                      "measurements to write; times are whole frames in ms: msFirst, msSteady, msMoving (the light "
                      "turned\n      1 degree a frame about up) and msNone (without shadows, interleaved)",
                      "none", [&into](Text t) { into.stats = t; }});
+    table.push_back({"--truth", "FILE.osgb",
+                     "what is true in this view, by rays, for gnomoncompare; of one light, all casting", "none",
+                     [&into](Text t) { into.truth = t; }});
     table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
 }
 
@@ -29,8 +32,10 @@ Options shotOptions(ShotOptions& into) {
 }
 
 void requireOutput(const ShotOptions& options) {
-    if (options.out.empty() && options.stats.empty())
-        throw std::invalid_argument("nothing is asked for; give --out IMAGE, --stats FILE.json or both.");
+    if (options.out.empty() && options.stats.empty() && options.truth.empty())
+        throw std::invalid_argument("nothing is asked for; give --out IMAGE, --stats FILE.json or --truth FILE.osgb.");
+    if (!options.truth.empty() && options.view.casters != "all")
+        throw std::invalid_argument("--truth and --casters are given; the truth is that of all casters.");
 }
 
 } // namespace

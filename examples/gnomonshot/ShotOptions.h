@@ -13,6 +13,7 @@ struct ShotOptions {
     std::optional<int> frames; ///< 1, or 20 with stats.
     std::string out;           ///< picture; empty: none.
     std::string stats;         ///< JSON file; empty: none.
+    std::string truth;         ///< file of what is true; empty: none.
     bool help = false;
 
     int frameCount() const { return frames.value_or(stats.empty() ? 1 : 20); }

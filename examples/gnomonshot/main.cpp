@@ -3,6 +3,7 @@
 #include "OutputFile.h"
 #include "SceneFile.h"
 #include "Shot.h"
+#include "TruthFile.h"
 
 #include <iostream>
 #include <optional>
@@ -12,14 +13,16 @@ namespace {
 using namespace gnomon::examples;
 
 void shoot(const ShotOptions& options) {
-    std::optional<OutputFile> picture, stats;
+    std::optional<OutputFile> picture, stats, truth;
     if (!options.out.empty()) picture.emplace(options.out).requireImage();
     if (!options.stats.empty()) stats.emplace(options.stats);
+    if (!options.truth.empty()) truth.emplace(options.truth).requireData();
     Shot shot(options, *readScene(options.view.files, "gnomonshot"));
     nlohmann::json measured;
     stats ? void(measured = shot.measure()) : shot.draw();
     for (const std::string& cause : shot.diagnose()) std::cerr << "gnomonshot: note: " << cause << std::endl;
     if (picture) picture->write(*shot.picture());
+    if (truth) truth->writeData(*truthImage(shot.truth()));
     if (stats) stats->write(measured.dump(2) + "\n");
 }
 

@@ -76,6 +76,14 @@ void OutputFile::requireImage() const {
         refuse(_path, "OpenSceneGraph writes no such images; png, jpg, bmp, tif, rgb are allowed");
 }
 
+void OutputFile::requireData() const {
+    for (const char* kind : {".osgb", ".osgt", ".osgx"})
+        if (_path.extension() == kind) return;
+    refuse(_path, "it would lose what is to be kept; .osgb, .osgt and .osgx are allowed");
+}
+
+void OutputFile::writeData(const osg::Image& image) { write(encode(image, _path)); }
+
 void OutputFile::write(const osg::Image& image) { write(encode(*opaque(image), _path)); }
 
 void OutputFile::write(const std::string& text) {

@@ -19,10 +19,14 @@ public:
 
     /// @throws std::runtime_error if OSG has no writer for images of this name. Writes nothing that stays.
     void requireImage() const;
+    /// @throws std::runtime_error if the file's kind does not keep an image's layers and names: .osgb, .osgt and .osgx do.
+    void requireData() const;
     /// Colours of an image of bytes, RGB or RGBA.
     /// @throws std::runtime_error if not all of it could be written.
     void write(const osg::Image& image);
     void write(const std::string& text);
+    /// An image with all that it holds. Needs requireData().
+    void writeData(const osg::Image& image);
 
 private:
     void finish();

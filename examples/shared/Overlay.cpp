@@ -12,12 +12,15 @@ namespace {
 
 using Colour = glm::dvec3;
 
-const Colour missedShadow(0.9, 0.1, 0.1), falseShadow(0.1, 0.2, 1.0), noNumber(1.0, 0.0, 1.0);
+const Colour missedShadow(0.9, 0.1, 0.1), falseShadow(0.1, 0.2, 1.0), noNumber(1.0, 0.0, 1.0), turnedAway(0.1);
 
 Colour colourAt(const metrics::Picture& visibility, const metrics::TruthMaps& truth, const metrics::PixelSets& sets,
                 std::size_t i) {
     const double v = visibility.cells[i];
-    if (!std::isfinite(v)) return truth.receiver.cells[i] != 0 ? noNumber : Colour(0.0);
+    if (!std::isfinite(v)) {
+        if (truth.receiver.cells[i] == 0) return Colour(0.0);
+        return truth.facing.cells[i] > 0.05 ? noNumber : turnedAway; // no renderer shows light there
+    }
     const Colour grey(0.15 + 0.7 * std::clamp(v, 0.0, 1.0));
     if (!sets.facing.cells[i]) return 0.4 * grey;
     const bool lit = truth.litCentre.cells[i];

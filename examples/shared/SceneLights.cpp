@@ -68,6 +68,17 @@ osg::Vec4 grey(double level) {
 
 } // namespace
 
+std::vector<osg::Vec4d> SceneLights::places() const {
+    std::vector<osg::Vec4d> result;
+    for (const Own& own : _own) result.push_back(own.place);
+    for (const osg::ref_ptr<osg::LightSource>& source : _scene) {
+        const osg::Vec4d local(source->getLight()->getPosition());
+        const osg::MatrixList ways = source->getWorldMatrices();
+        result.push_back(ways.empty() ? local : local * ways.front());
+    }
+    return result;
+}
+
 SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group)
     : _group(&group), _scene(lightsIn(group)) {
     for (const osg::Vec4d& place : options.lights) add(place, root);

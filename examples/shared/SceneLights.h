@@ -38,6 +38,8 @@ public:
     void turn(double degrees);
 
     std::size_t count() const { return _own.size() + _scene.size(); }
+    /// Where all of them are now, homogeneous, world.
+    std::vector<osg::Vec4d> places() const;
 
 private:
     struct Own {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "SceneCamera.h"
+
 #include <gnomon/metrics/TruthMaps.h>
 
-#include <osg/Matrixd>
 #include <osg/Node>
 #include <osg/Vec4d>
 #include <osg/ref_ptr>
@@ -10,12 +11,6 @@
 #include <memory>
 
 namespace gnomon::examples {
-
-/// A camera of fixed near and far planes.
-struct SceneCamera {
-    osg::Matrixd view, projection;
-    int width = 0, height = 0; ///< pixels.
-};
 
 /// What is true of a scene: rays at its triangles, each object (a drawable under one way down to it) with an id, and
 /// what OpenGL draws where. Alpha-tested texels are not there: they neither are seen nor block.

@@ -236,10 +236,19 @@ TEST_F(BadInput, OptionsThatAreWrong) {
     EXPECT_EQ(refusalWith({"-O"}), "-O needs a value.");
 }
 
+TEST_F(BadInput, TruthsThatCannotBeHad) {
+    EXPECT_EQ(refusal({scene, "--truth", "t.png"}),
+              "\"t.png\" cannot be written: it would lose what is to be kept; .osgb, .osgt and .osgx are allowed.");
+    EXPECT_EQ(refusal({scene, "--truth", "t.osgb", "--casters", "cube"}),
+              "--truth and --casters are given; the truth is that of all casters.");
+    EXPECT_EQ(refusal({scene, "--truth", "t.osgb", "--light", "1,0,1,0", "--light", "0,1,1,0"}),
+              "--truth is that of one light; there are 2.");
+}
+
 TEST_F(BadInput, NothingToDo) {
     EXPECT_EQ(refusal({}), "no scene file is given; --help says how.");
     EXPECT_EQ(refusal({"--out", "o.png"}), "no scene file is given; --help says how.");
-    EXPECT_EQ(refusal({scene}), "nothing is asked for; give --out IMAGE, --stats FILE.json or both.");
+    EXPECT_EQ(refusal({scene}), "nothing is asked for; give --out IMAGE, --stats FILE.json or --truth FILE.osgb.");
 }
 
 } // namespace

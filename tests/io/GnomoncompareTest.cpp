@@ -188,6 +188,37 @@ TEST_F(Gnomoncompare, TooMuchDroppedIsSaid) {
     EXPECT_EQ(numbers()["pixels"]["sound"], false);
 }
 
+TEST_F(Gnomoncompare, WhatIsTurnedAwayFromTheLightIsDarkAndNotWithoutANumber) {
+    TruthMaps truth = BoxOnGround().truth();
+    truth.facing.at(110, 80) = -0.5;
+    Picture away = perfect();
+    away.at(110, 80) = away.at(20, 80) = std::nan("");
+    saveAll(away, truth);
+    ASSERT_EQ(run({"--overlay", "o.png"}).status, 0);
+    const osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile((folder.path() / "o.png").string());
+    EXPECT_LT(image->getColor(110, 80).r(), 0.15f);
+    EXPECT_EQ(image->getColor(20, 80).r(), 1.0f);
+}
+
+/// gnomonshot's own pictures by its own truth, one light and then another.
+TEST_F(Gnomoncompare, JudgesPicturesOfGnomonshotByTheTruthThatGnomonshotWrites) {
+    const auto shoot = [&](Arguments more) {
+        more.insert(more.begin(), {GNOMON_DATA "/lab8.osgt", "--ambient", "0", "--size", "400x300", "--eye",
+                                   "-1,-3.6,2.2", "--center", "-0.15,0.1,0.1", "--light"});
+        const Ending ending = runProgram(GNOMONSHOT, more, folder.path());
+        EXPECT_EQ(ending.status, 0) << ending.err;
+    };
+    shoot({"1,-1,2,0", "--shadow", "traced", "--out", "a.tif", "--truth", "t.osgb"});
+    shoot({"1,-1,2,0", "--casters", "none", "--shadow", "traced", "--out", "b.tif"});
+    const json right = numbers();
+    EXPECT_LE(right["awayFromEdges"]["misclassified"].get<double>(), 1e-4);
+    EXPECT_GT(right["awayFromEdges"]["pixels"].get<int>(), 20000);
+    EXPECT_LT(right["boundaryPixels"]["p95"].get<double>(), 0.5) << "a ray through each pixel's centre";
+    EXPECT_TRUE(right["pixels"]["sound"]);
+    shoot({"1,-1,1.6,0", "--shadow", "traced", "--out", "a.tif"});
+    EXPECT_GT(numbers()["boundaryPixels"]["p95"].get<double>(), 2.0) << "under another light";
+}
+
 TEST_F(Gnomoncompare, RefusesFilesThatAreMissingOrDamaged) {
     saveAll(perfect());
     EXPECT_EQ(refusal(run({"--json", "n.json"}, "gone.tif")),
