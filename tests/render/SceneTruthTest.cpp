@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: MIT
-// The truth of a scene graph: objects, transforms, alpha tests, what is drawn; and techniques against it on real models.
+// The truth of a scene graph: objects, transforms, alpha tests, what is drawn.
 #include <SceneTruth.h>
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/TracedShadowTechnique.h>
-#include <gnomon/metrics/PixelSets.h>
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
 #include <osg/Camera>
-#include <osg/ComputeBoundsVisitor>
 #include <osg/Geometry>
-#include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/Texture2D>
-#include <osgDB/ReadFile>
 
 #include <cmath>
-#include <iostream>
 #include <limits>
 
 using gnomon::examples::SceneCamera;
@@ -161,127 +155,5 @@ TEST(SceneTruth, OfNothingIsRefused) {
     empty->addChild(test::node(test::Mesh(3, glm::dvec3(std::numeric_limits<double>::quiet_NaN()))));
     EXPECT_THROW(SceneTruth truth(*empty), std::runtime_error);
 }
-
-// Techniques on real models --------------------------------------------------------------------------------------
-
-/// A technique's picture beside the truth.
-struct Judgement {
-    std::size_t pixels = 0, shadowed = 0, wrong = 0, floor = 0;
-    double dropped = 0.0;
-    bool good() const { return double(wrong) <= 1.05 * double(floor) + 0.0001 * double(pixels); }
-};
-
-std::ostream& operator<<(std::ostream& out, const Judgement& j) {
-    return out << j.pixels << " px, " << j.shadowed << " shadowed, wrong " << j.wrong << ", floor " << j.floor << ", "
-               << 100.0 * j.dropped << " % dropped";
-}
-
-/// White and without textures, so that lit and shadowed pixels differ.
-void whiten(osg::Node& model) {
-    osg::StateSet& state = *model.getOrCreateStateSet();
-    osg::ref_ptr<osg::Material> white = new osg::Material;
-    for (const auto face : {osg::Material::FRONT_AND_BACK}) {
-        white->setAmbient(face, {1.0f, 1.0f, 1.0f, 1.0f});
-        white->setDiffuse(face, {1.0f, 1.0f, 1.0f, 1.0f});
-        white->setSpecular(face, {0.0f, 0.0f, 0.0f, 1.0f});
-    }
-    const auto forced = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
-    state.setAttributeAndModes(white, forced);
-    state.setMode(GL_LIGHTING, forced);
-    state.setMode(GL_NORMALIZE, forced);
-    state.setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
-}
-
-struct Model {
-    std::string name, file;
-    osg::Vec4d light;
-};
-
-void PrintTo(const Model& model, std::ostream* out) { *out << model.file; }
-
-/// The model on a ground of four times its radius.
-struct Stage {
-    osg::ref_ptr<osg::Group> things = new osg::Group;
-    test::View view;
-};
-
-Stage stageOf(const Model& model) {
-    Stage stage;
-    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(model.file);
-    if (!node) throw std::runtime_error(model.file + " is missing: scripts/install-packages models installs it.");
-    osg::ComputeBoundsVisitor bounds;
-    node->accept(bounds);
-    const osg::BoundingBox& box = bounds.getBoundingBox();
-    const double radius = double(box.radius());
-    osg::ref_ptr<osg::MatrixTransform> place =
-        new osg::MatrixTransform(osg::Matrixd::translate(-box.center().x(), -box.center().y(), -box.zMin()));
-    place->addChild(node);
-    stage.things->addChild(test::node(test::square(2.0 * radius), "ground"));
-    stage.things->addChild(place);
-    whiten(*stage.things);
-    stage.view = test::perspective({-1.2 * radius, -2.4 * radius, 1.8 * radius}, {0.0, 0.0, 0.3 * radius}, 800, 600,
-                                   40.0, 0.2 * radius, 8.0 * radius);
-    return stage;
-}
-
-gnomon::metrics::Picture visibility(const test::Picture& actual, const test::Picture& lit, const test::Picture& dark) {
-    gnomon::metrics::Picture result(actual.width, actual.height, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < actual.pixels.size(); ++i)
-        if (lit.pixels[i] != dark.pixels[i] &&
-            (actual.pixels[i] == lit.pixels[i] || actual.pixels[i] == dark.pixels[i]))
-            result.cells[i] = actual.pixels[i] == lit.pixels[i] ? 1.0 : 0.0;
-    return result;
-}
-
-/// @param only  whose pixels count; 0: all.
-Judgement judge(const gnomon::metrics::Picture& visibility, const TruthMaps& truth, int only) {
-    const gnomon::metrics::PixelSets sets = gnomon::metrics::pixelSets(truth, visibility);
-    Judgement result;
-    result.dropped = sets.droppedShare;
-    for (std::size_t i = 0; i < visibility.cells.size(); ++i) {
-        if (!sets.facing.cells[i] || (only && truth.receiver.cells[i] != only)) continue;
-        const bool lit = truth.lit.cells[i] >= 0.5;
-        ++result.pixels;
-        result.shadowed += !lit;
-        result.wrong += (visibility.cells[i] == 1.0) != lit;
-        result.floor += (truth.litCentre.cells[i] != 0) != lit;
-    }
-    return result;
-}
-
-Judgement judge(const Stage& stage, const osg::Vec4d& light, gnomon::ShadowTechnique* technique, int only) {
-    test::Scene lit = test::scene(light), dark = test::scene(light), shadowed = test::scene(light);
-    for (test::Scene* scene : {&lit, &dark, &shadowed}) scene->content->addChild(stage.things);
-    dark.takeLightAway();
-    shadowed.addShadow(technique);
-    const test::Picture drawn = test::render(shadowed.root, stage.view);
-    const gnomon::metrics::Picture v =
-        visibility(drawn, test::render(lit.root, stage.view), test::render(dark.root, stage.view));
-    const SceneTruth truth(*stage.things);
-    return judge(v, truth.maps(cameraOf(stage.view), light), only);
-}
-
-class RealModel : public testing::TestWithParam<Model> {};
-
-TEST_P(RealModel, TracedIsAsGoodAsOneRayAPixelCanBeAndPlanarOnItsPlane) {
-    const Model& model = GetParam();
-    const Stage stage = stageOf(model);
-    const Judgement traced = judge(stage, model.light, new gnomon::TracedShadowTechnique, 0);
-    const osg::ref_ptr<gnomon::PlanarShadowNode> node = test::planar(test::find(*stage.things, "ground"));
-    const Judgement planar = judge(stage, model.light, node, 1);
-    std::cout << model.name << ": traced " << traced << "\n" << model.name << ": planar " << planar << "\n";
-    EXPECT_TRUE(traced.good()) << traced;
-    EXPECT_TRUE(planar.good()) << planar;
-    EXPECT_GT(planar.shadowed, 3000u);
-    EXPECT_GT(traced.shadowed, planar.shadowed) << "a model shadows itself too";
-    EXPECT_LT(traced.dropped, 0.05);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Models, RealModel,
-    testing::Values(Model{"bunny", "/usr/share/glmark2/models/bunny.obj", {1.0, 0.4, 1.2, 0.0}},
-                    Model{"flyer", "/usr/share/inventor/data/models/vehicles/kittyHawk.iv", {0.6, -0.8, 1.5, 0.0}},
-                    Model{"casting", "/usr/share/opencascade/data/stl/TR12J_OCC.stl", {-0.8, 0.5, 1.0, 0.0}}),
-    [](const auto& each) { return each.param.name; });
 
 } // namespace

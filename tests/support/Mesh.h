@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <osg/Geode>
-
-#include <string>
-#include <vector>
+#include <Mesh.h>
 
 namespace test {
 
-/// Plain triangles, three corners each, counter-clockwise from outside: what a test's scene is made of and what its
-/// oracle sees.
-using Mesh = std::vector<glm::dvec3>;
+using gnomon::examples::Mesh;
 
-Mesh quad(const glm::dvec3& corner, const glm::dvec3& side, const glm::dvec3& up);
-Mesh square(double half, double height = 0.0);
-Mesh box(const glm::dvec3& low, const glm::dvec3& high);
-/// Box on the ground, turned about the vertical by `degrees`.
-Mesh house(const glm::dvec2& centre, const glm::dvec3& size, double degrees);
-Mesh sphere(const glm::dvec3& centre, double radius, int slices = 48);
-Mesh joined(std::vector<Mesh> parts);
-Mesh moved(Mesh mesh, const glm::dvec3& by);
-/// `side` × `side` houses of various sizes and turns on a grid of pitch 5.
-std::vector<Mesh> town(int side);
-
-/// The mesh as a node: one osg::Geometry of white triangles with facet normals, corners as floats.
-osg::ref_ptr<osg::Geode> node(const Mesh& mesh, const std::string& name = "");
+using gnomon::examples::box;
+using gnomon::examples::house;
+using gnomon::examples::insideOut;
+using gnomon::examples::joined;
+using gnomon::examples::moved;
+using gnomon::examples::node;
+using gnomon::examples::quad;
+using gnomon::examples::sphere;
+using gnomon::examples::square;
+using gnomon::examples::town;
 
 } // namespace test

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "SceneTruth.h"
+#include "SceneCamera.h"
+#include "ViewOptions.h"
 
+#include <osg/BoundingBox>
 #include <osg/Group>
 #include <osg/Vec4d>
 
 #include <string>
+#include <vector>
 
 namespace gnomon::examples {
 
@@ -17,11 +20,26 @@ struct ChartScene {
     osg::Vec4d light;                 ///< homogeneous, world: w = 0 the way towards a sun, w = 1 a lamp's position.
     SceneCamera camera;               ///< of the still pictures; its near and far planes are fixed.
     std::string receiver;             ///< name of the flat node that planar shadows fall on; empty: there is none.
+    osg::BoundingBoxd bounds;         ///< of the content, world.
+    osg::Vec3d center;                ///< what the camera looks at, world.
     double radius = 1.0;              ///< of the scene's bounds without its ground, scene's unit.
 };
 
-/// The camera moved on by `step` degrees about the vertical through what it looks at; the light turned likewise.
+/// The camera moved on by `step` degrees about the vertical through what it looks at; the light turned likewise. Near and
+/// far follow the scene's bounds.
 SceneCamera movedCamera(const ChartScene& scene, double step);
 osg::Vec4d movedLight(const ChartScene& scene, double step);
+
+/// Files of the user's own, set up as gnomonshot does: ground, light and camera as the options ask or by default. Lights
+/// of the files' own shine no more; the first of them is taken where the options give none.
+/// @throws std::invalid_argument, one sentence, see setUpScene() and placeCamera().
+ChartScene chartSceneOf(osg::Node& files, const ViewOptions& options);
+
+/// The scenes that are built in, in the chart's order.
+std::vector<std::string> chartSceneNames();
+/// @param width,height  of the picture, pixels.
+/// @throws std::invalid_argument, one sentence with all names, for another name; std::runtime_error if its model is not
+/// installed.
+ChartScene chartScene(const std::string& name, int width, int height);
 
 } // namespace gnomon::examples

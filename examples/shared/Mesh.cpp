@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <support/Mesh.h>
+#include "Mesh.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
@@ -7,8 +7,9 @@
 #include <osg/Geometry>
 
 #include <cmath>
+#include <utility>
 
-namespace test {
+namespace gnomon::examples {
 namespace {
 
 osg::Vec3 toFloat(const glm::dvec3& v) { return osg::Vec3(osg::Vec3d(v.x, v.y, v.z)); }
@@ -70,6 +71,11 @@ Mesh moved(Mesh mesh, const glm::dvec3& by) {
     return mesh;
 }
 
+Mesh insideOut(Mesh mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.size(); i += 3) std::swap(mesh[i], mesh[i + 1]);
+    return mesh;
+}
+
 std::vector<Mesh> town(int side) {
     std::vector<Mesh> houses;
     for (int i = 0; i < side * side; ++i) {
@@ -103,4 +109,4 @@ osg::ref_ptr<osg::Geode> node(const Mesh& mesh, const std::string& name) {
     return geode;
 }
 
-} // namespace test
+} // namespace gnomon::examples

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "ChartScene.h"
+#include "SceneBounds.h"
+#include "SceneSetup.h"
+
+#include <gnomon/NamedNode.h>
+
+#include <osg/LightSource>
+#include <osg/NodeVisitor>
+
+namespace gnomon::examples {
+namespace {
+
+osg::Matrixd turnAbout(const osg::Vec3d& centre, double degrees) {
+    return osg::Matrixd::translate(-centre) * osg::Matrixd::rotate(osg::DegreesToRadians(degrees), 0.0, 0.0, 1.0) *
+           osg::Matrixd::translate(centre);
+}
+
+/// OSG's cull visitor passes over light sources without a light.
+class LightsOut : public osg::NodeVisitor {
+public:
+    LightsOut() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::LightSource& source) override {
+        source.setLight(nullptr);
+        traverse(source);
+    }
+};
+
+osg::ref_ptr<osg::Group> contentOf(const SceneSetup& setup) {
+    osg::ref_ptr<osg::Group> content = new osg::Group;
+    for (unsigned i = 0; i < setup.group->getNumChildren(); ++i) content->addChild(setup.group->getChild(i));
+    LightsOut lightsOut;
+    content->accept(lightsOut);
+    return content;
+}
+
+std::string receiverIn(osg::Group& content, const ViewOptions& options) {
+    const std::string name = options.receiver.empty() ? "ground" : options.receiver;
+    return findNamed(content, name) ? name : "";
+}
+
+} // namespace
+
+SceneCamera movedCamera(const ChartScene& scene, double step) {
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setViewMatrix(turnAbout(scene.center, -step) * scene.camera.view);
+    camera->setProjectionMatrix(scene.camera.projection);
+    return sceneCamera(*camera, scene.camera.width, scene.camera.height, scene.bounds);
+}
+
+osg::Vec4d movedLight(const ChartScene& scene, double step) {
+    return scene.light * turnAbout(scene.light.w() == 0.0 ? osg::Vec3d() : scene.center, step);
+}
+
+ChartScene chartSceneOf(osg::Node& files, const ViewOptions& options) {
+    ViewOptions plain = options;
+    plain.shadows.clear();
+    const SceneSetup setup = setUpScene(plain, files);
+    ChartScene scene;
+    scene.name = scene.title = "scene";
+    scene.light = setup.lights->places().front();
+    scene.content = contentOf(setup);
+    scene.bounds = sceneBounds(*scene.content);
+    scene.center = lookout(plain, setup.bounds).center;
+    scene.radius = setup.bounds.radius();
+    scene.receiver = receiverIn(*scene.content, options);
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    placeCamera(*camera, plain, setup.bounds);
+    scene.camera = sceneCamera(*camera, options.width, options.height, scene.bounds);
+    return scene;
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <osg/Geode>
+
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// Plain triangles, three corners each, counter-clockwise from outside: what generated scenes are made of and what a
+/// test's oracle sees.
+using Mesh = std::vector<glm::dvec3>;
+
+Mesh quad(const glm::dvec3& corner, const glm::dvec3& side, const glm::dvec3& up);
+Mesh square(double half, double height = 0.0);
+Mesh box(const glm::dvec3& low, const glm::dvec3& high);
+/// Box on the ground, turned about the vertical by `degrees`.
+Mesh house(const glm::dvec2& centre, const glm::dvec3& size, double degrees);
+Mesh sphere(const glm::dvec3& centre, double radius, int slices = 48);
+Mesh joined(std::vector<Mesh> parts);
+Mesh moved(Mesh mesh, const glm::dvec3& by);
+/// Seen from inside: the corners go round the other way.
+Mesh insideOut(Mesh mesh);
+/// `side` × `side` houses of various sizes and turns on a grid of pitch 5.
+std::vector<Mesh> town(int side);
+
+/// The mesh as a node: one osg::Geometry of white triangles with facet normals, corners as floats.
+osg::ref_ptr<osg::Geode> node(const Mesh& mesh, const std::string& name = "");
+
+} // namespace gnomon::examples
