@@ -170,13 +170,17 @@ void ScreenPass::testDepth(GLenum function) {
     glDepthFunc(function);
 }
 
-void ScreenPass::drawQuad(double atCenter, double slopeX, double slopeY) {
-    _state.applyProjectionMatrix(nullptr);
-    _state.applyModelViewMatrix(nullptr);
+void drawQuad(osg::State& state, double atCenter, double slopeX, double slopeY) {
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
     glBegin(GL_TRIANGLE_STRIP);
     for (const double y : {-1.0, 1.0})
         for (const double x : {-1.0, 1.0}) glVertex3d(x, y, atCenter + x * slopeX + y * slopeY);
     glEnd();
+}
+
+void ScreenPass::drawQuad(double atCenter, double slopeX, double slopeY) {
+    gnomon::drawQuad(_state, atCenter, slopeX, slopeY);
 }
 
 } // namespace gnomon

@@ -32,6 +32,9 @@ void leaveDefaults(osg::State& state);
 /// Switches blending on: what is drawn times `source` is added to what stands times `destination`.
 void addBlended(const osg::State& state, GLenum source, GLenum destination);
 
+/// Rectangle over the whole viewport; depth in normalised device coordinates, z = atCenter + x·slopeX + y·slopeY.
+void drawQuad(osg::State& state, double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
+
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
 /// Puts everything back at its end.
 class ScreenPass {
@@ -64,7 +67,7 @@ public:
     /// Passes where the quad's depth compares so with the one that stands; depths beyond near and far are clamped.
     void testDepth(GLenum function);
 
-    /// Rectangle over the whole viewport; depth in normalised device coordinates, z = atCenter + x·slopeX + y·slopeY.
+    /// See gnomon::drawQuad().
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
 
 private:

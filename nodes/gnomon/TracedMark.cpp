@@ -59,12 +59,27 @@ DepthPicture partInScissor(const osg::Viewport& viewport) {
     return part;
 }
 
-void readDepth(DepthPicture& part, const osg::Viewport& viewport) {
+/// glReadPixels reads no samples but a window's, which OpenGL resolves by itself.
+bool isMultisampledObject(const osg::State& state) {
+    return state.get<osg::GLExtensions>()->isFrameBufferObjectSupported && integer(GL_FRAMEBUFFER_BINDING_EXT) != 0 &&
+           integer(GL_SAMPLES) > 0;
+}
+
+/// @return false if this framebuffer's depth cannot be read.
+bool readDepth(osg::State& state, ResolvedDepth& resolved, DepthPicture& part) {
+    const osg::Viewport& viewport = *state.getCurrentViewport();
+    const GLint x = part.x + static_cast<GLint>(viewport.x()), y = part.y + static_cast<GLint>(viewport.y());
     part.depths.resize(std::size_t(part.width) * std::size_t(part.height));
-    glReadPixels(part.x + static_cast<GLint>(viewport.x()), part.y + static_cast<GLint>(viewport.y()), part.width,
-                 part.height, GL_DEPTH_COMPONENT, GL_FLOAT, part.depths.data());
     part.step = std::ldexp(1.0, -std::min(integer(GL_DEPTH_BITS), 24));
     part.subpixel = std::ldexp(1.0, -std::clamp(integer(GL_SUBPIXEL_BITS), 4, 16));
+    if (isMultisampledObject(state)) {
+        const auto place = resolved.read(state, x, y, part.width, part.height, part.depths.data());
+        part.place = place.value_or(part.place);
+        return place.has_value();
+    }
+    part.offPlace = integer(GL_SAMPLES) > 0 ? 0.5 : 0.0; // whichever sample a window's depth is
+    glReadPixels(x, y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, part.depths.data());
+    return true;
 }
 
 /// A fragment where a bit is set. The empty bitmap moves the raster position, which no place off the screen may set.
@@ -76,11 +91,22 @@ void drawBits(osg::State& state, const DepthPicture& part, const std::vector<std
     glBitmap(part.width, part.height, 0.0f, 0.0f, 0.0f, 0.0f, bits.data());
 }
 
-/// glReadPixels reads no samples but a window's, which OpenGL resolves by itself.
-bool isMultisampledBuffer(const osg::State& state) {
-    const bool inWindow =
-        !state.get<osg::GLExtensions>()->isFrameBufferObjectSupported || integer(GL_FRAMEBUFFER_BINDING_EXT) == 0;
-    return !inWindow && integer(GL_SAMPLES) > 0;
+/// The same as rectangles, one for each run of bits in a row: of glBitmap Mesa's llvmpipe (22.3) takes one sample only.
+void drawRuns(osg::State& state, const DepthPicture& part, const std::vector<std::uint8_t>& bits) {
+    const osg::ref_ptr<osg::RefMatrix> pixels =
+        new osg::RefMatrix(osg::Matrixd::ortho2D(0.0, part.viewportWidth, 0.0, part.viewportHeight));
+    state.applyProjectionMatrix(pixels);
+    state.applyModelViewMatrix(nullptr);
+    const std::size_t stride = bits.size() / std::size_t(part.height);
+    for (int y = 0; y < part.height; ++y) {
+        const std::uint8_t* row = bits.data() + stride * std::size_t(y);
+        const auto isSet = [row](int x) { return (row[x / 8] & (0x80 >> (x % 8))) != 0; };
+        for (int x = 0, first = 0; x < part.width; first = x) {
+            const bool set = isSet(first);
+            while (x < part.width && isSet(x) == set) ++x;
+            if (set) glRecti(part.x + first, part.y + y, part.x + x, part.y + y + 1);
+        }
+    }
 }
 
 } // namespace
@@ -90,16 +116,15 @@ std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     if (integer(GL_DEPTH_BITS) == 0)
         return "finds no depth bits in this framebuffer, from which it takes what is seen: give the camera a depth "
                "buffer.";
-    if (isMultisampledBuffer(state))
-        return "cannot read the depth of a multisampled framebuffer object: attach the camera's buffers without "
-               "samples.";
-    const osg::Viewport& viewport = *state.getCurrentViewport();
     const PlainPixels plain(state);
-    DepthPicture part = partInScissor(viewport);
+    DepthPicture part = partInScissor(*state.getCurrentViewport());
     if (part.width <= 0 || part.height <= 0) return "";
-    readDepth(part, viewport);
+    if (!readDepth(state, *resolved, part))
+        return "cannot resolve the depth of this multisampled framebuffer object: attach a renderbuffer for it, not a "
+               "texture.";
     pass.stencilEqual(bit, 0, bit);
-    drawBits(state, part, depthShadow(*scene, part, clipFromScene, light));
+    const std::vector<std::uint8_t> bits = depthShadow(*scene, part, clipFromScene, light);
+    (integer(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, bits);
     return "";
 }
 

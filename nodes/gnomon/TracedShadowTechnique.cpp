@@ -28,10 +28,10 @@ std::optional<ScreenRect> boundsOf(const CasterMesh& mesh, const TracedMark& mar
 
 } // namespace
 
-TracedShadowTechnique::TracedShadowTechnique() : _casters(new TracedCasters) {}
+TracedShadowTechnique::TracedShadowTechnique() : _casters(new TracedCasters), _resolved(new ResolvedDepth) {}
 
 TracedShadowTechnique::TracedShadowTechnique(const TracedShadowTechnique& other, const osg::CopyOp& copyOp)
-    : ShadowTechnique(other, copyOp), _casters(new TracedCasters) {}
+    : ShadowTechnique(other, copyOp), _casters(new TracedCasters), _resolved(new ResolvedDepth) {}
 
 TracedShadowTechnique::~TracedShadowTechnique() = default;
 
@@ -46,6 +46,7 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
     }
     osg::ref_ptr<TracedMark> mark = new TracedMark;
     mark->light = *usable;
+    mark->resolved = _resolved;
     mark->clipFromScene = glm::translate(toGlm(view.eyeFromGroup * view.projection), toGlm(mesh.origin));
     const auto bounds = boundsOf(mesh, *mark);
     if (!bounds) return {}; // out of sight: nothing to say
@@ -60,5 +61,10 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
 }
 
 unsigned TracedShadowTechnique::builds() const { return _casters->builds(); }
+
+void TracedShadowTechnique::releaseGLObjects(osg::State* state) const {
+    ShadowTechnique::releaseGLObjects(state);
+    _resolved->release(state);
+}
 
 } // namespace gnomon

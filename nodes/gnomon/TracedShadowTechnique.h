@@ -7,6 +7,7 @@
 
 namespace gnomon {
 
+class ResolvedDepth;
 class TracedCasters;
 
 /// Shadow on everything that is seen, by one ray a pixel towards the light: the accurate end of the chart.
@@ -18,12 +19,15 @@ class TracedCasters;
 ///
 /// Cost    0.1 to 0.35 µs of one core a pixel within the casters' and shadows' bounds, on all cores, and reading the depth
 ///         buffer; whenever the casters change, a tree over them: 0.6 to 0.8 µs a triangle, see RayScene. No draw of any
-///         geometry, but the compositor's. Building for more than a second tells its progress on stderr, if that is a terminal.
+///         geometry, but the compositor's. Building for more than a second tells its progress on stderr, if that is a
+///         terminal.
 /// Needs   Embree, a depth buffer that can be read; 1 stencil bit a light, 1 more where a receiver is named.
 /// Limits  a sample a pixel, hard edges. Facets, not smoothed normals, decide what is turned away from the light: low-poly
-///         models show them near the terminator. Alpha-tested casters cast as if they were solid. Not in multisampled
-///         framebuffer objects, whose depth cannot be read. What writes no depth does not receive; what is drawn with a
-///         polygon offset or a depth range of its own receives as if it stood where its depth says.
+///         models show them near the terminator. Alpha-tested casters cast as if they were solid. Multisampled framebuffers
+///         are decided a pixel, by one of its samples: the shadows' edges are not smoothed. In multisampled windows they
+///         may be off by a pixel, for OpenGL does not tell which sample that is; and a texture of several samples for the
+///         depth is diagnosed, and shows no shadow. What writes no depth does not receive; what is drawn with a polygon
+///         offset or a depth range of its own receives as if it stood where its depth says.
 /// Threads any number of cull and draw threads; set properties between frames.
 /// Source: I. Wald et al., "Embree", ACM TOG 33(4), 2014.
 ///
@@ -44,11 +48,14 @@ public:
     /// How often a tree was built: rises by one with each revision of the casters, whatever the views and lights.
     unsigned builds() const;
 
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
 protected:
     ~TracedShadowTechnique() override;
 
 private:
     std::unique_ptr<TracedCasters> _casters;
+    std::shared_ptr<ResolvedDepth> _resolved; ///< a frame that is still drawn keeps it.
 };
 
 } // namespace gnomon

@@ -42,6 +42,7 @@ double DepthTracer::slope(int x, int y, int dx, int dy) const {
     for (const int side : {-1, 1}) {
         const int u = x + side * dx, v = y + side * dy;
         if (u < 0 || v < 0 || u >= _picture.width || v >= _picture.height) continue;
+        if (!(depth(u, v) < 1.0)) continue;
         least = std::min(least, std::abs(depth(u, v) - depth(x, y)));
     }
     return least < 1.0 ? least : 0.0;
@@ -49,10 +50,11 @@ double DepthTracer::slope(int x, int y, int dx, int dy) const {
 
 /// Where a pixel's ray to the light starts: as far before the surface as its depth may be wrong.
 glm::dvec3 DepthTracer::start(int x, int y) const {
-    const double snapped = snapsOff * _picture.subpixel * (slope(x, y, 1, 0) + slope(x, y, 0, 1));
-    const double before = depth(x, y) - stepsOff * _picture.step - snapped;
-    const glm::dvec4 clip(2.0 * (_picture.x + x + 0.5) / _picture.viewportWidth - 1.0,
-                          2.0 * (_picture.y + y + 0.5) / _picture.viewportHeight - 1.0, 2.0 * before - 1.0, 1.0);
+    const double moved = snapsOff * _picture.subpixel + _picture.offPlace;
+    const double before = depth(x, y) - stepsOff * _picture.step - moved * (slope(x, y, 1, 0) + slope(x, y, 0, 1));
+    const glm::dvec4 clip(2.0 * (_picture.x + x + _picture.place.x) / _picture.viewportWidth - 1.0,
+                          2.0 * (_picture.y + y + _picture.place.y) / _picture.viewportHeight - 1.0, 2.0 * before - 1.0,
+                          1.0);
     const glm::dvec4 point = _sceneFromClip * clip;
     const glm::dvec4 nearer = point - _sceneFromClip[2] * (2.0 * _picture.step);
     const glm::dvec3 place = glm::dvec3(point) / point.w;

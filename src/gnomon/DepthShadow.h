@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
 
@@ -16,12 +17,14 @@ struct DepthPicture {
     std::vector<float> depths;        ///< window depths of the part, row by row, 0 (near) … 1 (far, or nothing).
     double step = 1.0 / (1 << 24);    ///< between two depths that the buffer can tell apart.
     double subpixel = 1.0 / (1 << 8); ///< part of a pixel to which the rasteriser snaps corners.
+    glm::dvec2 place{0.5};            ///< where in its pixel a depth was taken, 0 … 1.
+    double offPlace = 0.0;            ///< how far from there it may have been, pixels along either axis.
 };
 
 /// Which pixels a light does not reach: where the depth buffer says a surface is, one ray to the light.
 ///
 /// A depth is not exact. Here it is taken to be right to 4 steps of the buffer and to what twice the rasteriser's
-/// snapping moves it, by its slope to the nearer of the neighbours on either side. The ray starts as much nearer to the
+/// snapping moves it and a sample's place, by its slope to the nearer of the neighbours on either side. The ray starts as much nearer to the
 /// eye, and a few steps of a float more (RayScene::margin()). Between surface and eye nothing can be, or it would be
 /// seen: so the start is never behind a thing, nothing leaks at contacts, and needs no normal; and it is always on the
 /// seen side of its own surface, so that what is flat does not shadow itself. What faces away from the light shadows

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What is drawn into: textures, framebuffers with and without stencil, alpha or several samples; and a stencil buffer
 // that the application uses too.
-#include "GlComplaints.h"
+#include "IntoTexture.h"
 #include "TwoGrounds.h"
 
 #include <gnomon/ShadowBin.h>
 #include <osg/Depth>
-#include <osg/GLExtensions>
 #include <osg/Stencil>
-#include <osg/Texture2D>
 
 #include <algorithm>
 #include <memory>
@@ -17,77 +15,23 @@ using namespace test;
 
 namespace {
 
-struct Target {
-    GLenum color = GL_RGBA8;
-    osg::Camera::BufferComponent depth = osg::Camera::PACKED_DEPTH_STENCIL_BUFFER;
-    GLenum depthFormat = GL_DEPTH24_STENCIL8_EXT;
-    unsigned samples = 0;
-};
-
 enum Drawn { Lit, Dark, Shadowed };
 
-/// Draws a scene into a framebuffer object and shows it on a quad as wide as the window.
+/// Two grounds drawn into a framebuffer object.
 struct Rtt {
     Rtt(const TwoGrounds& place, const Target& target, Drawn drawn, bool besideTheScene = false) {
         Scene scene = place.build();
         if (drawn == Dark) scene.takeLightAway();
         if (drawn == Shadowed) technique = place.addShadow(scene);
-        texture->setTextureSize(place.view.width, place.view.height);
-        texture->setInternalFormat(static_cast<GLint>(target.color));
-        texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
-        texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
-        osg::ref_ptr<osg::Group> root = new osg::Group;
-        root->addChild(cameraInto(target, place.view, scene.root));
-        const osg::ref_ptr<osg::Camera> shown = show();
-        root->addChild(shown);
-        View window = place.view;
-        if (besideTheScene) {
-            root->addChild(scene.root);
-            window.width *= 2;
-            shown->setRenderOrder(osg::Camera::POST_RENDER);
-            shown->setViewport(place.view.width, 0, place.view.width, place.view.height);
-        }
-        camera = std::make_unique<Camera>(root, window);
-        camera->viewer().getCamera()->setViewport(0, 0, place.view.width, place.view.height);
-        complaints = std::make_unique<GlComplaints>(*camera);
-        osg::GraphicsContext& context = *camera->context().graphicsContext();
-        context.getState()->get<osg::GLExtensions>()->glRenderbufferStorageMultisampleCoverageNV = nullptr; // a stub
+        into = std::make_unique<IntoTexture>(scene.root, place.view, target, besideTheScene);
+        camera = into->camera.get();
+        complaints = into->complaints.get();
     }
 
-    osg::ref_ptr<osg::Camera> cameraInto(const Target& target, const View& view, osg::Node* scene) {
-        osg::ref_ptr<osg::Camera> into = new osg::Camera;
-        into->setRenderOrder(osg::Camera::PRE_RENDER);
-        into->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
-        into->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-        into->setViewport(0, 0, view.width, view.height);
-        into->setViewMatrix(view.view);
-        into->setProjectionMatrix(view.projection);
-        into->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-        into->setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
-        into->attach(osg::Camera::COLOR_BUFFER0, texture, 0, 0, false, target.samples, target.samples);
-        into->attach(target.depth, target.depthFormat);
-        if (target.samples) into->setImplicitBufferAttachmentMask(0, 0);
-        into->addChild(scene);
-        return into;
-    }
-
-    osg::ref_ptr<osg::Camera> show() {
-        osg::ref_ptr<osg::Geometry> quad =
-            osg::createTexturedQuadGeometry({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.0f, 0.0f, 1.0f, 1.0f);
-        quad->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
-        quad->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
-        osg::ref_ptr<osg::Camera> over = new osg::Camera;
-        over->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-        over->setProjectionMatrix(osg::Matrixd::ortho2D(0.0, 1.0, 0.0, 1.0));
-        over->setRenderOrder(osg::Camera::NESTED_RENDER);
-        over->addChild(quad);
-        return over;
-    }
-
-    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
     osg::ref_ptr<gnomon::PlanarShadowNode> technique;
-    std::unique_ptr<Camera> camera;
-    std::unique_ptr<GlComplaints> complaints;
+    std::unique_ptr<IntoTexture> into;
+    Camera* camera = nullptr;
+    GlComplaints* complaints = nullptr;
 };
 
 ::testing::AssertionResult isExactInto(const TwoGrounds& place, const Target& target) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traced shadows against the truth image; several lights, composites, receivers, live changes.
-#include <support/Scene.h>
-#include <support/Truth.h>
+#include "TracedCases.h"
 
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
@@ -11,51 +10,15 @@
 #include <iostream>
 #include <limits>
 
-using test::Mesh;
+using test::flatGround;
+using test::labEight;
 using test::Picture;
+using test::room;
 using test::Scene;
+using test::townOfHouses;
+using test::TracedCase;
 
 namespace {
-
-struct Case {
-    std::string name;
-    std::vector<Mesh> meshes; ///< the first is named "ground".
-    osg::Vec4d light;
-    test::View view;
-};
-
-Case labEight() {
-    return {
-        "lab 8",
-        {test::square(8.0), test::sphere({-2.0, 0.0, 2.5}, 1.0, 64), test::house({2.0, 0.0}, {2.0, 2.0, 2.0}, 30.0)},
-        {1.0, 0.3, 1.2, 0.0},
-        test::perspective({-8.0, -14.0, 10.0}, {0.0, 0.0, 0.0}, 640, 480)};
-}
-
-Case town() {
-    std::vector<Mesh> meshes = test::town(20);
-    meshes.insert(meshes.begin(), test::square(55.0));
-    return {"town",
-            meshes,
-            {1.0, 0.3, 0.7, 0.0},
-            test::perspective({-50.0, -70.0, 40.0}, {0.0, 0.0, 0.0}, 640, 480, 40.0, 1.0, 300.0)};
-}
-
-Case room() {
-    return {"room",
-            {test::square(5.0, 0.001), test::insideOut(test::box({-5.0, -5.0, 0.0}, {5.0, 5.0, 4.0})),
-             test::house({1.5, 1.0}, {1.5, 1.0, 1.2}, 25.0), test::house({-1.8, 0.5}, {1.0, 1.0, 2.0}, -40.0),
-             test::sphere({0.2, -0.5, 1.5}, 0.5, 64)},
-            {0.3, 0.4, 3.2, 1.0},
-            test::perspective({-3.5, -4.7, 3.0}, {0.5, 1.0, 0.8}, 640, 480, 70.0, 0.1, 30.0)};
-}
-
-Scene build(const Case& given) {
-    Scene result = test::scene(given.light);
-    for (std::size_t i = 0; i < given.meshes.size(); ++i)
-        result.content->addChild(test::node(given.meshes[i], i ? "caster" : "ground"));
-    return result;
-}
 
 struct Result {
     Picture lit, dark, traced;
@@ -63,23 +26,22 @@ struct Result {
     std::vector<std::string> causes;
 };
 
-Result draw(const Case& given) {
+Result draw(const TracedCase& given) {
     Result result;
-    Scene lit = build(given), dark = build(given), shadowed = build(given);
+    Scene lit = given.build(), dark = given.build(), shadowed = given.build();
     dark.takeLightAway();
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     shadowed.addShadow(technique);
     result.lit = test::render(lit.root, given.view);
     result.dark = test::render(dark.root, given.view);
     result.traced = test::render(shadowed.root, given.view);
-    result.comparison =
-        test::compare(result.traced, result.lit, result.dark, test::truthOf(given.meshes, given.light, given.view));
+    result.comparison = test::compare(result.traced, result.lit, result.dark, given.truth());
     result.causes = technique->diagnose();
     return result;
 }
 
 TEST(Traced, IsAsGoodAsOneRayAPixelCanBe) {
-    for (const Case& given : {labEight(), town(), room()}) {
+    for (const TracedCase& given : {labEight(), townOfHouses(), room()}) {
         const Result result = draw(given);
         std::cout << given.name << ": " << result.comparison << "\n";
         EXPECT_TRUE(result.comparison.good()) << given.name << ": " << result.comparison;
@@ -90,26 +52,10 @@ TEST(Traced, IsAsGoodAsOneRayAPixelCanBe) {
     }
 }
 
-/// A level square of `side` × `side` small ones.
-Mesh tiles(double half, int side) {
-    Mesh mesh;
-    const double pitch = 2.0 * half / side;
-    for (int i = 0; i < side * side; ++i) {
-        const Mesh tile =
-            test::quad({i % side * pitch - half, i / side * pitch - half, 0.0}, {pitch, 0.0, 0.0}, {0.0, pitch, 0.0});
-        mesh.insert(mesh.end(), tile.begin(), tile.end());
-    }
-    return mesh;
-}
-
-/// What is not lit on a level square under a light of `elevation` degrees, seen from `height`.
+/// What is not lit on flatGround().
 int unlit(double half, double height, double elevation, double near, double far, int side = 1) {
-    const double angle = elevation / 57.29577951308232;
-    Case given{"flat",
-               {tiles(half, side)},
-               {std::cos(angle), 0.2, std::sin(angle), 0.0},
-               test::perspective({-half / 2.0, -half / 2.0, height}, {0.0, 0.0, 0.0}, 320, 240, 40.0, near, far)};
-    Scene lit = build(given), shadowed = build(given);
+    const TracedCase given = flatGround(half, height, elevation, near, far, side);
+    Scene lit = given.build(), shadowed = given.build();
     shadowed.addShadow(new gnomon::TracedShadowTechnique);
     return test::render(shadowed.root, given.view).different(test::render(lit.root, given.view));
 }
@@ -128,7 +74,7 @@ TEST(Traced, FlatGroundsAreFreeOfAcne) {
 }
 
 TEST(Traced, NothingLeaksWhereABoxStandsOnTheGround) {
-    Case given = labEight();
+    TracedCase given = labEight();
     given.meshes = {test::square(8.0), test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})};
     given.view = test::perspective({2.0, 9.0, 2.0}, {0.0, 1.0, 0.0}, 640, 480, 20.0);
     given.light = {0.3, -1.0, 0.8, 0.0};
@@ -139,8 +85,8 @@ TEST(Traced, NothingLeaksWhereABoxStandsOnTheGround) {
 }
 
 TEST(Traced, FindsTheProjectionThatIsDrawnUnderAutomaticNearAndFar) {
-    const Case given = labEight();
-    Scene lit = build(given), dark = build(given), shadowed = build(given);
+    const TracedCase given = labEight();
+    Scene lit = given.build(), dark = given.build(), shadowed = given.build();
     dark.takeLightAway();
     shadowed.addShadow(new gnomon::TracedShadowTechnique);
     const auto picture = [&](Scene& scene) {
@@ -148,18 +94,18 @@ TEST(Traced, FindsTheProjectionThatIsDrawnUnderAutomaticNearAndFar) {
         camera.viewer().getCamera()->setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
         return camera.frame();
     };
-    const test::TruthComparison comparison = test::compare(picture(shadowed), picture(lit), picture(dark),
-                                                           test::truthOf(given.meshes, given.light, given.view));
+    const test::TruthComparison comparison =
+        test::compare(picture(shadowed), picture(lit), picture(dark), given.truth());
     EXPECT_TRUE(comparison.good()) << comparison;
 }
 
 TEST(Traced, IsTheSamePictureFarFromTheOrigin) {
     const osg::Vec3d utm(432100.25, 6400000.5, 812.0);
     for (const bool lamp : {false, true}) {
-        Case given = labEight();
+        TracedCase given = labEight();
         if (lamp) given.light = {3.0, -2.0, 7.0, 1.0};
         const auto picture = [&](const osg::Vec3d& offset) {
-            Scene scene = build(given);
+            Scene scene = given.build();
             scene.addShadow(new gnomon::TracedShadowTechnique);
             if (lamp)
                 scene.group->addLight(
@@ -181,9 +127,9 @@ TEST(Traced, IsTheSamePictureFarFromTheOrigin) {
 }
 
 TEST(Traced, BlendDarkensTheSamePixelsOnceAndLeavesTheSkyAlone) {
-    const Case given = labEight();
+    const TracedCase given = labEight();
     const Result relit = draw(given);
-    Scene scene = build(given);
+    Scene scene = given.build();
     scene.addShadow(new gnomon::TracedShadowTechnique);
     scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
     const Picture blended = test::render(scene.root, given.view);
@@ -200,10 +146,10 @@ TEST(Traced, BlendDarkensTheSamePixelsOnceAndLeavesTheSkyAlone) {
 }
 
 TEST(Traced, TakesEachOfSeveralLightsFromWhereItDoesNotReach) {
-    const Case given = labEight();
+    const TracedCase given = labEight();
     const osg::Vec4d second(-1.0, -0.5, 0.9, 0.0);
     const auto picture = [&](bool traced, bool firstOff, bool secondOff) {
-        Scene scene = build(given);
+        Scene scene = given.build();
         osg::ref_ptr<osg::LightSource> more = new osg::LightSource;
         more->getLight()->setLightNum(1);
         more->getLight()->setPosition(osg::Vec4(second));
@@ -219,8 +165,7 @@ TEST(Traced, TakesEachOfSeveralLightsFromWhereItDoesNotReach) {
     const Picture combination[2][2] = {{picture(false, false, false), picture(false, false, true)},
                                        {picture(false, true, false), picture(false, true, true)}};
     const Picture traced = picture(true, false, false);
-    const gnomon::TruthImage a = test::truthOf(given.meshes, given.light, given.view),
-                             b = test::truthOf(given.meshes, second, given.view);
+    const gnomon::TruthImage a = given.truth(), b = test::truthOf(given.meshes, second, given.view);
     int wrong = 0, both = 0;
     for (std::size_t i = 0; i < traced.pixels.size(); ++i) {
         if (a.pixels[i].isEdge() || b.pixels[i].isEdge() || !a.pixels[i].seen()) continue;
@@ -233,8 +178,8 @@ TEST(Traced, TakesEachOfSeveralLightsFromWhereItDoesNotReach) {
 }
 
 TEST(Traced, ANamedReceiverIsAllThatReceives) {
-    const Case given = labEight();
-    Scene scene = build(given), everything = build(given), lit = build(given);
+    const TracedCase given = labEight();
+    Scene scene = given.build(), everything = given.build(), lit = given.build();
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     technique->setReceiver({test::find(*scene.root, "ground")});
     scene.addShadow(technique);
@@ -242,7 +187,7 @@ TEST(Traced, ANamedReceiverIsAllThatReceives) {
     const Picture named = test::render(scene.root, given.view), all = test::render(everything.root, given.view),
                   none = test::render(lit.root, given.view);
     EXPECT_GT(named.different(none), 5000);
-    const gnomon::TruthImage truth = test::truthOf(given.meshes, given.light, given.view);
+    const gnomon::TruthImage truth = given.truth();
     int wrong = 0;
     for (std::size_t i = 0; i < named.pixels.size(); ++i) {
         if (!truth.pixels[i].seen() || truth.pixels[i].isEdge()) continue;
@@ -252,8 +197,8 @@ TEST(Traced, ANamedReceiverIsAllThatReceives) {
 }
 
 TEST(Traced, BuildsOnceARevisionHoweverManyFramesAndLights) {
-    const Case given = labEight();
-    Scene scene = build(given);
+    const TracedCase given = labEight();
+    Scene scene = given.build();
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->addChild(test::node(test::box({3.0, 3.0, 1.0}, {4.0, 4.0, 2.0})));
@@ -271,10 +216,10 @@ TEST(Traced, BuildsOnceARevisionHoweverManyFramesAndLights) {
 }
 
 TEST(Traced, ALightThatIsNowhereIsDiagnosed) {
-    const Case given = labEight();
+    const TracedCase given = labEight();
     for (const osg::Vec4d& light :
          {osg::Vec4d(0.0, 0.0, 0.0, 0.0), osg::Vec4d(std::numeric_limits<double>::quiet_NaN(), 0.0, 1.0, 1.0)}) {
-        Scene scene = build(given), lit = build(given);
+        Scene scene = given.build(), lit = given.build();
         const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
         scene.addShadow(technique);
         scene.group->addLight({0, light});
@@ -285,9 +230,9 @@ TEST(Traced, ALightThatIsNowhereIsDiagnosed) {
 }
 
 TEST(Traced, ShadowsOutOfSightCostNothingAndSayNothing) {
-    Case given = labEight();
+    TracedCase given = labEight();
     given.view = test::perspective({0.0, -40.0, 5.0}, {0.0, -80.0, 5.0}, 64, 48);
-    Scene scene = build(given);
+    Scene scene = given.build();
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     scene.addShadow(technique);
     scene.group->addLight({0, given.light});

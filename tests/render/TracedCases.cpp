@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "TracedCases.h"
+
+#include <cmath>
+
+namespace test {
+namespace {
+
+/// A level square of `side` × `side` small ones.
+Mesh tiles(double half, int side) {
+    Mesh mesh;
+    const double pitch = 2.0 * half / side;
+    for (int i = 0; i < side * side; ++i) {
+        const Mesh tile =
+            quad({i % side * pitch - half, i / side * pitch - half, 0.0}, {pitch, 0.0, 0.0}, {0.0, pitch, 0.0});
+        mesh.insert(mesh.end(), tile.begin(), tile.end());
+    }
+    return mesh;
+}
+
+} // namespace
+
+Scene TracedCase::build() const {
+    Scene result = test::scene(light);
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        result.content->addChild(test::node(meshes[i], i ? "caster" : "ground"));
+    return result;
+}
+
+TracedCase labEight() {
+    return {"lab 8",
+            {square(8.0), sphere({-2.0, 0.0, 2.5}, 1.0, 64), house({2.0, 0.0}, {2.0, 2.0, 2.0}, 30.0)},
+            {1.0, 0.3, 1.2, 0.0},
+            perspective({-8.0, -14.0, 10.0}, {0.0, 0.0, 0.0}, 640, 480)};
+}
+
+TracedCase townOfHouses() {
+    std::vector<Mesh> meshes = town(20);
+    meshes.insert(meshes.begin(), square(55.0));
+    return {"town",
+            meshes,
+            {1.0, 0.3, 0.7, 0.0},
+            perspective({-50.0, -70.0, 40.0}, {0.0, 0.0, 0.0}, 640, 480, 40.0, 1.0, 300.0)};
+}
+
+TracedCase room() {
+    return {"room",
+            {square(5.0, 0.001), insideOut(box({-5.0, -5.0, 0.0}, {5.0, 5.0, 4.0})),
+             house({1.5, 1.0}, {1.5, 1.0, 1.2}, 25.0), house({-1.8, 0.5}, {1.0, 1.0, 2.0}, -40.0),
+             sphere({0.2, -0.5, 1.5}, 0.5, 64)},
+            {0.3, 0.4, 3.2, 1.0},
+            perspective({-3.5, -4.7, 3.0}, {0.5, 1.0, 0.8}, 640, 480, 70.0, 0.1, 30.0)};
+}
+
+TracedCase flatGround(double half, double height, double elevation, double near, double far, int side) {
+    const double angle = elevation / 57.29577951308232;
+    return {"flat",
+            {tiles(half, side)},
+            {std::cos(angle), 0.2, std::sin(angle), 0.0},
+            perspective({-half / 2.0, -half / 2.0, height}, {0.0, 0.0, 0.0}, 320, 240, 40.0, near, far)};
+}
+
+} // namespace test
