@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Shot.h"
+#include "FrameTime.h"
 #include "SceneBounds.h"
 #include "SceneTruth.h"
 
@@ -8,10 +9,7 @@
 
 #include <osg/DisplaySettings>
 #include <osg/Stats>
-#include <osg/Timer>
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <sys/resource.h>
 
@@ -27,17 +25,9 @@ HeadlessContext::Options contextOptions(const ShotOptions& options) {
     return result;
 }
 
-/// Value below which the share `part` of the sorted times lies, between neighbours by straight line.
-double quantile(const std::vector<double>& sorted, double part) {
-    const double place = part * static_cast<double>(sorted.size() - 1);
-    const std::size_t below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return sorted[below] + (place - std::floor(place)) * (sorted[above] - sorted[below]);
-}
-
-nlohmann::json quartiles(std::vector<double> times) {
-    std::sort(times.begin(), times.end());
-    return {{"q1", quantile(times, 0.25)}, {"median", quantile(times, 0.5)}, {"q3", quantile(times, 0.75)}};
+nlohmann::json quartilesJson(const std::vector<double>& times) {
+    const Quartiles q = quartiles(times);
+    return {{"q1", q.q1}, {"median", q.median}, {"q3", q.q3}};
 }
 
 double peakMiB() {
@@ -84,9 +74,9 @@ nlohmann::json Shot::measure() {
             {"draws", draws},
             {"shadowPasses", shadowPasses()},
             {"msFirst", first},
-            {"msSteady", quartiles(steady)},
-            {"msMoving", quartiles(moving)},
-            {"msNone", quartiles(none)},
+            {"msSteady", quartilesJson(steady)},
+            {"msMoving", quartilesJson(moving)},
+            {"msNone", quartilesJson(none)},
             {"peakMiB", peakMiB()}};
 }
 
@@ -101,9 +91,7 @@ metrics::TruthMaps Shot::truth() {
 
 double Shot::timedFrame(bool shadows) {
     _setup.show(shadows);
-    const osg::Timer_t start = osg::Timer::instance()->tick();
-    _viewer.frame();
-    return osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+    return timeFrame(_viewer).wall;
 }
 
 /// Drawables of the scene's own draw; OSG counts them, outside the timed frames. Leaves the picture as it is to be
