@@ -33,12 +33,12 @@ double quantile(const std::vector<double>& sorted, double part) {
 
 } // namespace
 
-FrameTime timeFrame(osgViewer::Viewer& viewer) {
+FrameTime timeFrame(osgViewer::Viewer& viewer, double simulationTime) {
     if (!viewer.isRealized()) viewer.realize();
     finish(viewer);
     const double processor = processorMilliseconds();
     const Clock::time_point start = Clock::now();
-    viewer.frame();
+    viewer.frame(simulationTime);
     finish(viewer);
     const std::chrono::duration<double, std::milli> wall = Clock::now() - start;
     return {wall.count(), processorMilliseconds() - processor};

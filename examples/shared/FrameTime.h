@@ -12,8 +12,8 @@ struct FrameTime {
 };
 
 /// Draws one frame between two glFinish(): nothing drawn before counts, all of this frame does. The viewer has one
-/// context, which is current afterwards.
-FrameTime timeFrame(osgViewer::Viewer& viewer);
+/// context, which is current afterwards. @param simulationTime  seconds, as osgViewer::ViewerBase::frame() takes it.
+FrameTime timeFrame(osgViewer::Viewer& viewer, double simulationTime = USE_REFERENCE_TIME);
 
 struct Quartiles {
     double q1 = 0.0, median = 0.0, q3 = 0.0;

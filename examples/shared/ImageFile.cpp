@@ -44,10 +44,14 @@ metrics::Picture readGrey(const std::string& file, const std::string& program) {
         throw std::runtime_error(quoted(file) + " holds pixels of a kind that cannot be compared: grey or colour, in "
                                                 "bytes, shorts or floats, is needed.");
     if (image->getOrigin() == osg::Image::TOP_LEFT) image->flipVertical();
-    metrics::Picture greys(image->s(), image->t());
+    return greysOf(*image);
+}
+
+metrics::Picture greysOf(const osg::Image& image) {
+    metrics::Picture greys(image.s(), image.t());
     for (int y = 0; y < greys.height; ++y)
         for (int x = 0; x < greys.width; ++x)
-            greys.at(x, y) = grey(image->getColor(static_cast<unsigned>(x), static_cast<unsigned>(y)));
+            greys.at(x, y) = grey(image.getColor(static_cast<unsigned>(x), static_cast<unsigned>(y)));
     return greys;
 }
 

@@ -16,4 +16,7 @@ osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& p
 /// @throws std::runtime_error, one sentence, for other kinds of pixels.
 metrics::Picture readGrey(const std::string& file, const std::string& program);
 
+/// The same of an image in memory, whose lowest row comes first.
+metrics::Picture greysOf(const osg::Image& image);
+
 } // namespace gnomon::examples

@@ -38,12 +38,6 @@ bool isLamp(const osg::Vec4d& place) { return std::abs(place.w()) > 1e-9; }
 
 osg::Vec3d point(const osg::Vec4d& place) { return osg::Vec3d(place.x(), place.y(), place.z()) / place.w(); }
 
-/// A lamp stands at the origin of its mount, which is in double; a sun's direction needs no more than float.
-void stand(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d& place) {
-    mount.setMatrix(isLamp(place) ? osg::Matrixd::translate(point(place)) : osg::Matrixd());
-    light.setPosition(isLamp(place) ? osg::Vec4(0, 0, 0, 1) : osg::Vec4(place));
-}
-
 /// From `seenFrom` to the light, times w where that is not 0.
 osg::Vec3d wayTo(const osg::Vec4d& place, const osg::Vec3d& seenFrom) {
     const osg::Vec3d way = osg::Vec3d(place.x(), place.y(), place.z()) - seenFrom * place.w();
@@ -79,6 +73,11 @@ std::vector<osg::Vec4d> SceneLights::places() const {
     return result;
 }
 
+void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d& place) {
+    mount.setMatrix(isLamp(place) ? osg::Matrixd::translate(point(place)) : osg::Matrixd());
+    light.setPosition(isLamp(place) ? osg::Vec4(0, 0, 0, 1) : osg::Vec4(place));
+}
+
 SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group)
     : _group(&group), _scene(lightsIn(group)) {
     for (const osg::Vec4d& place : options.lights) add(place, root);
@@ -109,7 +108,7 @@ std::optional<SceneLights::Direction> SceneLights::given(const osg::Vec3d& seenF
 void SceneLights::move(const Direction& by, const osg::Vec3d& centre) {
     for (Own& own : _own) {
         own.place = moved(own.given, by, centre);
-        stand(*own.mount, *own.source->getLight(), own.place);
+        standLight(*own.mount, *own.source->getLight(), own.place);
     }
     tellGroup();
 }
@@ -120,7 +119,7 @@ void SceneLights::add(const osg::Vec4d& place, osg::Group& root) {
     Own own{place, place, new osg::MatrixTransform, new osg::LightSource};
     own.source->setLight(new osg::Light(static_cast<unsigned>(freeNumber())));
     own.mount->addChild(own.source);
-    stand(*own.mount, *own.source->getLight(), place);
+    standLight(*own.mount, *own.source->getLight(), place);
     root.addChild(own.mount);
     _own.push_back(own);
 }

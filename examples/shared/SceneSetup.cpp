@@ -74,13 +74,15 @@ void SceneSetup::show(bool shadows) {
     for (const osg::ref_ptr<ShadowTechnique>& technique : techniques) technique->setNodeMask(shadows ? ~0u : 0u);
 }
 
-std::vector<std::string> SceneSetup::diagnose() const {
+std::vector<std::string> diagnoses(const std::vector<osg::ref_ptr<ShadowTechnique>>& techniques) {
     std::vector<std::string> causes;
     for (const osg::ref_ptr<ShadowTechnique>& technique : techniques)
         for (const std::string& cause : technique->diagnose())
             if (std::find(causes.begin(), causes.end(), cause) == causes.end()) causes.push_back(cause);
     return causes;
 }
+
+std::vector<std::string> SceneSetup::diagnose() const { return diagnoses(techniques); }
 
 void SceneSetup::cast(std::vector<ShadowSpec> specs) {
     for (const osg::ref_ptr<ShadowTechnique>& technique : techniques) group->removeChild(technique);

@@ -34,6 +34,9 @@ struct SceneSetup {
     std::vector<std::string> diagnose() const;
 };
 
+/// Why shadows were missing in the last frame: each cause once, whichever of these techniques names it.
+std::vector<std::string> diagnoses(const std::vector<osg::ref_ptr<ShadowTechnique>>& techniques);
+
 /// @throws std::invalid_argument, one sentence, if a name is not in the scene or a specification does not suit it.
 SceneSetup setUpScene(const ViewOptions& options, osg::Node& files);
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "../report/ChartResults.h"
+#include "../scenes/ChartScene.h"
+#include "Sweep.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// What a run of the chart is to do.
+struct ChartPlan {
+    std::vector<std::string> scenes;                          ///< by name.
+    std::function<ChartScene(const std::string& name)> scene; ///< makes one of them.
+    std::string technique;                                    ///< part of the names of those to measure; empty: all.
+    std::string folder;                                       ///< for pictures; is there.
+    int frames = 60;                                          ///< timed, of each motion.
+    int flickerFrames = 32;                                   ///< of each of the two films.
+    SweepWidth sweep = SweepWidth::WIDE;
+    bool disc = true;                                      ///< measure against the sun's disc too.
+    std::vector<std::pair<std::string, std::string>> made; ///< what is known of the run already.
+};
+
+/// Measures every technique in every scene: errors of still pictures, flicker, then costs, all in one race. A contender
+/// that fails has its reason in its point; the others go on.
+///
+/// @param save   called after each point with all there is so far.
+/// @param stops  asked often: true ends the run soon, and what it has stays.
+/// @return the results, complete unless stopped.
+/// @throws std::invalid_argument if no technique has `technique` in its name.
+ChartResults runChart(const ChartPlan& plan, const std::function<void(const ChartResults&)>& save,
+                      const std::function<bool()>& stops);
+
+/// Names of all techniques that are measured.
+std::vector<std::string> chartTechniques();
+
+} // namespace gnomon::examples

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "GnomonStaging.h"
+#include "SceneSetup.h"
+
+namespace gnomon::examples {
+
+GnomonStaging::GnomonStaging(ShadowSpec spec, const ChartScene& scene, Look look)
+    : Staging(scene, look), _group(new ShadowCasterGroup) {
+    if (look == Look::VISIBILITY && spec.composite == ShadowCasterGroup::BLEND) spec.dark = 0.0f;
+    _group->addChild(_content);
+    _root->addChild(_group);
+    _techniques = addShadows(*_group, {spec});
+    GnomonStaging::setLight(scene.light);
+}
+
+void GnomonStaging::setLight(const osg::Vec4d& light) {
+    Staging::setLight(light);
+    _group->setLights({{0, light}});
+}
+
+void GnomonStaging::setCasting(bool casts) {
+    Selection all;
+    if (!casts) all.mask = 0;
+    _group->setCasters(all);
+}
+
+std::vector<std::string> GnomonStaging::diagnose() const { return diagnoses(_techniques); }
+
+} // namespace gnomon::examples

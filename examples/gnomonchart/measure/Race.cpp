@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "Race.h"
+#include "DrawCount.h"
+#include "StageViewer.h"
+
+#include <osg/GLExtensions>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <fstream>
+#include <malloc.h>
+#include <memory>
+#include <unistd.h>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr int warmUp = 5;
+constexpr double cameraStep = 0.5, lightStep = 1.0; // degrees a frame
+
+/// Times by rounds.
+struct Times {
+    std::vector<double> wall, processor;
+    void add(const FrameTime& time) {
+        wall.push_back(time.wall);
+        processor.push_back(time.processor);
+    }
+};
+
+double residentMiB() {
+    malloc_trim(0); // what others freed is not this one's
+    std::ifstream file("/proc/self/statm");
+    double all = 0.0, resident = 0.0;
+    file >> all >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+/// Triangles, lines and points that reach OpenGL's rasteriser before clipping, in one frame.
+std::size_t primitivesOf(StageViewer& viewer) {
+    osg::GraphicsContext& context = *viewer.viewer().getCamera()->getGraphicsContext();
+    context.makeCurrent();
+    const auto& gl = *context.getState()->get<osg::GLExtensions>();
+    GLuint query = 0, count = 0;
+    gl.glGenQueries(1, &query);
+    gl.glBeginQuery(GL_PRIMITIVES_GENERATED, query);
+    viewer.draw();
+    gl.glEndQuery(GL_PRIMITIVES_GENERATED);
+    gl.glGetQueryObjectuiv(query, GL_QUERY_RESULT, &count);
+    gl.glDeleteQueries(1, &query);
+    return count;
+}
+
+/// One contender on its track.
+struct Runner {
+    std::unique_ptr<StageViewer> viewer;
+    Times steady, moving;
+    double first = 0.0, memory = 0.0;
+    std::size_t draws = 0, primitives = 0;
+    std::string failure;
+
+    void start(const Contender& contender, const ChartScene& scene) {
+        const double before = residentMiB();
+        viewer = std::make_unique<StageViewer>(contender.stage(scene, Look::SHADED), scene.camera,
+                                               StageViewer::Colour::BYTES);
+        first = viewer->time().wall;
+        viewer->draw();
+        memory = residentMiB() - before;
+        const std::size_t drawn = drawCalls();
+        viewer->draw();
+        draws = drawCalls() - drawn;
+        primitives = primitivesOf(*viewer);
+    }
+};
+
+/// Runs `step`; a runner that fails is out of the race.
+template <typename Step>
+void guarded(Runner& runner, const Step& step) {
+    if (!runner.failure.empty()) return;
+    try {
+        step(runner);
+    } catch (const std::exception& error) {
+        runner.failure = error.what();
+        runner.viewer.reset();
+    }
+}
+
+class Track {
+public:
+    Track(const ChartScene& scene, const std::vector<Contender>& contenders, int frames)
+        : _scene(scene), _frames(frames), _runners(contenders.size() + 1) {
+        guarded(_runners[0], [&](Runner& r) { r.start(plainContender(), _scene); });
+        for (std::size_t i = 0; i < contenders.size(); ++i)
+            guarded(_runners[i + 1], [&](Runner& r) { r.start(contenders[i], _scene); });
+    }
+
+    void run(const std::function<bool(int, int)>& progress) {
+        const int all = 2 * (_frames + warmUp);
+        for (int round = 0; round < all && progress(round, all); ++round)
+            if (round < all / 2)
+                steady(round);
+            else
+                moving(round - all / 2);
+    }
+
+    RaceResults results() const {
+        RaceResults results;
+        const Runner& plain = _runners[0];
+        results.frame = quartiles(plain.steady.wall).median;
+        for (std::size_t i = 1; i < _runners.size(); ++i) results.contenders.push_back(resultOf(_runners[i], plain));
+        return results;
+    }
+
+private:
+    void steady(int round) {
+        const SceneCamera camera = movedCamera(_scene, cameraStep * round);
+        each(round, [&](Runner& runner) {
+            runner.viewer->setCamera(camera);
+            const FrameTime time = runner.viewer->time();
+            if (round >= warmUp) runner.steady.add(time);
+        });
+    }
+
+    void moving(int round) {
+        const osg::Vec4d light = movedLight(_scene, lightStep * round);
+        each(round, [&](Runner& runner) {
+            runner.viewer->setCamera(_scene.camera);
+            runner.viewer->staging().setLight(light);
+            const FrameTime time = runner.viewer->time();
+            if (round >= warmUp) runner.moving.add(time);
+        });
+    }
+
+    /// Another one begins each round: nobody always runs after the same.
+    template <typename Step>
+    void each(int round, const Step& step) {
+        const std::size_t count = _runners.size(), start = static_cast<std::size_t>(round) * 7 % count;
+        for (std::size_t i = 0; i < count; ++i) guarded(_runners[(start + i) % count], step);
+    }
+
+    static AddedTime added(const std::vector<double>& with, const std::vector<double>& without) {
+        std::vector<double> differences;
+        for (std::size_t i = 0; i < std::min(with.size(), without.size()); ++i)
+            differences.push_back(with[i] - without[i]);
+        const Quartiles q = quartiles(differences);
+        return {q.q1, q.median, q.q3};
+    }
+
+    static RaceResult resultOf(const Runner& runner, const Runner& plain) {
+        if (!runner.failure.empty()) return {std::nullopt, runner.failure};
+        if (runner.steady.wall.empty() || runner.moving.wall.empty()) return {};
+        ChartCost cost;
+        cost.first = runner.first - plain.first;
+        cost.steadyWall = added(runner.steady.wall, plain.steady.wall);
+        cost.steadyProcessor = added(runner.steady.processor, plain.steady.processor);
+        cost.movingWall = added(runner.moving.wall, plain.moving.wall);
+        cost.movingProcessor = added(runner.moving.processor, plain.moving.processor);
+        cost.memory = std::max(0.0, runner.memory - plain.memory);
+        cost.draws = static_cast<unsigned>(runner.draws);
+        if (plain.primitives > 0)
+            cost.passes = static_cast<unsigned>(std::lround(double(runner.primitives) / double(plain.primitives)));
+        return {cost, ""};
+    }
+
+    const ChartScene& _scene;
+    const int _frames;
+    std::vector<Runner> _runners; // the plain scene is the first
+};
+
+} // namespace
+
+RaceResults race(const ChartScene& scene, const std::vector<Contender>& contenders, int frames,
+                 const std::function<bool(int done, int all)>& progress) {
+    Track track(scene, contenders, frames);
+    track.run(progress);
+    return track.results();
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "../report/ChartResults.h"
+#include "Contender.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// What one contender of a race came to.
+struct RaceResult {
+    std::optional<ChartCost> cost; ///< none if it could not be staged or drawn, or the race was stopped at once.
+    std::string failure;           ///< then why.
+};
+
+struct RaceResults {
+    double frame = 0.0; ///< ms, wall: median of a steady frame without shadows.
+    std::vector<RaceResult> contenders;
+};
+
+/// Times contenders against the scene without shadows, frame by frame in turns: one process, a context a viewer, glFinish
+/// at both ends of each frame. What a contender adds is the difference to the plain frame of the same round.
+///
+/// First frame   of a fresh context: shaders are compiled in it, textures made.
+/// Steady        the camera goes half a degree a frame about the scene, nothing else changes.
+/// Moving        the light goes a degree a frame.
+/// Memory        growth of the process's resident set by the contender's context, viewer and first frames, beyond the
+///               plain viewer's: on OSMesa that holds the textures, too.
+/// Draws         calls that draw, in one frame. Passes  triangles handed to OpenGL in it by triangles of the plain frame,
+///               rounded: how often the scene is drawn.
+///
+/// @param frames    of each of the two motions, after five to warm up.
+/// @param progress  called before each round with rounds done and to do; false stops the race, and what it has counts.
+RaceResults race(const ChartScene& scene, const std::vector<Contender>& contenders, int frames,
+                 const std::function<bool(int done, int all)>& progress);
+
+} // namespace gnomon::examples

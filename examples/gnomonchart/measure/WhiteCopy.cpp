@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "WhiteCopy.h"
+
+#include <osg/Geometry>
+#include <osg/NodeVisitor>
+#include <osgUtil/SmoothingVisitor>
+
+#include <array>
+
+namespace gnomon::examples {
+namespace {
+
+using Attribute = osg::StateAttribute;
+
+constexpr std::array<Attribute::Type, 4> shapeAttributes{Attribute::CULLFACE, Attribute::FRONTFACE,
+                                                         Attribute::POLYGONOFFSET, Attribute::ALPHAFUNC};
+constexpr std::array<GLenum, 3> shapeModes{GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL};
+
+void keepAttributes(const osg::StateSet& from, osg::StateSet& into) {
+    for (const Attribute::Type type : shapeAttributes)
+        if (const osg::StateSet::RefAttributePair* pair = from.getAttributePair(type))
+            into.setAttribute(pair->first, pair->second);
+    for (const GLenum mode : shapeModes) into.setMode(mode, from.getMode(mode));
+}
+
+void keepTexture(const osg::StateSet& from, osg::StateSet& into) {
+    if (const osg::StateSet::RefAttributePair* pair = from.getTextureAttributePair(0, Attribute::TEXTURE))
+        into.setTextureAttribute(0, pair->first, pair->second);
+    into.setTextureMode(0, GL_TEXTURE_2D, from.getTextureMode(0, GL_TEXTURE_2D));
+}
+
+class Whitener : public osg::NodeVisitor {
+public:
+    Whitener() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+
+    void apply(osg::Node& node) override {
+        const bool before = _alphaTested;
+        if (osg::StateSet* state = node.getStateSet()) node.setStateSet(shapeOf(*state));
+        traverse(node);
+        _alphaTested = before;
+    }
+
+    void apply(osg::Geometry& geometry) override {
+        if (!geometry.getNormalArray()) osgUtil::SmoothingVisitor::smooth(geometry);
+        apply(static_cast<osg::Node&>(geometry));
+    }
+
+private:
+    osg::ref_ptr<osg::StateSet> shapeOf(const osg::StateSet& state) {
+        osg::ref_ptr<osg::StateSet> shape = new osg::StateSet;
+        keepAttributes(state, *shape);
+        const Attribute::GLModeValue test = state.getMode(GL_ALPHA_TEST);
+        if (!(test & Attribute::INHERIT)) _alphaTested = (test & Attribute::ON) != 0;
+        if (_alphaTested) keepTexture(state, *shape);
+        return shape;
+    }
+
+    bool _alphaTested = false;
+};
+
+} // namespace
+
+osg::ref_ptr<osg::Group> whiteCopy(const osg::Group& content) {
+    const osg::CopyOp copy(osg::CopyOp::DEEP_COPY_NODES | osg::CopyOp::DEEP_COPY_DRAWABLES);
+    osg::ref_ptr<osg::Group> result = osg::clone(&content, copy);
+    Whitener whitener;
+    result->accept(whitener);
+    return result;
+}
+
+} // namespace gnomon::examples

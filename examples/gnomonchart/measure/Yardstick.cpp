@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "Yardstick.h"
+#include "Contender.h"
+#include "Pictures.h"
+#include "StageViewer.h"
+
+#include <gnomon/metrics/PixelSets.h>
+
+#include <glm/common.hpp>
+#include <sstream>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr double contactShare = 0.01; // of the scene's radius
+
+ShadedPicture plainPicture(const ChartScene& scene, bool shines) {
+    StageViewer viewer(plainContender().stage(scene, Look::SHADED), scene.camera, StageViewer::Colour::FLOATS);
+    viewer.staging().setShining(shines);
+    viewer.draw();
+    return coloursOf(*viewer.image());
+}
+
+ShadedPicture mixed(const ShadedPicture& lit, const ShadedPicture& dark, const metrics::TruthMaps& maps) {
+    ShadedPicture result = lit;
+    for (std::size_t i = 0; i < lit.cells.size(); ++i)
+        if (maps.receiver.cells[i] != 0) result.cells[i] = glm::mix(dark.cells[i], lit.cells[i], maps.lit.cells[i]);
+    return result;
+}
+
+/// What a renderer shows that asks one ray a pixel: its centre's.
+metrics::Visibility centreRays(const metrics::TruthMaps& maps) {
+    metrics::Visibility result;
+    result.value = metrics::Picture(maps.litCentre.width, maps.litCentre.height);
+    for (std::size_t i = 0; i < result.value.cells.size(); ++i)
+        result.value.cells[i] = maps.litCentre.cells[i] ? 1.0 : 0.0;
+    return result;
+}
+
+/// Share of R+ where the centre's ray says other than most of the pixel's.
+double misclassifiedFloor(const metrics::TruthMaps& maps, const metrics::Mask& facing) {
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < facing.cells.size(); ++i)
+        wrong += facing.cells[i] && (maps.litCentre.cells[i] != 0) != (maps.lit.cells[i] >= 0.5);
+    const std::size_t all = metrics::count(facing);
+    return all ? static_cast<double>(wrong) / static_cast<double>(all) : 0.0;
+}
+
+std::string numbers(const std::initializer_list<double>& values) {
+    std::ostringstream out;
+    out.precision(10);
+    for (const double value : values) out << (value == *values.begin() && out.str().empty() ? "" : ",") << value;
+    return out.str();
+}
+
+} // namespace
+
+Yardstick::Yardstick(const ChartScene& scene, bool withDisc)
+    : _scene(scene), _truth(*scene.content), _maps(_truth.maps(scene.camera, scene.light)) {
+    if (withDisc && scene.light.w() == 0.0) _maps.litByDisc = _truth.litByDisc(scene.camera, scene.light);
+    const metrics::Picture measured(scene.camera.width, scene.camera.height, 1.0);
+    _agreeing = metrics::pixelSets(_maps, measured).agreeing;
+    _shaded = mixed(plainPicture(scene, true), plainPicture(scene, false), _maps);
+}
+
+metrics::CauseLimits Yardstick::limits() const {
+    metrics::CauseLimits limits;
+    limits.contact = contactShare * _scene.radius;
+    return limits;
+}
+
+void Yardstick::describe(ChartSceneResult& into) const {
+    const metrics::Visibility rays = centreRays(_maps);
+    const metrics::Mask facing = metrics::pixelSets(_maps, rays.value).facing;
+    into.name = _scene.name;
+    into.title = _scene.title;
+    into.triangles = _truth.triangles();
+    into.misclassifiedFloor = misclassifiedFloor(_maps, facing);
+    if (const auto boundary = metrics::boundaryDistance(rays.value, _maps.lit, facing))
+        into.boundaryFloor = boundary->p95;
+    osg::Vec3d eye, center, up;
+    _scene.camera.view.getLookAt(eye, center, up);
+    const osg::Vec4d& light = _scene.light;
+    into.view = {{"--light", numbers({light.x(), light.y(), light.z(), light.w()})},
+                 {"--eye", numbers({eye.x(), eye.y(), eye.z()})},
+                 {"--center", numbers({center.x(), center.y(), center.z()})},
+                 {"--size", std::to_string(_scene.camera.width) + "x" + std::to_string(_scene.camera.height)}};
+}
+
+} // namespace gnomon::examples

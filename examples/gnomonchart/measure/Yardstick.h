@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "../report/ChartResults.h"
+#include "../scenes/ChartScene.h"
+
+#include <gnomon/metrics/ShadowMetrics.h>
+
+namespace gnomon::examples {
+
+using ShadedPicture = metrics::Grid<glm::dvec3>; ///< linear light.
+
+/// What is true of one scene: all that its contenders are measured against, made once.
+///
+/// Cost    34 rays a pixel, and 256 more with the disc.
+class Yardstick {
+public:
+    /// @param withDisc  the truth of the sun's disc too; a lamp has none.
+    /// @throws see SceneTruth.
+    Yardstick(const ChartScene& scene, bool withDisc);
+
+    const ChartScene& scene() const { return _scene; }
+    const SceneTruth& truth() const { return _truth; }
+    const metrics::TruthMaps& maps() const { return _maps; }
+    /// Two pictures without shadows, with the light and without, mixed by the lit share of each pixel.
+    const ShadedPicture& shaded() const { return _shaded; }
+    /// R, see metrics::PixelSets.
+    const metrics::Mask& agreeing() const { return _agreeing; }
+    /// Contact reaches to a hundredth of the scene's radius.
+    metrics::CauseLimits limits() const;
+    /// Name, title, triangles, floors and view; the rest is left as it is.
+    void describe(ChartSceneResult& into) const;
+
+private:
+    const ChartScene _scene;
+    SceneTruth _truth;
+    metrics::TruthMaps _maps;
+    metrics::Mask _agreeing;
+    ShadedPicture _shaded;
+};
+
+} // namespace gnomon::examples

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Every technique on the chart, by its pictures alone: against the truth, and against themselves.
+#include "SmallScene.h"
+
+#include "Contender.h"
+#include "Errors.h"
+#include "ImageFile.h"
+#include "StageViewer.h"
+#include "Yardstick.h"
+
+#include <gnomon/metrics/PixelSets.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+
+namespace gnomon::examples {
+
+void PrintTo(const Contender& contender, std::ostream* out) { *out << contender.technique << " " << contender.setting; }
+
+} // namespace gnomon::examples
+
+namespace {
+
+using namespace gnomon::examples;
+using gnomon::metrics::Picture;
+using gnomon::metrics::ShadowMetrics;
+using Bytes = std::vector<unsigned char>;
+
+std::string nameOf(const Contender& contender) {
+    std::string name = contender.technique + "_" + contender.setting;
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+}
+
+std::vector<Contender> everyContender() {
+    std::vector<Contender> all = gnomonContenders();
+    for (const Peer& peer : peers()) all.push_back(peerContender(peer, "defaults", {}));
+    return all;
+}
+
+const Peer& peerNamed(const std::string& name) {
+    for (const Peer& peer : peers())
+        if (peer.name == name) return peer;
+    throw std::logic_error("no peer " + name);
+}
+
+Bytes bytesOf(const StageViewer& viewer) {
+    const osg::ref_ptr<osg::Image> image = viewer.image();
+    return {image->data(), image->data() + image->getTotalSizeInBytes()};
+}
+
+StageViewer viewerOf(const Contender& contender, const ChartScene& scene, Look look) {
+    return {contender.stage(scene, look), scene.camera, StageViewer::Colour::FLOATS};
+}
+
+Bytes pictureOf(const Contender& contender, const ChartScene& scene, Look look) {
+    StageViewer viewer = viewerOf(contender, scene, look);
+    viewer.draw();
+    return bytesOf(viewer);
+}
+
+ShadowMetrics errorsOf(const Contender& contender, const ChartScene& drawn, const Yardstick& yardstick) {
+    Sight sight(contender, drawn);
+    return gnomon::metrics::shadowMetrics(sight.visibility(), yardstick.maps(), yardstick.limits());
+}
+
+const Yardstick& smallYardstick() {
+    static const Yardstick yardstick(test::smallScene(), false);
+    return yardstick;
+}
+
+class EveryContender : public ::testing::TestWithParam<Contender> {};
+
+/// peers.md's own trials: all of them find this shadow. An IoU of 0.95 allows one pixel in twenty of the shadow, about
+/// half a pixel all along its edge (2,000 pixels inside a boundary of 250).
+TEST_P(EveryContender, ShowsTheShadowsThatAreTrue) {
+    const ShadowMetrics errors = errorsOf(GetParam(), smallYardstick().scene(), smallYardstick());
+    EXPECT_GT(errors.raw.intersectionOverUnion(), 0.95);
+    ASSERT_TRUE(errors.boundary);
+    EXPECT_LT(errors.boundary->p95, 1.0);
+    EXPECT_FALSE(errors.catastrophes.any());
+    EXPECT_TRUE(errors.sound) << errors.droppedShare;
+}
+
+/// Shaders round other than fixed function does: by a millionth.
+TEST_P(EveryContender, WithoutCastersIsTheSceneWithoutShadows) {
+    const ChartScene scene = test::smallScene();
+    StageViewer viewer = viewerOf(GetParam(), scene, Look::VISIBILITY);
+    StageViewer plain = viewerOf(plainContender(), scene, Look::VISIBILITY);
+    viewer.staging().setCasting(false);
+    viewer.draw();
+    plain.draw();
+    const Picture with = greysOf(*viewer.image()), without = greysOf(*plain.image());
+    for (std::size_t i = 0; i < with.cells.size(); ++i) ASSERT_NEAR(with.cells[i], without.cells[i], 1e-6) << i;
+}
+
+TEST_P(EveryContender, CastersOffAndOnAgainIsTheSamePicture) {
+    StageViewer viewer = viewerOf(GetParam(), test::smallScene(), Look::VISIBILITY);
+    viewer.draw();
+    const Bytes first = bytesOf(viewer);
+    viewer.staging().setCasting(false);
+    viewer.draw();
+    EXPECT_NE(bytesOf(viewer), first);
+    viewer.staging().setCasting(true);
+    viewer.draw();
+    EXPECT_EQ(bytesOf(viewer), first);
+}
+
+/// What V = A / B rests on: what the light does not reach is 0, not nearly 0. One pixel in five may be nearer to the
+/// shadow's edge than a filter is wide.
+TEST_P(EveryContender, DrawsFullShadowBlack) {
+    StageViewer viewer = viewerOf(GetParam(), smallYardstick().scene(), Look::VISIBILITY);
+    viewer.draw();
+    const Picture picture = greysOf(*viewer.image());
+    const gnomon::metrics::TruthMaps& truth = smallYardstick().maps();
+    const gnomon::metrics::Mask certain = gnomon::metrics::pixelSets(truth, picture).certain;
+    int shadowed = 0, black = 0;
+    for (std::size_t i = 0; i < picture.cells.size(); ++i) {
+        if (!certain.cells[i] || truth.litCentre.cells[i]) continue;
+        ++shadowed;
+        black += picture.cells[i] == 0.0;
+    }
+    EXPECT_GT(shadowed, 1000);
+    EXPECT_GT(black, shadowed * 4 / 5);
+}
+
+std::string testName(const ::testing::TestParamInfo<Contender>& tested) { return nameOf(tested.param); }
+INSTANTIATE_TEST_SUITE_P(Chart, EveryContender, ::testing::ValuesIn(everyContender()), testName);
+
+TEST(Contenders, DrawTheSameBitsAloneAndAmongOthers) {
+    const ChartScene scene = test::smallScene();
+    const std::vector<Contender> all = everyContender();
+    std::vector<Bytes> alone;
+    for (const Contender& contender : all) alone.push_back(pictureOf(contender, scene, Look::SHADED));
+    std::vector<std::unique_ptr<StageViewer>> viewers; // all at once, in the other order, drawn in turns
+    for (std::size_t i = all.size(); i-- > 0;)
+        viewers.push_back(std::make_unique<StageViewer>(all[i].stage(scene, Look::SHADED), scene.camera,
+                                                        StageViewer::Colour::FLOATS));
+    for (int round = 0; round < 2; ++round)
+        for (const auto& viewer : viewers) viewer->draw();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        EXPECT_EQ(bytesOf(*viewers[all.size() - 1 - i]), alone[i]) << all[i].technique << " " << all[i].setting;
+}
+
+TEST(Contenders, WorseMapsAreWorseOnTheChart) {
+    const Peer& peer = peerNamed("ShadowMap");
+    const Yardstick& yardstick = smallYardstick();
+    const ShadowMetrics coarse = errorsOf(peerContender(peer, "", {{"size", "64"}}), yardstick.scene(), yardstick);
+    const ShadowMetrics fine = errorsOf(peerContender(peer, "", {{"size", "2048"}}), yardstick.scene(), yardstick);
+    EXPECT_GT(coarse.boundary->p95, 2.0 * fine.boundary->p95);
+    EXPECT_GT(*coarse.headline.misclassified(), *fine.headline.misclassified());
+    EXPECT_LT(coarse.headline.intersectionOverUnion(), fine.headline.intersectionOverUnion());
+}
+
+TEST(Contenders, AWrongLightIsWorseOnTheChart) {
+    const Yardstick& yardstick = smallYardstick();
+    ChartScene turned = yardstick.scene();
+    turned.light = {1.0, 0.4, 1.2, 0.0}; // about 4 degrees off
+    for (const Contender& contender : everyContender()) {
+        const ShadowMetrics right = errorsOf(contender, yardstick.scene(), yardstick);
+        const ShadowMetrics wrong = errorsOf(contender, turned, yardstick);
+        EXPECT_GT(wrong.boundary->p95, 2.0 + right.boundary->p95) << contender.technique;
+        EXPECT_GT(wrong.raw.falseShadow, right.raw.falseShadow) << contender.technique;
+    }
+}
+
+/// A lamp above: what a single map aimed at the scene can show.
+TEST(Contenders, ShowALampsShadows) {
+    ChartScene scene = test::smallScene();
+    scene.light = {3.0, 1.0, 12.0, 1.0};
+    const Yardstick yardstick(scene, false);
+    for (const char* name : {"ShadowMap", "Standard", "Minimal", "ViewDependent ortho"}) {
+        const ShadowMetrics errors = errorsOf(peerContender(peerNamed(name), "", {}), scene, yardstick);
+        EXPECT_GT(errors.raw.intersectionOverUnion(), 0.8) << name;
+    }
+    const ShadowMetrics planar = errorsOf(gnomonContenders().front(), scene, yardstick);
+    EXPECT_GT(planar.raw.intersectionOverUnion(), 0.95);
+}
+
+TEST(Contenders, WithoutANamedReceiverSomeSayWhyTheyCannot) {
+    ChartScene scene = test::smallScene();
+    scene.receiver.clear();
+    EXPECT_THROW(gnomonContenders().front().stage(scene, Look::SHADED), std::invalid_argument);
+    EXPECT_THROW(peerContender(peerNamed("ShadowTexture"), "", {}).stage(scene, Look::SHADED), std::invalid_argument);
+    EXPECT_NO_THROW(peerContender(peerNamed("ShadowMap"), "", {}).stage(scene, Look::SHADED));
+}
+
+TEST(Contenders, RefuseSettingsThatTheyLack) {
+    const Contender contender = peerContender(peerNamed("Standard"), "", {{"polygonOffset", "1,1"}});
+    EXPECT_THROW(contender.stage(test::smallScene(), Look::SHADED), std::invalid_argument);
+}
+
+TEST(Contenders, LeaveTheScenesOwnNodesAsTheyAre) {
+    const ChartScene scene = test::smallScene();
+    const Bytes before = pictureOf(plainContender(), scene, Look::SHADED);
+    for (const Contender& contender : everyContender()) pictureOf(contender, scene, Look::SHADED);
+    EXPECT_EQ(pictureOf(plainContender(), scene, Look::SHADED), before);
+    for (unsigned i = 0; i < scene.content->getNumChildren(); ++i)
+        EXPECT_EQ(scene.content->getChild(i)->getNodeMask(), ~0u);
+}
+
+} // namespace
