@@ -27,6 +27,8 @@ ChartScene smallScene() {
     scene.radius = 3.0;
     scene.content->addChild(node(house({2.0, 0.0}, {2.0, 2.0, 3.0}, 30.0)));
     scene.content->addChild(node(sphere({-2.0, 0.0, 2.5}, 1.0)));
+    scene.bounds.set(-8.0, -8.0, 0.0, 8.0, 8.0, 3.5);
+    scene.center.set(0.0, 0.0, 1.0);
     return scene;
 }
 

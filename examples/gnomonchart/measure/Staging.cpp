@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "Staging.h"
-#include "SceneBounds.h"
 #include "SceneLights.h"
 #include "WhiteCopy.h"
 
@@ -49,7 +48,7 @@ Staging::Staging(const ChartScene& scene, Look look)
       _content(look == Look::SHADED ? scene.content : whiteCopy(*scene.content)),
       _light(new osg::Light(0)),
       _mount(new osg::MatrixTransform),
-      _centre(sceneBounds(*scene.content).center()),
+      _centre(scene.center),
       _look(look) {
     osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
     source->setLight(_light);

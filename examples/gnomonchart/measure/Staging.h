@@ -49,7 +49,7 @@ protected:
 
 private:
     osg::ref_ptr<osg::MatrixTransform> _mount;
-    osg::Vec3d _centre; ///< of the content: lamps point at it, for techniques that ask.
+    osg::Vec3d _centre; ///< of the view: lamps point at it, for techniques that ask.
     Look _look;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "../report/ChartResults.h"
 #include "../scenes/ChartScene.h"
+#include "SceneTruth.h"
 
 #include <gnomon/metrics/ShadowMetrics.h>
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "ViewOptions.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// What gnomonchart's command line asks for.
+struct ChartOptions {
+    ViewOptions view;                ///< files, and how they are seen; its size is that of all pictures.
+    std::vector<std::string> scenes; ///< names of built-in ones.
+    std::string technique;           ///< part of a technique's name; empty: all.
+    std::string out = "chart-out";   ///< folder.
+    std::optional<int> frames;       ///< 60, or 12 with quick.
+    bool quick = false, list = false, help = false;
+
+    int frameCount() const { return frames.value_or(quick ? 12 : 60); }
+};
+
+/// @throws std::invalid_argument, one sentence that names what is wrong and what is allowed.
+ChartOptions readChartOptions(osg::ArgumentParser& arguments);
+
+/// What --help prints.
+std::string chartHelp();
+
+} // namespace gnomon::examples

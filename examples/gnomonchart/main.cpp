@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// gnomonchart: how fast and how wrong every shadow technique is, osgShadow's in the same run.
+#include "ChartOptions.h"
+#include "ChartRun.h"
+#include "ResultsFile.h"
+#include "SceneFile.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+namespace {
+
+using namespace gnomon::examples;
+namespace fs = std::filesystem;
+
+constexpr const char* program = "gnomonchart";
+constexpr int interrupted = 130; // as shells have it for SIGINT
+
+volatile std::sig_atomic_t stopAsked = 0;
+
+/// Ends the run at the next step; a second signal ends the program at once.
+void askToStop(int signal) {
+    stopAsked = 1;
+    std::signal(signal, SIG_DFL);
+}
+
+void listNames() {
+    std::cout << "scenes:\n";
+    for (const std::string& name : chartSceneNames()) std::cout << "  " << name << "\n";
+    std::cout << "techniques:\n";
+    for (const std::string& name : chartTechniques()) std::cout << "  " << name << "\n";
+}
+
+/// @throws std::runtime_error, one sentence.
+void requireFolder(const std::string& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        throw std::runtime_error("\"" + folder + "\" cannot be made as a folder: " + error.message() + ".");
+}
+
+std::vector<std::string> sceneNames(const ChartOptions& options) {
+    if (!options.scenes.empty()) return options.scenes;
+    if (options.quick) return {"lab8-45", "town-45", "hills-10"};
+    return chartSceneNames();
+}
+
+/// Files are one scene, named after the first.
+void planFiles(const ChartOptions& options, ChartPlan& plan) {
+    const osg::ref_ptr<osg::Node> files = readScene(options.view.files, program);
+    const std::string name = fs::path(options.view.files.front()).stem().string();
+    ChartScene scene = chartSceneOf(*files, options.view);
+    scene.name = scene.title = name;
+    plan.scenes = {name};
+    plan.scene = [scene](const std::string&) { return scene; };
+}
+
+void planBuiltIn(const ChartOptions& options, ChartPlan& plan) {
+    plan.scenes = sceneNames(options);
+    const int width = options.view.width, height = options.view.height;
+    plan.scene = [width, height](const std::string& scene) { return chartScene(scene, width, height); };
+    const std::vector<std::string> known = chartSceneNames();
+    for (const std::string& name : plan.scenes)
+        if (std::find(known.begin(), known.end(), name) == known.end()) plan.scene(name); // says which there are
+}
+
+ChartPlan planOf(const ChartOptions& options) {
+    ChartPlan plan;
+    options.view.files.empty() ? planBuiltIn(options, plan) : planFiles(options, plan);
+    plan.technique = options.technique;
+    plan.folder = options.out;
+    plan.frames = options.frameCount();
+    plan.flickerFrames = options.quick ? 8 : 32;
+    plan.sweep = options.quick ? SweepWidth::NARROW : SweepWidth::WIDE;
+    plan.disc = !options.quick;
+    plan.made = {{"size", std::to_string(options.view.width) + "x" + std::to_string(options.view.height)},
+                 {"frames", std::to_string(plan.frames)},
+                 {"flicker frames", std::to_string(plan.flickerFrames)},
+                 {"sweep", options.quick ? "narrow" : "wide"}};
+    return plan;
+}
+
+void printWinners(const ChartResults& results) {
+    for (const ChartPoint& point : results.points) {
+        if (point.setting != "best") continue;
+        std::cout << point.scene << ": " << point.technique << " is best with";
+        for (const auto& [name, value] : point.settings) std::cout << " " << name << "=" << value;
+        std::cout << (point.settings.empty() ? " its defaults" : "") << "\n";
+    }
+}
+
+int chart(const ChartOptions& options, const std::string& command) {
+    ChartPlan plan = planOf(options);
+    plan.made.insert(plan.made.begin(), {"command", command});
+    requireFolder(options.out);
+    std::signal(SIGINT, askToStop);
+    std::signal(SIGTERM, askToStop);
+    const ChartResults results = runChart(
+        plan, [&](const ChartResults& sofar) { saveResults(sofar, options.out); }, [] { return stopAsked != 0; });
+    printWinners(results);
+    std::cout << "results are in " << options.out << "\n";
+    if (!results.complete) std::cerr << program << ": interrupted; what was measured so far is kept." << std::endl;
+    return results.complete ? 0 : interrupted;
+}
+
+std::string commandOf(osg::ArgumentParser& arguments) {
+    std::string command = program;
+    for (int i = 1; i < arguments.argc(); ++i) command += std::string(" ") + arguments[i];
+    return command;
+}
+
+int run(osg::ArgumentParser& arguments) {
+    const std::string command = commandOf(arguments);
+    const ChartOptions options = readChartOptions(arguments);
+    if (options.help)
+        std::cout << chartHelp();
+    else if (options.list)
+        listNames();
+    else
+        return chart(options, command);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 0); // else the first frames of a second run would be cheaper
+    return gnomon::examples::runProgram(program, argc, argv, run);
+}
