@@ -9,6 +9,9 @@
 
 namespace gnomon::examples {
 
+/// The kit that ChartPoint::kit names for Gnomon's own techniques; all others are peers.
+inline constexpr const char* ourKit = "Gnomon";
+
 /// Milliseconds a frame beyond the same frame without shadows, measured in turns with it.
 struct AddedTime {
     double q1 = 0.0, median = 0.0, q3 = 0.0;
@@ -26,7 +29,7 @@ struct ChartCost {
 /// One technique at one setting in one scene.
 struct ChartPoint {
     std::string scene;     ///< ChartScene::name.
-    std::string kit;       ///< "Gnomon" or "osgShadow".
+    std::string kit;       ///< ourKit or "osgShadow".
     std::string technique; ///< curve's name: "planar", "ShadowMap", …
     std::string setting;   ///< the point on the curve: "size 1024", "defaults", "best".
     std::vector<std::pair<std::string, std::string>> settings; ///< all that differ from the technique's own defaults.
@@ -38,6 +41,7 @@ struct ChartPoint {
     std::vector<std::string> notes; ///< diagnosis, complaints of OpenGL.
     std::string failure;            ///< one sentence if it could not be measured; else empty.
 
+    bool ours() const { return kit == ourKit; }
     /// It failed, or its picture is catastrophic.
     bool catastrophic() const { return !failure.empty() || (errors && errors->catastrophes.any()); }
 };

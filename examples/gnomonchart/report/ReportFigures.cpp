@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "ReportFigures.h"
+
+#include "CausesFigure.h"
+#include "Gnuplot.h"
+#include "GnuplotText.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace gnomon::examples {
+namespace {
+
+/// Fit for a file's name.
+std::string fileName(const std::string& begin, const std::string& scene) {
+    std::string name = scene.empty() ? begin : begin + "-" + scene;
+    for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '-';
+    return name;
+}
+
+const char* titleOf(LightMotion light) {
+    return light == LightMotion::Still ? "The light is still, the camera moves" : "The light moves with every frame";
+}
+
+FigurePanel panelOf(const ChartResults& results, const std::string& scene, LightMotion light) {
+    return {light == LightMotion::Still ? "still" : "moving", titleOf(light),
+            scene.empty() ? pooledCurves(results, light) : sceneCurves(results, scene, light),
+            boundaryFloor(results, scene)};
+}
+
+std::string madeOf(const ChartResults& results, const std::string& name) {
+    for (const auto& [key, value] : results.made)
+        if (key == name) return value;
+    return "";
+}
+
+/// "llvmpipe (…), AMD …, 2026-11-21": as much as is known.
+std::string remarkOf(const ChartResults& results) {
+    std::string remark;
+    for (const char* name : {"renderer", "processor", "date"}) {
+        const std::string value = madeOf(results, name);
+        if (!value.empty()) remark += (remark.empty() ? "" : "; ") + value;
+    }
+    return results.complete ? remark : "INCOMPLETE. " + remark;
+}
+
+std::string titleOf(const ChartResults& results, const std::string& scene) {
+    if (scene.empty())
+        return std::to_string(results.scenes.size()) + " scenes: how long shadows take, and how wrong they are";
+    for (const ChartSceneResult& each : results.scenes)
+        if (each.name == scene) return each.title;
+    return scene;
+}
+
+Figure figureOf(const ChartResults& results, const std::string& scene) {
+    Figure figure{fileName("figure", scene), titleOf(results, scene), remarkOf(results), {}, 1};
+    for (const LightMotion light : {LightMotion::Still, LightMotion::Moving})
+        figure.panels.push_back(panelOf(results, scene, light));
+    if (scene.empty()) figure.scenes = results.scenes.size();
+    return figure;
+}
+
+/// What was measured or tried and has no place in a chart.
+std::string leftOut(const FigurePanel& panel) {
+    std::string names;
+    for (const Curve& curve : panel.curves)
+        for (const CurvePoint& point : curve.points)
+            if (!point.shown()) names += (names.empty() ? "" : "; ") + curve.technique + ", " + point.setting;
+    return names.empty() ? "" : " Without a place, for want of a time or of a shadow's boundary: " + names + ".";
+}
+
+std::string captionOf(const Figure& figure, const std::string& scene) {
+    const std::string pooled = "Each marker is one technique at one setting: the median, over the scenes in which it "
+                               "was tried, of time and of "
+                               "error; where it failed or drew no boundary it counts as infinitely far off. ";
+    return (scene.empty() ? pooled : "Each marker is one technique at one setting in this scene. ") +
+           "To the left is faster, down is more accurate. Across: wall time that shadows add to a frame, with its "
+           "quartiles. Up: the distance in pixels below which 95 % of the shadow's boundary lies from the true one. "
+           "Hollow: it failed or is catastrophic in " +
+           (scene.empty() ? "some scene. " : "this scene. ") +
+           "The broad line joins the best, those that nothing faster beats; hollow ones are never among them. What is "
+           "less than " +
+           plotNumber(leastShownTime) + " ms or " + plotNumber(leastShownError) + " px is drawn there." +
+           leftOut(figure.panels.front());
+}
+
+const char* causesCaption =
+    "Why pixels away from edges are wrong: acne and halo are shadow where none belongs, far from a true shadow and "
+    "attached to one; peter-panning, leak and erosion are missing shadow at the foot of what casts it, in a shadow's "
+    "inside and at its edge. To the right how many are wrong at all, of those that are judged.";
+
+void addScene(std::vector<DrawnFigure>& drawn, const ChartResults& results, const CurveStyles& styles,
+              const std::string& scene, const std::string& folder) {
+    const Figure figure = figureOf(results, scene);
+    drawFigure(figure, styles, folder);
+    drawn.push_back({figure.name, scene, captionOf(figure, scene)});
+    const std::string name = fileName("causes", scene);
+    const auto causes = causesScript(results, styles, name, figure.title + ": why pixels are wrong", scene);
+    if (!causes) return;
+    drawScript(name, *causes, folder);
+    drawn.push_back({name, scene, causesCaption});
+}
+
+} // namespace
+
+std::vector<DrawnFigure> drawFigures(const ChartResults& results, const std::string& folder) {
+    const CurveStyles styles(results);
+    std::vector<DrawnFigure> drawn;
+    addScene(drawn, results, styles, "", folder);
+    for (const ChartSceneResult& scene : results.scenes) addScene(drawn, results, styles, scene.name, folder);
+    return drawn;
+}
+
+} // namespace gnomon::examples
