@@ -13,6 +13,7 @@ namespace {
 
 constexpr double stepsOff = 4.0;
 constexpr double snapsOff = 2.0;
+constexpr double coarse = 0.125; // of a pixel: depths that are off by more show at edges
 
 class DepthTracer {
 public:
@@ -29,6 +30,7 @@ private:
     }
     /// Change of depth from one pixel to the next, on the surface that is seen: to the nearer neighbour in depth.
     double slope(int x, int y, int dx, int dy) const;
+    glm::dvec3 unproject(double x, double y, double depth) const;
     glm::dvec3 start(int x, int y) const;
 
     const RayScene& _scene;
@@ -48,17 +50,30 @@ double DepthTracer::slope(int x, int y, int dx, int dy) const {
     return least < 1.0 ? least : 0.0;
 }
 
-/// Where a pixel's ray to the light starts: as far before the surface as its depth may be wrong.
+glm::dvec3 DepthTracer::unproject(double x, double y, double depth) const {
+    const glm::dvec4 point =
+        _sceneFromClip * glm::dvec4(2.0 * (_picture.x + x + _picture.place.x) / _picture.viewportWidth - 1.0,
+                                    2.0 * (_picture.y + y + _picture.place.y) / _picture.viewportHeight - 1.0,
+                                    2.0 * depth - 1.0, 1.0);
+    return glm::dvec3(point) / point.w;
+}
+
+/// Where a pixel's ray to the light starts: as far before the surface as its depth may be wrong, or on the surface that
+/// is found there where that is too far.
 glm::dvec3 DepthTracer::start(int x, int y) const {
     const double moved = snapsOff * _picture.subpixel + _picture.offPlace;
-    const double before = depth(x, y) - stepsOff * _picture.step - moved * (slope(x, y, 1, 0) + slope(x, y, 0, 1));
-    const glm::dvec4 clip(2.0 * (_picture.x + x + _picture.place.x) / _picture.viewportWidth - 1.0,
-                          2.0 * (_picture.y + y + _picture.place.y) / _picture.viewportHeight - 1.0, 2.0 * before - 1.0,
-                          1.0);
-    const glm::dvec4 point = _sceneFromClip * clip;
-    const glm::dvec4 nearer = point - _sceneFromClip[2] * (2.0 * _picture.step);
-    const glm::dvec3 place = glm::dvec3(point) / point.w;
-    return place + _scene.margin(place) * glm::normalize(glm::dvec3(nearer) / nearer.w - place);
+    const double off = stepsOff * _picture.step + moved * (slope(x, y, 1, 0) + slope(x, y, 0, 1));
+    const double seen = depth(x, y);
+    const glm::dvec3 nearer = unproject(x, y, seen - off), farther = unproject(x, y, seen + off);
+    const glm::dvec3 along = farther - nearer;
+    const double pixel = glm::length(unproject(x + 1.0, y, seen) - unproject(x, y, seen));
+    if (glm::length(along) > coarse * pixel) {
+        const RayHit hit = _scene.closest({nearer, along, 1.0});
+        if (hit)
+            return _scene.lifted(nearer + hit.distance * along,
+                                 glm::dot(hit.normal, along) < 0.0 ? hit.normal : -hit.normal);
+    }
+    return nearer - _scene.margin(nearer) * glm::normalize(along);
 }
 
 bool DepthTracer::blocked(int x, int y) const {

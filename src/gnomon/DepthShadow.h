@@ -29,7 +29,8 @@ struct DepthPicture {
 /// seen: so the start is never behind a thing, nothing leaks at contacts, and needs no normal; and it is always on the
 /// seen side of its own surface, so that what is flat does not shadow itself. What faces away from the light shadows
 /// itself, as it must. How far the start moves: with 24 bits 2.4·10⁻⁷·z²/near, that is 2.4 mm at 100 m under a near
-/// plane of 1 m.
+/// plane of 1 m. Where that is more than an eighth of a pixel, as over kilometres of terrain, one more ray finds the
+/// caster's surface between the two ends of what the depth may mean, and the ray to the light starts there.
 ///
 /// @param clipFromScene  of the picture, as drawn; scene is the frame of the rays.
 /// @param light          homogeneous, w = 0 the way towards a sun, w = 1 a lamp's position.

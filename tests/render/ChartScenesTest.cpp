@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// The chart's scenes: each can be judged, has light and shadow, and is drawn by traced as well as one ray a pixel can be.
+#include <ChartScene.h>
+#include <SceneTruth.h>
+#include <support/Picture.h>
+#include <support/Scene.h>
+
+#include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/metrics/PixelSets.h>
+#include <gtest/gtest.h>
+#include <osg/ComputeBoundsVisitor>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <optional>
+
+using gnomon::examples::ChartScene;
+using gnomon::examples::SceneTruth;
+using gnomon::metrics::TruthMaps;
+
+namespace {
+
+constexpr int width = 640, height = 480;
+
+/// A technique's picture beside the truth.
+struct Judgement {
+    std::size_t pixels = 0, shadowed = 0, wrong = 0, floor = 0;
+    double dropped = 0.0;
+    bool good() const { return double(wrong) <= 1.05 * double(floor) + 0.0001 * double(pixels); }
+};
+
+std::ostream& operator<<(std::ostream& out, const Judgement& j) {
+    return out << j.pixels << " px, " << j.shadowed << " shadowed, wrong " << j.wrong << ", floor " << j.floor << ", "
+               << 100.0 * j.dropped << " % dropped";
+}
+
+/// White and without textures, so that lit and shadowed pixels differ.
+void whiten(osg::Node& model) {
+    osg::StateSet& state = *model.getOrCreateStateSet();
+    osg::ref_ptr<osg::Material> white = new osg::Material;
+    white->setAmbient(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, 1.0f});
+    white->setDiffuse(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, 1.0f});
+    white->setSpecular(osg::Material::FRONT_AND_BACK, {0.0f, 0.0f, 0.0f, 1.0f});
+    const auto forced = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+    state.setAttributeAndModes(white, forced);
+    state.setMode(GL_LIGHTING, forced);
+    state.setMode(GL_NORMALIZE, forced);
+    state.setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+}
+
+gnomon::metrics::Picture visibility(const test::Picture& actual, const test::Picture& lit, const test::Picture& dark) {
+    gnomon::metrics::Picture result(actual.width, actual.height, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < actual.pixels.size(); ++i)
+        if (lit.pixels[i] != dark.pixels[i] &&
+            (actual.pixels[i] == lit.pixels[i] || actual.pixels[i] == dark.pixels[i]))
+            result.cells[i] = actual.pixels[i] == lit.pixels[i] ? 1.0 : 0.0;
+    return result;
+}
+
+/// @param level  height of the only points that count, in the truth's frame; none: all count.
+Judgement judge(const gnomon::metrics::Picture& visibility, const TruthMaps& truth, std::optional<double> level) {
+    const gnomon::metrics::PixelSets sets = gnomon::metrics::pixelSets(truth, visibility);
+    Judgement result;
+    result.dropped = sets.droppedShare;
+    for (std::size_t i = 0; i < visibility.cells.size(); ++i) {
+        if (!sets.facing.cells[i] || (level && std::abs(truth.position.cells[i].z - *level) > 1e-6)) continue;
+        const bool lit = truth.lit.cells[i] >= 0.5;
+        ++result.pixels;
+        result.shadowed += !lit;
+        result.wrong += (visibility.cells[i] == 1.0) != lit;
+        result.floor += (truth.litCentre.cells[i] != 0) != lit;
+    }
+    return result;
+}
+
+/// What the scene looks like with a technique, without, and without the light's diffuse and specular.
+test::Picture picture(const ChartScene& scene, gnomon::ShadowTechnique* technique, bool dark = false) {
+    test::Scene staged = test::scene({0.0, 0.0, 1.0, 0.0});
+    // A lamp far from the origin stands in double, by a transform; the group is told where.
+    const osg::Vec4d& light = scene.light;
+    osg::ref_ptr<osg::MatrixTransform> mount = new osg::MatrixTransform;
+    if (light.w() != 0.0) mount->setMatrix(osg::Matrixd::translate(light.x(), light.y(), light.z()));
+    staged.light->getLight()->setPosition(light.w() != 0.0 ? osg::Vec4(0, 0, 0, 1) : osg::Vec4(light));
+    mount->addChild(staged.light);
+    staged.root->removeChild(staged.light);
+    staged.root->addChild(mount);
+    staged.content->addChild(scene.content);
+    if (dark) staged.takeLightAway();
+    if (technique) {
+        staged.addShadow(technique);
+        staged.group->addLight({0, light});
+    }
+    return test::render(staged.root,
+                        {scene.camera.width, scene.camera.height, scene.camera.view, scene.camera.projection});
+}
+
+/// World height of the flat ground.
+double groundHeight(const ChartScene& scene) {
+    osg::Node& ground = *test::find(*scene.content, scene.receiver);
+    osg::ComputeBoundsVisitor bounds;
+    ground.accept(bounds); // with its own transform
+    osg::NodePath above = ground.getParentalNodePaths(scene.content).front();
+    above.pop_back();
+    return (osg::Vec3d(bounds.getBoundingBox().corner(0)) * osg::computeLocalToWorld(above)).z();
+}
+
+class ChartScenes : public testing::TestWithParam<std::string> {
+protected:
+    ChartScenes() : scene(gnomon::examples::chartScene(GetParam(), width, height)) { whiten(*scene.content); }
+
+    Judgement judged(gnomon::ShadowTechnique* technique, bool onGround) {
+        const SceneTruth truth(*scene.content);
+        const auto v = visibility(picture(scene, technique), picture(scene, nullptr), picture(scene, nullptr, true));
+        const TruthMaps maps = truth.maps(scene.camera, scene.light);
+        return judge(v, maps,
+                     onGround ? std::optional<double>(groundHeight(scene) - truth.origin().z()) : std::nullopt);
+    }
+
+    ChartScene scene;
+};
+
+TEST_P(ChartScenes, TracedIsAsGoodAsOneRayAPixelCanBe) {
+    const Judgement traced = judged(new gnomon::TracedShadowTechnique, false);
+    std::cout << "traced " << traced << "\n";
+    EXPECT_TRUE(traced.good()) << traced;
+    EXPECT_LT(traced.dropped, 0.05) << "else the scene is not to be judged";
+    EXPECT_GT(traced.pixels, 50000u);
+    EXPECT_GT(double(traced.shadowed), 0.02 * double(traced.pixels));
+    EXPECT_LT(double(traced.shadowed), 0.9 * double(traced.pixels));
+}
+
+TEST_P(ChartScenes, PlanarIsAsGoodOnItsPlane) {
+    if (scene.receiver.empty()) return; // hills and mountains
+    const osg::ref_ptr<gnomon::PlanarShadowNode> node = test::planar(test::find(*scene.content, scene.receiver));
+    node->setPlanes({osg::Vec4d(0.0, 0.0, 1.0, -groundHeight(scene))});
+    const Judgement planar = judged(node, true);
+    std::cout << "planar " << planar << "\n";
+    EXPECT_TRUE(planar.good()) << planar;
+    EXPECT_GT(planar.shadowed, 2000u);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ChartScenes, testing::ValuesIn(gnomon::examples::chartSceneNames()),
+                         [](const auto& each) {
+                             std::string name = each.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(ChartScene, ANameThatIsNotThereIsRefusedWithThoseThatAre) {
+    try {
+        gnomon::examples::chartScene("moon", 8, 8);
+        FAIL();
+    } catch (const std::invalid_argument& refusal) {
+        EXPECT_EQ(std::string(refusal.what()).substr(0, 45), "no scene is named \"moon\"; allowed: lab8-45 la");
+    }
+}
+
+TEST(ChartScene, TheCameraAndTheLightMoveAboutWhatIsLookedAt) {
+    const ChartScene scene = gnomon::examples::chartScene("room", 64, 48);
+    const gnomon::examples::SceneCamera turned = gnomon::examples::movedCamera(scene, 90.0);
+    const osg::Vec3d eye = osg::Vec3d() * osg::Matrixd::inverse(scene.camera.view), c = scene.center;
+    const osg::Vec3d expected(c.x() - (eye.y() - c.y()), c.y() + (eye.x() - c.x()), eye.z());
+    EXPECT_LT((osg::Vec3d() * osg::Matrixd::inverse(turned.view) - expected).length(), 1e-9);
+    const osg::Vec4d light = gnomon::examples::movedLight(scene, 180.0);
+    EXPECT_LT((light - osg::Vec4d(2.0 * c.x() - 0.1, 2.0 * c.y() - 0.3, 1.25, 1.0)).length(), 1e-9);
+    EXPECT_EQ(gnomon::examples::movedCamera(scene, 0.0).projection, scene.camera.projection);
+}
+
+} // namespace
