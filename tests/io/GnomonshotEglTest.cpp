@@ -48,6 +48,8 @@ class GnomonshotEgl : public testing::TestWithParam<std::vector<std::string>> {}
 INSTANTIATE_TEST_SUITE_P(Shadows, GnomonshotEgl,
                          testing::Values(std::vector<std::string>{"--shadow", "none"},
                                          std::vector<std::string>{"--shadow", "planar"},
+                                         std::vector<std::string>{"--shadow", "traced"},
+                                         std::vector<std::string>{"--shadow", "traced:composite=blend"},
                                          std::vector<std::string>{"--shadow", "planar:composite=blend,dark=0.4"}));
 
 /// Mesa draws both with the same rasteriser: no pixel may differ. Another renderer rounds colours and places edges by
@@ -62,9 +64,10 @@ TEST_P(GnomonshotEgl, DrawsThePictureOfGnomonshot) {
 }
 
 TEST(GnomonshotEgl, DrawsShadowsAtAll) {
-    const Shot lit = shoot(GNOMONSHOT_EGL, {"--shadow", "none"}),
-               shadowed = shoot(GNOMONSHOT_EGL, {"--shadow", "planar"});
-    EXPECT_GT(countDifferent(*lit.picture, *shadowed.picture, 2), 100);
+    const Shot lit = shoot(GNOMONSHOT_EGL, {"--shadow", "none"});
+    for (const char* technique : {"planar", "traced"})
+        EXPECT_GT(countDifferent(*lit.picture, *shoot(GNOMONSHOT_EGL, {"--shadow", technique}).picture, 2), 100)
+            << technique;
 }
 
 } // namespace
