@@ -29,7 +29,8 @@ class ShadowCasterGroup;
 /// Points are of the group's frame, in double. It keeps the casters as they were when it was made: make another one
 /// when ShadowCasterGroup::revision() has risen.
 ///
-/// Cost    making it: a tree over the casters, see RayScene; a question: about 0.25 µs of one core.
+/// Cost    making it: a tree over the casters, see RayScene, unless a TracedShadowTechnique of their group or
+///         another query has one, which is shared; a question: about 0.25 µs of one core.
 /// Needs   Embree. No OpenGL, no view.
 /// Limits  a point does not tell what it belongs to: where a technique names a receiver, its answer holds for points of
 ///         that. Points on a surface that the light hardly grazes, sine 0.01 or less, may be called either way.

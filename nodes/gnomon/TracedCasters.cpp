@@ -1,43 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Progress.h>
 #include <gnomon/TracedCasters.h>
 
 #include <OpenThreads/ScopedLock>
-#include <osg/Timer>
-
 #include <algorithm>
-#include <atomic>
-#include <cstdio>
 #include <glm/vec3.hpp>
-#include <unistd.h>
+#include <iterator>
+#include <map>
+#include <tbb/task_arena.h>
 
 namespace gnomon {
 namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
-
-/// A line on the terminal that grows while something takes longer than a second, and is gone at the end.
-class Progress {
-public:
-    Progress(std::string name, unsigned triangles)
-        : _what("gnomon: " + name + " builds a tree of " + std::to_string(triangles) + " triangles"),
-          _terminal(isatty(STDERR_FILENO) != 0) {}
-    ~Progress() {
-        if (_shown >= 0) std::fprintf(stderr, "\r%*s\r", int(_what.size()) + 8, "");
-    }
-
-    /// May be called from several threads at once.
-    void show(double share) {
-        const int percent = static_cast<int>(100.0 * share);
-        if (!_terminal || _watch.elapsedTime() < 1.0 || percent <= _shown.exchange(percent)) return;
-        std::fprintf(stderr, "\r%s: %d %%", _what.c_str(), percent);
-    }
-
-private:
-    const std::string _what;
-    const bool _terminal;
-    const osg::ElapsedTime _watch;
-    std::atomic<int> _shown{-1};
-};
 
 /// About the mesh's origin. osg::Vec3 and glm::vec3 are three floats each.
 TriangleSoup soupOf(const CasterMesh& mesh) {
@@ -50,24 +25,67 @@ TriangleSoup soupOf(const CasterMesh& mesh) {
     return soup;
 }
 
-std::shared_ptr<const RayScene> build(const CasterMesh& mesh, const std::string& name) {
-    Progress progress(name, static_cast<unsigned>(mesh.triangles->size() / 3));
-    return std::make_shared<RayScene>(soupOf(mesh), [&progress](double share) { progress.show(share); });
+/// A tree and the casters that it is of: while the one lives, nothing else can have the other's address.
+struct Tree {
+    Tree(const CasterMesh& mesh, const RayScene::Progress& progress) : casters(&mesh), scene(soupOf(mesh), progress) {}
+
+    osg::ref_ptr<const CasterMesh> casters;
+    RayScene scene;
+};
+
+/// All that are in use, whoever asked for them first.
+struct TreesInUse {
+    OpenThreads::Mutex mutex;
+    std::map<const CasterMesh*, std::weak_ptr<Tree>> trees;
+};
+
+TreesInUse& treesInUse() {
+    static TreesInUse all;
+    return all;
+}
+
+/// Isolated: a thread that waits for others must not take up work of the caller's, which might ask for a tree in turn.
+std::shared_ptr<Tree> build(const CasterMesh& mesh, const std::string& name) {
+    Progress progress("gnomon: " + name + " builds a tree of " + std::to_string(mesh.triangles->size() / 3) +
+                      " triangles");
+    return tbb::this_task_arena::isolate(
+        [&] { return std::make_shared<Tree>(mesh, [&progress](double share) { progress.show(share); }); });
+}
+
+struct Found {
+    std::shared_ptr<const RayScene> scene;
+    bool built;
+};
+
+Found findOrBuild(const CasterMesh& mesh, const std::string& name) {
+    TreesInUse& all = treesInUse();
+    Lock lock(all.mutex);
+    std::shared_ptr<Tree> tree = all.trees[&mesh].lock();
+    const bool built = !tree;
+    if (built) {
+        for (auto entry = all.trees.begin(); entry != all.trees.end();)
+            entry = entry->second.expired() ? all.trees.erase(entry) : std::next(entry);
+        tree = build(mesh, name);
+        all.trees[&mesh] = tree;
+    }
+    const RayScene* scene = &tree->scene;
+    return {std::shared_ptr<const RayScene>(std::move(tree), scene), built};
 }
 
 } // namespace
 
 std::shared_ptr<const RayScene> TracedCasters::of(const CasterMesh& mesh, const std::string& name) {
     Lock lock(_mutex);
-    const auto found =
+    const auto known =
         std::find_if(_entries.begin(), _entries.end(), [&](const Entry& entry) { return entry.mesh == &mesh; });
-    if (found != _entries.end()) {
-        std::rotate(found, found + 1, _entries.end());
+    if (known != _entries.end()) {
+        std::rotate(known, known + 1, _entries.end());
         return _entries.back().scene;
     }
     if (_entries.size() > 1) _entries.erase(_entries.begin()); // before building, for both would be in memory
-    _entries.push_back({&mesh, build(mesh, name)});
-    ++_builds;
+    const Found found = findOrBuild(mesh, name);
+    _entries.push_back({&mesh, found.scene});
+    _builds += found.built;
     return _entries.back().scene;
 }
 

@@ -10,7 +10,8 @@
 
 namespace gnomon {
 
-/// The trees over casters that a node or a query casts rays at: one a revision, kept while it is used.
+/// The trees over casters that a node or a query casts rays at: one a revision, kept while it is used, and one for all
+/// nodes and queries that ask for the same casters.
 ///
 /// Threads any number.
 class TracedCasters {
@@ -18,6 +19,7 @@ public:
     /// @param name  of whom it is, for the line of progress.
     /// @throws std::runtime_error, see RayScene.
     std::shared_ptr<const RayScene> of(const CasterMesh& mesh, const std::string& name);
+    /// How often none was there yet.
     unsigned builds() const;
 
 private:

@@ -45,7 +45,8 @@ public:
         std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                    const CasterMesh& casters) const override;
 
-    /// How often a tree was built: rises by one with each revision of the casters, whatever the views and lights.
+    /// How often this built a tree: rises by one with each revision of the casters, whatever the views and lights, unless a
+    /// ShadowQuery or another technique has a tree of the same casters, which is then shared.
     unsigned builds() const;
 
     void releaseGLObjects(osg::State* state = nullptr) const override;

@@ -157,6 +157,29 @@ TEST(ShadowQuery, IsTheSameFarFromTheOrigin) {
     EXPECT_TRUE(query.isLit(utm + osg::Vec3d(5.0, -5.0, 0.0)));
 }
 
+TEST(ShadowQuery, SharesTheTreeOfTheCastersWithWhoeverTraces) {
+    const osg::ref_ptr<ShadowTechnique> floor = test::planar();
+    const osg::ref_ptr<gnomon::TracedShadowTechnique> drawnLater = new gnomon::TracedShadowTechnique;
+    test::Scene scene = sceneFor(sun, floor);
+    scene.addShadow(drawnLater);
+    test::Camera camera(scene.root, test::fromAbove(4.0, 64));
+    {
+        const ShadowQuery query(*floor, {0, sun}), exact = query.exact();
+        camera.frame();
+        EXPECT_EQ(drawnLater->builds(), 0u);
+    }
+    const ShadowQuery shares(*drawnLater, {0, sun});
+    scene.content->addChild(test::node(test::box({3.0, 3.0, 0.0}, {4.0, 4.0, 1.0})));
+    camera.frame();
+    EXPECT_EQ(drawnLater->builds(), 1u) << "other casters, another tree";
+    const ShadowQuery after(*drawnLater, {0, sun});
+    const osg::Vec3d behindTheBox(2.5, 3.4, 0.25);
+    EXPECT_TRUE(shares.isLit(behindTheBox)) << "it keeps the casters that it was made with";
+    EXPECT_FALSE(after.isLit(behindTheBox));
+    camera.frame();
+    EXPECT_EQ(drawnLater->builds(), 1u);
+}
+
 TEST(ShadowQuery, RefusesWhatCannotBeAsked) {
     const osg::ref_ptr<ShadowTechnique> lonely = new gnomon::TracedShadowTechnique;
     EXPECT_THROW(ShadowQuery(*lonely, {0, sun}), std::invalid_argument);
