@@ -44,6 +44,11 @@ void addUnculled(Scene& scene, osg::Node* child) {
     scene.content->addChild(child);
 }
 
+GNOMON_BY_TECHNIQUE(BadLight);
+GNOMON_BY_TECHNIQUE(BadVertex);
+GNOMON_BY_TECHNIQUE(FlatCaster);
+GNOMON_BY_TECHNIQUE(EmptyGroup);
+
 } // namespace
 
 TEST(BadPlane, GetsNoShadow) {
@@ -78,7 +83,7 @@ TEST(Plane, MayHaveANormalOfAnyLength) {
     }
 }
 
-TEST(BadLight, SetOnTheGroupCastsNothing) {
+TEST_P(BadLight, SetOnTheGroupCastsNothing) {
     const Trial trial = boxOnGround();
     const Picture lit = render(trial.build().root, trial.view);
     for (const osg::Vec4d& light : badVectors) {
@@ -89,7 +94,7 @@ TEST(BadLight, SetOnTheGroupCastsNothing) {
     }
 }
 
-TEST(BadLight, ThatShinesCastsNothing) {
+TEST_P(BadLight, ThatShinesCastsNothing) {
     for (const osg::Vec4d& light : badVectors) {
         SCOPED_TRACE(testing::Message() << light.x() << ' ' << light.y() << ' ' << light.z() << ' ' << light.w());
         Trial trial = boxOnGround();
@@ -98,7 +103,7 @@ TEST(BadLight, ThatShinesCastsNothing) {
     }
 }
 
-TEST(BadLight, LeavesTheShadowOfAGoodOneAlone) {
+TEST_P(BadLight, LeavesTheShadowOfAGoodOneAlone) {
     const Trial trial = boxOnGround();
     Scene scene = trial.buildWithShadow();
     for (const osg::Vec4d& light : badVectors) scene.group->addLight({1, light});
@@ -106,7 +111,7 @@ TEST(BadLight, LeavesTheShadowOfAGoodOneAlone) {
     EXPECT_TRUE(isRight(scene, trial.view, truthOf(trial)));
 }
 
-TEST(BadVertex, LeavesTheShadowsOfGoodCastersAlone) {
+TEST_P(BadVertex, LeavesTheShadowsOfGoodCastersAlone) {
     const float none = std::numeric_limits<float>::quiet_NaN(), far = std::numeric_limits<float>::infinity();
     const Trial trial = boxOnGround();
     for (const osg::Vec3& corner :
@@ -122,13 +127,13 @@ TEST(BadVertex, LeavesTheShadowsOfGoodCastersAlone) {
     }
 }
 
-TEST(BadVertex, InEveryCasterMeansNoShadow) {
+TEST_P(BadVertex, InEveryCasterMeansNoShadow) {
     Scene lit = scene(), shadowed = scene();
     for (Scene* each : {&lit, &shadowed}) {
         each->content->addChild(node(square(8.0), "ground"));
         addUnculled(*each, triangleWith({std::numeric_limits<float>::quiet_NaN(), 0.0f, 1.0f}));
     }
-    shadowed.addShadow(planar());
+    shadowed.addShadow(castingTechnique());
     shadowed.group->setCullingActive(false);
     const View view = fromAbove(4.0, 96);
     const Picture expected = render(lit.root, view);
@@ -136,14 +141,14 @@ TEST(BadVertex, InEveryCasterMeansNoShadow) {
     EXPECT_TRUE(isUnshadowed(shadowed, view, expected));
 }
 
-TEST(FlatCaster, OfNoAreaCastsNothing) {
+TEST_P(FlatCaster, OfNoAreaCastsNothing) {
     Trial trial = boxOnGround();
     trial.casters = {{{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}, {0.5, 0.0, 1.0}}, // three corners on a line
                      {{0.0, 1.0, 1.0}, {0.0, 1.0, 1.0}, {0.0, 1.0, 1.0}}};
     EXPECT_TRUE(isUnshadowed(trial));
 }
 
-TEST(EmptyGroup, DrawsLikeAnyGroup) {
+TEST_P(EmptyGroup, DrawsLikeAnyGroup) {
     const View view = fromAbove(4.0, 96);
     Scene lit = scene(), empty = scene(), geodes = scene();
     lit.root->addChild(node(square(8.0)));
@@ -153,13 +158,13 @@ TEST(EmptyGroup, DrawsLikeAnyGroup) {
     osg::ref_ptr<osg::Geode> hollow = new osg::Geode;
     hollow->addDrawable(new osg::Geometry);
     geodes.content->addChild(hollow);
-    empty.addShadow(planar());
-    geodes.addShadow(planar());
+    empty.addShadow(castingTechnique());
+    geodes.addShadow(castingTechnique());
     EXPECT_TRUE(isUnshadowed(empty, view, expected));
     EXPECT_TRUE(isUnshadowed(geodes, view, expected));
 }
 
-TEST(EmptyGroup, WithNothingInItAtAllIsDrawn) {
+TEST_P(EmptyGroup, WithNothingInItAtAllIsDrawn) {
     Scene scene = test::scene();
     scene.root->addChild(new gnomon::ShadowCasterGroup);
     EXPECT_TRUE(same(render(scene.root, fromAbove(4.0, 32)), render(new osg::Group, fromAbove(4.0, 32))));

@@ -83,9 +83,12 @@ void forEachLightAndView(const Check& check) {
         }
 }
 
+GNOMON_BY_TECHNIQUE(Place);
+GNOMON_BY_TECHNIQUE(Scale);
+
 } // namespace
 
-TEST(Place, OfTheOriginIsWhatRaysSay) { // what all others here are compared with
+TEST_P(Place, OfTheOriginIsWhatRaysSay) { // what all others here are compared with
     forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         EXPECT_GT(truthOf(trial).shadowPixels(), 3000);
@@ -93,7 +96,7 @@ TEST(Place, OfTheOriginIsWhatRaysSay) { // what all others here are compared wit
     });
 }
 
-TEST(Place, FarAwayByATransformAboveTheGroupChangesNoBit) {
+TEST_P(Place, FarAwayByATransformAboveTheGroupChangesNoBit) {
     forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         const Scene scene = trial.buildWithShadow();
@@ -104,6 +107,14 @@ TEST(Place, FarAwayByATransformAboveTheGroupChangesNoBit) {
 }
 
 namespace {
+
+/// On the ground where it is far away.
+void addShadow(Scene& scene, By technique) {
+    if (technique == By::Planar)
+        scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, -farAway.z())));
+    else
+        scene.addShadow(castingTechnique(find(*scene.root, "ground")));
+}
 
 /// Puts the content, within the group, and the light each under a transform to `farAway`.
 void moveContentAndLight(Scene& scene) {
@@ -116,28 +127,28 @@ void moveContentAndLight(Scene& scene) {
 
 } // namespace
 
-TEST(Place, FarAwayByATransformInTheGroupChangesNoBit) {
-    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
+TEST_P(Place, FarAwayByATransformInTheGroupChangesNoBit) {
+    forEachLightAndView([this](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         Scene scene = trial.build();
-        scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, -farAway.z())));
+        addShadow(scene, GetParam());
         moveContentAndLight(scene);
         EXPECT_EQ(mostDifferent(pictures(scene, scene.root, movedTo(farAway, trial.view)), pictures(trial)), 0);
     });
 }
 
-TEST(Place, FarAwayOfALightGivenInDoubleChangesNoBit) {
-    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
+TEST_P(Place, FarAwayOfALightGivenInDoubleChangesNoBit) {
+    forEachLightAndView([this](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         Scene scene = trial.build();
-        scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, -farAway.z())));
+        addShadow(scene, GetParam());
         scene.group->addLight({0, light + osg::Vec4d(farAway, 0.0) * light.w()});
         moveContentAndLight(scene);
         EXPECT_EQ(mostDifferent(pictures(scene, scene.root, movedTo(farAway, trial.view)), pictures(trial)), 0);
     });
 }
 
-TEST(Scale, ByAPowerOfTwoChangesNoBit) {
+TEST_P(Scale, ByAPowerOfTwoChangesNoBit) {
     forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
         const auto expected = pictures(trialAt(light, fromTop));
         for (const double factor : {1.0 / 1024.0, 1024.0}) {
@@ -149,7 +160,7 @@ TEST(Scale, ByAPowerOfTwoChangesNoBit) {
 
 /// Other factors round the corners anew: a pixel whose centre is within 10⁻⁷ of an edge may change sides, with or
 /// without shadows.
-TEST(Scale, ByAThousandChangesNoMoreThanTwoPixelsOfAHundredThousand) {
+TEST_P(Scale, ByAThousandChangesNoMoreThanTwoPixelsOfAHundredThousand) {
     forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
         const auto expected = pictures(trialAt(light, fromTop));
         for (const double factor : {1e-3, 1e3}) {

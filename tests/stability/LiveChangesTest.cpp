@@ -41,9 +41,12 @@ void expectSeenInFrame500(const std::function<void(Scene&)>& change, const std::
     EXPECT_EQ(scene.group->revision(), 2u);
 }
 
+GNOMON_BY_TECHNIQUE(Frame500);
+GNOMON_BY_TECHNIQUE(MovedTransform);
+
 } // namespace
 
-TEST(Frame500, SeesAnArrayThatWasChangedAndDirtied) {
+TEST_P(Frame500, SeesAnArrayThatWasChangedAndDirtied) {
     expectSeenInFrame500(
         [](Scene& scene) {
             osg::Vec3Array& vertices = verticesOf(*find(*scene.root, "caster"));
@@ -54,7 +57,7 @@ TEST(Frame500, SeesAnArrayThatWasChangedAndDirtied) {
         {right});
 }
 
-TEST(Frame500, SeesATransformPutOverACaster) {
+TEST_P(Frame500, SeesATransformPutOverACaster) {
     expectSeenInFrame500(
         [](Scene& scene) {
             osg::ref_ptr<osg::MatrixTransform> over = new osg::MatrixTransform(osg::Matrixd::translate(3.0, 0.0, 0.0));
@@ -65,19 +68,19 @@ TEST(Frame500, SeesATransformPutOverACaster) {
         {right});
 }
 
-TEST(Frame500, SeesANewChild) {
+TEST_P(Frame500, SeesANewChild) {
     expectSeenInFrame500([](Scene& scene) { scene.content->addChild(node(right)); }, {left, right});
 }
 
-TEST(Frame500, SeesThatAChildIsGone) {
+TEST_P(Frame500, SeesThatAChildIsGone) {
     expectSeenInFrame500([](Scene& scene) { scene.content->removeChild(find(*scene.root, "caster")); }, {});
 }
 
-TEST(Frame500, SeesAMaskThatHidesACaster) {
+TEST_P(Frame500, SeesAMaskThatHidesACaster) {
     expectSeenInFrame500([](Scene& scene) { find(*scene.root, "caster")->setNodeMask(0); }, {});
 }
 
-TEST(MovedTransform, IsFollowedInEveryFrame) {
+TEST_P(MovedTransform, IsFollowedInEveryFrame) {
     Scene scene = casting({}).buildWithShadow();
     osg::ref_ptr<osg::MatrixTransform> over = new osg::MatrixTransform;
     over->addChild(node(left));

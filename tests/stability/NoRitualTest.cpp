@@ -86,9 +86,15 @@ void addView(osgViewer::CompositeViewer& viewer, const gnomon::HeadlessContext& 
     viewer.addView(added);
 }
 
+GNOMON_BY_TECHNIQUE(SceneView);
+GNOMON_BY_TECHNIQUE(CompositeViewer);
+GNOMON_BY_TECHNIQUE(NestedCamera);
+GNOMON_BY_TECHNIQUE(Technique);
+GNOMON_BY_TECHNIQUE(TwoGroups);
+
 } // namespace
 
-TEST(SceneView, WithoutAnUpdateAViewOrAFrameNumberShowsTheShadowAtOnce) {
+TEST_P(SceneView, WithoutAnUpdateAViewOrAFrameNumberShowsTheShadowAtOnce) {
     for (const View& view : {fromAbove(4.0, size), slanting()}) {
         Trial trial = boxOnGround();
         trial.view = view;
@@ -99,7 +105,7 @@ TEST(SceneView, WithoutAnUpdateAViewOrAFrameNumberShowsTheShadowAtOnce) {
     }
 }
 
-TEST(SceneView, WithoutAFrameNumberForgetsCausesThatAreGone) {
+TEST(PlanarInASceneView, WithoutAFrameNumberForgetsCausesThatAreGone) {
     const Trial trial = boxOnGround();
     Scene scene = trial.build();
     osg::ref_ptr<gnomon::PlanarShadowNode> technique = new gnomon::PlanarShadowNode;
@@ -112,7 +118,7 @@ TEST(SceneView, WithoutAFrameNumberForgetsCausesThatAreGone) {
     EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
 }
 
-TEST(CompositeViewer, ShowsAnOrthographicAndAPerspectiveViewInItsFirstFrame) {
+TEST_P(CompositeViewer, ShowsAnOrthographicAndAPerspectiveViewInItsFirstFrame) {
     for (const osg::Vec4d& light : {osg::Vec4d(1.0, 0.5, 1.0, 0.0), osg::Vec4d(3.0, 1.0, 4.0, 1.0)}) {
         SCOPED_TRACE(light.w());
         Trial above = boxOnGround(light), slant = boxOnGround(light);
@@ -131,7 +137,7 @@ TEST(CompositeViewer, ShowsAnOrthographicAndAPerspectiveViewInItsFirstFrame) {
     }
 }
 
-TEST(NestedCamera, ShowsTheShadowWhereverItsLightStands) {
+TEST_P(NestedCamera, ShowsTheShadowWhereverItsLightStands) {
     const Trial trial = boxOnGround();
     for (const auto order : {osg::Camera::NESTED_RENDER, osg::Camera::POST_RENDER})
         for (const bool lightInside : {true, false}) {
@@ -151,7 +157,7 @@ TEST(NestedCamera, ShowsTheShadowWhereverItsLightStands) {
         }
 }
 
-TEST(NestedCamera, OfItsOwnFrameShowsTheShadow) {
+TEST_P(NestedCamera, OfItsOwnFrameShowsTheShadow) {
     const Trial trial = boxOnGround();
     const Scene scene = trial.buildWithShadow();
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
@@ -169,7 +175,7 @@ TEST(NestedCamera, OfItsOwnFrameShowsTheShadow) {
     EXPECT_TRUE(shows(render(root, slanting()), truthOf(trial)));
 }
 
-TEST(Technique, UnderASwitchCastsWhileItIsOn) {
+TEST_P(Technique, UnderASwitchCastsWhileItIsOn) {
     const Trial trial = boxOnGround();
     const Truth truth = truthOf(trial);
     Scene scene = trial.buildWithShadow();
@@ -185,7 +191,7 @@ TEST(Technique, UnderASwitchCastsWhileItIsOn) {
     EXPECT_TRUE(same(camera.frame(), truth.lit));
 }
 
-TEST(Technique, UnderATransformCastsOnTheTransformedPlane) {
+TEST(PlanarTechnique, UnderATransformCastsOnTheTransformedPlane) {
     Trial trial = boxOnGround();
     for (Mesh& caster : trial.casters) caster = moved(caster, {0.0, 0.0, 0.75});
     const auto raised = [&trial](bool withShadow) {
@@ -212,14 +218,14 @@ TEST(Technique, UnderATransformCastsOnTheTransformedPlane) {
     }
 }
 
-TEST(TwoGroups, InOneSceneCastBoth) {
+TEST_P(TwoGroups, InOneSceneCastBoth) {
     const Trial trial = boxOnGround();
     Scene scene = test::scene(trial.light);
     scene.content->addChild(node(square(trial.half), "ground"));
     for (const Mesh& caster : trial.casters) {
         osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
         group->addChild(node(caster));
-        group->addChild(planar());
+        group->addChild(castingTechnique(find(*scene.root, "ground")));
         scene.content->addChild(group);
     }
     EXPECT_TRUE(shows(render(scene.root, trial.view), truthOf(trial)));

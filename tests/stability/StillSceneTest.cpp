@@ -46,15 +46,22 @@ void forEachWay(const Check& check) {
             SCOPED_TRACE(testing::Message() << (composite == gnomon::ShadowCasterGroup::BLEND ? "blended" : "relit")
                                             << (named ? ", receiver named" : ""));
             Scene scene = standing().build();
-            scene.addShadow(planar(named ? find(*scene.root, "ground") : nullptr));
+            scene.addShadow(castingTechnique(named ? find(*scene.root, "ground") : nullptr));
             scene.group->setComposite(composite);
             check(scene);
         }
 }
 
+GNOMON_BY_TECHNIQUE(StillScene);
+GNOMON_BY_TECHNIQUE(Frames);
+GNOMON_BY_TECHNIQUE(SecondViewer);
+GNOMON_BY_TECHNIQUE(ReleasedGLObjects);
+GNOMON_BY_TECHNIQUE(DeepCopy);
+GNOMON_BY_TECHNIQUE(ShallowCopy);
+
 } // namespace
 
-TEST(StillScene, ExtractsNothingAndKeepsNoMemoryInAThousandFrames) {
+TEST_P(StillScene, ExtractsNothingAndKeepsNoMemoryInAThousandFrames) {
     forEachWay([](Scene& scene) {
         Camera camera(scene.root, standing().view);
         const auto frames = [&camera](int count) {
@@ -70,14 +77,14 @@ TEST(StillScene, ExtractsNothingAndKeepsNoMemoryInAThousandFrames) {
     });
 }
 
-TEST(Frames, LeaveNoErrorInOpenGL) {
+TEST_P(Frames, LeaveNoErrorInOpenGL) {
     forEachWay([](Scene& scene) {
         Camera camera(scene.root, standing().view);
         for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(errorAfterFrame(camera), GLenum(GL_NO_ERROR));
     });
 }
 
-TEST(Frames, LeaveTheStencilBufferZero) {
+TEST_P(Frames, LeaveTheStencilBufferZero) {
     forEachWay([](Scene& scene) {
         Camera camera(scene.root, standing().view);
         for (int frame = 0; frame < 3; ++frame) {
@@ -87,7 +94,7 @@ TEST(Frames, LeaveTheStencilBufferZero) {
     });
 }
 
-TEST(Frames, LeaveTheDepthOfTheSceneWithoutShadows) {
+TEST_P(Frames, LeaveTheDepthOfTheSceneWithoutShadows) {
     const Scene plain = standing().build();
     Camera without(plain.root, standing().view);
     without.frame();
@@ -100,7 +107,7 @@ TEST(Frames, LeaveTheDepthOfTheSceneWithoutShadows) {
     });
 }
 
-TEST(SecondViewer, OfTheSameSceneShowsTheSameBits) {
+TEST_P(SecondViewer, OfTheSameSceneShowsTheSameBits) {
     forEachWay([](Scene& scene) {
         Camera first(scene.root, standing().view);
         const Picture expected = first.frame();
@@ -111,7 +118,7 @@ TEST(SecondViewer, OfTheSameSceneShowsTheSameBits) {
     });
 }
 
-TEST(ReleasedGLObjects, AreMadeAnewInTheNextFrame) {
+TEST_P(ReleasedGLObjects, AreMadeAnewInTheNextFrame) {
     forEachWay([](Scene& scene) {
         Camera camera(scene.root, standing().view);
         const Picture expected = camera.frame();
@@ -125,7 +132,7 @@ TEST(ReleasedGLObjects, AreMadeAnewInTheNextFrame) {
     });
 }
 
-TEST(DeepCopy, OfTheSceneShowsTheSameBits) {
+TEST_P(DeepCopy, OfTheSceneShowsTheSameBits) {
     forEachWay([](Scene& scene) {
         const Picture expected = render(scene.root, standing().view);
         osg::ref_ptr<osg::Group> copy = osg::clone(scene.root.get(), osg::CopyOp::DEEP_COPY_ALL);
@@ -135,7 +142,7 @@ TEST(DeepCopy, OfTheSceneShowsTheSameBits) {
     });
 }
 
-TEST(DeepCopy, OfTheGroupAloneShowsTheSameBits) {
+TEST_P(DeepCopy, OfTheGroupAloneShowsTheSameBits) {
     forEachWay([](Scene& scene) {
         const Picture expected = render(scene.root, standing().view);
         osg::ref_ptr<gnomon::ShadowCasterGroup> copy = osg::clone(scene.group.get(), osg::CopyOp::DEEP_COPY_ALL);
@@ -144,7 +151,7 @@ TEST(DeepCopy, OfTheGroupAloneShowsTheSameBits) {
     });
 }
 
-TEST(DeepCopy, CastsFromItsOwnSelectionAndItsOwnLight) {
+TEST_P(DeepCopy, CastsFromItsOwnSelectionAndItsOwnLight) {
     Scene scene = standing().buildWithShadow();
     scene.root->removeChild(scene.light);
     scene.content->addChild(scene.light);
@@ -156,7 +163,7 @@ TEST(DeepCopy, CastsFromItsOwnSelectionAndItsOwnLight) {
     EXPECT_TRUE(same(render(copy, standing().view), expected));
 }
 
-TEST(ShallowCopy, OfTheGroupShowsTheSameBits) {
+TEST_P(ShallowCopy, OfTheGroupShowsTheSameBits) {
     forEachWay([](Scene& scene) {
         const Picture expected = render(scene.root, standing().view);
         osg::ref_ptr<gnomon::ShadowCasterGroup> copy = osg::clone(scene.group.get(), osg::CopyOp::SHALLOW_COPY);

@@ -8,6 +8,23 @@
 
 namespace test {
 
+/// The techniques that trials are run with: the same pictures are expected of all.
+enum class By { Planar, Traced };
+std::ostream& operator<<(std::ostream& out, By technique);
+
+/// Cases of this fixture are run with each technique. Traced is told that the ground receives, as planar's plane does.
+class ByTechnique : public ::testing::TestWithParam<By> {
+protected:
+    ByTechnique();
+    ~ByTechnique() override;
+};
+#define GNOMON_BY_TECHNIQUE(suite)                                                                                     \
+    class suite : public ByTechnique {};                                                                               \
+    INSTANTIATE_TEST_SUITE_P(Shadows, suite, testing::Values(By::Planar, By::Traced), testing::PrintToStringParamName())
+
+/// For z = 0: the technique of the case that is run, else planar.
+osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver = nullptr);
+
 /// A ground at z = 0, casters over it and one light, seen by one view.
 struct Trial {
     std::vector<Mesh> casters;
@@ -43,8 +60,12 @@ Picture black(const Picture& sizeOf);
 /// Frames 1 to 3 (relit without and with what is known of solids, then blended to black) are what the rays say.
 ::testing::AssertionResult isRight(Scene& scene, const View& view, const Truth& truth);
 ::testing::AssertionResult isRight(const Trial& trial);
-/// Neither relit nor blended to black does the picture differ from `lit`, by any bit.
-::testing::AssertionResult isUnshadowed(Scene& scene, const View& view, const Picture& lit);
+/// Where the light stands. What faces away from it traced takes to be in its own shadow: relit that shows nothing.
+enum class Ground { ToTheLight, Away };
+/// Neither relit nor, but for what traced does to a ground that faces away, blended to black does the picture differ from
+/// `lit`, by any bit.
+::testing::AssertionResult isUnshadowed(Scene& scene, const View& view, const Picture& lit,
+                                        Ground turned = Ground::ToTheLight);
 ::testing::AssertionResult isUnshadowed(const Trial& trial);
 
 } // namespace test
