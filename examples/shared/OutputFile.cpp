@@ -42,18 +42,22 @@ osg::ref_ptr<osg::Image> opaque(const osg::Image& image) {
     return result;
 }
 
-/// The picture as a file of this ending; empty if OSG has no writer for it.
-std::string encode(const osg::Image& image, const fs::path& path) {
-    osgDB::Registry* registry = osgDB::Registry::instance();
+/// "png" of "a.png".
+std::string endingOf(const fs::path& path) {
     const std::string ending = path.extension().string();
+    return ending.empty() ? ending : ending.substr(1);
+}
+
+} // namespace
+
+std::string imageBytes(const osg::Image& image, const std::string& ending) {
+    osgDB::Registry* registry = osgDB::Registry::instance();
     osgDB::ReaderWriter* writer =
-        ending.empty() ? nullptr : registry->getReaderWriterForExtension(osgDB::convertToLowerCase(ending.substr(1)));
+        ending.empty() ? nullptr : registry->getReaderWriterForExtension(osgDB::convertToLowerCase(ending));
     std::ostringstream bytes;
     const bool written = writer && writer->writeImage(image, bytes, registry->getOptions()).success();
     return written ? bytes.str() : "";
 }
-
-} // namespace
 
 OutputFile::OutputFile(const std::string& path) : _path(path), _draft(draftOf(path)) {
     requirePlace(_path);
@@ -72,7 +76,7 @@ void OutputFile::requireImage() const {
     osg::ref_ptr<osg::Image> dot = new osg::Image;
     dot->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
     std::fill(dot->data(), dot->data() + dot->getTotalSizeInBytes(), static_cast<unsigned char>(0));
-    if (encode(*dot, _path).empty())
+    if (imageBytes(*dot, endingOf(_path)).empty())
         refuse(_path, "OpenSceneGraph writes no such images; png, jpg, bmp, tif, rgb are allowed");
 }
 
@@ -82,9 +86,9 @@ void OutputFile::requireData() const {
     refuse(_path, "it would lose what is to be kept; .osgb, .osgt and .osgx are allowed");
 }
 
-void OutputFile::writeData(const osg::Image& image) { write(encode(image, _path)); }
+void OutputFile::writeData(const osg::Image& image) { write(imageBytes(image, endingOf(_path))); }
 
-void OutputFile::write(const osg::Image& image) { write(encode(*opaque(image), _path)); }
+void OutputFile::write(const osg::Image& image) { write(imageBytes(*opaque(image), endingOf(_path))); }
 
 void OutputFile::write(const std::string& text) {
     std::ofstream out(_draft, std::ios::binary);

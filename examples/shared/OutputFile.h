@@ -7,6 +7,9 @@
 
 namespace gnomon::examples {
 
+/// A picture as a file of this ending ("png") holds it; empty if OSG has no writer for it.
+std::string imageBytes(const osg::Image& image, const std::string& ending);
+
 /// A file that appears whole or not at all: written beside its place under another name, then renamed.
 class OutputFile {
 public:

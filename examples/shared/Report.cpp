@@ -39,15 +39,6 @@ std::string wrongText(const Confusion& confusion) {
     return std::to_string(confusion.falseShadow + confusion.falseLit) + " of " + pixels(confusion.pixels()) + " wrong";
 }
 
-std::string catastropheText(const Catastrophes& catastrophes) {
-    std::string text;
-    if (catastrophes.notFinite) text += pixels(catastrophes.notFinite) + " are no numbers; ";
-    if (catastrophes.allShadowed) text += "all is shadowed; ";
-    if (catastrophes.allLit) text += "all is lit; ";
-    if (catastrophes.lostShadow) text += "intersection over union below 0.2; ";
-    return text.empty() ? "none" : text.substr(0, text.size() - 2);
-}
-
 std::string awayAndRaw(const std::string& away, const std::string& raw) {
     return away + " away from edges, " + raw + " raw";
 }
@@ -200,6 +191,15 @@ void readSets(const json& from, ShadowMetrics& to) {
 }
 
 } // namespace
+
+std::string catastropheText(const Catastrophes& catastrophes) {
+    std::string text;
+    if (catastrophes.notFinite) text += pixels(catastrophes.notFinite) + " are no numbers; ";
+    if (catastrophes.allShadowed) text += "all is shadowed; ";
+    if (catastrophes.allLit) text += "all is lit; ";
+    if (catastrophes.lostShadow) text += "intersection over union below 0.2; ";
+    return text.empty() ? "none" : text.substr(0, text.size() - 2);
+}
 
 std::string reportText(const ShadowMetrics& m) {
     std::ostringstream out;

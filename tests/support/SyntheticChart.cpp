@@ -109,7 +109,7 @@ ChartPoint pointOf(const Scene& scene, const Technique& technique, int size, std
     point.scene = scene.name;
     point.kit = technique.kit;
     point.technique = technique.name;
-    point.setting = settingOf(size);
+    point.setting = std::string(technique.name) == "traced" ? "<b>best</b> of all" : settingOf(size);
     if (size) point.settings = {{"size", std::to_string(size)}};
     const double coarse = size ? 1024.0 / size : 1.0;
     point.cost = costOf(scene, technique, size, seed);
@@ -121,7 +121,7 @@ ChartPoint pointOf(const Scene& scene, const Technique& technique, int size, std
     return point;
 }
 
-/// Some fail, some are catastrophic, some lack numbers.
+/// Some fail, some are catastrophic, some lack numbers; one of osgShadow's wins.
 void spoil(ChartPoint& point) {
     if (point.technique == "ShadowTexture" && point.scene == "room") {
         point = {point.scene,
@@ -145,6 +145,9 @@ void spoil(ChartPoint& point) {
     } else if (point.technique == "box" && point.scene != "hills") {
         point.errors->catastrophes.allLit = true;
         point.errors->boundary.reset();
+    } else if (point.technique == "MinimalShadowMap" && point.setting == "size 4096" && point.scene == "room") {
+        point.cost->steadyWall = {0.19, 0.2, 0.21};
+        point.errors->boundary->p95 = 0.43;
     }
 }
 

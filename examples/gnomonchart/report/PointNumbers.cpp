@@ -100,7 +100,7 @@ const std::vector<PointNumber>& pointNumbers() {
         {"passes", "passes over casters or receivers", "", "cost", false, ofCost<&Cost::passes>},
 
         {"boundary_p95_px", "boundary error, 95th percentile", "px", "accuracy", true, ofBoundary<&BoundaryDistance::p95>},
-        {"boundary_mean_px", "boundary error, mean", "px", "accuracy", true, ofBoundary<&BoundaryDistance::mean>},
+        {"boundary_mean_px", "boundary error, mean", "px", "accuracy", false, ofBoundary<&BoundaryDistance::mean>},
         {"boundary_max_px", "boundary error, greatest", "px", "accuracy", false, ofBoundary<&BoundaryDistance::max>},
         {"boundary_outwards_px", "boundary, mean outwards", "px", "accuracy", false, ofBoundary<&BoundaryDistance::signedMean>},
         {"misclassified_percent", "misclassified pixels", "%", "accuracy", true, ofConfusion<away, &Confusion::misclassified>},
@@ -109,7 +109,7 @@ const std::vector<PointNumber>& pointNumbers() {
         {"balanced_error_percent", "balanced error", "%", "accuracy", false, ofConfusion<away, &Confusion::balancedError>},
         {"misclassified_raw_percent", "misclassified pixels, edges too", "%", "accuracy", false, ofConfusion<raw, &Confusion::misclassified>},
         {"iou", "intersection over union", "", "accuracy", true, intersectionOverUnion},
-        {"rmse_point_sun", "RMSE of the visibility, point sun", "", "accuracy", true, ofIntensity<&Metrics::pointSun, &IntensityError::all>},
+        {"rmse_point_sun", "RMSE of the visibility, point sun", "", "accuracy", false, ofIntensity<&Metrics::pointSun, &IntensityError::all>},
         {"rmse_disc_sun", "RMSE of the visibility, sun's disc", "", "accuracy", false, ofIntensity<&Metrics::discSun, &IntensityError::all>},
         {"rmse_disc_sun_penumbra", "the same in penumbrae alone", "", "accuracy", false, ofIntensity<&Metrics::discSun, &IntensityError::penumbra>},
         {"rmse_thin", "RMSE, filtered by 4 × 4 px", "", "accuracy", false, ofIntensity<&Metrics::thin, &IntensityError::all>},

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "Findings.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace gnomon::examples {
+namespace {
+
+/// Two digits, or whole numbers: "0.42", "3.1", "160".
+std::string shortNumber(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), value < 10.0 ? "%.2g" : "%.0f", value);
+    return text.data();
+}
+
+std::string nameOf(const BestPoint& best) {
+    std::string name = best.curve->ours() ? best.curve->technique : best.curve->kit + " " + best.curve->technique;
+    if (best.curve->points.size() > 1) name += ", " + best.point->setting;
+    return name;
+}
+
+std::string numbersOf(const CurvePoint& point) {
+    return shortNumber(point.time.median) + " ms, " + shortNumber(point.error) + " px";
+}
+
+std::string described(const BestPoint& best) { return nameOf(best) + " (" + numbersOf(*best.point) + ")"; }
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : "; ") + name;
+    return text;
+}
+
+/// Those that have a place and are no catastrophe.
+std::vector<BestPoint> soundOf(const std::vector<Curve>& curves, bool ours) {
+    std::vector<BestPoint> sound;
+    for (const Curve& curve : curves)
+        for (const CurvePoint& point : curve.points)
+            if (curve.ours() == ours && point.shown() && !point.catastrophic) sound.push_back({&curve, &point});
+    return sound;
+}
+
+/// Whether it costs no more and errs no more.
+bool matches(const CurvePoint& point, const CurvePoint& other) {
+    return point.time.median <= other.time.median && point.error <= other.error;
+}
+
+/// The most accurate of those that cost no more; null if all cost more.
+const BestPoint* mostAccurateWithin(const std::vector<BestPoint>& points, double ms) {
+    const BestPoint* best = nullptr;
+    for (const BestPoint& each : points)
+        if (each.point->time.median <= ms && (!best || each.point->error < best->point->error)) best = &each;
+    return best;
+}
+
+std::string beatenSentence(const BestPoint& peer, const std::vector<BestPoint>& ours) {
+    const BestPoint* nearest = mostAccurateWithin(ours, peer.point->time.median);
+    if (nearest)
+        return described(peer) +
+               " beats every Gnomon technique: at equal or lower cost the most accurate of Gnomon's is " +
+               described(*nearest) + ".";
+    return described(peer) + " is cheaper than every Gnomon technique" +
+           (ours.empty() ? ": none of them gives a sound shadow here." : ".");
+}
+
+/// A sentence for each peer among the best that Gnomon has nothing against.
+std::vector<std::string> beatenSentences(const std::vector<Curve>& curves) {
+    const std::vector<BestPoint> ours = soundOf(curves, true);
+    std::vector<std::string> sentences;
+    for (const BestPoint& best : staircase(curves)) {
+        const auto holds = [&](const BestPoint& own) { return matches(*own.point, *best.point); };
+        if (!best.curve->ours() && std::none_of(ours.begin(), ours.end(), holds))
+            sentences.push_back(beatenSentence(best, ours));
+    }
+    return sentences;
+}
+
+std::string bestSentence(const std::vector<Curve>& curves) {
+    std::vector<std::string> names;
+    for (const BestPoint& best : staircase(curves)) names.push_back(described(best));
+    if (names.empty()) return "No technique gives a sound shadow here.";
+    return "The best for their time, from the fastest to the most accurate: " + listed(names) + ".";
+}
+
+/// Gnomon's techniques of which every sound point is matched by some peer's.
+std::string outdoneSentence(const std::vector<Curve>& curves) {
+    const std::vector<BestPoint> theirs = soundOf(curves, false), ours = soundOf(curves, true);
+    std::vector<std::string> names;
+    for (const Curve& curve : curves) {
+        bool any = false, all = true;
+        for (const BestPoint& own : ours) {
+            if (own.curve != &curve) continue;
+            any = true;
+            all = all && std::any_of(theirs.begin(), theirs.end(),
+                                     [&](const BestPoint& peer) { return matches(*peer.point, *own.point); });
+        }
+        if (any && all) names.push_back(curve.technique);
+    }
+    if (names.empty()) return "";
+    return "Never worth it here, for at each setting some peer costs no more and errs no more: " + listed(names) + ".";
+}
+
+std::string catastropheSentence(const std::vector<Curve>& curves) {
+    std::vector<std::string> names;
+    for (const Curve& curve : curves) {
+        const auto bad = std::count_if(curve.points.begin(), curve.points.end(),
+                                       [](const CurvePoint& point) { return point.catastrophic; });
+        const auto all = curve.points.size();
+        const std::string share =
+            all == 1 ? "" : " (" + std::to_string(bad) + " of " + std::to_string(all) + " settings)";
+        if (bad > 0) names.push_back((curve.ours() ? "" : curve.kit + " ") + curve.technique + share);
+    }
+    return names.empty() ? "" : "Failed or catastrophic: " + listed(names) + ".";
+}
+
+SceneFinding findingOf(const ChartResults& results, const ChartSceneResult& scene, LightMotion light) {
+    const std::vector<Curve> curves = sceneCurves(results, scene.name, light);
+    SceneFinding finding{scene.name, scene.title, light, false, {}};
+    const std::vector<std::string> beaten = beatenSentences(curves);
+    finding.peerBeatsUs = !beaten.empty();
+    finding.sentences = {bestSentence(curves)};
+    finding.sentences.insert(finding.sentences.end(), beaten.begin(), beaten.end());
+    for (const std::string& sentence : {outdoneSentence(curves), catastropheSentence(curves)})
+        if (!sentence.empty()) finding.sentences.push_back(sentence);
+    return finding;
+}
+
+} // namespace
+
+std::vector<SceneFinding> findings(const ChartResults& results) {
+    std::vector<SceneFinding> all;
+    for (const ChartSceneResult& scene : results.scenes) {
+        const auto here = [&](const ChartPoint& point) { return point.scene == scene.name; };
+        if (std::none_of(results.points.begin(), results.points.end(), here)) continue;
+        for (const LightMotion light : {LightMotion::Still, LightMotion::Moving})
+            all.push_back(findingOf(results, scene, light));
+    }
+    return all;
+}
+
+std::string findingsSummary(const std::vector<SceneFinding>& findings) {
+    std::vector<std::string> beaten;
+    for (const SceneFinding& finding : findings)
+        if (finding.peerBeatsUs)
+            beaten.push_back(finding.scene +
+                             (finding.light == LightMotion::Still ? ", still light" : ", moving light"));
+    const std::string cases =
+        std::to_string(findings.size()) + " cases (each scene with a still and with a moving light)";
+    if (beaten.empty())
+        return "In none of " + cases +
+               " does a peer beat Gnomon: whatever a peer costs and errs, some technique of "
+               "Gnomon costs no more and errs no more.";
+    return "In " + std::to_string(beaten.size()) + " of " + cases +
+           " a peer beats every Gnomon technique at some cost: " + listed(beaten) + ".";
+}
+
+} // namespace gnomon::examples

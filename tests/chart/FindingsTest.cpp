@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// What the page says in words, from points whose winners are plain to see.
+#include "Findings.h"
+
+#include <support/SyntheticChart.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace gnomon::examples;
+using test::chartPoint;
+
+ChartResults resultsOf(const std::vector<ChartPoint>& points) {
+    ChartResults results;
+    results.scenes.emplace_back().name = "boxes";
+    results.scenes.back().title = "Boxes";
+    results.points = points;
+    return results;
+}
+
+SceneFinding stillOf(const std::vector<ChartPoint>& points) { return findings(resultsOf(points)).at(0); }
+
+bool says(const SceneFinding& finding, const std::string& sentence) {
+    const auto& all = finding.sentences;
+    return std::find(all.begin(), all.end(), sentence) != all.end();
+}
+
+std::string allOf(const SceneFinding& finding) {
+    std::string text;
+    for (const std::string& sentence : finding.sentences) text += sentence + "\n";
+    return text;
+}
+
+TEST(Findings, NameTheBestForTheirTime) {
+    const SceneFinding finding =
+        stillOf({chartPoint("Gnomon", "map", "size 512", 2, 4.2), chartPoint("Gnomon", "map", "size 1024", 3.14159, 2),
+                 chartPoint("Gnomon", "planar", "defaults", 123.4, 0.456)});
+    EXPECT_FALSE(finding.peerBeatsUs);
+    EXPECT_EQ(allOf(finding), "The best for their time, from the fastest to the most accurate: map, size 512 (2 ms, "
+                              "4.2 px); map, size 1024 (3.1 ms, 2 px); planar (123 ms, 0.46 px).\n");
+}
+
+TEST(Findings, SayPlainlyWhereAPeerBeatsUs) {
+    const SceneFinding finding =
+        stillOf({chartPoint("Gnomon", "map", "a", 2, 4), chartPoint("Gnomon", "map", "b", 9, 1),
+                 chartPoint("osgShadow", "ShadowMap", "a", 3, 2)});
+    EXPECT_TRUE(finding.peerBeatsUs);
+    EXPECT_TRUE(says(finding, "osgShadow ShadowMap (3 ms, 2 px) beats every Gnomon technique: at equal or lower cost "
+                              "the most accurate of Gnomon's is map, a (2 ms, 4 px)."))
+        << allOf(finding);
+}
+
+TEST(Findings, SayWhereAPeerIsCheaperThanAll) {
+    const SceneFinding finding =
+        stillOf({chartPoint("Gnomon", "map", "a", 2, 4), chartPoint("osgShadow", "ShadowMap", "a", 1, 50)});
+    EXPECT_TRUE(finding.peerBeatsUs);
+    EXPECT_TRUE(says(finding, "osgShadow ShadowMap (1 ms, 50 px) is cheaper than every Gnomon technique."))
+        << allOf(finding);
+}
+
+TEST(Findings, APeerAsGoodAsOursDoesNotBeatIt) {
+    EXPECT_FALSE(
+        stillOf({chartPoint("osgShadow", "ShadowMap", "", 2, 4), chartPoint("Gnomon", "map", "", 2, 4)}).peerBeatsUs);
+}
+
+TEST(Findings, NameOurTechniquesThatAreNeverWorthIt) {
+    const SceneFinding finding =
+        stillOf({chartPoint("Gnomon", "map", "a", 2, 1), chartPoint("Gnomon", "traced", "", 30, 3),
+                 chartPoint("Gnomon", "box", "a", 1, 9), chartPoint("Gnomon", "box", "b", 4, 9),
+                 chartPoint("osgShadow", "ShadowMap", "", 3, 2)});
+    EXPECT_TRUE(
+        says(finding, "Never worth it here, for at each setting some peer costs no more and errs no more: traced."))
+        << allOf(finding); // of box only one setting is outdone
+}
+
+TEST(Findings, CatastrophesNeitherWinNorAreHidden) {
+    ChartPoint black = chartPoint("osgShadow", "ShadowMap", "a", 1, 0.1), gone = chartPoint("Gnomon", "box", "", 1, 1);
+    black.errors->catastrophes.allShadowed = true;
+    gone.failure = "It crashed.";
+    const SceneFinding finding =
+        stillOf({black, gone, chartPoint("osgShadow", "ShadowMap", "b", 3, 9), chartPoint("Gnomon", "map", "", 2, 4)});
+    EXPECT_FALSE(finding.peerBeatsUs);
+    EXPECT_TRUE(says(finding, "Failed or catastrophic: osgShadow ShadowMap (1 of 2 settings); box.")) << allOf(finding);
+}
+
+TEST(Findings, WithNothingSoundOfOursAPeerWins) {
+    ChartPoint ours = chartPoint("Gnomon", "map", "", 1, 1);
+    ours.errors->catastrophes.allLit = true;
+    const SceneFinding finding = stillOf({ours, chartPoint("osgShadow", "ShadowMap", "", 3, 2)});
+    EXPECT_TRUE(says(finding,
+                     "osgShadow ShadowMap (3 ms, 2 px) is cheaper than every Gnomon technique: none of them gives "
+                     "a sound shadow here."))
+        << allOf(finding);
+    EXPECT_TRUE(says(stillOf({ours}), "No technique gives a sound shadow here."));
+}
+
+TEST(Findings, StillAndMovingLightAreJudgedApart) {
+    ChartPoint cached = chartPoint("Gnomon", "map", "", 1, 2);
+    cached.cost->movingWall = {9, 9, 9};
+    const auto all = findings(resultsOf({cached, chartPoint("osgShadow", "ShadowMap", "", 3, 2)}));
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_FALSE(all[0].peerBeatsUs);
+    EXPECT_TRUE(all[1].peerBeatsUs);
+    EXPECT_EQ(findingsSummary(all),
+              "In 1 of 2 cases (each scene with a still and with a moving light) a peer beats every "
+              "Gnomon technique at some cost: boxes, moving light.");
+}
+
+TEST(Findings, AreNoneOfScenesWithoutPoints) {
+    EXPECT_TRUE(findings(resultsOf({})).empty());
+    const auto all = findings(resultsOf({chartPoint("Gnomon", "map", "", 1, 2)}));
+    EXPECT_EQ(findingsSummary(all).substr(0, 50), "In none of 2 cases (each scene with a still and wi");
+}
+
+} // namespace
