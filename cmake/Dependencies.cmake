@@ -2,6 +2,7 @@
 find_package(glm REQUIRED)
 find_package(TBB CONFIG REQUIRED)
 find_package(embree 3 CONFIG REQUIRED)
+find_package(Qhull CONFIG REQUIRED)
 find_package(OpenGL REQUIRED COMPONENTS OpenGL GLX EGL)
 find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgDB osgFX osgGA osgText osgViewer osgShadow)
 find_package(PkgConfig REQUIRED)

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ConvexShadow.h>
+#include <gnomon/Plane.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gnomon {
+namespace {
+
+/// From each vertex of the silhouette to the next one.
+using Rim = std::map<unsigned, unsigned>;
+
+double facing(const glm::dvec4& plane, const glm::dvec4& light) { return glm::dot(plane, light); }
+
+/// Edges of lit faces whose other side is no lit face.
+Rim rimOf(const ConvexHull& hull, const std::vector<bool>& lit) {
+    std::map<std::pair<unsigned, unsigned>, bool> edges;
+    for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+        const std::vector<unsigned>& corners = hull.faces[f].corners;
+        for (std::size_t i = 0; i < corners.size() && lit[f]; ++i)
+            edges[{corners[i], corners[(i + 1) % corners.size()]}] = true;
+    }
+    Rim rim;
+    for (const auto& [edge, there] : edges)
+        if (!edges.count({edge.second, edge.first})) rim[edge.first] = edge.second;
+    return rim;
+}
+
+std::vector<unsigned> loopOf(const Rim& rim) {
+    std::vector<unsigned> loop;
+    for (unsigned at = rim.begin()->first; loop.size() < rim.size();) {
+        loop.push_back(at);
+        const auto next = rim.find(at);
+        if (next == rim.end()) break;
+        at = next->second;
+        if (at == loop.front()) break;
+    }
+    return loop;
+}
+
+/// Through an edge and the light, the hull on its inner side; nullopt for an edge that points at the light.
+std::optional<glm::dvec4> sidePlane(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec4& light) {
+    const glm::dvec3 towards = glm::dvec3(light) - light.w * from;
+    const glm::dvec3 normal = glm::cross(towards, to - from);
+    const double length = glm::length(normal);
+    if (!(length > 1e-14 * glm::length(towards) * glm::length(to - from))) return std::nullopt;
+    return glm::dvec4(normal / length, -glm::dot(normal / length, from));
+}
+
+/// Each once: qhull cuts a flat face into triangles of one plane.
+void addFaces(ConvexShadow& shadow, const ConvexHull& hull, const std::vector<bool>& lit) {
+    for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+        const glm::dvec4 inwards = -hull.faces[f].plane;
+        const auto same = [&](const glm::dvec4& plane) { return glm::dvec3(plane) == glm::dvec3(inwards); };
+        if (lit[f] && std::none_of(shadow.planes.begin(), shadow.planes.end(), same)) shadow.planes.push_back(inwards);
+    }
+}
+
+std::vector<glm::dvec3> clippedBy(const std::vector<glm::dvec3>& polygon, const glm::dvec4& plane) {
+    std::vector<glm::dvec3> result;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        const double from = distance(plane, a), to = distance(plane, b);
+        if (from >= 0.0) result.push_back(a);
+        if ((from >= 0.0) != (to >= 0.0)) result.push_back(glm::mix(a, b, from / (from - to)));
+    }
+    return result;
+}
+
+} // namespace
+
+bool ConvexShadow::holds(const glm::dvec3& point) const {
+    return std::all_of(planes.begin(), planes.end(), [&](const auto& plane) { return distance(plane, point) >= 0.0; });
+}
+
+std::optional<ConvexShadow> convexShadow(const ConvexHull& hull, const glm::dvec4& light) {
+    const double size = glm::length(glm::dvec3(light));
+    if (!std::isfinite(size) || !(light.w >= 0.0) || !(size + light.w > 0.0)) return std::nullopt;
+    std::vector<bool> lit;
+    for (const ConvexHull::Face& face : hull.faces) lit.push_back(facing(face.plane, light) > 0.0);
+    if (std::none_of(lit.begin(), lit.end(), [](bool is) { return is; })) return std::nullopt;
+    const Rim rim = rimOf(hull, lit);
+    if (rim.size() < 3) return std::nullopt;
+    ConvexShadow shadow;
+    for (const unsigned vertex : loopOf(rim)) shadow.silhouette.push_back(hull.vertices[vertex]);
+    addFaces(shadow, hull, lit);
+    for (const auto& [from, to] : rim)
+        if (const auto plane = sidePlane(hull.vertices[from], hull.vertices[to], light))
+            shadow.planes.push_back(*plane);
+    return shadow;
+}
+
+std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow) {
+    std::vector<glm::dvec3> polygon(triangle.begin(), triangle.end());
+    for (const glm::dvec4& plane : shadow.planes) {
+        if (polygon.empty()) break;
+        polygon = clippedBy(polygon, plane);
+    }
+    return polygon;
+}
+
+} // namespace gnomon

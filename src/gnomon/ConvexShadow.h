@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ConvexHull.h>
+
+#include <array>
+
+namespace gnomon {
+
+/// All points that a convex caster keeps a light from: the caster itself and what lies behind it.
+struct ConvexShadow {
+    /// Planes with unit normals to the inside; a point is in shadow if it is on the inner side of all of them.
+    std::vector<glm::dvec4> planes;
+    /// Corners of the hull on the rim between what the light meets and what it does not, in order, counter-clockwise as
+    /// seen from the light.
+    std::vector<glm::dvec3> silhouette;
+
+    /// On the rim itself, too.
+    bool holds(const glm::dvec3& point) const;
+};
+
+/// @param light  homogeneous: w = 0 the way towards a sun, of any length; w > 0 a lamp.
+/// @return nullopt if there is no shadow: the lamp is inside the hull or in the plane of a plate, or the light is nowhere.
+///
+/// The planes are those of the faces turned to the light, and one through each edge of the silhouette and the light. Faces
+/// that the light grazes count as turned away. Cost  linear in the faces.
+std::optional<ConvexShadow> convexShadow(const ConvexHull& hull, const glm::dvec4& light);
+
+/// What of a triangle lies in the shadow: a convex polygon in the triangle's plane, in the triangle's sense, of fewer than
+/// three corners if nothing does. Linear, hence exact, on any ground that is triangles.
+///
+/// Source: I. E. Sutherland and G. W. Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974.
+std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow);
+
+} // namespace gnomon

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Drape.h>
+
+#include <algorithm>
+
+namespace gnomon {
+
+double heightError(double error, double tangent, double slope) { return std::max(0.0, error * (tangent - slope)); }
+
+Drape drape(const HeightPyramid& ground, const ConvexShadow& shadow, double error) {
+    Drape result;
+    ground.cover(shadow.planes, error, [&](const GroundTriangle& triangle) {
+        const std::vector<glm::dvec3> polygon = clipped(triangle, shadow);
+        for (std::size_t i = 2; i < polygon.size(); ++i)
+            result.insert(result.end(), {polygon[0], polygon[i - 1], polygon[i]});
+    });
+    return result;
+}
+
+} // namespace gnomon

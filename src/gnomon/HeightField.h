@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+using GroundTriangle = std::array<glm::dvec3, 3>; ///< counter-clockwise from above.
+
+/// Ground given by its height on a regular grid, z up. Each cell is two triangles, cut from its lower left to its upper
+/// right corner; a cell with a height that is not finite at a corner is a hole.
+///
+/// Cost 4 bytes a post.
+class HeightField {
+public:
+    /// @param columns,rows  posts, at least 2 of each.
+    /// @param origin,step   of the first post and between posts, any unit; step > 0.
+    /// @param heights       row by row, the row of the least y first; about `base`.
+    /// @throws std::invalid_argument, one sentence, if the numbers do not fit.
+    HeightField(int columns, int rows, const glm::dvec2& origin, const glm::dvec2& step, std::vector<float> heights,
+                double base = 0.0);
+
+    int columns() const { return _columns; }
+    int rows() const { return _rows; }
+    const glm::dvec2& step() const { return _step; }
+    /// Cell, or post, below and to the left of a place; may be beside the grid.
+    glm::dvec2 cellOf(double x, double y) const { return (glm::dvec2(x, y) - _origin) / _step; }
+    bool isHole(int x, int y) const; ///< of a cell.
+    glm::dvec3 post(int x, int y) const;
+    /// The two triangles over a block of side × side cells, from its corner posts alone.
+    std::array<GroundTriangle, 2> triangles(int x, int y, int side = 1) const;
+    /// nullopt beside the ground and in a hole.
+    std::optional<double> height(double x, double y) const;
+
+private:
+    int _columns, _rows;
+    glm::dvec2 _origin, _step;
+    std::vector<float> _heights;
+    double _base;
+};
+
+} // namespace gnomon

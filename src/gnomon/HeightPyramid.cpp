@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/HeightPyramid.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// Floats that are not inside of the doubles they stand for.
+float below(double value) { return std::nextafter(static_cast<float>(value), -infinite); }
+float above(double value) { return std::nextafter(static_cast<float>(value), infinite); }
+
+double slopeOf(const GroundTriangle& t) {
+    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+    return std::hypot(normal.x, normal.y) / normal.z;
+}
+
+/// Where a ray meets a triangle, in lengths of the ray, nullopt if it does not. On its edges, too.
+std::optional<double> meet(const GroundTriangle& t, const glm::dvec3& start, const glm::dvec3& along) {
+    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+    const double speed = glm::dot(normal, along);
+    const double at = glm::dot(normal, t[0] - start) / speed;
+    if (!(at >= 0.0)) return std::nullopt; // NaN too: the ray lies in the plane
+    const glm::dvec3 place = start + at * along;
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 edge = t[(i + 1) % 3] - t[i], way = place - t[i];
+        if (edge.x * way.y - edge.y * way.x < 0.0) return std::nullopt;
+    }
+    return at;
+}
+
+/// Where a ray is inside a box: from, to, in lengths of the ray; from > to if nowhere.
+std::pair<double, double> inside(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& start,
+                                 const glm::dvec3& along) {
+    double from = 0.0, to = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (along[axis] == 0.0) {
+            if (start[axis] < low[axis] || start[axis] > high[axis]) return {1.0, 0.0};
+            continue;
+        }
+        const double a = (low[axis] - start[axis]) / along[axis], b = (high[axis] - start[axis]) / along[axis];
+        from = std::max(from, std::min(a, b));
+        to = std::min(to, std::max(a, b));
+    }
+    return {from, to};
+}
+
+} // namespace
+
+HeightPyramid::HeightPyramid(const HeightField& field) : _field(field) {
+    Level cells;
+    cells.columns = field.columns() - 1;
+    cells.rows = field.rows() - 1;
+    cells.nodes.resize(std::size_t(cells.columns) * std::size_t(cells.rows));
+    tbb::parallel_for(0, cells.rows, [&](int y) {
+        for (int x = 0; x < cells.columns; ++x)
+            cells.nodes[std::size_t(y) * std::size_t(cells.columns) + std::size_t(x)] = cell(x, y);
+    });
+    _levels.push_back(std::move(cells));
+    while (_levels.back().columns > 1 || _levels.back().rows > 1)
+        _levels.push_back(levelOver(_levels.back(), static_cast<int>(_levels.size())));
+}
+
+HeightPyramid::Level HeightPyramid::levelOver(const Level& lower, int level) const {
+    Level result;
+    result.columns = (lower.columns + 1) / 2;
+    result.rows = (lower.rows + 1) / 2;
+    result.nodes.resize(std::size_t(result.columns) * std::size_t(result.rows));
+    tbb::parallel_for(0, result.rows, [&](int y) {
+        for (int x = 0; x < result.columns; ++x)
+            result.nodes[std::size_t(y) * std::size_t(result.columns) + std::size_t(x)] = merged({level, x, y});
+    });
+    return result;
+}
+
+const HeightPyramid::Node& HeightPyramid::node(const Block& block) const {
+    const Level& level = _levels[std::size_t(block.level)];
+    return level.nodes[std::size_t(block.y) * std::size_t(level.columns) + std::size_t(block.x)];
+}
+
+HeightPyramid::Node HeightPyramid::cell(int x, int y) const {
+    Node result;
+    if (_field.isHole(x, y)) return result;
+    const auto triangles = _field.triangles(x, y);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const GroundTriangle& triangle : triangles) {
+        for (const glm::dvec3& corner : triangle) low = std::min(low, corner.z), high = std::max(high, corner.z);
+        result.slope = std::max(result.slope, above(slopeOf(triangle)));
+    }
+    result.low = below(low);
+    result.high = above(high);
+    return result;
+}
+
+HeightPyramid::Node HeightPyramid::merged(const Block& block) const {
+    const Level& lower = _levels[std::size_t(block.level) - 1];
+    Node result;
+    bool holes = false;
+    for (int y = 2 * block.y; y < std::min(2 * block.y + 2, lower.rows); ++y)
+        for (int x = 2 * block.x; x < std::min(2 * block.x + 2, lower.columns); ++x) {
+            const Node& part = node({block.level - 1, x, y});
+            holes = holes || part.low > part.high || part.off == infinite;
+            if (part.low > part.high) continue;
+            const bool first = result.low > result.high;
+            result.low = first ? part.low : std::min(result.low, part.low);
+            result.high = first ? part.high : std::max(result.high, part.high);
+            result.slope = std::max(result.slope, part.slope);
+        }
+    result.off = holes ? infinite : off(block);
+    return result;
+}
+
+/// At the posts: the block's diagonal runs along those of its cells, so that both are linear in between.
+float HeightPyramid::off(const Block& block) const {
+    const int left = block.column(), low = block.row(), side = block.side();
+    if (left + side >= _field.columns() || low + side >= _field.rows()) return infinite;
+    const double a = _field.post(left, low).z, b = _field.post(left + side, low).z,
+                 c = _field.post(left + side, low + side).z, d = _field.post(left, low + side).z;
+    double most = 0.0;
+    for (int y = 0; y <= side; ++y)
+        for (int x = 0; x <= side; ++x) {
+            const double u = double(x) / side, v = double(y) / side;
+            const double flat = x >= y ? a + u * (b - a) + v * (c - b) : a + v * (d - a) + u * (c - d);
+            most = std::max(most, std::abs(flat - _field.post(left + x, low + y).z));
+        }
+    return most > 0.0 ? above(most) : 0.0f; // what is level stays exact
+}
+
+std::pair<glm::dvec3, glm::dvec3> HeightPyramid::boxOf(const Block& block) const {
+    const Node& it = node(block);
+    const int right = std::min(block.column() + block.side(), _field.columns() - 1);
+    const int top = std::min(block.row() + block.side(), _field.rows() - 1);
+    glm::dvec3 low = _field.post(block.column(), block.row()), high = _field.post(right, top);
+    low.z = double(it.low);
+    high.z = double(it.high);
+    return {low, high};
+}
+
+void HeightPyramid::descend(const Block& from, const std::function<bool(const Block&)>& enter) const {
+    if (node(from).low > node(from).high || !enter(from) || from.level == 0) return;
+    const Level& lower = _levels[std::size_t(from.level) - 1];
+    for (int y = 2 * from.y; y < std::min(2 * from.y + 2, lower.rows); ++y)
+        for (int x = 2 * from.x; x < std::min(2 * from.x + 2, lower.columns); ++x)
+            descend({from.level - 1, x, y}, enter);
+}
+
+void HeightPyramid::descend(const std::function<bool(const Block&)>& enter) const {
+    descend({static_cast<int>(_levels.size()) - 1, 0, 0}, enter);
+}
+
+/// Whether no plane has all of the box on its outer side.
+bool HeightPyramid::mayHold(const Block& block, const std::vector<glm::dvec4>& planes) const {
+    const auto [low, high] = boxOf(block);
+    for (const glm::dvec4& plane : planes) {
+        const glm::dvec3 normal(plane),
+            corner(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y, normal.z > 0.0 ? high.z : low.z);
+        if (glm::dot(normal, corner) + plane.w < 0.0) return false;
+    }
+    return true;
+}
+
+void HeightPyramid::cover(const std::vector<glm::dvec4>& planes, double error,
+                          const std::function<void(const GroundTriangle&)>& take) const {
+    descend([&](const Block& block) {
+        if (!mayHold(block, planes)) return false;
+        if (block.level > 0 && !(double(node(block).off) <= error)) return true;
+        for (const GroundTriangle& triangle : _field.triangles(block.column(), block.row(), block.side()))
+            take(triangle);
+        return false;
+    });
+}
+
+std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm::dvec3& along) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    descend([&](const Block& block) {
+        const auto [low, high] = boxOf(block);
+        const auto [from, to] = inside(low, high, start, along);
+        if (from > to || from >= nearest) return false;
+        if (block.level > 0) return true;
+        for (const GroundTriangle& triangle : _field.triangles(block.x, block.y))
+            nearest = std::min(nearest, meet(triangle, start, along).value_or(nearest));
+        return false;
+    });
+    if (!std::isfinite(nearest)) return std::nullopt;
+    return start + nearest * along;
+}
+
+double HeightPyramid::steepest(const std::vector<glm::dvec4>& planes) const {
+    double most = 0.0;
+    descend([&](const Block& block) {
+        if (double(node(block).slope) <= most || !mayHold(block, planes)) return false;
+        if (block.level == 0) most = double(node(block).slope);
+        return true;
+    });
+    return most;
+}
+
+} // namespace gnomon

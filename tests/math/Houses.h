@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Drape.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace test {
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+/// A house: its middle, half sides, turn and roof; it goes down as far as there is ground.
+struct House {
+    glm::dvec2 middle, half;
+    double turn, roof;
+
+    glm::dvec2 local(const glm::dvec2& v) const {
+        return {v.x * std::cos(turn) + v.y * std::sin(turn), v.y * std::cos(turn) - v.x * std::sin(turn)};
+    }
+    std::vector<glm::dvec3> corners() const {
+        std::vector<glm::dvec3> result;
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec2 c(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y);
+            result.emplace_back(middle.x + c.x * std::cos(turn) - c.y * std::sin(turn),
+                                middle.y + c.x * std::sin(turn) + c.y * std::cos(turn), i & 4 ? roof : -200.0);
+        }
+        return result;
+    }
+    /// Whether a ray enters the box, by slabs in its own frame.
+    bool blocks(const glm::dvec3& from, const glm::dvec3& sun) const {
+        const glm::dvec2 p = local(glm::dvec2(from) - middle), d = local(glm::dvec2(sun));
+        double enter = 0.0, leave = (roof - from.z) / sun.z;
+        for (int axis = 0; axis < 2; ++axis) {
+            const double a = (-half[axis] - p[axis]) / d[axis], b = (half[axis] - p[axis]) / d[axis];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+        }
+        return enter <= leave;
+    }
+};
+
+inline std::vector<House> houses(int count, const gnomon::HeightField& ground) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit;
+    std::vector<House> result;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec2 at(300.0 + 700.0 * unit(random), 300.0 + 700.0 * unit(random));
+        result.push_back({at,
+                          {4.0 + 8.0 * unit(random), 4.0 + 8.0 * unit(random)},
+                          180.0 * degree * unit(random),
+                          *ground.height(at.x, at.y) + 5.0 + 25.0 * unit(random)});
+    }
+    return result;
+}
+
+inline glm::dvec3 sunAt(double azimuth, double elevation) {
+    const double a = azimuth * degree, e = elevation * degree;
+    return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
+}
+
+/// Triangles of a drape over a place, those whose edge it lies on too.
+inline int over(const gnomon::Drape& drape, const glm::dvec2& p) {
+    int count = 0;
+    for (std::size_t i = 0; i + 2 < drape.size(); i += 3) {
+        bool inside = true;
+        for (std::size_t e = 0; e < 3; ++e) {
+            const glm::dvec2 a(drape[i + e]), edge = glm::dvec2(drape[i + (e + 1) % 3]) - a, way = p - a;
+            inside = inside && edge.x * way.y - edge.y * way.x >= 0.0;
+        }
+        count += inside;
+    }
+    return count;
+}
+
+} // namespace test

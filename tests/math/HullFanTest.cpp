@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// The hull's shadow as one polygon, in plan against rays at boxes in double.
+#include "Houses.h"
+
+#include <gnomon/HullFan.h>
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <limits>
+
+using gnomon::Drape;
+using gnomon::HeightField;
+using gnomon::HeightPyramid;
+using test::degree;
+using test::House;
+using test::sunAt;
+
+namespace {
+
+constexpr int posts = 160;
+constexpr double pitch = 10.0;
+
+/// Slopes of 8.5 degrees, root mean square, as in hills of the Appalachians.
+double hills(double x, double y) {
+    return 40.0 * std::sin(x * 0.0031) * std::cos(y * 0.0037) + 10.0 * std::sin(x * 0.011 + 1.0) * std::cos(y * 0.013) +
+           2.0 * std::sin(x * 0.04 + y * 0.03);
+}
+
+double level(double, double) { return 3.0; }
+
+HeightField field(double (*height)(double, double)) {
+    std::vector<float> heights;
+    for (int j = 0; j < posts; ++j)
+        for (int i = 0; i < posts; ++i) heights.push_back(static_cast<float>(height(i * pitch, j * pitch)));
+    return HeightField(posts, posts, {0.0, 0.0}, {pitch, pitch}, heights);
+}
+
+std::optional<Drape> fanOf(const HeightField& ground, const HeightPyramid& pyramid, const House& house,
+                           const glm::dvec3& sun) {
+    const auto shadow = gnomon::convexShadow(*gnomon::convexHull(house.corners()), glm::dvec4(sun, 0.0));
+    return gnomon::hullFan(ground, pyramid, *shadow, glm::dvec4(sun, 0.0));
+}
+
+/// Intersection and union in plan, in points of a grid of 0.5 m over where the shadow may be.
+struct Overlap {
+    double both = 0.0, either = 0.0;
+    double share() const { return either > 0.0 ? both / either : 1.0; }
+};
+
+Overlap overlap(const HeightField& ground, const House& house, const glm::dvec3& sun, const Drape& fan) {
+    const double reach = 40.0 + 45.0 * std::hypot(sun.x, sun.y) / sun.z;
+    Overlap result;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    const glm::dvec2 away = -glm::normalize(glm::dvec2(sun)), across(-away.y, away.x);
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec2 p =
+            house.middle + away * (0.5 * reach * (1.0 + unit(random)) - 20.0) + across * (20.0 * unit(random));
+        const auto height = ground.height(p.x, p.y);
+        const bool expected = height && house.blocks({p.x, p.y, *height}, sun), found = test::over(fan, p) > 0;
+        result.both += expected && found;
+        result.either += expected || found;
+    }
+    return result;
+}
+
+TEST(HullFan, KeepsToTheTruthOnHillsWithFewerTrianglesThanTheBoxMethod) {
+    const HeightField ground = field(hills);
+    const HeightPyramid pyramid(ground);
+    const struct {
+        double elevation, pooled, fifth;
+    } wanted[] = {{60.0, 0.995, 0.98}, {30.0, 0.995, 0.98}, {10.0, 0.985, 0.97}};
+    for (const auto& [elevation, pooled, fifth] : wanted) {
+        std::vector<double> shares;
+        Overlap all;
+        std::size_t triangles = 0, most = 0;
+        for (const House& house : test::houses(120, ground)) {
+            const glm::dvec3 sun = sunAt(41.0 * house.roof, elevation);
+            const auto fan = fanOf(ground, pyramid, house, sun);
+            ASSERT_TRUE(fan);
+            const Overlap one = overlap(ground, house, sun, *fan);
+            all.both += one.both;
+            all.either += one.either;
+            shares.push_back(one.share());
+            triangles += fan->size() / 3;
+            most = std::max(most, fan->size() / 3);
+        }
+        std::sort(shares.begin(), shares.end());
+        std::cout << "sun " << elevation << ": IoU " << all.share() << ", 5th percentile " << shares[shares.size() / 20]
+                  << ", " << double(triangles) / double(shares.size()) << " triangles\n";
+        EXPECT_GE(all.share(), pooled) << elevation;
+        EXPECT_GE(shares[shares.size() / 20], fifth) << elevation;
+        EXPECT_LE(most, 12u) << "the published mesh";
+    }
+}
+
+TEST(HullFan, OnLevelGroundIsExactAtEveryAzimuthAndTurn) {
+    const HeightField ground = field(level);
+    const HeightPyramid pyramid(ground);
+    double last = 0.0, jump = 0.0;
+    for (int azimuth = 0; azimuth <= 360; ++azimuth) {
+        const House house{{800.0, 800.0}, {8.0, 5.0}, (azimuth % 90) * degree, 23.0};
+        const glm::dvec3 sun = sunAt(azimuth, 30.0);
+        const auto fan = fanOf(ground, pyramid, house, sun);
+        ASSERT_TRUE(fan) << azimuth;
+        const double share = overlap(ground, house, sun, *fan).share();
+        EXPECT_GT(share, 0.999) << azimuth << ": points on the rim";
+        if (azimuth > 0) jump = std::max(jump, std::abs(share - last));
+        last = share;
+    }
+    EXPECT_LT(jump, 0.02);
+}
+
+TEST(HullFan, IsTheFootprintUnderASunStraightOverhead) {
+    const HeightField ground = field(level);
+    const HeightPyramid pyramid(ground);
+    const House house{{800.0, 800.0}, {8.0, 5.0}, 0.3, 23.0};
+    for (const double off : {0.0, 1e-12, 1e-6}) {
+        const auto fan = fanOf(ground, pyramid, house, {off, 0.0, 1.0});
+        ASSERT_TRUE(fan) << off;
+        double area = 0.0;
+        for (std::size_t i = 0; i < fan->size(); i += 3)
+            area += 0.5 * ((*fan)[i + 1].x - (*fan)[i].x) * ((*fan)[i + 2].y - (*fan)[i].y) -
+                    0.5 * ((*fan)[i + 1].y - (*fan)[i].y) * ((*fan)[i + 2].x - (*fan)[i].x);
+        EXPECT_NEAR(area, 160.0, 1e-3) << off;
+    }
+}
+
+TEST(HullFan, SaysSoWhereARayMeetsNoGround) {
+    const HeightField ground = field(level);
+    const HeightPyramid pyramid(ground);
+    EXPECT_FALSE(fanOf(ground, pyramid, {{15.0, 800.0}, {8.0, 5.0}, 0.0, 23.0}, sunAt(90.0, 20.0)))
+        << "over the border";
+    EXPECT_TRUE(fanOf(ground, pyramid, {{15.0, 800.0}, {8.0, 5.0}, 0.0, 23.0}, sunAt(270.0, 20.0)));
+}
+
+} // namespace
