@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -18,7 +17,8 @@ using namespace gnomon::examples;
 namespace fs = std::filesystem;
 
 constexpr const char* program = "gnomonchart";
-constexpr int interrupted = 130; // as shells have it for SIGINT
+constexpr double quickSeconds = 280.0; // of five minutes
+constexpr int interrupted = 130;       // as shells have it for SIGINT
 
 volatile std::sig_atomic_t stopAsked = 0;
 
@@ -74,6 +74,7 @@ ChartPlan planOf(const ChartOptions& options) {
     plan.technique = options.technique;
     plan.folder = options.out;
     plan.frames = options.frameCount();
+    if (options.quick) plan.seconds = quickSeconds;
     plan.flickerFrames = options.quick ? 8 : 32;
     plan.sweep = options.quick ? SweepWidth::NARROW : SweepWidth::WIDE;
     plan.disc = !options.quick;
@@ -102,6 +103,8 @@ int chart(const ChartOptions& options, const std::string& command) {
     const ChartResults results = runChart(
         plan, [&](const ChartResults& sofar) { saveResults(sofar, options.out); }, [] { return stopAsked != 0; });
     printWinners(results);
+    for (const auto& [name, value] : results.made)
+        if (name.rfind("left out", 0) == 0) std::cout << name << ": " << value << "\n";
     std::cout << "results are in " << options.out << "\n";
     if (!results.complete) std::cerr << program << ": interrupted; what was measured so far is kept." << std::endl;
     return results.complete ? 0 : interrupted;
@@ -127,7 +130,4 @@ int run(osg::ArgumentParser& arguments) {
 
 } // namespace
 
-int main(int argc, char** argv) {
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 0); // else the first frames of a second run would be cheaper
-    return gnomon::examples::runProgram(program, argc, argv, run);
-}
+int main(int argc, char** argv) { return gnomon::examples::runProgram(program, argc, argv, run); }

@@ -10,6 +10,7 @@
 #include "Pictures.h"
 #include "Progress.h"
 #include "Race.h"
+#include "ShaderCache.h"
 
 #include <gnomon/metrics/Intensity.h>
 
@@ -68,6 +69,10 @@ public:
     ChartResults run() {
         _save(_results);
         for (std::size_t i = 0; i < _plan.scenes.size() && !_stops(); ++i) {
+            if (!hasTime(i)) {
+                leaveOut(i);
+                break;
+            }
             _done = sceneWork() * double(i);
             measureScene(_plan.scenes[i]);
         }
@@ -88,6 +93,18 @@ private:
         return work;
     }
 
+    /// Whether the next scene ends in time if it takes as long as those before took on average, and a half more.
+    bool hasTime(std::size_t scenes) const {
+        const double spent = _progress.seconds();
+        return scenes == 0 || spent + 1.5 * spent / double(scenes) <= _plan.seconds;
+    }
+
+    void leaveOut(std::size_t from) {
+        std::string names;
+        for (std::size_t i = from; i < _plan.scenes.size(); ++i) names += (i > from ? ", " : "") + _plan.scenes[i];
+        _results.made.emplace_back("left out for lack of time", names);
+    }
+
     void show(const std::string& doing) { _progress.show(_done, doing); }
 
     void measureScene(const std::string& name) {
@@ -96,16 +113,15 @@ private:
         addScene(yardstick);
         _done += truthWork;
         makeFilms(yardstick);
-        const std::size_t first = _results.points.size();
-        std::vector<Contender> racers;
+        _field = {_results.points.size(), {}, {}};
         for (const Entry& entry : _entries) {
             if (_stops()) return;
-            racers.push_back(measureContender(entry, yardstick));
+            measureContender(entry, yardstick);
             _done += contenderWork(entry);
             _save(_results);
         }
         _films.clear();
-        raceAll(yardstick.scene(), racers, first);
+        raceAll(yardstick.scene());
     }
 
     void addScene(const Yardstick& yardstick) {
@@ -120,27 +136,40 @@ private:
         for (const Film::Motion motion : {Film::Motion::CAMERA, Film::Motion::LIGHT}) {
             if (_stops() || _plan.flickerFrames < 2) return;
             show(yardstick.scene().name + ": truth of moving pictures");
-            _films.emplace_back(yardstick, motion, _plan.flickerFrames);
+            _films.emplace_back(yardstick, motion, _plan.flickerFrames, _stops);
             _done += _plan.flickerFrames * filmFrameWork;
         }
     }
 
-    /// @return the contender as it is to race.
-    Contender measureContender(const Entry& entry, const Yardstick& yardstick) {
+    void measureContender(const Entry& entry, const Yardstick& yardstick) {
         Contender contender = entry.contender;
         show(yardstick.scene().name + ": " + contender.technique + ", " + contender.setting);
-        ChartPoint point;
+        if (entry.peer) contender = swept(*entry.peer, yardstick);
+        if (entry.peer && contender.settings.empty())
+            repeatDefaults();
+        else
+            addPoint(contender, yardstick);
+    }
+
+    /// The best are the defaults, which were measured just before.
+    void repeatDefaults() {
+        ChartPoint point = _results.points.back();
+        point.setting = "best";
+        _results.points.push_back(std::move(point));
+        _field.racerOf.push_back(_field.racers.size() - 1);
+    }
+
+    void addPoint(const Contender& contender, const Yardstick& yardstick) {
+        ChartPoint point = pointOf(contender, yardstick);
         try {
-            if (entry.peer) contender = swept(*entry.peer, yardstick);
-            point = pointOf(contender, yardstick);
             measureErrors(contender, yardstick, point);
         } catch (const std::exception& error) {
-            point = pointOf(contender, yardstick);
             point.failure = error.what();
         }
         for (const std::string& said : _complaints.take()) point.notes.push_back(said);
         _results.points.push_back(std::move(point));
-        return contender;
+        _field.racerOf.push_back(_field.racers.size());
+        _field.racers.push_back(contender);
     }
 
     Contender swept(const Peer& peer, const Yardstick& yardstick) {
@@ -176,37 +205,47 @@ private:
     /// Of the two films the worse.
     void measureFlicker(Sight& sight, ChartPoint& point) {
         for (const Film& film : _films) {
-            if (_stops()) return;
-            const metrics::FlickerMeter meter = film.measure(sight);
+            const metrics::FlickerMeter meter = film.measure(sight, _stops);
+            if (_stops()) return;                                                // half a film is no measure
             point.flickerEnergy = std::max(point.flickerEnergy, meter.energy()); // nothing is less than anything
             point.flickerShare = std::max(point.flickerShare, meter.share());
             point.crawl = std::max(point.crawl, meter.crawl());
         }
     }
 
-    void raceAll(const ChartScene& scene, const std::vector<Contender>& racers, std::size_t first) {
+    void raceAll(const ChartScene& scene) {
         if (_stops()) return;
-        show(scene.name + ": starting " + std::to_string(racers.size()) + " viewers");
+        show(scene.name + ": starting " + std::to_string(_field.racers.size()) + " viewers");
         const double before = _done;
-        const RaceResults race = examples::race(scene, racers, _plan.frames, [&](int done, int all) {
+        const RaceResults race = examples::race(scene, _field.racers, _plan.frames, _shaders, [&](int done, int all) {
             _done = before + raceWork() * done / all;
             show(scene.name + ": timing, round " + std::to_string(done + 1) + " of " + std::to_string(all));
             return !_stops();
         });
         _complaints.take();
         _results.scenes.back().frame = race.frame;
-        for (std::size_t i = 0; i < racers.size(); ++i) {
-            ChartPoint& point = _results.points[first + i];
-            point.cost = race.contenders[i].cost;
-            if (point.failure.empty()) point.failure = race.contenders[i].failure;
-        }
+        for (std::size_t i = 0; i < _field.racerOf.size(); ++i)
+            setCost(race.contenders[_field.racerOf[i]], _results.points[_field.firstPoint + i]);
         _save(_results);
+    }
+
+    static void setCost(const RaceResult& result, ChartPoint& point) {
+        point.cost = result.cost;
+        if (point.failure.empty()) point.failure = result.failure;
     }
 
     void write(const osg::Image& image, const std::string& file) const {
         OutputFile(_plan.folder + "/" + file).write(image);
     }
 
+    /// Who races in the scene that is being measured.
+    struct Field {
+        std::size_t firstPoint = 0;
+        std::vector<Contender> racers;
+        std::vector<std::size_t> racerOf; ///< by points from firstPoint on.
+    };
+
+    const ShaderCache _shaders; // before any context
     const ChartPlan& _plan;
     const std::function<void(const ChartResults&)>& _save;
     const std::function<bool()>& _stops;
@@ -214,6 +253,7 @@ private:
     Complaints _complaints;
     Progress _progress;
     double _done = 0.0;
+    Field _field;
     std::vector<Film> _films; ///< of the scene that is being measured.
     ChartResults _results;
 };

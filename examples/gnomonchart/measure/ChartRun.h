@@ -16,8 +16,9 @@ struct ChartPlan {
     std::function<ChartScene(const std::string& name)> scene; ///< makes one of them.
     std::string technique;                                    ///< part of the names of those to measure; empty: all.
     std::string folder;                                       ///< for pictures; is there.
-    int frames = 60;                                          ///< timed, of each motion.
-    int flickerFrames = 32;                                   ///< of each of the two films.
+    double seconds = 1e9;   ///< no scene is begun that would not be done by then; the first always is.
+    int frames = 60;        ///< timed, of each motion.
+    int flickerFrames = 32; ///< of each of the two films.
     SweepWidth sweep = SweepWidth::WIDE;
     bool disc = true;                                      ///< measure against the sun's disc too.
     std::vector<std::pair<std::string, std::string>> made; ///< what is known of the run already.

@@ -28,9 +28,10 @@ metrics::TruthMaps slim(metrics::TruthMaps maps) {
 
 } // namespace
 
-Film::Film(const Yardstick& yardstick, Motion motion, int frames) : _origin(yardstick.truth().origin()) {
+Film::Film(const Yardstick& yardstick, Motion motion, int frames, const std::function<bool()>& stops)
+    : _origin(yardstick.truth().origin()) {
     const ChartScene& scene = yardstick.scene();
-    for (int k = 0; k < frames; ++k) {
+    for (int k = 0; k < frames && !stops(); ++k) {
         Frame frame;
         frame.camera = motion == Motion::CAMERA ? shifted(scene, k) : scene.camera;
         frame.light = motion == Motion::LIGHT ? movedLight(scene, stepDegrees * k) : scene.light;
@@ -39,9 +40,10 @@ Film::Film(const Yardstick& yardstick, Motion motion, int frames) : _origin(yard
     }
 }
 
-metrics::FlickerMeter Film::measure(Sight& sight) const {
+metrics::FlickerMeter Film::measure(Sight& sight, const std::function<bool()>& stops) const {
     metrics::FlickerMeter meter;
     for (const Frame& frame : _frames) {
+        if (stops()) break;
         sight.setCamera(frame.camera);
         sight.setLight(frame.light);
         metrics::FlickerFrame seen;

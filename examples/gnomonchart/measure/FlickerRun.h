@@ -4,7 +4,7 @@
 
 #include <gnomon/metrics/Flicker.h>
 
-#include <optional>
+#include <functional>
 #include <vector>
 
 namespace gnomon::examples {
@@ -18,10 +18,11 @@ public:
     enum class Motion { CAMERA, LIGHT };
 
     /// @param frames  at least 2.
-    Film(const Yardstick& yardstick, Motion motion, int frames);
+    /// @param stops   asked before each frame: true ends the film there.
+    Film(const Yardstick& yardstick, Motion motion, int frames, const std::function<bool()>& stops);
 
     /// What the contender's film is like. The sight is moved.
-    metrics::FlickerMeter measure(Sight& sight) const;
+    metrics::FlickerMeter measure(Sight& sight, const std::function<bool()>& stops) const;
 
 private:
     struct Frame {

@@ -19,10 +19,13 @@ Progress::~Progress() {
     if (_terminal) std::cerr << clearLine << std::flush;
 }
 
+double Progress::seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - _start).count();
+}
+
 void Progress::show(double done, const std::string& doing) {
     if (!_terminal) return;
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - _start;
-    const double left = elapsed.count() * (_work - done) / done;
+    const double left = seconds() * (_work - done) / done;
     std::cerr << clearLine << std::lround(100.0 * done / _work) << " %, " << durationText(left) << " left: " << doing
               << std::flush;
 }

@@ -15,6 +15,8 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /// Since it was made.
+    double seconds() const;
     /// @param done  of the work, so far.
     void show(double done, const std::string& doing);
 

@@ -59,7 +59,8 @@ struct Runner {
     std::size_t draws = 0, primitives = 0;
     std::string failure;
 
-    void start(const Contender& contender, const ChartScene& scene) {
+    void start(const Contender& contender, const ChartScene& scene, const ShaderCache& shaders) {
+        shaders.empty();
         const double before = residentMiB();
         viewer = std::make_unique<StageViewer>(contender.stage(scene, Look::SHADED), scene.camera,
                                                StageViewer::Colour::BYTES);
@@ -87,11 +88,11 @@ void guarded(Runner& runner, const Step& step) {
 
 class Track {
 public:
-    Track(const ChartScene& scene, const std::vector<Contender>& contenders, int frames)
+    Track(const ChartScene& scene, const std::vector<Contender>& contenders, int frames, const ShaderCache& shaders)
         : _scene(scene), _frames(frames), _runners(contenders.size() + 1) {
-        guarded(_runners[0], [&](Runner& r) { r.start(plainContender(), _scene); });
+        guarded(_runners[0], [&](Runner& r) { r.start(plainContender(), _scene, shaders); });
         for (std::size_t i = 0; i < contenders.size(); ++i)
-            guarded(_runners[i + 1], [&](Runner& r) { r.start(contenders[i], _scene); });
+            guarded(_runners[i + 1], [&](Runner& r) { r.start(contenders[i], _scene, shaders); });
     }
 
     void run(const std::function<bool(int, int)>& progress) {
@@ -170,8 +171,8 @@ private:
 } // namespace
 
 RaceResults race(const ChartScene& scene, const std::vector<Contender>& contenders, int frames,
-                 const std::function<bool(int done, int all)>& progress) {
-    Track track(scene, contenders, frames);
+                 const ShaderCache& shaders, const std::function<bool(int done, int all)>& progress) {
+    Track track(scene, contenders, frames, shaders);
     track.run(progress);
     return track.results();
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include "../report/ChartResults.h"
 #include "Contender.h"
+#include "ShaderCache.h"
 
 #include <functional>
 #include <optional>
@@ -23,7 +24,7 @@ struct RaceResults {
 /// Times contenders against the scene without shadows, frame by frame in turns: one process, a context a viewer, glFinish
 /// at both ends of each frame. What a contender adds is the difference to the plain frame of the same round.
 ///
-/// First frame   of a fresh context: shaders are compiled in it, textures made.
+/// First frame   of a fresh context: shaders are compiled in it, textures made. The cache of shaders is emptied before.
 /// Steady        the camera goes half a degree a frame about the scene, nothing else changes.
 /// Moving        the light goes a degree a frame.
 /// Memory        growth of the process's resident set by the contender's context, viewer and first frames, beyond the
@@ -34,6 +35,6 @@ struct RaceResults {
 /// @param frames    of each of the two motions, after five to warm up.
 /// @param progress  called before each round with rounds done and to do; false stops the race, and what it has counts.
 RaceResults race(const ChartScene& scene, const std::vector<Contender>& contenders, int frames,
-                 const std::function<bool(int done, int all)>& progress);
+                 const ShaderCache& shaders, const std::function<bool(int done, int all)>& progress);
 
 } // namespace gnomon::examples

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// gnomonchart as users run it, small and short.
+#include "../io/Program.h"
+#include "ResultsFile.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace {
+
+using namespace gnomon::testing;
+using gnomon::examples::ChartPoint;
+using gnomon::examples::ChartResults;
+using gnomon::examples::loadResults;
+using nlohmann::json;
+using Arguments = std::vector<std::string>;
+namespace fs = std::filesystem;
+
+const std::string lab8 = GNOMON_DATA "/lab8.osgt";
+
+/// A tenth of a second a contender and frame, two contenders.
+Arguments small(const std::string& out, const std::string& technique = "Standard") {
+    return {lab8, "--quick", "--size", "160x120", "--frames", "3", "--technique", technique, "--out", out};
+}
+
+class Gnomonchart : public ::testing::Test {
+protected:
+    Ending run(const Arguments& arguments) { return runProgram(GNOMONCHART, arguments, folder.path()); }
+    ChartResults results(const std::string& out) {
+        return loadResults((folder.path() / out / "results.json").string());
+    }
+
+    /// The one sentence of a run that must be refused.
+    std::string refusal(const Arguments& arguments) {
+        const Ending ending = run(arguments);
+        EXPECT_EQ(ending.status, 1) << ending.err;
+        EXPECT_EQ(ending.out, "");
+        EXPECT_EQ(ending.err.find('\n'), ending.err.size() - 1) << ending.err;
+        const std::string prefix = "gnomonchart: ";
+        EXPECT_EQ(ending.err.rfind(prefix, 0), 0u) << ending.err;
+        return ending.err.substr(std::min(prefix.size(), ending.err.size()));
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(Gnomonchart, AFileOfOnesOwnGetsItsNumbersAndPictures) {
+    const Ending ending = run(small("o"));
+    ASSERT_EQ(ending.status, 0) << ending.err;
+    EXPECT_EQ(ending.err, ""); // progress is for terminals
+    EXPECT_NE(ending.out.find("lab8: Standard is best with"), std::string::npos) << ending.out;
+    const ChartResults r = results("o");
+    EXPECT_TRUE(r.complete);
+    ASSERT_EQ(r.scenes.size(), 1u);
+    EXPECT_EQ(r.scenes[0].name, "lab8");
+    EXPECT_GT(r.scenes[0].triangles, 100u);
+    EXPECT_GT(r.scenes[0].frame, 0.0);
+    EXPECT_TRUE(fs::exists(folder.path() / "o" / r.scenes[0].truthPicture));
+    ASSERT_EQ(r.points.size(), 2u);
+    EXPECT_EQ(r.points[0].setting, "defaults");
+    EXPECT_EQ(r.points[1].setting, "best");
+    for (const ChartPoint& point : r.points) {
+        EXPECT_EQ(point.failure, "");
+        ASSERT_TRUE(point.errors && point.cost && point.shadedRmse && point.flickerEnergy && point.crawl);
+        EXPECT_GT(point.errors->headline.intersectionOverUnion(), 0.8);
+        EXPECT_GT(point.cost->steadyWall.median, 0.0);
+        EXPECT_EQ(point.cost->passes, 2u); // once for the light, once for the eye
+        EXPECT_TRUE(fs::exists(folder.path() / "o" / point.picture));
+        EXPECT_TRUE(fs::exists(folder.path() / "o" / point.overlay));
+    }
+    EXPECT_TRUE(fs::exists(folder.path() / "o" / "results.csv"));
+}
+
+TEST_F(Gnomonchart, TwoRunsGiveTheSameErrorsToTheDigit) {
+    for (const char* out : {"a", "b"}) ASSERT_EQ(run(small(out, "SoftShadowMap")).status, 0);
+    json a = json::parse(readFile(folder.path() / "a" / "results.json"));
+    json b = json::parse(readFile(folder.path() / "b" / "results.json"));
+    ASSERT_EQ(a["points"].size(), b["points"].size());
+    for (json* run : {&a, &b})
+        for (json& point : (*run)["points"]) point.erase("cost");
+    EXPECT_EQ(a["points"], b["points"]);
+    for (const ChartPoint& point : results("a").points) {
+        EXPECT_EQ(readFile(folder.path() / "a" / point.picture), readFile(folder.path() / "b" / point.picture));
+        EXPECT_EQ(readFile(folder.path() / "a" / point.overlay), readFile(folder.path() / "b" / point.overlay));
+    }
+}
+
+/// Sent by timeout(1) long before a full run of all techniques can end.
+TEST_F(Gnomonchart, AnInterruptedRunKeepsWhatItHas) {
+    const Ending ending = runProgram(
+        "timeout", {"--preserve-status", "-s", "INT", "8", GNOMONCHART, lab8, "--size", "64x48", "--out", "o"},
+        folder.path());
+    EXPECT_EQ(ending.status, 130) << ending.err;
+    EXPECT_EQ(ending.lastLine(), "gnomonchart: interrupted; what was measured so far is kept.");
+    const ChartResults r = results("o");
+    EXPECT_FALSE(r.complete);
+    EXPECT_EQ(r.scenes.size(), 1u);
+    ASSERT_GE(r.points.size(), 1u);
+    EXPECT_TRUE(r.points[0].errors);
+    EXPECT_EQ(readFile(folder.path() / "o" / "results.csv").find("lab8"),
+              readFile(folder.path() / "o" / "results.csv").find('\n') + 1);
+}
+
+TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
+    EXPECT_NE(refusal({"--scene", "moon"}).find("no scene is named \"moon\"; allowed: lab8-45"), std::string::npos);
+    EXPECT_EQ(refusal({lab8, "--technique", "volumetric"}), "no technique's name holds \"volumetric\".\n");
+    EXPECT_NE(refusal({"missing.obj"}).find("missing.obj"), std::string::npos);
+    EXPECT_EQ(refusal({lab8, "--scene", "room"}), "--scene and files are given; one of them is allowed.\n");
+    EXPECT_NE(refusal({lab8, "--frames", "1"}).find("2 to 10000"), std::string::npos);
+    EXPECT_NE(refusal({lab8, "--size", "16x16"}).find("32x32"), std::string::npos);
+    EXPECT_NE(refusal({lab8, "--shadow", "planar"}).find("there is no option --shadow"), std::string::npos);
+    folder.write("taken", "");
+    EXPECT_NE(refusal({lab8, "--out", "taken"}).find("\"taken\" cannot be made as a folder"), std::string::npos);
+}
+
+TEST_F(Gnomonchart, ListsWhatItKnows) {
+    const Ending ending = run({"--list"});
+    EXPECT_EQ(ending.status, 0);
+    for (const char* name : {"lab8-45", "room", "planar", "traced", "ShadowMap", "ViewDependent perspective x2"})
+        EXPECT_NE(ending.out.find(std::string("  ") + name + "\n"), std::string::npos) << name;
+    EXPECT_NE(run({"--help"}).out.find("--quick"), std::string::npos);
+}
+
+} // namespace
