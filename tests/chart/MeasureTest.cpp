@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Costs, flicker, sweeps and the white copy: what gnomonchart measures beside still pictures.
+#include "SmallScene.h"
+
+#include "Contender.h"
+#include "Errors.h"
+#include "FlickerRun.h"
+#include "ImageFile.h"
+#include "Race.h"
+#include "StageViewer.h"
+#include "Sweep.h"
+#include "WhiteCopy.h"
+
+#include <gtest/gtest.h>
+
+#include <osg/AlphaFunc>
+#include <osg/Fog>
+#include <osg/Geometry>
+#include <osg/Material>
+#include <osg/Texture2D>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace {
+
+using namespace gnomon::examples;
+using gnomon::metrics::FlickerMeter;
+
+/// For the whole process: Mesa asks where it is once.
+const ShaderCache& shaders() {
+    static const ShaderCache cache;
+    return cache;
+}
+
+const Peer& peerNamed(const std::string& name) {
+    for (const Peer& peer : peers())
+        if (peer.name == name) return peer;
+    throw std::logic_error("no peer " + name);
+}
+
+Contender defaultsOf(const std::string& name) { return peerContender(peerNamed(name), "defaults", {}); }
+
+const Yardstick& yardstick() {
+    static const Yardstick made(test::smallScene(), false);
+    return made;
+}
+
+bool never() { return false; }
+
+/// The ground, the house, the sphere: three draws. A map draws them again, three maps three times as far as they see
+/// them, analysis of what is drawn once more; ShadowTexture draws all but its receiver again.
+TEST(Race, CountsDrawsAndPassesByWhatReachesOpenGL) {
+    const std::vector<Contender> all = {defaultsOf("ShadowMap"), defaultsOf("MinimalDrawBounds"),
+                                        defaultsOf("ShadowTexture"), plainContender()};
+    const RaceResults results = race(test::smallScene(), all, 2, shaders(), [](int, int) { return true; });
+    ASSERT_EQ(results.contenders.size(), 4u);
+    const unsigned draws[] = {6, 9, 5, 3}, passes[] = {2, 3, 2, 1};
+    for (std::size_t i = 0; i < 4; ++i) {
+        ASSERT_TRUE(results.contenders[i].cost) << results.contenders[i].failure;
+        EXPECT_EQ(results.contenders[i].cost->draws, draws[i]) << all[i].technique;
+        EXPECT_EQ(results.contenders[i].cost->passes, passes[i]) << all[i].technique;
+    }
+    EXPECT_GT(results.frame, 0.0);
+}
+
+/// Twice the work costs more: 64 samples a pixel against one. A scene against itself costs nothing beside that.
+TEST(Race, DearerTechniquesAreDearer) {
+    const std::vector<Contender> all = {plainContender(), defaultsOf("ShadowMap"), defaultsOf("SoftShadowMap")};
+    const RaceResults results = race(test::smallScene(), all, 12, shaders(), [](int, int) { return true; });
+    const ChartCost &none = *results.contenders[0].cost, &hard = *results.contenders[1].cost,
+                    &soft = *results.contenders[2].cost;
+    EXPECT_GT(hard.steadyProcessor.median, 0.0);
+    EXPECT_GT(soft.steadyProcessor.median, hard.steadyProcessor.median);
+    EXPECT_LT(std::abs(none.steadyProcessor.median), 0.2 * hard.steadyProcessor.median);
+    EXPECT_LE(soft.steadyWall.q1, soft.steadyWall.median);
+    EXPECT_LE(soft.steadyWall.median, soft.steadyWall.q3);
+}
+
+TEST(Race, StoppedEarlyItKeepsWhatItHas) {
+    const auto until = [](int last) { return [last](int done, int) { return done < last; }; };
+    const std::vector<Contender> one = {defaultsOf("ShadowMap")};
+    EXPECT_FALSE(race(test::smallScene(), one, 4, shaders(), until(0)).contenders[0].cost);
+    EXPECT_TRUE(race(test::smallScene(), one, 4, shaders(), until(17)).contenders[0].cost);
+}
+
+TEST(Race, AContenderThatFailsIsOutAndTheOthersRun) {
+    ChartScene scene = test::smallScene();
+    scene.receiver.clear();
+    const std::vector<Contender> all = {defaultsOf("ShadowTexture"), defaultsOf("ShadowMap")};
+    const RaceResults results = race(scene, all, 2, shaders(), [](int, int) { return true; });
+    EXPECT_FALSE(results.contenders[0].cost);
+    EXPECT_NE(results.contenders[0].failure.find("names none"), std::string::npos);
+    EXPECT_TRUE(results.contenders[1].cost);
+}
+
+/// Rays are still wherever the truth is; the map of ViewDependentShadowMap slides over the scene as the camera moves, that
+/// of ShadowMap, laid about the whole scene, does not. 1e-3 of energy is a thousandth of the picture's lit range.
+TEST(Film, MapsThatFollowTheCameraFlicker) {
+    const Film film(yardstick(), Film::Motion::CAMERA, 4, never);
+    const auto energy = [&](const Contender& contender) {
+        Sight sight(contender, yardstick().scene());
+        return film.measure(sight, never).energy().value();
+    };
+    EXPECT_LT(energy(gnomonContenders().front()), 1e-3);
+    EXPECT_LT(energy(defaultsOf("ShadowMap")), 1e-3);
+    EXPECT_GT(energy(defaultsOf("ViewDependent perspective")), 5e-3);
+}
+
+TEST(Sweep, FindsSettingsThatAreNoWorseThanTheDefaults) {
+    const Peer& peer = peerNamed("ShadowMap");
+    const Settings best = bestSettings(peer, yardstick(), SweepWidth::NARROW, [] { return true; });
+    const auto scoreOf = [&](const Settings& settings) {
+        Sight sight(peerContender(peer, "", settings), yardstick().scene());
+        return score(gnomon::metrics::shadowMetrics(sight.visibility(), yardstick().maps(), yardstick().limits()));
+    };
+    EXPECT_LE(scoreOf(best), scoreOf({}));
+    EXPECT_LT(scoreOf(best), scoreOf({{"size", "512"}, {"polygonOffset", "4,16"}}));
+    for (const auto& [name, value] : best) {
+        if (name == "ambientBias") continue;
+        EXPECT_NE(knobOf(peer, name).fallback, value) << name;
+    }
+}
+
+TEST(Sweep, StoppedItReturnsTheDefaults) {
+    const Settings best = bestSettings(peerNamed("Standard"), yardstick(), SweepWidth::WIDE, never);
+    EXPECT_TRUE(best.empty());
+}
+
+TEST(Sweep, ACatastropheIsNeverBest) {
+    gnomon::metrics::ShadowMetrics metrics;
+    EXPECT_TRUE(std::isfinite(score(metrics)));
+    metrics.catastrophes.allLit = true;
+    EXPECT_TRUE(std::isinf(score(metrics)));
+}
+
+/// A quad whose texture lets the left half through an alpha test, in red under fog.
+ChartScene halfQuad() {
+    ChartScene scene = test::smallScene();
+    scene.content = new osg::Group;
+    osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry({-4, -4, 0}, {8, 0, 0}, {0, 8, 0});
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    const unsigned char texels[] = {255, 255, 255, 255, 255, 255, 255, 0};
+    std::copy(texels, texels + 8, image->data());
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    osg::ref_ptr<osg::Material> red = new osg::Material;
+    red->setDiffuse(osg::Material::FRONT_AND_BACK, {1, 0, 0, 1});
+    osg::StateSet* state = quad->getOrCreateStateSet();
+    state->setAttributeAndModes(red);
+    state->setAttributeAndModes(new osg::Fog);
+    state->setTextureAttributeAndModes(0, texture);
+    scene.content->getOrCreateStateSet()->setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
+    scene.content->addChild(quad);
+    return scene;
+}
+
+TEST(WhiteCopy, KeepsTheShapeAndNothingOfTheLook) {
+    const ChartScene scene = halfQuad();
+    StageViewer viewer(plainContender().stage(scene, Look::VISIBILITY), scene.camera, StageViewer::Colour::FLOATS);
+    viewer.draw();
+    const osg::ref_ptr<osg::Image> image = viewer.image();
+    const auto at = [&](double x, double y) {
+        const osg::Vec3d clip = osg::Vec3d(x, y, 0.0) * scene.camera.view * scene.camera.projection;
+        return image->getColor(static_cast<unsigned>((clip.x() * 0.5 + 0.5) * 320.0),
+                               static_cast<unsigned>((clip.y() * 0.5 + 0.5) * 240.0));
+    };
+    const float cosine = static_cast<float>(1.2 / std::sqrt(1.0 + 0.09 + 1.44)); // of the light on level ground
+    for (int channel = 0; channel < 3; ++channel) {
+        EXPECT_NEAR(at(-2.0, 0.0)[channel], cosine, 1e-5);
+        EXPECT_EQ(at(2.0, 0.0)[channel], 0.0f);
+    }
+    EXPECT_TRUE(scene.content->getChild(0)->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
+}
+
+TEST(WhiteCopy, GivesNormalsToWhatHasNone) {
+    ChartScene scene = test::smallScene();
+    osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry({-4, -4, 0}, {8, 0, 0}, {0, 8, 0});
+    quad->setNormalArray(nullptr);
+    scene.content = new osg::Group;
+    scene.content->addChild(quad);
+    const osg::ref_ptr<osg::Group> copy = whiteCopy(*scene.content);
+    EXPECT_TRUE(copy->getChild(0)->asGeometry()->getNormalArray());
+    EXPECT_FALSE(quad->getNormalArray());
+}
+
+} // namespace
