@@ -109,7 +109,7 @@ TEST(Film, MapsThatFollowTheCameraFlicker) {
 
 TEST(Sweep, FindsSettingsThatAreNoWorseThanTheDefaults) {
     const Peer& peer = peerNamed("ShadowMap");
-    const Settings best = bestSettings(peer, yardstick(), SweepWidth::NARROW, [] { return true; });
+    const Settings best = bestSettings(peer, yardstick(), SweepWidth::WIDE, [] { return true; });
     const auto scoreOf = [&](const Settings& settings) {
         Sight sight(peerContender(peer, "", settings), yardstick().scene());
         return score(gnomon::metrics::shadowMetrics(sight.visibility(), yardstick().maps(), yardstick().limits()));
