@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gnomonchart: how fast and how wrong every shadow technique is, osgShadow's in the same run.
 #include "ChartOptions.h"
+#include "ChartReport.h"
 #include "ChartRun.h"
 #include "ResultsFile.h"
 #include "SceneFile.h"
@@ -102,10 +103,11 @@ int chart(const ChartOptions& options, const std::string& command) {
     std::signal(SIGTERM, askToStop);
     const ChartResults results = runChart(
         plan, [&](const ChartResults& sofar) { saveResults(sofar, options.out); }, [] { return stopAsked != 0; });
+    writeReport(results, options.out);
     printWinners(results);
     for (const auto& [name, value] : results.made)
         if (name.rfind("left out", 0) == 0) std::cout << name << ": " << value << "\n";
-    std::cout << "results are in " << options.out << "\n";
+    std::cout << "the chart is " << options.out << "/index.html\n";
     if (!results.complete) std::cerr << program << ": interrupted; what was measured so far is kept." << std::endl;
     return results.complete ? 0 : interrupted;
 }

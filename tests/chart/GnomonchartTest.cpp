@@ -71,6 +71,7 @@ TEST_F(Gnomonchart, AFileOfOnesOwnGetsItsNumbersAndPictures) {
         EXPECT_TRUE(fs::exists(folder.path() / "o" / point.overlay));
     }
     EXPECT_TRUE(fs::exists(folder.path() / "o" / "results.csv"));
+    EXPECT_NE(readFile(folder.path() / "o" / "index.html").find("lab8"), std::string::npos);
 }
 
 TEST_F(Gnomonchart, TwoRunsGiveTheSameErrorsToTheDigit) {
