@@ -52,7 +52,7 @@ Technique makeParallelSplit(const Settings& settings) {
 
 template <typename T>
 Knob sizeKnob(Text fallback = "1024") {
-    return {"size", {"512", "1024", "2048", "4096"}, fallback, [](PeerParts& parts, Text value) {
+    return {"size", {"4096", "2048", "1024", "512"}, fallback, [](PeerParts& parts, Text value) {
                 as<T>(parts).setTextureSize(square(value));
             }};
 }
@@ -61,7 +61,7 @@ Knob sizeKnob(Text fallback = "1024") {
 template <typename T>
 Knob offsetKnob(Text fallback) {
     return {"polygonOffset",
-            {"0,0", "1,1", "1,4", "2,4", "4,16", "-1,-1", "-2,-4", "-4,-16"},
+            {"-1,-1", "-2,-4", "0,0", "1,1", "-4,-16", "1,4", "2,4", "4,16"},
             fallback,
             [](PeerParts& parts, Text value) { as<T>(parts).setPolygonOffset(pair(value)); }};
 }
@@ -69,14 +69,15 @@ Knob offsetKnob(Text fallback) {
 std::vector<Knob> shadowMapKnobs() { return {sizeKnob<ShadowMap>(), offsetKnob<ShadowMap>("1,1")}; }
 
 std::vector<Knob> softKnobs() {
-    std::vector<Knob> knobs = shadowMapKnobs();
-    knobs.push_back({"softnessWidth", {"0", "0.001", "0.0025", "0.005", "0.01"}, "0.005", [](PeerParts& parts, Text v) {
-                         as<SoftShadowMap>(parts).setSoftnessWidth(number(v));
-                     }});
-    knobs.push_back({"jitteringScale", {"16", "32", "64"}, "32", [](PeerParts& parts, Text v) {
-                         as<SoftShadowMap>(parts).setJitteringScale(number(v));
-                     }});
-    return knobs;
+    return {sizeKnob<ShadowMap>(),
+            {"softnessWidth",
+             {"0.001", "0", "0.0025", "0.005", "0.01"},
+             "0.005",
+             [](PeerParts& parts, Text v) { as<SoftShadowMap>(parts).setSoftnessWidth(number(v)); }},
+            offsetKnob<ShadowMap>("1,1"),
+            {"jitteringScale", {"16", "32", "64"}, "32", [](PeerParts& parts, Text v) {
+                 as<SoftShadowMap>(parts).setJitteringScale(number(v));
+             }}};
 }
 
 void turnNothing(PeerParts&, Text) {} // the constructor has taken it
@@ -85,16 +86,16 @@ std::vector<Knob> parallelSplitKnobs() {
     using PSSM = ParallelSplitShadowMap;
     return {
         {"size",
-         {"512", "1024", "2048", "4096"},
+         {"4096", "2048", "1024", "512"},
          "1024",
          [](PeerParts& parts, Text v) { as<PSSM>(parts).setTextureResolution(static_cast<unsigned>(std::stoi(v))); }},
-        {"splits", {"1", "2", "3", "4"}, "3", turnNothing},
+        {"splits", {"4", "2", "3", "1"}, "3", turnNothing},
         {"filtering",
          {"on", "off"},
          "on",
          [](PeerParts& parts, Text v) { as<PSSM>(parts).enableShadowGLSLFiltering(v == "on"); }},
         {"polygonOffset",
-         {"none", "1,1", "2,4", "4,16", "-1,-1", "-2,-4", "-4,-16"},
+         {"1,1", "2,4", "none", "4,16", "-1,-1", "-2,-4", "-4,-16"},
          "none",
          [](PeerParts& parts, Text v) {
              if (v != "none") as<PSSM>(parts).setPolygonOffset(pair(v));
@@ -126,7 +127,7 @@ void turnBounds(PeerParts& parts, Text value) {
 std::vector<Knob> minimalKnobs() {
     std::vector<Knob> knobs = standardKnobs();
     knobs.push_back(
-        {"minLightMargin", {"0 radii", "0.5 radii", "1 radii", "2 radii"}, "0 radii", [](PeerParts& parts, Text v) {
+        {"minLightMargin", {"0.5 radii", "2 radii", "0 radii", "1 radii"}, "0 radii", [](PeerParts& parts, Text v) {
              as<MinimalShadowMap>(parts).setMinLightMargin(number(v) * static_cast<float>(parts.radius));
          }});
     knobs.push_back({"coarseBounds", {"box", "none"}, "box", turnBounds});
@@ -144,11 +145,11 @@ void turnProjection(PeerParts& parts, Text value) {
 
 std::vector<Knob> viewDependentKnobs() {
     return {{"size",
-             {"512", "1024", "2048", "4096"},
+             {"4096", "2048", "1024", "512"},
              "2048",
              [](PeerParts& parts, Text v) { parts.settings->setTextureSize(square(v)); }},
             {"nearFar",
-             {"camera's", "bounding volumes", "primitives"},
+             {"primitives", "bounding volumes", "camera's"},
              "camera's",
              [](PeerParts& parts, Text v) {
                  using Cull = osg::CullSettings;

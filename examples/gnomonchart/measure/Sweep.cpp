@@ -27,7 +27,7 @@ public:
     void turn(const Knob& knob, std::size_t values) {
         for (std::size_t i = 0; i < knob.values.size() && i < values && _goesOn(); ++i) {
             Places tried = _best;
-            tried[knob.name] = knob.values[knob.values.size() - 1 - i];
+            tried[knob.name] = knob.values[i];
             const double got = scoreOf(tried);
             if (!(got < _bestScore)) continue;
             _bestScore = got;

@@ -13,7 +13,7 @@ double score(const metrics::ShadowMetrics& metrics);
 
 /// How wide a sweep goes.
 enum class SweepWidth {
-    NARROW, ///< the first two knobs, three values each
+    NARROW, ///< the first two knobs, the first three values of each
     WIDE    ///< all knobs and values
 };
 
