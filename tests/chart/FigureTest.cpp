@@ -112,12 +112,21 @@ TEST_F(FigureFiles, ZeroIsDrawnAtTheLeastValue) {
     EXPECT_TRUE(holds(readFile(folder.path() / "figure.gnuplot"), "\n0.01\t0.01\t7\t"));
 }
 
+TEST_F(FigureFiles, AQuartileBelowNothingDoesNotStretchTheAxis) {
+    ChartPoint point = chartPoint("Gnomon", "map", "size 512", 2, 4);
+    point.cost->steadyWall = {-3, 2, 500};
+    draw({point});
+    const std::string script = readFile(folder.path() / "figure.gnuplot");
+    EXPECT_TRUE(holds(script, "set xrange [1.42857:6]")); // 2 / 1.4, and thrice 2: the least that an axis spans
+    EXPECT_TRUE(holds(script, "\n2\t4\t1.42857\t6\t"));   // the bar ends where the axis does
+}
+
 TEST_F(FigureFiles, TheStaircaseGoesDownToTheRight) {
     draw({chartPoint("Gnomon", "map", "1", 2, 4), chartPoint("Gnomon", "map", "2", 8, 1)});
     const std::string script = readFile(folder.path() / "figure.gnuplot");
     const std::size_t at = script.find("$still_staircase");
-    // From above the first to its error, along it to the second, down to that one's, along it to the end (8 × 1.35).
-    EXPECT_TRUE(holds(script.substr(at, 80), "\n2\t5.4\n2\t4\n8\t4\n8\t1\n10.8\t1\n")) << script.substr(at, 80);
+    // From above the first to its error, along it to the second, down to that one's, along it to the end (8 × 1.4).
+    EXPECT_TRUE(holds(script.substr(at, 80), "\n2\t5.6\n2\t4\n8\t4\n8\t1\n11.2\t1\n")) << script.substr(at, 80);
 }
 
 TEST_F(FigureFiles, NothingMeasuredIsAnEmptyChartAndNoFailure) {

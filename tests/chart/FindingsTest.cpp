@@ -46,10 +46,12 @@ TEST(Findings, NameTheBestForTheirTime) {
 TEST(Findings, SayPlainlyWhereAPeerBeatsUs) {
     const SceneFinding finding =
         stillOf({chartPoint("Gnomon", "map", "a", 2, 4), chartPoint("Gnomon", "map", "b", 9, 1),
-                 chartPoint("osgShadow", "ShadowMap", "a", 3, 2)});
+                 chartPoint("osgShadow", "ShadowMap", "a", 3, 2), chartPoint("osgShadow", "ShadowMap", "b", 4, 1.5)});
     EXPECT_TRUE(finding.peerBeatsUs);
-    EXPECT_TRUE(says(finding, "osgShadow ShadowMap (3 ms, 2 px) beats every Gnomon technique: at equal or lower cost "
-                              "the most accurate of Gnomon's is map, a (2 ms, 4 px)."))
+    EXPECT_TRUE(says(finding,
+                     "A peer beats every Gnomon technique: at equal or lower cost the most accurate of Gnomon's "
+                     "is map, a (2 ms, 4 px), but there is osgShadow ShadowMap, a (3 ms, 2 px); osgShadow "
+                     "ShadowMap, b (4 ms, 1.5 px)."))
         << allOf(finding);
 }
 
@@ -57,7 +59,7 @@ TEST(Findings, SayWhereAPeerIsCheaperThanAll) {
     const SceneFinding finding =
         stillOf({chartPoint("Gnomon", "map", "a", 2, 4), chartPoint("osgShadow", "ShadowMap", "a", 1, 50)});
     EXPECT_TRUE(finding.peerBeatsUs);
-    EXPECT_TRUE(says(finding, "osgShadow ShadowMap (1 ms, 50 px) is cheaper than every Gnomon technique."))
+    EXPECT_TRUE(says(finding, "A peer is cheaper than every Gnomon technique: osgShadow ShadowMap (1 ms, 50 px)."))
         << allOf(finding);
 }
 
@@ -90,9 +92,8 @@ TEST(Findings, WithNothingSoundOfOursAPeerWins) {
     ChartPoint ours = chartPoint("Gnomon", "map", "", 1, 1);
     ours.errors->catastrophes.allLit = true;
     const SceneFinding finding = stillOf({ours, chartPoint("osgShadow", "ShadowMap", "", 3, 2)});
-    EXPECT_TRUE(says(finding,
-                     "osgShadow ShadowMap (3 ms, 2 px) is cheaper than every Gnomon technique: none of them gives "
-                     "a sound shadow here."))
+    EXPECT_TRUE(says(finding, "A peer is cheaper than every Gnomon technique, none of which gives a sound shadow here: "
+                              "osgShadow ShadowMap (3 ms, 2 px)."))
         << allOf(finding);
     EXPECT_TRUE(says(stillOf({ours}), "No technique gives a sound shadow here."));
 }

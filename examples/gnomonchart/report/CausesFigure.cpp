@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 namespace gnomon::examples {
 namespace {
@@ -110,11 +109,7 @@ std::string shareLines(const std::vector<CauseRow>& rows) {
     return lines;
 }
 
-std::string shareText(const CauseRow& row) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.2g %%", percent(row.wrong, row.judged));
-    return text.data();
-}
+std::string shareText(const CauseRow& row) { return shortNumber(percent(row.wrong, row.judged)) + " %"; }
 
 double heightOf(const std::vector<CauseRow>& rows) {
     return head + rowHeight * static_cast<double>(rows.size()) + foot;
@@ -166,7 +161,7 @@ std::optional<FigureScript> causesScript(const ChartResults& results, const Curv
                                                             {"LABELS", labelCommands(rows, title)},
                                                             {"LOW", plotNumber(axis.low)},
                                                             {"HIGH", plotNumber(axis.high)},
-                                                            {"XTICS", plotTics(axis.ticks())},
+                                                            {"XTICS", plotTics(axis.ticks(5))},
                                                             {"WIDTH", plotNumber(width)},
                                                             {"HEIGHT", plotNumber(heightOf(rows))},
                                                             {"TOP", plotNumber(heightOf(rows) - head)},

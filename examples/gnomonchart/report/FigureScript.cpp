@@ -34,12 +34,13 @@ void forShown(const FigurePanel& panel, const Visit& visit) {
             if (point.shown()) visit(curve, point);
 }
 
-/// The axes that fit all panels.
+/// The axes that fit all panels. Quartiles may reach beyond: a single low one, near zero or below it, would stretch the
+/// axis over decades of nothing.
 PanelAxes axesOf(const Figure& figure) {
     std::vector<double> times, errors;
     for (const FigurePanel& panel : figure.panels) {
         forShown(panel, [&](const Curve&, const CurvePoint& point) {
-            times.insert(times.end(), {point.time.q1, point.time.median, point.time.q3});
+            times.push_back(point.time.median);
             errors.push_back(point.error);
         });
         if (panel.floor) errors.push_back(*panel.floor);
@@ -76,11 +77,12 @@ std::string curveRows(const FigurePanel& panel, const CurveStyles& styles, bool 
     return rows;
 }
 
-std::string quartileRows(const FigurePanel& panel, const CurveStyles& styles) {
+std::string quartileRows(const FigurePanel& panel, const CurveStyles& styles, const PanelAxes& axes) {
     std::string rows;
+    const auto onAxis = [&](double ms) { return plotNumber(std::clamp(ms, axes.time.low, axes.time.high)); };
     forShown(panel, [&](const Curve& curve, const CurvePoint& point) {
-        rows += line({timeText(point.time.median), errorText(point.error), timeText(point.time.q1),
-                      timeText(point.time.q3), plotColour(styles.of(curve.kit, curve.technique).colour)});
+        rows += line({timeText(point.time.median), errorText(point.error), onAxis(point.time.q1), onAxis(point.time.q3),
+                      plotColour(styles.of(curve.kit, curve.technique).colour)});
     });
     return rows;
 }
@@ -124,7 +126,7 @@ std::string dataOf(const FigurePanel& panel, const CurveStyles& styles, const Pa
     return block(name + "_floor", floorRows(panel, axes)) + block(name + "_staircase", staircaseRows(panel, axes)) +
            block(name + "_others_curves", curveRows(panel, styles, false)) +
            block(name + "_gnomon_curves", curveRows(panel, styles, true)) +
-           block(name + "_quartiles", quartileRows(panel, styles)) +
+           block(name + "_quartiles", quartileRows(panel, styles, axes)) +
            block(name + "_markers", markerRows(panel, styles, number));
 }
 
@@ -140,7 +142,7 @@ std::string keyCommands(glm::dvec2 at) {
                                 {"pt 7 ps 0.75 lc rgb '#6b7280'", "osgShadow, in greys", false},
                                 {"pt 6 ps 0.95 lw 1.3 lc rgb '#0072b2'", "hollow: a catastrophe", false},
                                 {"lw 7 lc rgb '#fbe3b0'", "the best for their time", true},
-                                {"dt (6,4) lw 1.2 lc rgb '#111827'", "one perfect ray a pixel", true},
+                                {"dt (10,9) lw 1.2 lc rgb '#111827'", "one perfect ray a pixel", true},
                                 {"lw 0.7 lc rgb '#6b7280'", "quartiles of the time", true}};
     std::string commands;
     for (const KeyEntry& entry : entries) {
@@ -183,14 +185,14 @@ std::string panelCommands(const Figure& figure, std::size_t number, const CurveS
 }
 
 std::string timeWords(const AddedTime& time) {
-    return plotNumber(time.median) + " ms (" + plotNumber(time.q1) + " to " + plotNumber(time.q3) + ")";
+    return shortNumber(time.median) + " ms (" + shortNumber(time.q1) + " to " + shortNumber(time.q3) + ")";
 }
 
 std::vector<FigureMarker> markersOf(const FigurePanel& panel, std::size_t scenes) {
     std::vector<FigureMarker> markers;
     forShown(panel, [&](const Curve& curve, const CurvePoint& point) {
         std::string text = curve.kit + " " + curve.technique + ", " + point.setting + ": " + timeWords(point.time) +
-                           ", " + plotNumber(point.error) + " px";
+                           ", " + shortNumber(point.error) + " px";
         if (scenes > 1) text += ", " + std::to_string(point.scenes) + " of " + std::to_string(scenes) + " scenes";
         if (point.catastrophic) text += ", catastrophic";
         markers.push_back({curve.kit, curve.technique, point.setting, text});

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "Findings.h"
 
+#include "GnuplotText.h"
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 namespace gnomon::examples {
 namespace {
-
-/// Two digits, or whole numbers: "0.42", "3.1", "160".
-std::string shortNumber(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), value < 10.0 ? "%.2g" : "%.0f", value);
-    return text.data();
-}
 
 std::string nameOf(const BestPoint& best) {
     std::string name = best.curve->ours() ? best.curve->technique : best.curve->kit + " " + best.curve->technique;
@@ -55,24 +48,34 @@ const BestPoint* mostAccurateWithin(const std::vector<BestPoint>& points, double
     return best;
 }
 
-std::string beatenSentence(const BestPoint& peer, const std::vector<BestPoint>& ours) {
-    const BestPoint* nearest = mostAccurateWithin(ours, peer.point->time.median);
-    if (nearest)
-        return described(peer) +
-               " beats every Gnomon technique: at equal or lower cost the most accurate of Gnomon's is " +
-               described(*nearest) + ".";
-    return described(peer) + " is cheaper than every Gnomon technique" +
-           (ours.empty() ? ": none of them gives a sound shadow here." : ".");
-}
-
-/// A sentence for each peer among the best that Gnomon has nothing against.
-std::vector<std::string> beatenSentences(const std::vector<Curve>& curves) {
-    const std::vector<BestPoint> ours = soundOf(curves, true);
-    std::vector<std::string> sentences;
+/// Peers among the best that Gnomon has nothing against.
+std::vector<BestPoint> victors(const std::vector<Curve>& curves, const std::vector<BestPoint>& ours) {
+    std::vector<BestPoint> found;
     for (const BestPoint& best : staircase(curves)) {
         const auto holds = [&](const BestPoint& own) { return matches(*own.point, *best.point); };
-        if (!best.curve->ours() && std::none_of(ours.begin(), ours.end(), holds))
-            sentences.push_back(beatenSentence(best, ours));
+        if (!best.curve->ours() && std::none_of(ours.begin(), ours.end(), holds)) found.push_back(best);
+    }
+    return found;
+}
+
+std::string beatenSentence(const std::string& peers, const BestPoint* nearest, bool anyOurs) {
+    if (nearest)
+        return "A peer beats every Gnomon technique: at equal or lower cost the most accurate of Gnomon's is " +
+               described(*nearest) + ", but there is " + peers + ".";
+    return "A peer is cheaper than every Gnomon technique" +
+           std::string(anyOurs ? ": " : ", none of which gives a sound shadow here: ") + peers + ".";
+}
+
+/// A sentence for each point of Gnomon that is the most accurate for what some victors cost.
+std::vector<std::string> beatenSentences(const std::vector<Curve>& curves) {
+    const std::vector<BestPoint> ours = soundOf(curves, true), peers = victors(curves, ours);
+    std::vector<std::string> sentences;
+    for (std::size_t i = 0; i < peers.size();) {
+        const BestPoint* nearest = mostAccurateWithin(ours, peers[i].point->time.median);
+        std::vector<std::string> names;
+        for (; i < peers.size() && mostAccurateWithin(ours, peers[i].point->time.median) == nearest; ++i)
+            names.push_back(described(peers[i]));
+        sentences.push_back(beatenSentence(listed(names), nearest, !ours.empty()));
     }
     return sentences;
 }

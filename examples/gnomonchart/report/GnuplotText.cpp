@@ -2,6 +2,9 @@
 #include "GnuplotText.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <iomanip>
 #include <sstream>
 
@@ -22,6 +25,12 @@ std::string plotNumber(double value) {
     std::ostringstream out;
     out << std::setprecision(6) << value;
     return out.str();
+}
+
+std::string shortNumber(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), std::abs(value) < 9.95 ? "%.2g" : "%.0f", value);
+    return text.data();
 }
 
 std::string plotText(const std::string& text) {

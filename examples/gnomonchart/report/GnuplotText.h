@@ -10,6 +10,9 @@ namespace gnomon::examples {
 /// A number of six digits, as gnuplot reads it.
 std::string plotNumber(double value);
 
+/// A number for people: two digits below 10, "0.42", whole from there on, "160".
+std::string shortNumber(double value);
+
 /// A text as gnuplot takes it literally: in single quotes, without control characters.
 std::string plotText(const std::string& text);
 /// The same for a comment.

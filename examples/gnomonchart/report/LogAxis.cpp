@@ -7,7 +7,7 @@
 namespace gnomon::examples {
 namespace {
 
-constexpr double air = 1.35; // a factor, at either end
+constexpr double air = 1.4; // a factor, at either end
 
 } // namespace
 
@@ -16,7 +16,7 @@ double LogAxis::place(double value) const {
     return from + share * (to - from);
 }
 
-std::vector<double> LogAxis::ticks() const {
+std::vector<double> LogAxis::ticks(std::size_t most) const {
     std::vector<double> all, powers;
     for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power)
         for (const double digit : {1.0, 2.0, 5.0}) {
@@ -25,7 +25,7 @@ std::vector<double> LogAxis::ticks() const {
             all.push_back(value);
             if (digit == 1.0) powers.push_back(value);
         }
-    return all.size() > 12 ? powers : all;
+    return all.size() > most ? powers : all;
 }
 
 LogAxis logAxis(const std::vector<double>& values, double least, double from, double to) {

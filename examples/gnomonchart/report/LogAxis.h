@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <vector>
 
 namespace gnomon::examples {
@@ -11,8 +12,8 @@ struct LogAxis {
 
     /// px; values outside go to the end.
     double place(double value) const;
-    /// Values 1, 2 and 5 times a power of ten within it; more than twelve of them are thinned to the powers alone.
-    std::vector<double> ticks() const;
+    /// Values 1, 2 and 5 times a power of ten within it; if that is more than `most`, the powers alone.
+    std::vector<double> ticks(std::size_t most = 12) const;
 };
 
 /// An axis that shows all values, the smallest no lower than `least`, with some air at either end.

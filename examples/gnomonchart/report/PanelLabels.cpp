@@ -113,7 +113,7 @@ void addSettings(std::vector<Label>& labels, const FigurePanel& panel, std::size
 void addFloor(std::vector<Label>& labels, const FigurePanel& panel, const PanelAxes& axes) {
     if (!panel.floor) return;
     const TextLook look{8.0, "#111827"};
-    const std::string text = "one perfect ray a pixel: " + plotNumber(*panel.floor) + " px";
+    const std::string text = "one perfect ray a pixel: " + shortNumber(*panel.floor) + " px";
     LabelWish wish{textSize(text, look), {}, ofTheFloor};
     for (double x = axes.time.from + 60.0; x < axes.time.to; x += 20.0)
         wish.anchors.emplace_back(x, axes.error.place(*panel.floor));

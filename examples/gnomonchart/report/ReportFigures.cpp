@@ -45,15 +45,18 @@ std::string remarkOf(const ChartResults& results) {
 }
 
 std::string titleOf(const ChartResults& results, const std::string& scene) {
-    if (scene.empty())
-        return std::to_string(results.scenes.size()) + " scenes: how long shadows take, and how wrong they are";
+    if (scene.empty()) return std::to_string(results.scenes.size()) + " scenes";
     for (const ChartSceneResult& each : results.scenes)
         if (each.name == scene) return each.title;
     return scene;
 }
 
 Figure figureOf(const ChartResults& results, const std::string& scene) {
-    Figure figure{fileName("figure", scene), titleOf(results, scene), remarkOf(results), {}, 1};
+    Figure figure{fileName("figure", scene),
+                  titleOf(results, scene) + ": how fast shadows are, and how wrong",
+                  remarkOf(results),
+                  {},
+                  1};
     for (const LightMotion light : {LightMotion::Still, LightMotion::Moving})
         figure.panels.push_back(panelOf(results, scene, light));
     if (scene.empty()) figure.scenes = results.scenes.size();
@@ -95,7 +98,7 @@ void addScene(std::vector<DrawnFigure>& drawn, const ChartResults& results, cons
     drawFigure(figure, styles, folder);
     drawn.push_back({figure.name, scene, captionOf(figure, scene)});
     const std::string name = fileName("causes", scene);
-    const auto causes = causesScript(results, styles, name, figure.title + ": why pixels are wrong", scene);
+    const auto causes = causesScript(results, styles, name, titleOf(results, scene) + ": why pixels are wrong", scene);
     if (!causes) return;
     drawScript(name, *causes, folder);
     drawn.push_back({name, scene, causesCaption});

@@ -11,9 +11,9 @@ Y(px) = px / real(height)
 
 do for [format in "svg png"] {
   if (format eq "svg") {
-    set terminal svg size width,height font "DejaVu Sans,11" linewidth 1 background rgb "white" noenhanced
+    set terminal svg size width,height font "DejaVu Sans,11" linewidth 1 background rgb "white" rounded noenhanced
   } else {
-    set terminal pngcairo size 2*width,2*height font "DejaVu Sans,11" fontscale 1.5 linewidth 2 pointscale 2 noenhanced
+    set terminal pngcairo size 2*width,2*height font "DejaVu Sans,11" fontscale 1.5 linewidth 2 pointscale 2 rounded noenhanced
   }
   set output "${NAME}." . format
   set multiplot

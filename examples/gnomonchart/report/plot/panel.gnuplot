@@ -11,7 +11,7 @@
   set xlabel '${XLABEL}' offset 0,0.4 textcolor rgb "#374151"
   set ylabel 'boundary error, 95th percentile (px)' offset 0.6,0 textcolor rgb "#374151"
 ${LABELS}
-  plot $${PANEL}_floor using 1:2 with lines dt (6,4) lw 1.2 lc rgb "#111827", \
+  plot $${PANEL}_floor using 1:2 with lines dt (10,9) lw 1.2 lc rgb "#111827", \
     $${PANEL}_staircase using 1:2 with lines lw 7 lc rgb "#fbe3b0", \
     $${PANEL}_others_curves using 1:2:3 with lines lw 0.8 lc rgb variable, \
     $${PANEL}_gnomon_curves using 1:2:3 with lines lw 1.8 lc rgb variable, \
