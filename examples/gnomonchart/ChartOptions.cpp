@@ -29,6 +29,9 @@ void addChartOptions(Options& table, ChartOptions& into) {
                      "", [&into](Text) { into.quick = true; }});
     table.push_back({"--frames", "N", "frames timed, of each motion, 2 to 10000", "60, with --quick 12",
                      [&into](Text t) { into.frames = readWhole(t, leastFrames, mostFrames); }});
+    table.push_back({"--again", "FOLDER",
+                     "measure nothing: draw the figures and index.html in FOLDER again from its results.json", "",
+                     [&into](Text t) { into.again = t; }});
     table.push_back(
         {"--list", "", "print the names of scenes and techniques", "", [&into](Text) { into.list = true; }});
     table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
@@ -68,6 +71,8 @@ ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
     if (options.help || options.list) return options;
     refuseUnknownOptions(arguments);
     for (int i = 1; i < arguments.argc(); ++i) options.view.files.push_back(arguments[i]);
+    if (!options.again.empty() && !options.view.files.empty())
+        throw std::invalid_argument("--again and files are given; one of them is allowed.");
     if (!options.view.files.empty() && !options.scenes.empty())
         throw std::invalid_argument("--scene and files are given; one of them is allowed.");
     requireConsistent(options.view);

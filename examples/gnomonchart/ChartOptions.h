@@ -14,6 +14,7 @@ struct ChartOptions {
     std::vector<std::string> scenes; ///< names of built-in ones.
     std::string technique;           ///< part of a technique's name; empty: all.
     std::string out = "chart-out";   ///< folder.
+    std::string again;               ///< folder of results to be drawn again; empty: measure.
     std::optional<int> frames;       ///< 60, or 12 with quick.
     bool quick = false, list = false, help = false;
 

@@ -112,6 +112,12 @@ int chart(const ChartOptions& options, const std::string& command) {
     return results.complete ? 0 : interrupted;
 }
 
+int chartAgain(const std::string& folder) {
+    writeReport(loadResults((fs::path(folder) / "results.json").string()), folder);
+    std::cout << "the chart is " << folder << "/index.html\n";
+    return 0;
+}
+
 std::string commandOf(osg::ArgumentParser& arguments) {
     std::string command = program;
     for (int i = 1; i < arguments.argc(); ++i) command += std::string(" ") + arguments[i];
@@ -125,6 +131,8 @@ int run(osg::ArgumentParser& arguments) {
         std::cout << chartHelp();
     else if (options.list)
         listNames();
+    else if (!options.again.empty())
+        return chartAgain(options.again);
     else
         return chart(options, command);
     return 0;

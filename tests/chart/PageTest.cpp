@@ -5,6 +5,7 @@
 #include "ChartReport.h"
 #include "OutputFile.h"
 #include "PagePictures.h"
+#include "ResultsFile.h"
 #include "TextTemplate.h"
 
 #include <support/SyntheticChart.h>
@@ -122,6 +123,21 @@ TEST_F(Page, NoTextOfTheResultsIsMarkup) {
     std::size_t closing = 0;
     for (std::size_t at = 0; (at = html.find("</script", at)) != std::string::npos; ++at) ++closing;
     EXPECT_EQ(closing, 4u); // data, jQuery, DataTables, the page's own
+}
+
+TEST_F(Page, IsDrawnAgainFromTheResultsAlone) {
+    ChartResults results;
+    results.complete = true;
+    results.scenes.push_back({"boxes", "Boxes", 1, 0.0, 0.4, 1.0, "", {}});
+    results.points = {test::chartPoint("Gnomon", "map", "size 512", 1, 2)};
+    saveResults(results, path());
+    const Ending ending = runProgram(GNOMONCHART, {"--again", path()}, folder.path());
+    EXPECT_EQ(ending.status, 0) << ending.err;
+    const std::string html = readFile(folder.path() / "index.html");
+    EXPECT_TRUE(holds(html, "Gnomon map, size 512: 1 ms (1 to 1), 2 px"));
+    const Ending gone = runProgram(GNOMONCHART, {"--again", path() + "/gone"}, folder.path());
+    EXPECT_EQ(gone.status, 1);
+    EXPECT_TRUE(holds(gone.lastLine(), "there is no file \"" + path() + "/gone/results.json\"")) << gone.err;
 }
 
 TEST_F(Page, ThatCannotBeWrittenIsRefusedInOneSentence) {
