@@ -48,18 +48,20 @@ const Yardstick& yardstick() {
 
 bool never() { return false; }
 
-/// The ground, the house, the sphere: three draws. A map draws them again, three maps three times as far as they see
-/// them, analysis of what is drawn once more; ShadowTexture draws all but its receiver again.
+/// The ground, the house, the sphere: three draws of 2, 12 and more triangles. A map draws them again, analysis of what
+/// is drawn once more; ShadowTexture draws all but its receiver again.
 TEST(Race, CountsDrawsAndPassesByWhatReachesOpenGL) {
     const std::vector<Contender> all = {defaultsOf("ShadowMap"), defaultsOf("MinimalDrawBounds"),
                                         defaultsOf("ShadowTexture"), plainContender()};
     const RaceResults results = race(test::smallScene(), all, 2, shaders(), [](int, int) { return true; });
     ASSERT_EQ(results.contenders.size(), 4u);
     const unsigned draws[] = {6, 9, 5, 3}, passes[] = {2, 3, 2, 1};
+    const std::size_t all3 = yardstick().truth().triangles(), triangles[] = {2 * all3, 3 * all3, 2 * all3 - 2, all3};
     for (std::size_t i = 0; i < 4; ++i) {
         ASSERT_TRUE(results.contenders[i].cost) << results.contenders[i].failure;
         EXPECT_EQ(results.contenders[i].cost->draws, draws[i]) << all[i].technique;
         EXPECT_EQ(results.contenders[i].cost->passes, passes[i]) << all[i].technique;
+        EXPECT_EQ(results.contenders[i].cost->triangles, triangles[i]) << all[i].technique;
     }
     EXPECT_GT(results.frame, 0.0);
 }

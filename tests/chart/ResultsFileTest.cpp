@@ -95,7 +95,7 @@ ChartResults fullResults() {
 }
 
 auto tied(const AddedTime& t) { return std::tie(t.q1, t.median, t.q3); }
-auto tied(const ChartCost& c) { return std::tie(c.first, c.memory, c.draws, c.passes); }
+auto tied(const ChartCost& c) { return std::tie(c.first, c.memory, c.draws, c.passes, c.triangles); }
 auto tied(const Confusion& c) { return std::tie(c.shadow, c.falseShadow, c.falseLit, c.lit); }
 auto tied(const BoundaryDistance& b) {
     return std::tie(b.mean, b.p95, b.max, b.signedMean, b.drawnLength, b.trueLength);

@@ -76,6 +76,7 @@ ChartCost costOf(const Scene& scene, const Technique& technique, int size, std::
     cost.memory = 4.0 * texels;
     cost.draws = static_cast<unsigned>(scene.triangles / 100);
     cost.passes = size ? 2 : 1;
+    cost.triangles = cost.passes * scene.triangles;
     return cost;
 }
 

@@ -4,9 +4,10 @@
 #include "StageViewer.h"
 
 #include <osg/GLExtensions>
+#include <osgUtil/RenderStage>
+#include <osgViewer/Renderer>
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <fstream>
 #include <malloc.h>
@@ -51,12 +52,26 @@ std::size_t primitivesOf(StageViewer& viewer) {
     return count;
 }
 
+unsigned stagesOf(const osgUtil::RenderStage& stage) {
+    unsigned count = 1;
+    for (const auto& before : stage.getPreRenderList()) count += stagesOf(*before.second);
+    for (const auto& after : stage.getPostRenderList()) count += stagesOf(*after.second);
+    return count;
+}
+
+/// Cameras that drew in the last frame, the view's own with them.
+unsigned passesOf(StageViewer& viewer) {
+    auto* renderer = dynamic_cast<osgViewer::Renderer*>(viewer.viewer().getCamera()->getRenderer());
+    return renderer ? stagesOf(*renderer->getSceneView(0)->getRenderStage()) : 0;
+}
+
 /// One contender on its track.
 struct Runner {
     std::unique_ptr<StageViewer> viewer;
     Times steady, moving;
     double first = 0.0, memory = 0.0;
     std::size_t draws = 0, primitives = 0;
+    unsigned passes = 0;
     std::string failure;
 
     void start(const Contender& contender, const ChartScene& scene, const ShaderCache& shaders) {
@@ -71,6 +86,7 @@ struct Runner {
         viewer->draw();
         draws = drawCalls() - drawn;
         primitives = primitivesOf(*viewer);
+        passes = passesOf(*viewer);
     }
 };
 
@@ -158,8 +174,8 @@ private:
         cost.movingProcessor = added(runner.moving.processor, plain.moving.processor);
         cost.memory = std::max(0.0, runner.memory - plain.memory);
         cost.draws = static_cast<unsigned>(runner.draws);
-        if (plain.primitives > 0)
-            cost.passes = static_cast<unsigned>(std::lround(double(runner.primitives) / double(plain.primitives)));
+        cost.passes = runner.passes;
+        cost.triangles = runner.primitives;
         return {cost, ""};
     }
 

@@ -29,8 +29,7 @@ struct RaceResults {
 /// Moving        the light goes a degree a frame.
 /// Memory        growth of the process's resident set by the contender's context, viewer and first frames, beyond the
 ///               plain viewer's: on OSMesa that holds the textures, too.
-/// Draws         calls that draw, in one frame. Passes  triangles handed to OpenGL in it by triangles of the plain frame,
-///               rounded: how often the scene is drawn.
+/// Draws         calls that draw, and triangles handed to OpenGL, in one steady frame. Passes  cameras that draw in it.
 ///
 /// @param frames    of each of the two motions, after five to warm up.
 /// @param progress  called before each round with rounds done and to do; false stops the race, and what it has counts.

@@ -23,7 +23,9 @@ struct ChartCost {
     AddedTime steadyWall, steadyProcessor; ///< the camera moves, nothing else.
     AddedTime movingWall, movingProcessor; ///< the light moves.
     double memory = 0.0;                   ///< MiB beyond the scene without shadows, where it can be told.
-    unsigned draws = 0, passes = 0;        ///< a steady frame: drawables drawn; passes over casters or receivers.
+    unsigned draws = 0;                    ///< calls that draw, in a steady frame.
+    unsigned passes = 0;                   ///< cameras that draw in it; Gnomon's marks and relights are in the view's own.
+    std::size_t triangles = 0;             ///< handed to OpenGL in it.
 };
 
 /// One technique at one setting in one scene.

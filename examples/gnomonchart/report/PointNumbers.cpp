@@ -96,8 +96,9 @@ const std::vector<PointNumber>& pointNumbers() {
         {"added_moving_processor_q1_ms", "processor time added, moving light, lower quartile", "ms", "cost", false, ofTime<movingCpu, &Time::q1>},
         {"added_moving_processor_q3_ms", "processor time added, moving light, upper quartile", "ms", "cost", false, ofTime<movingCpu, &Time::q3>},
         {"memory_mib", "memory added", "MiB", "cost", true, ofCost<&Cost::memory>},
-        {"draws", "drawables drawn in a frame", "", "cost", false, ofCost<&Cost::draws>},
-        {"passes", "passes over casters or receivers", "", "cost", false, ofCost<&Cost::passes>},
+        {"draws", "calls that draw, in a frame", "", "cost", false, ofCost<&Cost::draws>},
+        {"passes", "cameras that draw in a frame", "", "cost", false, ofCost<&Cost::passes>},
+        {"triangles", "triangles handed to OpenGL in a frame", "", "cost", false, ofCost<&Cost::triangles>},
 
         {"boundary_p95_px", "boundary error, 95th percentile", "px", "accuracy", true, ofBoundary<&BoundaryDistance::p95>},
         {"boundary_mean_px", "boundary error, mean", "px", "accuracy", false, ofBoundary<&BoundaryDistance::mean>},

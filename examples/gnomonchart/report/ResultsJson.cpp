@@ -28,7 +28,8 @@ ordered_json costJson(const std::optional<ChartCost>& cost) {
             {"movingProcessorMs", timeJson(cost->movingProcessor)},
             {"memoryMiB", jsonOf(cost->memory)},
             {"draws", cost->draws},
-            {"passes", cost->passes}};
+            {"passes", cost->passes},
+            {"triangles", cost->triangles}};
 }
 
 ordered_json pointJson(const ChartPoint& point) {
@@ -101,6 +102,7 @@ ChartCost costOf(const json& from) {
     readField(from, "memoryMiB", cost.memory);
     readField(from, "draws", cost.draws);
     readField(from, "passes", cost.passes);
+    readField(from, "triangles", cost.triangles);
     return cost;
 }
 
