@@ -66,6 +66,25 @@ TEST(Race, CountsDrawsAndPassesByWhatReachesOpenGL) {
     EXPECT_GT(results.frame, 0.0);
 }
 
+/// Without display lists: one quad by its array, one by indices.
+TEST(Race, CountsArraysAndElementsToo) {
+    ChartScene scene = test::smallScene();
+    scene.content = new osg::Group;
+    for (const float x : {-3.0f, 1.0f}) {
+        osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry({x, 0, 0}, {2, 0, 0}, {0, 2, 0});
+        quad->setUseDisplayList(false);
+        if (x > 0.0f) {
+            const GLushort corners[] = {0, 1, 2, 0, 2, 3};
+            quad->setPrimitiveSet(0, new osg::DrawElementsUShort(GL_TRIANGLES, 6, corners));
+        }
+        scene.content->addChild(quad);
+    }
+    const RaceResults results = race(scene, {plainContender()}, 2, shaders(), [](int, int) { return true; });
+    ASSERT_TRUE(results.contenders[0].cost);
+    EXPECT_EQ(results.contenders[0].cost->draws, 2u);
+    EXPECT_EQ(results.contenders[0].cost->triangles, 4u);
+}
+
 /// Twice the work costs more: 64 samples a pixel against one. A scene against itself costs nothing beside that.
 TEST(Race, DearerTechniquesAreDearer) {
     const std::vector<Contender> all = {plainContender(), defaultsOf("ShadowMap"), defaultsOf("SoftShadowMap")};
