@@ -73,10 +73,7 @@ TEST(Race, CountsArraysAndElementsToo) {
     for (const float x : {-3.0f, 1.0f}) {
         osg::ref_ptr<osg::Geometry> quad = osg::createTexturedQuadGeometry({x, 0, 0}, {2, 0, 0}, {0, 2, 0});
         quad->setUseDisplayList(false);
-        if (x > 0.0f) {
-            const GLushort corners[] = {0, 1, 2, 0, 2, 3};
-            quad->setPrimitiveSet(0, new osg::DrawElementsUShort(GL_TRIANGLES, 6, corners));
-        }
+        if (x < 0.0f) quad->setPrimitiveSet(0, new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4)); // else it has indices
         scene.content->addChild(quad);
     }
     const RaceResults results = race(scene, {plainContender()}, 2, shaders(), [](int, int) { return true; });
