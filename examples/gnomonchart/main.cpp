@@ -46,7 +46,7 @@ void requireFolder(const std::string& folder) {
 
 std::vector<std::string> sceneNames(const ChartOptions& options) {
     if (!options.scenes.empty()) return options.scenes;
-    if (options.quick) return {"lab8-45", "bunny-45", "mountains-10"};
+    if (options.quick) return {"lab8-45", "bunny-45", "room"};
     return chartSceneNames();
 }
 

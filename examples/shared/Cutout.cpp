@@ -4,6 +4,7 @@
 #include <osg/Node>
 #include <osg/State>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon::examples {
@@ -92,6 +93,7 @@ double Cutout::alphaOf(int column, int row) const {
 
 /// As the texture's own filter for magnification mixes texels.
 double Cutout::alphaAt(const osg::Vec2d& texcoord) const {
+    if (!(std::abs(texcoord.x()) < 1e6 && std::abs(texcoord.y()) < 1e6)) return 1.0; // no place in an image: solid
     const double s = texcoord.x() * _image->s(), t = texcoord.y() * _image->t();
     if (_texture->getFilter(osg::Texture::MAG_FILTER) == osg::Texture::NEAREST)
         return alphaOf(static_cast<int>(std::floor(s)), static_cast<int>(std::floor(t)));

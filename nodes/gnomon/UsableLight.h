@@ -13,7 +13,8 @@ inline std::optional<glm::dvec4> usableLight(const osg::Vec4d& inGroup, const os
     const glm::dvec4 given = toGlm(inGroup);
     const glm::dvec4 light = given.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(given)), 0.0)
                                             : glm::dvec4(glm::dvec3(given) / given.w - toGlm(origin), 1.0);
-    if (!(std::isfinite(given.w) && std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z))) return std::nullopt;
+    if (!(std::isfinite(given.w) && std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z)))
+        return std::nullopt;
     return light;
 }
 

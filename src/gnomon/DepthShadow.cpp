@@ -64,7 +64,8 @@ glm::dvec3 DepthTracer::start(int x, int y) const {
     const double moved = snapsOff * _picture.subpixel + _picture.offPlace;
     const double off = stepsOff * _picture.step + moved * (slope(x, y, 1, 0) + slope(x, y, 0, 1));
     const double seen = depth(x, y);
-    const glm::dvec3 nearer = unproject(x, y, seen - off), farther = unproject(x, y, seen + off);
+    const glm::dvec3 nearer = unproject(x, y, std::max(seen - off, 0.0));
+    const glm::dvec3 farther = unproject(x, y, std::min(seen + off, 1.0)); // beyond 1 it would be behind the eye
     const glm::dvec3 along = farther - nearer;
     const double pixel = glm::length(unproject(x + 1.0, y, seen) - unproject(x, y, seen));
     if (glm::length(along) > coarse * pixel) {

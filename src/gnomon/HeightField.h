@@ -25,7 +25,6 @@ public:
 
     int columns() const { return _columns; }
     int rows() const { return _rows; }
-    const glm::dvec2& step() const { return _step; }
     /// Cell, or post, below and to the left of a place; may be beside the grid.
     glm::dvec2 cellOf(double x, double y) const { return (glm::dvec2(x, y) - _origin) / _step; }
     bool isHole(int x, int y) const; ///< of a cell.

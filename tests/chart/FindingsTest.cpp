@@ -37,7 +37,8 @@ std::string allOf(const SceneFinding& finding) {
 TEST(Findings, NameTheBestForTheirTime) {
     const SceneFinding finding =
         stillOf({chartPoint("Gnomon", "map", "size 512", 2, 4.2), chartPoint("Gnomon", "map", "size 1024", 3.14159, 2),
-                 chartPoint("Gnomon", "planar", "defaults", 123.4, 0.456)});
+                 chartPoint("Gnomon", "planar", "defaults", 123.4, 0.456),
+                 chartPoint("osgShadow", "ShadowMap", "defaults", 200, 50)});
     EXPECT_FALSE(finding.peerBeatsUs);
     EXPECT_EQ(allOf(finding), "The best for their time, from the fastest to the most accurate: map, size 512 (2 ms, "
                               "4.2 px); map, size 1024 (3.1 ms, 2 px); planar (123 ms, 0.46 px).\n");
@@ -95,7 +96,9 @@ TEST(Findings, WithNothingSoundOfOursAPeerWins) {
     EXPECT_TRUE(says(finding, "A peer is cheaper than every Gnomon technique, none of which gives a sound shadow here: "
                               "osgShadow ShadowMap (3 ms, 2 px)."))
         << allOf(finding);
-    EXPECT_TRUE(says(stillOf({ours}), "No technique gives a sound shadow here."));
+    ChartPoint theirs = chartPoint("osgShadow", "ShadowMap", "", 3, 2);
+    theirs.errors->catastrophes.allLit = true;
+    EXPECT_TRUE(says(stillOf({ours, theirs}), "No technique gives a sound shadow here."));
 }
 
 TEST(Findings, StillAndMovingLightAreJudgedApart) {
@@ -112,8 +115,21 @@ TEST(Findings, StillAndMovingLightAreJudgedApart) {
 
 TEST(Findings, AreNoneOfScenesWithoutPoints) {
     EXPECT_TRUE(findings(resultsOf({})).empty());
-    const auto all = findings(resultsOf({chartPoint("Gnomon", "map", "", 1, 2)}));
+    const auto all =
+        findings(resultsOf({chartPoint("Gnomon", "map", "", 1, 2), chartPoint("osgShadow", "ShadowMap", "", 3, 4)}));
     EXPECT_EQ(findingsSummary(all).substr(0, 50), "In none of 2 cases (each scene with a still and wi");
+}
+
+TEST(Findings, SayNothingOfWhoBeatsWhomWhereOneKitWasNotTimed) {
+    ChartPoint untimed = chartPoint("osgShadow", "ShadowMap", "", 3, 4); // a run that ended before its race
+    untimed.cost.reset();
+    const ChartPoint ours = chartPoint("Gnomon", "map", "", 1, 2);
+    EXPECT_TRUE(says(stillOf({ours, untimed}),
+                     "Only Gnomon's techniques were timed here, so that nothing is said of who beats whom."));
+    EXPECT_TRUE(says(stillOf({untimed}), "Nothing was timed here."));
+    EXPECT_FALSE(stillOf({chartPoint("osgShadow", "ShadowMap", "", 3, 4)}).peerBeatsUs);
+    EXPECT_EQ(findingsSummary(findings(resultsOf({ours, untimed}))),
+              "No scene is judged: that takes a technique of Gnomon and a peer, both timed.");
 }
 
 } // namespace

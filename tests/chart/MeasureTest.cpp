@@ -82,6 +82,16 @@ TEST(Race, CountsArraysAndElementsToo) {
     EXPECT_EQ(results.contenders[0].cost->triangles, 4u);
 }
 
+/// A sun's marks, and what takes the light from them, are two calls at least.
+TEST(Race, CountsWhatTheMarksOfGnomonDrawToo) {
+    std::vector<Contender> all = gnomonContenders();
+    all.insert(all.begin(), plainContender());
+    const RaceResults results = race(test::smallScene(), all, 2, shaders(), [](int, int) { return true; });
+    const unsigned plain = results.contenders[0].cost->draws;
+    for (std::size_t i = 1; i < all.size(); ++i)
+        EXPECT_GT(results.contenders[i].cost->draws, plain + 1) << all[i].technique << ", " << all[i].setting;
+}
+
 /// Twice the work costs more: 64 samples a pixel against one. A scene against itself costs nothing beside that.
 TEST(Race, DearerTechniquesAreDearer) {
     const std::vector<Contender> all = {plainContender(), defaultsOf("ShadowMap"), defaultsOf("SoftShadowMap")};

@@ -28,7 +28,7 @@ def needed(*names):
     for name in names:
         if shutil.which(name):
             return shutil.which(name)
-    raise RuntimeError(f"{names[0]} is missing: scripts/install-packages build installs it.")
+    raise RuntimeError(f"{names[0]} is missing: scripts/install-packages test installs it.")
 
 
 def browser(profile):

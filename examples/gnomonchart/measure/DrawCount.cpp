@@ -52,6 +52,25 @@ void glCallList(GLuint list) {
     real(list);
 }
 
+void glBegin(GLenum mode) {
+    static const auto real = next<void (*)(GLenum)>("glBegin");
+    add(1);
+    real(mode);
+}
+
+void glRecti(GLint left, GLint low, GLint right, GLint top) {
+    static const auto real = next<void (*)(GLint, GLint, GLint, GLint)>("glRecti");
+    add(1);
+    real(left, low, right, top);
+}
+
+void glBitmap(GLsizei width, GLsizei height, GLfloat x, GLfloat y, GLfloat right, GLfloat up, const GLubyte* bits) {
+    static const auto real =
+        next<void (*)(GLsizei, GLsizei, GLfloat, GLfloat, GLfloat, GLfloat, const GLubyte*)>("glBitmap");
+    add(width > 0 && height > 0 ? 1 : 0); // an empty one moves the raster position
+    real(width, height, x, y, right, up, bits);
+}
+
 void glDrawArrays(GLenum mode, GLint first, GLsizei count) {
     static const auto real = next<void (*)(GLenum, GLint, GLsizei)>("glDrawArrays");
     add(1);

@@ -27,8 +27,9 @@ struct Knob {
     void (*turn)(PeerParts& parts, const std::string& value);
 };
 
-/// One of osgShadow's techniques: how to make it, and its knobs, those that matter most first. Settings that only number
-/// texture units or draw debugging aids are left out. ViewDependentShadowMap keeps its default shader hint: its own
+/// One of osgShadow's techniques: how to make it, and its knobs, those that matter most first. Left out are
+/// settings that only number texture units or draw debugging aids, and limits of distance for scenes larger than what is
+/// to be shadowed (setMaxFarDistance, setMaxFarPlane, setMaximumShadowMapDistance and their like). ViewDependentShadowMap keeps its default shader hint: its own
 /// shader does not compile on Mesa.
 struct Peer {
     std::string name;

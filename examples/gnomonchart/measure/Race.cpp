@@ -12,6 +12,9 @@
 #include <fstream>
 #include <malloc.h>
 #include <memory>
+#include <numeric>
+#include <random>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace gnomon::examples {
@@ -123,6 +126,7 @@ public:
     RaceResults results() const {
         RaceResults results;
         const Runner& plain = _runners[0];
+        if (!plain.failure.empty()) throw std::runtime_error("the plain scene cannot be drawn: " + plain.failure);
         results.frame = quartiles(plain.steady.wall).median;
         for (std::size_t i = 1; i < _runners.size(); ++i) results.contenders.push_back(resultOf(_runners[i], plain));
         return results;
@@ -148,11 +152,13 @@ private:
         });
     }
 
-    /// Another one begins each round: nobody always runs after the same.
+    /// In another order each round, the same in every run: nobody always runs after the same.
     template <typename Step>
     void each(int round, const Step& step) {
-        const std::size_t count = _runners.size(), start = static_cast<std::size_t>(round) * 7 % count;
-        for (std::size_t i = 0; i < count; ++i) guarded(_runners[(start + i) % count], step);
+        std::vector<std::size_t> order(_runners.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::shuffle(order.begin(), order.end(), std::mt19937(static_cast<unsigned>(round)));
+        for (const std::size_t i : order) guarded(_runners[i], step);
     }
 
     static AddedTime added(const std::vector<double>& with, const std::vector<double>& without) {

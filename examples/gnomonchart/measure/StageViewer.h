@@ -25,7 +25,6 @@ public:
     /// The same, timed.
     FrameTime time();
     osg::ref_ptr<osg::Image> image() const { return _context.image(); }
-    std::string renderer() const { return _context.renderer(); }
     osgViewer::Viewer& viewer() { return _viewer; }
 
 private:

@@ -46,6 +46,12 @@ double misclassifiedFloor(const metrics::TruthMaps& maps, const metrics::Mask& f
     return all ? static_cast<double>(wrong) / static_cast<double>(all) : 0.0;
 }
 
+/// Degrees; 0 of an orthographic camera.
+double fovyOf(const osg::Matrixd& projection) {
+    double fovy = 0.0, aspect, near, far;
+    return projection.getPerspective(fovy, aspect, near, far) ? fovy : 0.0;
+}
+
 std::string numbers(const std::initializer_list<double>& values) {
     std::ostringstream out;
     out.precision(10);
@@ -84,6 +90,7 @@ void Yardstick::describe(ChartSceneResult& into) const {
     into.view = {{"--light", numbers({light.x(), light.y(), light.z(), light.w()})},
                  {"--eye", numbers({eye.x(), eye.y(), eye.z()})},
                  {"--center", numbers({center.x(), center.y(), center.z()})},
+                 {"--fovy", numbers({fovyOf(_scene.camera.projection)})},
                  {"--size", std::to_string(_scene.camera.width) + "x" + std::to_string(_scene.camera.height)}};
 }
 

@@ -118,9 +118,28 @@ std::string catastropheSentence(const std::vector<Curve>& curves) {
     return names.empty() ? "" : "Failed or catastrophic: " + listed(names) + ".";
 }
 
+/// Whether a kit's techniques were timed in a scene, or could not be; not in a run that ended before.
+bool tried(const ChartResults& results, const std::string& scene, bool ours) {
+    return std::any_of(results.points.begin(), results.points.end(), [&](const ChartPoint& point) {
+        return point.scene == scene && point.ours() == ours && (point.cost || !point.failure.empty());
+    });
+}
+
+std::string notJudgedSentence(bool ours, bool peers) {
+    if (!ours && !peers) return "Nothing was timed here.";
+    return std::string("Only ") + (ours ? "Gnomon's techniques" : "peers") +
+           " were timed here, so that nothing is said of who beats whom.";
+}
+
 SceneFinding findingOf(const ChartResults& results, const ChartSceneResult& scene, LightMotion light) {
     const std::vector<Curve> curves = sceneCurves(results, scene.name, light);
-    SceneFinding finding{scene.name, scene.title, light, false, {}};
+    const bool ours = tried(results, scene.name, true), peers = tried(results, scene.name, false);
+    SceneFinding finding{scene.name, scene.title, light, ours && peers, false, {}};
+    if (!finding.judged) {
+        finding.sentences = {notJudgedSentence(ours, peers)};
+        if (ours || peers) finding.sentences.push_back(bestSentence(curves));
+        return finding;
+    }
     const std::vector<std::string> beaten = beatenSentences(curves);
     finding.peerBeatsUs = !beaten.empty();
     finding.sentences = {bestSentence(curves)};
@@ -149,8 +168,9 @@ std::string findingsSummary(const std::vector<SceneFinding>& findings) {
         if (finding.peerBeatsUs)
             beaten.push_back(finding.scene +
                              (finding.light == LightMotion::Still ? ", still light" : ", moving light"));
-    const std::string cases =
-        std::to_string(findings.size()) + " cases (each scene with a still and with a moving light)";
+    const auto judged = std::count_if(findings.begin(), findings.end(), [](const auto& each) { return each.judged; });
+    if (judged == 0) return "No scene is judged: that takes a technique of Gnomon and a peer, both timed.";
+    const std::string cases = std::to_string(judged) + " cases (each scene with a still and with a moving light)";
     if (beaten.empty())
         return "In none of " + cases +
                " does a peer beat Gnomon: whatever a peer costs and errs, some technique of "

@@ -11,6 +11,7 @@ namespace gnomon::examples {
 struct SceneFinding {
     std::string scene, title;
     LightMotion light;
+    bool judged = false;                ///< both kits were tried: timed, or failed.
     bool peerBeatsUs = false;           ///< a peer's point for which no sound one of Gnomon costs and errs as little.
     std::vector<std::string> sentences; ///< plain text.
 };
