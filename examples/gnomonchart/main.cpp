@@ -76,7 +76,7 @@ ChartPlan planOf(const ChartOptions& options) {
     plan.folder = options.out;
     plan.frames = options.frameCount();
     if (options.quick) plan.seconds = quickSeconds;
-    plan.flickerFrames = options.quick ? 8 : 32;
+    plan.flickerFrames = options.quick ? 8 : 16;
     plan.sweep = options.quick ? SweepWidth::NARROW : SweepWidth::WIDE;
     plan.disc = !options.quick;
     plan.made = {{"size", std::to_string(options.view.width) + "x" + std::to_string(options.view.height)},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ImageFile.h"
+#include "ImageColours.h"
 #include "InputFile.h"
 
 #include <array>
@@ -17,14 +18,12 @@ bool isOneOf(GLenum value, const std::array<GLenum, N>& allowed) {
     return false;
 }
 
-/// What osg::Image::getColor() understands.
+/// What readColours() understands.
 bool isUnderstood(const osg::Image& image) {
     constexpr std::array<GLenum, 3> types{GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_FLOAT};
     constexpr std::array<GLenum, 6> formats{GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_RGB, GL_RGBA, GL_BGR, GL_BGRA};
     return isOneOf(image.getDataType(), types) && isOneOf(image.getPixelFormat(), formats) && image.r() == 1;
 }
-
-double grey(const osg::Vec4& colour) { return (double(colour.r()) + double(colour.g()) + double(colour.b())) / 3.0; }
 
 } // namespace
 
@@ -49,9 +48,8 @@ metrics::Picture readGrey(const std::string& file, const std::string& program) {
 
 metrics::Picture greysOf(const osg::Image& image) {
     metrics::Picture greys(image.s(), image.t());
-    for (int y = 0; y < greys.height; ++y)
-        for (int x = 0; x < greys.width; ++x)
-            greys.at(x, y) = grey(image.getColor(static_cast<unsigned>(x), static_cast<unsigned>(y)));
+    auto grey = greys.cells.begin();
+    readColours(image, [&](float r, float g, float b) { *grey++ = (double(r) + double(g) + double(b)) / 3.0; });
     return greys;
 }
 

@@ -52,20 +52,22 @@ std::unique_ptr<RayScene> treeOf(const SceneTriangles& triangles, const osg::Vec
 /// What the scene's own state draws where, told by its depth alone.
 class DepthCamera {
 public:
-    DepthCamera(osg::Node& scene, const SceneCamera& camera) : _context(camera.width, camera.height) {
+    DepthCamera(osg::Node& scene, int width, int height) : _width(width), _height(height), _context(width, height) {
         _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
         _context.attach(*_viewer.getCamera());
         _viewer.getCamera()->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
-        _viewer.getCamera()->setProjectionMatrix(camera.projection);
-        _viewer.getCamera()->setViewMatrix(camera.view);
         _viewer.setSceneData(&scene);
     }
-    osg::ref_ptr<osg::Image> depth() {
+    bool fits(const SceneCamera& camera) const { return camera.width == _width && camera.height == _height; }
+    osg::ref_ptr<osg::Image> depth(const SceneCamera& camera) {
+        _viewer.getCamera()->setProjectionMatrix(camera.projection);
+        _viewer.getCamera()->setViewMatrix(camera.view);
         _viewer.frame();
         return _context.depth();
     }
 
 private:
+    const int _width, _height;
     HeadlessContext _context; // before the viewer: it must outlive it
     osgViewer::Viewer _viewer;
 };
@@ -142,7 +144,14 @@ struct SceneTruth::Parts {
                 toGlm(local)};
     }
 
+    osg::ref_ptr<osg::Image> depth(const SceneCamera& camera) {
+        if (depthCamera && !depthCamera->fits(camera)) depthCamera.reset(); // one context at a time
+        if (!depthCamera) depthCamera = std::make_unique<DepthCamera>(*scene, camera.width, camera.height);
+        return depthCamera->depth(camera);
+    }
+
     const osg::ref_ptr<osg::Node> scene;
+    std::unique_ptr<DepthCamera> depthCamera; ///< of the last picture's size.
     const SceneTriangles triangles;
     const osg::Vec3d origin;
     const std::unique_ptr<RayScene> tree;
@@ -155,7 +164,7 @@ metrics::TruthMaps SceneTruth::maps(const SceneCamera& camera, const osg::Vec4d&
     const TruthView view = _parts->view(camera, light);
     const TruthImage truth = shadowTruth(*_parts->tree, *_parts->tree, view);
     metrics::TruthMaps maps = mapsOf(truth, _parts->triangles);
-    maps.drawn = drawnIds(truth, maps.receiver, view, *DepthCamera(*_parts->scene, camera).depth());
+    maps.drawn = drawnIds(truth, maps.receiver, view, *_parts->depth(camera));
     if (light.w() == 0.0) maps.towardsLight = {light.x(), light.y(), light.z()};
     return maps;
 }

@@ -18,7 +18,7 @@ struct ChartPlan {
     std::string folder;                                       ///< for pictures; is there.
     double seconds = 1e9;   ///< no scene is begun that would not be done by then; the first always is.
     int frames = 60;        ///< timed, of each motion.
-    int flickerFrames = 32; ///< of each of the two films.
+    int flickerFrames = 16; ///< of each of the two films.
     SweepWidth sweep = SweepWidth::WIDE;
     bool disc = true;                                      ///< measure against the sun's disc too.
     std::vector<std::pair<std::string, std::string>> made; ///< what is known of the run already.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Pictures.h"
+#include "ImageColours.h"
 
 #include <algorithm>
 #include <cctype>
@@ -16,11 +17,8 @@ unsigned char byteOf(double value) {
 
 ShadedPicture coloursOf(const osg::Image& image) {
     ShadedPicture picture(image.s(), image.t());
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) {
-            const osg::Vec4 c = image.getColor(static_cast<unsigned>(x), static_cast<unsigned>(y));
-            picture.at(x, y) = glm::dvec3(double(c.r()), double(c.g()), double(c.b()));
-        }
+    auto colour = picture.cells.begin();
+    readColours(image, [&](float r, float g, float b) { *colour++ = glm::dvec3(double(r), double(g), double(b)); });
     return picture;
 }
 
