@@ -35,9 +35,8 @@ Corners cornersOf(int quadrant) {
 
 class Method {
 public:
-    Method(const HeightField& field, const HeightPyramid& ground, const BoxCaster& caster, const glm::dvec4& light,
-           const BoxLifts& lifts)
-        : _field(field), _ground(ground), _caster(caster), _light(light), _lifts(lifts) {}
+    Method(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light, const BoxLifts& lifts)
+        : _ground(ground), _caster(caster), _light(light), _lifts(lifts) {}
 
     bool outline(Points& points) const;
     bool between(Points& points) const;
@@ -48,7 +47,7 @@ private:
             {corner.x ? _caster.high.x : _caster.low.x, corner.y ? _caster.high.y : _caster.low.y});
     }
     bool stand(const glm::dvec2& at, double lift, glm::dvec3& point) const {
-        const auto height = _field.height(at.x, at.y);
+        const auto height = _ground.height(at.x, at.y);
         if (height) point = {at.x, at.y, *height + lift};
         return height.has_value();
     }
@@ -59,8 +58,7 @@ private:
         return hit.has_value();
     }
 
-    const HeightField& _field;
-    const HeightPyramid& _ground;
+    const Ground& _ground;
     const BoxCaster& _caster;
     const glm::dvec4 _light;
     const BoxLifts _lifts;
@@ -93,9 +91,9 @@ int boxQuadrant(const glm::dvec2& away) {
     return std::min(static_cast<int>(turned / (twoPi / 4.0)), 3) + 1;
 }
 
-std::optional<Drape> boxShadow(const HeightField& field, const HeightPyramid& ground, const BoxCaster& caster,
-                               const glm::dvec4& light, const BoxLifts& lifts) {
-    const Method method(field, ground, caster, light, lifts);
+std::optional<Drape> boxShadow(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light,
+                               const BoxLifts& lifts) {
+    const Method method(ground, caster, light, lifts);
     Points points;
     if (!method.outline(points) || !method.between(points)) return std::nullopt;
     constexpr std::size_t triangles[12][3] = {{0, 5, 9},   {5, 10, 9}, {10, 4, 9}, {8, 4, 10}, {5, 1, 10}, {10, 1, 11},

@@ -31,7 +31,7 @@ int boxQuadrant(const glm::dvec2& away);
 /// @return 12 triangles, three corners each; nullopt if a ray or a corner meets no ground, as published.
 ///
 /// Source: ARL-TN-156, "Real-Time Shadows for Terrain Objects by the Bounding-Box Method".
-std::optional<Drape> boxShadow(const HeightField& field, const HeightPyramid& ground, const BoxCaster& caster,
-                               const glm::dvec4& light, const BoxLifts& lifts = {});
+std::optional<Drape> boxShadow(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light,
+                               const BoxLifts& lifts = {});
 
 } // namespace gnomon

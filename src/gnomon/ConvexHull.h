@@ -21,7 +21,7 @@ struct ConvexHull {
 /// @param points  any unit; those that are not finite are left out.
 /// @return nullopt if what is left lies on one line, to within 10⁻¹² of its size.
 ///
-/// Cost   about n log n; a box 20 µs.
+/// Cost   about n log n.
 /// Source: C. B. Barber, D. P. Dobkin and H. Huhdanpaa, "The Quickhull Algorithm for Convex Hulls", ACM TOMS 22(4),
 ///         1996, by libqhull.
 std::optional<ConvexHull> convexHull(const std::vector<glm::dvec3>& points);

@@ -7,7 +7,7 @@ namespace gnomon {
 
 double heightError(double error, double tangent, double slope) { return std::max(0.0, error * (tangent - slope)); }
 
-Drape drape(const HeightPyramid& ground, const ConvexShadow& shadow, double error) {
+Drape drape(const Ground& ground, const ConvexShadow& shadow, double error) {
     Drape result;
     ground.cover(shadow.planes, error, [&](const GroundTriangle& triangle) {
         const std::vector<glm::dvec3> polygon = clipped(triangle, shadow);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ConvexShadow.h>
-#include <gnomon/HeightPyramid.h>
+#include <gnomon/Ground.h>
 
 namespace gnomon {
 
@@ -23,6 +23,6 @@ double heightError(double error, double tangent, double slope);
 /// @param error   of the ground's height, see heightError(); 0 is exact.
 ///
 /// Cost  linear in the triangles that the shadow touches, times its planes. Follows slopes, cliffs, holes and borders.
-Drape drape(const HeightPyramid& ground, const ConvexShadow& shadow, double error);
+Drape drape(const Ground& ground, const ConvexShadow& shadow, double error);
 
 } // namespace gnomon

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
+#include <gnomon/Ground.h>
+
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <optional>
-#include <vector>
 
 namespace gnomon {
-
-using GroundTriangle = std::array<glm::dvec3, 3>; ///< counter-clockwise from above.
 
 /// Ground given by its height on a regular grid, z up. Each cell is two triangles, cut from its lower left to its upper
 /// right corner; a cell with a height that is not finite at a corner is a hole.

@@ -55,10 +55,10 @@ std::pair<double, double> inside(const glm::dvec3& low, const glm::dvec3& high, 
 
 } // namespace
 
-HeightPyramid::HeightPyramid(const HeightField& field) : _field(field) {
+HeightPyramid::HeightPyramid(HeightField field) : _field(std::move(field)) {
     Level cells;
-    cells.columns = field.columns() - 1;
-    cells.rows = field.rows() - 1;
+    cells.columns = _field.columns() - 1;
+    cells.rows = _field.rows() - 1;
     cells.nodes.resize(std::size_t(cells.columns) * std::size_t(cells.rows));
     tbb::parallel_for(0, cells.rows, [&](int y) {
         for (int x = 0; x < cells.columns; ++x)

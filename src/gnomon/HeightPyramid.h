@@ -2,32 +2,24 @@
 #pragma once
 #include <gnomon/HeightField.h>
 
-#include <functional>
-#include <glm/vec4.hpp>
-
 namespace gnomon {
 
-/// What is known of blocks of 1, 2 × 2, 4 × 4 … cells of a height field: lowest and highest point, steepest slope, and how
-/// far the block's two triangles are from the ground that they stand for.
+/// Ground on a regular grid, and what is known of blocks of 1, 2 × 2, 4 × 4 … of its cells: lowest and highest point,
+/// steepest slope, and how far the block's two triangles are from the ground that they stand for.
 ///
-/// Cost    16 bytes a cell and a third more; building some 10 ns a post and level.
-/// Threads any number, once built.
+/// Cost    16 bytes a cell and a third more, beside the field's.
 /// Source: M. Duchaineau et al., "ROAMing Terrain: Real-time Optimally Adapting Meshes", IEEE Visualization 1997, for
 ///         errors nested over a hierarchy.
-class HeightPyramid {
+class HeightPyramid : public Ground {
 public:
-    /// @param field  kept by reference; must outlive the pyramid.
-    explicit HeightPyramid(const HeightField& field);
+    explicit HeightPyramid(HeightField field);
+    const HeightField& field() const { return _field; }
 
-    /// Triangles that stand for the ground to within `error` of its height, each point of it once in plan, wherever a
-    /// point of them may be on the inner side of all `planes` (unit normals); others may be left out.
-    /// @param error  scene's unit; 0 gives the ground's own triangles.
+    std::optional<double> height(double x, double y) const override { return _field.height(x, y); }
+    std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const override;
     void cover(const std::vector<glm::dvec4>& planes, double error,
-               const std::function<void(const GroundTriangle&)>& take) const;
-    /// Where a ray meets the ground first, from either side. @param along  any length but 0; the ray has no end.
-    std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const;
-    /// Tangent of the steepest slope where the ground may be on the inner side of all planes; 0 if it is nowhere.
-    double steepest(const std::vector<glm::dvec4>& planes) const;
+               const std::function<void(const GroundTriangle&)>& take) const override;
+    double steepest(const std::vector<glm::dvec4>& planes) const override;
 
 private:
     struct Node {
@@ -58,7 +50,7 @@ private:
     /// The block's box: its lowest corner and its size.
     std::pair<glm::dvec3, glm::dvec3> boxOf(const Block& block) const;
 
-    const HeightField& _field;
+    const HeightField _field;
     std::vector<Level> _levels; ///< cells first.
 };
 

@@ -12,9 +12,8 @@ double doubleArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 }
 
 /// Where a point's shadow falls; the ground over it, if it is not above the ground.
-std::optional<glm::dvec3> shadowOf(const glm::dvec3& point, const HeightField& field, const HeightPyramid& ground,
-                                   const glm::dvec4& light) {
-    const auto height = field.height(point.x, point.y);
+std::optional<glm::dvec3> shadowOf(const glm::dvec3& point, const Ground& ground, const glm::dvec4& light) {
+    const auto height = ground.height(point.x, point.y);
     if (height && point.z <= *height) return glm::dvec3(point.x, point.y, *height);
     return ground.hit(point, light.w * point - glm::dvec3(light));
 }
@@ -38,11 +37,10 @@ Drape fanOf(const std::vector<glm::dvec3>& rim) {
 
 } // namespace
 
-std::optional<Drape> hullFan(const HeightField& field, const HeightPyramid& ground, const ConvexShadow& shadow,
-                             const glm::dvec4& light) {
+std::optional<Drape> hullFan(const Ground& ground, const ConvexShadow& shadow, const glm::dvec4& light) {
     std::vector<glm::dvec3> rim;
     for (const glm::dvec3& corner : shadow.silhouette) {
-        const auto place = shadowOf(corner, field, ground, light);
+        const auto place = shadowOf(corner, ground, light);
         if (!place) return std::nullopt;
         rim.push_back(*place);
     }

@@ -12,7 +12,6 @@ namespace gnomon {
 ///
 /// Cost   a ray a corner above the ground.
 /// Limits straight from corner to corner: off where the ground is rough in between.
-std::optional<Drape> hullFan(const HeightField& field, const HeightPyramid& ground, const ConvexShadow& shadow,
-                             const glm::dvec4& light);
+std::optional<Drape> hullFan(const Ground& ground, const ConvexShadow& shadow, const glm::dvec4& light);
 
 } // namespace gnomon

@@ -11,7 +11,7 @@
 
 using gnomon::BoxCaster;
 using gnomon::Drape;
-using gnomon::HeightField;
+using gnomon::Ground;
 using gnomon::HeightPyramid;
 using test::degree;
 using test::House;
@@ -19,7 +19,9 @@ using test::sunAt;
 
 namespace {
 
-HeightField levelGround() { return HeightField(41, 41, {0.0, 0.0}, {10.0, 10.0}, std::vector<float>(41 * 41, 3.0f)); }
+HeightPyramid levelGround() {
+    return HeightPyramid({41, 41, {0.0, 0.0}, {10.0, 10.0}, std::vector<float>(41 * 41, 3.0f)});
+}
 
 BoxCaster boxOf(const House& house, double base) {
     const std::vector<glm::dvec3> corners = house.corners();
@@ -38,8 +40,8 @@ BoxCaster boxOf(const House& house, double base) {
     return caster;
 }
 
-std::optional<Drape> shadowOf(const HeightField& ground, const House& house, const glm::dvec4& light) {
-    return gnomon::boxShadow(ground, HeightPyramid(ground), boxOf(house, 3.0), light);
+std::optional<Drape> shadowOf(const Ground& ground, const House& house, const glm::dvec4& light) {
+    return gnomon::boxShadow(ground, boxOf(house, 3.0), light);
 }
 
 double area(const Drape& triangles) {
@@ -67,7 +69,7 @@ TEST(BoxShadow, QuadrantsAreThoseOfTheTableAndEveryAzimuthHasOne) {
 /// Of an axis-aligned box the pentagon is the shadow without the half of the footprint that is towards the light; a
 /// midpoint that did not wrap, or a vertex of the printed table, would change its area.
 TEST(BoxShadow, OfAnAxisAlignedHouseHasTheAreaWorkedByHandInEachQuadrant) {
-    const HeightField ground = levelGround();
+    const HeightPyramid ground = levelGround();
     const House house{{200.0, 200.0}, {8.0, 5.0}, 0.0, 23.0};
     for (const int azimuth : {30, 120, 210, 300}) {
         const auto mesh = shadowOf(ground, house, glm::dvec4(sunAt(azimuth, 30.0), 0.0));
@@ -96,7 +98,7 @@ TEST(BoxShadow, LiftsItsPointsAsPublished) {
 }
 
 TEST(BoxShadow, SaysSoWhereARayOrACornerMeetsNoGround) {
-    const HeightField ground = levelGround();
+    const HeightPyramid ground = levelGround();
     EXPECT_FALSE(shadowOf(ground, {{20.0, 200.0}, {8.0, 5.0}, 0.0, 23.0}, glm::dvec4(sunAt(90.0, 20.0), 0.0)));
     EXPECT_FALSE(shadowOf(ground, {{2.0, 200.0}, {8.0, 5.0}, 0.0, 23.0}, glm::dvec4(sunAt(270.0, 20.0), 0.0)));
     EXPECT_FALSE(shadowOf(ground, {{200.0, 200.0}, {8.0, 5.0}, 0.0, 23.0}, {0.0, 0.0, -1.0, 0.0})) << "from below";
@@ -115,7 +117,7 @@ TEST(BoxShadow, OfALampReachesAsFarAsItsRays) {
 
 /// What the method cannot do shows in the worst twentieth: houses that are turned.
 TEST(BoxShadow, OfTurnedHousesIsOffByAsMuchAsTheMethodIs) {
-    const HeightField ground = levelGround();
+    const HeightPyramid ground = levelGround();
     std::vector<double> shares;
     double both = 0.0, either = 0.0;
     std::mt19937 random(4);

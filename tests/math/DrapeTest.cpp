@@ -7,27 +7,22 @@
 #include <limits>
 
 using gnomon::Drape;
+using gnomon::Ground;
 using gnomon::HeightField;
 using gnomon::HeightPyramid;
+using test::groundOf;
 using test::House;
 using test::houses;
 using test::over;
+using test::pitch;
 using test::sunAt;
 
 namespace {
 
 constexpr int posts = 130; // no power of two
-constexpr double pitch = 10.0;
 
 double hills(double x, double y) {
     return 25.0 * std::sin(x * 0.011) * std::cos(y * 0.013) + 4.0 * std::sin(x * 0.05 + y * 0.03);
-}
-
-HeightField field(double (*height)(double, double), double base = 0.0) {
-    std::vector<float> heights;
-    for (int j = 0; j < posts; ++j)
-        for (int i = 0; i < posts; ++i) heights.push_back(static_cast<float>(height(i * pitch, j * pitch)));
-    return HeightField(posts, posts, {0.0, 0.0}, {pitch, pitch}, heights, base);
 }
 
 /// A step of 20 m along x = 600, half a pitch wide.
@@ -41,12 +36,11 @@ struct Tally {
 };
 
 /// @param error  in plan: a wrong place must have the other answer within it, along the azimuth.
-Tally tally(const HeightField& ground, const HeightPyramid& pyramid, const House& house, const glm::dvec3& sun,
-            double error) {
+Tally tally(const Ground& ground, const House& house, const glm::dvec3& sun, double error) {
     const auto shadow = gnomon::convexShadow(*gnomon::convexHull(house.corners()), glm::dvec4(sun, 0.0));
     const double tangent = sun.z / std::hypot(sun.x, sun.y);
     const Drape drape =
-        gnomon::drape(pyramid, *shadow, gnomon::heightError(error, tangent, pyramid.steepest(shadow->planes)));
+        gnomon::drape(ground, *shadow, gnomon::heightError(error, tangent, ground.steepest(shadow->planes)));
     const glm::dvec2 azimuth = glm::normalize(glm::dvec2(sun));
     const auto dark = [&](const glm::dvec2& p) {
         const auto height = ground.height(p.x, p.y);
@@ -89,14 +83,13 @@ TEST(HeightField, IsWhatItsPostsSayAndNothingBesideThemOrInHoles) {
 }
 
 TEST(HeightPyramid, FindsTheFirstPlaceThatARayMeets) {
-    const HeightField ground = field(hills);
-    const HeightPyramid pyramid(ground);
+    const HeightPyramid ground = groundOf(hills, posts);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> place(50.0, 1200.0), slope(-0.5, 0.5);
     int hits = 0;
     for (int i = 0; i < 300; ++i) {
         const glm::dvec3 start(place(random), place(random), 60.0), along(slope(random), slope(random), -0.12);
-        const auto hit = pyramid.hit(start, along);
+        const auto hit = ground.hit(start, along);
         // By small steps: the first one below ground.
         double at = 0.0;
         const auto above = [&](double t) {
@@ -112,18 +105,17 @@ TEST(HeightPyramid, FindsTheFirstPlaceThatARayMeets) {
         EXPECT_NEAR(hit->z, *ground.height(hit->x, hit->y), 1e-9);
     }
     EXPECT_GT(hits, 100);
-    EXPECT_FALSE(pyramid.hit({600.0, 600.0, 60.0}, {0.0, 0.0, 1.0}));
-    EXPECT_NEAR(pyramid.hit({601.0, 602.0, 99.0}, {0.0, 0.0, -2.0})->z, *ground.height(601.0, 602.0), 1e-9);
+    EXPECT_FALSE(ground.hit({600.0, 600.0, 60.0}, {0.0, 0.0, 1.0}));
+    EXPECT_NEAR(ground.hit({601.0, 602.0, 99.0}, {0.0, 0.0, -2.0})->z, *ground.height(601.0, 602.0), 1e-9);
 }
 
 TEST(Drape, IsExactOnHillsCliffsAndLevelGround) {
     for (const auto& height : {hills, cliff, level}) {
-        const HeightField ground = field(height);
-        const HeightPyramid pyramid(ground);
+        const HeightPyramid ground = groundOf(height, posts);
         int shadowed = 0;
         for (const House& house : houses(40, ground))
             for (const double elevation : {60.0, 30.0, 10.0}) {
-                const Tally result = tally(ground, pyramid, house, sunAt(37.0 * house.roof, elevation), 0.0);
+                const Tally result = tally(ground, house, sunAt(37.0 * house.roof, elevation), 0.0);
                 EXPECT_EQ(result.wrong, 0) << elevation;
                 EXPECT_EQ(result.twice, 0) << elevation;
                 shadowed += result.shadowed;
@@ -133,21 +125,20 @@ TEST(Drape, IsExactOnHillsCliffsAndLevelGround) {
 }
 
 TEST(Drape, WithAnErrorInPlanNeverErrsByMoreAndTakesFewerTriangles) {
-    const HeightField ground = field(hills);
-    const HeightPyramid pyramid(ground);
+    const HeightPyramid ground = groundOf(hills, posts);
     std::size_t coarse = 0, fine = 0, exact = 0;
     int wrong = 0;
     for (const House& house : houses(60, ground))
         for (const double elevation : {60.0, 30.0}) {
             const glm::dvec3 sun = sunAt(37.0 * house.roof, elevation);
             for (const double error : {2.0, 0.1}) {
-                const Tally result = tally(ground, pyramid, house, sun, error);
+                const Tally result = tally(ground, house, sun, error);
                 EXPECT_EQ(result.beyond, 0) << error << ", " << elevation;
                 EXPECT_EQ(result.twice, 0);
                 (error > 1.0 ? coarse : fine) += result.triangles;
                 wrong += error > 1.0 ? result.wrong : 0;
             }
-            exact += tally(ground, pyramid, house, sun, 0.0).triangles;
+            exact += tally(ground, house, sun, 0.0).triangles;
         }
     EXPECT_GT(wrong, 0) << "else the bound is not tried";
     EXPECT_LT(double(coarse), 0.8 * double(exact));
@@ -155,21 +146,19 @@ TEST(Drape, WithAnErrorInPlanNeverErrsByMoreAndTakesFewerTriangles) {
 }
 
 TEST(Drape, OnLevelGroundIsAHandfulOfTrianglesHoweverFineTheGrid) {
-    const HeightField ground = field(level);
-    const HeightPyramid pyramid(ground);
+    const HeightPyramid ground = groundOf(level, posts);
     const House house{{640.0, 640.0}, {10.0, 6.0}, 0.3, 23.0};
-    EXPECT_LE(tally(ground, pyramid, house, sunAt(250.0, 30.0), 0.0).triangles, 40u);
+    EXPECT_LE(tally(ground, house, sunAt(250.0, 30.0), 0.0).triangles, 40u);
 }
 
 TEST(Drape, EndsAtHolesAndBorders) {
     std::vector<float> heights(posts * posts, 0.0f);
     for (int j = 60; j < 70; ++j) heights[std::size_t(j * posts + 64)] = std::numeric_limits<float>::quiet_NaN();
-    const HeightField ground(posts, posts, {0.0, 0.0}, {pitch, pitch}, heights);
-    const HeightPyramid pyramid(ground);
+    const HeightPyramid ground({posts, posts, {0.0, 0.0}, {pitch, pitch}, heights});
     const std::pair<House, double> cases[] = {{{{600.0, 650.0}, {6.0, 5.0}, 0.4, 20.0}, 265.0}, // east, into the hole
                                               {{{8.0, 600.0}, {6.0, 5.0}, 0.4, 20.0}, 85.0}};   // west, over the border
     for (const auto& [house, azimuth] : cases) {
-        const Tally result = tally(ground, pyramid, house, sunAt(azimuth, 20.0), 0.0);
+        const Tally result = tally(ground, house, sunAt(azimuth, 20.0), 0.0);
         EXPECT_EQ(result.wrong, 0);
         EXPECT_GT(result.shadowed, 5);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Drape.h>
+#include <gnomon/HeightPyramid.h>
 
 #include <glm/geometric.hpp>
 
@@ -42,7 +43,17 @@ struct House {
     }
 };
 
-inline std::vector<House> houses(int count, const gnomon::HeightField& ground) {
+constexpr double pitch = 10.0;
+
+/// Ground over a square of posts × posts, by its height.
+inline gnomon::HeightPyramid groundOf(double (*height)(double, double), int posts, double base = 0.0) {
+    std::vector<float> heights;
+    for (int j = 0; j < posts; ++j)
+        for (int i = 0; i < posts; ++i) heights.push_back(static_cast<float>(height(i * pitch, j * pitch)));
+    return gnomon::HeightPyramid({posts, posts, {0.0, 0.0}, {pitch, pitch}, heights, base});
+}
+
+inline std::vector<House> houses(int count, const gnomon::Ground& ground) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit;
     std::vector<House> result;

@@ -9,16 +9,16 @@
 #include <limits>
 
 using gnomon::Drape;
-using gnomon::HeightField;
+using gnomon::Ground;
 using gnomon::HeightPyramid;
 using test::degree;
+using test::groundOf;
 using test::House;
 using test::sunAt;
 
 namespace {
 
 constexpr int posts = 160;
-constexpr double pitch = 10.0;
 
 /// Slopes of 8.5 degrees, root mean square, as in hills of the Appalachians.
 double hills(double x, double y) {
@@ -28,17 +28,9 @@ double hills(double x, double y) {
 
 double level(double, double) { return 3.0; }
 
-HeightField field(double (*height)(double, double)) {
-    std::vector<float> heights;
-    for (int j = 0; j < posts; ++j)
-        for (int i = 0; i < posts; ++i) heights.push_back(static_cast<float>(height(i * pitch, j * pitch)));
-    return HeightField(posts, posts, {0.0, 0.0}, {pitch, pitch}, heights);
-}
-
-std::optional<Drape> fanOf(const HeightField& ground, const HeightPyramid& pyramid, const House& house,
-                           const glm::dvec3& sun) {
+std::optional<Drape> fanOf(const Ground& ground, const House& house, const glm::dvec3& sun) {
     const auto shadow = gnomon::convexShadow(*gnomon::convexHull(house.corners()), glm::dvec4(sun, 0.0));
-    return gnomon::hullFan(ground, pyramid, *shadow, glm::dvec4(sun, 0.0));
+    return gnomon::hullFan(ground, *shadow, glm::dvec4(sun, 0.0));
 }
 
 /// Intersection and union in plan, in points of a grid of 0.5 m over where the shadow may be.
@@ -47,7 +39,7 @@ struct Overlap {
     double share() const { return either > 0.0 ? both / either : 1.0; }
 };
 
-Overlap overlap(const HeightField& ground, const House& house, const glm::dvec3& sun, const Drape& fan) {
+Overlap overlap(const Ground& ground, const House& house, const glm::dvec3& sun, const Drape& fan) {
     const double reach = 40.0 + 45.0 * std::hypot(sun.x, sun.y) / sun.z;
     Overlap result;
     std::mt19937 random(5);
@@ -65,8 +57,7 @@ Overlap overlap(const HeightField& ground, const House& house, const glm::dvec3&
 }
 
 TEST(HullFan, KeepsToTheTruthOnHillsWithFewerTrianglesThanTheBoxMethod) {
-    const HeightField ground = field(hills);
-    const HeightPyramid pyramid(ground);
+    const HeightPyramid ground = groundOf(hills, posts);
     const struct {
         double elevation, pooled, fifth;
     } wanted[] = {{60.0, 0.995, 0.98}, {30.0, 0.995, 0.98}, {10.0, 0.985, 0.97}};
@@ -76,7 +67,7 @@ TEST(HullFan, KeepsToTheTruthOnHillsWithFewerTrianglesThanTheBoxMethod) {
         std::size_t triangles = 0, most = 0;
         for (const House& house : test::houses(120, ground)) {
             const glm::dvec3 sun = sunAt(41.0 * house.roof, elevation);
-            const auto fan = fanOf(ground, pyramid, house, sun);
+            const auto fan = fanOf(ground, house, sun);
             ASSERT_TRUE(fan);
             const Overlap one = overlap(ground, house, sun, *fan);
             all.both += one.both;
@@ -95,13 +86,12 @@ TEST(HullFan, KeepsToTheTruthOnHillsWithFewerTrianglesThanTheBoxMethod) {
 }
 
 TEST(HullFan, OnLevelGroundIsExactAtEveryAzimuthAndTurn) {
-    const HeightField ground = field(level);
-    const HeightPyramid pyramid(ground);
+    const HeightPyramid ground = groundOf(level, posts);
     double last = 0.0, jump = 0.0;
     for (int azimuth = 0; azimuth <= 360; ++azimuth) {
         const House house{{800.0, 800.0}, {8.0, 5.0}, (azimuth % 90) * degree, 23.0};
         const glm::dvec3 sun = sunAt(azimuth, 30.0);
-        const auto fan = fanOf(ground, pyramid, house, sun);
+        const auto fan = fanOf(ground, house, sun);
         ASSERT_TRUE(fan) << azimuth;
         const double share = overlap(ground, house, sun, *fan).share();
         EXPECT_GT(share, 0.999) << azimuth << ": points on the rim";
@@ -112,11 +102,10 @@ TEST(HullFan, OnLevelGroundIsExactAtEveryAzimuthAndTurn) {
 }
 
 TEST(HullFan, IsTheFootprintUnderASunStraightOverhead) {
-    const HeightField ground = field(level);
-    const HeightPyramid pyramid(ground);
+    const HeightPyramid ground = groundOf(level, posts);
     const House house{{800.0, 800.0}, {8.0, 5.0}, 0.3, 23.0};
     for (const double off : {0.0, 1e-12, 1e-6}) {
-        const auto fan = fanOf(ground, pyramid, house, {off, 0.0, 1.0});
+        const auto fan = fanOf(ground, house, {off, 0.0, 1.0});
         ASSERT_TRUE(fan) << off;
         double area = 0.0;
         for (std::size_t i = 0; i < fan->size(); i += 3)
@@ -127,11 +116,9 @@ TEST(HullFan, IsTheFootprintUnderASunStraightOverhead) {
 }
 
 TEST(HullFan, SaysSoWhereARayMeetsNoGround) {
-    const HeightField ground = field(level);
-    const HeightPyramid pyramid(ground);
-    EXPECT_FALSE(fanOf(ground, pyramid, {{15.0, 800.0}, {8.0, 5.0}, 0.0, 23.0}, sunAt(90.0, 20.0)))
-        << "over the border";
-    EXPECT_TRUE(fanOf(ground, pyramid, {{15.0, 800.0}, {8.0, 5.0}, 0.0, 23.0}, sunAt(270.0, 20.0)));
+    const HeightPyramid ground = groundOf(level, posts);
+    EXPECT_FALSE(fanOf(ground, {{15.0, 800.0}, {8.0, 5.0}, 0.0, 23.0}, sunAt(90.0, 20.0))) << "over the border";
+    EXPECT_TRUE(fanOf(ground, {{15.0, 800.0}, {8.0, 5.0}, 0.0, 23.0}, sunAt(270.0, 20.0)));
 }
 
 } // namespace

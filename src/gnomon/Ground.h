@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+using GroundTriangle = std::array<glm::dvec3, 3>; ///< counter-clockwise from above.
+
+/// What shadows fall on: triangles, z up, of which no two lie over one another in plan. Where there is none is a hole.
+///
+/// Threads any number, once built.
+class Ground {
+public:
+    virtual ~Ground() = default;
+
+    /// nullopt beside the ground and in a hole.
+    virtual std::optional<double> height(double x, double y) const = 0;
+    /// Where a ray meets the ground first, from either side. @param along  any length but 0; the ray has no end.
+    virtual std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const = 0;
+    /// Triangles that stand for the ground to within `error` of its height, each point of it once in plan, wherever a
+    /// point of them may be on the inner side of all `planes` (unit normals); others may be left out.
+    /// @param error  scene's unit; 0 gives the ground's own triangles.
+    virtual void cover(const std::vector<glm::dvec4>& planes, double error,
+                       const std::function<void(const GroundTriangle&)>& take) const = 0;
+    /// Tangent of the steepest slope where the ground may be on the inner side of all planes; 0 if it is nowhere.
+    virtual double steepest(const std::vector<glm::dvec4>& planes) const = 0;
+};
+
+} // namespace gnomon
