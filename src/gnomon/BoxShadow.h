@@ -3,6 +3,7 @@
 #include <gnomon/Drape.h>
 
 #include <functional>
+#include <glm/vec2.hpp>
 
 namespace gnomon {
 
