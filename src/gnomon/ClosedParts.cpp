@@ -95,6 +95,7 @@ ClosedParts closedParts(const glm::vec3* positions, std::size_t vertexCount, con
     }
     for (std::size_t i = 0; i + 2 < indexCount; i += 3) {
         const unsigned part = parts.find(corners[i]);
+        result.part.push_back(part);
         result.closed.push_back(!open[part] && volume[part] > 0.0);
     }
     return result;

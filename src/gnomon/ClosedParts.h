@@ -6,10 +6,12 @@
 
 namespace gnomon {
 
-/// Which triangles bound a solid, and which vertices stand at the same place.
+/// Which triangles are connected, which bound a solid, and which vertices stand at the same place.
 struct ClosedParts {
     /// For each vertex the first vertex of exactly the same position (-0 and 0 are the same).
     std::vector<unsigned> welded;
+    /// For each triangle the number of its connected part, over welded vertices: a vertex of the part.
+    std::vector<unsigned> part;
     /// For each triangle whether its connected part (over welded vertices) is closed and its faces look outwards: every
     /// edge is passed as often in one direction as in the other, and the enclosed volume is positive.
     std::vector<bool> closed;

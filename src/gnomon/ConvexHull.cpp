@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <libqhullcpp/Qhull.h>
+#include <libqhullcpp/QhullError.h>
 #include <libqhullcpp/QhullFacetList.h>
 #include <libqhullcpp/QhullVertexSet.h>
 
@@ -98,7 +99,7 @@ private:
 
 ConvexHull solid(const Cloud& cloud) {
     orgQhull::Qhull qhull;
-    qhull.runQhull("", 3, static_cast<int>(cloud.points.size()), &cloud.points.front().x, "Qt");
+    qhull.runQhull("", 3, static_cast<int>(cloud.points.size()), &cloud.points.front().x, "Qt Pp"); // Pp: no warnings
     Builder builder(cloud);
     for (const orgQhull::QhullFacet& facet : qhull.facetList()) {
         std::vector<unsigned> corners;
@@ -120,7 +121,7 @@ ConvexHull plate(const Cloud& cloud, const Frame& frame) {
     for (const glm::dvec3& p : cloud.points)
         flat.insert(flat.end(), {glm::dot(p, frame.along), glm::dot(p, frame.across)});
     orgQhull::Qhull qhull;
-    qhull.runQhull("", 2, static_cast<int>(cloud.points.size()), flat.data(), "");
+    qhull.runQhull("", 2, static_cast<int>(cloud.points.size()), flat.data(), "Pp");
     std::vector<int> outline;
     double x = 0.0, y = 0.0;
     for (const orgQhull::QhullVertex& vertex : qhull.vertexList()) {
@@ -148,7 +149,11 @@ std::optional<ConvexHull> convexHull(const std::vector<glm::dvec3>& points) {
     if (!(cloud.size > 0.0)) return std::nullopt;
     const Frame frame = frameOf(cloud);
     if (!(frame.width > flatness * cloud.size)) return std::nullopt;
-    return frame.thickness > flatness * cloud.size ? solid(cloud) : plate(cloud, frame);
+    try {
+        return frame.thickness > flatness * cloud.size ? solid(cloud) : plate(cloud, frame);
+    } catch (const orgQhull::QhullError&) {
+        return std::nullopt; // a needle, too thin for its precision
+    }
 }
 
 } // namespace gnomon

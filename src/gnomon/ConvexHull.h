@@ -19,7 +19,7 @@ struct ConvexHull {
 };
 
 /// @param points  any unit; those that are not finite are left out.
-/// @return nullopt if what is left lies on one line, to within 10⁻¹² of its size.
+/// @return nullopt if what is left lies on one line, to within 10⁻¹² of its size (a needle of some 10⁻¹⁰ may be one, too).
 ///
 /// Cost   about n log n.
 /// Source: C. B. Barber, D. P. Dobkin and H. Huhdanpaa, "The Quickhull Algorithm for Convex Hulls", ACM TOMS 22(4),

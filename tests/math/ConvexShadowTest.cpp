@@ -135,6 +135,15 @@ Tally tally(const ConvexHull& hull, const glm::dvec4& light, int seed) {
     return result;
 }
 
+TEST(ConvexHull, OfANeedleIsThereOrNotAndNeverAnError) {
+    for (int seed = 0; seed < 40; ++seed)
+        for (double thin = 1e-14; thin < 1.0; thin *= 3.0) {
+            Points points = cloud(seed, 20);
+            for (glm::dvec3& p : points) p = {p.x + thin * p.y, 0.3 * p.x - thin * p.z, 0.7 * p.x + thin * p.y};
+            EXPECT_NO_THROW(convexHull(points)) << seed << ", " << thin;
+        }
+}
+
 TEST(ConvexShadow, HoldsExactlyThePointsWhoseWayToTheLightIsBlocked) {
     for (int seed = 0; seed < 20; ++seed)
         for (const double w : {0.0, 1.0}) {
