@@ -2,7 +2,6 @@
 #include <gnomon/HeightPyramid.h>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -17,41 +16,6 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 /// Floats that are not inside of the doubles they stand for.
 float below(double value) { return std::nextafter(static_cast<float>(value), -infinite); }
 float above(double value) { return std::nextafter(static_cast<float>(value), infinite); }
-
-double slopeOf(const GroundTriangle& t) {
-    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-    return std::hypot(normal.x, normal.y) / normal.z;
-}
-
-/// Where a ray meets a triangle, in lengths of the ray, nullopt if it does not. On its edges, too.
-std::optional<double> meet(const GroundTriangle& t, const glm::dvec3& start, const glm::dvec3& along) {
-    const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-    const double speed = glm::dot(normal, along);
-    const double at = glm::dot(normal, t[0] - start) / speed;
-    if (!(at >= 0.0)) return std::nullopt; // NaN too: the ray lies in the plane
-    const glm::dvec3 place = start + at * along;
-    for (int i = 0; i < 3; ++i) {
-        const glm::dvec3 edge = t[(i + 1) % 3] - t[i], way = place - t[i];
-        if (edge.x * way.y - edge.y * way.x < 0.0) return std::nullopt;
-    }
-    return at;
-}
-
-/// Where a ray is inside a box: from, to, in lengths of the ray; from > to if nowhere.
-std::pair<double, double> inside(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& start,
-                                 const glm::dvec3& along) {
-    double from = 0.0, to = std::numeric_limits<double>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-        if (along[axis] == 0.0) {
-            if (start[axis] < low[axis] || start[axis] > high[axis]) return {1.0, 0.0};
-            continue;
-        }
-        const double a = (low[axis] - start[axis]) / along[axis], b = (high[axis] - start[axis]) / along[axis];
-        from = std::max(from, std::min(a, b));
-        to = std::min(to, std::max(a, b));
-    }
-    return {from, to};
-}
 
 } // namespace
 
@@ -134,7 +98,7 @@ float HeightPyramid::off(const Block& block) const {
     return most > 0.0 ? above(most) : 0.0f; // what is level stays exact
 }
 
-std::pair<glm::dvec3, glm::dvec3> HeightPyramid::boxOf(const Block& block) const {
+GroundBox HeightPyramid::boxOf(const Block& block) const {
     const Node& it = node(block);
     const int right = std::min(block.column() + block.side(), _field.columns() - 1);
     const int top = std::min(block.row() + block.side(), _field.rows() - 1);
@@ -156,21 +120,10 @@ void HeightPyramid::descend(const std::function<bool(const Block&)>& enter) cons
     descend({static_cast<int>(_levels.size()) - 1, 0, 0}, enter);
 }
 
-/// Whether no plane has all of the box on its outer side.
-bool HeightPyramid::mayHold(const Block& block, const std::vector<glm::dvec4>& planes) const {
-    const auto [low, high] = boxOf(block);
-    for (const glm::dvec4& plane : planes) {
-        const glm::dvec3 normal(plane),
-            corner(normal.x > 0.0 ? high.x : low.x, normal.y > 0.0 ? high.y : low.y, normal.z > 0.0 ? high.z : low.z);
-        if (glm::dot(normal, corner) + plane.w < 0.0) return false;
-    }
-    return true;
-}
-
 void HeightPyramid::cover(const std::vector<glm::dvec4>& planes, double error,
                           const std::function<void(const GroundTriangle&)>& take) const {
     descend([&](const Block& block) {
-        if (!mayHold(block, planes)) return false;
+        if (!mayHold(boxOf(block), planes)) return false;
         if (block.level > 0 && !(double(node(block).off) <= error)) return true;
         for (const GroundTriangle& triangle : _field.triangles(block.column(), block.row(), block.side()))
             take(triangle);
@@ -181,9 +134,8 @@ void HeightPyramid::cover(const std::vector<glm::dvec4>& planes, double error,
 std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm::dvec3& along) const {
     double nearest = std::numeric_limits<double>::infinity();
     descend([&](const Block& block) {
-        const auto [low, high] = boxOf(block);
-        const auto [from, to] = inside(low, high, start, along);
-        if (from > to || from >= nearest) return false;
+        const RaySpan span = spanInside(boxOf(block), start, along);
+        if (span.from > span.to || span.from >= nearest) return false;
         if (block.level > 0) return true;
         for (const GroundTriangle& triangle : _field.triangles(block.x, block.y))
             nearest = std::min(nearest, meet(triangle, start, along).value_or(nearest));
@@ -196,7 +148,7 @@ std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm:
 double HeightPyramid::steepest(const std::vector<glm::dvec4>& planes) const {
     double most = 0.0;
     descend([&](const Block& block) {
-        if (double(node(block).slope) <= most || !mayHold(block, planes)) return false;
+        if (double(node(block).slope) <= most || !mayHold(boxOf(block), planes)) return false;
         if (block.level == 0) most = double(node(block).slope);
         return true;
     });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/GroundQuery.h>
 #include <gnomon/HeightField.h>
 
 namespace gnomon {
@@ -46,9 +47,7 @@ private:
     /// Goes down from the top wherever `enter` says so.
     void descend(const Block& from, const std::function<bool(const Block&)>& enter) const;
     void descend(const std::function<bool(const Block&)>& enter) const;
-    bool mayHold(const Block& block, const std::vector<glm::dvec4>& planes) const;
-    /// The block's box: its lowest corner and its size.
-    std::pair<glm::dvec3, glm::dvec3> boxOf(const Block& block) const;
+    GroundBox boxOf(const Block& block) const;
 
     const HeightField _field;
     std::vector<Level> _levels; ///< cells first.

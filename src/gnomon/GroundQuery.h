@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Ground.h>
+
+namespace gnomon {
+
+/// Along the axes.
+struct GroundBox {
+    glm::dvec3 low{0.0}, high{0.0};
+};
+
+/// A stretch of a ray, in its lengths; from > to where there is none.
+struct RaySpan {
+    double from, to;
+};
+
+/// Where a ray is inside a box.
+RaySpan spanInside(const GroundBox& box, const glm::dvec3& start, const glm::dvec3& along);
+
+/// Where a ray meets a triangle, from either side, in lengths of the ray; nullopt if it does not. On its edges, too: no
+/// ray slips between triangles that share an edge or a corner.
+std::optional<double> meet(const GroundTriangle& triangle, const glm::dvec3& start, const glm::dvec3& along);
+
+/// Tangent of a triangle's slope; infinite if it is vertical.
+double slopeOf(const GroundTriangle& triangle);
+
+/// Whether no plane has all of it on its outer side.
+bool mayHold(const GroundBox& box, const std::vector<glm::dvec4>& planes);
+bool mayHold(const GroundTriangle& triangle, const std::vector<glm::dvec4>& planes);
+
+} // namespace gnomon

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Plane.h>
+#include <gnomon/TriangleGround.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace gnomon {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Height of a triangle's plane over a place inside of it or on its edge.
+std::optional<double> heightOver(const GroundTriangle& t, const glm::dvec2& place) {
+    const glm::dvec2 a = glm::dvec2(t[0]) - place, b = glm::dvec2(t[1]) - place, c = glm::dvec2(t[2]) - place;
+    const double ofA = cross(b, c), ofB = cross(c, a), ofC = cross(a, b), all = ofA + ofB + ofC;
+    if (!(ofA >= 0.0 && ofB >= 0.0 && ofC >= 0.0 && all > 0.0)) return std::nullopt;
+    return t[0].z + (ofB * (t[1].z - t[0].z) + ofC * (t[2].z - t[0].z)) / all;
+}
+
+int longestAxis(const glm::dvec3& size) {
+    const int inPlan = size.x >= size.y ? 0 : 1;
+    return size[inPlan] >= size.z ? inPlan : 2;
+}
+
+} // namespace
+
+bool TriangleGround::Part::isLeaf() const { return count <= leafSize; }
+
+TriangleGround::Part TriangleGround::Part::left() const {
+    const std::size_t leaves = (count + leafSize - 1) / leafSize;
+    return {node + 1, first, leaves / 2 * leafSize};
+}
+
+/// A tree of n leaves has 2 n - 1 nodes.
+TriangleGround::Part TriangleGround::Part::right() const {
+    const std::size_t before = left().count;
+    return {node + 2 * (before / leafSize), first + before, count - before};
+}
+
+TriangleGround::TriangleGround(std::vector<glm::dvec3> vertices, const std::vector<unsigned>& indices)
+    : _vertices(std::move(vertices)) {
+    _triangles.reserve(indices.size() / 3);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+        if (const auto corners = upward(&indices[i])) _triangles.push_back(*corners);
+    if (_triangles.empty()) return;
+    _nodes.resize(2 * ((_triangles.size() + leafSize - 1) / leafSize) - 1);
+    build(all());
+}
+
+GroundTriangle TriangleGround::triangle(const Corners& corners) const {
+    return {_vertices[corners[0]], _vertices[corners[1]], _vertices[corners[2]]};
+}
+
+/// Counter-clockwise from above; a vertical one as it is.
+std::optional<TriangleGround::Corners> TriangleGround::upward(const unsigned* corners) const {
+    if (std::any_of(corners, corners + 3, [this](unsigned i) { return i >= _vertices.size(); })) return std::nullopt;
+    const GroundTriangle t = triangle({corners[0], corners[1], corners[2]});
+    if (!planeFromPoints(t[0], t[1], t[2])) return std::nullopt;
+    const bool turned = cross(glm::dvec2(t[1] - t[0]), glm::dvec2(t[2] - t[0])) < 0.0;
+    return Corners{corners[0], corners[turned ? 2 : 1], corners[turned ? 1 : 2]};
+}
+
+TriangleGround::Node TriangleGround::leafNode(const Part& part) const {
+    Node node{{glm::dvec3(infinite), glm::dvec3(-infinite)}};
+    for (std::size_t i = part.first; i < part.first + part.count; ++i) {
+        const GroundTriangle t = triangle(_triangles[i]);
+        for (const glm::dvec3& corner : t) node.box = {glm::min(node.box.low, corner), glm::max(node.box.high, corner)};
+        node.slope = std::max(node.slope, slopeOf(t));
+    }
+    return node;
+}
+
+void TriangleGround::split(const Part& part) {
+    const GroundBox box = leafNode(part).box;
+    const int axis = longestAxis(box.high - box.low);
+    const auto place = [&](const Corners& c) {
+        return _vertices[c[0]][axis] + _vertices[c[1]][axis] + _vertices[c[2]][axis];
+    };
+    const auto first = _triangles.begin() + static_cast<std::ptrdiff_t>(part.first);
+    std::nth_element(first, first + static_cast<std::ptrdiff_t>(part.left().count),
+                     first + static_cast<std::ptrdiff_t>(part.count),
+                     [&](const Corners& a, const Corners& b) { return place(a) < place(b); });
+}
+
+void TriangleGround::build(const Part& part) {
+    if (part.isLeaf()) {
+        _nodes[part.node] = leafNode(part);
+        return;
+    }
+    split(part);
+    constexpr std::size_t worthATask = 4096;
+    if (part.count > worthATask)
+        tbb::parallel_invoke([&] { build(part.left()); }, [&] { build(part.right()); });
+    else
+        build(part.left()), build(part.right());
+    const Node &a = _nodes[part.left().node], &b = _nodes[part.right().node];
+    _nodes[part.node] = {{glm::min(a.box.low, b.box.low), glm::max(a.box.high, b.box.high)},
+                         std::max(a.slope, b.slope)};
+}
+
+template <class Enter, class Take>
+void TriangleGround::descend(const Part& part, const Enter& enter, const Take& take) const {
+    if (part.count == 0 || !enter(_nodes[part.node])) return;
+    if (!part.isLeaf()) {
+        descend(part.left(), enter, take);
+        descend(part.right(), enter, take);
+        return;
+    }
+    for (std::size_t i = part.first; i < part.first + part.count; ++i) take(triangle(_triangles[i]));
+}
+
+std::optional<double> TriangleGround::height(double x, double y) const {
+    std::optional<double> highest;
+    const auto over = [&](const Node& node) {
+        const GroundBox& box = node.box;
+        return x >= box.low.x && x <= box.high.x && y >= box.low.y && y <= box.high.y && !(highest >= box.high.z);
+    };
+    descend(all(), over, [&](const GroundTriangle& t) { highest = std::max(highest, heightOver(t, {x, y})); });
+    return highest;
+}
+
+std::optional<glm::dvec3> TriangleGround::hit(const glm::dvec3& start, const glm::dvec3& along) const {
+    double nearest = infinite;
+    const auto before = [&](const Node& node) {
+        const RaySpan span = spanInside(node.box, start, along);
+        return span.from <= span.to && span.from < nearest;
+    };
+    descend(all(), before,
+            [&](const GroundTriangle& t) { nearest = std::min(nearest, meet(t, start, along).value_or(nearest)); });
+    if (!std::isfinite(nearest)) return std::nullopt;
+    return start + nearest * along;
+}
+
+void TriangleGround::cover(const std::vector<glm::dvec4>& planes, double,
+                           const std::function<void(const GroundTriangle&)>& take) const {
+    descend(
+        all(), [&](const Node& node) { return mayHold(node.box, planes); },
+        [&](const GroundTriangle& t) {
+            if (mayHold(t, planes)) take(t);
+        });
+}
+
+double TriangleGround::steepest(const std::vector<glm::dvec4>& planes) const {
+    double most = 0.0;
+    descend(
+        all(), [&](const Node& node) { return node.slope > most && mayHold(node.box, planes); },
+        [&](const GroundTriangle& t) {
+            if (mayHold(t, planes)) most = std::max(most, slopeOf(t));
+        });
+    return most;
+}
+
+} // namespace gnomon

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// Ground from loose triangles: against height fields cut into the same triangles, and shapes worked by hand.
+#include "Compare.h"
+#include "Houses.h"
+
+#include <gnomon/TriangleGround.h>
+
+#include <algorithm>
+#include <ctime>
+#include <numeric>
+
+using gnomon::Drape;
+using gnomon::Ground;
+using gnomon::GroundTriangle;
+using gnomon::HeightPyramid;
+using gnomon::TriangleGround;
+using gnomon::test::near;
+using gnomon::test::Random;
+
+namespace {
+
+constexpr int posts = 70;
+
+double hills(double x, double y) { return 25.0 * std::sin(x * 0.011) * std::cos(y * 0.013) + 4.0 * std::sin(x * 0.05); }
+
+TriangleGround groundOf(const std::vector<GroundTriangle>& triangles) {
+    std::vector<glm::dvec3> vertices;
+    for (const GroundTriangle& t : triangles) vertices.insert(vertices.end(), t.begin(), t.end());
+    std::vector<unsigned> indices(vertices.size());
+    std::iota(indices.begin(), indices.end(), 0u);
+    return {vertices, indices};
+}
+
+/// Every cell that is no hole, moved by `offset`, each second triangle clockwise.
+TriangleGround cellsOf(const gnomon::HeightField& field, const glm::dvec3& offset = {}) {
+    std::vector<GroundTriangle> triangles;
+    for (int y = 0; y + 1 < field.rows(); ++y)
+        for (int x = 0; x + 1 < field.columns(); ++x) {
+            if (field.isHole(x, y)) continue;
+            const auto [a, b] = field.triangles(x, y);
+            triangles.push_back({a[0] + offset, a[1] + offset, a[2] + offset});
+            triangles.push_back({b[0] + offset, b[2] + offset, b[1] + offset});
+        }
+    return groundOf(triangles);
+}
+
+/// A hilly field with a hole of 3 × 2 cells.
+HeightPyramid holed() {
+    std::vector<float> heights;
+    for (int j = 0; j < posts; ++j)
+        for (int i = 0; i < posts; ++i) heights.push_back(float(hills(i * test::pitch, j * test::pitch)));
+    heights[std::size_t(30 * posts + 40)] = heights[std::size_t(30 * posts + 41)] = std::nanf("");
+    return HeightPyramid({posts, posts, {0.0, 0.0}, {test::pitch, test::pitch}, heights});
+}
+
+double area(const Drape& drape) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 2 < drape.size(); i += 3)
+        sum += 0.5 * glm::length(glm::cross(drape[i + 1] - drape[i], drape[i + 2] - drape[i]));
+    return sum;
+}
+
+/// Two terraces, 0 and 8 high, and the vertical cliff between them at x = 10.
+std::vector<GroundTriangle> terraces() {
+    const glm::dvec3 a(0, 0, 8), b(10, 0, 8), c(10, 20, 8), d(0, 20, 8);
+    const glm::dvec3 e(10, 0, 0), f(30, 0, 0), g(30, 20, 0), h(10, 20, 0);
+    return {{a, b, c}, {a, c, d}, {e, f, g}, {e, g, h}, {b, e, h}, {b, h, c}};
+}
+
+int covered(const Ground& ground, const std::vector<glm::dvec4>& planes) {
+    int count = 0;
+    ground.cover(planes, 1.0, [&](const GroundTriangle&) { ++count; });
+    return count;
+}
+
+TEST(TriangleGround, HasTheHeightsOfTheHeightFieldThatItWasCutFrom) {
+    const HeightPyramid field = holed();
+    for (const glm::dvec3& offset : {glm::dvec3(0.0), glm::dvec3(433000.0, 5410000.0, 300.0)}) {
+        const TriangleGround ground = cellsOf(field.field(), offset);
+        Random random(1);
+        int holes = 0;
+        for (int i = 0; i < 20000; ++i) {
+            glm::dvec2 at(random.between(-5.0, 700.0), random.between(-5.0, 700.0));
+            if (i % 10 == 0) at = glm::round(at / 5.0) * 5.0; // posts, edges and diagonals
+            const auto expected = field.height(at.x, at.y), found = ground.height(at.x + offset.x, at.y + offset.y);
+            const bool onBorder = glm::fract(at / test::pitch) == glm::dvec2(0.0);
+            if (onBorder && bool(found) != bool(expected)) continue; // a hole's own border is its neighbours', too
+            ASSERT_EQ(bool(found), bool(expected)) << at.x << ' ' << at.y;
+            if (!found) ++holes;
+            // Coordinates of 5 410 000 are known to 10⁻⁹, heights on slopes below 1 hence too.
+            else
+                EXPECT_NEAR(*found - offset.z, *expected, 4e-9);
+        }
+        EXPECT_GT(holes, 300);
+    }
+}
+
+TEST(TriangleGround, IsMetByRaysWhereTheHeightFieldIs) {
+    const HeightPyramid field = holed();
+    const TriangleGround ground = cellsOf(field.field());
+    Random random(2);
+    int hits = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const glm::dvec3 start(random.between(0.0, 690.0), random.between(0.0, 690.0), random.between(-60.0, 60.0));
+        const glm::dvec3 along(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-0.4, 0.4));
+        const auto expected = field.hit(start, along), found = ground.hit(start, along);
+        ASSERT_EQ(bool(found), bool(expected)) << i;
+        if (!found) continue;
+        ++hits;
+        EXPECT_TRUE(near(*found, *expected, 1e-9));
+    }
+    EXPECT_GT(hits, 1500);
+}
+
+TEST(TriangleGround, LetsNoRaySlipBetweenTrianglesThatShareAnEdgeOrAPost) {
+    const HeightPyramid field = test::groundOf(hills, posts);
+    const TriangleGround ground = cellsOf(field.field());
+    Random random(3);
+    for (int i = 0; i < 5000; ++i) {
+        const int x = 1 + int(random.between(0.0, posts - 3.0)), y = 1 + int(random.between(0.0, posts - 3.0));
+        const glm::dvec3 a = field.field().post(x, y), b = field.field().post(x + 1, y + 1);
+        const glm::dvec3 target = i % 2 ? a : a + random.between(0.0, 1.0) * (b - a);
+        const glm::dvec3 start = target + glm::dvec3(random.between(-90.0, 90.0), random.between(-90.0, 90.0), 300.0);
+        for (const Ground* each : {static_cast<const Ground*>(&ground), static_cast<const Ground*>(&field)}) {
+            const auto hit = each->hit(start, target - start);
+            ASSERT_TRUE(hit) << i;
+            EXPECT_TRUE(near(*hit, target, 1e-9));
+        }
+    }
+}
+
+TEST(GroundBox, IsEnteredByRaysThatGrazeItsCorners) {
+    Random random(4);
+    for (int i = 0; i < 5000; ++i) {
+        const glm::dvec3 along = random.direction(), corner = random.between(1.0, 1000.0) * along;
+        // Of the eight boxes around the corner's octants these are met in the corner alone, or all along.
+        const glm::dvec3 side(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0), end = corner + side;
+        const gnomon::RaySpan span = gnomon::spanInside({glm::min(corner, end), glm::max(corner, end)}, {}, along);
+        EXPECT_LE(span.from, span.to) << i;
+    }
+}
+
+TEST(TriangleGround, TakesTheSameShadowsAsTheHeightField) {
+    const HeightPyramid field = holed();
+    const TriangleGround ground = cellsOf(field.field());
+    double sum = 0.0;
+    for (const test::House& house : test::houses(60, test::groundOf(hills, 130)))
+        for (const double elevation : {60.0, 25.0, 8.0}) {
+            const auto hull = gnomon::convexHull(house.corners());
+            const auto shadow = gnomon::convexShadow(*hull, glm::dvec4(test::sunAt(37.0 * house.roof, elevation), 0.0));
+            const double expected = area(gnomon::drape(field, *shadow, 0.0));
+            // 10⁻⁹ of a side of 1000 m.
+            EXPECT_NEAR(area(gnomon::drape(ground, *shadow, 0.0)), expected, 1e-6);
+            EXPECT_LE(ground.steepest(shadow->planes), field.steepest(shadow->planes))
+                << "asked by triangle, not by cell";
+            sum += expected;
+        }
+    EXPECT_GT(sum, 10000.0);
+}
+
+TEST(TriangleGround, OfNothingIsNowhere) {
+    const double nan = gnomon::test::notANumber;
+    const glm::dvec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
+    const TriangleGround grounds[] = {
+        {{}, {}},
+        {{a, b, c}, {0, 1}},
+        {{a, b, c}, {0, 1, 3}},
+        {{a, b, c}, {0, 1, 1}},
+        {{a, b, {2, 0, 0}}, {0, 1, 2}},
+        {{a, b, {nan, 1, 0}}, {0, 1, 2}},
+        {{a, b, {0, gnomon::test::infinite, 0}}, {0, 1, 2}},
+    };
+    for (const TriangleGround& ground : grounds) {
+        EXPECT_EQ(ground.triangles(), 0u);
+        EXPECT_FALSE(ground.height(0.2, 0.2));
+        EXPECT_FALSE(ground.hit({0.2, 0.2, 5.0}, {0.0, 0.0, -1.0}));
+        EXPECT_EQ(covered(ground, {}), 0);
+        EXPECT_EQ(ground.steepest({}), 0.0);
+    }
+}
+
+TEST(TriangleGround, OfOneTriangleIsThatTriangleWhicheverWayItTurns) {
+    for (const std::vector<unsigned>& indices : {std::vector<unsigned>{0, 1, 2}, std::vector<unsigned>{2, 1, 0}}) {
+        const TriangleGround ground({{0, 0, 1}, {4, 0, 1}, {0, 4, 5}}, indices);
+        EXPECT_DOUBLE_EQ(*ground.height(1.0, 2.0), 3.0);
+        EXPECT_DOUBLE_EQ(*ground.height(0.0, 4.0), 5.0) << "a corner";
+        EXPECT_FALSE(ground.height(2.1, 2.1));
+        EXPECT_FALSE(ground.height(gnomon::test::notANumber, 1.0));
+        EXPECT_TRUE(near(*ground.hit({1, 2, 9}, {0, 0, -3}), glm::dvec3(1, 2, 3), 1e-12));
+        EXPECT_TRUE(near(*ground.hit({1, 2, -9}, {0, 0, 3}), glm::dvec3(1, 2, 3), 1e-12)) << "from below";
+        EXPECT_FALSE(ground.hit({1, 2, 9}, {0, 0, 3}));
+        EXPECT_DOUBLE_EQ(ground.steepest({}), 1.0);
+        ground.cover({}, 0.0, [](const GroundTriangle& t) {
+            EXPECT_GT(glm::cross(t[1] - t[0], t[2] - t[0]).z, 0.0) << "counter-clockwise from above";
+        });
+        EXPECT_EQ(covered(ground, {}), 1);
+        EXPECT_EQ(covered(ground, {{1, 0, 0, -3.9}}), 1);
+        EXPECT_EQ(covered(ground, {{1, 0, 0, -4.1}}), 0) << "beside it";
+    }
+}
+
+TEST(TriangleGround, HasCliffsThatStopRaysAndTakeShadowsButHaveNoHeight) {
+    const TriangleGround ground = groundOf(terraces());
+    EXPECT_DOUBLE_EQ(*ground.height(9.9, 5.0), 8.0);
+    EXPECT_DOUBLE_EQ(*ground.height(10.1, 5.0), 0.0);
+    EXPECT_DOUBLE_EQ(*ground.height(10.0, 5.0), 8.0) << "the highest";
+    EXPECT_TRUE(near(*ground.hit({20, 5, 6}, {-5, 1, -1}), glm::dvec3(10, 7, 4), 1e-12));
+    EXPECT_TRUE(near(*ground.hit({20, 5, 4}, {0, 0, -1}), glm::dvec3(20, 5, 0), 1e-12));
+    EXPECT_EQ(covered(ground, {}), 6) << "the cliff, too";
+    EXPECT_EQ(covered(ground, {{std::sqrt(0.5), -std::sqrt(0.5), 0, -11.0}}), 1) << "one half of the lower terrace";
+    EXPECT_EQ(ground.steepest({{1, 0, 0, -10.5}}), 0.0);
+    EXPECT_EQ(ground.steepest({{1, 0, 0, -9.5}}), gnomon::test::infinite);
+    // A pole of 0.2 by 0.2 and 2 over the lower terrace; the sun is east of it, 45° high: it
+    // reaches the cliff, and what is left goes up the cliff.
+    const test::House pole{{11.0, 9.0}, {0.1, 0.1}, 0.0, 2.0};
+    const auto shadow = gnomon::convexShadow(*gnomon::convexHull(pole.corners()), {1.0, 0.0, 1.0, 0.0});
+    double onGround = 0.0, onCliff = 0.0;
+    const Drape drape = gnomon::drape(ground, *shadow, 0.0);
+    for (std::size_t i = 0; i < drape.size(); i += 3) {
+        const Drape triangle(drape.begin() + std::ptrdiff_t(i), drape.begin() + std::ptrdiff_t(i) + 3);
+        const bool level = triangle[0].z == 0.0 && triangle[1].z == 0.0 && triangle[2].z == 0.0;
+        (level ? onGround : onCliff) += area(triangle);
+    }
+    EXPECT_NEAR(onGround, 0.2 * 1.1, 1e-12) << "under the pole's own foot as well";
+    EXPECT_NEAR(onCliff, 0.2 * 1.1, 1e-12) << "the roof begins 0.9 from the cliff: its shadow ends 2 - 0.9 up";
+}
+
+TEST(TriangleGround, UnderABridgeIsGroundTooButTheHeightIsTheBridges) {
+    const glm::dvec3 a(0, 0, 0), b(9, 0, 0), c(9, 9, 0), d(0, 9, 0);
+    const glm::dvec3 e = glm::dvec3(3, 0, 5), f(6, 0, 5), g(6, 9, 5), h(3, 9, 5);
+    const TriangleGround ground = groundOf({{a, b, c}, {a, c, d}, {e, f, g}, {e, g, h}});
+    EXPECT_DOUBLE_EQ(*ground.height(4.0, 5.0), 5.0);
+    EXPECT_DOUBLE_EQ(*ground.height(2.0, 5.0), 0.0);
+    EXPECT_TRUE(near(*ground.hit({4, 5, 9}, {0, 0, -1}), glm::dvec3(4, 5, 5), 1e-12));
+    EXPECT_TRUE(near(*ground.hit({4, 5, 4}, {0, 0, -1}), glm::dvec3(4, 5, 0), 1e-12));
+    EXPECT_EQ(covered(ground, {{1, 0, 0, -4.0}, {-1, 0, 0, 5.0}}), 4);
+}
+
+/// Seconds of processor time for 20 000 heights and rays on a field of posts².
+double seconds(int side) {
+    const HeightPyramid field = test::groundOf(hills, side);
+    const TriangleGround ground = cellsOf(field.field());
+    const double size = (side - 1) * test::pitch;
+    Random random(5);
+    const std::clock_t start = std::clock();
+    double sum = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::dvec2 at(random.between(0.0, size), random.between(0.0, size));
+        sum += *ground.height(at.x, at.y);
+        if (const auto hit = ground.hit({at, 60.0}, {0.3, 0.2, -0.5})) sum += hit->z;
+    }
+    EXPECT_TRUE(std::isfinite(sum));
+    return double(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+TEST(TriangleGround, CostsLittleMoreWhereThereAreAHundredTimesAsManyTriangles) {
+    EXPECT_LT(seconds(500), 20.0 * seconds(50)) << "a search through all costs 100 times as much";
+}
+
+} // namespace
