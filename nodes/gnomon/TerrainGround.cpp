@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/FieldPosts.h>
+#include <gnomon/HeightPyramid.h>
+#include <gnomon/TerrainGround.h>
+#include <gnomon/TriangleGround.h>
+#include <gnomon/VertexTraverser.h>
+
+#include <osg/Shape>
+#include <osg/ShapeDrawable>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gnomon {
+namespace {
+
+/// The height field that a drawable shows; null if it shows something else.
+const osg::HeightField* fieldOf(const osg::Drawable& drawable) {
+    const auto* shape = dynamic_cast<const osg::ShapeDrawable*>(&drawable);
+    const auto* field = shape ? dynamic_cast<const osg::HeightField*>(shape->getShape()) : nullptr;
+    return field && drawsItsShape(*shape, *field) ? field : nullptr;
+}
+
+/// Takes height fields by their posts and all else by its triangles.
+class TerrainTraverser : public VertexTraverser {
+public:
+    using VertexTraverser::VertexTraverser;
+    const std::vector<FieldPosts>& fields() const { return _fields; }
+
+protected:
+    void applyCaster(osg::Drawable& drawable) override {
+        if (const osg::HeightField* field = fieldOf(drawable))
+            _fields.emplace_back(*field, rootFromLocal());
+        else
+            VertexTraverser::applyCaster(drawable);
+    }
+
+private:
+    std::vector<FieldPosts> _fields;
+};
+
+std::shared_ptr<const Ground> groundOf(const std::vector<FieldPosts>& fields, std::vector<glm::dvec3> vertices,
+                                       std::vector<unsigned> indices) {
+    if (fields.size() == 1 && indices.empty())
+        if (auto grid = fields.front().grid()) return std::make_shared<HeightPyramid>(std::move(*grid));
+    for (const FieldPosts& field : fields) field.addTo(vertices, indices);
+    return std::make_shared<TriangleGround>(std::move(vertices), indices);
+}
+
+} // namespace
+
+bool isHeight(float value) {
+    const float none[] = {-9999.0f, -99999.0f, -32767.0f, -32768.0f};
+    return std::abs(value) <= 1e18f && std::find(std::begin(none), std::end(none), value) == std::end(none);
+}
+
+std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain) {
+    TerrainTraverser found(terrain);
+    root.accept(found);
+    std::vector<glm::dvec3> vertices;
+    vertices.reserve(found.getVertices().size());
+    for (const osg::Vec3d& vertex : found.getVertices()) vertices.push_back(toGlm(vertex));
+    return groundOf(found.fields(), std::move(vertices), found.getTriangles());
+}
+
+std::shared_ptr<const Ground> groundOf(const osg::HeightField& field) {
+    return groundOf({FieldPosts(field, osg::Matrixd::identity())}, {}, {});
+}
+
+} // namespace gnomon

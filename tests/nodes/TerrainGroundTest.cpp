@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// The ground that a subgraph draws, against the heights that it was made from.
+#include "Scene.h"
+
+#include <gnomon/HeightPyramid.h>
+#include <gnomon/TerrainGround.h>
+#include <gnomon/TriangleGround.h>
+
+#include <osg/LOD>
+#include <osg/Shape>
+#include <osg/ShapeDrawable>
+#include <osg/Switch>
+#include <osgUtil/Optimizer>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace scene;
+using gnomon::Ground;
+using gnomon::groundOf;
+using gnomon::GroundTriangle;
+using gnomon::HeightPyramid;
+
+namespace {
+
+constexpr unsigned columns = 31, rows = 21;
+constexpr float pitch = 8.0f;
+
+/// Heights of the posts, and linear in each cell's two triangles in between.
+float hills(unsigned column, unsigned row) {
+    return 12.0f * std::sin(float(column) * 0.4f) * std::cos(float(row) * 0.3f);
+}
+
+osg::ref_ptr<osg::HeightField> field(unsigned border = 0) {
+    osg::ref_ptr<osg::HeightField> result = new osg::HeightField;
+    result->allocate(columns, rows);
+    result->setOrigin({-100.0f, 20.0f, 3.0f});
+    result->setXInterval(pitch);
+    result->setYInterval(pitch);
+    result->setBorderWidth(border);
+    for (unsigned row = 0; row < rows; ++row)
+        for (unsigned column = 0; column < columns; ++column) result->setHeight(column, row, hills(column, row));
+    return result;
+}
+
+osg::ref_ptr<osg::Geode> drawn(const osg::ref_ptr<osg::HeightField>& shape) {
+    return geodeOf(new osg::ShapeDrawable(shape.get()));
+}
+
+/// The field's triangles as a plain geometry of double vertices.
+osg::ref_ptr<osg::Geode> triangles() {
+    const auto shape = field();
+    osg::ref_ptr<osg::Vec3dArray> vertices = new osg::Vec3dArray;
+    osg::ref_ptr<osg::DrawElementsUInt> list = new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES);
+    for (unsigned row = 0; row < rows; ++row)
+        for (unsigned column = 0; column < columns; ++column) {
+            vertices->push_back(shape->getVertex(column, row));
+            if (row + 1 == rows || column + 1 == columns) continue;
+            const unsigned a = row * columns + column, d = a + columns;
+            for (unsigned index : {a, a + 1, d + 1, a, d + 1, d}) list->push_back(index);
+        }
+    return geodeOf(geometryOf(vertices, list.get()).get());
+}
+
+osg::ref_ptr<osg::MatrixTransform> under(const osg::Matrixd& matrix, osg::Node* node) {
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
+    transform->addChild(node);
+    return transform;
+}
+
+/// What is the case at a place of the field's frame: (column, row) with fractions.
+osg::Vec3d surface(double column, double row) {
+    const auto i = std::min(unsigned(column), columns - 2), j = std::min(unsigned(row), rows - 2);
+    const double u = column - i, v = row - j, a = double(hills(i, j)), b = double(hills(i + 1, j)),
+                 c = double(hills(i + 1, j + 1)), d = double(hills(i, j + 1));
+    const double height = u >= v ? a + u * (b - a) + v * (c - b) : a + v * (d - a) + u * (c - d);
+    return {-100.0 + column * double(pitch), 20.0 + row * double(pitch), 3.0 + height};
+}
+
+/// Compares the ground's height with the surface carried to the root's frame, all over it.
+void expectSurface(const Ground& ground, const osg::Matrixd& rootFromField, double tolerance) {
+    for (int i = 0; i < 900; ++i) {
+        const osg::Vec3d at =
+            surface(0.01 + (columns - 1.02) * ((i * 37) % 900) / 900.0, 0.01 + (rows - 1.02) * i / 900.0);
+        const osg::Vec3d expected = at * rootFromField;
+        const auto height = ground.height(expected.x(), expected.y());
+        ASSERT_TRUE(height) << i;
+        ASSERT_NEAR(*height, expected.z(), tolerance) << i;
+    }
+}
+
+bool isGrid(const std::shared_ptr<const Ground>& ground) { return dynamic_cast<const HeightPyramid*>(ground.get()); }
+
+int covered(const Ground& ground) {
+    int count = 0;
+    ground.cover({}, 0.0, [&](const GroundTriangle&) { ++count; });
+    return count;
+}
+
+const osg::Matrixd utm = osg::Matrixd::translate(433000.25, 5410000.75, 812.5);
+
+/// Frames that terrain stands in. Turned about z only: else it is no longer heights over a plan.
+const osg::Matrixd frames[] = {
+    osg::Matrixd::identity(),
+    utm,
+    osg::Matrixd::scale(2.0, 3.0, 1.5) * utm,
+    osg::Matrixd::rotate(0.7, osg::Vec3d(0, 0, 1)) * utm,
+    osg::Matrixd::scale(-1.0, 1.0, 1.0) * osg::Matrixd::rotate(0.7, osg::Vec3d(0, 0, 1)) * utm,
+};
+
+} // namespace
+
+TEST(TerrainGround, HasTheHeightsThatAShapesHeightFieldDraws) {
+    for (const osg::Matrixd& frame : frames) {
+        const auto root = under(frame, drawn(field()));
+        const auto ground = groundOf(*root);
+        EXPECT_EQ(isGrid(ground), frame(0, 1) == 0.0 && frame(0, 0) > 0.0) << "only what keeps the axes adapts";
+        expectSurface(*ground, frame, 1e-5); // heights times 1.5 are floats again
+    }
+}
+
+TEST(TerrainGround, HasTheHeightsOfTrianglesInEveryFrame) {
+    for (const osg::Matrixd& frame : frames) expectSurface(*groundOf(*under(frame, triangles())), frame, 1e-5);
+}
+
+TEST(TerrainGround, IsInTheFrameThatTheRootStandsIn) {
+    const osg::ref_ptr<osg::Group> above = under(osg::Matrixd::translate(7, 7, 7), nullptr);
+    const auto root = under(utm, drawn(field()));
+    above->addChild(root);
+    expectSurface(*groundOf(*root), utm, 1e-5);
+}
+
+TEST(TerrainGround, HoldsTheRotationOfTheFieldItself) {
+    const auto shape = field();
+    const osg::Quat quarter(osg::PI_2, osg::Vec3d(0, 0, 1));
+    shape->setRotation(quarter);
+    const osg::Vec3d origin(shape->getOrigin());
+    const auto turned =
+        osg::Matrixd::translate(-origin) * osg::Matrixd::rotate(quarter) * osg::Matrixd::translate(origin);
+    expectSurface(*groundOf(*under(utm, drawn(shape))), turned * utm, 1e-5);
+    expectSurface(*groundOf(*shape), turned, 1e-5);
+}
+
+TEST(TerrainGround, LeavesOutSkirtAndBorder) {
+    const auto shape = field(2);
+    shape->setSkirtHeight(50.0f);
+    for (const osg::Matrixd& frame : frames) {
+        const auto ground = groundOf(*under(frame, drawn(shape)));
+        EXPECT_EQ(covered(*ground), int(columns - 5) * int(rows - 5) * 2);
+        const osg::Vec3d inside = surface(2.1, 2.1) * frame, rim = surface(1.9, 9.0) * frame;
+        EXPECT_NEAR(ground->height(inside.x(), inside.y()).value_or(1e9), inside.z(), 1e-5);
+        EXPECT_FALSE(ground->height(rim.x(), rim.y()));
+    }
+    EXPECT_EQ(covered(*groundOf(*drawn(field(15)))), 0) << "nothing is left within the border";
+    EXPECT_EQ(covered(*groundOf(*drawn(field(2147483649u)))), 0);
+}
+
+TEST(TerrainGround, HasHolesWhereNothingWasMeasured) {
+    const float none[] = {-9999.0f, -99999.0f, -32767.0f, -32768.0f, -3.4e38f, 3.4e38f, std::nanf("")};
+    for (const float value : none)
+        for (const osg::Matrixd& frame : frames) {
+            const auto shape = field();
+            shape->setHeight(10, 12, value);
+            const auto ground = groundOf(*under(frame, drawn(shape)));
+            EXPECT_EQ(covered(*ground), int((columns - 1) * (rows - 1) - 4) * 2) << value;
+            const osg::Vec3d hole = surface(9.5, 11.4) * frame, beside = surface(11.2, 11.4) * frame;
+            EXPECT_FALSE(ground->height(hole.x(), hole.y())) << value;
+            EXPECT_NEAR(ground->height(beside.x(), beside.y()).value_or(1e9), beside.z(), 1e-5);
+        }
+    EXPECT_TRUE(gnomon::isHeight(-9998.0f));
+    EXPECT_TRUE(gnomon::isHeight(0.0f));
+}
+
+TEST(TerrainGround, TakesSeveralFieldsAndTrianglesTogether) {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(under(osg::Matrixd::translate(1000, 0, 0), drawn(field())));
+    root->addChild(under(osg::Matrixd::translate(2000, 0, 0), drawn(field())));
+    root->addChild(under(osg::Matrixd::translate(3000, 0, 0), triangles()));
+    const auto ground = groundOf(*root);
+    for (const double east : {1000.0, 2000.0, 3000.0})
+        expectSurface(*ground, osg::Matrixd::translate(east, 0, 0), 1e-5);
+    EXPECT_FALSE(ground->height(500.0, 50.0));
+}
+
+TEST(TerrainGround, IsOnlyWhatTheSelectionTakes) {
+    const osg::ref_ptr<osg::Group> root = new osg::Group, terrain = new osg::Group;
+    const auto house = triangleAt(50.0);
+    house->setNodeMask(2);
+    root->addChild(terrain);
+    root->addChild(house);
+    terrain->addChild(drawn(field()));
+    EXPECT_FALSE(isGrid(groundOf(*root)));
+    EXPECT_TRUE(isGrid(groundOf(*root, {terrain, ~0u})));
+    EXPECT_TRUE(isGrid(groundOf(*root, {nullptr, ~2u})));
+    EXPECT_EQ(covered(*groundOf(*root, {house, ~0u})), 1);
+}
+
+TEST(TerrainGround, OfALodIsTheMostDetailedChildAndOfASwitchWhatIsOn) {
+    osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+    lod->addChild(triangleAt(0.0), 500.0f, 1e9f);
+    lod->addChild(drawn(field()), 0.0f, 500.0f);
+    osg::ref_ptr<osg::Switch> both = new osg::Switch;
+    both->addChild(lod, true);
+    both->addChild(triangles(), false);
+    EXPECT_TRUE(isGrid(groundOf(*both)));
+    expectSurface(*groundOf(*both), osg::Matrixd::identity(), 1e-5);
+}
+
+TEST(TerrainGround, OfNothingOrOfASingleTriangle) {
+    const osg::ref_ptr<osg::Group> empty = new osg::Group;
+    EXPECT_EQ(covered(*groundOf(*empty)), 0);
+    EXPECT_FALSE(groundOf(*empty)->height(0.0, 0.0));
+    const auto none = osg::ref_ptr<osg::HeightField>(new osg::HeightField);
+    EXPECT_EQ(covered(*groundOf(*none)), 0) << "a field without posts";
+    EXPECT_EQ(covered(*groundOf(*drawn(none))), 0);
+    const auto one = groundOf(*triangleAt(3.0));
+    EXPECT_EQ(covered(*one), 1);
+    EXPECT_EQ(one->height(3.2, 0.2), 0.0);
+    const auto point = groundOf(*geodeOf(geometryOf(vec3s({{1, 1, 1}}), new osg::DrawArrays(GL_POINTS, 0, 1)).get()));
+    EXPECT_EQ(covered(*point), 0);
+}
+
+TEST(TerrainGround, IsWhatIsDrawnWhereAnOptimizerMovedTheVerticesAndLeftTheShape) {
+    const osg::ref_ptr<osg::Group> above = new osg::Group;
+    const auto moved = under(osg::Matrixd::scale(2.0, 2.0, 2.0), drawn(field()));
+    moved->setDataVariance(osg::Object::STATIC);
+    above->addChild(moved);
+    osgUtil::Optimizer().optimize(above, osgUtil::Optimizer::FLATTEN_STATIC_TRANSFORMS);
+    ASSERT_FALSE(above->getChild(0)->asTransform()) << "else nothing was moved";
+    expectSurface(*groundOf(*above), osg::Matrixd::scale(2.0, 2.0, 2.0), 1e-3); // of floats up to 560
+}
