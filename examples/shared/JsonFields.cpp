@@ -37,6 +37,11 @@ void readWhole(const json& object, const char* name, Whole& value) {
     value = found.get<Whole>();
 }
 
+std::string textOf(const json& value) {
+    if (!value.is_string()) throw std::runtime_error("it is no text.");
+    return value.get<std::string>();
+}
+
 } // namespace
 
 json jsonOf(double value) {
@@ -72,6 +77,19 @@ void readField(const json& object, const char* name, std::string& value) {
     const json& found = field(object, name);
     if (!found.is_string()) refuse(name, "is no text");
     value = found.get<std::string>();
+}
+
+void readField(const json& object, const char* name, std::vector<std::string>& value) {
+    value.clear();
+    for (const json& text : listField(object, name)) readInside(name, [&] { value.push_back(textOf(text)); });
+}
+
+void readField(const json& object, const char* name, std::vector<std::pair<std::string, std::string>>& value) {
+    value.clear();
+    for (const json& pair : listField(object, name)) {
+        if (!pair.is_array() || pair.size() != 2) throw std::runtime_error(std::string(name) + ": it holds no pairs.");
+        readInside(name, [&] { value.emplace_back(textOf(pair[0]), textOf(pair[1])); });
+    }
 }
 
 const json& objectField(const json& object, const char* name, bool orNull) {

@@ -79,118 +79,82 @@ std::vector<std::pair<std::string, std::string>> lines(const ShadowMetrics& m) {
         {"catastrophes", catastropheText(m.catastrophes)}};
 }
 
-json partJson(const Confusion& c) {
-    return {{"pixels", c.pixels()},
-            {"shadow", c.shadow},
-            {"lit", c.lit},
-            {"falseShadow", c.falseShadow},
-            {"falseLit", c.falseLit},
-            {"misclassified", jsonOf(c.misclassified())},
-            {"falseShadowShare", jsonOf(c.falseShadowShare())},
-            {"falseLitShare", jsonOf(c.falseLitShare())},
-            {"balancedError", jsonOf(c.balancedError())},
-            {"iou", jsonOf(c.intersectionOverUnion())}};
-}
-
-json partJson(const std::optional<BoundaryDistance>& b) {
-    if (!b) return nullptr;
-    return {{"mean", jsonOf(b->mean)},
-            {"p95", jsonOf(b->p95)},
-            {"max", jsonOf(b->max)},
-            {"signedMean", jsonOf(b->signedMean)},
-            {"drawnLength", jsonOf(b->drawnLength)},
-            {"trueLength", jsonOf(b->trueLength)}};
-}
-
-json partJson(const CauseSplit& c) {
-    return {{"acne", c.acne},
-            {"halo", c.halo},
-            {"peterPanning", c.peterPanning},
-            {"leak", c.leak},
-            {"erosion", c.erosion},
-            {"overDark", c.overDark},
-            {"overBright", c.overBright},
-            {"acneShare", jsonOf(c.acneShare)},
-            {"peterPanningShare", jsonOf(c.peterPanningShare)},
-            {"gapMetres", jsonOf(c.gap)}};
-}
-
-json partJson(const IntensityError& e) { return {{"all", jsonOf(e.all)}, {"penumbra", jsonOf(e.penumbra)}}; }
-
-json partJson(const Catastrophes& c) {
-    return {{"notFinitePixels", c.notFinite},
-            {"allShadowed", c.allShadowed},
-            {"allLit", c.allLit},
-            {"lostShadow", c.lostShadow},
-            {"any", c.any()}};
-}
-
-json setsOf(const ShadowMetrics& m) {
-    return {{"R", m.agreeing},
-            {"R+", m.facing},
-            {"Rc", m.certain},
-            {"unmeasured", m.unmeasured},
-            {"droppedShare", jsonOf(m.droppedShare)},
-            {"sound", m.sound}};
-}
-
-void read(const json& from, Confusion& to) {
-    readField(from, "shadow", to.shadow);
-    readField(from, "falseShadow", to.falseShadow);
-    readField(from, "falseLit", to.falseLit);
-    readField(from, "lit", to.lit);
-}
-
-void read(const json& from, BoundaryDistance& to) {
-    readField(from, "mean", to.mean);
-    readField(from, "p95", to.p95);
-    readField(from, "max", to.max);
-    readField(from, "signedMean", to.signedMean);
-    readField(from, "drawnLength", to.drawnLength);
-    readField(from, "trueLength", to.trueLength);
-}
-
-void read(const json& from, CauseSplit& to) {
-    readField(from, "acne", to.acne);
-    readField(from, "halo", to.halo);
-    readField(from, "peterPanning", to.peterPanning);
-    readField(from, "leak", to.leak);
-    readField(from, "erosion", to.erosion);
-    readField(from, "overDark", to.overDark);
-    readField(from, "overBright", to.overBright);
-    readField(from, "acneShare", to.acneShare);
-    readField(from, "peterPanningShare", to.peterPanningShare);
-    readField(from, "gapMetres", to.gap);
-}
-
-void read(const json& from, IntensityError& to) {
-    readField(from, "all", to.all);
-    readField(from, "penumbra", to.penumbra);
-}
-
-void read(const json& from, Catastrophes& to) {
-    readField(from, "notFinitePixels", to.notFinite);
-    readField(from, "allShadowed", to.allShadowed);
-    readField(from, "allLit", to.allLit);
-    readField(from, "lostShadow", to.lostShadow);
-}
-
-template <typename Part>
-void readPart(const json& report, const char* name, Part& part) {
-    const json& from = objectField(report, name);
-    readInside(name, [&] { read(from, part); });
-}
-
-void readSets(const json& from, ShadowMetrics& to) {
-    readField(from, "R", to.agreeing);
-    readField(from, "R+", to.facing);
-    readField(from, "Rc", to.certain);
-    readField(from, "unmeasured", to.unmeasured);
-    readField(from, "droppedShare", to.droppedShare);
-    readField(from, "sound", to.sound);
-}
-
 } // namespace
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, Confusion> c) {
+    way.derived("pixels", c.pixels());
+    way.field("shadow", c.shadow);
+    way.field("lit", c.lit);
+    way.field("falseShadow", c.falseShadow);
+    way.field("falseLit", c.falseLit);
+    way.derived("misclassified", c.misclassified());
+    way.derived("falseShadowShare", c.falseShadowShare());
+    way.derived("falseLitShare", c.falseLitShare());
+    way.derived("balancedError", c.balancedError());
+    way.derived("iou", c.intersectionOverUnion());
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, BoundaryDistance> b) {
+    way.field("mean", b.mean);
+    way.field("p95", b.p95);
+    way.field("max", b.max);
+    way.field("signedMean", b.signedMean);
+    way.field("drawnLength", b.drawnLength);
+    way.field("trueLength", b.trueLength);
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, CauseSplit> c) {
+    way.field("acne", c.acne);
+    way.field("halo", c.halo);
+    way.field("peterPanning", c.peterPanning);
+    way.field("leak", c.leak);
+    way.field("erosion", c.erosion);
+    way.field("overDark", c.overDark);
+    way.field("overBright", c.overBright);
+    way.field("acneShare", c.acneShare);
+    way.field("peterPanningShare", c.peterPanningShare);
+    way.field("gapMetres", c.gap);
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, IntensityError> e) {
+    way.field("all", e.all);
+    way.field("penumbra", e.penumbra);
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, Catastrophes> c) {
+    way.field("notFinitePixels", c.notFinite);
+    way.field("allShadowed", c.allShadowed);
+    way.field("allLit", c.allLit);
+    way.field("lostShadow", c.lostShadow);
+    way.derived("any", c.any());
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, ShadowMetrics> m) {
+    way.group("pixels", [&](auto& sets) {
+        sets.field("R", m.agreeing);
+        sets.field("R+", m.facing);
+        sets.field("Rc", m.certain);
+        sets.field("unmeasured", m.unmeasured);
+        sets.field("droppedShare", m.droppedShare);
+        sets.field("sound", m.sound);
+    });
+    way.object("awayFromEdges", m.headline);
+    way.object("raw", m.raw);
+    way.object("terminator", m.terminator);
+    way.object("selfShadowed", m.selfShadowed);
+    way.object("boundaryPixels", m.boundary);
+    way.object("causes", m.causes);
+    way.object("rmsePointSun", m.pointSun);
+    way.object("rmseDiscSun", m.discSun);
+    way.object("rmsePointSunFiltered4x4", m.thin);
+    way.object("catastrophes", m.catastrophes);
+}
 
 std::string catastropheText(const Catastrophes& catastrophes) {
     std::string text;
@@ -208,34 +172,16 @@ std::string reportText(const ShadowMetrics& m) {
 }
 
 json reportJson(const ShadowMetrics& m) {
-    return {{"pixels", setsOf(m)},
-            {"awayFromEdges", partJson(m.headline)},
-            {"raw", partJson(m.raw)},
-            {"terminator", partJson(m.terminator)},
-            {"selfShadowed", partJson(m.selfShadowed)},
-            {"boundaryPixels", partJson(m.boundary)},
-            {"causes", partJson(m.causes)},
-            {"rmsePointSun", partJson(m.pointSun)},
-            {"rmseDiscSun", partJson(m.discSun)},
-            {"rmsePointSunFiltered4x4", partJson(m.thin)},
-            {"catastrophes", partJson(m.catastrophes)}};
+    json report;
+    FieldWriter way(report);
+    fields(way, m);
+    return report;
 }
 
 ShadowMetrics reportOf(const json& report) {
     ShadowMetrics m;
-    const json& sets = objectField(report, "pixels");
-    readInside("pixels", [&] { readSets(sets, m); });
-    readPart(report, "awayFromEdges", m.headline);
-    readPart(report, "raw", m.raw);
-    readPart(report, "terminator", m.terminator);
-    readPart(report, "selfShadowed", m.selfShadowed);
-    if (!objectField(report, "boundaryPixels", true).is_null())
-        readPart(report, "boundaryPixels", m.boundary.emplace());
-    readPart(report, "causes", m.causes);
-    readPart(report, "rmsePointSun", m.pointSun);
-    readPart(report, "rmseDiscSun", m.discSun);
-    readPart(report, "rmsePointSunFiltered4x4", m.thin);
-    readPart(report, "catastrophes", m.catastrophes);
+    FieldReader way(report);
+    fields(way, m);
     return m;
 }
 

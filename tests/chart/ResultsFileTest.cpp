@@ -37,8 +37,8 @@ private:
 };
 
 ChartCost fullCost(Counter& next) {
-    return {next.number(), next.time(),   next.time(),  next.time(),
-            next.time(),   next.number(), next.count(), next.count()};
+    return {next.number(), next.time(),  next.time(),  next.time(), next.time(),
+            next.number(), next.count(), next.count(), next.count()};
 }
 
 ShadowMetrics fullErrors(Counter& next) {
@@ -235,6 +235,83 @@ TEST_F(ResultsFile, AnotherReaderFindsTheSameInTheJson) {
     EXPECT_EQ(point["catastrophic"], true);
     EXPECT_EQ(point["cost"]["firstMs"], 1.0 + 1.0 / 3.0); // the counter's first
     EXPECT_EQ(point["cost"]["steadyWallMs"]["median"], 3.0 + 1.0 / 3.0);
+}
+
+/// Where results.json holds what fullPoint() counts, in the order in which it does.
+const std::vector<const char*> countedPlaces{"/cost/firstMs",
+                                             "/cost/steadyWallMs/q1",
+                                             "/cost/steadyWallMs/median",
+                                             "/cost/steadyWallMs/q3",
+                                             "/cost/steadyProcessorMs/q1",
+                                             "/cost/steadyProcessorMs/median",
+                                             "/cost/steadyProcessorMs/q3",
+                                             "/cost/movingWallMs/q1",
+                                             "/cost/movingWallMs/median",
+                                             "/cost/movingWallMs/q3",
+                                             "/cost/movingProcessorMs/q1",
+                                             "/cost/movingProcessorMs/median",
+                                             "/cost/movingProcessorMs/q3",
+                                             "/cost/memoryMiB",
+                                             "/cost/draws",
+                                             "/cost/passes",
+                                             "/cost/triangles",
+                                             "/errors/pixels/R",
+                                             "/errors/pixels/R+",
+                                             "/errors/pixels/Rc",
+                                             "/errors/pixels/unmeasured",
+                                             "/errors/pixels/droppedShare",
+                                             "/errors/awayFromEdges/shadow",
+                                             "/errors/awayFromEdges/falseShadow",
+                                             "/errors/awayFromEdges/falseLit",
+                                             "/errors/awayFromEdges/lit",
+                                             "/errors/raw/shadow",
+                                             "/errors/raw/falseShadow",
+                                             "/errors/raw/falseLit",
+                                             "/errors/raw/lit",
+                                             "/errors/terminator/shadow",
+                                             "/errors/terminator/falseShadow",
+                                             "/errors/terminator/falseLit",
+                                             "/errors/terminator/lit",
+                                             "/errors/selfShadowed/shadow",
+                                             "/errors/selfShadowed/falseShadow",
+                                             "/errors/selfShadowed/falseLit",
+                                             "/errors/selfShadowed/lit",
+                                             "/errors/boundaryPixels/mean",
+                                             "/errors/boundaryPixels/p95",
+                                             "/errors/boundaryPixels/max",
+                                             "/errors/boundaryPixels/signedMean",
+                                             "/errors/boundaryPixels/drawnLength",
+                                             "/errors/boundaryPixels/trueLength",
+                                             "/errors/causes/acne",
+                                             "/errors/causes/halo",
+                                             "/errors/causes/peterPanning",
+                                             "/errors/causes/leak",
+                                             "/errors/causes/erosion",
+                                             "/errors/causes/overDark",
+                                             "/errors/causes/overBright",
+                                             "/errors/causes/acneShare",
+                                             "/errors/causes/peterPanningShare",
+                                             "/errors/causes/gapMetres",
+                                             "/errors/rmsePointSun/all",
+                                             "/errors/rmsePointSun/penumbra",
+                                             "/errors/rmseDiscSun/all",
+                                             "/errors/rmseDiscSun/penumbra",
+                                             "/errors/rmsePointSunFiltered4x4/all",
+                                             "/errors/rmsePointSunFiltered4x4/penumbra",
+                                             "/errors/catastrophes/notFinitePixels",
+                                             "/shadedRmse",
+                                             "/flickerEnergy",
+                                             "/flickerShare",
+                                             "/crawlPixels"};
+
+TEST_F(ResultsFile, EveryNumberStandsUnderItsOwnName) { // one list serves both ways: two names swapped would come back
+    saveResults(fullResults(), folder.path().string());
+    const json point = json::parse(readFile(file()))["points"][0];
+    for (std::size_t i = 0; i < countedPlaces.size(); ++i) {
+        const json number = point.value(json::json_pointer(countedPlaces[i]), json());
+        const double third = number.is_number_float() ? 1.0 / 3.0 : 0.0; // see Counter
+        EXPECT_EQ(number, double(i + 1) + third) << countedPlaces[i];
+    }
 }
 
 TEST_F(ResultsFile, TheCsvHasALineAPointWithNamesUnitsAndEveryNumber) {
