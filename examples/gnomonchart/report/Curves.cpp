@@ -69,14 +69,6 @@ Curve pooled(const Curve& all) {
     return curve;
 }
 
-std::vector<BestPoint> soundPoints(const std::vector<Curve>& curves) {
-    std::vector<BestPoint> sound;
-    for (const Curve& curve : curves)
-        for (const CurvePoint& point : curve.points)
-            if (point.shown() && !point.catastrophic) sound.push_back({&curve, &point});
-    return sound;
-}
-
 } // namespace
 
 bool CurvePoint::shown() const { return std::isfinite(time.median) && std::isfinite(error); }
@@ -100,6 +92,14 @@ std::vector<Curve> pooledCurves(const ChartResults& results, LightMotion light) 
     for (const ChartPoint& point : results.points) curveOf(all, point).points.push_back(curvePoint(point, light));
     std::transform(all.begin(), all.end(), all.begin(), [](const Curve& curve) { return pooled(curve); });
     return all;
+}
+
+std::vector<BestPoint> soundPoints(const std::vector<Curve>& curves) {
+    std::vector<BestPoint> sound;
+    for (const Curve& curve : curves)
+        for (const CurvePoint& point : curve.points)
+            if (point.shown() && !point.catastrophic) sound.push_back({&curve, &point});
+    return sound;
 }
 
 std::vector<BestPoint> staircase(const std::vector<Curve>& curves) {

@@ -39,11 +39,14 @@ std::vector<Curve> pooledCurves(const ChartResults& results, LightMotion light);
 /// Middle of the values, mean of the two middle ones of an even number; NaN for none.
 double median(std::vector<double> values);
 
-/// One step of the staircase of the best.
+/// One step of the staircase of the best, or one that may become it.
 struct BestPoint {
     const Curve* curve;
     const CurvePoint* point;
 };
+
+/// Those that have a place on a chart and are no catastrophe, in the order of the curves.
+std::vector<BestPoint> soundPoints(const std::vector<Curve>& curves);
 
 /// The points for which no other is at most as slow and at most as wrong (and better in one), from the fastest to the
 /// most accurate. Catastrophic points are never among the best. Of points alike in both the first is taken.

@@ -26,12 +26,11 @@ std::string listed(const std::vector<std::string>& names) {
     return text;
 }
 
-/// Those that have a place and are no catastrophe.
+/// The sound points of Gnomon, or those of its peers.
 std::vector<BestPoint> soundOf(const std::vector<Curve>& curves, bool ours) {
-    std::vector<BestPoint> sound;
-    for (const Curve& curve : curves)
-        for (const CurvePoint& point : curve.points)
-            if (curve.ours() == ours && point.shown() && !point.catastrophic) sound.push_back({&curve, &point});
+    std::vector<BestPoint> sound = soundPoints(curves);
+    const auto others = [ours](const BestPoint& point) { return point.curve->ours() != ours; };
+    sound.erase(std::remove_if(sound.begin(), sound.end(), others), sound.end());
     return sound;
 }
 
