@@ -4,6 +4,8 @@
 
 #include <osgDB/FileUtils>
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -26,6 +28,13 @@ std::string quoted(const std::string& file) { return "\"" + file + "\""; }
 std::string damagedSentence(const std::string& file, const FileKind& kind) {
     return quoted(file) + " cannot be read as " + kind.article + ": it is damaged or not what its name says (" +
            kind.formats + " can be read).";
+}
+
+std::optional<std::string> fileBytes(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file, ignored)) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
 ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, ReadMethod read) {

@@ -2,6 +2,8 @@
 #pragma once
 #include <osgDB/Registry>
 
+#include <filesystem>
+#include <optional>
 #include <string>
 
 namespace gnomon::examples {
@@ -15,6 +17,9 @@ struct FileKind {
 std::string quoted(const std::string& file);
 /// That the file cannot be read as what it is to hold.
 std::string damagedSentence(const std::string& file, const FileKind& kind);
+
+/// All of a file; nullopt if it is a directory or cannot be opened.
+std::optional<std::string> fileBytes(const std::filesystem::path& file);
 
 /// Reads by one of osgDB::Registry's methods, -O options included. A reader that crashes on a damaged file ends the
 /// program with the damaged file's sentence and status 1.

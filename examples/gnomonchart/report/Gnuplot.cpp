@@ -9,7 +9,6 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <spawn.h>
 #include <stdexcept>
 #include <sys/wait.h>
@@ -70,10 +69,7 @@ void runGnuplot(const fs::path& folder, const std::string& script) {
     if (status != 0) throw std::runtime_error("gnuplot cannot draw " + script + ": " + complaint(folder / "log") + ".");
 }
 
-std::string bytesOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string bytesOf(const fs::path& file) { return fileBytes(file).value_or(""); }
 
 } // namespace
 

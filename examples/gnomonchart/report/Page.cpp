@@ -3,6 +3,7 @@
 
 #include "FigureSvg.h"
 #include "Findings.h"
+#include "InputFile.h"
 #include "PageData.h"
 #include "TextTemplate.h"
 
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 namespace gnomon::examples {
 namespace {
@@ -40,8 +39,7 @@ std::string metricsHtml() {
 }
 
 std::string svgOf(const DrawnFigure& figure, const std::string& folder) {
-    std::ifstream in(std::filesystem::path(folder) / (figure.name + ".svg"), std::ios::binary);
-    const std::string svg{std::istreambuf_iterator<char>(in), {}};
+    const std::string svg = fileBytes(std::filesystem::path(folder) / (figure.name + ".svg")).value_or("");
     return svg.substr(std::min(svg.size(), svg.find("<svg"))); // without the XML declaration
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "PagePictures.h"
 
+#include "InputFile.h"
 #include "OutputFile.h"
 
 #include <osgDB/Registry>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace gnomon::examples {
@@ -19,8 +18,7 @@ namespace fs = std::filesystem;
 std::string pngBytes(const fs::path& file) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) return "";
-    std::ifstream in(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    const std::string bytes = fileBytes(file).value_or("");
     return bytes.compare(0, 8, "\x89PNG\r\n\x1a\n") == 0 ? bytes : "";
 }
 

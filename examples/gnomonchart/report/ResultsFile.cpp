@@ -8,25 +8,12 @@
 #include "ResultsJson.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 
 namespace gnomon::examples {
-namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-std::string bytesOf(const std::string& file) {
-    std::error_code ignored;
-    std::ifstream in(file, std::ios::binary);
-    if (!in || fs::is_directory(file, ignored))
-        throw std::runtime_error("there is no file " + quoted(file) + "; a results.json of gnomonchart is needed.");
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-} // namespace
 
 void saveResults(const ChartResults& results, const std::string& folder) {
     // Text from drivers and file names need not be UTF-8: what is not becomes U+FFFD.
@@ -36,8 +23,10 @@ void saveResults(const ChartResults& results, const std::string& folder) {
 }
 
 ChartResults loadResults(const std::string& file) {
-    const std::string bytes = bytesOf(file);
-    const json parsed = json::parse(bytes, nullptr, false);
+    const std::optional<std::string> bytes = fileBytes(file);
+    if (!bytes)
+        throw std::runtime_error("there is no file " + quoted(file) + "; a results.json of gnomonchart is needed.");
+    const json parsed = json::parse(*bytes, nullptr, false);
     const std::string begin = quoted(file) + " cannot be read as results of gnomonchart";
     if (parsed.is_discarded()) throw std::runtime_error(begin + ": it is no whole JSON file.");
     ChartResults results;
