@@ -69,8 +69,7 @@ ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
     readOptions(arguments, chartOptions(options));
     readOsgOptions(arguments);
     if (options.help || options.list) return options;
-    refuseUnknownOptions(arguments);
-    for (int i = 1; i < arguments.argc(); ++i) options.view.files.push_back(arguments[i]);
+    takeFiles(arguments, options.view);
     if (!options.again.empty() && !options.view.files.empty())
         throw std::invalid_argument("--again and files are given; one of them is allowed.");
     if (!options.view.files.empty() && !options.scenes.empty())

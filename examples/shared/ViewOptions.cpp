@@ -122,9 +122,13 @@ Options viewOptions(ViewOptions& into) {
     return table;
 }
 
-void readFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
+void takeFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
     refuseUnknownOptions(arguments);
     for (int i = 1; i < arguments.argc(); ++i) into.files.push_back(arguments[i]);
+}
+
+void readFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
+    takeFiles(arguments, into);
     if (into.files.empty()) refuse("no scene file is given; --help says how.");
 }
 

@@ -37,8 +37,10 @@ struct ViewOptions {
 /// The options of `into`, as a table.
 Options viewOptions(ViewOptions& into);
 
-/// Takes what is left of the command line as scene files. @throws std::invalid_argument if there is none, or something
-/// is an option.
+/// Takes what is left of the command line as scene files, if anything. @throws std::invalid_argument if something is an
+/// option.
+void takeFiles(osg::ArgumentParser& arguments, ViewOptions& into);
+/// The same where one is needed. @throws std::invalid_argument if there is none, too.
 void readFiles(osg::ArgumentParser& arguments, ViewOptions& into);
 
 /// Names of several specifications, "none" without any.
