@@ -2,6 +2,7 @@
 #include "InputFile.h"
 #include "CrashGuard.h"
 
+#include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 
 #include <fstream>
@@ -19,6 +20,11 @@ ReadResult guarded(const std::string& file, const std::string& sentence, ReadMet
     } catch (const std::exception&) {
         return ReadResult::ERROR_IN_READING_FILE;
     }
+}
+
+/// Also where the last ending only chooses a reader, as .gdal does.
+bool isThere(const std::string& file) {
+    return !osgDB::findDataFile(file).empty() || !osgDB::findDataFile(osgDB::getNameLessExtension(file)).empty();
 }
 
 } // namespace
@@ -42,7 +48,7 @@ ReadResult readFile(const std::string& file, const std::string& program, const F
         throw std::runtime_error(quoted(file) + " is a directory; " + kind.article + " file is needed.");
     ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), read);
     if (result.validObject()) return result;
-    if (osgDB::findDataFile(file).empty() && result.status() != ReadResult::ERROR_IN_READING_FILE)
+    if (!isThere(file) && result.status() != ReadResult::ERROR_IN_READING_FILE)
         throw std::runtime_error("there is no file " + quoted(file) + ", or no reader for its type.");
     throw std::runtime_error(damagedSentence(file, kind));
 }
