@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Drape.h>
+#include "support/TerrainTrial.h"
+
 #include <gnomon/HeightPyramid.h>
 
 #include <glm/geometric.hpp>
@@ -10,8 +11,6 @@
 #include <random>
 
 namespace test {
-
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 /// A house: its middle, half sides, turn and roof; it goes down as far as there is ground.
 struct House {
@@ -65,25 +64,6 @@ inline std::vector<House> houses(int count, const gnomon::Ground& ground) {
                           *ground.height(at.x, at.y) + 5.0 + 25.0 * unit(random)});
     }
     return result;
-}
-
-inline glm::dvec3 sunAt(double azimuth, double elevation) {
-    const double a = azimuth * degree, e = elevation * degree;
-    return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
-}
-
-/// Triangles of a drape over a place, those whose edge it lies on too.
-inline int over(const gnomon::Drape& drape, const glm::dvec2& p) {
-    int count = 0;
-    for (std::size_t i = 0; i + 2 < drape.size(); i += 3) {
-        bool inside = true;
-        for (std::size_t e = 0; e < 3; ++e) {
-            const glm::dvec2 a(drape[i + e]), edge = glm::dvec2(drape[i + (e + 1) % 3]) - a, way = p - a;
-            inside = inside && edge.x * way.y - edge.y * way.x >= 0.0;
-        }
-        count += inside;
-    }
-    return count;
 }
 
 } // namespace test

@@ -30,7 +30,8 @@ double level(double, double) { return 3.0; }
 
 std::optional<Drape> fanOf(const Ground& ground, const House& house, const glm::dvec3& sun) {
     const auto shadow = gnomon::convexShadow(*gnomon::convexHull(house.corners()), glm::dvec4(sun, 0.0));
-    return gnomon::hullFan(ground, *shadow, glm::dvec4(sun, 0.0));
+    const auto fan = gnomon::hullFan(ground, *shadow, glm::dvec4(sun, 0.0));
+    return fan ? std::optional(fan->triangles) : std::nullopt;
 }
 
 /// Intersection and union in plan, in points of a grid of 0.5 m over where the shadow may be.
@@ -83,6 +84,26 @@ TEST(HullFan, KeepsToTheTruthOnHillsWithFewerTrianglesThanTheBoxMethod) {
         EXPECT_GE(shares[shares.size() / 20], fifth) << elevation;
         EXPECT_LE(most, 12u) << "the published mesh";
     }
+}
+
+/// Low and wide: they stand on ten times as much as they shade.
+TEST(HullFan, KnowsHowMuchOfWhatIsSeenIsWrong) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    double off = 0.0, wrong = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        const glm::dvec2 middle(400.0 + 13.0 * i, 1100.0 - 11.0 * i);
+        const double height = *ground.height(middle.x, middle.y);
+        const test::Prism hall = test::boxAt(middle, {20.0, 15.0}, i, height - 40.0, height + 8.0);
+        const glm::dvec4 sun(sunAt(137.5 * i, 60.0), 0.0);
+        const auto fan = gnomon::hullFan(ground, *gnomon::convexShadow(hall.parts()[0].hull, sun), sun);
+        ASSERT_TRUE(fan);
+        const test::Contestant given{"fan", [&](const auto&, const auto&, const auto&) { return fan->triangles; }};
+        off += fan->off;
+        wrong += 1.0 - judge(ground, hall, sun, {given}, 3000)[0].overlap();
+    }
+    std::cout << "said to be wrong: " << off / 60.0 << ", wrong: " << wrong / 60.0 << "\n";
+    EXPECT_GT(off, 0.5 * wrong);
+    EXPECT_LT(off, 2.0 * wrong);
 }
 
 TEST(HullFan, OnLevelGroundIsExactAtEveryAzimuthAndTurn) {
