@@ -24,13 +24,13 @@ struct DepthPicture {
 /// Which pixels a light does not reach: where the depth buffer says a surface is, one ray to the light.
 ///
 /// A depth is not exact. Here it is taken to be right to 4 steps of the buffer and to what twice the rasteriser's
-/// snapping moves it and a sample's place, by its slope to the nearer of the neighbours on either side. The ray starts as much nearer to the
-/// eye, and a few steps of a float more (RayScene::margin()). Between surface and eye nothing can be, or it would be
-/// seen: so the start is never behind a thing, nothing leaks at contacts, and needs no normal; and it is always on the
-/// seen side of its own surface, so that what is flat does not shadow itself. What faces away from the light shadows
-/// itself, as it must. How far the start moves: with 24 bits 2.4·10⁻⁷·z²/near, that is 2.4 mm at 100 m under a near
-/// plane of 1 m. Where that is more than an eighth of a pixel, as over kilometres of terrain, one more ray finds the
-/// caster's surface between the two ends of what the depth may mean, and the ray to the light starts there.
+/// snapping moves it and a sample's place, by its slope to the nearer of the neighbours on either side. The ray starts as
+/// much nearer to the eye, and a few steps of a float more (RayScene::margin()). Between surface and eye nothing can be,
+/// or it would be seen: so the start is never behind a thing, nothing leaks at contacts, and needs no normal; and it is
+/// always on the seen side of its own surface, so that what is flat does not shadow itself. What faces away from the
+/// light shadows itself, as it must. How far the start moves: with 24 bits 2.4·10⁻⁷·z²/near, that is 2.4 mm at 100 m
+/// under a near plane of 1 m. Where that is more than an eighth of a pixel, as over kilometres of terrain, one more ray
+/// finds the caster's surface between the two ends of what the depth may mean, and the ray to the light starts there.
 ///
 /// @param clipFromScene  of the picture, as drawn; scene is the frame of the rays.
 /// @param light          homogeneous, w = 0 the way towards a sun, w = 1 a lamp's position.

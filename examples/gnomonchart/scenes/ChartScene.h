@@ -14,7 +14,7 @@ namespace gnomon::examples {
 
 /// What every contender draws: one scene, one light, one camera.
 struct ChartScene {
-    std::string name;                 ///< for file names and --scene: a-z, 0-9 and "-".
+    std::string name;                 ///< for --scene a-z, 0-9 and "-"; of files of the user's own any text.
     std::string title;                ///< for people.
     osg::ref_ptr<osg::Group> content; ///< what is seen and casts; z up; holds no light.
     osg::Vec4d light;                 ///< homogeneous, world: w = 0 the way towards a sun, w = 1 a lamp's position.
