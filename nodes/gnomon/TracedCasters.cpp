@@ -4,7 +4,6 @@
 
 #include <OpenThreads/ScopedLock>
 #include <algorithm>
-#include <glm/vec3.hpp>
 #include <iterator>
 #include <map>
 #include <tbb/task_arena.h>
@@ -13,17 +12,6 @@ namespace gnomon {
 namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
-
-/// About the mesh's origin. osg::Vec3 and glm::vec3 are three floats each.
-TriangleSoup soupOf(const CasterMesh& mesh) {
-    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
-    TriangleSoup soup;
-    soup.vertices = static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
-    soup.vertexCount = mesh.vertices->size();
-    soup.indices = mesh.triangles->empty() ? nullptr : &mesh.triangles->front();
-    soup.indexCount = mesh.triangles->size();
-    return soup;
-}
 
 /// A tree and the casters that it is of: while the one lives, nothing else can have the other's address.
 struct Tree {

@@ -4,11 +4,23 @@
 #include <gnomon/RayScene.h>
 
 #include <OpenThreads/Mutex>
+#include <glm/vec3.hpp>
 
 #include <memory>
 #include <vector>
 
 namespace gnomon {
+
+/// The casters as rays take them, about the mesh's origin, while the mesh lives.
+inline TriangleSoup soupOf(const CasterMesh& mesh) {
+    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
+    TriangleSoup soup;
+    soup.vertices = static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
+    soup.vertexCount = mesh.vertices->size();
+    soup.indices = mesh.triangles->empty() ? nullptr : &mesh.triangles->front();
+    soup.indexCount = mesh.triangles->size();
+    return soup;
+}
 
 /// The trees over casters that a node or a query casts rays at: one a revision, kept while it is used, and one for all
 /// nodes and queries that ask for the same casters.

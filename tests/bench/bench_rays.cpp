@@ -4,6 +4,7 @@
 
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowQuery.h>
+#include <gnomon/TracedCasters.h>
 #include <gnomon/TracedShadowTechnique.h>
 
 #include <glm/geometric.hpp>
@@ -27,16 +28,6 @@ osg::ref_ptr<gnomon::ShadowCasterGroup> townGroup() {
     group->addChild(test::node(test::joined(test::town(side))));
     group->addChild(test::node(test::square(half)));
     return group;
-}
-
-/// About the mesh's origin.
-gnomon::TriangleSoup soupOf(const gnomon::CasterMesh& mesh) {
-    gnomon::TriangleSoup soup;
-    soup.vertices = static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
-    soup.vertexCount = mesh.vertices->size();
-    soup.indices = &mesh.triangles->front();
-    soup.indexCount = mesh.triangles->size();
-    return soup;
 }
 
 /// The best of nine runs, in millions a second of the processor's time: others may be using it, too.
