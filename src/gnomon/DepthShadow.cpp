@@ -19,7 +19,11 @@ class DepthTracer {
 public:
     DepthTracer(const RayScene& scene, const DepthPicture& picture, const glm::dmat4& clipFromScene,
                 const glm::dvec4& light)
-        : _scene(scene), _picture(picture), _sceneFromClip(glm::inverse(clipFromScene)), _light(light) {}
+        : _scene(scene),
+          _picture(picture),
+          _sceneFromClip(glm::inverse(clipFromScene)),
+          _across(_sceneFromClip[0] * (2.0 / picture.viewportWidth)),
+          _light(light) {}
 
     /// @param x,y  counted from the part's corner.
     bool blocked(int x, int y) const;
@@ -30,12 +34,14 @@ private:
     }
     /// Change of depth from one pixel to the next, on the surface that is seen: to the nearer neighbour in depth.
     double slope(int x, int y, int dx, int dy) const;
-    glm::dvec3 unproject(double x, double y, double depth) const;
+    /// Homogeneous, scene: a point of a pixel's ray. In these coordinates all of the ray is linear in depth.
+    glm::dvec4 unproject(int x, int y, double depth) const;
     glm::dvec3 start(int x, int y) const;
 
     const RayScene& _scene;
     const DepthPicture& _picture;
     const glm::dmat4 _sceneFromClip;
+    const glm::dvec4 _across; ///< from one pixel to the next, where depths are alike.
     const glm::dvec4 _light;
 };
 
@@ -50,13 +56,13 @@ double DepthTracer::slope(int x, int y, int dx, int dy) const {
     return least < 1.0 ? least : 0.0;
 }
 
-glm::dvec3 DepthTracer::unproject(double x, double y, double depth) const {
-    const glm::dvec4 point =
-        _sceneFromClip * glm::dvec4(2.0 * (_picture.x + x + _picture.place.x) / _picture.viewportWidth - 1.0,
-                                    2.0 * (_picture.y + y + _picture.place.y) / _picture.viewportHeight - 1.0,
-                                    2.0 * depth - 1.0, 1.0);
-    return glm::dvec3(point) / point.w;
+glm::dvec4 DepthTracer::unproject(int x, int y, double depth) const {
+    return _sceneFromClip * glm::dvec4(2.0 * (_picture.x + x + _picture.place.x) / _picture.viewportWidth - 1.0,
+                                       2.0 * (_picture.y + y + _picture.place.y) / _picture.viewportHeight - 1.0,
+                                       2.0 * depth - 1.0, 1.0);
 }
+
+glm::dvec3 cartesian(const glm::dvec4& point) { return glm::dvec3(point) * (1.0 / point.w); }
 
 /// Where a pixel's ray to the light starts: as far before the surface as its depth may be wrong, or on the surface that
 /// is found there where that is too far.
@@ -64,11 +70,11 @@ glm::dvec3 DepthTracer::start(int x, int y) const {
     const double moved = snapsOff * _picture.subpixel + _picture.offPlace;
     const double off = stepsOff * _picture.step + moved * (slope(x, y, 1, 0) + slope(x, y, 0, 1));
     const double seen = depth(x, y);
-    const glm::dvec3 nearer = unproject(x, y, std::max(seen - off, 0.0));
-    const glm::dvec3 farther = unproject(x, y, std::min(seen + off, 1.0)); // beyond 1 it would be behind the eye
-    const glm::dvec3 along = farther - nearer;
-    const double pixel = glm::length(unproject(x + 1.0, y, seen) - unproject(x, y, seen));
-    if (glm::length(along) > coarse * pixel) {
+    const glm::dvec4 surface = unproject(x, y, seen), deeper = 2.0 * _sceneFromClip[2];
+    const glm::dvec3 nearer = cartesian(surface - std::min(off, seen) * deeper);
+    const glm::dvec3 farther = cartesian(surface + std::min(off, 1.0 - seen) * deeper); // beyond 1: behind the eye
+    const glm::dvec3 along = farther - nearer, pixel = cartesian(surface + _across) - cartesian(surface);
+    if (glm::dot(along, along) > coarse * coarse * glm::dot(pixel, pixel)) {
         const RayHit hit = _scene.closest({nearer, along, 1.0});
         if (hit)
             return _scene.lifted(nearer + hit.distance * along,
