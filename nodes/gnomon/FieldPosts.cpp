@@ -79,6 +79,13 @@ void FieldPosts::addTo(std::vector<glm::dvec3>& vertices, std::vector<unsigned>&
         }
 }
 
+double FieldPosts::rounding() const {
+    const osg::Matrixd& m = rootFromField;
+    const osg::Vec3d first = osg::Vec3d(left, low, 0.0) * m,
+                     last = osg::Vec3d(left + columns * columnStep, low + rows * rowStep, 0.0) * m;
+    return std::numeric_limits<float>::epsilon() / 2.0 * (last - first).length();
+}
+
 bool drawsItsShape(const osg::ShapeDrawable& drawable, const osg::HeightField& field) {
     const osg::Matrixd matrix = localFromField(field);
     const unsigned columns = field.getNumColumns(), rows = field.getNumRows();

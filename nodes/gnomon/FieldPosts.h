@@ -28,6 +28,9 @@ struct FieldPosts {
     /// Appends each cell that is no hole, cut as HeightField cuts it.
     void addTo(std::vector<glm::dvec3>& vertices, std::vector<unsigned>& indices) const;
 
+    /// How far off floats may have put a post, in the root's unit.
+    double rounding() const;
+
 private:
     std::size_t at(int column, int row) const { return std::size_t(row) * std::size_t(columns) + std::size_t(column); }
     bool isHole(int column, int row) const;

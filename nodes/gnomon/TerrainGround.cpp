@@ -3,6 +3,7 @@
 #include <gnomon/FieldPosts.h>
 #include <gnomon/HeightPyramid.h>
 #include <gnomon/TerrainGround.h>
+#include <gnomon/TriangleGrid.h>
 #include <gnomon/TriangleGround.h>
 #include <gnomon/VertexTraverser.h>
 
@@ -11,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 #include <utility>
 
 namespace gnomon {
@@ -41,11 +44,25 @@ private:
     std::vector<FieldPosts> _fields;
 };
 
+/// Of coordinates that came through matrices and sums of a few terms.
+double roundingOf(const std::vector<glm::dvec3>& vertices) {
+    glm::dvec3 most(0.0);
+    for (const glm::dvec3& vertex : vertices) most = glm::max(most, glm::abs(vertex));
+    return 16.0 * std::numeric_limits<double>::epsilon() * std::max({most.x, most.y, most.z});
+}
+
+/// @param rounding  of the vertices as they were drawn.
 std::shared_ptr<const Ground> groundOf(const std::vector<FieldPosts>& fields, std::vector<glm::dvec3> vertices,
-                                       std::vector<unsigned> indices) {
+                                       std::vector<unsigned> indices, double rounding) {
     if (fields.size() == 1 && indices.empty())
         if (auto grid = fields.front().grid()) return std::make_shared<HeightPyramid>(std::move(*grid));
-    for (const FieldPosts& field : fields) field.addTo(vertices, indices);
+    for (const FieldPosts& field : fields) {
+        field.addTo(vertices, indices);
+        rounding = std::max(rounding, field.rounding());
+    }
+    // A post and its place, both rounded, from two vertices each.
+    if (auto grid = gridOf(vertices, indices, 4.0 * rounding + roundingOf(vertices)))
+        return std::make_shared<HeightPyramid>(std::move(*grid));
     return std::make_shared<TriangleGround>(std::move(vertices), indices);
 }
 
@@ -62,11 +79,11 @@ std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain
     std::vector<glm::dvec3> vertices;
     vertices.reserve(found.getVertices().size());
     for (const osg::Vec3d& vertex : found.getVertices()) vertices.push_back(toGlm(vertex));
-    return groundOf(found.fields(), std::move(vertices), found.getTriangles());
+    return groundOf(found.fields(), std::move(vertices), found.getTriangles(), found.getRounding());
 }
 
 std::shared_ptr<const Ground> groundOf(const osg::HeightField& field) {
-    return groundOf({FieldPosts(field, osg::Matrixd::identity())}, {}, {});
+    return groundOf({FieldPosts(field, osg::Matrixd::identity())}, {}, {}, 0.0);
 }
 
 } // namespace gnomon

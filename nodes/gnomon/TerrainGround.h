@@ -15,11 +15,13 @@ namespace gnomon {
 /// The ground that a subgraph draws, in the frame of `root` as VertexTraverser's, z up, in double. Never null; where
 /// nothing is drawn the ground is empty.
 ///
-/// One ShapeDrawable of an osg::HeightField that is moved and scaled but neither turned nor mirrored becomes a
-/// HeightPyramid, whose drapes adapt. All else, several fields too, becomes a TriangleGround of the triangles that
-/// VertexTraverser takes, and of the fields' cells. A field's skirt and border are left out; posts without a height (see
+/// What is a regular grid along x and y, cells cut along either diagonal or left out, becomes a HeightPyramid, whose drapes
+/// adapt: a ShapeDrawable of an osg::HeightField, a mesh, terrain tiles side by side as osgTerrain's GeometryTechnique draws
+/// them. All else becomes a TriangleGround. A height field's skirt and border are left out; its posts without a height (see
 /// isHeight()) are holes, whatever is drawn there.
 ///
+/// Limits  those of VertexTraverser: what a vertex shader lifts, as osgTerrain's DisplacementMappingTechnique does, is not
+///         seen.
 /// Cost    what VertexTraverser costs, and the ground's own. Holds nothing of the graph: make it anew after changes.
 /// Threads reads the graph as a cull traversal does.
 GNOMON_EXPORT std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain = {});

@@ -11,11 +11,19 @@
 namespace gnomon {
 
 HeightField::HeightField(int columns, int rows, const glm::dvec2& origin, const glm::dvec2& step,
-                         std::vector<float> heights, double base)
-    : _columns(columns), _rows(rows), _origin(origin), _step(step), _heights(std::move(heights)), _base(base) {
+                         std::vector<float> heights, double base, std::vector<CellCut> cuts)
+    : _columns(columns),
+      _rows(rows),
+      _origin(origin),
+      _step(step),
+      _heights(std::move(heights)),
+      _base(base),
+      _cuts(std::move(cuts)) {
     if (columns < 2 || rows < 2) throw std::invalid_argument("a height field needs 2 posts at least along each side.");
     if (_heights.size() != std::size_t(columns) * std::size_t(rows))
         throw std::invalid_argument("a height field needs a height for each of its posts.");
+    if (!_cuts.empty() && _cuts.size() != std::size_t(columns - 1) * std::size_t(rows - 1))
+        throw std::invalid_argument("a height field needs a cut for each of its cells, or none.");
     if (!(step.x > 0.0) || !(step.y > 0.0) || !std::isfinite(step.x + step.y + origin.x + origin.y + base))
         throw std::invalid_argument("a height field needs a step above 0 and a finite origin.");
 }
@@ -25,13 +33,19 @@ glm::dvec3 HeightField::post(int x, int y) const {
     return {_origin.x + x * _step.x, _origin.y + y * _step.y, _base + double(height)};
 }
 
+CellCut HeightField::cut(int x, int y) const {
+    return _cuts.empty() ? CellCut::rising : _cuts[std::size_t(y) * std::size_t(_columns - 1) + std::size_t(x)];
+}
+
 bool HeightField::isHole(int x, int y) const {
+    if (cut(x, y) == CellCut::hole) return true;
     const double sum = post(x, y).z + post(x + 1, y).z + post(x, y + 1).z + post(x + 1, y + 1).z;
     return !std::isfinite(sum);
 }
 
 std::array<GroundTriangle, 2> HeightField::triangles(int x, int y, int side) const {
     const glm::dvec3 a = post(x, y), b = post(x + side, y), c = post(x + side, y + side), d = post(x, y + side);
+    if (side == 1 && cut(x, y) == CellCut::falling) return {GroundTriangle{a, b, d}, GroundTriangle{b, c, d}};
     return {GroundTriangle{a, b, c}, GroundTriangle{a, c, d}};
 }
 
@@ -42,6 +56,8 @@ std::optional<double> HeightField::height(double x, double y) const {
     if (isHole(i, j)) return std::nullopt;
     const double u = at.x - i, v = at.y - j;
     const double a = post(i, j).z, b = post(i + 1, j).z, c = post(i + 1, j + 1).z, d = post(i, j + 1).z;
+    if (cut(i, j) == CellCut::falling)
+        return u + v <= 1.0 ? a + u * (b - a) + v * (d - a) : c + (1.0 - u) * (d - c) + (1.0 - v) * (b - c);
     return u >= v ? a + u * (b - a) + v * (c - b) : a + v * (d - a) + u * (c - d);
 }
 

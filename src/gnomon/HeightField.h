@@ -6,26 +6,37 @@
 
 namespace gnomon {
 
+/// How a cell becomes two triangles, or none.
+enum class CellCut : unsigned char {
+    rising,  ///< from its lower left to its upper right corner.
+    falling, ///< from its upper left to its lower right corner.
+    hole
+};
+
 /// Ground given by its height on a regular grid, z up. Each cell is two triangles, cut from its lower left to its upper
-/// right corner; a cell with a height that is not finite at a corner is a hole.
+/// right corner unless told otherwise; a cell with a height that is not finite at a corner is a hole.
 ///
-/// Cost 4 bytes a post.
+/// Cost 4 bytes a post, and one a cell where cuts are given.
 class HeightField {
 public:
     /// @param columns,rows  posts, at least 2 of each.
     /// @param origin,step   of the first post and between posts, any unit; step > 0.
     /// @param heights       row by row, the row of the least y first; about `base`.
+    /// @param cuts          cell by cell as the heights; empty: all are rising.
     /// @throws std::invalid_argument, one sentence, if the numbers do not fit.
     HeightField(int columns, int rows, const glm::dvec2& origin, const glm::dvec2& step, std::vector<float> heights,
-                double base = 0.0);
+                double base = 0.0, std::vector<CellCut> cuts = {});
 
     int columns() const { return _columns; }
     int rows() const { return _rows; }
     /// Cell, or post, below and to the left of a place; may be beside the grid.
     glm::dvec2 cellOf(double x, double y) const { return (glm::dvec2(x, y) - _origin) / _step; }
     bool isHole(int x, int y) const; ///< of a cell.
+    CellCut cut(int x, int y) const; ///< as given: a rising or falling cell may still be a hole by its heights.
+    bool allRising() const { return _cuts.empty(); }
     glm::dvec3 post(int x, int y) const;
-    /// The two triangles over a block of side × side cells, from its corner posts alone.
+    /// The two triangles over a block of side × side cells, from its corner posts alone; cut as its cell is if it is one,
+    /// else rising.
     std::array<GroundTriangle, 2> triangles(int x, int y, int side = 1) const;
     /// nullopt beside the ground and in a hole.
     std::optional<double> height(double x, double y) const;
@@ -35,6 +46,7 @@ private:
     glm::dvec2 _origin, _step;
     std::vector<float> _heights;
     double _base;
+    std::vector<CellCut> _cuts;
 };
 
 } // namespace gnomon

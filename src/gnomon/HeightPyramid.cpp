@@ -82,19 +82,26 @@ HeightPyramid::Node HeightPyramid::merged(const Block& block) const {
     return result;
 }
 
-/// At the posts: the block's diagonal runs along those of its cells, so that both are linear in between.
+/// At the posts: the block's diagonal runs along those of its rising cells, so that both are linear in between. Falling
+/// cells have their own in the middle.
 float HeightPyramid::off(const Block& block) const {
     const int left = block.column(), low = block.row(), side = block.side();
     if (left + side >= _field.columns() || low + side >= _field.rows()) return infinite;
     const double a = _field.post(left, low).z, b = _field.post(left + side, low).z,
                  c = _field.post(left + side, low + side).z, d = _field.post(left, low + side).z;
     double most = 0.0;
+    const auto compare = [&](double x, double y, double height) {
+        const double u = x / side, v = y / side;
+        const double flat = u >= v ? a + u * (b - a) + v * (c - b) : a + v * (d - a) + u * (c - d);
+        most = std::max(most, std::abs(flat - height));
+    };
     for (int y = 0; y <= side; ++y)
-        for (int x = 0; x <= side; ++x) {
-            const double u = double(x) / side, v = double(y) / side;
-            const double flat = x >= y ? a + u * (b - a) + v * (c - b) : a + v * (d - a) + u * (c - d);
-            most = std::max(most, std::abs(flat - _field.post(left + x, low + y).z));
-        }
+        for (int x = 0; x <= side; ++x) compare(x, y, _field.post(left + x, low + y).z);
+    for (int y = 0; y < side && !_field.allRising(); ++y)
+        for (int x = 0; x < side; ++x)
+            if (_field.cut(left + x, low + y) == CellCut::falling)
+                compare(x + 0.5, y + 0.5,
+                        (_field.post(left + x + 1, low + y).z + _field.post(left + x, low + y + 1).z) / 2);
     return most > 0.0 ? above(most) : 0.0f; // what is level stays exact
 }
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Ground from loose triangles: against height fields cut into the same triangles, and shapes worked by hand.
 #include "Compare.h"
+#include "GroundTriangles.h"
 #include "Houses.h"
-
-#include <gnomon/TriangleGround.h>
 
 #include <algorithm>
 #include <ctime>
-#include <numeric>
 
 using gnomon::Drape;
 using gnomon::Ground;
@@ -16,6 +14,7 @@ using gnomon::HeightPyramid;
 using gnomon::TriangleGround;
 using gnomon::test::near;
 using gnomon::test::Random;
+using test::areaOf;
 
 namespace {
 
@@ -24,24 +23,11 @@ constexpr int posts = 70;
 double hills(double x, double y) { return 25.0 * std::sin(x * 0.011) * std::cos(y * 0.013) + 4.0 * std::sin(x * 0.05); }
 
 TriangleGround groundOf(const std::vector<GroundTriangle>& triangles) {
-    std::vector<glm::dvec3> vertices;
-    for (const GroundTriangle& t : triangles) vertices.insert(vertices.end(), t.begin(), t.end());
-    std::vector<unsigned> indices(vertices.size());
-    std::iota(indices.begin(), indices.end(), 0u);
-    return {vertices, indices};
+    return test::LooseTriangles(triangles).ground();
 }
 
-/// Every cell that is no hole, moved by `offset`, each second triangle clockwise.
 TriangleGround cellsOf(const gnomon::HeightField& field, const glm::dvec3& offset = {}) {
-    std::vector<GroundTriangle> triangles;
-    for (int y = 0; y + 1 < field.rows(); ++y)
-        for (int x = 0; x + 1 < field.columns(); ++x) {
-            if (field.isHole(x, y)) continue;
-            const auto [a, b] = field.triangles(x, y);
-            triangles.push_back({a[0] + offset, a[1] + offset, a[2] + offset});
-            triangles.push_back({b[0] + offset, b[2] + offset, b[1] + offset});
-        }
-    return groundOf(triangles);
+    return groundOf(test::trianglesOf(field, offset));
 }
 
 /// A hilly field with a hole of 3 × 2 cells.
@@ -51,13 +37,6 @@ HeightPyramid holed() {
         for (int i = 0; i < posts; ++i) heights.push_back(float(hills(i * test::pitch, j * test::pitch)));
     heights[std::size_t(30 * posts + 40)] = heights[std::size_t(30 * posts + 41)] = std::nanf("");
     return HeightPyramid({posts, posts, {0.0, 0.0}, {test::pitch, test::pitch}, heights});
-}
-
-double area(const Drape& drape) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i + 2 < drape.size(); i += 3)
-        sum += 0.5 * glm::length(glm::cross(drape[i + 1] - drape[i], drape[i + 2] - drape[i]));
-    return sum;
 }
 
 /// Two terraces, 0 and 8 high, and the vertical cliff between them at x = 10.
@@ -148,9 +127,9 @@ TEST(TriangleGround, TakesTheSameShadowsAsTheHeightField) {
         for (const double elevation : {60.0, 25.0, 8.0}) {
             const auto hull = gnomon::convexHull(house.corners());
             const auto shadow = gnomon::convexShadow(*hull, glm::dvec4(test::sunAt(37.0 * house.roof, elevation), 0.0));
-            const double expected = area(gnomon::drape(field, *shadow, 0.0));
+            const double expected = areaOf(gnomon::drape(field, *shadow, 0.0));
             // 10⁻⁹ of a side of 1000 m.
-            EXPECT_NEAR(area(gnomon::drape(ground, *shadow, 0.0)), expected, 1e-6);
+            EXPECT_NEAR(areaOf(gnomon::drape(ground, *shadow, 0.0)), expected, 1e-6);
             EXPECT_LE(ground.steepest(shadow->planes), field.steepest(shadow->planes))
                 << "asked by triangle, not by cell";
             sum += expected;
@@ -219,7 +198,7 @@ TEST(TriangleGround, HasCliffsThatStopRaysAndTakeShadowsButHaveNoHeight) {
     for (std::size_t i = 0; i < drape.size(); i += 3) {
         const Drape triangle(drape.begin() + std::ptrdiff_t(i), drape.begin() + std::ptrdiff_t(i) + 3);
         const bool level = triangle[0].z == 0.0 && triangle[1].z == 0.0 && triangle[2].z == 0.0;
-        (level ? onGround : onCliff) += area(triangle);
+        (level ? onGround : onCliff) += areaOf(triangle);
     }
     EXPECT_NEAR(onGround, 0.2 * 1.1, 1e-12) << "under the pole's own foot as well";
     EXPECT_NEAR(onCliff, 0.2 * 1.1, 1e-12) << "the roof begins 0.9 from the cliff: its shadow ends 2 - 0.9 up";

@@ -99,16 +99,20 @@ int covered(const Ground& ground) {
     return count;
 }
 
-const osg::Matrixd utm = osg::Matrixd::translate(433000.25, 5410000.75, 812.5);
+const osg::Matrixd utm = osg::Matrixd::translate(433000.3, 5410000.7, 812.4);
 
 /// Frames that terrain stands in. Turned about z only: else it is no longer heights over a plan.
 const osg::Matrixd frames[] = {
     osg::Matrixd::identity(),
     utm,
-    osg::Matrixd::scale(2.0, 3.0, 1.5) * utm,
+    osg::Matrixd::scale(2.1, 3.3, 1.5) * utm,
     osg::Matrixd::rotate(0.7, osg::Vec3d(0, 0, 1)) * utm,
     osg::Matrixd::scale(-1.0, 1.0, 1.0) * osg::Matrixd::rotate(0.7, osg::Vec3d(0, 0, 1)) * utm,
+    osg::Matrixd::scale(-1.0, 1.0, 1.0) * utm,
+    osg::Matrixd::rotate(-osg::PI_2, osg::Vec3d(0, 0, 1)) * utm,
 };
+
+bool isAlongAxes(const osg::Matrixd& frame) { return std::abs(frame(0, 0) * frame(0, 1)) < 1e-9; }
 
 } // namespace
 
@@ -116,13 +120,17 @@ TEST(TerrainGround, HasTheHeightsThatAShapesHeightFieldDraws) {
     for (const osg::Matrixd& frame : frames) {
         const auto root = under(frame, drawn(field()));
         const auto ground = groundOf(*root);
-        EXPECT_EQ(isGrid(ground), frame(0, 1) == 0.0 && frame(0, 0) > 0.0) << "only what keeps the axes adapts";
+        EXPECT_EQ(isGrid(ground), isAlongAxes(frame));
         expectSurface(*ground, frame, 1e-5); // heights times 1.5 are floats again
     }
 }
 
 TEST(TerrainGround, HasTheHeightsOfTrianglesInEveryFrame) {
-    for (const osg::Matrixd& frame : frames) expectSurface(*groundOf(*under(frame, triangles())), frame, 1e-5);
+    for (const osg::Matrixd& frame : frames) {
+        const auto ground = groundOf(*under(frame, triangles()));
+        EXPECT_EQ(isGrid(ground), isAlongAxes(frame));
+        expectSurface(*ground, frame, 1e-5);
+    }
 }
 
 TEST(TerrainGround, IsInTheFrameThatTheRootStandsIn) {
@@ -179,9 +187,13 @@ TEST(TerrainGround, TakesSeveralFieldsAndTrianglesTogether) {
     root->addChild(under(osg::Matrixd::translate(2000, 0, 0), drawn(field())));
     root->addChild(under(osg::Matrixd::translate(3000, 0, 0), triangles()));
     const auto ground = groundOf(*root);
+    EXPECT_TRUE(isGrid(ground)) << "1000 is 125 steps";
+    root->addChild(triangleAt(500.0));
+    EXPECT_FALSE(isGrid(groundOf(*root)));
     for (const double east : {1000.0, 2000.0, 3000.0})
         expectSurface(*ground, osg::Matrixd::translate(east, 0, 0), 1e-5);
     EXPECT_FALSE(ground->height(500.0, 50.0));
+    EXPECT_FALSE(ground->height(1500.0, 50.0));
 }
 
 TEST(TerrainGround, IsOnlyWhatTheSelectionTakes) {

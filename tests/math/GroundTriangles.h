@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/TriangleGround.h>
+
+#include <gnomon/Drape.h>
+#include <gnomon/HeightField.h>
+
+#include <glm/geometric.hpp>
+
+#include <numeric>
+
+namespace test {
+
+/// As a mesh file has them: no vertex shared.
+struct LooseTriangles {
+    std::vector<glm::dvec3> vertices;
+    std::vector<unsigned> indices;
+
+    explicit LooseTriangles(const std::vector<gnomon::GroundTriangle>& triangles) {
+        for (const gnomon::GroundTriangle& t : triangles) vertices.insert(vertices.end(), t.begin(), t.end());
+        indices.resize(vertices.size());
+        std::iota(indices.begin(), indices.end(), 0u);
+    }
+    gnomon::TriangleGround ground() const { return {vertices, indices}; }
+};
+
+/// Every cell that is no hole, moved by `offset`, each second triangle clockwise.
+inline std::vector<gnomon::GroundTriangle> trianglesOf(const gnomon::HeightField& field,
+                                                       const glm::dvec3& offset = {}) {
+    std::vector<gnomon::GroundTriangle> triangles;
+    for (int y = 0; y + 1 < field.rows(); ++y)
+        for (int x = 0; x + 1 < field.columns(); ++x) {
+            if (field.isHole(x, y)) continue;
+            const auto [a, b] = field.triangles(x, y);
+            triangles.push_back({a[0] + offset, a[1] + offset, a[2] + offset});
+            triangles.push_back({b[0] + offset, b[2] + offset, b[1] + offset});
+        }
+    return triangles;
+}
+
+inline double areaOf(const gnomon::Drape& drape) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 2 < drape.size(); i += 3)
+        sum += 0.5 * glm::length(glm::cross(drape[i + 1] - drape[i], drape[i + 2] - drape[i]));
+    return sum;
+}
+
+} // namespace test

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Grids found in loose triangles, cells cut either way, against the triangles themselves.
+#include "Compare.h"
+#include "GroundTriangles.h"
+#include "Houses.h"
+
+#include <gnomon/TriangleGrid.h>
+
+#include <algorithm>
+
+using gnomon::CellCut;
+using gnomon::gridOf;
+using gnomon::GroundTriangle;
+using gnomon::HeightField;
+using gnomon::HeightPyramid;
+using gnomon::test::near;
+using gnomon::test::Random;
+using test::LooseTriangles;
+
+namespace {
+
+constexpr int columns = 60, rows = 40;
+const glm::dvec2 step(10.0, 12.5);
+
+/// Rough ground in which each cell is cut as chance will have it, some left out.
+HeightField mixed(const glm::dvec2& origin) {
+    Random random(1);
+    std::vector<float> heights;
+    for (int i = 0; i < columns * rows; ++i) heights.push_back(float(random.between(-3.0, 3.0)));
+    std::vector<CellCut> cuts;
+    for (int i = 0; i < (columns - 1) * (rows - 1); ++i)
+        cuts.push_back(CellCut(std::min(2, int(random.between(0.0, 2.1)))));
+    return {columns, rows, origin, step, heights, 500.0, cuts};
+}
+
+std::optional<HeightField> gridIn(std::vector<GroundTriangle> triangles, double tolerance = 1e-6) {
+    std::shuffle(triangles.begin(), triangles.end(), std::mt19937(2));
+    const LooseTriangles loose(triangles);
+    return gridOf(loose.vertices, loose.indices, tolerance);
+}
+
+/// 3 × 3 posts 1 apart, level.
+std::vector<GroundTriangle> small() { return test::trianglesOf({3, 3, {}, {1.0, 1.0}, std::vector<float>(9, 0.0f)}); }
+
+} // namespace
+
+TEST(TriangleGrid, FindsTheGridThatTrianglesWereCutFromInAnyOrder) {
+    for (const glm::dvec2& origin : {glm::dvec2(0.0), glm::dvec2(433000.3, 5410000.7)}) {
+        const HeightField expected = mixed(origin);
+        const auto found = gridIn(test::trianglesOf(expected));
+        ASSERT_TRUE(found);
+        ASSERT_EQ(found->columns(), columns);
+        ASSERT_EQ(found->rows(), rows);
+        for (int y = 0; y + 1 < rows; ++y)
+            for (int x = 0; x + 1 < columns; ++x) {
+                ASSERT_EQ(found->cut(x, y), expected.cut(x, y)) << x << ", " << y;
+                if (expected.isHole(x, y)) continue;
+                // Floats of up to 3.
+                EXPECT_TRUE(near(found->post(x, y), expected.post(x, y), 2e-7));
+            }
+    }
+}
+
+TEST(HeightPyramid, OfCellsCutEitherWayIsTheGroundOfItsTriangles) {
+    const HeightPyramid grid(mixed({}));
+    const gnomon::TriangleGround triangles = LooseTriangles(test::trianglesOf(grid.field())).ground();
+    Random random(3);
+    for (int i = 0; i < 20000; ++i) {
+        const glm::dvec3 at(random.between(0.0, 590.0), random.between(0.0, 487.0), 520.0);
+        const auto height = grid.height(at.x, at.y), expected = triangles.height(at.x, at.y);
+        ASSERT_EQ(bool(height), bool(expected));
+        EXPECT_NEAR(height.value_or(0.0), expected.value_or(0.0), 1e-9);
+        const glm::dvec3 along(random.between(-9.0, 9.0), random.between(-9.0, 9.0), -1.0);
+        const auto hit = grid.hit(at, along), expectedHit = triangles.hit(at, along);
+        ASSERT_EQ(bool(hit), bool(expectedHit));
+        EXPECT_TRUE(near(hit.value_or(at), expectedHit.value_or(at), 1e-9));
+    }
+    const test::House house{{300.0, 250.0}, {40.0, 20.0}, 0.3, 530.0};
+    for (const double elevation : {50.0, 10.0}) {
+        const auto shadow =
+            gnomon::convexShadow(*gnomon::convexHull(house.corners()), {test::sunAt(70.0, elevation), 0.0});
+        const double expected = test::areaOf(gnomon::drape(triangles, *shadow, 0.0));
+        EXPECT_NEAR(test::areaOf(gnomon::drape(grid, *shadow, 0.0)), expected, 1e-9 * expected);
+    }
+}
+
+TEST(HeightPyramid, KeepsToItsErrorInTheMiddleOfCellsThatFall) {
+    // A fold along the blocks' own diagonal: flat to the posts, and only cells that fall cross it.
+    std::vector<float> heights;
+    for (int y = 0; y < 9; ++y)
+        for (int x = 0; x < 9; ++x) heights.push_back(float(std::max(0, x - y)));
+    for (const CellCut cut : {CellCut::rising, CellCut::falling}) {
+        const HeightPyramid ground({9, 9, {}, {1.0, 1.0}, heights, 0.0, std::vector<CellCut>(64, cut)});
+        for (const double error : {0.0, 0.49, 0.51}) {
+            int count = 0;
+            double most = 0.0;
+            ground.cover({}, error, [&](const GroundTriangle& t) {
+                ++count;
+                const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
+                for (int y = 0; y < 8; ++y) {
+                    const double height =
+                        t[0].z + (normal.x * (t[0].x - y - 0.5) + normal.y * (t[0].y - y - 0.5)) / normal.z;
+                    if (std::min({t[0].x, t[1].x, t[2].x}) < y + 0.5 && std::max({t[0].x, t[1].x, t[2].x}) > y + 0.5 &&
+                        std::min({t[0].y, t[1].y, t[2].y}) < y + 0.5 && std::max({t[0].y, t[1].y, t[2].y}) > y + 0.5)
+                        most = std::max(most, std::abs(height - *ground.height(y + 0.5, y + 0.5)));
+                }
+            });
+            EXPECT_LE(most, error);
+            const bool oneBlock = cut == CellCut::rising || error > 0.5;
+            EXPECT_EQ(count == 2, oneBlock) << error << ": half a step off in the middle of a cell on the fold";
+        }
+    }
+}
+
+TEST(TriangleGrid, LeavesSkirtsOut) {
+    std::vector<GroundTriangle> triangles = small();
+    for (int i = 0; i < 2; ++i) {
+        triangles.push_back({glm::dvec3(i, 0, 0), glm::dvec3(i + 1, 0, 0), glm::dvec3(i, 0, -5)});
+        triangles.push_back({glm::dvec3(2, i, -5), glm::dvec3(2, i + 1, 0), glm::dvec3(2, i + 1, -5)});
+    }
+    const auto grid = gridIn(triangles);
+    ASSERT_TRUE(grid);
+    EXPECT_EQ(grid->height(0.5, 0.0), 0.0);
+}
+
+TEST(TriangleGrid, IsNoneWhereTrianglesMakeNoGrid) {
+    const std::vector<GroundTriangle> good = small();
+    EXPECT_TRUE(gridIn(good));
+    EXPECT_FALSE(gridIn({}));
+    const auto with = [&](auto... more) {
+        std::vector<GroundTriangle> all = good;
+        (all.push_back(more), ...);
+        return gridIn(all);
+    };
+    EXPECT_FALSE(with(good.front())) << "one half twice";
+    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(0, 0, 5), glm::dvec3(1, 0, 5), glm::dvec3(0, 1, 5)}))
+        << "one over another";
+    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 0, 5)}))
+        << "a wall that stands up";
+    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(0.5, 0, 0), glm::dvec3(0.5, 1, 0), glm::dvec3(0.5, 0, -5)}))
+        << "a wall between posts";
+    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(2, 0, 0), glm::dvec3(4, 0, 0), glm::dvec3(4, 1, 0)},
+                      GroundTriangle{glm::dvec3(2, 0, 0), glm::dvec3(4, 1, 0), glm::dvec3(2, 1, 0)}))
+        << "a wide cell";
+    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(2, 0, 1), glm::dvec3(3, 0, 1), glm::dvec3(3, 1, 1)},
+                      GroundTriangle{glm::dvec3(2, 0, 1), glm::dvec3(3, 1, 1), glm::dvec3(2, 1, 1)}))
+        << "a step";
+    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(2, 0, 0), glm::dvec3(3, 0, 0), glm::dvec3(2, 1, 0)})) << "half a cell";
+    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(1e7, 0, 0), glm::dvec3(1e7 + 1, 0, 0), glm::dvec3(1e7, 1, 0)}))
+        << "mostly holes";
+    std::vector<GroundTriangle> fewer = good, moved = good, turned = good;
+    fewer.pop_back();
+    EXPECT_FALSE(gridIn(fewer));
+    moved[3][1].x += 0.01;
+    EXPECT_FALSE(gridIn(moved, 1.0)) << "1/1000 of a step at most, whatever the tolerance";
+    for (GroundTriangle& t : turned)
+        for (glm::dvec3& corner : t)
+            corner = {0.8 * corner.x - 0.6 * corner.y, 0.6 * corner.x + 0.8 * corner.y, corner.z};
+    EXPECT_FALSE(gridIn(turned));
+    const LooseTriangles loose(good);
+    EXPECT_FALSE(gridOf(loose.vertices, {0, 1, 99}, 1e-6)) << "an index out of the vertices";
+    std::vector<glm::dvec3> broken = loose.vertices;
+    broken[4].y = gnomon::test::notANumber;
+    EXPECT_FALSE(gridOf(broken, loose.indices, 1e-6));
+    broken[4].y = gnomon::test::infinite;
+    EXPECT_FALSE(gridOf(broken, loose.indices, 1e-6));
+}
+
+TEST(HeightField, NeedsACutForEachCellOrNone) {
+    EXPECT_THROW(HeightField(2, 3, {}, {1.0, 1.0}, std::vector<float>(6), 0.0, std::vector<CellCut>(3)),
+                 std::invalid_argument);
+    const HeightField falling(2, 2, {}, {1.0, 1.0}, {0, 4, 0, 8}, 0.0, {CellCut::falling});
+    EXPECT_DOUBLE_EQ(*falling.height(0.5, 0.5), 2.0) << "amid 4 and 0, not 0 and 8";
+    EXPECT_DOUBLE_EQ(*falling.height(0.25, 0.5), 1.0);
+    EXPECT_DOUBLE_EQ(*falling.height(0.75, 0.5), 4.0) << "half way from (0.5, 0.5) with 2 to (1, 0.5) with 6";
+}
