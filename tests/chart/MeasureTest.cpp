@@ -185,8 +185,7 @@ ChartScene halfQuad() {
     return scene;
 }
 
-TEST(WhiteCopy, KeepsTheShapeAndNothingOfTheLook) {
-    const ChartScene scene = halfQuad();
+void expectTheLeftHalfWhite(const ChartScene& scene) {
     StageViewer viewer(plainContender().stage(scene, Look::VISIBILITY), scene.camera, StageViewer::Colour::FLOATS);
     viewer.draw();
     const osg::ref_ptr<osg::Image> image = viewer.image();
@@ -200,7 +199,30 @@ TEST(WhiteCopy, KeepsTheShapeAndNothingOfTheLook) {
         EXPECT_NEAR(at(-2.0, 0.0)[channel], cosine, 1e-5);
         EXPECT_EQ(at(2.0, 0.0)[channel], 0.0f);
     }
+}
+
+TEST(WhiteCopy, KeepsTheShapeAndNothingOfTheLook) {
+    const ChartScene scene = halfQuad();
+    expectTheLeftHalfWhite(scene);
     EXPECT_TRUE(scene.content->getChild(0)->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
+}
+
+/// As files have it that texture once what lies below a group, of which only some is cut out.
+TEST(WhiteCopy, KeepsATextureThatStandsAboveTheAlphaTest) {
+    const ChartScene scene = halfQuad();
+    osg::StateSet &above = *scene.content->getStateSet(), &below = *scene.content->getChild(0)->getStateSet();
+    const osg::ref_ptr<osg::StateAttribute> texture = below.getTextureAttribute(0, osg::StateAttribute::TEXTURE);
+    const osg::ref_ptr<osg::StateAttribute> test = above.getAttribute(osg::StateAttribute::ALPHAFUNC);
+    below.removeTextureAttribute(0, osg::StateAttribute::TEXTURE);
+    below.removeTextureMode(0, GL_TEXTURE_2D);
+    above.removeAttribute(osg::StateAttribute::ALPHAFUNC);
+    above.removeMode(GL_ALPHA_TEST);
+    above.setTextureAttributeAndModes(0, texture);
+    below.setAttributeAndModes(test);
+    osg::ref_ptr<osg::Group> beside = new osg::Group; // visited first: its texture is not the quad's
+    beside->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D);
+    scene.content->insertChild(0, beside);
+    expectTheLeftHalfWhite(scene);
 }
 
 TEST(WhiteCopy, GivesNormalsToWhatHasNone) {

@@ -35,9 +35,11 @@ public:
 
     void apply(osg::Node& node) override {
         const bool before = _alphaTested;
+        const osg::ref_ptr<const osg::StateSet> above = _texture;
         if (osg::StateSet* state = node.getStateSet()) node.setStateSet(shapeOf(*state));
         traverse(node);
         _alphaTested = before;
+        _texture = above;
     }
 
     void apply(osg::Geometry& geometry) override {
@@ -51,11 +53,21 @@ private:
         keepAttributes(state, *shape);
         const Attribute::GLModeValue test = state.getMode(GL_ALPHA_TEST);
         if (!(test & Attribute::INHERIT)) _alphaTested = (test & Attribute::ON) != 0;
-        if (_alphaTested) keepTexture(state, *shape);
+        _texture = textureBelow(state);
+        if (_alphaTested) keepTexture(*_texture, *shape);
         return shape;
     }
 
+    /// What is in force below `state`, which may leave it as it is above.
+    osg::ref_ptr<const osg::StateSet> textureBelow(const osg::StateSet& state) const {
+        osg::ref_ptr<osg::StateSet> own = new osg::StateSet, all = new osg::StateSet(*_texture);
+        keepTexture(state, *own);
+        all->merge(*own);
+        return all;
+    }
+
     bool _alphaTested = false;
+    osg::ref_ptr<const osg::StateSet> _texture = new osg::StateSet; ///< in force, tested or not.
 };
 
 } // namespace
