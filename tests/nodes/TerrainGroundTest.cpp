@@ -105,7 +105,7 @@ const osg::Matrixd utm = osg::Matrixd::translate(433000.3, 5410000.7, 812.4);
 const osg::Matrixd frames[] = {
     osg::Matrixd::identity(),
     utm,
-    osg::Matrixd::scale(2.1, 3.3, 1.5) * utm,
+    osg::Matrixd::scale(1.0 / 3.0, 3.3, 1.5) * utm,
     osg::Matrixd::rotate(0.7, osg::Vec3d(0, 0, 1)) * utm,
     osg::Matrixd::scale(-1.0, 1.0, 1.0) * osg::Matrixd::rotate(0.7, osg::Vec3d(0, 0, 1)) * utm,
     osg::Matrixd::scale(-1.0, 1.0, 1.0) * utm,
