@@ -10,6 +10,9 @@
 namespace gnomon {
 namespace {
 
+constexpr std::size_t wantedTriangles = 12; // as many as the bounding-box method's
+constexpr double mostLost = 0.01;           // of what is seen, for fewer triangles
+
 /// Twice the area in plan, counter-clockwise positive.
 double doubleArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -64,6 +67,25 @@ double doubleOff(const Ground& ground, const ConvexShadow& shadow, const glm::dv
     return sum;
 }
 
+/// Leaves out the corners that matter least while there are more triangles than wanted. @param most  twice the area in plan
+/// that may be lost or won by it. @return what is.
+double simplify(Drape& rim, double most) {
+    double sum = 0.0;
+    while (rim.size() > wantedTriangles + 2) {
+        const auto at = [&](std::size_t i) { return rim[i % rim.size()]; };
+        std::size_t least = 0;
+        double area = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < rim.size(); ++i) {
+            const double one = std::abs(doubleArea(at(i + rim.size() - 1), at(i), at(i + 1)));
+            if (one < area) area = one, least = i;
+        }
+        if (!(sum + area <= most)) break;
+        sum += area;
+        rim.erase(rim.begin() + static_cast<std::ptrdiff_t>(least));
+    }
+    return sum;
+}
+
 double doublePolygon(const std::vector<glm::dvec3>& rim) {
     double sum = 0.0;
     for (std::size_t i = 2; i < rim.size(); ++i) sum += doubleArea(rim[0], rim[i - 1], rim[i]);
@@ -93,10 +115,12 @@ std::optional<HullFan> hullFan(const Ground& ground, const ConvexShadow& shadow,
         if (!place) return std::nullopt;
         rim.push_back(*place);
     }
+    const double seen = std::max(0.0, doublePolygon(rim) - std::abs(doublePolygon(shadow.silhouette)));
+    double wrong = doubleOff(ground, shadow, light, rim);
+    wrong += simplify(rim, mostLost * seen);
     HullFan fan{fanOf(rim)};
     if (fan.triangles.empty()) return std::nullopt;
-    const double wrong = doubleOff(ground, shadow, light, rim) + doubleLit(ground, shadow, fan.triangles);
-    const double seen = std::max(0.0, doublePolygon(rim) - std::abs(doublePolygon(shadow.silhouette)));
+    wrong += doubleLit(ground, shadow, fan.triangles);
     fan.off = wrong > 0.0 ? wrong / seen : 0.0;
     return fan;
 }

@@ -14,7 +14,8 @@ struct HullFan {
 };
 
 /// The corners of the silhouette, each where its ray meets the ground. What is under the ground stands on it instead and
-/// needs no ray. A house takes four triangles.
+/// needs no ray. A house takes four triangles; of round casters corners are left out down to twelve, for at most 1 % of
+/// the area that is seen.
 ///
 /// @param light  homogeneous: w = 0 the way towards a sun, w > 0 a lamp; the one of `shadow`.
 /// @return triangles as drape()'s; nullopt if a ray meets no ground, or the polygon overlaps itself: drape() is right there.

@@ -106,6 +106,24 @@ TEST(HullFan, KnowsHowMuchOfWhatIsSeenIsWrong) {
     EXPECT_LT(off, 2.0 * wrong);
 }
 
+TEST(HullFan, OfATankInALowSunTakesTwelveTrianglesAndHardlyLosesAnything) {
+    const HeightPyramid ground = groundOf(level, posts);
+    const auto prisms = test::prismsOn(ground, glm::dvec2(500.0), glm::dvec2(900.0), 40, 6);
+    for (const test::Prism& tank : prisms)
+        for (const double elevation : {10.0, 60.0}) {
+            if (tank.kind != "tank") continue;
+            const glm::dvec4 sun(sunAt(30.0 * elevation, elevation), 0.0);
+            const auto fan = gnomon::hullFan(ground, *gnomon::convexShadow(tank.parts()[0].hull, sun), sun);
+            ASSERT_TRUE(fan);
+            EXPECT_LE(fan->triangles.size(), elevation < 20.0 && tank.roof > 15.0 ? 36u : 60u);
+            const test::Contestant given{"fan", [&](const auto&, const auto&, const auto&) { return fan->triangles; }};
+            const double lost = 1.0 - judge(ground, tank, sun, {given}, 10000)[0].overlap();
+            EXPECT_LT(lost, 0.012) << "and points";
+            EXPECT_LE(fan->off, 0.01);
+            EXPECT_GE(fan->off, 0.5 * lost) << "half of it may be under the tank";
+        }
+}
+
 TEST(HullFan, OnLevelGroundIsExactAtEveryAzimuthAndTurn) {
     const HeightPyramid ground = groundOf(level, posts);
     double last = 0.0, jump = 0.0;

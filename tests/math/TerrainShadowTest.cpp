@@ -298,6 +298,19 @@ TEST(TerrainShadow, MovedToWorldCoordinatesIsTheSameMesh) {
         }
 }
 
+/// Half of what the rays say is behind the crest, in the ground's own shadow.
+TEST(TerrainTrial, CanLeaveOutWhatTheGroundItselfKeepsTheLightFrom) {
+    const HeightPyramid ground = groundOf([](double x, double) { return 100.0 - std::abs(x - 800.0); }, posts);
+    const Prism house = boxAt({785.0, 800.0}, {6.0, 6.0}, 0.0, 50.0, 105.0);
+    const std::vector<Contestant> exact{{"exact", drapeMethod(0.0)}};
+    const test::Share all = judge(ground, house, sun(270.0, 30.0), exact, 4000)[0];
+    const test::Share sunlit = judge(ground, house, sun(270.0, 30.0), exact, 4000, test::Places::sunlit)[0];
+    EXPECT_EQ(all.overlap(), 1.0);
+    EXPECT_EQ(sunlit.overlap(), 1.0);
+    EXPECT_GT(sunlit.either, 20);
+    EXPECT_LT(sunlit.either, 0.7 * all.either);
+}
+
 TEST(TerrainShadow, EveryOutcomeHasASentenceOfItsOwn) {
     std::set<std::string> sentences;
     for (int i = 0; i <= int(TerrainOutcome::noGround); ++i) {

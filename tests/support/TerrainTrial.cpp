@@ -132,6 +132,12 @@ private:
     std::vector<Box> _boxes;
 };
 
+bool isBehindGround(const gnomon::Ground& ground, const glm::dvec2& p, const glm::dvec4& light) {
+    const auto height = ground.height(p.x, p.y);
+    const glm::dvec3 start(p, height.value_or(0.0) + 0.01); // not the ground that it stands on
+    return height && ground.hit(start, glm::dvec3(light) - light.w * start);
+}
+
 } // namespace
 
 glm::dvec3 sunAt(double azimuth, double elevation) {
@@ -253,7 +259,7 @@ Method drapeMethod(double error) {
 }
 
 std::vector<Share> judge(const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light,
-                         const std::vector<Contestant>& contestants, int points) {
+                         const std::vector<Contestant>& contestants, int points, Places places) {
     Region region = reachOf(ground, prism, light);
     std::vector<Share> shares(contestants.size());
     std::vector<Plan> plans;
@@ -274,7 +280,7 @@ std::vector<Share> judge(const gnomon::Ground& ground, const Prism& prism, const
         return false;
     };
     region.spread(points, [&](const glm::dvec2& p) {
-        if (prism.isUnder(p)) return;
+        if (prism.isUnder(p) || (places == Places::sunlit && isBehindGround(ground, p, light))) return;
         const bool expected = dark(p);
         for (std::size_t i = 0; i < plans.size(); ++i) {
             const bool found = plans[i].covers(p);
@@ -309,11 +315,11 @@ Figures tally(const std::vector<Share>& shares) {
 }
 
 std::vector<Figures> figures(const gnomon::Ground& ground, const std::vector<Prism>& prisms, double elevation,
-                             const std::vector<Contestant>& contestants, int points) {
+                             const std::vector<Contestant>& contestants, int points, Places places) {
     std::vector<std::vector<Share>> shares(contestants.size());
     for (std::size_t i = 0; i < prisms.size(); ++i) {
         const glm::dvec4 sun(sunAt(137.5 * double(i), elevation), 0.0); // by the golden angle: evenly all round
-        const auto one = judge(ground, prisms[i], sun, contestants, points);
+        const auto one = judge(ground, prisms[i], sun, contestants, points, places);
         for (std::size_t c = 0; c < one.size(); ++c) shares[c].push_back(one[c]);
     }
     std::vector<Figures> result;

@@ -63,9 +63,15 @@ struct Share {
     double overlap() const { return either > 0 ? double(both) / either : 1.0; }
 };
 
+/// Which places are judged.
+enum class Places {
+    all,
+    sunlit ///< not those that the ground itself keeps the light from, behind crests: a caster's shadow is not seen there.
+};
+
 /// Of each contestant, at the same points. @param points  about how many, evenly over where the shadow may be.
 std::vector<Share> judge(const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light,
-                         const std::vector<Contestant>& contestants, int points);
+                         const std::vector<Contestant>& contestants, int points, Places places = Places::all);
 
 /// Many casters' shadows: intersection over union of all, and in the worst twentieth of the casters.
 struct Figures {
@@ -78,7 +84,7 @@ Figures tally(const std::vector<Share>& shares);
 
 /// Each caster in the sun at `elevation` degrees, azimuths all round; of each contestant.
 std::vector<Figures> figures(const gnomon::Ground& ground, const std::vector<Prism>& prisms, double elevation,
-                             const std::vector<Contestant>& contestants, int points);
+                             const std::vector<Contestant>& contestants, int points, Places places = Places::all);
 
 /// | sun | method | IoU pooled | 5th percentile | triangles |
 void printHead(std::ostream& out);
