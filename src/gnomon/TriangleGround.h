@@ -12,8 +12,8 @@ namespace gnomon {
 /// the shadow too. Left out are triangles that are a line or a point, or have a corner that is not finite. Without any
 /// triangle there is no height, no hit and nothing to cover.
 ///
-/// Cost    24 bytes a vertex, 26 a triangle; building 0.8 µs a triangle of one core, spread over all. A query goes down
-///         a balanced tree.
+/// Cost    24 bytes a vertex, 40 a triangle. Of a grid of 2,000,000, on one core: building 1.0 to 1.4 µs a triangle, a height
+///         4 µs, a ray 6 µs.
 /// Limits  cover() gives the ground's own triangles, whatever the error: HeightPyramid takes fewer where it is flat.
 class TriangleGround : public Ground {
 public:
