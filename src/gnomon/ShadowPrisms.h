@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Drape.h>
+
+namespace gnomon {
+
+/// Closed upright prisms over shadows on the ground. What of the ground is inside one is in shadow, however the ground is
+/// drawn: finer, coarser, or cut otherwise than the ground that the shadow was made on.
+struct ShadowPrisms {
+    std::vector<glm::vec3> vertices; ///< about the origin.
+    /// Triangles, three places in `vertices` each, counter-clockwise from outside. Prisms of one layer do not overlap.
+    std::vector<std::vector<unsigned>> layers;
+    glm::dvec3 low{0.0}, high{0.0}; ///< bounds, about the origin.
+};
+
+/// @param shadows  triangles as drape()'s, of one caster each; in plan they may lie over one another.
+/// @param origin   z up; floats about it.
+///
+/// A prism reaches half its diameter in plan below and above its shadow's own heights. Cost  linear in the triangles; of a
+/// polygon of n corners 4 n - 4 triangles.
+ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& origin);
+
+} // namespace gnomon
