@@ -312,4 +312,12 @@ std::vector<ConvexPart> convexParts(const glm::vec3* positions, std::size_t vert
     return parts;
 }
 
+std::vector<std::vector<glm::dvec3>> connectedPoints(const glm::vec3* positions, std::size_t vertexCount,
+                                                     const unsigned* indices, std::size_t indexCount) {
+    std::vector<std::vector<glm::dvec3>> objects;
+    for (Piece& piece : piecesOf(positions, vertexCount, sound(positions, vertexCount, indices, indexCount)))
+        objects.push_back(std::move(piece.points));
+    return objects;
+}
+
 } // namespace gnomon

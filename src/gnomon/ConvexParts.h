@@ -36,4 +36,9 @@ bool isTurnedAway(const ConvexPart& part, const glm::dvec4& light);
 std::vector<ConvexPart> convexParts(const glm::vec3* positions, std::size_t vertexCount, const unsigned* indices,
                                     std::size_t indexCount);
 
+/// The points of each part of casters that is connected over vertices at one place: what is taken for an object. Order and
+/// parameters as convexParts().
+std::vector<std::vector<glm::dvec3>> connectedPoints(const glm::vec3* positions, std::size_t vertexCount,
+                                                     const unsigned* indices, std::size_t indexCount);
+
 } // namespace gnomon

@@ -15,16 +15,16 @@ enum class TerrainOutcome {
     fan,    ///< one polygon.
     draped, ///< as asked.
     // As drape although hull was asked for:
-    steep, ///< rays graze the ground.
-    rough, ///< the ground between the corners' rays is not where the polygon is.
-    noFan, ///< a ray meets no ground, or the polygon overlaps itself.
+    steep,       ///< rays graze the ground.
+    rough,       ///< the ground between the corners' rays is not where the polygon is.
+    noFan,       ///< a ray meets no ground, or the polygon overlaps itself.
+    lightInside, ///< all of the ground, for the lamp is inside the part, or in its surface.
     // No shadow:
-    lightBelow,  ///< the light is not above the horizon, or a lamp in the ground.
-    lightInside, ///< a lamp inside the part.
-    edgeOn,      ///< the light is in the plane of a plate, or there is no light.
-    turnedAway,  ///< the other plates of its solid cast its shadow.
-    buried,      ///< nothing of the part stands out of the ground.
-    noGround     ///< the shadow meets no ground.
+    lightBelow, ///< the light is not above the horizon, or a lamp in the ground.
+    edgeOn,     ///< the light is in the plane of a plate, or there is no light.
+    turnedAway, ///< the other plates of its solid cast its shadow.
+    buried,     ///< nothing of the part stands out of the ground by a millionth of its size.
+    noGround    ///< the shadow meets no ground.
 };
 
 /// One sentence. @return the same for the whole of the program.

@@ -219,17 +219,14 @@ TEST(TerrainShadow, WithoutGroundThereIsNone) {
         }
 }
 
-TEST(TerrainShadow, OfALightThatIsBelowInsideOrNowhereThereIsNoneAndItSaysWhy) {
+TEST(TerrainShadow, OfALightThatIsBelowOrNowhereThereIsNoneAndItSaysWhy) {
     const HeightPyramid ground = level();
     const Prism house = boxAt({800.0, 800.0}, {8.0, 5.0}, 0.3, -20.0, 23.0);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::pair<glm::dvec4, TerrainOutcome> cases[] = {
-        {sun(30.0, 0.0), TerrainOutcome::lightBelow},
-        {sun(30.0, -20.0), TerrainOutcome::lightBelow},
+        {sun(30.0, 0.0), TerrainOutcome::lightBelow},           {sun(30.0, -20.0), TerrainOutcome::lightBelow},
         {{800.0, 830.0, 2.0, 1.0}, TerrainOutcome::lightBelow}, // a lamp under the ground
-        {{800.0, 800.0, 10.0, 1.0}, TerrainOutcome::lightInside},
-        {{0.0, 0.0, 0.0, 0.0}, TerrainOutcome::lightBelow},
-        {{nan, 0.0, 1.0, 0.0}, TerrainOutcome::edgeOn},
+        {{0.0, 0.0, 0.0, 0.0}, TerrainOutcome::lightBelow},     {{nan, 0.0, 1.0, 0.0}, TerrainOutcome::edgeOn},
         {{800.0, 830.0, 50.0, nan}, TerrainOutcome::edgeOn}};
     for (const auto& [light, expected] : cases)
         for (const TerrainMethod method : {TerrainMethod::hull, TerrainMethod::drape}) {
@@ -237,6 +234,41 @@ TEST(TerrainShadow, OfALightThatIsBelowInsideOrNowhereThereIsNoneAndItSaysWhy) {
             EXPECT_EQ(sentence(shadow.outcome), std::string(sentence(expected)));
             EXPECT_TRUE(shadow.triangles.empty());
         }
+}
+
+TEST(TerrainShadow, OfALampInsideOrInTheRoofIsAllTheGround) {
+    const HeightPyramid ground = level();
+    const Prism house = boxAt({800.0, 800.0}, {8.0, 5.0}, 0.0, -20.0, 23.0);
+    for (const double height : {10.0, house.roof}) {
+        const TerrainShadow shadow = shadowOf(ground, house, {800.0, 800.0, height, 1.0}, TerrainMethod::hull);
+        EXPECT_EQ(shadow.outcome, TerrainOutcome::lightInside);
+        double area = 0.0;
+        for (std::size_t i = 0; i + 2 < shadow.triangles.size(); i += 3) {
+            const glm::dvec3 &a = shadow.triangles[i], &b = shadow.triangles[i + 1], &c = shadow.triangles[i + 2];
+            area += 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+        }
+        constexpr double side = 1600.0; // of level()
+        EXPECT_NEAR(area, side * side, 1e-6 * side * side);
+    }
+}
+
+TEST(TerrainShadow, OfARugInTheGroundThereIsNone) {
+    const HeightPyramid ground = level();
+    const double height = *ground.height(800.0, 800.0);
+    const std::vector<glm::dvec3> corners{
+        {800.0, 800.0, height}, {810.0, 800.0, height}, {810.0, 805.0, height}, {800.0, 805.0, height}};
+    for (const TerrainMethod method : {TerrainMethod::hull, TerrainMethod::drape}) {
+        const auto rug = [&](double lift) {
+            gnomon::ConvexPart part{*gnomon::convexHull(corners), std::nullopt};
+            for (glm::dvec3& vertex : part.hull.vertices) vertex.z += lift;
+            for (auto& face : part.hull.faces) face.plane.w -= lift * face.plane.z;
+            return gnomon::terrainShadow(ground, part, glm::dvec4(sunAt(30.0, 40.0), 0.0), method);
+        };
+        EXPECT_EQ(rug(0.0).outcome, TerrainOutcome::buried);
+        EXPECT_EQ(rug(1e-6).outcome, TerrainOutcome::buried) << "by rounding over the ground";
+        EXPECT_NE(rug(0.01).outcome, TerrainOutcome::buried);
+        EXPECT_FALSE(rug(0.01).triangles.empty());
+    }
 }
 
 TEST(TerrainShadow, OfALampIsRightAndItsErrorIsThatOfItsLowestRays) {
