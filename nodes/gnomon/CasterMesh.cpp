@@ -22,6 +22,7 @@ CasterMesh::CasterMesh(const VertexTraverser& casters)
       triangles(new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES)),
       bounds(boundsOf(casters)),
       rounding(casters.getRounding()),
+      drawn(casters.getDrawn()),
       invalidTriangles(casters.getInvalidTriangles()),
       invalidNode(casters.getInvalidNode()),
       sources(casters.getSources()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Export.h>
+#include <gnomon/VertexTraverser.h>
 
 #include <osg/Array>
 #include <osg/BoundingBox>
@@ -12,8 +13,6 @@
 #include <vector>
 
 namespace gnomon {
-
-class VertexTraverser;
 
 /// What the casters of a group look like in one revision: triangles in the group's frame. Never changes once made, so
 /// any thread may read it and a frame still being drawn keeps its own.
@@ -30,6 +29,7 @@ public:
     osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< three indices a triangle; see VertexTraverser::getTriangles().
     osg::BoundingBoxd bounds;                      ///< of all triangles, group frame; invalid if there is none.
     double rounding = 0.0;                         ///< how far off its float source may put a vertex, group's unit.
+    std::vector<VertexTraverser::Drawn> drawn;     ///< whose triangles they are; `first` as in `triangles`.
     unsigned invalidTriangles = 0;                 ///< left out; see VertexTraverser::getInvalidTriangles().
     std::string invalidNode;                       ///< where the first of them is.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().

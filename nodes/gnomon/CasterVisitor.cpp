@@ -103,4 +103,14 @@ const osg::Array* CasterVisitor::verticesOf(const osg::Geometry& geometry) {
     return geometry.getNumVertexAttribArrays() > 0 ? geometry.getVertexAttribArray(0) : nullptr;
 }
 
+void CasterVisitor::holdSources(const osg::Drawable& drawable,
+                                std::vector<osg::ref_ptr<const osg::Referenced>>& sources) {
+    if (const osg::Geometry* geometry = drawable.asGeometry()) {
+        sources.emplace_back(verticesOf(*geometry));
+        sources.insert(sources.end(), geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end());
+    } else {
+        sources.emplace_back(&drawable);
+    }
+}
+
 } // namespace gnomon

@@ -33,6 +33,9 @@ public:
     void apply(osg::Camera&) override {}
     void apply(osg::Projection&) override {}
 
+    /// The frame that is meant by the root's, where that is not the one that the visited node stands in. Default identity.
+    void setRootFromVisited(const osg::Matrixd& matrix) { _matrices.assign(1, matrix); }
+
 protected:
     explicit CasterVisitor(const Selection& selection);
     ~CasterVisitor() override = default;
@@ -43,6 +46,8 @@ protected:
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
     /// What OpenSceneGraph's functors take for the vertices of a geometry; null if it has none.
     static const osg::Array* verticesOf(const osg::Geometry& geometry);
+    /// Adds the arrays and primitive sets of a drawable that are read; the drawable itself if it is no geometry.
+    static void holdSources(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources);
 
 private:
     Selection _selection;

@@ -12,11 +12,16 @@
 
 namespace gnomon {
 
+class CasterMesh;
+class ShadowCasterGroup;
+
 /// What a ShadowTechnique needs to answer for one light and one revision of the casters, without a view.
 struct LightProbe {
     const RayScene& casters; ///< about `origin`.
-    osg::Vec3d origin;       ///< group frame.
-    glm::dvec4 light;        ///< about `origin`: w = 0 the way towards a sun, length 1; w = 1 a lamp's position.
+    const CasterMesh& mesh;  ///< the same ones.
+    const ShadowCasterGroup& group;
+    osg::Vec3d origin; ///< group frame.
+    glm::dvec4 light;  ///< about `origin`: w = 0 the way towards a sun, length 1; w = 1 a lamp's position.
     osg::Matrixd groupFromTechnique; ///< see ViewFrame.
 
     /// The way to the light; of a lamp the whole way.

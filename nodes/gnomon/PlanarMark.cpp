@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/MarkProgram.h>
 #include <gnomon/PlanarMark.h>
 #include <gnomon/Plane.h>
 #include <gnomon/ScreenPass.h>
 
-#include <gnomon_shaders.h>
-
-#include <glm/gtc/type_ptr.hpp>
-#include <osg/CullFace>
-#include <osg/GLExtensions>
-#include <osg/Program>
 #include <osg/State>
 
 #include <algorithm>
@@ -21,32 +16,6 @@ namespace {
 
 constexpr GLenum clipAbovePlane = GL_CLIP_PLANE0; // the same value as GL_CLIP_DISTANCE0
 constexpr GLenum clipBelowLight = GL_CLIP_PLANE1;
-
-osg::ref_ptr<osg::StateSet> programState(const std::string& defines) {
-    const std::string version = "#version 130\n";
-    osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->setName("gnomon planar mark");
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, version + defines + shaders::planar_mark_vert));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, version + shaders::planar_mark_frag));
-    osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
-    set->setAttribute(program);
-    set->setAttribute(new osg::CullFace(osg::CullFace::BACK));
-    return set;
-}
-
-void setUniform(const osg::State& state, const char* name, const glm::dvec4& value) {
-    const glm::vec4 rounded(value);
-    const auto* current = state.getLastAppliedProgramObject();
-    state.get<osg::GLExtensions>()->glUniform4fv(current->getUniformLocation(osg::Uniform::getNameID(name)), 1,
-                                                 glm::value_ptr(rounded));
-}
-
-void setUniform(const osg::State& state, const char* name, const glm::dmat4& value) {
-    const glm::mat4 rounded(value);
-    const auto* current = state.getLastAppliedProgramObject();
-    state.get<osg::GLExtensions>()->glUniformMatrix4fv(current->getUniformLocation(osg::Uniform::getNameID(name)), 1,
-                                                       GL_FALSE, glm::value_ptr(rounded));
-}
 
 /// How far from the plane's, in window depth, what lies in it may be drawn.
 ///
@@ -63,7 +32,7 @@ double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
 
 } // namespace
 
-PlanarPrograms::PlanarPrograms() : plain(programState("")), clipping(programState("#define CLIP\n")) {}
+PlanarPrograms::PlanarPrograms() : plain(markProgram()), clipping(markProgram("#define CLIP\n")) {}
 
 bool PlanarMark::canReach(const osgUtil::RenderLeaf& leaf) const {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
@@ -86,7 +55,7 @@ std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     const bool drawn = drawParts(renderInfo);
     if (cutToPlane) cut(state, pass, bit);
     if (!cures.stencil) darken(renderInfo, pass, bit);
-    return drawn ? "" : "cannot build its program in this context: it needs OpenGL 3.0 with GLSL 1.30 or later.";
+    return drawn ? "" : noProgram;
 }
 
 /// @return false if some program is not to be had.
@@ -104,7 +73,7 @@ bool PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part
     // A solid cut by the light's height may lack its upper faces; without the stencil cure each face darkens for itself.
     const bool culls = part.solid && !reachesLight && cures.stencil;
     state.apply((clips ? programs->clipping : programs->plain).get());
-    if (!state.getLastAppliedProgramObject()) return false;
+    if (!hasProgram(state)) return false;
     setUniform(state, "clipFromCaster", clipFromCaster);
     if (clips) {
         setUniform(state, "abovePlane", abovePlane);

@@ -36,8 +36,8 @@ CleanState::CleanState(osg::State& state, osg::Viewport* viewport) : _state(stat
 CleanState::~CleanState() { _state.popStateSet(); }
 
 ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
-                       const std::vector<StageLeaf>& leaves)
-    : _state(state), _leaves(leaves) {
+                       const std::vector<StageLeaf>& leaves, unsigned counters)
+    : _state(state), _leaves(leaves), _counters(counters) {
     const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
     const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
     glEnable(GL_SCISSOR_TEST);
@@ -100,6 +100,27 @@ void ScreenPass::takeStencil(unsigned test, unsigned bits) {
     stencilAny(test);
     glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
     glStencilMask(bits);
+}
+
+/// Source: W. Bilodeau and M. Songy; C. Everitt and M. Kilgard, "Practical and Robust Stenciled Shadow Volumes", 2002.
+void ScreenPass::countHolding(unsigned bits) {
+    const bool single = (bits & (bits - 1)) == 0;
+    const auto& gl = *_state.get<osg::GLExtensions>();
+    testDepth(GL_LESS);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, 0, ~0u);
+    gl.glStencilOpSeparate(GL_BACK, GL_KEEP, GLenum(single ? GL_INVERT : GL_INCR_WRAP), GL_KEEP);
+    gl.glStencilOpSeparate(GL_FRONT, GL_KEEP, GLenum(single ? GL_INVERT : GL_DECR_WRAP), GL_KEEP);
+    glStencilMask(bits);
+}
+
+void ScreenPass::takeCount(unsigned bits, unsigned mark) {
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_NOTEQUAL, static_cast<GLint>(mark & ~bits), bits);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilMask(bits | mark);
+    drawQuad();
 }
 
 void ScreenPass::writeFarDepth() {

@@ -39,9 +39,10 @@ void drawQuad(osg::State& state, double atCenter = 0.0, double slopeX = 0.0, dou
 /// Puts everything back at its end.
 class ScreenPass {
 public:
-    /// @param leaves  what was drawn: colours are written to their channels only. Must outlive this.
+    /// @param leaves    what was drawn: colours are written to their channels only. Must outlive this.
+    /// @param counters  see counters().
     ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
-               const std::vector<StageLeaf>& leaves);
+               const std::vector<StageLeaf>& leaves, unsigned counters);
     ~ScreenPass();
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;
@@ -53,6 +54,14 @@ public:
     void stencilAny(unsigned test);
     /// Pass where any bit of `test` is set, and set `bits` to 0.
     void takeStencil(unsigned test, unsigned bits);
+    /// Stencil bits that nobody else uses, 0 before and after each step: several are the lowest ones, from bit 0 on, so
+    /// that they count; one may be any and tells odd from even; 0 if there is none.
+    unsigned counters() const { return _counters; }
+    /// What is drawn next, closed surfaces, counts in `bits`, one or several as counters() has them, how many of them hold
+    /// what stands in the depth buffer, modulo the bits' range (z-fail).
+    void countHolding(unsigned bits);
+    /// Sets `mark` wherever any of `bits` is set, and those to 0.
+    void takeCount(unsigned bits, unsigned mark);
     void writeFarDepth();
     void writeColor(const osg::Vec4& color);
     void multiplyColor(float factor);
@@ -76,6 +85,7 @@ private:
 
     osg::State& _state;
     const std::vector<StageLeaf>& _leaves;
+    const unsigned _counters;
 };
 
 } // namespace gnomon

@@ -91,6 +91,7 @@ ViewFrame viewOf(const EnlistedTechnique& entry) {
     view.eyeFromGroup = entry.eyeFromGroup;
     view.groupFromTechnique = entry.groupFromTechnique;
     view.projection = *entry.projection;
+    view.group = entry.group.get();
     view.dark = entry.group->getDark();
     view.frameNumber = entry.frameNumber;
     return view;

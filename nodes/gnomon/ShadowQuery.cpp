@@ -41,12 +41,13 @@ ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& li
     const auto& group = dynamic_cast<const ShadowCasterGroup&>(*path.front());
     path.erase(path.begin());
     _groupFromTechnique = osg::computeLocalToWorld(path, false);
-    const osg::ref_ptr<const CasterMesh> mesh = group.casters();
-    const auto usable = usableLight(light.inGroup, mesh->origin);
+    _group = &group;
+    _mesh = group.casters();
+    const auto usable = usableLight(light.inGroup, _mesh->origin);
     if (!usable) throw std::invalid_argument("gnomon::ShadowQuery: the light is nowhere: set its position.");
-    _origin = mesh->origin;
+    _origin = _mesh->origin;
     _light = *usable;
-    _scene = TracedCasters().of(*mesh, "ShadowQuery");
+    _scene = TracedCasters().of(*_mesh, "ShadowQuery");
 }
 
 ShadowQuery ShadowQuery::exact() const {
@@ -56,7 +57,7 @@ ShadowQuery ShadowQuery::exact() const {
 }
 
 bool ShadowQuery::isLit(const osg::Vec3d& point) const {
-    const LightProbe probe{*_scene, _origin, _light, _groupFromTechnique};
+    const LightProbe probe{*_scene, *_mesh, *_group, _origin, _light, _groupFromTechnique};
     const glm::dvec3 local = toGlm(point - _origin);
     return _technique ? _technique->isLit(probe, local) : probe.reachesFrom(local);
 }

@@ -58,6 +58,8 @@ public:
 
 private:
     osg::ref_ptr<const ShadowTechnique> _technique; ///< null: exact.
+    osg::ref_ptr<const ShadowCasterGroup> _group;
+    osg::ref_ptr<const CasterMesh> _mesh;
     std::shared_ptr<const RayScene> _scene;
     osg::Vec3d _origin;
     glm::dvec4 _light{0.0};

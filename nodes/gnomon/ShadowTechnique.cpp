@@ -36,23 +36,24 @@ GroupAbove groupAbove(const osg::NodePath& path) {
     return result;
 }
 
-void enlist(ShadowTechnique& technique, osgUtil::CullVisitor& cull) {
+} // namespace
+
+void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     const unsigned frame = frameOf(cull);
     osgUtil::RenderStage* stage = cull.getCurrentRenderBin()->getStage();
-    technique.beginFrame(frame, stage);
+    beginFrame(frame, stage);
     const GroupAbove above = groupAbove(cull.getNodePath());
     if (!above.group) {
-        technique.report(frame,
-                         "has no ShadowCasterGroup above it: make it a child of the group that holds the casters.");
+        report(frame, "has no ShadowCasterGroup above it: make it a child of the group that holds the casters.");
         return;
     }
     if (cull.getViewport() != stage->getViewport()) {
-        technique.report(frame, "is under a nested camera with a viewport of its own, whose shadows would fall "
-                                "elsewhere: set that camera's render order to PRE_RENDER or POST_RENDER.");
+        report(frame, "is under a nested camera with a viewport of its own, whose shadows would fall "
+                      "elsewhere: set that camera's render order to PRE_RENDER or POST_RENDER.");
         return;
     }
     EnlistedTechnique entry;
-    entry.technique = &technique;
+    entry.technique = this;
     entry.group = above.group;
     entry.groupFromTechnique = above.groupFromTechnique;
     entry.eyeFromGroup = osg::Matrixd::inverse(above.groupFromTechnique) * *cull.getModelViewMatrix();
@@ -61,7 +62,9 @@ void enlist(ShadowTechnique& technique, osgUtil::CullVisitor& cull) {
     ShadowBin::of(stage).enlist(entry);
 }
 
-} // namespace
+bool ShadowTechnique::hasGroupAbove(const osg::NodeVisitor& visitor) {
+    return groupAbove(visitor.getNodePath()).group != nullptr;
+}
 
 ShadowTechnique::ShadowTechnique() { setCullingActive(false); }
 
@@ -71,7 +74,7 @@ ShadowTechnique::ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp
 }
 
 void ShadowTechnique::traverse(osg::NodeVisitor& visitor) {
-    if (osgUtil::CullVisitor* cull = visitor.asCullVisitor()) enlist(*this, *cull);
+    if (osgUtil::CullVisitor* cull = visitor.asCullVisitor()) enlist(*cull);
     osg::Geode::traverse(visitor);
 }
 

@@ -15,6 +15,10 @@
 #include <string>
 #include <vector>
 
+namespace osgUtil {
+class CullVisitor;
+}
+
 namespace gnomon {
 
 class ShadowCasterGroup;
@@ -65,6 +69,10 @@ public:
 
 protected:
     ~ShadowTechnique() override = default;
+
+    /// Registers this with the ShadowBin of the stage that is being filled, or reports why it cannot be.
+    void enlist(osgUtil::CullVisitor& cull);
+    static bool hasGroupAbove(const osg::NodeVisitor& visitor);
 
 private:
     Selection _receiver;

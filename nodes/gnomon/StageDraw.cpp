@@ -5,6 +5,22 @@
 #include <algorithm>
 
 namespace gnomon {
+namespace {
+
+/// Three lights, a scratch bit, and one for lights that fade are the compositor's own.
+constexpr std::size_t ownBits = 5;
+
+/// The lowest bits, one beside the other from bit 0 on, for OpenGL counts from there; else any single one.
+unsigned countersAmong(const std::vector<unsigned>& bits) {
+    unsigned result = 0;
+    for (std::size_t i = bits.size(); i-- > ownBits;) {
+        if (bits[i] != result + 1) break;
+        result |= bits[i];
+    }
+    return result || bits.size() <= ownBits ? result : bits.back();
+}
+
+} // namespace
 
 StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<StageLeaf> before, bool isClean)
     : renderInfo(info), state(*info.getState()), stage(drawn), leaves(std::move(before)), clean(isClean) {
@@ -15,6 +31,7 @@ StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::ve
     hasAlpha = alpha > 0;
     for (int i = std::min(stencil, 8); i-- > 0;)
         if (!(ShadowBin::reserved() & (1u << i))) bits.push_back(1u << i);
+    counters = countersAmong(bits);
 }
 
 void StageDraw::clear(unsigned stencil, const ScreenRect& bounds) const {

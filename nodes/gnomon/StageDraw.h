@@ -21,7 +21,7 @@ public:
     template <typename Step>
     void pass(const ScreenRect& bounds, Step step) const {
         CleanState cleanState(state, stage.getViewport());
-        ScreenPass screen(state, *stage.getViewport(), bounds, leaves);
+        ScreenPass screen(state, *stage.getViewport(), bounds, leaves, counters);
         step(screen);
     }
     void clear(unsigned stencil, const ScreenRect& bounds) const;
@@ -35,6 +35,7 @@ public:
     const bool clean;
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.
+    unsigned counters = 0;      ///< see ScreenPass::counters().
 };
 
 } // namespace gnomon

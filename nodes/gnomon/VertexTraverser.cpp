@@ -161,6 +161,7 @@ void VertexTraverser::reset() {
     _vertices.clear();
     _triangles.clear();
     _sources.clear();
+    _drawn.clear();
     _slots.clear();
     _array = 0;
     _rounding = 0.0;
@@ -170,11 +171,12 @@ void VertexTraverser::reset() {
 
 void VertexTraverser::applyCaster(osg::Drawable& drawable) {
     const unsigned invalidBefore = _invalidTriangles;
+    _drawn.push_back({&drawable, _triangles.size()});
     Collector collector(*this, rootFromLocal());
     drawable.accept(collector);
     _rounding = std::max(_rounding, collector.rounding());
     if (invalidBefore == 0 && _invalidTriangles > 0) noteInvalid(drawable);
-    holdSources(drawable);
+    holdSources(drawable, _sources);
 }
 
 void VertexTraverser::noteInvalid(const osg::Drawable& drawable) {
@@ -182,15 +184,6 @@ void VertexTraverser::noteInvalid(const osg::Drawable& drawable) {
     const auto named =
         std::find_if(path.rbegin(), path.rend(), [](const osg::Node* n) { return !n->getName().empty(); });
     _invalidNode = named != path.rend() ? (*named)->getName() : drawable.className();
-}
-
-void VertexTraverser::holdSources(const osg::Drawable& drawable) {
-    if (const osg::Geometry* geometry = drawable.asGeometry()) {
-        _sources.emplace_back(verticesOf(*geometry));
-        _sources.insert(_sources.end(), geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end());
-    } else {
-        _sources.emplace_back(&drawable);
-    }
 }
 
 namespace {

@@ -44,6 +44,13 @@ public:
     /// drawable's own frame, mirrored or not. Triangles of no area are kept, unless two of their indices are equal.
     const std::vector<unsigned>& getTriangles() const { return _triangles; }
 
+    /// A drawable that was met, and where its triangles begin in getTriangles(); they end where the next one's begin.
+    struct Drawn {
+        const osg::Drawable* drawable; ///< to be told apart from others only: it may be gone.
+        std::size_t first;
+    };
+    const std::vector<Drawn>& getDrawn() const { return _drawn; }
+
     /// Vertex nearest to `point`; nullopt if there is no vertex or `point` is not finite. Of equals the first.
     std::optional<osg::Vec3d> nearestVertex(const osg::Vec3d& point) const;
     /// The same in plan: nearest in (x, y), whatever the height.
@@ -70,12 +77,12 @@ private:
         unsigned array = 0;
         unsigned place = 0;
     };
-    void holdSources(const osg::Drawable& drawable);
     void noteInvalid(const osg::Drawable& drawable);
 
     std::vector<osg::Vec3d> _vertices;
     std::vector<unsigned> _triangles;
     std::vector<osg::ref_ptr<const osg::Referenced>> _sources;
+    std::vector<Drawn> _drawn;
     std::vector<Slot> _slots;
     unsigned _array = 0;
     double _rounding = 0.0;

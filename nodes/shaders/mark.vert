@@ -1,4 +1,4 @@
-// Flattens a caster's vertex onto the receiver's plane, and takes it on to clip space, in one matrix made in double.
+// Takes a vertex to clip space, of planar shadows by way of the receiver's plane, in one matrix made in double.
 uniform mat4 clipFromCaster;
 
 #ifdef CLIP
