@@ -4,6 +4,7 @@
 #include <gnomon/FlatParts.h>
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
+#include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 
 #include <algorithm>
@@ -18,10 +19,11 @@ namespace {
 constexpr const char* defaultReceiver = "ground";
 constexpr unsigned mostPlanes = 8;
 constexpr double smallestPart = 0.01; // of the largest
+constexpr double mostError = 1e6;
 
 using Techniques = std::vector<osg::ref_ptr<ShadowTechnique>>;
 /// `receiver` is null where none is named and the technique can do without.
-using Adder = osg::ref_ptr<ShadowTechnique> (*)(const NamedNode* receiver);
+using Adder = osg::ref_ptr<ShadowTechnique> (*)(const ShadowSpec& spec, const NamedNode* receiver);
 
 /// A key of the specification string. `take` reads its value into the spec; false if it is out of range.
 struct Key {
@@ -52,13 +54,24 @@ bool takeComposite(ShadowSpec& spec, const std::string& value) {
     return true;
 }
 
+/// The whole text as a number; nullopt if it is none, or not within the limits.
+template <typename Number>
+std::optional<Number> numberIn(const std::string& text, Number low, Number high) {
+    Number number{};
+    const char* end = text.data() + text.size();
+    const std::from_chars_result read = std::from_chars(text.data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end || !(number >= low && number <= high)) return std::nullopt;
+    return number;
+}
+
 bool takeDark(ShadowSpec& spec, const std::string& value) {
-    float factor = -1.0f;
-    const char* end = value.data() + value.size();
-    const std::from_chars_result read = std::from_chars(value.data(), end, factor);
-    if (read.ec != std::errc() || read.ptr != end || !(factor >= 0.0f && factor <= 1.0f)) return false;
-    spec.dark = factor;
-    return true;
+    spec.dark = numberIn(value, 0.0f, 1.0f);
+    return spec.dark.has_value();
+}
+
+bool takeError(ShadowSpec& spec, const std::string& value) {
+    spec.error = numberIn(value, 0.0, mostError);
+    return spec.error.has_value();
 }
 
 bool takeReceiver(ShadowSpec& spec, const std::string& value) {
@@ -71,7 +84,7 @@ osg::Vec4d inGroup(const osg::Vec4d& plane, const NamedNode& receiver) {
     return osg::Matrixd::inverse(receiver.rootFromParent) * plane;
 }
 
-osg::ref_ptr<ShadowTechnique> makePlanar(const NamedNode* named) {
+osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec&, const NamedNode* named) {
     const NamedNode& receiver = *named;
     const std::vector<FlatPart> parts = flatParts(*receiver.node, mostPlanes);
     if (parts.empty())
@@ -83,18 +96,28 @@ osg::ref_ptr<ShadowTechnique> makePlanar(const NamedNode* named) {
     return node;
 }
 
-osg::ref_ptr<ShadowTechnique> makeTraced(const NamedNode*) { return new TracedShadowTechnique; }
+osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec&, const NamedNode*) { return new TracedShadowTechnique; }
+
+template <TerrainShadowGeode::Method method>
+osg::ref_ptr<ShadowTechnique> makeTerrain(const ShadowSpec& spec, const NamedNode*) {
+    osg::ref_ptr<TerrainShadowGeode> node = new TerrainShadowGeode;
+    node->setMethod(method);
+    if (spec.error) node->setError(*spec.error);
+    return node;
+}
 
 const std::vector<Key>& sharedKeys() {
     static const std::vector<Key> keys = {
         {"composite", "relight, blend", "relight", "take exactly the light away, or darken by a factor", takeComposite},
         {"dark", "0 to 1", "0.5", "with composite=blend: factor of the colour in shadow", takeDark},
-        {"receiver", "a node's name", "everything; planar: ground", "what the shadow falls on", takeReceiver},
+        {"receiver", "a node's name", "traced: everything; else: ground", "what the shadow falls on", takeReceiver},
     };
     return keys;
 }
 
 const std::vector<Technique>& techniques() {
+    static const Key error = {"error", "0 to 1e6, scene's unit", "0.1",
+                              "how far off a draped edge may be in plan; 0 is exact", takeError};
     static const std::vector<Technique> table = {
         {"none", true, "no shadow", nullptr, true, {}},
         {"planar",
@@ -103,9 +126,24 @@ const std::vector<Technique>& techniques() {
          makePlanar,
          false,
          {}},
-        {"box", false, "", nullptr, true, {}},
-        {"hull", false, "", nullptr, true, {}},
-        {"drape", false, "", nullptr, true, {}},
+        {"box",
+         true,
+         "ARL-TN-156's bounding-box method on terrain, as published",
+         makeTerrain<TerrainShadowGeode::BOX>,
+         false,
+         {}},
+        {"hull",
+         true,
+         "silhouettes of the casters' convex parts, a ray a corner, as polygons on terrain",
+         makeTerrain<TerrainShadowGeode::HULL>,
+         false,
+         {error}},
+        {"drape",
+         true,
+         "the terrain's triangles cut by the casters' shadows, to within error",
+         makeTerrain<TerrainShadowGeode::DRAPE>,
+         false,
+         {error}},
         {"map", false, "", nullptr, true, {}},
         {"volume", false, "", nullptr, true, {}},
         {"traced",
@@ -197,7 +235,7 @@ osg::ref_ptr<ShadowTechnique> makeTechnique(ShadowCasterGroup& group, const Shad
     std::optional<NamedNode> receiver;
     if (!spec.receiver.empty() || !technique.onEverything)
         receiver = requireReceiver(group, spec.receiver.empty() ? defaultReceiver : spec.receiver);
-    osg::ref_ptr<ShadowTechnique> node = technique.add(receiver ? &*receiver : nullptr);
+    osg::ref_ptr<ShadowTechnique> node = technique.add(spec, receiver ? &*receiver : nullptr);
     Selection selection;
     if (receiver) selection.node = receiver->node;
     node->setReceiver(selection);

@@ -12,14 +12,16 @@ namespace gnomon {
 
 /// What a specification string says: which technique, and how. The same text selects a technique everywhere.
 ///
-///     none | planar | traced                 the others that are planned are refused as not built yet
+///     none | planar | box | hull | drape | traced    the others that are planned are refused as not built yet
 ///     NAME:key=value,key=value               planar:composite=blend,dark=0.4,receiver=floor
 struct ShadowSpec {
     std::string text;                                      ///< as given.
     std::string technique = "none";                        ///< one of shadowTechniques().
     std::optional<ShadowCasterGroup::Composite> composite; ///< not given: RELIGHT.
     std::optional<float> dark;                             ///< factor of BLEND, 0 … 1; not given: the group's 0.5.
-    std::string receiver; ///< name of the node that receives; empty: traced everything, planar the node named "ground".
+    std::optional<double> error; ///< of hull and drape: in plan, scene's unit; not given: 0.1.
+    /// Name of the node that receives; empty: traced everything, the others the node named "ground".
+    std::string receiver;
 };
 
 /// @throws std::invalid_argument, one sentence that names what is wrong and lists what is allowed.
@@ -33,7 +35,7 @@ GNOMON_EXPORT std::string shadowSpecHelp();
 
 /// Adds what `specs` ask for as children of `group`, and sets its composite. The receiver is looked for under the
 /// group. planar: a plane for each flat part of the receiver, up to eight, the largest first, none under 1 % of the
-/// largest. traced: everything receives, unless a receiver is given.
+/// largest. box, hull, drape: the receiver is the terrain. traced: everything receives, unless a receiver is given.
 /// @return the techniques added, in the order of `specs`; none for "none".
 /// @throws std::invalid_argument, one sentence, if the specs' composites differ, the receiver is not there or has
 /// nothing flat.

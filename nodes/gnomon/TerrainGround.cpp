@@ -73,8 +73,9 @@ bool isHeight(float value) {
     return std::abs(value) <= 1e18f && std::find(std::begin(none), std::end(none), value) == std::end(none);
 }
 
-std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain) {
+std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain, const osg::Matrixd& groundFromRoot) {
     TerrainTraverser found(terrain);
+    found.setRootFromVisited(groundFromRoot);
     root.accept(found);
     std::vector<glm::dvec3> vertices;
     vertices.reserve(found.getVertices().size());

@@ -22,9 +22,12 @@ namespace gnomon {
 ///
 /// Limits  those of VertexTraverser: what a vertex shader lifts, as osgTerrain's DisplacementMappingTechnique does, is not
 ///         seen.
+/// @param groundFromRoot  to the frame that the ground is wanted in, of the root's own.
+///
 /// Cost    what VertexTraverser costs, and the ground's own. Holds nothing of the graph: make it anew after changes.
 /// Threads reads the graph as a cull traversal does.
-GNOMON_EXPORT std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain = {});
+GNOMON_EXPORT std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain = {},
+                                                     const osg::Matrixd& groundFromRoot = osg::Matrixd::identity());
 
 /// The same of a field alone, as osgDB::readRefHeightFieldFile() returns it for an elevation model.
 GNOMON_EXPORT std::shared_ptr<const Ground> groundOf(const osg::HeightField& field);

@@ -81,23 +81,23 @@ auto readList(osgDB::InputStream& in, ReadItem readItem) {
 bool writeSelection(osgDB::OutputStream& out, const Selection& selection);
 Selection readSelection(osgDB::InputStream& in);
 
-/// A float property that keeps every bit in text as well.
-template <typename Class>
-class ExactFloat : public osgDB::PropByValSerializer<Class, float> {
-    using Base = osgDB::PropByValSerializer<Class, float>;
+/// A float or double property that keeps every bit in text as well.
+template <typename Class, typename Number>
+class ExactNumber : public osgDB::PropByValSerializer<Class, Number> {
+    using Base = osgDB::PropByValSerializer<Class, Number>;
 
 public:
     using Base::Base;
 
     bool read(osgDB::InputStream& in, osg::Object& object) override {
         const typename Base::Setter setter = this->_setter;
-        if (in.isBinary() || in.matchString(this->_name)) (static_cast<Class&>(object).*setter)(readExact<float>(in));
+        if (in.isBinary() || in.matchString(this->_name)) (static_cast<Class&>(object).*setter)(readExact<Number>(in));
         return true;
     }
 
     bool write(osgDB::OutputStream& out, const osg::Object& object) override {
         const typename Base::Getter getter = this->_getter;
-        const float value = (static_cast<const Class&>(object).*getter)();
+        const Number value = (static_cast<const Class&>(object).*getter)();
         if (!out.isBinary() && value == this->_defaultValue) return true;
         out << out.PROPERTY(this->_name.c_str());
         writeExact(out, value);

@@ -77,7 +77,7 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup,
     composite->add("BLEND", MyClass::BLEND);
     wrapper->addSerializer(composite, osgDB::BaseSerializer::RW_ENUM);
     wrapper->addSerializer(
-        new fields::ExactFloat<MyClass>("Dark", fresh->getDark(), &MyClass::getDark, &MyClass::setDark),
+        new fields::ExactNumber<MyClass, float>("Dark", fresh->getDark(), &MyClass::getDark, &MyClass::setDark),
         osgDB::BaseSerializer::RW_FLOAT);
     ADD_USER_SERIALIZER(LightSources);
     ADD_USER_SERIALIZER(Lights);

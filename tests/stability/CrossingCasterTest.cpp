@@ -17,12 +17,13 @@ Trial casting(const Mesh& caster, const osg::Vec4d& light = {1.0, 0.0, 1.0, 0.0}
 View nearTheGround() { return perspective({-5.0, -6.0, 2.0}, {0.0, 0.0, 0.0}, 128, 96); }
 
 GNOMON_BY_TECHNIQUE(SunkenSphere);
+GNOMON_BY_EXACT_TECHNIQUE(CutSphere); // hull leaves out corners of round silhouettes, up to a hundredth of the shadow
 GNOMON_BY_TECHNIQUE(Pole);
 GNOMON_BY_TECHNIQUE(Rug);
 
 } // namespace
 
-TEST_P(SunkenSphere, CastsOnlyWhatIsAboveTheGround) {
+TEST_P(CutSphere, CastsOnlyWhatIsAboveTheGround) {
     for (const double height : {-0.75, -0.5, 0.0, 0.5, 1.0})
         for (const osg::Vec4d& light : {osg::Vec4d(2.0, 0.0, 1.0, 0.0), osg::Vec4d(4.0, 1.0, 2.0, 1.0)}) {
             SCOPED_TRACE(testing::Message() << "centre at " << height << ", w " << light.w());

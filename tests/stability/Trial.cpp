@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Trial.h"
 
+#include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@ namespace test {
 namespace {
 
 using gnomon::ShadowCasterGroup;
+using gnomon::TerrainShadowGeode;
 
 By casting = By::Planar;
 
@@ -16,6 +18,12 @@ By casting = By::Planar;
     if (found.wrongInside == 0 && found.wrongAtEdge == 0) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << found.wrongInside << " pixels away from edges are wrong, "
                                          << found.wrongAtEdge << " at edges are neither lit nor dark";
+}
+
+osg::ref_ptr<TerrainShadowGeode> terrainShadow(TerrainShadowGeode::Method method) {
+    osg::ref_ptr<TerrainShadowGeode> shadow = new TerrainShadowGeode;
+    shadow->setMethod(method);
+    return shadow;
 }
 
 void blendToBlack(Scene& scene) {
@@ -29,19 +37,24 @@ ByTechnique::ByTechnique() { casting = GetParam(); }
 ByTechnique::~ByTechnique() { casting = By::Planar; }
 
 std::ostream& operator<<(std::ostream& out, By technique) {
-    return out << (technique == By::Planar ? "Planar" : "Traced");
+    constexpr const char* names[] = {"Planar", "Hull", "Drape", "Traced"};
+    return out << names[static_cast<int>(technique)];
 }
 
 osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver) {
     if (casting == By::Planar) return planar(receiver);
-    osg::ref_ptr<gnomon::ShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+    osg::ref_ptr<gnomon::ShadowTechnique> technique;
+    if (casting == By::Traced)
+        technique = new gnomon::TracedShadowTechnique;
+    else
+        technique = terrainShadow(casting == By::Hull ? TerrainShadowGeode::HULL : TerrainShadowGeode::DRAPE);
     if (receiver) technique->setReceiver({receiver});
     return technique;
 }
 
 Scene Trial::buildWithShadow() const {
     Scene result = build();
-    result.addShadow(castingTechnique(casting == By::Traced ? find(*result.root, "ground") : nullptr));
+    result.addShadow(castingTechnique(casting != By::Planar ? find(*result.root, "ground") : nullptr));
     return result;
 }
 

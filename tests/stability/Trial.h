@@ -9,18 +9,21 @@
 namespace test {
 
 /// The techniques that trials are run with: the same pictures are expected of all.
-enum class By { Planar, Traced };
+enum class By { Planar, Hull, Drape, Traced };
 std::ostream& operator<<(std::ostream& out, By technique);
 
-/// Cases of this fixture are run with each technique. Traced is told that the ground receives, as planar's plane does.
+/// Cases of this fixture are run with each technique. All but planar, which has its plane, are told that the ground
+/// receives.
 class ByTechnique : public ::testing::TestWithParam<By> {
 protected:
     ByTechnique();
     ~ByTechnique() override;
 };
-#define GNOMON_BY_TECHNIQUE(suite)                                                                                     \
+#define GNOMON_BY(suite, ...)                                                                                          \
     class suite : public ByTechnique {};                                                                               \
-    INSTANTIATE_TEST_SUITE_P(Shadows, suite, testing::Values(By::Planar, By::Traced), testing::PrintToStringParamName())
+    INSTANTIATE_TEST_SUITE_P(Shadows, suite, testing::Values(__VA_ARGS__), testing::PrintToStringParamName())
+#define GNOMON_BY_TECHNIQUE(suite) GNOMON_BY(suite, By::Planar, By::Hull, By::Drape, By::Traced)
+#define GNOMON_BY_EXACT_TECHNIQUE(suite) GNOMON_BY(suite, By::Planar, By::Drape, By::Traced)
 
 /// For z = 0: the technique of the case that is run, else planar.
 osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver = nullptr);

@@ -8,24 +8,35 @@
 namespace gnomon::examples {
 namespace {
 
+enum class Receives { EVERYTHING, FLAT, TERRAIN }; // of ChartScene: all, receiver, terrain
+
 struct GnomonPoint {
     const char* setting;
-    const char* spec;  ///< see gnomon::ShadowSpec.
-    bool flatReceiver; ///< falls on what ChartScene::receiver names.
+    const char* spec; ///< see gnomon::ShadowSpec.
+    Receives receives;
 };
 
 constexpr GnomonPoint gnomonPoints[] = {
-    {"relight", "planar", true},
-    {"blend", "planar:composite=blend", true},
-    {"relight", "traced", false},
-    {"blend", "traced:composite=blend", false},
+    {"relight", "planar", Receives::FLAT},
+    {"blend", "planar:composite=blend", Receives::FLAT},
+    {"relight", "box", Receives::TERRAIN},
+    {"relight", "hull", Receives::TERRAIN},
+    {"blend", "hull:composite=blend", Receives::TERRAIN},
+    {"error 0.5", "drape:error=0.5", Receives::TERRAIN},
+    {"error 0.1", "drape", Receives::TERRAIN},
+    {"exact", "drape:error=0", Receives::TERRAIN},
+    {"relight", "traced", Receives::EVERYTHING},
+    {"blend", "traced:composite=blend", Receives::EVERYTHING},
 };
 
 ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
     ShadowSpec spec = parseShadowSpec(point.spec);
-    if (point.flatReceiver && scene.receiver.empty())
-        throw std::invalid_argument(spec.technique + " needs a flat receiver, and the scene names none.");
-    if (point.flatReceiver) spec.receiver = scene.receiver;
+    if (point.receives == Receives::EVERYTHING) return spec;
+    const bool flat = point.receives == Receives::FLAT;
+    spec.receiver = flat ? scene.receiver : scene.terrain;
+    if (spec.receiver.empty())
+        throw std::invalid_argument(spec.technique + " needs a " + (flat ? "flat receiver" : "terrain") +
+                                    ", and the scene names none.");
     return spec;
 }
 

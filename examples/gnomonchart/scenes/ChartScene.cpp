@@ -34,10 +34,8 @@ osg::ref_ptr<osg::Group> contentOf(const SceneSetup& setup) {
     return content;
 }
 
-std::string receiverIn(osg::Group& content, const ViewOptions& options) {
-    const std::string name = options.receiver.empty() ? "ground" : options.receiver;
-    return findNamed(content, name) ? name : "";
-}
+/// The name if a node has it.
+std::string nameIn(osg::Group& content, const std::string& name) { return findNamed(content, name) ? name : ""; }
 
 } // namespace
 
@@ -63,7 +61,9 @@ ChartScene chartSceneOf(osg::Node& files, const ViewOptions& options) {
     scene.bounds = sceneBounds(*scene.content);
     scene.center = lookout(plain, setup.bounds).center;
     scene.radius = setup.bounds.radius();
-    scene.receiver = receiverIn(*scene.content, options);
+    scene.receiver = nameIn(*scene.content, options.receiver.empty() ? "ground" : options.receiver);
+    scene.terrain = nameIn(*scene.content, "terrain");
+    if (scene.terrain.empty()) scene.terrain = scene.receiver;
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     placeCamera(*camera, plain, setup.bounds);
     scene.camera = sceneCamera(*camera, options.width, options.height, scene.bounds);

@@ -108,6 +108,7 @@ osg::ref_ptr<osg::Group> flatTown() {
 osg::ref_ptr<osg::Group> hillyTown() {
     osg::ref_ptr<osg::Group> group = new osg::Group;
     group->addChild(landscape(hillHeight, townHalf, 110));
+    group->getChild(0)->setName("terrain");
     for (const Mesh& house : town(housesASide)) add(*group, dugIn(house));
     return group;
 }

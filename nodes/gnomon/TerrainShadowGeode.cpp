@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/LightProbe.h>
+#include <gnomon/MarkProgram.h>
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/TerrainScene.h>
+#include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/UsableLight.h>
+#include <gnomon/VertexTraverser.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/Notify>
+#include <osg/PolygonOffset>
+#include <osg/io_utils>
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace gnomon {
+namespace {
+
+const char* nameOf(TerrainShadowGeode::Method method) {
+    return method == TerrainShadowGeode::BOX ? "BOX" : method == TerrainShadowGeode::DRAPE ? "DRAPE" : "HULL";
+}
+
+std::optional<ScreenRect> boundsOf(const TerrainShadows& shadows, const glm::dmat4& clipFromPrisms) {
+    std::vector<glm::dvec4> corners;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i & 1 ? shadows.high.x : shadows.low.x, i & 2 ? shadows.high.y : shadows.low.y,
+                                i & 4 ? shadows.high.z : shadows.low.z);
+        corners.push_back(clipFromPrisms * glm::dvec4(corner, 1.0));
+    }
+    return screenBounds(corners);
+}
+
+bool isUnder(const Drape& shadow, const glm::dvec2& p) {
+    for (std::size_t i = 0; i + 2 < shadow.size(); i += 3) {
+        int left = 0, right = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec2 from(shadow[i + k]), edge = glm::dvec2(shadow[i + (k + 1) % 3]) - from, way = p - from;
+            const double side = edge.x * way.y - edge.y * way.x;
+            left += side >= 0.0;
+            right += side <= 0.0;
+        }
+        if (left == 3 || right == 3) return true;
+    }
+    return false;
+}
+
+/// Black of half opacity, as published; drawn before the ground that it lies on.
+osg::ref_ptr<osg::Geometry> transparent(const std::vector<osg::Vec3d>& triangles) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+    for (const osg::Vec3d& corner : triangles) vertices->push_back(osg::Vec3(corner));
+    geometry->setVertexArray(vertices);
+    geometry->setNormalArray(new osg::Vec3Array(1, new osg::Vec3(0.0f, 0.0f, 1.0f)), osg::Array::BIND_OVERALL);
+    osg::ref_ptr<osg::Vec4Array> colour = new osg::Vec4Array;
+    colour->push_back({0.0f, 0.0f, 0.0f, 0.5f});
+    geometry->setColorArray(colour, osg::Array::BIND_OVERALL);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices->size())));
+    osg::StateSet& state = *geometry->getOrCreateStateSet();
+    state.setMode(GL_LIGHTING, osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED);
+    state.setMode(GL_BLEND, osg::StateAttribute::ON);
+    state.setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED);
+    state.setAttributeAndModes(new osg::PolygonOffset(-1.0f, -1.0f));
+    state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    return geometry;
+}
+
+} // namespace
+
+struct TerrainShadowGeode::Asked {
+    glm::dvec4 light;
+    TerrainSettings settings;
+    std::uint64_t object; ///< revision of the placed object.
+};
+
+TerrainShadowGeode::TerrainShadowGeode() : _program(markProgram()), _cache(new TerrainCache) {}
+
+TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp)
+    : ShadowTechnique(other, copyOp), // its geometry, too
+      _method(other._method),
+      _error(other._error),
+      _object(other._object),
+      _position(other._position),
+      _heading(other._heading),
+      _bounds(other._bounds),
+      _program(markProgram()),
+      _cache(new TerrainCache) {}
+
+TerrainShadowGeode::~TerrainShadowGeode() = default;
+
+void TerrainShadowGeode::setError(double error) {
+    if (error >= 0.0 && std::isfinite(error))
+        _error = error;
+    else
+        OSG_WARN << "gnomon: " << describe() << " cannot take an error of " << error
+                 << ": give a length of 0 or more, in the scene's unit." << std::endl;
+}
+
+unsigned TerrainShadowGeode::builds() const { return _cache->builds(); }
+
+std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                               const CasterMesh& mesh) const {
+    const auto refuse = [&](const std::string& cause) {
+        report(view.frameNumber, cause);
+        return std::vector<osg::ref_ptr<MarkJob>>();
+    };
+    if (!hasReceiver()) return refuse("has no terrain to fall on: name it with setReceiver().");
+    const auto usable = usableLight(light.inGroup, osg::Vec3d());
+    if (!usable) return refuse("cannot use its light, which is nowhere: set the light's position.");
+    const auto shadows =
+        _cache->shadows(mesh, TerrainPlace::inFrameOf(*view.group, getReceiver()), *usable, {_method, _error, {}});
+    for (const std::string& cause : shadows->causes) report(view.frameNumber, cause);
+    if (shadows->prisms->layers.empty()) return {};
+    osg::ref_ptr<TerrainMark> mark = new TerrainMark;
+    mark->prisms = shadows->prisms;
+    mark->program = _program;
+    mark->clipFromPrisms = glm::translate(toGlm(view.eyeFromGroup * view.projection), toGlm(mesh.origin));
+    const auto bounds = boundsOf(*shadows, mark->clipFromPrisms);
+    if (!bounds) return {}; // out of sight: nothing to say
+    mark->screenBounds = *bounds;
+    return {mark};
+}
+
+bool TerrainShadowGeode::isLit(const LightProbe& probe, const glm::dvec3& point) const {
+    if (!hasReceiver()) return true;
+    const glm::dvec3 origin = toGlm(probe.origin), place = point + origin;
+    const glm::dvec4 light(glm::dvec3(probe.light) + probe.light.w * origin, probe.light.w);
+    const auto shadows =
+        _cache->shadows(probe.mesh, TerrainPlace::inFrameOf(probe.group, getReceiver()), light, {_method, _error, {}});
+    const auto height = shadows->scene->ground->height(place.x, place.y);
+    if (!height || !(std::abs(place.z - *height) <= 1e-5 * probe.casters.reach())) return true;
+    return std::none_of(shadows->shadows.begin(), shadows->shadows.end(),
+                        [&](const Drape& shadow) { return isUnder(shadow, glm::dvec2(place)); });
+}
+
+/// With no group above it is what it holds: plain geometry.
+void TerrainShadowGeode::traverse(osg::NodeVisitor& visitor) {
+    osgUtil::CullVisitor* cull = visitor.asCullVisitor();
+    const bool plain = cull && getNumDrawables() > 0 && !hasGroupAbove(*cull);
+    if (cull && !plain)
+        enlist(*cull);
+    else
+        osg::Geode::traverse(visitor);
+}
+
+osg::ref_ptr<osg::Node> TerrainShadowGeode::placedObject() const {
+    osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform(
+        osg::Matrixd::rotate(osg::DegreesToRadians(_heading), osg::Z_AXIS) * osg::Matrixd::translate(_position));
+    if (_object) placed->addChild(_object);
+    return placed;
+}
+
+/// In its own frame, with no group above.
+TerrainPlace TerrainShadowGeode::terrain() const {
+    return {*getReceiver().node, {nullptr, getReceiver().mask}, osg::Matrixd::identity()};
+}
+
+/// What compute() finds its shadow from; nullopt with the reason reported if that cannot be.
+std::optional<TerrainShadowGeode::Asked> TerrainShadowGeode::asked(const osg::Vec4d& light) const {
+    const auto usable = usableLight(light, osg::Vec3d());
+    const char* cause = nullptr;
+    if (!_object) cause = "has nothing to cast: give it an object with setObjectGraphic().";
+    if (!getReceiver().node) cause = "has no terrain to fall on: name it with setReceiver().";
+    if (!usable) cause = "cannot use its light, which is nowhere: give its direction or position.";
+    if (cause) {
+        report(0, cause);
+        return std::nullopt;
+    }
+    osg::BoundingBoxd box = _bounds;
+    if (box.valid()) box._min += _position, box._max += _position;
+    const osg::ref_ptr<osg::Node> object = placedObject();
+    const TerrainPlace all{*object, Selection(), osg::Matrixd::identity()};
+    return Asked{*usable, {_method, _error, box}, all.revision()};
+}
+
+bool TerrainShadowGeode::compute(const osg::Vec4d& light) {
+    beginFrame(0, this);
+    _shown = nullptr;
+    _triangles.clear();
+    removeDrawables(0, getNumDrawables());
+    const auto with = asked(light);
+    if (!with) return false;
+    VertexTraverser traverser;
+    placedObject()->accept(traverser);
+    const osg::ref_ptr<const CasterMesh> mesh = new CasterMesh(traverser);
+    _shown = _cache->shadows(*mesh, terrain(), with->light, with->settings);
+    _shownObject = with->object;
+    for (const std::string& cause : _shown->causes) report(0, cause);
+    show();
+    return !_triangles.empty();
+}
+
+bool TerrainShadowGeode::update(const osg::Vec4d& light) {
+    const auto with = asked(light);
+    const bool same = with && _shown && _shown->light == with->light && _shown->settings == with->settings &&
+                      _shownObject == with->object && _shown->scene->groundRevision == terrain().revision();
+    return same ? !_triangles.empty() : compute(light);
+}
+
+void TerrainShadowGeode::show() {
+    for (const Drape& shadow : _shown->shadows)
+        for (const glm::dvec3& corner : shadow) _triangles.emplace_back(corner.x, corner.y, corner.z);
+    if (!_triangles.empty()) addDrawable(transparent(_triangles));
+}
+
+void TerrainShadowGeode::print(std::ostream& out) const {
+    out << describe() << ": " << nameOf(_method) << ", error " << _error << "\n";
+    out << "  object at " << _position << ", heading " << _heading << " degrees\n";
+    if (_shown)
+        out << "  light " << osg::Vec4d(_shown->light.x, _shown->light.y, _shown->light.z, _shown->light.w) << "\n";
+    out << "  " << _triangles.size() / 3 << " triangles\n";
+    for (std::size_t i = 0; i + 2 < _triangles.size(); i += 3)
+        out << "    (" << _triangles[i] << ") (" << _triangles[i + 1] << ") (" << _triangles[i + 2] << ")\n";
+}
+
+void TerrainShadowGeode::resizeGLObjectBuffers(unsigned maxSize) {
+    ShadowTechnique::resizeGLObjectBuffers(maxSize);
+    _program->resizeGLObjectBuffers(maxSize);
+    _cache->resizeGLObjectBuffers(maxSize);
+}
+
+void TerrainShadowGeode::releaseGLObjects(osg::State* state) const {
+    ShadowTechnique::releaseGLObjects(state);
+    _program->releaseGLObjects(state);
+    _cache->releaseGLObjects(state);
+}
+
+} // namespace gnomon
