@@ -139,6 +139,7 @@ void find(TerrainShadows& asked) {
                        : terrainShadow(*scene.ground, scene.parts[i], asked.light, method, asked.settings.error);
     });
     asked.causes = causesOf(found);
+    if (found.empty()) asked.causes.emplace_back("has nothing to cast but its own receiver: name the terrain alone.");
     for (TerrainShadow& shadow : found) asked.shadows.push_back(std::move(shadow.triangles));
 }
 

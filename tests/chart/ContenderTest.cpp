@@ -30,7 +30,8 @@ using Bytes = std::vector<unsigned char>;
 
 std::string nameOf(const Contender& contender) {
     std::string name = contender.technique + "_" + contender.setting;
-    std::replace(name.begin(), name.end(), ' ', '_');
+    const auto isOther = [](unsigned char c) { return !std::isalnum(c); };
+    std::replace_if(name.begin(), name.end(), isOther, '_');
     return name;
 }
 

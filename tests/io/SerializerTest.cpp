@@ -4,6 +4,7 @@
 
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <support/Picture.h>
@@ -261,6 +262,35 @@ gnomon::ShadowCasterGroup {
     EXPECT_EQ(node.getReceiver().mask, 0xffu);
     EXPECT_EQ(node.getPlanes(), (std::vector<osg::Vec4d>{{0.0, 0.0, 1.0, -0.5}, {1.0, 0.0, 0.0, 3.0}}));
     EXPECT_TRUE(node.getStencilCure() && node.getOffsetCure() && !node.getClipCure());
+}
+
+TEST_P(SceneFile, KeepsATerrainShadowGeodeToTheBit) {
+    osg::ref_ptr<gnomon::TerrainShadowGeode> shadow = new gnomon::TerrainShadowGeode;
+    shadow->setMethod(gnomon::TerrainShadowGeode::DRAPE);
+    shadow->setError(1.0 / 3.0);
+    shadow->setObjectGraphic(test::node(test::box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}), "house"));
+    shadow->setObjectPos({433000.1, -1.0 / 3.0, 1e-300});
+    shadow->setObjectOrientation(0.1);
+    shadow->setObjectBounds({{-0.1, -0.2, -0.3}, {0.1, 0.2, 1.0 / 3.0}});
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(shadow);
+    root->addChild(new gnomon::TerrainShadowGeode);
+    const auto copy = test::throughFile(*root, kind());
+    ASSERT_TRUE(copy);
+    const auto& read = childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 0);
+    EXPECT_EQ(read.getMethod(), gnomon::TerrainShadowGeode::DRAPE);
+    EXPECT_EQ(read.getError(), 1.0 / 3.0);
+    ASSERT_TRUE(read.getObjectGraphic());
+    EXPECT_EQ(read.getObjectGraphic()->getName(), "house");
+    EXPECT_EQ(read.getObjectPos(), shadow->getObjectPos());
+    EXPECT_EQ(read.getObjectOrientation(), 0.1);
+    EXPECT_EQ(read.getObjectBounds()._min, shadow->getObjectBounds()._min);
+    EXPECT_EQ(read.getObjectBounds()._max, shadow->getObjectBounds()._max);
+    const auto& fresh = childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 1);
+    EXPECT_EQ(fresh.getMethod(), gnomon::TerrainShadowGeode::HULL);
+    EXPECT_EQ(fresh.getError(), 0.1);
+    EXPECT_FALSE(fresh.getObjectGraphic());
+    EXPECT_FALSE(fresh.getObjectBounds().valid());
 }
 
 } // namespace

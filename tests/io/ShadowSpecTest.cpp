@@ -2,6 +2,7 @@
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowSpec.h>
+#include <gnomon/TerrainShadowGeode.h>
 
 #include <gtest/gtest.h>
 
@@ -79,15 +80,37 @@ TEST(ShadowSpec, KeysAreRead) {
 }
 
 TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
-    EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique; allowed: none, planar, traced.");
-    EXPECT_EQ(refusal(""), "\"\" is not a shadow technique; allowed: none, planar, traced.");
-    EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique; allowed: none, planar, traced.");
+    const std::string allowed = "allowed: none, planar, box, hull, drape, traced.";
+    EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique; " + allowed);
+    EXPECT_EQ(refusal(""), "\"\" is not a shadow technique; " + allowed);
+    EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique; " + allowed);
 }
 
 TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
-    for (const char* name : {"box", "hull", "drape", "map", "volume", "auto"})
+    for (const char* name : {"map", "volume", "auto"})
         EXPECT_EQ(refusal(std::string(name) + ":size=4"),
-                  "\"" + std::string(name) + "\" is not built yet; built: none, planar, traced.");
+                  "\"" + std::string(name) + "\" is not built yet; built: none, planar, box, hull, drape, traced.");
+}
+
+TEST(ShadowSpec, HullAndDrapeTakeAnErrorAndAllThreeTheTerrain) {
+    const auto group = groupOf(square("hills", 1));
+    const auto added =
+        addShadows(*group, {parseShadowSpec("box:receiver=hills"), parseShadowSpec("hull:receiver=hills"),
+                            parseShadowSpec("drape:error=0.25,receiver=hills")});
+    ASSERT_EQ(added.size(), 3u);
+    using gnomon::TerrainShadowGeode;
+    const TerrainShadowGeode::Method methods[] = {TerrainShadowGeode::BOX, TerrainShadowGeode::HULL,
+                                                  TerrainShadowGeode::DRAPE};
+    for (unsigned i = 0; i < 3; ++i) {
+        const auto& shadow = dynamic_cast<const TerrainShadowGeode&>(*added[i]);
+        EXPECT_EQ(shadow.getMethod(), methods[i]);
+        EXPECT_EQ(shadow.getError(), i == 2 ? 0.25 : 0.1);
+        EXPECT_EQ(shadow.getReceiver().node->getName(), "hills");
+    }
+    EXPECT_EQ(parseShadowSpec("drape:error=0").error, 0.0);
+    EXPECT_EQ(refusal("drape:error=-1"), "error=-1 cannot be used; allowed: 0 to 1e6, scene's unit.");
+    EXPECT_EQ(refusal("hull:error=nan"), "error=nan cannot be used; allowed: 0 to 1e6, scene's unit.");
+    EXPECT_EQ(refusal("box:error=1"), "the technique box has no key \"error\"; allowed: composite, dark, receiver.");
 }
 
 TEST(ShadowSpec, UnknownKeysAreRefusedWithThoseAllowed) {

@@ -4,6 +4,7 @@
 #include <support/Truth.h>
 
 #include <gnomon/ShadowQuery.h>
+#include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
@@ -25,7 +26,10 @@ std::vector<test::Mesh> meshes() {
 test::Scene sceneFor(const osg::Vec4d& light, ShadowTechnique* technique) {
     const std::vector<test::Mesh> all = meshes();
     test::Scene scene = test::groundScene({all.begin() + 1, all.end()}, 8.0, light);
-    if (technique) scene.addShadow(technique);
+    if (!technique) return scene;
+    if (dynamic_cast<gnomon::TerrainShadowGeode*>(technique))
+        technique->setReceiver({test::find(*scene.root, "ground")});
+    scene.addShadow(technique);
     return scene;
 }
 
@@ -64,6 +68,7 @@ TEST(ShadowQuery, SaysWhatThePictureOfItsTechniqueShows) {
     for (const osg::Vec4d& light : {sun, lamp}) {
         EXPECT_LE(disagreements(light, osg::ref_ptr<ShadowTechnique>(new gnomon::TracedShadowTechnique)), 1);
         EXPECT_LE(disagreements(light, test::planar()), 1);
+        EXPECT_LE(disagreements(light, osg::ref_ptr<ShadowTechnique>(new gnomon::TerrainShadowGeode)), 1);
     }
 }
 

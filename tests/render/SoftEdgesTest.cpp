@@ -158,10 +158,9 @@ TEST(SoftEdges, OneLightMayHaveBothKindsOfEdges) {
 }
 
 TEST(SoftEdges, OfTwoLightsOneMayHaveBothKindsOfEdges) {
-    const Errors errors = errorsOf(2, 0.3f,
-                                   {disc(80.0, 75.0, 10.0, 50.0, 0), disc(110.0, 70.0, 30.0, 30.0, 0),
-                                    disc(120.0, 80.0, 15.0, 45.0, 1)},
-                                   relight);
+    const Errors errors = errorsOf(
+        2, 0.3f, {disc(80.0, 75.0, 10.0, 50.0, 0), disc(110.0, 70.0, 30.0, 30.0, 0), disc(120.0, 80.0, 15.0, 45.0, 1)},
+        relight);
     EXPECT_LE(errors.largest, 3.0);
     EXPECT_EQ(errors.litChanged, 0);
     EXPECT_EQ(errors.alphaLost, 0);

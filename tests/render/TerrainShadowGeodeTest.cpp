@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// Box, hull and drape as a node: what is found anew and when, what is drawn with a group above and without.
+#include <support/Scene.h>
+
+#include <gnomon/ShadowBin.h>
+#include <gnomon/TerrainShadowGeode.h>
+#include <gtest/gtest.h>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <support/Picture.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+using gnomon::ShadowBin;
+using gnomon::TerrainShadowGeode;
+using test::Scene;
+
+namespace {
+
+const osg::Vec4d sun(1.0, 0.0, 1.0, 0.0); // as far to -x as high
+
+osg::ref_ptr<TerrainShadowGeode> shadowOn(osg::Node* terrain, TerrainShadowGeode::Method method) {
+    osg::ref_ptr<TerrainShadowGeode> shadow = new TerrainShadowGeode;
+    shadow->setMethod(method);
+    shadow->setReceiver({terrain});
+    return shadow;
+}
+
+/// A house of 2 × 2 and 3 high on a ground of 40 × 40, by itself.
+osg::ref_ptr<TerrainShadowGeode> alone(TerrainShadowGeode::Method method) {
+    osg::ref_ptr<TerrainShadowGeode> shadow = shadowOn(test::node(test::square(20.0), "ground"), method);
+    shadow->setObjectGraphic(test::node(test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}), "house"));
+    return shadow;
+}
+
+double areaOf(const TerrainShadowGeode& shadow) {
+    double sum = 0.0;
+    const std::vector<osg::Vec3d>& t = shadow.getTriangles();
+    for (std::size_t i = 0; i + 2 < t.size(); i += 3) sum += 0.5 * ((t[i + 1] - t[i]) ^ (t[i + 2] - t[i])).z();
+    return sum;
+}
+
+osg::BoundingBoxd boundsOf(const TerrainShadowGeode& shadow) {
+    osg::BoundingBoxd bounds;
+    for (const osg::Vec3d& corner : shadow.getTriangles()) bounds.expandBy(corner);
+    return bounds;
+}
+
+const test::View above = test::fromAbove(8.0, 160); // ten pixels a unit
+
+int darkened(const test::Picture& with, const test::Picture& without) { return with.different(without); }
+
+} // namespace
+
+TEST(TerrainShadowGeodeAlone, FindsTheShadowOfItsObjectWhereverItStands) {
+    for (const auto method : {TerrainShadowGeode::HULL, TerrainShadowGeode::DRAPE}) {
+        const auto shadow = alone(method);
+        ASSERT_TRUE(shadow->compute(sun));
+        EXPECT_NEAR(areaOf(*shadow), 2.0 * 2.0 + 2.0 * 3.0, 1e-9) << "under the house, and as long as it is high";
+        EXPECT_NEAR(boundsOf(*shadow).xMin(), -4.0, 1e-9);
+        shadow->setObjectPos({5.0, -7.0, 0.0});
+        shadow->setObjectOrientation(45.0);
+        ASSERT_TRUE(shadow->compute(sun));
+        EXPECT_NEAR(areaOf(*shadow), 4.0 + 2.0 * std::sqrt(2.0) * 3.0, 1e-6) << "a square's diagonal wide";
+        EXPECT_NEAR(boundsOf(*shadow).xMin(), 5.0 - std::sqrt(2.0) - 3.0, 1e-6);
+        EXPECT_NEAR(boundsOf(*shadow).center().y(), -7.0, 1e-6);
+        EXPECT_TRUE(shadow->diagnose().empty());
+    }
+}
+
+TEST(TerrainShadowGeodeAlone, BoxIsTwelveTrianglesAndKeepsItsLifts) {
+    const auto shadow = alone(TerrainShadowGeode::BOX);
+    ASSERT_TRUE(shadow->compute(sun));
+    EXPECT_EQ(shadow->getTriangles().size(), 36u);
+    EXPECT_NEAR(boundsOf(*shadow).zMax(), 0.1, 1e-9) << "midpoints, as published";
+    shadow->setObjectBounds({{-1.0, -1.0, 0.0}, {1.0, 1.0, 6.0}});
+    const double before = areaOf(*shadow);
+    ASSERT_TRUE(shadow->compute(sun));
+    EXPECT_GT(areaOf(*shadow), before + 2.0) << "bounds that were given count";
+}
+
+TEST(TerrainShadowGeodeAlone, IsDrawnAsTransparentGeometryWithoutAGroup) {
+    Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
+    const test::Picture plain = test::render(scene.root, above);
+    const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::HULL);
+    shadow->setObjectGraphic(test::node(test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})));
+    ASSERT_TRUE(shadow->compute(sun));
+    scene.content->addChild(shadow);
+    const test::Picture picture = test::render(scene.root, above);
+    EXPECT_EQ(darkened(picture, plain), 30 * 20) << "3 by 2 are seen beside the house";
+    const unsigned dark = picture.at(80 - 30, 80) & 0xff;
+    EXPECT_NEAR(dark, 0.5 * test::litGround, 1.0);
+}
+
+TEST(TerrainShadowGeodeAlone, SaysWhatIsMissingAndDrawsNothing) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto refusal = [](TerrainShadowGeode& shadow, const osg::Vec4d& light) {
+        EXPECT_FALSE(shadow.compute(light));
+        EXPECT_EQ(shadow.getNumDrawables(), 0u);
+        EXPECT_EQ(shadow.diagnose().size(), 1u);
+        return shadow.diagnose().empty() ? "" : shadow.diagnose().front();
+    };
+    const osg::ref_ptr<TerrainShadowGeode> empty = new TerrainShadowGeode;
+    EXPECT_NE(refusal(*empty, sun).find("setReceiver()"), std::string::npos);
+    empty->setReceiver({test::node(test::square(20.0))});
+    EXPECT_NE(refusal(*empty, sun).find("setObjectGraphic()"), std::string::npos);
+    const auto shadow = alone(TerrainShadowGeode::HULL);
+    EXPECT_TRUE(shadow->compute(sun));
+    EXPECT_NE(refusal(*shadow, {nan, 0.0, 1.0, 0.0}).find("nowhere"), std::string::npos);
+    EXPECT_NE(refusal(*shadow, {1.0, 0.0, -1.0, 0.0}).find("below the horizon"), std::string::npos);
+    shadow->setReceiver({new osg::Group});
+    EXPECT_NE(refusal(*shadow, sun).find("no ground"), std::string::npos);
+    shadow->setError(nan);
+    shadow->setError(-1.0);
+    EXPECT_EQ(shadow->getError(), 0.1);
+}
+
+TEST(TerrainShadowGeodeAlone, UpdateFindsNothingAnewUnlessSomethingChanged) {
+    const auto shadow = alone(TerrainShadowGeode::HULL);
+    ASSERT_TRUE(shadow->update(sun));
+    const unsigned first = shadow->builds();
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(shadow->update(sun));
+    EXPECT_EQ(shadow->builds(), first);
+    EXPECT_TRUE(shadow->update({1.0, 1.0, 1.0, 0.0}));
+    EXPECT_EQ(shadow->builds(), first + 1);
+    shadow->setObjectPos({1.0, 0.0, 0.0});
+    EXPECT_TRUE(shadow->update({1.0, 1.0, 1.0, 0.0}));
+    EXPECT_EQ(shadow->builds(), first + 2);
+    shadow->setMethod(TerrainShadowGeode::DRAPE);
+    EXPECT_TRUE(shadow->update({1.0, 1.0, 1.0, 0.0}));
+    EXPECT_EQ(shadow->builds(), first + 3);
+}
+
+TEST(TerrainShadowGeodeAlone, PrintsWhatItFound) {
+    const auto shadow = alone(TerrainShadowGeode::HULL);
+    shadow->setObjectPos({5.0, -7.0, 0.0});
+    ASSERT_TRUE(shadow->compute(sun));
+    std::ostringstream out;
+    shadow->print(out);
+    for (const char* part : {"HULL", "5 -7 0", "light 0.707107 0 0.707107 0", " triangles\n    ("})
+        EXPECT_NE(out.str().find(part), std::string::npos) << part << " in " << out.str();
+}
+
+TEST(TerrainShadowGeode, IsFoundOnceALightUntilSomethingChanges) {
+    Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
+    osg::Node* house = scene.content->getChild(1);
+    const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::HULL);
+    scene.addShadow(shadow);
+    test::Camera camera(scene.root, above);
+    for (int i = 0; i < 3; ++i) camera.frame();
+    EXPECT_EQ(shadow->builds(), 1u);
+    scene.light->getLight()->setPosition({1.0f, 1.0f, 1.0f, 0.0f});
+    for (int i = 0; i < 3; ++i) camera.frame();
+    EXPECT_EQ(shadow->builds(), 2u);
+    osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(3.0, 0.0, 0.0));
+    moved->addChild(house);
+    scene.content->replaceChild(house, moved);
+    for (int i = 0; i < 3; ++i) camera.frame();
+    EXPECT_EQ(shadow->builds(), 3u);
+}
+
+TEST(TerrainShadowGeode, TerrainCastsNothingOnItself) {
+    Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
+    const test::Picture plain = test::render(scene.root, above);
+    const auto shadow = shadowOn(scene.content, TerrainShadowGeode::HULL); // house and ground
+    scene.addShadow(shadow);
+    EXPECT_EQ(darkened(test::render(scene.root, above), plain), 0);
+    ASSERT_EQ(shadow->diagnose().size(), 1u);
+    EXPECT_NE(shadow->diagnose().front().find("nothing to cast but its own receiver"), std::string::npos);
+}
+
+/// Fifteen shadows over one place, whichever way the bits that are left count them.
+TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAreLeft) {
+    std::vector<test::Mesh> houses;
+    for (int i = 0; i < 15; ++i) houses.push_back(test::box({3.0, -2.0, 0.4 * i}, {3.5 + 0.1 * i, 2.0, 0.4 * i + 0.3}));
+    const auto picture = [&](unsigned reserved, std::string& cause) {
+        ShadowBin::reserve(reserved);
+        Scene scene = test::groundScene(houses, 20.0, sun);
+        const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::HULL);
+        scene.addShadow(shadow);
+        test::Picture result = test::render(scene.root, above);
+        cause = shadow->diagnose().empty() ? "" : shadow->diagnose().front();
+        ShadowBin::reserve(0);
+        return result;
+    };
+    Scene unshadowed = test::groundScene(houses, 20.0, sun);
+    const test::Picture plain = test::render(unshadowed.root, above);
+    std::string cause;
+    const test::Picture all = picture(0, cause);
+    EXPECT_EQ(cause, "");
+    EXPECT_GT(darkened(all, plain), 1500);
+    EXPECT_EQ(picture(0x03, cause).different(all), 0) << "one counter: odd from even";
+    EXPECT_EQ(cause, "");
+    EXPECT_EQ(picture(0x80, cause).different(all), 0) << "two counters";
+    EXPECT_EQ(picture(0x07, cause).different(plain), 0);
+    EXPECT_NE(cause.find("sixth stencil bit"), std::string::npos) << cause;
+}
