@@ -115,6 +115,7 @@ TEST(Race, StoppedEarlyItKeepsWhatItHas) {
 TEST(Race, AContenderThatFailsIsOutAndTheOthersRun) {
     ChartScene scene = test::smallScene();
     scene.receiver.clear();
+    scene.terrain.clear();
     const std::vector<Contender> all = {defaultsOf("ShadowTexture"), defaultsOf("ShadowMap")};
     const RaceResults results = race(scene, all, 2, shaders(), [](int, int) { return true; });
     EXPECT_FALSE(results.contenders[0].cost);

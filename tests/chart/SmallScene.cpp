@@ -23,7 +23,7 @@ ChartScene smallScene() {
     scene.content->addChild(node(square(8.0), "ground"));
     scene.light = {1.0, 0.3, 1.2, 0.0};
     scene.camera = cameraOf(perspective({-8.0, -14.0, 10.0}, {0.0, 0.0, 1.0}, 320, 240, 40.0, 5.0, 40.0));
-    scene.receiver = "ground";
+    scene.receiver = scene.terrain = "ground";
     scene.radius = 3.0;
     scene.content->addChild(node(house({2.0, 0.0}, {2.0, 2.0, 3.0}, 30.0)));
     scene.content->addChild(node(sphere({-2.0, 0.0, 2.5}, 1.0)));
