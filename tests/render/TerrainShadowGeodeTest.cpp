@@ -81,6 +81,40 @@ TEST(TerrainShadowGeodeAlone, BoxIsTwelveTrianglesAndKeepsItsLifts) {
     EXPECT_GT(areaOf(*shadow), before + 2.0) << "bounds that were given count";
 }
 
+/// ARL-TN-156's class ignores transforms in the caster, drops vertices by sign and divides by their coordinates, skips the
+/// last of each range: a house beside its own origin, under a transform, one corner at 0.
+TEST(TerrainShadowGeodeAlone, BoxTakesEveryVertexWhereItStands) {
+    const auto still = alone(TerrainShadowGeode::BOX);
+    ASSERT_TRUE(still->compute({1.0, 0.5, 1.0, 0.0}));
+    const auto shadow = alone(TerrainShadowGeode::BOX);
+    osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(-5.0, -5.0, 0.0));
+    moved->addChild(test::node(test::box({5.0, 5.0, 0.0}, {7.0, 7.0, 3.0})));
+    shadow->setObjectGraphic(moved);
+    shadow->setObjectPos({-1.0, -1.0, 0.0});
+    ASSERT_TRUE(shadow->compute({1.0, 0.5, 1.0, 0.0}));
+    ASSERT_EQ(shadow->getTriangles().size(), still->getTriangles().size());
+    for (std::size_t i = 0; i < still->getTriangles().size(); ++i)
+        EXPECT_LT((shadow->getTriangles()[i] - still->getTriangles()[i]).length(), 1e-6) << i;
+}
+
+/// Its rays are 500 long whatever the scene.
+TEST(TerrainShadowGeodeAlone, BoxReachesAsFarAsTheLightDoes) {
+    const auto shadow = alone(TerrainShadowGeode::BOX);
+    shadow->setReceiver({test::node(test::square(2000.0), "ground")});
+    ASSERT_TRUE(shadow->compute({500.0, 0.0, 1.0, 0.0}));
+    EXPECT_NEAR(boundsOf(*shadow).xMin(), -1.0 - 1500.0, 1e-3);
+}
+
+/// It clones the caster and never frees the clone.
+TEST(TerrainShadowGeodeAlone, HoldsItsObjectOnceHoweverOftenItComputes) {
+    const auto shadow = alone(TerrainShadowGeode::BOX);
+    const int before = shadow->getObjectGraphic()->referenceCount();
+    for (int i = 0; i < 40; ++i) ASSERT_TRUE(shadow->compute({1.0, 0.01 * i, 1.0, 0.0}));
+    EXPECT_EQ(shadow->getObjectGraphic()->referenceCount(), before);
+    EXPECT_EQ(shadow->getObjectGraphic()->getNumParents(), 0u);
+    EXPECT_EQ(shadow->getNumDrawables(), 1u);
+}
+
 TEST(TerrainShadowGeodeAlone, IsDrawnAsTransparentGeometryWithoutAGroup) {
     Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
     const test::Picture plain = test::render(scene.root, above);
