@@ -128,8 +128,17 @@ protected:
             desktop.pictureWhere(key + " has brought it back", [&](const Screenshot& p) { return p == expected; }));
     }
 
-    /// From planar shadows on through the other techniques, of which there is one, to none; from there n leads back.
-    Screenshot withoutShadow() { return pressed("n", 2); }
+    /// The picture after keys that may change nothing. Where text is shown and hidden after them, they have been seen to.
+    Screenshot after(const std::string& key, int times) {
+        for (int i = 0; i < times; ++i) desktop.press(key);
+        desktop.press("g");
+        desktop.pictureWhere(key + " and g show the text", hasText);
+        desktop.press("g");
+        return desktop.pictureWhere("g hides the text", [](const Screenshot& p) { return !hasText(p); });
+    }
+
+    /// From planar shadows on through box, hull, drape and traced to none; from there n leads back.
+    Screenshot withoutShadow() { return after("n", 5); }
     /// The first picture without its shadow, which n then brings back.
     Screenshot glimpseWithoutShadow() {
         const Screenshot none = withoutShadow();
@@ -158,7 +167,7 @@ TEST_F(Viewer, StartsWithoutShadowUnlessAskedForOne) {
     start({});
     const Screenshot planar = pressed("n");
     EXPECT_LE(misplaced(changed(first, planar), lamp), atFeet);
-    pressed("n");
+    after("n", 4); // box, hull, drape, traced
     expectAfter("n", first);
 }
 
