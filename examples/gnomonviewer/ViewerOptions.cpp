@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ViewerOptions.h"
+#include "SceneWindow.h"
 #include "ShadowKeys.h"
 
 namespace gnomon::examples {
@@ -29,15 +30,7 @@ std::string viewerHelp() {
            "Shows scene files with shadows in a window.\n\n"
            "Lengths are in the scene's unit; everything is z up.\n\n" +
            describeOptions(viewerOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp() + "\nKEYS\n" +
-           shadowKeysHelp() +
-           "  1 ... 7  ways to move: trackball, flight, drive, terrain, orbit, first person, spherical; space: back\n"
-           "  s        statistics\n"
-           "  w l b t  wire frame, lighting, back faces, textures\n"
-           "  f        full screen\n"
-           "  c        picture of the window, gnomonviewer_0_0.png and on, in the folder where the program was "
-           "started\n"
-           "  h        all keys, on the screen\n"
-           "  Esc      end\n"
+           keysHelp(shadowKeys()) + windowKeysHelp("gnomonviewer") +
            "\nExample: gnomonviewer data/lab8.osgt --shadow planar\n";
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // gnomonviewer: scene files with shadows in a window, as osgviewer shows them without.
 #include "SceneFile.h"
+#include "SceneWindow.h"
+#include "ShadowKeys.h"
 #include "ViewerOptions.h"
-#include "ViewerWindow.h"
 
 #include <iostream>
 
@@ -10,13 +11,20 @@ namespace {
 
 using namespace gnomon::examples;
 
+int show(const ViewOptions& options) {
+    SceneSetup setup = setUpScene(options, *readScene(options.files, "gnomonviewer"));
+    ShadowControls controls(options, setup);
+    const osg::ref_ptr<Hud> hud = new Hud([&] { return controls.describe(); });
+    const osg::ref_ptr<osgGA::GUIEventHandler> keys = new KeyHandler<ShadowControls>(shadowKeys(), controls, *hud);
+    const WindowNames names = {"gnomonviewer", "shows scene files with shadows.", "gnomonshot"};
+    return SceneWindow(names, options, setup, *hud, *keys).run();
+}
+
 int run(osg::ArgumentParser& arguments) {
     const ViewerOptions options = readViewerOptions(arguments);
-    if (options.help) {
-        std::cout << viewerHelp();
-        return 0;
-    }
-    return ViewerWindow(options.view, *readScene(options.view.files, "gnomonviewer")).run();
+    if (!options.help) return show(options.view);
+    std::cout << viewerHelp();
+    return 0;
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "ViewerWindow.h"
+#include "SceneWindow.h"
 #include "Legible.h"
-#include "ShadowKeys.h"
 
 #include <osg/DisplaySettings>
 #include <osgGA/DriveManipulator>
@@ -76,64 +75,77 @@ bool namesDisplay() {
     return name && std::strchr(name, ':');
 }
 
-osgViewer::ScreenCaptureHandler* makeCapture() {
+osgViewer::ScreenCaptureHandler* makeCapture(const std::string& program) {
     using Capture = osgViewer::ScreenCaptureHandler;
-    return new Capture(new Capture::WriteToFile("gnomonviewer", "png", Capture::WriteToFile::SEQUENTIAL_NUMBER));
+    return new Capture(new Capture::WriteToFile(program, "png", Capture::WriteToFile::SEQUENTIAL_NUMBER));
 }
 
 } // namespace
 
-ViewerWindow::ViewerWindow(const ViewOptions& options, osg::Node& files)
-    : _setup(setUpScene(options, files)), _controls(options, _setup), _usage(new osg::ApplicationUsage) {
+SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, SceneSetup& setup, Hud& hud,
+                         osgGA::GUIEventHandler& keys)
+    : _usage(new osg::ApplicationUsage) {
     osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded); // keys change what another thread could be drawing
     _viewer.setLightingMode(osg::View::NO_LIGHT);
-    openWindow(options);
-    placeCamera(*_viewer.getCamera(), options, _setup.bounds);
-    addHandlers();
-    _viewer.setSceneData(_setup.root);
-    placeHands(options);
+    openWindow(names, options);
+    placeCamera(*_viewer.getCamera(), options, setup.bounds);
+    setup.root->addChild(hud.camera());
+    addHandlers(names, hud, keys);
+    _viewer.setSceneData(setup.root);
+    placeHands(options, setup.bounds);
 }
 
-void ViewerWindow::openWindow(const ViewOptions& options) {
+void SceneWindow::openWindow(const WindowNames& names, const ViewOptions& options) {
     const Silence silence;
     if (namesDisplay()) _viewer.setUpViewInWindow(corner, corner, options.width, options.height);
     osgViewer::Viewer::Windows windows;
     _viewer.getWindows(windows);
     if (windows.empty())
         throw std::runtime_error("no window can be opened: DISPLAY must name an X server with OpenGL and a stencil "
-                                 "buffer; gnomonshot draws without one.");
+                                 "buffer; " +
+                                 names.without + " draws without one.");
     _viewer.realize();
-    windows.front()->setWindowName("gnomonviewer");
+    windows.front()->setWindowName(names.program);
 }
 
-void ViewerWindow::addHandlers() {
-    osg::ref_ptr<Hud> hud = new Hud([this] { return _controls.describe(); });
-    _setup.root->addChild(hud->camera());
-    _viewer.addEventHandler(hud);
-    _viewer.addEventHandler(new ShadowKeys(_controls, *hud));
+void SceneWindow::addHandlers(const WindowNames& names, Hud& hud, osgGA::GUIEventHandler& keys) {
+    _viewer.addEventHandler(&hud);
+    _viewer.addEventHandler(&keys);
     _viewer.addEventHandler(new osgGA::StateSetManipulator(_viewer.getCamera()->getOrCreateStateSet()));
     _viewer.addEventHandler(new osgViewer::WindowSizeHandler);
-    _viewer.addEventHandler(makeCapture());
-    addOverlays();
+    _viewer.addEventHandler(makeCapture(names.program));
+    addOverlays(names);
 }
 
-void ViewerWindow::addOverlays() {
+void SceneWindow::addOverlays(const WindowNames& names) {
     osg::ref_ptr<osgViewer::StatsHandler> stats = new osgViewer::StatsHandler;
     keepLegible(*stats->getCamera()->getOrCreateStateSet());
     _viewer.addEventHandler(stats);
-    _usage->setDescription("gnomonviewer shows scene files with shadows.");
+    _usage->setDescription(names.program + " " + names.does);
     osg::ref_ptr<osgViewer::HelpHandler> help = new osgViewer::HelpHandler(_usage);
     keepLegible(*help->getCamera()->getOrCreateStateSet());
     darkenBehind(*help->getCamera());
     _viewer.addEventHandler(help);
 }
 
-void ViewerWindow::placeHands(const ViewOptions& options) {
-    const Lookout place = lookout(options, _setup.bounds);
+void SceneWindow::placeHands(const ViewOptions& options, const osg::BoundingBoxd& bounds) {
+    const Lookout place = lookout(options, bounds);
     osg::ref_ptr<osgGA::KeySwitchMatrixManipulator> hands = makeHands();
     hands->setHomePosition(place.eye, place.center, place.up, false);
     _viewer.setCameraManipulator(hands);
+}
+
+std::string windowKeysHelp(const std::string& program) {
+    return "  1 ... 7  ways to move: trackball, flight, drive, terrain, orbit, first person, spherical; space: back\n"
+           "  s        statistics\n"
+           "  w l b t  wire frame, lighting, back faces, textures\n"
+           "  f        full screen\n"
+           "  c        picture of the window, " +
+           program +
+           "_0_0.png and on, in the folder where the program was started\n"
+           "  h        all keys, on the screen\n"
+           "  Esc      end\n";
 }
 
 } // namespace gnomon::examples

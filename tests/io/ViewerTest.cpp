@@ -128,7 +128,7 @@ protected:
             desktop.pictureWhere(key + " has brought it back", [&](const Screenshot& p) { return p == expected; }));
     }
 
-    /// The picture after keys that may change nothing. Where text is shown and hidden after them, they have been seen to.
+    /// The picture after keys that may change nothing: where text was shown and hidden after them, they have been seen to.
     Screenshot after(const std::string& key, int times) {
         for (int i = 0; i < times; ++i) desktop.press(key);
         desktop.press("g");
