@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "Town.h"
+#include "Mesh.h"
+
+#include <glm/trigonometric.hpp>
+#include <osg/Geode>
+#include <osg/Material>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr double footDepth = 2.0, plot = townSide / townPlots; // m
+constexpr double towerShare = 0.06, tankShare = 0.03, wingShare = 0.2;
+constexpr int tankSides = 20;
+
+/// Counter-clockwise from above; every corner is seen from the first.
+using Outline = std::vector<glm::dvec2>;
+
+/// Numbers as the standard has them for every library: its distributions differ.
+class Dice {
+public:
+    double between(double low, double high) { return low + (high - low) * (double(_twister()) / 4294967296.0); }
+
+private:
+    std::mt19937 _twister{1902};
+};
+
+Outline block(double width, double depth) {
+    const double x = width / 2.0, y = depth / 2.0;
+    return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+}
+
+Outline lShape(double width, double depth, double wing) {
+    const double x = width / 2.0, y = depth / 2.0;
+    return {{wing - x, wing - y}, {wing - x, y}, {-x, y}, {-x, -y}, {x, -y}, {x, wing - y}};
+}
+
+Outline tank(double radius) {
+    Outline outline;
+    for (int i = 0; i < tankSides; ++i) {
+        const double angle = glm::radians(360.0 * i / tankSides);
+        outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    return outline;
+}
+
+void stand(Outline& outline, const glm::dvec2& place, double degrees) {
+    const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
+    for (glm::dvec2& p : outline) p = place + glm::dvec2(p.x * c - p.y * s, p.x * s + p.y * c);
+}
+
+Mesh prism(const Outline& outline, double low, double high) {
+    Mesh mesh;
+    const auto at = [&](std::size_t i, double z) { return glm::dvec3(outline[i % outline.size()], z); };
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        mesh.insert(mesh.end(),
+                    {at(i, low), at(i + 1, low), at(i + 1, high), at(i, low), at(i + 1, high), at(i, high)});
+    for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+        mesh.insert(mesh.end(), {at(0, high), at(i, high), at(i + 1, high), at(0, low), at(i + 1, low), at(i, low)});
+    return mesh;
+}
+
+/// @param height  above the highest ground at a corner.
+Mesh building(const Ground& ground, const Outline& outline, double height) {
+    double lowest = INFINITY, highest = -INFINITY;
+    for (const glm::dvec2& p : outline)
+        if (const std::optional<double> z = ground.height(p.x, p.y))
+            lowest = std::min(lowest, *z), highest = std::max(highest, *z);
+    return highest >= lowest ? prism(outline, lowest - footDepth, highest + height) : Mesh{};
+}
+
+/// Buildings of one kind, which share a colour.
+struct Quarter {
+    const char* name;
+    osg::Vec4 colour;
+    std::vector<Mesh> buildings;
+};
+
+osg::ref_ptr<osg::Geode> draw(Quarter& quarter) {
+    osg::ref_ptr<osg::Geode> geode = node(joined(std::move(quarter.buildings)), quarter.name);
+    osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setAmbient(osg::Material::FRONT_AND_BACK, quarter.colour);
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, quarter.colour);
+    geode->getOrCreateStateSet()->setAttributeAndModes(material);
+    return geode;
+}
+
+} // namespace
+
+osg::ref_ptr<osg::Group> makeTown(const Ground& ground, const glm::dvec2& centre) {
+    Quarter blocks{"blocks", {0.85f, 0.80f, 0.70f, 1.0f}, {}}, wings{"L-shapes", {0.75f, 0.50f, 0.40f, 1.0f}, {}},
+        tanks{"tanks", {0.75f, 0.80f, 0.85f, 1.0f}, {}};
+    Dice dice;
+    for (int i = 0; i < townPlots * townPlots; ++i) {
+        const double width = dice.between(14.0, 30.0), depth = dice.between(10.0, 18.0),
+                     degrees = dice.between(0.0, 360.0);
+        const double tower = dice.between(0.0, 1.0) < towerShare ? 25.0 : 0.0, height = dice.between(6.0, 16.0) + tower,
+                     kind = dice.between(0.0, 1.0);
+        const glm::dvec2 corner = centre - glm::dvec2(townSide / 2.0);
+        const glm::dvec2 aside(dice.between(0.4, 0.6), dice.between(0.4, 0.6));
+        Quarter& quarter = kind < tankShare ? tanks : kind < tankShare + wingShare ? wings : blocks;
+        Outline outline = &quarter == &tanks   ? tank(width / 2.0)
+                          : &quarter == &wings ? lShape(width, width, depth / 2.0)
+                                               : block(width, depth);
+        stand(outline, corner + (glm::dvec2(i % townPlots, i / townPlots) + aside) * plot, degrees);
+        quarter.buildings.push_back(building(ground, outline, height));
+    }
+    osg::ref_ptr<osg::Group> town = new osg::Group;
+    town->setName("town");
+    for (Quarter* quarter : {&blocks, &wings, &tanks}) town->addChild(draw(*quarter));
+    return town;
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "TownOptions.h"
+#include "SceneWindow.h"
+#include "TownControls.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+using Text = const std::string&;
+
+ShadowSpec readTownSpec(Text text) {
+    const ShadowSpec spec = parseShadowSpec(text);
+    const auto& allowed = townTechniques();
+    if (std::find(allowed.begin(), allowed.end(), spec.technique) == allowed.end())
+        throw std::invalid_argument("allowed: none, box, hull, drape.");
+    return spec;
+}
+
+/// As the other programs have it.
+void addSize(Options& table, ViewOptions& into) {
+    for (const Option& option : viewOptions(into))
+        if (option.name == "--size") table.push_back(option);
+}
+
+Options townOptions(TownOptions& into) {
+    Options table;
+    table.push_back({"--shadow", "none|box|hull|drape", "how shadows are made; keys of SPEC may follow, see below",
+                     "hull", [&into](Text t) { into.view.shadows = {readTownSpec(t)}; }});
+    table.push_back({"--hour", "H", "solar time at an equinox, 6.5 to 17.5 hours; the sun is due south at 12", "9",
+                     [&into](Text t) { into.hour = readNumber(t, firstHour, lastHour); }});
+    addSize(table, into.view);
+    table.push_back({"--out", "IMAGE", "draw one picture into this file, without a window or display", "a window",
+                     [&into](Text t) { into.out = t; }});
+    table.push_back({"--report", "FOLDER",
+                     "draw morning, noon and evening (8, 12 and 16 h) with each technique into this folder,\n"
+                     "      NAME-TECHNIQUE.png, without a window or display",
+                     "a window", [&into](Text t) { into.report = t; }});
+    table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
+    return table;
+}
+
+void takeElevation(osg::ArgumentParser& arguments, TownOptions& into) {
+    takeFiles(arguments, into.view);
+    if (into.view.files.size() > 1)
+        throw std::invalid_argument("\"" + into.view.files[1] + "\" is a second elevation model; one is allowed.");
+    into.elevation = into.view.files.empty() ? GNOMON_JACKSBORO : into.view.files.front();
+}
+
+} // namespace
+
+const std::vector<std::string>& townTechniques() {
+    static const std::vector<std::string> names = {"none", "box", "hull", "drape"};
+    return names;
+}
+
+TownOptions readTownOptions(osg::ArgumentParser& arguments) {
+    TownOptions options;
+    options.view.shadows = {parseShadowSpec("hull")};
+    readOptions(arguments, townOptions(options));
+    readOsgOptions(arguments);
+    if (options.help) return options;
+    takeElevation(arguments, options);
+    if (!options.out.empty() && !options.report.empty())
+        throw std::invalid_argument("--out and --report are given; one of them is allowed.");
+    return options;
+}
+
+std::string townHelp() {
+    TownOptions defaults;
+    return "arl_terrain [ELEVATION] [OPTION...]\n"
+           "Shows a town of 400 buildings on an elevation model, its shadows by ARL-TN-156's bounding-box method and "
+           "by\n"
+           "what came after it.\n\n"
+           "ELEVATION is what GDAL reads, in metres, with .gdal behind its name: dem.tif.gdal (default: mountains "
+           "about\n"
+           "the Jacksboro fault, data/jacksboro.vrt.gdal).\n\n" +
+           describeOptions(townOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp() + "\nKEYS\n" +
+           keysHelp(townKeys()) + windowKeysHelp("arl_terrain") +
+           "\nExample: arl_terrain --shadow drape:error=0.5 --hour 16.5 --out town.png\n";
+}
+
+} // namespace gnomon::examples

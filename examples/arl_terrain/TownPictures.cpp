@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "TownPictures.h"
+#include "OutputFile.h"
+#include "TownOptions.h"
+
+#include <osg/DisplaySettings>
+
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+struct TimeOfDay {
+    const char* name;
+    double hour;
+};
+constexpr TimeOfDay times[] = {{"morning", 8.0}, {"noon", 12.0}, {"evening", 16.0}};
+
+void makeFolder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error)
+        throw std::runtime_error("the folder \"" + folder.string() + "\" cannot be made: " + error.message() + ".");
+}
+
+} // namespace
+
+TownPictures::TownPictures(TownScene& town) : _town(town), _context(town.view().width, town.view().height) {
+    osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
+    _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
+    _viewer.setLightingMode(osg::View::NO_LIGHT);
+    _context.attach(*_viewer.getCamera());
+    placeCamera(*_viewer.getCamera(), town.view(), town.setup().bounds);
+    _viewer.setSceneData(town.setup().root);
+}
+
+osg::ref_ptr<osg::Image> TownPictures::draw() {
+    _viewer.frame();
+    return _context.image();
+}
+
+void TownPictures::report(const std::filesystem::path& folder) {
+    makeFolder(folder);
+    for (const std::string& technique : townTechniques()) {
+        _town.setup().cast({parseShadowSpec(technique)});
+        for (const TimeOfDay& time : times) {
+            OutputFile file((folder / (std::string(time.name) + "-" + technique + ".png")).string());
+            _town.setHour(time.hour);
+            file.write(*draw());
+        }
+    }
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "SceneSetup.h"
+#include "SunPosition.h"
+
+#include <osg/Shape>
+
+namespace gnomon::examples {
+
+/// Solar time at which the sun is up; at both ends 6 degrees, whatever the model.
+constexpr double firstHour = 6.5, lastHour = 17.5;
+
+/// The sun over the Jacksboro fault (36.6° north) at an equinox.
+SunPosition townSun(double hour);
+
+/// A town on an elevation model: nodes "town", which casts, and "terrain", which receives; a camera that looks over it.
+class TownScene {
+public:
+    /// @param view    shadows and picture's size; what else it says is not looked at.
+    /// @param terrain metres. Its origin becomes 0, so that floats suffice.
+    /// @throws std::runtime_error, one sentence, if it has no place for a town.
+    TownScene(ViewOptions view, double hour, osg::HeightField& terrain);
+
+    /// @param hour  firstHour to lastHour.
+    void setHour(double hour);
+    double hour() const { return _hour; }
+    const ViewOptions& view() const { return _view; }
+    SceneSetup& setup() { return _setup; }
+    const SceneSetup& setup() const { return _setup; }
+
+private:
+    double _given, _hour;
+    ViewOptions _view;
+    SceneSetup _setup;
+};
+
+} // namespace gnomon::examples

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// arl_terrain: a town on mountains, in a window or a picture; its shadows by TerrainShadowGeode.
+#include "ElevationFile.h"
+#include "OutputFile.h"
+#include "SceneWindow.h"
+#include "TownControls.h"
+#include "TownOptions.h"
+#include "TownPictures.h"
+
+#include <iostream>
+
+namespace {
+
+using namespace gnomon::examples;
+
+void tell(const TownScene& town) {
+    for (const std::string& cause : town.setup().diagnose()) std::cerr << "arl_terrain: note: " << cause << std::endl;
+}
+
+void writePicture(TownScene& town, OutputFile& file) {
+    const osg::ref_ptr<osg::Image> picture = TownPictures(town).draw();
+    tell(town);
+    file.write(*picture);
+}
+
+int show(TownScene& town) {
+    TownControls controls(town);
+    const osg::ref_ptr<Hud> hud = new Hud([&] { return controls.describe(); });
+    const osg::ref_ptr<osgGA::GUIEventHandler> keys = new KeyHandler<TownControls>(townKeys(), controls, *hud);
+    const WindowNames names = {"arl_terrain", "shows a town's shadows on terrain.", "--out IMAGE"};
+    return SceneWindow(names, town.view(), town.setup(), *hud, *keys).run();
+}
+
+int run(osg::ArgumentParser& arguments) {
+    const TownOptions options = readTownOptions(arguments);
+    if (options.help) return std::cout << townHelp(), 0;
+    std::optional<OutputFile> picture;
+    if (!options.out.empty()) picture.emplace(options.out).requireImage();
+    TownScene town(options.view, options.hour, *readElevation(options.elevation, "arl_terrain"));
+    if (picture) return writePicture(town, *picture), 0;
+    if (!options.report.empty()) return TownPictures(town).report(options.report), 0;
+    return show(town);
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return gnomon::examples::runProgram("arl_terrain", argc, argv, run); }

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// arl_terrain as users run it: pictures of the town by each technique and time of day, the window's keys, bad input.
+#include "Desktop.h"
+#include "Program.h"
+
+#include <SunPosition.h>
+
+#include <gtest/gtest.h>
+
+#include <osg/Image>
+#include <osg/Vec2d>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+
+namespace {
+
+using namespace gnomon::testing;
+using gnomon::examples::sunPosition;
+using Arguments = std::vector<std::string>;
+
+constexpr int width = 480, height = 360;
+
+class ArlTerrain : public testing::Test {
+protected:
+    Ending run(const Arguments& arguments) { return runProgram(ARL_TERRAIN, arguments, folder.path()); }
+
+    osg::ref_ptr<osg::Image> picture(const std::string& shadow, const std::string& hour) {
+        const Ending ending = run({"--shadow", shadow, "--hour", hour, "--size", "480x360", "--out", "o.png"});
+        EXPECT_EQ(ending.status, 0) << ending.err;
+        osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile((folder.path() / "o.png").string());
+        if (!image || image->s() != width || image->t() != height) throw std::runtime_error("no picture");
+        return image;
+    }
+
+    TemporaryFolder folder;
+};
+
+/// Pixels of `with` that differ from `without`: how many, and the middle of them, pixels from the lower left.
+struct Difference {
+    int count = 0;
+    int lighter = 0;   ///< in any channel.
+    int offGround = 0; ///< without is no shade of the grass there.
+    osg::Vec2d middle;
+};
+
+/// Grass is 0.50 : 0.58 : 0.38 under white light; walls, roofs and the sky have less green than red or blue.
+bool isGrass(const osg::Vec4& c) { return c.g() > c.r() && c.g() > c.b(); }
+
+Difference difference(const osg::Image& with, const osg::Image& without) {
+    Difference result;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const osg::Vec4 a = with.getColor(x, y), b = without.getColor(x, y);
+            if (a == b) continue;
+            ++result.count;
+            result.lighter += a.r() > b.r() || a.g() > b.g() || a.b() > b.b();
+            result.offGround += !isGrass(b);
+            result.middle += osg::Vec2d(x, y);
+        }
+    result.middle /= std::max(result.count, 1);
+    return result;
+}
+
+} // namespace
+
+TEST(SunPosition, IsTheOneWorkedByHand) {
+    const auto expect = [](double latitude, double declination, double hour, double azimuth, double elevation) {
+        const auto sun = sunPosition(latitude, declination, hour);
+        EXPECT_NEAR(sun.azimuth, azimuth, 0.001) << latitude << " " << declination << " " << hour;
+        EXPECT_NEAR(sun.elevation, elevation, 0.001) << latitude << " " << declination << " " << hour;
+    };
+    expect(36.6, 0.0, 12.0, 180.0, 53.4);
+    expect(36.6, 0.0, 6.0, 90.0, 0.0);
+    expect(36.6, 0.0, 18.0, 270.0, 0.0);
+    expect(-36.6, 0.0, 12.0, 0.0, 53.4);
+    expect(50.0, 20.0, 9.0, 113.517, 43.560); // the formula's terms and arc sine by hand, six digits
+    expect(90.0, 23.44, 3.0, 45.0, 23.44);    // at the pole the sun goes round level; south is where it stands at 12
+}
+
+TEST_F(ArlTerrain, HullDarkensGroundAndNothingElse) {
+    const auto none = picture("none", "8");
+    const Difference shadow = difference(*picture("hull", "8"), *none);
+    EXPECT_GT(shadow.count, width * height / 20);
+    EXPECT_LT(shadow.count, width * height / 2);
+    EXPECT_EQ(shadow.lighter, 0);
+    EXPECT_EQ(shadow.offGround, 0);
+    EXPECT_EQ(difference(*picture("none", "8"), *none).count, 0) << "the same town every time";
+}
+
+TEST_F(ArlTerrain, DrapeIsCloseToHullAndBoxIsNot) {
+    const auto none = picture("none", "8"), hull = picture("hull", "8"), drape = picture("drape:error=0", "8");
+    const int shadow = difference(*drape, *none).count;
+    EXPECT_LT(difference(*hull, *drape).count, shadow / 100) << "hull is within 0.5 % of exact at such a sun";
+    EXPECT_GT(difference(*picture("box", "8"), *drape).count, shadow / 20) << "box is elsewhere 3 % off, 23 % at worst";
+}
+
+/// The camera looks to azimuth 60: what lies west is nearer, lower in the picture, than what lies east.
+TEST_F(ArlTerrain, ShadowsLieWestInTheMorningAndEastInTheEveningAndAreShortAtNoon) {
+    const auto shadowAt = [this](const char* hour) {
+        return difference(*picture("hull", hour), *picture("none", hour));
+    };
+    const Difference morning = shadowAt("8"), noon = shadowAt("12"), evening = shadowAt("16");
+    EXPECT_LT(morning.middle.y(), noon.middle.y());
+    EXPECT_LT(morning.middle.y(), evening.middle.y());
+    EXPECT_LT(noon.count, morning.count * 2 / 3) << "tan 24° / tan 53° is a third, and more of it lies behind walls";
+    EXPECT_LT(noon.count, evening.count);
+}
+
+TEST_F(ArlTerrain, BlendDarkensByItsFactor) {
+    const auto none = picture("none", "8"), half = picture("hull:composite=blend,dark=0.5", "8");
+    EXPECT_GT(difference(*half, *none).count, width * height / 20);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const float now = half->getColor(x, y).g(), before = none->getColor(x, y).g();
+            if (now == before) continue;
+            ASSERT_NEAR(now, before / 2.0f, 1.0 / 255.0) << x << " " << y;
+        }
+}
+
+TEST_F(ArlTerrain, ReportsMorningNoonAndEveningWithEachTechnique) {
+    const Ending ending = run({"--size", "40x30", "--report", "new/pictures"});
+    ASSERT_EQ(ending.status, 0) << ending.err;
+    for (const std::string time : {"morning", "noon", "evening"})
+        for (const std::string technique : {"none", "box", "hull", "drape"}) {
+            const auto path = folder.path() / "new/pictures" / (time + "-" + technique + ".png");
+            const auto image = osgDB::readRefImageFile(path.string());
+            ASSERT_TRUE(image) << path;
+            EXPECT_EQ(image->s(), 40);
+        }
+}
+
+TEST_F(ArlTerrain, HelpNamesOptionsUnitsAndKeys) {
+    const Ending ending = run({"--help"});
+    EXPECT_EQ(ending.status, 0);
+    for (const char* text : {"--shadow none|box|hull|drape", "--hour H", "6.5 to 17.5 hours", "--size WxH",
+                             "--out IMAGE", "--report FOLDER", "(default hull)", "(default 9)", "Half an hour later"})
+        EXPECT_NE(ending.out.find(text), std::string::npos) << text;
+}
+
+TEST_F(ArlTerrain, BadInputIsRefusedInOneSentenceAndLeavesNothing) {
+    folder.write("small.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 10\n7 8 9\n4 5 6\n1 2 3\n");
+    const auto refused = [this](Arguments arguments, const std::string& says) {
+        const Ending ending = run(arguments);
+        EXPECT_EQ(ending.status, 1) << says;
+        EXPECT_EQ(ending.lastLine().find("arl_terrain: "), 0u) << ending.err; // before it GDAL may speak for itself
+        EXPECT_NE(ending.lastLine().find(says), std::string::npos) << ending.err;
+        EXPECT_EQ(folder.list(), Arguments{"small.asc"});
+    };
+    refused({"--shadow", "planar", "--out", "o.png"}, "allowed: none, box, hull, drape.");
+    refused({"--shadow", "drape:error=-1", "--out", "o.png"}, "error=-1 cannot be used");
+    refused({"--hour", "3", "--out", "o.png"}, "allowed: a number from 6.5 to 17.5.");
+    refused({"--hour", "noon", "--out", "o.png"}, "allowed: a number from 6.5 to 17.5.");
+    refused({"--size", "0x10", "--out", "o.png"}, "--size 0x10 cannot be used");
+    refused({"--nothing"}, "there is no option --nothing");
+    refused({"--out"}, "--out needs a value");
+    refused({"--out", "o.png", "--report", "r"}, "one of them is allowed.");
+    refused({"a.gdal", "b.gdal", "--out", "o.png"}, "\"b.gdal\" is a second elevation model");
+    refused({"missing.tif.gdal", "--out", "o.png"}, "there is no file \"missing.tif.gdal\"");
+    refused({"small.asc.gdal", "--out", "o.png"}, "no place for the town: 900 m");
+    refused({"--out", "nowhere/o.png"}, "nowhere");
+    refused({"--out", "o.nothing"}, "o.nothing");
+    refused({"--report", "small.asc"}, "small.asc");
+}
+
+TEST_F(ArlTerrain, KeysChangeTechniqueTimeAndComposite) {
+    Desktop desktop(folder.path());
+    ChildProcess program({ARL_TERRAIN, "--shadow", "none", "--size", "480x360"}, folder.path(),
+                         {"DISPLAY=" + desktop.name()});
+    desktop.useWindow("arl_terrain");
+    const Screenshot withText = desktop.pictureWhere(
+        "the town is drawn", [](const Screenshot& p) { return p.width == width && p.at(width / 2, height / 2) != 0u; });
+    const auto pressed = [&](const char* key) {
+        const Screenshot before = desktop.picture();
+        desktop.press(key);
+        return desktop.pictureWhere(std::string(key) + " changes it", [&](const Screenshot& p) { return p != before; });
+    };
+    const Screenshot none = pressed("g"), box = pressed("n"), hull = pressed("n"), later = pressed("k");
+    EXPECT_NE(box, none);
+    EXPECT_NE(hull, none);
+    EXPECT_NE(later, hull);
+    EXPECT_EQ(pressed("j"), hull);
+    EXPECT_NE(pressed("r"), hull);
+    EXPECT_EQ(pressed("r"), hull);
+    for (int i = 0; i < 2; ++i) desktop.press("n"); // drape, none
+    EXPECT_NO_THROW(desktop.pictureWhere("n leads back", [&](const Screenshot& p) { return p == none; }));
+    EXPECT_EQ(pressed("g"), withText);
+}
