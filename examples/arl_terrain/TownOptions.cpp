@@ -77,8 +77,8 @@ std::string townHelp() {
            "ELEVATION is what GDAL reads, in metres, with .gdal behind its name: dem.tif.gdal (default: mountains "
            "about\n"
            "the Jacksboro fault, data/jacksboro.vrt.gdal).\n\n" +
-           describeOptions(townOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp() + "\nKEYS\n" +
-           keysHelp(townKeys()) + windowKeysHelp("arl_terrain") +
+           describeOptions(townOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp(townTechniques()) +
+           "\nKEYS\n" + keysHelp(townKeys()) + windowKeysHelp("arl_terrain") +
            "\nExample: arl_terrain --shadow drape:error=0.5 --hour 16.5 --out town.png\n";
 }
 

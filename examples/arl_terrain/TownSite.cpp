@@ -14,28 +14,46 @@ namespace {
 
 constexpr double worthwhileRise = 0.1; // to the north, as a slope; more is no better
 constexpr unsigned mostTried = 100;    // places along an axis
+constexpr unsigned mostLooks = 16;     // along a side of the square
+constexpr double mostCells = 1e6;      // along a side of the square
 
 /// Cells from a post on, and how many.
 struct Cells {
     unsigned column, row, columns, rows;
 };
 
-unsigned cellsAcross(double side, double step) { return static_cast<unsigned>(std::ceil(std::min(side / step, 1e6))); }
+/// More than any model has where the step is none.
+unsigned cellsAcross(double side, double step) {
+    return static_cast<unsigned>(std::ceil(step * mostCells > side ? side / step : mostCells));
+}
 
-/// Steepest slope along an axis less what the square rises to the north; infinite where a height is missing.
+/// What speaks against a square.
+struct Slopes {
+    double steepest = 0.0, rise = 0.0; ///< along either axis; sum of those to the north.
+    unsigned count = 0;
+
+    /// @param east, north  from `here`, as heights and as ways.
+    bool take(float here, float east, float north, const glm::dvec2& way) {
+        if (!isHeight(here) || !isHeight(east) || !isHeight(north)) return false;
+        const double northward = double(north - here) / way.y;
+        steepest = std::max({steepest, std::abs(double(east - here) / way.x), std::abs(northward)});
+        rise += northward;
+        ++count;
+        return true;
+    }
+};
+
+/// Steepest slope less what the square rises to the north; infinite where a height is missing.
 double unfitness(const osg::HeightField& field, const Cells& cells) {
-    double steepest = 0.0, rise = 0.0;
-    for (unsigned row = cells.row; row < cells.row + cells.rows; ++row)
-        for (unsigned column = cells.column; column < cells.column + cells.columns; ++column) {
-            const float here = field.getHeight(column, row), east = field.getHeight(column + 1, row),
-                        north = field.getHeight(column, row + 1);
-            if (!isHeight(here) || !isHeight(east) || !isHeight(north)) return std::numeric_limits<double>::infinity();
-            const double northward = double(north - here) / double(field.getYInterval());
-            steepest =
-                std::max({steepest, std::abs(double(east - here) / double(field.getXInterval())), std::abs(northward)});
-            rise += northward;
-        }
-    return steepest - std::min(rise / (cells.columns * cells.rows), worthwhileRise);
+    const unsigned right = cells.columns / mostLooks + 1, up = cells.rows / mostLooks + 1;
+    const glm::dvec2 way(right * double(field.getXInterval()), up * double(field.getYInterval()));
+    Slopes slopes;
+    for (unsigned row = cells.row; row + up <= cells.row + cells.rows; row += up)
+        for (unsigned column = cells.column; column + right <= cells.column + cells.columns; column += right)
+            if (!slopes.take(field.getHeight(column, row), field.getHeight(column + right, row),
+                             field.getHeight(column, row + up), way))
+                return std::numeric_limits<double>::infinity();
+    return slopes.steepest - std::min(slopes.rise / slopes.count, worthwhileRise);
 }
 
 [[noreturn]] void refuse(const osg::HeightField& field, double side) {

@@ -269,10 +269,10 @@ std::vector<std::string> shadowTechniques() {
     return names;
 }
 
-std::string shadowSpecHelp() {
+std::string shadowSpecHelp(const std::vector<std::string>& names) {
     std::ostringstream out;
     for (const Technique& technique : techniques()) {
-        if (!technique.built) continue;
+        if (!technique.built || std::find(names.begin(), names.end(), technique.name) == names.end()) continue;
         out << "  " << technique.name << "  " << technique.says << "\n";
         describeKeys(out, technique.keys, "    ");
     }

@@ -31,7 +31,8 @@ GNOMON_EXPORT ShadowSpec parseShadowSpec(const std::string& text);
 GNOMON_EXPORT std::vector<std::string> shadowTechniques();
 
 /// Table of the techniques, their keys, ranges, units and defaults, for --help: lines of at most 120 characters.
-GNOMON_EXPORT std::string shadowSpecHelp();
+/// @param names  those of them that the program has.
+GNOMON_EXPORT std::string shadowSpecHelp(const std::vector<std::string>& names = shadowTechniques());
 
 /// Adds what `specs` ask for as children of `group`, and sets its composite. The receiver is looked for under the
 /// group. planar: a plane for each flat part of the receiver, up to eight, the largest first, none under 1 % of the

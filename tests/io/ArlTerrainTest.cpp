@@ -4,6 +4,7 @@
 #include "Program.h"
 
 #include <SunPosition.h>
+#include <TownSite.h>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include <osgDB/ReadFile>
 
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -78,6 +80,24 @@ TEST(SunPosition, IsTheOneWorkedByHand) {
     expect(90.0, 23.44, 3.0, 45.0, 23.44);    // at the pole the sun goes round level; south is where it stands at 12
 }
 
+/// Posts 50 apart: rough in the west, in the east a valley along x = 2000 … 4000 whose floor is y = 2000.
+TEST(TownSite, IsGentleAndRisesToTheNorthAndHasNoHole) {
+    const osg::ref_ptr<osg::HeightField> field = new osg::HeightField;
+    field->allocate(81, 81);
+    field->setXInterval(50.0f);
+    field->setYInterval(50.0f);
+    for (unsigned row = 0; row < 81; ++row)
+        for (unsigned column = 0; column < 81; ++column)
+            field->setHeight(column, row,
+                             column < 40 ? float(30 * ((row + column) % 2)) : 2.0f * std::abs(float(row) - 40.0f));
+    const glm::dvec2 best = gnomon::examples::townSite(*field, 900.0);
+    EXPECT_GE(best.x, 2000.0 + 450.0);
+    EXPECT_GE(best.y, 2000.0 + 450.0);
+    for (unsigned row = 0; row < 81; row += 3)
+        for (unsigned column = 0; column < 81; ++column) field->setHeight(column, row, -9999.0f);
+    EXPECT_THROW(gnomon::examples::townSite(*field, 900.0), std::runtime_error);
+}
+
 TEST_F(ArlTerrain, HullDarkensGroundAndNothingElse) {
     const auto none = picture("none", "8");
     const Difference shadow = difference(*picture("hull", "8"), *none);
@@ -136,6 +156,7 @@ TEST_F(ArlTerrain, HelpNamesOptionsUnitsAndKeys) {
     for (const char* text : {"--shadow none|box|hull|drape", "--hour H", "6.5 to 17.5 hours", "--size WxH",
                              "--out IMAGE", "--report FOLDER", "(default hull)", "(default 9)", "Half an hour later"})
         EXPECT_NE(ending.out.find(text), std::string::npos) << text;
+    EXPECT_EQ(ending.out.find("planar"), std::string::npos) << "what is not allowed";
 }
 
 TEST_F(ArlTerrain, BadInputIsRefusedInOneSentenceAndLeavesNothing) {
