@@ -25,6 +25,9 @@ public:
     /// @return why nothing could be marked, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const = 0;
 
+    /// True if mark() needs ScreenPass::counters().
+    virtual bool counts() const { return false; }
+
     /// False if it is known that no mark falls on this leaf, as a cause of diagnose() should be about what receives.
     virtual bool canReach(const osgUtil::RenderLeaf&) const { return true; }
 

@@ -8,6 +8,7 @@
 #include <osg/Notify>
 #include <osgUtil/StateGraph>
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
 #include <map>
@@ -199,7 +200,9 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
         popLeafState(*renderInfo.getState(), previous);
         std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
         const bool clean = _stageClears && !isModeOn(leaves, GL_STENCIL_TEST);
-        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean)).compose(_jobs);
+        const bool counts =
+            std::any_of(_jobs.begin(), _jobs.end(), [](const auto& job) { return job.marks->counts(); });
+        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean, counts)).compose(_jobs);
         renderInfo.getState()->decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);

@@ -31,7 +31,9 @@ void report(const Jobs& jobs, const std::string& cause) {
 
 } // namespace
 
-SoftCompositor::SoftCompositor(const StageDraw& draw) : _draw(draw), _lightBits(draw.bits) {
+SoftCompositor::SoftCompositor(const StageDraw& draw) : _draw(draw) {
+    for (const unsigned bit : draw.bits)
+        if (!(bit & draw.counters)) _lightBits.push_back(bit);
     const auto take = [this] {
         if (_lightBits.size() < 2) return 0u;
         const unsigned bit = _lightBits.back();

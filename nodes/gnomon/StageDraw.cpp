@@ -22,7 +22,8 @@ unsigned countersAmong(const std::vector<unsigned>& bits) {
 
 } // namespace
 
-StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<StageLeaf> before, bool isClean)
+StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<StageLeaf> before, bool isClean,
+                     bool counts)
     : renderInfo(info), state(*info.getState()), stage(drawn), leaves(std::move(before)), clean(isClean) {
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
@@ -31,7 +32,7 @@ StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::ve
     hasAlpha = alpha > 0;
     for (int i = std::min(stencil, 8); i-- > 0;)
         if (!(ShadowBin::reserved() & (1u << i))) bits.push_back(1u << i);
-    counters = countersAmong(bits);
+    if (counts) counters = countersAmong(bits);
 }
 
 void StageDraw::clear(unsigned stencil, const ScreenRect& bounds) const {
@@ -39,7 +40,7 @@ void StageDraw::clear(unsigned stencil, const ScreenRect& bounds) const {
 }
 
 void StageDraw::clearLeftovers(unsigned stencil) const {
-    if (!clean) clear(stencil, {{-1.0, -1.0}, {1.0, 1.0}});
+    if (!clean) clear(stencil | counters, {{-1.0, -1.0}, {1.0, 1.0}});
 }
 
 } // namespace gnomon

@@ -15,7 +15,9 @@ class StageDraw {
 public:
     /// @param leaves  what the stage drew before, in order.
     /// @param clean   the stencil buffer is known to be zero.
-    StageDraw(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves, bool clean);
+    /// @param counts  some job needs counters.
+    StageDraw(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves, bool clean,
+              bool counts);
 
     /// One step, cut to `bounds`, from and back to OpenGL's defaults.
     template <typename Step>
@@ -35,7 +37,7 @@ public:
     const bool clean;
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.
-    unsigned counters = 0;      ///< see ScreenPass::counters().
+    unsigned counters = 0;      ///< some of them, see ScreenPass::counters(); 0 if nobody counts.
 };
 
 } // namespace gnomon

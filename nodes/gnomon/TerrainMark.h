@@ -29,6 +29,7 @@ public:
     glm::dmat4 clipFromPrisms{1.0};
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    bool counts() const override { return true; }
 
 protected:
     ~TerrainMark() override = default;

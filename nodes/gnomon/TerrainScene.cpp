@@ -22,7 +22,7 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-constexpr std::size_t mostKnown = 16; // eight lights under two groups
+constexpr std::size_t mostMeshes = 2, mostKnown = 16; // eight lights under two groups
 
 /// The terrain's drawables, and what they are made of.
 class TerrainVisitor : public CasterVisitor {
@@ -122,7 +122,8 @@ std::vector<std::string> causesOf(const std::vector<TerrainShadow>& found) {
 }
 
 TerrainShadow boxShadowOf(const std::vector<glm::dvec3>& object, const TerrainShadows& asked) {
-    auto box = boxShadow(*asked.scene->ground, boxOf(object, asked.settings.box), asked.light);
+    if (asked.light.w == 0.0 && !(asked.light.z > 0.0)) return {{}, TerrainOutcome::lightBelow};
+    auto box = boxShadow(*asked.scene->drawn->ground, boxOf(object, asked.settings.box), asked.light);
     if (!box) return {{}, TerrainOutcome::noGround};
     return {std::move(*box), TerrainOutcome::fan};
 }
@@ -136,7 +137,7 @@ void find(TerrainShadows& asked) {
         asked.settings.method == TerrainShadowGeode::DRAPE ? TerrainMethod::drape : TerrainMethod::hull;
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
         found[i] = box ? boxShadowOf(scene.objects[i], asked)
-                       : terrainShadow(*scene.ground, scene.parts[i], asked.light, method, asked.settings.error);
+                       : terrainShadow(*scene.drawn->ground, scene.parts[i], asked.light, method, asked.settings.error);
     });
     asked.causes = causesOf(found);
     if (found.empty()) asked.causes.emplace_back("has nothing to cast but its own receiver: name the terrain alone.");
@@ -166,19 +167,41 @@ std::uint64_t TerrainPlace::revision() const {
     return revision.value();
 }
 
-osg::ref_ptr<const TerrainScene> TerrainCache::sceneOf(const CasterMesh& mesh, const TerrainPlace& place) {
+/// One that is known already, whatever cast on it.
+osg::ref_ptr<const TerrainDrawn> TerrainCache::drawnAt(const TerrainPlace& place) const {
     const std::uint64_t revision = place.revision();
     for (const auto& known : _known)
-        if (known->scene->mesh == &mesh && known->scene->groundRevision == revision) return known->scene;
-    osg::ref_ptr<TerrainScene> scene = new TerrainScene;
-    scene->mesh = &mesh;
-    scene->groundRevision = revision;
+        if (known->scene->drawn->revision == revision) return known->scene->drawn;
     TerrainVisitor visitor(place.terrain);
     place.root.accept(visitor);
-    scene->groundSources = std::move(visitor.sources);
-    scene->ground = groundOf(place.root, place.terrain, place.groundFromRoot);
-    findCasters(*scene, visitor.drawables);
+    osg::ref_ptr<TerrainDrawn> drawn = new TerrainDrawn;
+    drawn->revision = revision;
+    drawn->drawables = std::move(visitor.drawables);
+    drawn->sources = std::move(visitor.sources);
+    drawn->ground = groundOf(place.root, place.terrain, place.groundFromRoot);
+    return drawn;
+}
+
+osg::ref_ptr<const TerrainScene> TerrainCache::sceneOf(const CasterMesh& mesh, const TerrainPlace& place) {
+    const osg::ref_ptr<const TerrainDrawn> drawn = drawnAt(place);
+    for (const auto& known : _known)
+        if (known->scene->mesh == &mesh && known->scene->drawn == drawn) return known->scene;
+    osg::ref_ptr<TerrainScene> scene = new TerrainScene;
+    scene->mesh = &mesh;
+    scene->drawn = drawn;
+    findCasters(*scene, drawn->drawables);
     return scene;
+}
+
+/// Of casters that moved on, or of a third group, nothing is kept.
+void TerrainCache::add(const osg::ref_ptr<const TerrainShadows>& shadows) {
+    std::set<const CasterMesh*> meshes{shadows->scene->mesh.get()};
+    for (std::size_t i = _known.size(); i-- > 0;) {
+        if (meshes.size() < mostMeshes) meshes.insert(_known[i]->scene->mesh.get());
+        if (!meshes.count(_known[i]->scene->mesh.get())) _known.erase(_known.begin() + std::ptrdiff_t(i));
+    }
+    if (_known.size() >= mostKnown) _known.erase(_known.begin());
+    _known.push_back(shadows);
 }
 
 osg::ref_ptr<const TerrainShadows> TerrainCache::shadows(const CasterMesh& mesh, const TerrainPlace& place,
@@ -199,8 +222,7 @@ osg::ref_ptr<const TerrainShadows> TerrainCache::shadows(const CasterMesh& mesh,
     find(*found);
     makePrisms(*found);
     ++_builds;
-    if (_known.size() >= mostKnown) _known.erase(_known.begin());
-    _known.push_back(found);
+    add(found);
     return found;
 }
 

@@ -11,17 +11,27 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace gnomon {
 
+/// The ground in one revision.
+struct TerrainDrawn : public osg::Referenced {
+    std::uint64_t revision = 0;
+    std::set<const osg::Drawable*> drawables;                 ///< to be told apart from others only.
+    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().
+    std::shared_ptr<const Ground> ground;
+
+protected:
+    ~TerrainDrawn() override = default;
+};
+
 /// What casts on which ground, in one revision of both; the frame is the casters'.
 struct TerrainScene : public osg::Referenced {
     osg::ref_ptr<const CasterMesh> mesh;
-    std::uint64_t groundRevision = 0;
-    std::vector<osg::ref_ptr<const osg::Referenced>> groundSources; ///< see VertexTraverser::getSources().
-    std::shared_ptr<const Ground> ground;
+    osg::ref_ptr<const TerrainDrawn> drawn;
     std::vector<ConvexPart> parts;
     std::vector<std::vector<glm::dvec3>> objects; ///< points of each connected part of the casters.
 
@@ -79,6 +89,8 @@ public:
 
 private:
     osg::ref_ptr<const TerrainScene> sceneOf(const CasterMesh& mesh, const TerrainPlace& place);
+    osg::ref_ptr<const TerrainDrawn> drawnAt(const TerrainPlace& place) const;
+    void add(const osg::ref_ptr<const TerrainShadows>& shadows);
 
     mutable OpenThreads::Mutex _mutex;
     std::vector<osg::ref_ptr<const TerrainShadows>> _known; ///< used last at the end.

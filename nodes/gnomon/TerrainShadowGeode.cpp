@@ -89,6 +89,7 @@ TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const os
       _position(other._position),
       _heading(other._heading),
       _bounds(other._bounds),
+      _triangles(other._triangles),
       _program(markProgram()),
       _cache(new TerrainCache) {}
 
@@ -133,7 +134,7 @@ bool TerrainShadowGeode::isLit(const LightProbe& probe, const glm::dvec3& point)
     const glm::dvec4 light(glm::dvec3(probe.light) + probe.light.w * origin, probe.light.w);
     const auto shadows =
         _cache->shadows(probe.mesh, TerrainPlace::inFrameOf(probe.group, getReceiver()), light, {_method, _error, {}});
-    const auto height = shadows->scene->ground->height(place.x, place.y);
+    const auto height = shadows->scene->drawn->ground->height(place.x, place.y);
     if (!height || !(std::abs(place.z - *height) <= 1e-5 * probe.casters.reach())) return true;
     return std::none_of(shadows->shadows.begin(), shadows->shadows.end(),
                         [&](const Drape& shadow) { return isUnder(shadow, glm::dvec2(place)); });
@@ -142,7 +143,7 @@ bool TerrainShadowGeode::isLit(const LightProbe& probe, const glm::dvec3& point)
 /// With no group above it is what it holds: plain geometry.
 void TerrainShadowGeode::traverse(osg::NodeVisitor& visitor) {
     osgUtil::CullVisitor* cull = visitor.asCullVisitor();
-    const bool plain = cull && getNumDrawables() > 0 && !hasGroupAbove(*cull);
+    const bool plain = cull && _object && !hasGroupAbove(*cull);
     if (cull && !plain)
         enlist(*cull);
     else
@@ -181,25 +182,32 @@ std::optional<TerrainShadowGeode::Asked> TerrainShadowGeode::asked(const osg::Ve
 
 bool TerrainShadowGeode::compute(const osg::Vec4d& light) {
     beginFrame(0, this);
-    _shown = nullptr;
     _triangles.clear();
     removeDrawables(0, getNumDrawables());
     const auto with = asked(light);
     if (!with) return false;
-    VertexTraverser traverser;
-    placedObject()->accept(traverser);
-    const osg::ref_ptr<const CasterMesh> mesh = new CasterMesh(traverser);
-    _shown = _cache->shadows(*mesh, terrain(), with->light, with->settings);
+    _shown = _cache->shadows(*meshOf(with->object), terrain(), with->light, with->settings);
     _shownObject = with->object;
     for (const std::string& cause : _shown->causes) report(0, cause);
     show();
+    if (_triangles.empty() && _shown->causes.empty())
+        report(0, "finds no shadow: the object is in the ground, or the light meets it edge on.");
     return !_triangles.empty();
+}
+
+/// The one it has, while the object is as it was.
+osg::ref_ptr<const CasterMesh> TerrainShadowGeode::meshOf(std::uint64_t object) const {
+    if (_shown && _shownObject == object) return _shown->scene->mesh;
+    VertexTraverser traverser;
+    placedObject()->accept(traverser);
+    return new CasterMesh(traverser);
 }
 
 bool TerrainShadowGeode::update(const osg::Vec4d& light) {
     const auto with = asked(light);
-    const bool same = with && _shown && _shown->light == with->light && _shown->settings == with->settings &&
-                      _shownObject == with->object && _shown->scene->groundRevision == terrain().revision();
+    const bool same = with && _shown && getNumDrawables() > 0 && _shown->light == with->light &&
+                      _shown->settings == with->settings && _shownObject == with->object &&
+                      _shown->scene->drawn->revision == terrain().revision();
     return same ? !_triangles.empty() : compute(light);
 }
 

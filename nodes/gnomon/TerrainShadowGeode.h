@@ -48,8 +48,8 @@ struct TerrainShadows;
 /// Needs   z up in the group's frame; 2 stencil bits, 6 where shadows lie over one another.
 /// Limits  receivers are ground: walls receive nothing. Casters stand in the ground or on it: what hangs down lower than
 ///         a silhouette's corner shows no light below it in HULL. Terrain that overlaps itself in plan receives on all of
-///         its storeys. With no group above: edges may sink into rough ground between the polygon's corners, and overlaps
-///         darken twice.
+///         its storeys. With no group above: edges may sink into rough ground between the polygon's corners, overlaps
+///         darken twice, and vertices are floats about this node's origin.
 /// Threads any number of cull and draw threads; set properties, compute() and update() between frames.
 /// Source: ARL-TN-156, "Real-Time Shadows for Terrain Objects by the Bounding-Box Method".
 ///
@@ -131,6 +131,7 @@ private:
     std::optional<Asked> asked(const osg::Vec4d& light) const;
     osg::ref_ptr<osg::Node> placedObject() const;
     TerrainPlace terrain() const;
+    osg::ref_ptr<const CasterMesh> meshOf(std::uint64_t object) const;
     void show();
 
     Method _method = HULL;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 
 namespace gnomon {
 namespace {
@@ -36,9 +37,9 @@ double doubleArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// A shadow in plan: its corners, each once, and its triangles, counter-clockwise.
+/// A shadow in plan, or a part of it that does not lie over itself: corners, each once, and triangles, counter-clockwise.
 struct Plan {
-    std::vector<glm::dvec2> corners;
+    std::vector<glm::dvec3> corners;
     std::vector<std::array<unsigned, 3>> triangles;
 };
 
@@ -46,32 +47,76 @@ struct Plan {
 class Corners {
 public:
     Corners(const Box& box, Plan& plan) : _low(box.low), _step(1e-6 * box.diameter()), _plan(plan) {}
-    unsigned of(const glm::dvec2& place) {
-        const glm::dvec2 steps = glm::floor((place - _low) / _step + 0.5);
-        const auto [found, isNew] =
-            _places.try_emplace({std::int64_t(steps.x), std::int64_t(steps.y)}, unsigned(_plan.corners.size()));
+    unsigned of(const glm::dvec3& place) {
+        const glm::dvec3 steps = glm::floor((place - _low) / _step + 0.5);
+        const auto [found, isNew] = _places.try_emplace(
+            {std::int64_t(steps.x), std::int64_t(steps.y), std::int64_t(steps.z)}, unsigned(_plan.corners.size()));
         if (isNew) _plan.corners.push_back(place);
         return found->second;
     }
 
 private:
-    const glm::dvec2 _low;
+    const glm::dvec3 _low;
     const double _step;
     Plan& _plan;
-    std::map<std::pair<std::int64_t, std::int64_t>, unsigned> _places;
+    std::map<std::array<std::int64_t, 3>, unsigned> _places;
 };
 
-Plan planOf(const Drape& shadow, const Box& box) {
+struct Planned {
     Plan plan;
+    bool folded = false; ///< some triangle was clockwise.
+};
+
+Planned planOf(const Drape& shadow, const Box& box) {
+    Planned result;
+    Plan& plan = result.plan;
     Corners corners(box, plan);
     for (std::size_t i = 0; i + 2 < shadow.size(); i += 3) {
         std::array<unsigned, 3> t;
-        for (std::size_t k = 0; k < 3; ++k) t[k] = corners.of(glm::dvec2(shadow[i + k]));
-        const double area = doubleArea(plan.corners[t[0]], plan.corners[t[1]], plan.corners[t[2]]);
+        for (std::size_t k = 0; k < 3; ++k) t[k] = corners.of(shadow[i + k]);
+        const double area =
+            doubleArea(glm::dvec2(plan.corners[t[0]]), glm::dvec2(plan.corners[t[1]]), glm::dvec2(plan.corners[t[2]]));
+        result.folded = result.folded || area < 0.0;
         if (area < 0.0) std::swap(t[1], t[2]);
         if (area != 0.0) plan.triangles.push_back(t);
     }
-    return plan;
+    return result;
+}
+
+/// Numbers of the triangles' connected parts.
+std::vector<unsigned> partsOf(const Plan& plan) {
+    std::vector<unsigned> above(plan.corners.size());
+    std::iota(above.begin(), above.end(), 0u);
+    const auto root = [&](unsigned corner) {
+        while (above[corner] != corner) corner = above[corner] = above[above[corner]];
+        return corner;
+    };
+    for (const auto& t : plan.triangles) above[root(t[1])] = above[root(t[2])] = root(t[0]);
+    std::vector<unsigned> parts;
+    for (const auto& t : plan.triangles) parts.push_back(root(t[0]));
+    return parts;
+}
+
+/// Ground of several storeys gives parts that lie over one another, a folded mesh triangles that do: a prism each.
+std::vector<Plan> unfolded(const Planned& planned) {
+    const std::vector<unsigned> parts = partsOf(planned.plan);
+    std::map<unsigned, Plan> plans;
+    std::map<std::pair<unsigned, unsigned>, unsigned> places;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const unsigned part = planned.folded ? unsigned(i) : parts[i];
+        Plan& plan = plans[part];
+        std::array<unsigned, 3> triangle;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const unsigned corner = planned.plan.triangles[i][k];
+            const auto [found, isNew] = places.try_emplace({part, corner}, unsigned(plan.corners.size()));
+            if (isNew) plan.corners.push_back(planned.plan.corners[corner]);
+            triangle[k] = found->second;
+        }
+        plan.triangles.push_back(triangle);
+    }
+    std::vector<Plan> result;
+    for (auto& [part, plan] : plans) result.push_back(std::move(plan));
+    return result;
 }
 
 /// How often the outline goes along each edge, more often than back.
@@ -118,9 +163,9 @@ public:
 
     void add(const Plan& plan, double bottom, double top, std::vector<unsigned>& layer) {
         const auto first = static_cast<unsigned>(_prisms.vertices.size());
-        for (const glm::dvec2& corner : plan.corners)
+        for (const glm::dvec3& corner : plan.corners)
             for (const double height : {bottom, top})
-                _prisms.vertices.emplace_back(glm::dvec3(corner, height) - _origin);
+                _prisms.vertices.emplace_back(glm::dvec3(corner.x, corner.y, height) - _origin);
         const auto low = [first](unsigned corner) { return first + 2 * corner; };
         const auto high = [first](unsigned corner) { return first + 2 * corner + 1; };
         for (const auto& [a, b, c] : plan.triangles)
@@ -163,9 +208,11 @@ ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& o
         const double margin = 0.5 * boxes[i].diameter();
         boxes[i].low.z -= margin;
         boxes[i].high.z += margin;
-        const std::size_t layer = layers.place(boxes[i]);
-        if (prisms.layers.size() <= layer) prisms.layers.resize(layer + 1);
-        builder.add(planOf(*there[i], boxes[i]), boxes[i].low.z, boxes[i].high.z, prisms.layers[layer]);
+        for (const Plan& plan : unfolded(planOf(*there[i], boxes[i]))) {
+            const std::size_t layer = layers.place(boxOf(plan.corners));
+            if (prisms.layers.size() <= layer) prisms.layers.resize(layer + 1);
+            builder.add(plan, boxes[i].low.z, boxes[i].high.z, prisms.layers[layer]);
+        }
         all = {glm::min(all.low, boxes[i].low), glm::max(all.high, boxes[i].high)};
     }
     prisms.low = all.low - origin;

@@ -8,7 +8,7 @@ namespace gnomon {
 /// drawn: finer, coarser, or cut otherwise than the ground that the shadow was made on.
 struct ShadowPrisms {
     std::vector<glm::vec3> vertices; ///< about the origin.
-    /// Triangles, three places in `vertices` each, counter-clockwise from outside. Prisms of one layer do not overlap.
+    /// Triangles, three places in `vertices` each, counter-clockwise from outside. Nothing in a layer overlaps.
     std::vector<std::vector<unsigned>> layers;
     glm::dvec3 low{0.0}, high{0.0}; ///< bounds, about the origin.
 };

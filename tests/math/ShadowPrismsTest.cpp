@@ -72,9 +72,25 @@ TEST(ShadowPrisms, OfTrianglesOverOneAnotherHoldEveryPlaceThatOneCovers) {
     std::uniform_real_distribution<double> place(-0.5, 3.5);
     for (int i = 0; i < 2000; ++i) {
         const glm::dvec2 p(place(random), place(random));
-        const double expected = covers(square(0.0, 0.0, 2.0), p) + covers(over, p);
-        EXPECT_NEAR(winding(prisms, prisms.layers[0], {p, 0.0}), expected, 1e-5) << p.x << " " << p.y;
+        const int expected = covers(square(0.0, 0.0, 2.0), p) || covers(over, p);
+        int most = 0;
+        for (const auto& layer : prisms.layers) {
+            const double here = winding(prisms, layer, {p, 0.0});
+            EXPECT_LT(here, 1.0 + 1e-4) << "nothing in a layer overlaps";
+            most = std::max(most, static_cast<int>(std::lround(here)));
+        }
+        EXPECT_EQ(most, expected) << p.x << " " << p.y;
     }
+}
+
+/// A bridge and the ground below it.
+TEST(ShadowPrisms, OfStoreysAreInLayersOfTheirOwn) {
+    Drape storeys = square(0.0, 0.0, 2.0, 5.0);
+    const Drape below = square(0.0, 0.0, 2.0, 1.0);
+    storeys.insert(storeys.end(), below.begin(), below.end());
+    const ShadowPrisms prisms = shadowPrisms({storeys}, {});
+    ASSERT_EQ(prisms.layers.size(), 2u);
+    for (const auto& layer : prisms.layers) EXPECT_NEAR(winding(prisms, layer, {1.0, 0.7, 3.0}), 1.0, 1e-6);
 }
 
 TEST(ShadowPrisms, OfOneLayerDoNotOverlapAndAllAreThere) {

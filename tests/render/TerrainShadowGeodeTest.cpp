@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
+#include <osg/Stencil>
+#include <support/DiscShadow.h>
 #include <support/Picture.h>
 
 #include <cmath>
@@ -230,4 +232,60 @@ TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAre
     EXPECT_EQ(picture(0x80, cause).different(all), 0) << "two counters";
     EXPECT_EQ(picture(0x07, cause).different(plain), 0);
     EXPECT_NE(cause.find("sixth stencil bit"), std::string::npos) << cause;
+}
+
+/// Its counters are bits that nobody else takes and nobody left anything in.
+TEST(TerrainShadowGeode, MarksAsPlanarDoesBesideSoftEdgesAndOverWhatOthersLeftInTheStencilBuffer) {
+    const auto picture = [&](gnomon::ShadowTechnique& technique, bool soft) {
+        Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
+        osg::Node* ground = test::find(*scene.root, "ground");
+        technique.setReceiver({ground});
+        scene.addShadow(&technique);
+        if (soft) {
+            scene.group->addChild(new test::DiscShadow({130.0, 130.0}, 5.0, 15.0));
+            return test::render(scene.root, above);
+        }
+        osg::ref_ptr<osg::Stencil> writes = new osg::Stencil;
+        writes->setFunction(osg::Stencil::ALWAYS, 1, ~0u);
+        writes->setOperation(osg::Stencil::KEEP, osg::Stencil::KEEP, osg::Stencil::REPLACE);
+        ground->getOrCreateStateSet()->setAttributeAndModes(writes);
+        scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+        return test::render(scene.root, above);
+    };
+    for (const bool soft : {true, false}) {
+        const osg::ref_ptr<gnomon::ShadowTechnique> planar = test::planar(), hull = new TerrainShadowGeode;
+        EXPECT_EQ(picture(*hull, soft).different(picture(*planar, soft)), 0) << (soft ? "soft" : "left");
+    }
+}
+
+TEST(TerrainShadowGeodeAlone, KeepsItsReasonWhileItIsDrawn) {
+    const auto shadow = alone(TerrainShadowGeode::HULL);
+    EXPECT_FALSE(shadow->compute({1.0, 0.0, -1.0, 0.0}));
+    const auto said = shadow->diagnose();
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(shadow);
+    test::render(root, above);
+    EXPECT_EQ(shadow->diagnose(), said);
+    ASSERT_TRUE(shadow->compute(sun));
+    shadow->setObjectPos({0.0, 0.0, -10.0});
+    EXPECT_FALSE(shadow->compute(sun));
+    ASSERT_EQ(shadow->diagnose().size(), 1u);
+    EXPECT_NE(shadow->diagnose().front().find("in the ground"), std::string::npos);
+}
+
+/// A bridge and the ground under it: each is in shadow once.
+TEST(TerrainShadowGeode, FallsOnAllStoreys) {
+    for (const unsigned reserved : {0x00u, 0x03u}) {
+        ShadowBin::reserve(reserved);
+        Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
+        osg::ref_ptr<osg::Group> storeys = new osg::Group;
+        osg::Node* ground = test::find(*scene.root, "ground");
+        storeys->addChild(ground);
+        storeys->addChild(test::node(test::square(20.0, -0.01)));
+        scene.content->replaceChild(ground, storeys);
+        scene.addShadow(shadowOn(storeys, TerrainShadowGeode::DRAPE));
+        Scene plain = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
+        EXPECT_EQ(darkened(test::render(scene.root, above), test::render(plain.root, above)), 30 * 20) << reserved;
+        ShadowBin::reserve(0);
+    }
 }
