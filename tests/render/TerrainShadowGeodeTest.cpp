@@ -6,11 +6,13 @@
 #include <gnomon/TerrainShadowGeode.h>
 #include <gtest/gtest.h>
 #include <osg/Geometry>
+#include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/Stencil>
 #include <support/DiscShadow.h>
 #include <support/Picture.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -271,6 +273,30 @@ TEST(TerrainShadowGeodeAlone, KeepsItsReasonWhileItIsDrawn) {
     EXPECT_FALSE(shadow->compute(sun));
     ASSERT_EQ(shadow->diagnose().size(), 1u);
     EXPECT_NE(shadow->diagnose().front().find("in the ground"), std::string::npos);
+}
+
+/// The shadow is found on the finest ground, a slope, and falls on whichever is drawn: in plan the same.
+TEST(TerrainShadowGeode, FallsOnTheLevelOfDetailThatIsDrawn) {
+    const auto shadowIn = [&](float fineUpTo) {
+        Scene scene = test::groundScene({test::box({-1.0, -1.0, -2.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
+        osg::ref_ptr<osg::LOD> lod = new osg::LOD;
+        lod->addChild(test::node(test::quad({-20.0, -20.0, -4.0}, {40.0, 0.0, 8.0}, {0.0, 40.0, 0.0})), 0.0f, fineUpTo);
+        lod->addChild(test::node(test::square(20.0, -2.0)), fineUpTo, 1e9f); // below all corners of the shadow
+        scene.content->replaceChild(test::find(*scene.root, "ground"), lod);
+        const test::Picture plain = test::render(scene.root, above);
+        scene.addShadow(shadowOn(lod, TerrainShadowGeode::HULL));
+        const test::Picture picture = test::render(scene.root, above);
+        std::vector<bool> dark;
+        for (int y = 0; y < plain.height; ++y)
+            for (int x = 0; x < plain.width; ++x) dark.push_back(picture.at(x, y) != plain.at(x, y));
+        return std::make_pair(dark, plain.at(20, 20));
+    };
+    const auto [fine, fineGround] = shadowIn(1e9f);
+    const auto [coarse, coarseGround] = shadowIn(0.1f);
+    EXPECT_NE(fineGround, coarseGround) << "another ground is drawn, of another slope";
+    EXPECT_EQ(fine, coarse);
+    // 3 high over x = 1 … -1, where the slope is x / 5: it ends at x = -1 - (3 - x / 5), that is at -5.
+    EXPECT_EQ(std::count(fine.begin(), fine.end(), true), 40 * 20);
 }
 
 /// A bridge and the ground under it: each is in shadow once.
