@@ -44,7 +44,8 @@ struct TerrainShadows;
 ///     root->addChild(shadow);
 ///
 /// Cost    found anew when casters, terrain or light change, on all cores; then 20 triangles a house, stencil only, and the
-///         receiver once more where marked.
+///         receiver once more where marked. A caster that is neither convex nor an upright prism takes a polygon for each
+///         of its flat faces: a bunny of 70,000 triangles 0.1 s a frame, 0.4 s where the light moves (OSMesa, 2 cores).
 /// Needs   z up in the group's frame; 2 stencil bits, 6 where shadows lie over one another.
 /// Limits  receivers are ground: walls receive nothing. Casters stand in the ground or on it: what hangs down lower than
 ///         a silhouette's corner shows no light below it in HULL. Terrain that overlaps itself in plan receives on all of
