@@ -220,4 +220,10 @@ ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& o
     return prisms;
 }
 
+ShadowPrisms shadowPrisms(const PackedShadows& shadows) {
+    std::vector<Drape> drapes;
+    for (std::size_t i = 0; i < shadows.size(); ++i) drapes.push_back(shadows.triangles(i));
+    return shadowPrisms(drapes, shadows.origin);
+}
+
 } // namespace gnomon

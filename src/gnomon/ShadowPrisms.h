@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Drape.h>
+#include <gnomon/PackedShadows.h>
 
 namespace gnomon {
 
@@ -19,5 +19,8 @@ struct ShadowPrisms {
 /// A prism reaches half its diameter in plan below and above its shadow's own heights. Cost  linear in the triangles; of a
 /// polygon of n corners 4 n - 4 triangles.
 ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& origin);
+
+/// About their origin.
+ShadowPrisms shadowPrisms(const PackedShadows& shadows);
 
 } // namespace gnomon

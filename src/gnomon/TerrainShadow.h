@@ -11,7 +11,7 @@ enum class TerrainMethod {
 };
 
 /// What became of a part's shadow.
-enum class TerrainOutcome {
+enum class TerrainOutcome : unsigned char {
     fan,    ///< one polygon.
     draped, ///< as asked.
     // As drape although hull was asked for:

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/PackedParts.h>
+#include <gnomon/TerrainShadow.h>
+
+namespace gnomon {
+
+/// The shadow of one of many parts, in their PackedShadows.
+struct PackedShadow {
+    const glm::vec3* corners; ///< about PackedShadows::origin.
+    std::size_t cornerCount;
+    /// Three a triangle, places among the part's own corners, counter-clockwise from above. None where `isFan`: then the
+    /// triangles are 0, i, i + 1 of the corners, which are the outline, counter-clockwise from above.
+    const unsigned* indices;
+    std::size_t indexCount;
+    TerrainOutcome outcome;
+    bool isFan() const { return outcome == TerrainOutcome::fan; }
+};
+
+/// The shadows of PackedParts, part by part.
+struct PackedShadows {
+    glm::dvec3 origin{0.0};
+    std::vector<glm::vec3> corners;
+    std::vector<unsigned> indices;
+    std::vector<unsigned> cornerEnds, indexEnds; ///< one past each part's own.
+    std::vector<TerrainOutcome> outcomes;
+    double highest = 0.0; ///< over its shadow of any corner of the parts whose shadow is an outline's.
+
+    std::size_t size() const { return outcomes.size(); }
+    PackedShadow operator[](std::size_t part) const;
+    /// As terrainShadow() gives them, but for the rounding to single precision about the origin.
+    Drape triangles(std::size_t part) const;
+    std::size_t bytes() const; ///< that are kept.
+};
+
+/// terrainShadow() of each part, bit for bit. Memory that `found` has is used again.
+///
+/// @param origin  that the corners are about, near the parts: they are floats.
+///
+/// Threads any number, each with its own `found`.
+void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
+                   double error, const glm::dvec3& origin, PackedShadows& found);
+
+/// How far in plan any edge of the shadows may have moved at most since they were found.
+///
+/// @param shadows  found with the light `then`.
+/// @return infinite where no bound is known: of lamps that moved, or where the ground is as steep as the light.
+///
+/// A point at height h over its shadow moves it by h |d - d'| / (1 - g |d|), where d is the light's way in plan a unit of
+/// height, d' what it was and g the tangent of the ground's steepest slope about.
+/// Source: the tip's speed h / sin^2 e of a shadow on level ground, e the sun's elevation.
+double movedAtMost(const Ground& ground, const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now);
+
+} // namespace gnomon

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Shadows of many parts at once, against those of the parts one by one; and how far they move.
+#include "Houses.h"
+
+#include <gnomon/PackedShadows.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using gnomon::Drape;
+using gnomon::Ground;
+using gnomon::HeightPyramid;
+using gnomon::movedAtMost;
+using gnomon::PackedParts;
+using gnomon::PackedShadows;
+using gnomon::packedShadows;
+using gnomon::TerrainMethod;
+using gnomon::TerrainOutcome;
+using gnomon::terrainShadow;
+using test::groundOf;
+using test::sunAt;
+
+namespace {
+
+constexpr int posts = 160;
+
+/// Slopes of 8.5 degrees, root mean square.
+double hills(double x, double y) {
+    return 40.0 * std::sin(x * 0.0031) * std::cos(y * 0.0037) + 10.0 * std::sin(x * 0.011 + 1.0) * std::cos(y * 0.013) +
+           2.0 * std::sin(x * 0.04 + y * 0.03);
+}
+
+const glm::dvec3 origin(800.0, 800.0, 20.0);
+
+std::vector<gnomon::ConvexPart> townOn(const Ground& ground, int count) {
+    std::vector<gnomon::ConvexPart> parts;
+    for (const test::Prism& prism : test::prismsOn(ground, glm::dvec2(300.0), glm::dvec2(1290.0), count, 1))
+        for (gnomon::ConvexPart& part : prism.parts()) parts.push_back(std::move(part));
+    return parts;
+}
+
+glm::dvec4 sun(double azimuth, double elevation) { return glm::dvec4(sunAt(azimuth, elevation), 0.0); }
+
+PackedShadows found(const Ground& ground, const PackedParts& parts, const glm::dvec4& light,
+                    TerrainMethod method = TerrainMethod::hull, double error = 0.1) {
+    PackedShadows shadows;
+    packedShadows(ground, parts, light, method, error, origin, shadows);
+    return shadows;
+}
+
+/// As the parts' one by one, their corners rounded about the origin.
+void expectAsOneByOne(const Ground& ground, const std::vector<gnomon::ConvexPart>& parts, const PackedShadows& shadows,
+                      const glm::dvec4& light, TerrainMethod method) {
+    ASSERT_EQ(shadows.size(), parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const gnomon::TerrainShadow expected = terrainShadow(ground, parts[i], light, method, 0.1);
+        const Drape triangles = shadows.triangles(i);
+        ASSERT_EQ(shadows[i].outcome, expected.outcome) << i;
+        ASSERT_EQ(triangles.size(), expected.triangles.size()) << i;
+        for (std::size_t k = 0; k < triangles.size(); ++k)
+            ASSERT_EQ(glm::vec3(triangles[k] - origin), glm::vec3(expected.triangles[k] - origin)) << i;
+    }
+}
+
+TEST(PackedShadows, AreThoseOfThePartsOneByOneBitForBit) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    const auto parts = townOn(ground, 120);
+    const PackedParts packed(parts);
+    const glm::dvec4 lights[] = {sun(77.0, 60.0), sun(200.0, 30.0), sun(310.0, 8.0), {800.0, 800.0, 150.0, 1.0}};
+    for (const glm::dvec4& light : lights)
+        for (const TerrainMethod method : {TerrainMethod::hull, TerrainMethod::drape})
+            expectAsOneByOne(ground, parts, found(ground, packed, light, method), light, method);
+}
+
+TEST(PackedShadows, OfPartsAddedMovedAndRemovedAreThoseOfWhatIsThere) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    auto parts = townOn(ground, 40);
+    PackedParts packed({parts.begin(), parts.begin() + 20});
+    for (std::size_t i = 20; i < parts.size(); ++i) packed.add(parts[i]);
+    std::swap(parts[3], parts[17]); // of another shape
+    packed.replace(3, parts[3]);
+    packed.replace(17, parts[17]);
+    packed.remove(5);
+    parts[5] = parts.back();
+    parts.pop_back();
+    packed.remove(parts.size() - 1);
+    parts.pop_back();
+    const glm::dvec4 light = sun(140.0, 35.0);
+    expectAsOneByOne(ground, parts, found(ground, packed, light), light, TerrainMethod::hull);
+}
+
+TEST(PackedShadows, OfNothingAreNoneAndOfALightThatIsNoneToo) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    EXPECT_EQ(found(ground, {}, sun(10.0, 30.0)).size(), 0u);
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const PackedParts packed(townOn(ground, 8));
+    for (const glm::dvec4& light : {glm::dvec4(nan, 0.0, 1.0, 0.0), glm::dvec4(0.0), sun(10.0, -5.0)}) {
+        const PackedShadows none = found(ground, packed, light);
+        EXPECT_EQ(none.size(), packed.size());
+        EXPECT_TRUE(none.corners.empty());
+        EXPECT_TRUE(none.indices.empty());
+    }
+}
+
+/// The corner of a roof at height h over level ground falls h / tan e away.
+TEST(PackedShadows, MoveByNoMoreThanTheBoundAndOnLevelGroundByIt) {
+    const HeightPyramid level({2, 2, glm::dvec2(-5000.0), glm::dvec2(10000.0), std::vector<float>(4, 3.0f)});
+    const test::Prism tower = test::boxAt({0.0, 0.0}, {4.0, 4.0}, 0.2, -5.0, 43.0);
+    const PackedParts packed(tower.parts());
+    const glm::dvec4 then = sun(100.0, 30.0), now = sun(100.0, 31.0);
+    const double expected = 40.0 / std::tan(30.0 * test::degree) - 40.0 / std::tan(31.0 * test::degree);
+    EXPECT_NEAR(movedAtMost(level, found(level, packed, then), then, now), expected, 1e-4);
+    EXPECT_EQ(movedAtMost(level, found(level, packed, then), then, then), 0.0);
+    EXPECT_GT(movedAtMost(level, found(level, packed, then), then, sun(100.0, -1.0)), 1e9);
+    EXPECT_GT(movedAtMost(level, found(level, packed, then), {0, 0, 99, 1}, {0, 1, 99, 1}), 1e9) << "a lamp";
+}
+
+/// Where a roof's corner falls, by rays alone.
+TEST(PackedShadows, OnHillsNoCornerMovesByMoreThanTheBound) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    const auto parts = townOn(ground, 60);
+    double most = 0.0;
+    for (const auto& part : parts) {
+        const glm::dvec4 then = sun(77.0, 40.0), now = sun(79.0, 41.5);
+        const double bound = movedAtMost(ground, found(ground, PackedParts({part}), then), then, now);
+        for (const glm::dvec3& vertex : part.hull.vertices) {
+            const auto a = ground.hit(vertex, -glm::dvec3(then)), b = ground.hit(vertex, -glm::dvec3(now));
+            if (!a || !b || vertex.z <= *ground.height(vertex.x, vertex.y)) continue;
+            const double moved = glm::length(glm::dvec2(*a - *b));
+            EXPECT_LE(moved, bound);
+            most = std::max(most, moved / bound);
+        }
+    }
+    EXPECT_GT(most, 0.7) << "else the bound is of no use";
+}
+
+} // namespace
