@@ -4,7 +4,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +58,7 @@ private:
 std::optional<double> meet(const GroundTriangle& t, const glm::dvec3& start, const glm::dvec3& along) {
     const AlongRay seen(start, along);
     const glm::dvec2 a = seen(t[0]), b = seen(t[1]), c = seen(t[2]);
-    const double sides[] = {a.x * b.y - a.y * b.x, b.x * c.y - b.y * c.x, c.x * a.y - c.y * a.x};
+    const double sides[] = {cross(a, b), cross(b, c), cross(c, a)};
     const auto [least, most] = std::minmax({sides[0], sides[1], sides[2]});
     if (!(least >= 0.0 || most <= 0.0)) return std::nullopt;
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);

@@ -2,6 +2,8 @@
 #pragma once
 #include <gnomon/Ground.h>
 
+#include <glm/vec2.hpp>
+
 namespace gnomon {
 
 /// Along the axes.
@@ -13,6 +15,13 @@ struct GroundBox {
 struct RaySpan {
     double from, to;
 };
+
+/// Twice the signed area of (0, a, b), counter-clockwise positive.
+inline double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+/// Twice a triangle's area in plan, counter-clockwise positive.
+inline double doubleArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return cross(glm::dvec2(b - a), glm::dvec2(c - a));
+}
 
 /// Where a ray is inside a box.
 RaySpan spanInside(const GroundBox& box, const glm::dvec3& start, const glm::dvec3& along);

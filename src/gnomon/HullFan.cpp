@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/GroundQuery.h>
 #include <gnomon/HullFan.h>
 
 #include <glm/geometric.hpp>
@@ -12,11 +13,6 @@ namespace {
 
 constexpr std::size_t wantedTriangles = 12; // as many as the bounding-box method's
 constexpr double mostLost = 0.01;           // of what is seen, for fewer triangles
-
-/// Twice the area in plan, counter-clockwise positive.
-double doubleArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
 
 /// Where a point's shadow falls; the ground over it, if it is not above the ground.
 std::optional<glm::dvec3> shadowOf(const glm::dvec3& point, const Ground& ground, const glm::dvec4& light) {

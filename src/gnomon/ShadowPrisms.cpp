@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/GroundQuery.h>
 #include <gnomon/ShadowPrisms.h>
 
 #include <glm/common.hpp>
@@ -14,10 +15,7 @@
 namespace gnomon {
 namespace {
 
-struct Box {
-    glm::dvec3 low, high;
-    double diameter() const { return glm::length(glm::dvec2(high - low)); }
-};
+double diameterOf(const GroundBox& box) { return glm::length(glm::dvec2(box.high - box.low)); } // in plan
 
 /// Whether there is a prism over it: it has corners, all finite, not all at one place.
 bool isThere(const Drape& shadow) {
@@ -27,14 +25,10 @@ bool isThere(const Drape& shadow) {
            std::any_of(shadow.begin(), shadow.end(), isElsewhere);
 }
 
-Box boxOf(const Drape& shadow) {
-    Box box{shadow.front(), shadow.front()};
+GroundBox boxOf(const Drape& shadow) {
+    GroundBox box{shadow.front(), shadow.front()};
     for (const glm::dvec3& corner : shadow) box = {glm::min(box.low, corner), glm::max(box.high, corner)};
     return box;
-}
-
-double doubleArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 /// A shadow in plan, or a part of it that does not lie over itself: corners, each once, and triangles, counter-clockwise.
@@ -46,7 +40,7 @@ struct Plan {
 /// Corners of neighbours that rounding has parted are one to a millionth of the shadow's size.
 class Corners {
 public:
-    Corners(const Box& box, Plan& plan) : _low(box.low), _step(1e-6 * box.diameter()), _plan(plan) {}
+    Corners(const GroundBox& box, Plan& plan) : _low(box.low), _step(1e-6 * diameterOf(box)), _plan(plan) {}
     unsigned of(const glm::dvec3& place) {
         const glm::dvec3 steps = glm::floor((place - _low) / _step + 0.5);
         const auto [found, isNew] = _places.try_emplace(
@@ -67,15 +61,14 @@ struct Planned {
     bool folded = false; ///< some triangle was clockwise.
 };
 
-Planned planOf(const Drape& shadow, const Box& box) {
+Planned planOf(const Drape& shadow, const GroundBox& box) {
     Planned result;
     Plan& plan = result.plan;
     Corners corners(box, plan);
     for (std::size_t i = 0; i + 2 < shadow.size(); i += 3) {
         std::array<unsigned, 3> t;
         for (std::size_t k = 0; k < 3; ++k) t[k] = corners.of(shadow[i + k]);
-        const double area =
-            doubleArea(glm::dvec2(plan.corners[t[0]]), glm::dvec2(plan.corners[t[1]]), glm::dvec2(plan.corners[t[2]]));
+        const double area = doubleArea(plan.corners[t[0]], plan.corners[t[1]], plan.corners[t[2]]);
         result.folded = result.folded || area < 0.0;
         if (area < 0.0) std::swap(t[1], t[2]);
         if (area != 0.0) plan.triangles.push_back(t);
@@ -139,7 +132,7 @@ Outline outlineOf(const Plan& plan) {
 class Layers {
 public:
     explicit Layers(double cell) : _cell(cell) {}
-    std::size_t place(const Box& box) {
+    std::size_t place(const GroundBox& box) {
         const glm::dvec2 from = glm::floor(glm::dvec2(box.low) / _cell), to = glm::floor(glm::dvec2(box.high) / _cell);
         std::size_t layer = 0;
         each(from, to, [&](std::size_t& above) { layer = std::max(layer, above); });
@@ -182,9 +175,9 @@ private:
 };
 
 /// So that a prism touches few cells, and few others touch the same.
-double cellFor(const std::vector<Box>& boxes) {
+double cellFor(const std::vector<GroundBox>& boxes) {
     std::vector<double> sizes;
-    for (const Box& box : boxes) sizes.push_back(box.diameter());
+    for (const GroundBox& box : boxes) sizes.push_back(diameterOf(box));
     std::nth_element(sizes.begin(), sizes.begin() + std::ptrdiff_t(sizes.size() / 2), sizes.end());
     return std::max(sizes[sizes.size() / 2], 1e-3 * *std::max_element(sizes.begin(), sizes.end()));
 }
@@ -193,7 +186,7 @@ double cellFor(const std::vector<Box>& boxes) {
 
 ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& origin) {
     ShadowPrisms prisms;
-    std::vector<Box> boxes;
+    std::vector<GroundBox> boxes;
     std::vector<const Drape*> there;
     for (const Drape& shadow : shadows) {
         if (!isThere(shadow)) continue;
@@ -203,9 +196,9 @@ ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& o
     if (boxes.empty()) return prisms;
     Layers layers(cellFor(boxes));
     Builder builder(prisms, origin);
-    Box all = boxes.front();
+    GroundBox all = boxes.front();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const double margin = 0.5 * boxes[i].diameter();
+        const double margin = 0.5 * diameterOf(boxes[i]);
         boxes[i].low.z -= margin;
         boxes[i].high.z += margin;
         for (const Plan& plan : unfolded(planOf(*there[i], boxes[i]))) {

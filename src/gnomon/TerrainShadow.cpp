@@ -67,7 +67,7 @@ bool isBuried(const Ground& ground, const ConvexHull& hull) {
     return true;
 }
 
-/// Why there is no shadow, nullopt if there is one. @param shadow  null if convexShadow() gives none.
+/// Why there is no shadow, nullopt if there is one. @param isThere  whether convexShadow() gives one.
 std::optional<TerrainOutcome> obstacle(const Ground& ground, const ConvexPart& part, const glm::dvec4& light,
                                        bool isThere) {
     if (isLightBelow(ground, light)) return TerrainOutcome::lightBelow;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/GroundQuery.h>
 #include <gnomon/TriangleGrid.h>
 
 #include <glm/common.hpp>
@@ -29,11 +30,7 @@ Bounds boundsOf(const GroundTriangle& triangle) {
     return result;
 }
 
-/// Twice the signed area in plan.
-double planArea(const GroundTriangle& t) {
-    const glm::dvec2 u(t[1] - t[0]), v(t[2] - t[0]);
-    return u.x * v.y - u.y * v.x;
-}
+double planArea(const GroundTriangle& t) { return doubleArea(t[0], t[1], t[2]); }
 
 struct Soup {
     const std::vector<glm::dvec3>& vertices;

@@ -4,7 +4,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -16,8 +15,6 @@ namespace gnomon {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
 /// Height of a triangle's plane over a place inside of it or on its edge.
 std::optional<double> heightOver(const GroundTriangle& t, const glm::dvec2& place) {
@@ -66,7 +63,7 @@ std::optional<TriangleGround::Corners> TriangleGround::upward(const unsigned* co
     if (std::any_of(corners, corners + 3, [this](unsigned i) { return i >= _vertices.size(); })) return std::nullopt;
     const GroundTriangle t = triangle({corners[0], corners[1], corners[2]});
     if (!planeFromPoints(t[0], t[1], t[2])) return std::nullopt;
-    const bool turned = cross(glm::dvec2(t[1] - t[0]), glm::dvec2(t[2] - t[0])) < 0.0;
+    const bool turned = doubleArea(t[0], t[1], t[2]) < 0.0;
     return Corners{corners[0], corners[turned ? 2 : 1], corners[turned ? 1 : 2]};
 }
 
