@@ -19,7 +19,7 @@ osg::ref_ptr<osg::Geometry> layerOf(osg::Vec3Array* vertices, const std::vector<
 
 } // namespace
 
-TerrainPrisms::TerrainPrisms(const ShadowPrisms& prisms) {
+TerrainPrisms::TerrainPrisms(const ShadowPrisms& prisms) : low(prisms.low), high(prisms.high) {
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     vertices->reserve(prisms.vertices.size());
     for (const glm::vec3& v : prisms.vertices) vertices->push_back({v.x, v.y, v.z});
@@ -40,23 +40,18 @@ std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, uns
     const unsigned counters = pass.counters();
     if (!counters && prisms->layers.size() > 1)
         return "needs a sixth stencil bit where shadows lie over one another: leave six to ShadowBin::reserve().";
-    state.apply(program.get());
-    if (!hasProgram(state)) return noProgram;
     const std::size_t atOnce = counters & 1u ? counters : 1;
     for (std::size_t from = 0; from < prisms->layers.size(); from += atOnce) {
+        state.apply(program.get());
+        if (!hasProgram(state)) return noProgram;
+        setUniform(state, "clipFromCaster", clipFromPrisms);
+        pass.countHolding(counters ? counters : bit);
         for (std::size_t i = from; i < std::min(from + atOnce, prisms->layers.size()); ++i)
-            count(renderInfo, pass, i, counters ? counters : bit);
+            prisms->layers[i]->draw(renderInfo);
         state.apply();
         if (counters) pass.takeCount(counters, bit);
     }
     return "";
-}
-
-void TerrainMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, std::size_t layer, unsigned bits) const {
-    renderInfo.getState()->apply(program.get());
-    setUniform(*renderInfo.getState(), "clipFromCaster", clipFromPrisms);
-    pass.countHolding(bits);
-    prisms->layers[layer]->draw(renderInfo);
 }
 
 } // namespace gnomon

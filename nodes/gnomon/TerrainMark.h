@@ -3,6 +3,7 @@
 #include <gnomon/MarkJob.h>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 #include <osg/Geometry>
 #include <osg/StateSet>
 
@@ -18,6 +19,7 @@ struct TerrainPrisms : public osg::Referenced {
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
     std::vector<osg::ref_ptr<osg::Geometry>> layers;
+    glm::dvec3 low, high; ///< bounds, about the casters' origin.
 };
 
 /// Marks of one light in one view: all that stands in a prism. What of that is ground is for the compositor to tell, which
@@ -33,9 +35,6 @@ public:
 
 protected:
     ~TerrainMark() override = default;
-
-private:
-    void count(osg::RenderInfo& renderInfo, ScreenPass& pass, std::size_t layer, unsigned bits) const;
 };
 
 } // namespace gnomon

@@ -77,9 +77,11 @@ void findCasters(TerrainScene& scene, const std::set<const osg::Drawable*>& terr
     static_assert(sizeof(glm::vec3) == sizeof(osg::Vec3));
     const auto* positions = reinterpret_cast<const glm::vec3*>(vertices.getDataPointer());
     const glm::dvec3 origin = toGlm(scene.mesh->origin);
-    scene.parts = convexParts(positions, vertices.size(), indices.data(), indices.size());
+    if (scene.asBoxes)
+        scene.objects = connectedPoints(positions, vertices.size(), indices.data(), indices.size());
+    else
+        scene.parts = convexParts(positions, vertices.size(), indices.data(), indices.size());
     for (ConvexPart& part : scene.parts) move(part, origin);
-    scene.objects = connectedPoints(positions, vertices.size(), indices.data(), indices.size());
     for (auto& object : scene.objects)
         for (glm::dvec3& point : object) point += origin;
 }
@@ -130,7 +132,7 @@ TerrainShadow boxShadowOf(const std::vector<glm::dvec3>& object, const TerrainSh
 
 void find(TerrainShadows& asked) {
     const TerrainScene& scene = *asked.scene;
-    const bool box = asked.settings.method == TerrainShadowGeode::BOX;
+    const bool box = scene.asBoxes;
     std::vector<TerrainShadow> found(box ? scene.objects.size() : scene.parts.size(),
                                      TerrainShadow{{}, TerrainOutcome::noGround});
     const TerrainMethod method =
@@ -142,13 +144,6 @@ void find(TerrainShadows& asked) {
     asked.causes = causesOf(found);
     if (found.empty()) asked.causes.emplace_back("has nothing to cast but its own receiver: name the terrain alone.");
     for (TerrainShadow& shadow : found) asked.shadows.push_back(std::move(shadow.triangles));
-}
-
-void makePrisms(TerrainShadows& shadows) {
-    const ShadowPrisms prisms = shadowPrisms(shadows.shadows, toGlm(shadows.scene->mesh->origin));
-    shadows.low = prisms.low;
-    shadows.high = prisms.high;
-    shadows.prisms = new TerrainPrisms(prisms);
 }
 
 } // namespace
@@ -182,13 +177,16 @@ osg::ref_ptr<const TerrainDrawn> TerrainCache::drawnAt(const TerrainPlace& place
     return drawn;
 }
 
-osg::ref_ptr<const TerrainScene> TerrainCache::sceneOf(const CasterMesh& mesh, const TerrainPlace& place) {
+osg::ref_ptr<const TerrainScene> TerrainCache::sceneOf(const CasterMesh& mesh, const TerrainPlace& place,
+                                                       bool asBoxes) {
     const osg::ref_ptr<const TerrainDrawn> drawn = drawnAt(place);
     for (const auto& known : _known)
-        if (known->scene->mesh == &mesh && known->scene->drawn == drawn) return known->scene;
+        if (known->scene->mesh == &mesh && known->scene->drawn == drawn && known->scene->asBoxes == asBoxes)
+            return known->scene;
     osg::ref_ptr<TerrainScene> scene = new TerrainScene;
     scene->mesh = &mesh;
     scene->drawn = drawn;
+    scene->asBoxes = asBoxes;
     findCasters(*scene, drawn->drawables);
     return scene;
 }
@@ -207,7 +205,7 @@ void TerrainCache::add(const osg::ref_ptr<const TerrainShadows>& shadows) {
 osg::ref_ptr<const TerrainShadows> TerrainCache::shadows(const CasterMesh& mesh, const TerrainPlace& place,
                                                          const glm::dvec4& light, const TerrainSettings& settings) {
     Lock lock(_mutex);
-    const osg::ref_ptr<const TerrainScene> scene = sceneOf(mesh, place);
+    const osg::ref_ptr<const TerrainScene> scene = sceneOf(mesh, place, settings.method == TerrainShadowGeode::BOX);
     const auto known = std::find_if(_known.begin(), _known.end(), [&](const auto& entry) {
         return entry->scene == scene && entry->light == light && entry->settings == settings;
     });
@@ -220,10 +218,16 @@ osg::ref_ptr<const TerrainShadows> TerrainCache::shadows(const CasterMesh& mesh,
     found->light = light;
     found->settings = settings;
     find(*found);
-    makePrisms(*found);
     ++_builds;
     add(found);
     return found;
+}
+
+osg::ref_ptr<const TerrainPrisms> TerrainCache::prismsOf(const TerrainShadows& shadows) {
+    Lock lock(_mutex);
+    if (!shadows.prisms)
+        shadows.prisms = new TerrainPrisms(shadowPrisms(shadows.shadows, toGlm(shadows.scene->mesh->origin)));
+    return shadows.prisms;
 }
 
 unsigned TerrainCache::builds() const {
@@ -233,12 +237,14 @@ unsigned TerrainCache::builds() const {
 
 void TerrainCache::resizeGLObjectBuffers(unsigned maxSize) {
     Lock lock(_mutex);
-    for (const auto& known : _known) known->prisms->resizeGLObjectBuffers(maxSize);
+    for (const auto& known : _known)
+        if (known->prisms) known->prisms->resizeGLObjectBuffers(maxSize);
 }
 
 void TerrainCache::releaseGLObjects(osg::State* state) const {
     Lock lock(_mutex);
-    for (const auto& known : _known) known->prisms->releaseGLObjects(state);
+    for (const auto& known : _known)
+        if (known->prisms) known->prisms->releaseGLObjects(state);
 }
 
 } // namespace gnomon

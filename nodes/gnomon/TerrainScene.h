@@ -32,6 +32,7 @@ protected:
 struct TerrainScene : public osg::Referenced {
     osg::ref_ptr<const CasterMesh> mesh;
     osg::ref_ptr<const TerrainDrawn> drawn;
+    bool asBoxes = false; ///< for BOX: objects, else parts.
     std::vector<ConvexPart> parts;
     std::vector<std::vector<glm::dvec3>> objects; ///< points of each connected part of the casters.
 
@@ -69,8 +70,8 @@ struct TerrainShadows : public osg::Referenced {
     glm::dvec4 light{0.0};
     std::vector<Drape> shadows;      ///< of each part, or object; empty where there is none.
     std::vector<std::string> causes; ///< why some are missing, or not of the method that was asked for.
-    osg::ref_ptr<TerrainPrisms> prisms;
-    glm::dvec3 low{0.0}, high{0.0}; ///< bounds of the prisms, about mesh->origin.
+    mutable osg::ref_ptr<TerrainPrisms>
+        prisms; ///< null until TerrainCache::prismsOf() is asked: marks alone need them.
 
 protected:
     ~TerrainShadows() override = default;
@@ -83,12 +84,13 @@ class TerrainCache {
 public:
     osg::ref_ptr<const TerrainShadows> shadows(const CasterMesh& mesh, const TerrainPlace& place,
                                                const glm::dvec4& light, const TerrainSettings& settings);
+    osg::ref_ptr<const TerrainPrisms> prismsOf(const TerrainShadows& shadows);
     unsigned builds() const;
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
 private:
-    osg::ref_ptr<const TerrainScene> sceneOf(const CasterMesh& mesh, const TerrainPlace& place);
+    osg::ref_ptr<const TerrainScene> sceneOf(const CasterMesh& mesh, const TerrainPlace& place, bool asBoxes);
     osg::ref_ptr<const TerrainDrawn> drawnAt(const TerrainPlace& place) const;
     void add(const osg::ref_ptr<const TerrainShadows>& shadows);
 

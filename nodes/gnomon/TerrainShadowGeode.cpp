@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/GroundQuery.h>
 #include <gnomon/LightProbe.h>
 #include <gnomon/MarkProgram.h>
 #include <gnomon/ShadowCasterGroup.h>
@@ -27,11 +28,11 @@ const char* nameOf(TerrainShadowGeode::Method method) {
     return method == TerrainShadowGeode::BOX ? "BOX" : method == TerrainShadowGeode::DRAPE ? "DRAPE" : "HULL";
 }
 
-std::optional<ScreenRect> boundsOf(const TerrainShadows& shadows, const glm::dmat4& clipFromPrisms) {
+std::optional<ScreenRect> boundsOf(const TerrainPrisms& prisms, const glm::dmat4& clipFromPrisms) {
     std::vector<glm::dvec4> corners;
     for (int i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1 ? shadows.high.x : shadows.low.x, i & 2 ? shadows.high.y : shadows.low.y,
-                                i & 4 ? shadows.high.z : shadows.low.z);
+        const glm::dvec3 corner(i & 1 ? prisms.high.x : prisms.low.x, i & 2 ? prisms.high.y : prisms.low.y,
+                                i & 4 ? prisms.high.z : prisms.low.z);
         corners.push_back(clipFromPrisms * glm::dvec4(corner, 1.0));
     }
     return screenBounds(corners);
@@ -41,8 +42,7 @@ bool isUnder(const Drape& shadow, const glm::dvec2& p) {
     for (std::size_t i = 0; i + 2 < shadow.size(); i += 3) {
         int left = 0, right = 0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const glm::dvec2 from(shadow[i + k]), edge = glm::dvec2(shadow[i + (k + 1) % 3]) - from, way = p - from;
-            const double side = edge.x * way.y - edge.y * way.x;
+            const double side = doubleArea(shadow[i + k], shadow[i + (k + 1) % 3], glm::dvec3(p, 0.0));
             left += side >= 0.0;
             right += side <= 0.0;
         }
@@ -74,9 +74,10 @@ osg::ref_ptr<osg::Geometry> transparent(const std::vector<osg::Vec3d>& triangles
 } // namespace
 
 struct TerrainShadowGeode::Asked {
-    glm::dvec4 light;
-    TerrainSettings settings;
-    std::uint64_t object; ///< revision of the placed object.
+    const char* refusal = nullptr; ///< why there can be no shadow; else the rest holds.
+    glm::dvec4 light{0.0};
+    TerrainSettings settings{HULL, 0.0, {}};
+    std::uint64_t object = 0; ///< revision of the placed object.
 };
 
 TerrainShadowGeode::TerrainShadowGeode() : _program(markProgram()), _cache(new TerrainCache) {}
@@ -117,12 +118,13 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     const auto shadows =
         _cache->shadows(mesh, TerrainPlace::inFrameOf(*view.group, getReceiver()), *usable, {_method, _error, {}});
     for (const std::string& cause : shadows->causes) report(view.frameNumber, cause);
-    if (shadows->prisms->layers.empty()) return {};
+    const auto prisms = _cache->prismsOf(*shadows);
+    if (prisms->layers.empty()) return {};
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
-    mark->prisms = shadows->prisms;
+    mark->prisms = prisms;
     mark->program = _program;
     mark->clipFromPrisms = glm::translate(toGlm(view.eyeFromGroup * view.projection), toGlm(mesh.origin));
-    const auto bounds = boundsOf(*shadows, mark->clipFromPrisms);
+    const auto bounds = boundsOf(*prisms, mark->clipFromPrisms);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
     return {mark};
@@ -162,32 +164,35 @@ TerrainPlace TerrainShadowGeode::terrain() const {
     return {*getReceiver().node, {nullptr, getReceiver().mask}, osg::Matrixd::identity()};
 }
 
-/// What compute() finds its shadow from; nullopt with the reason reported if that cannot be.
-std::optional<TerrainShadowGeode::Asked> TerrainShadowGeode::asked(const osg::Vec4d& light) const {
+/// What compute() finds its shadow from, or why that cannot be.
+TerrainShadowGeode::Asked TerrainShadowGeode::asked(const osg::Vec4d& light) const {
+    Asked result;
     const auto usable = usableLight(light, osg::Vec3d());
-    const char* cause = nullptr;
-    if (!_object) cause = "has nothing to cast: give it an object with setObjectGraphic().";
-    if (!getReceiver().node) cause = "has no terrain to fall on: name it with setReceiver().";
-    if (!usable) cause = "cannot use its light, which is nowhere: give its direction or position.";
-    if (cause) {
-        report(0, cause);
-        return std::nullopt;
-    }
+    if (!_object) result.refusal = "has nothing to cast: give it an object with setObjectGraphic().";
+    if (!getReceiver().node) result.refusal = "has no terrain to fall on: name it with setReceiver().";
+    if (!usable) result.refusal = "cannot use its light, which is nowhere: give its direction or position.";
+    if (result.refusal) return result;
     osg::BoundingBoxd box = _bounds;
     if (box.valid()) box._min += _position, box._max += _position;
     const osg::ref_ptr<osg::Node> object = placedObject();
-    const TerrainPlace all{*object, Selection(), osg::Matrixd::identity()};
-    return Asked{*usable, {_method, _error, box}, all.revision()};
+    result.light = *usable;
+    result.settings = {_method, _error, box};
+    result.object = TerrainPlace{*object, Selection(), osg::Matrixd::identity()}.revision();
+    return result;
 }
 
-bool TerrainShadowGeode::compute(const osg::Vec4d& light) {
+bool TerrainShadowGeode::compute(const osg::Vec4d& light) { return compute(asked(light)); }
+
+bool TerrainShadowGeode::compute(const Asked& with) {
     beginFrame(0, this);
     _triangles.clear();
     removeDrawables(0, getNumDrawables());
-    const auto with = asked(light);
-    if (!with) return false;
-    _shown = _cache->shadows(*meshOf(with->object), terrain(), with->light, with->settings);
-    _shownObject = with->object;
+    if (with.refusal) {
+        report(0, with.refusal);
+        return false;
+    }
+    _shown = _cache->shadows(*meshOf(with.object), terrain(), with.light, with.settings);
+    _shownObject = with.object;
     for (const std::string& cause : _shown->causes) report(0, cause);
     show();
     if (_triangles.empty() && _shown->causes.empty())
@@ -204,11 +209,11 @@ osg::ref_ptr<const CasterMesh> TerrainShadowGeode::meshOf(std::uint64_t object) 
 }
 
 bool TerrainShadowGeode::update(const osg::Vec4d& light) {
-    const auto with = asked(light);
-    const bool same = with && _shown && getNumDrawables() > 0 && _shown->light == with->light &&
-                      _shown->settings == with->settings && _shownObject == with->object &&
+    const Asked with = asked(light);
+    const bool same = !with.refusal && _shown && getNumDrawables() > 0 && _shown->light == with.light &&
+                      _shown->settings == with.settings && _shownObject == with.object &&
                       _shown->scene->drawn->revision == terrain().revision();
-    return same ? !_triangles.empty() : compute(light);
+    return same || compute(with);
 }
 
 void TerrainShadowGeode::show() {

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <iosfwd>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace gnomon {
@@ -129,7 +128,8 @@ protected:
 
 private:
     struct Asked; // what compute() was asked for
-    std::optional<Asked> asked(const osg::Vec4d& light) const;
+    Asked asked(const osg::Vec4d& light) const;
+    bool compute(const Asked& with);
     osg::ref_ptr<osg::Node> placedObject() const;
     TerrainPlace terrain() const;
     osg::ref_ptr<const CasterMesh> meshOf(std::uint64_t object) const;
