@@ -29,21 +29,15 @@ TownControls::TownControls(TownScene& town) : _town(town) {
 
 void TownControls::nextTechnique() {
     _chosen = (_chosen + 1) % _choices.size();
-    const ShadowCasterGroup::Composite composite = _town.setup().group->getComposite();
-    _town.setup().cast({_choices[_chosen]});
-    _town.setup().group->setComposite(composite);
+    _town.setup().castAsComposed({_choices[_chosen]});
 }
 
-void TownControls::toggleComposite() {
-    ShadowCasterGroup& group = *_town.setup().group;
-    const bool blends = group.getComposite() == ShadowCasterGroup::BLEND;
-    group.setComposite(blends ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
-}
+void TownControls::toggleComposite() { _town.setup().toggleComposite(); }
 
 void TownControls::passTime(double hours) { _town.setHour(std::clamp(_town.hour() + hours, firstHour, lastHour)); }
 
 std::vector<std::string> TownControls::describe() const {
-    const bool blends = _town.setup().group->getComposite() == ShadowCasterGroup::BLEND;
+    const bool blends = _town.setup().blends();
     const SunPosition sun = townSun(_town.hour());
     std::vector<std::string> lines = {"shadow: " + _choices[_chosen].text + " (n: next)",
                                       std::string("composite: ") + (blends ? "blend" : "relight") + " (r: the other)",

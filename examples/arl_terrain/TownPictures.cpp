@@ -5,8 +5,6 @@
 
 #include <osg/DisplaySettings>
 
-#include <stdexcept>
-
 namespace gnomon::examples {
 namespace {
 
@@ -15,13 +13,6 @@ struct TimeOfDay {
     double hour;
 };
 constexpr TimeOfDay times[] = {{"morning", 8.0}, {"noon", 12.0}, {"evening", 16.0}};
-
-void makeFolder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error)
-        throw std::runtime_error("the folder \"" + folder.string() + "\" cannot be made: " + error.message() + ".");
-}
 
 } // namespace
 
@@ -40,7 +31,7 @@ osg::ref_ptr<osg::Image> TownPictures::draw() {
 }
 
 void TownPictures::report(const std::filesystem::path& folder) {
-    makeFolder(folder);
+    requireFolder(folder);
     for (const std::string& technique : townTechniques()) {
         _town.setup().cast({parseShadowSpec(technique)});
         for (const TimeOfDay& time : times) {

@@ -3,6 +3,7 @@
 #include "ChartOptions.h"
 #include "ChartReport.h"
 #include "ChartRun.h"
+#include "OutputFile.h"
 #include "ResultsFile.h"
 #include "SceneFile.h"
 
@@ -34,14 +35,6 @@ void listNames() {
     for (const std::string& name : chartSceneNames()) std::cout << "  " << name << "\n";
     std::cout << "techniques:\n";
     for (const std::string& name : chartTechniques()) std::cout << "  " << name << "\n";
-}
-
-/// @throws std::runtime_error, one sentence.
-void requireFolder(const std::string& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!fs::is_directory(folder))
-        throw std::runtime_error("\"" + folder + "\" cannot be made as a folder: " + error.message() + ".");
 }
 
 std::vector<std::string> sceneNames(const ChartOptions& options) {

@@ -30,25 +30,20 @@ ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : 
 
 void ShadowControls::nextTechnique() {
     _chosen = (_chosen + 1) % _choices.size();
-    const ShadowCasterGroup::Composite composite = _setup.group->getComposite();
     cast();
-    _setup.group->setComposite(composite);
     applyCures();
 }
 
 void ShadowControls::cast() {
     _refusal.clear();
     try {
-        _setup.cast(_choices[_chosen]);
+        _setup.castAsComposed(_choices[_chosen]);
     } catch (const std::invalid_argument& error) {
         _refusal = error.what();
     }
 }
 
-void ShadowControls::toggleComposite() {
-    const bool blends = _setup.group->getComposite() == ShadowCasterGroup::BLEND;
-    _setup.group->setComposite(blends ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
-}
+void ShadowControls::toggleComposite() { _setup.toggleComposite(); }
 
 void ShadowControls::turnLight(double degrees) {
     _moved.azimuth = compass(_moved.azimuth + degrees);
@@ -78,7 +73,7 @@ void ShadowControls::applyCures() {
 }
 
 std::vector<std::string> ShadowControls::describe() const {
-    const bool blends = _setup.group->getComposite() == ShadowCasterGroup::BLEND;
+    const bool blends = _setup.blends();
     std::vector<std::string> lines = {"shadow: " + techniqueNames(_choices[_chosen]),
                                       std::string("composite: ") + (blends ? "blend" : "relight"),
                                       "light: " + describeLight(), "cures: " + describeCures()};

@@ -59,6 +59,13 @@ std::string imageBytes(const osg::Image& image, const std::string& ending) {
     return written ? bytes.str() : "";
 }
 
+void requireFolder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        throw std::runtime_error("\"" + folder.string() + "\" cannot be made as a folder: " + error.message() + ".");
+}
+
 OutputFile::OutputFile(const std::string& path) : _path(path), _draft(draftOf(path)) {
     requirePlace(_path);
     if (!std::ofstream(_draft)) refuse(_path, "its directory takes no new file");

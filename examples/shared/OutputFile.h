@@ -10,6 +10,9 @@ namespace gnomon::examples {
 /// A picture as a file of this ending ("png") holds it; empty if OSG has no writer for it.
 std::string imageBytes(const osg::Image& image, const std::string& ending);
 
+/// Sees that a folder is there, and makes it if it is not. @throws std::runtime_error, one sentence, if it cannot.
+void requireFolder(const std::filesystem::path& folder);
+
 /// A file that appears whole or not at all: written beside its place under another name, then renamed.
 class OutputFile {
 public:

@@ -11,12 +11,7 @@
 namespace gnomon::examples {
 namespace {
 
-constexpr double sunAzimuth = 135.0, sunElevation = 45.0; // degrees; azimuth from north = +y through east = +x
-
-osg::Vec4d defaultSun() {
-    const double azimuth = osg::DegreesToRadians(sunAzimuth), elevation = osg::DegreesToRadians(sunElevation);
-    return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation), 0.0};
-}
+constexpr double sunAzimuth = 135.0, sunElevation = 45.0; // degrees
 
 class LightFinder : public osg::NodeVisitor {
 public:
@@ -62,6 +57,11 @@ osg::Vec4 grey(double level) {
 
 } // namespace
 
+osg::Vec4d sunAt(double azimuth, double elevation) {
+    const double a = osg::DegreesToRadians(azimuth), e = osg::DegreesToRadians(elevation);
+    return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e), 0.0};
+}
+
 std::vector<osg::Vec4d> SceneLights::places() const {
     std::vector<osg::Vec4d> result;
     for (const Own& own : _own) result.push_back(own.place);
@@ -81,7 +81,7 @@ void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d
 SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group)
     : _group(&group), _scene(lightsIn(group)) {
     for (const osg::Vec4d& place : options.lights) add(place, root);
-    if (count() == 0) add(defaultSun(), root);
+    if (count() == 0) add(sunAt(sunAzimuth, sunElevation), root);
     root.getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
     for (const Own& own : _own) own.source->setStateSetModes(*root.getOrCreateStateSet(), osg::StateAttribute::ON);
     colour(options);

@@ -16,6 +16,9 @@ namespace gnomon::examples {
 /// which is in double; a sun's direction needs no more than float.
 void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d& place);
 
+/// The way towards a sun, homogeneous. Degrees; azimuth from north = +y through east = +x, elevation from level.
+osg::Vec4d sunAt(double azimuth, double elevation);
+
 /// The lights of a program: those of the command line, or a sun if neither it nor the scene has one; and the scene's
 /// own. Lamps stand in double precision, so that they may be far from the origin.
 class SceneLights {

@@ -52,10 +52,8 @@ osg::Vec3d framedEye(const ViewOptions& o, const osg::Vec3d& center, double radi
     const double halfHeight = std::tan(osg::DegreesToRadians(o.fovy) / 2.0);
     const double half = std::atan(halfHeight * std::min(1.0, aspectOf(o)));
     const double distance = (radius > 0.0 ? radius : 1.0) * framingMargin / std::sin(half);
-    const double azimuth = osg::DegreesToRadians(framingAzimuth), elevation = osg::DegreesToRadians(framingElevation);
-    return center + osg::Vec3d(std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation),
-                               std::sin(elevation)) *
-                        distance;
+    const osg::Vec4d towards = sunAt(framingAzimuth, framingElevation); // where a sun would be
+    return center + osg::Vec3d(towards.x(), towards.y(), towards.z()) * distance;
 }
 
 osg::Vec3d chooseUp(const ViewOptions& o, osg::Vec3d view) {
@@ -90,6 +88,16 @@ void SceneSetup::cast(std::vector<ShadowSpec> specs) {
     for (ShadowSpec& spec : specs)
         if (spec.receiver.empty()) spec.receiver = receiver;
     techniques = addShadows(*group, specs);
+}
+
+void SceneSetup::castAsComposed(const std::vector<ShadowSpec>& specs) {
+    const ShadowCasterGroup::Composite composite = group->getComposite();
+    cast(specs);
+    group->setComposite(composite);
+}
+
+void SceneSetup::toggleComposite() {
+    group->setComposite(blends() ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
 }
 
 SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {

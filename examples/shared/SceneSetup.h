@@ -28,6 +28,12 @@ struct SceneSetup {
     /// Puts these in the place of the shadows so far. @throws as setUpScene(); there are no shadows then.
     void cast(std::vector<ShadowSpec> specs);
 
+    /// The same, but the group's composite stays.
+    void castAsComposed(const std::vector<ShadowSpec>& specs);
+    /// Relight instead of blend, blend instead of relight.
+    void toggleComposite();
+    bool blends() const { return group->getComposite() == ShadowCasterGroup::BLEND; }
+
     /// Switches all shadows on or off.
     void show(bool shadows);
     /// Why shadows were missing in the last frame, all techniques.

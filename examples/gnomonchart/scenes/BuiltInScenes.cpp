@@ -2,10 +2,10 @@
 #include "ChartScene.h"
 #include "GeneratedScenes.h"
 #include "SceneFile.h"
+#include "SceneLights.h"
 
 #include <osg/MatrixTransform>
 
-#include <cmath>
 #include <functional>
 #include <sstream>
 #include <stdexcept>
@@ -27,12 +27,6 @@ struct Entry {
     std::string ground = "none"; ///< as --ground.
 };
 
-/// The way to a sun; degrees, azimuth from north = +y through east = +x.
-osg::Vec4d sun(double azimuth, double elevation) {
-    const double a = osg::DegreesToRadians(azimuth), e = osg::DegreesToRadians(elevation);
-    return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e), 0.0};
-}
-
 std::function<osg::ref_ptr<osg::Node>()> file(const std::string& path) {
     return [path] { return readScene({path}, program); };
 }
@@ -50,7 +44,7 @@ void addTwice(std::vector<Entry>& entries, const Entry& scene, double azimuth) {
         Entry entry = scene;
         entry.name += "-" + std::to_string(elevation);
         entry.title += ", sun at " + std::to_string(elevation) + "°";
-        entry.light = sun(azimuth, elevation);
+        entry.light = sunAt(azimuth, elevation);
         entries.push_back(entry);
     }
 }
@@ -59,9 +53,9 @@ void addGenerated(std::vector<Entry>& entries) {
     const osg::Vec3d overTown(-50.0, -70.0, 45.0), town(-26.0, -34.0, 0.0), utm(432100.25, 6400000.5, 812.0);
     addTwice(entries, {"town", "Flat town of 400 boxes", flatTown, {}, overTown, town, townFovy}, 105.0);
     addTwice(entries, {"hills", "Hilly town of 400 boxes", hillyTown, {}, overTown, town, townFovy}, 105.0);
-    entries.push_back({"town-utm", "The flat town at UTM coordinates, sun at 45°", townAtUtm, sun(105.0, 45.0),
+    entries.push_back({"town-utm", "The flat town at UTM coordinates, sun at 45°", townAtUtm, sunAt(105.0, 45.0),
                        overTown + utm, town + utm, townFovy});
-    entries.push_back({"mountains-10", "10 km of mountains, long view, sun at 10°", mountains, sun(120.0, 10.0),
+    entries.push_back({"mountains-10", "10 km of mountains, long view, sun at 10°", mountains, sunAt(120.0, 10.0),
                        osg::Vec3d(-4700.0, -4300.0, 900.0), osg::Vec3d(0.0, 0.0, 0.0)});
     entries.push_back({"room",
                        "Room with a lamp among furniture",
