@@ -13,6 +13,7 @@ using gnomon::BoxCaster;
 using gnomon::Drape;
 using gnomon::Ground;
 using gnomon::HeightPyramid;
+using test::areaInPlan;
 using test::degree;
 using test::House;
 using test::sunAt;
@@ -44,15 +45,6 @@ std::optional<Drape> shadowOf(const Ground& ground, const House& house, const gl
     return gnomon::boxShadow(ground, boxOf(house, 3.0), light);
 }
 
-double area(const Drape& triangles) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-        const glm::dvec2 a(triangles[i]), b(triangles[i + 1]), c(triangles[i + 2]);
-        sum += 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-    }
-    return sum;
-}
-
 TEST(BoxShadow, QuadrantsAreThoseOfTheTableAndEveryAzimuthHasOne) {
     EXPECT_EQ(gnomon::boxQuadrant({-1.0, 1.0}), 1) << "away to the north-west";
     EXPECT_EQ(gnomon::boxQuadrant({-1.0, -1.0}), 2);
@@ -78,7 +70,7 @@ TEST(BoxShadow, OfAnAxisAlignedHouseHasTheAreaWorkedByHandInEachQuadrant) {
         const double reach = 20.0 / std::tan(30.0 * degree);
         const double swept =
             reach * (std::abs(std::sin(azimuth * degree)) * 10.0 + std::abs(std::cos(azimuth * degree)) * 16.0);
-        EXPECT_NEAR(area(*mesh), 80.0 + swept, 1e-9) << azimuth;
+        EXPECT_NEAR(areaInPlan(*mesh), 80.0 + swept, 1e-9) << azimuth;
     }
 }
 

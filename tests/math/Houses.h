@@ -66,4 +66,14 @@ inline std::vector<House> houses(int count, const gnomon::Ground& ground) {
     return result;
 }
 
+/// Of a drape's triangles; those that are clockwise count as less than nothing.
+inline double areaInPlan(const gnomon::Drape& triangles) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+        const glm::dvec2 a(triangles[i]), b(triangles[i + 1]), c(triangles[i + 2]);
+        sum += 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    }
+    return sum;
+}
+
 } // namespace test
