@@ -7,6 +7,8 @@ find_package(OpenGL REQUIRED COMPONENTS OpenGL GLX EGL)
 find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgDB osgFX osgGA osgText osgViewer osgShadow osgTerrain)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED osmesa)
+find_path(NOVA_INCLUDE_DIR libnova/solar.h REQUIRED)
+find_library(NOVA_LIBRARY nova REQUIRED)
 
 function(gnomon_import_osg kit)
   string(TOUPPER ${kit} upper)
@@ -28,3 +30,8 @@ add_library(osmesa::osmesa INTERFACE IMPORTED)
 set_target_properties(osmesa::osmesa PROPERTIES
   INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${OSMESA_INCLUDE_DIRS}"
   INTERFACE_LINK_LIBRARIES "-Wl,--no-as-needed;-lOSMesa")
+
+# libnova brings neither a package file nor a pkg-config file.
+add_library(nova::nova INTERFACE IMPORTED)
+set_target_properties(nova::nova PROPERTIES
+  INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${NOVA_INCLUDE_DIR}" INTERFACE_LINK_LIBRARIES "${NOVA_LIBRARY}")

@@ -29,7 +29,7 @@ Options townOptions(TownOptions& into) {
     Options table;
     table.push_back({"--shadow", "none|box|hull|drape", "how shadows are made; keys of SPEC may follow, see below",
                      "hull", [&into](Text t) { into.view.shadows = {readTownSpec(t)}; }});
-    table.push_back({"--hour", "H", "solar time at an equinox, 6.5 to 17.5 hours; the sun is due south at 12", "9",
+    table.push_back({"--hour", "H", "mean solar time on 20 March, 6.5 to 17.5 hours; the sun is due south a little after 12", "9",
                      [&into](Text t) { into.hour = readNumber(t, firstHour, lastHour); }});
     addSize(table, into.view);
     table.push_back({"--out", "IMAGE", "draw one picture into this file, without a window or display", "a window",

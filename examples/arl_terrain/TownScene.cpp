@@ -15,14 +15,9 @@
 namespace gnomon::examples {
 namespace {
 
-constexpr double latitude = 36.6, declination = 0.0;            // degrees
+constexpr double latitude = 36.6;                               // degrees
 constexpr double cameraAzimuth = 240.0, cameraDistance = 960.0; // degrees and m, from the town's middle
 constexpr double cameraHeight = 420.0, clearance = 60.0;        // m, above the town's middle and any ground below it
-
-osg::Vec4d lightOf(const SunPosition& sun) {
-    const double azimuth = osg::DegreesToRadians(sun.azimuth), elevation = osg::DegreesToRadians(sun.elevation);
-    return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation), 0.0};
-}
 
 osg::ref_ptr<osg::Geode> drawTerrain(osg::HeightField& field) {
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
@@ -48,7 +43,8 @@ void setLooks(ViewOptions& view, double hour) {
     view.receiver = "terrain";
     view.casters = "town";
     view.ground = "none";
-    view.lights = {lightOf(townSun(hour))};
+    const SunPosition sun = townSun(hour);
+    view.lights = {sunAt(sun.azimuth, sun.elevation)};
     view.ambient = 0.35;
     view.diffuse = 0.9;
     view.background = {0.62, 0.74, 0.88};
@@ -69,7 +65,10 @@ osg::ref_ptr<osg::Group> makeScene(ViewOptions& view, double hour, osg::HeightFi
 
 } // namespace
 
-SunPosition townSun(double hour) { return sunPosition(latitude, declination, hour); }
+SunPosition townSun(double hour) {
+    const SunClock meridian(latitude, 0.0); // where UTC is mean solar time
+    return meridian.at(*julianDay("2026-03-20T00:00:00Z") + hour / 24.0);
+}
 
 TownScene::TownScene(ViewOptions view, double hour, osg::HeightField& terrain)
     : _given(hour), _hour(hour), _view(std::move(view)) {

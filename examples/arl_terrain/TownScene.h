@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "SceneSetup.h"
-#include "SunPosition.h"
+
+#include <gnomon/SunClock.h>
 
 #include <osg/Shape>
 
 namespace gnomon::examples {
 
-/// Solar time at which the sun is up; at both ends 6 degrees, whatever the model.
+/// Mean solar time at which the sun is up; at the ends 4.7 and 7.6 degrees, whatever the model.
 constexpr double firstHour = 6.5, lastHour = 17.5;
 
-/// The sun over the Jacksboro fault (36.6° north) at an equinox.
+/// The sun over the Jacksboro fault (36.6° north) on 20 March 2026.
 SunPosition townSun(double hour);
 
 /// A town on an elevation model: nodes "town", which casts, and "terrain", which receives; a camera that looks over it.

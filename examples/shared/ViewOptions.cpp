@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ViewOptions.h"
 
+#include <sstream>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -24,6 +25,31 @@ osg::Vec4d readLight(Text text) {
     if (n[0] == 0.0 && n[1] == 0.0 && n[2] == 0.0 && n[3] == 0.0)
         refuse("allowed: a direction with w = 0 that is not 0,0,0, or a position with w = 1.");
     return {n[0], n[1], n[2], n[3]};
+}
+
+SunMoment readSun(Text text) {
+    const std::size_t comma = text.find(',');
+    const auto day = julianDay(text.substr(0, comma));
+    if (!day || comma == std::string::npos)
+        refuse(
+            "allowed: a moment in UTC as 2026-06-21T15:00:00Z, a latitude from -90 to 90 and a longitude from -180 to "
+            "180 degrees, with commas between.");
+    const std::vector<double> place = readNumbers(text.substr(comma + 1), 2);
+    return {SunClock(place[0], place[1]), *day};
+}
+
+/// @throws std::invalid_argument if it is night.
+void shine(ViewOptions& into, const SunMoment& sun) {
+    const SunPosition at = sun.clock.at(sun.day);
+    if (!(at.elevation > 0.0)) {
+        std::ostringstream low;
+        low.precision(3);
+        low << -at.elevation;
+        refuse("the sun is " + low.str() + " degrees below the horizon; allowed: when it is up.");
+    }
+    const glm::dvec3 towards = sun.clock.towards(sun.day);
+    into.sun = sun;
+    into.lights.push_back({towards.x, towards.y, towards.z, 0.0});
 }
 
 std::string readGround(Text text) {
@@ -72,6 +98,10 @@ void addLightOptions(Options& table, ViewOptions& into) {
                      "the scene's own, or a sun at azimuth 135, elevation 45 degrees (azimuth from north = +y through "
                      "east = +x)",
                      [&into](Text t) { into.lights.push_back(readLight(t)); }, true});
+    table.push_back(
+        {"--sun", "MOMENT,LAT,LON",
+         "the sun as a light: UTC as 2026-06-21T15:00:00Z, degrees north and east; x is east, y north, z up",
+         "no sun but --light's", [&into](Text t) { shine(into, readSun(t)); }});
     table.push_back({"--ambient", "A", "the scene's ambient light, 0 to 10; each light's own is then 0", "0.2, OSG's",
                      [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
     table.push_back({"--diffuse", "D", "each light's diffuse light, 0 to 10", "0.8, OSG's",

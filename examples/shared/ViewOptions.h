@@ -3,6 +3,7 @@
 #include "CommandLine.h"
 
 #include <gnomon/ShadowSpec.h>
+#include <gnomon/SunClock.h>
 
 #include <osg/Vec3d>
 #include <osg/Vec4d>
@@ -13,11 +14,18 @@
 
 namespace gnomon::examples {
 
+/// The sun over a place at a moment.
+struct SunMoment {
+    SunClock clock;
+    double day; ///< Julian, UTC.
+};
+
 /// What the programs share: scene, lights, shadows and camera as the command line gives them.
 struct ViewOptions {
     std::vector<std::string> files;
     std::vector<ShadowSpec> shadows;
     std::vector<osg::Vec4d> lights; ///< homogeneous, world.
+    std::optional<SunMoment> sun;   ///< where one of them comes from.
     std::optional<double> ambient;
     std::optional<double> diffuse;
     std::string receiver;        ///< for every shadow that names none itself.

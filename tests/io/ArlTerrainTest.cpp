@@ -3,7 +3,6 @@
 #include "Desktop.h"
 #include "Program.h"
 
-#include <SunPosition.h>
 #include <TownSite.h>
 
 #include <gtest/gtest.h>
@@ -18,7 +17,6 @@
 namespace {
 
 using namespace gnomon::testing;
-using gnomon::examples::sunPosition;
 using Arguments = std::vector<std::string>;
 
 constexpr int width = 480, height = 360;
@@ -65,20 +63,6 @@ Difference difference(const osg::Image& with, const osg::Image& without) {
 }
 
 } // namespace
-
-TEST(SunPosition, IsTheOneWorkedByHand) {
-    const auto expect = [](double latitude, double declination, double hour, double azimuth, double elevation) {
-        const auto sun = sunPosition(latitude, declination, hour);
-        EXPECT_NEAR(sun.azimuth, azimuth, 0.001) << latitude << " " << declination << " " << hour;
-        EXPECT_NEAR(sun.elevation, elevation, 0.001) << latitude << " " << declination << " " << hour;
-    };
-    expect(36.6, 0.0, 12.0, 180.0, 53.4);
-    expect(36.6, 0.0, 6.0, 90.0, 0.0);
-    expect(36.6, 0.0, 18.0, 270.0, 0.0);
-    expect(-36.6, 0.0, 12.0, 0.0, 53.4);
-    expect(50.0, 20.0, 9.0, 113.517, 43.560); // the formula's terms and arc sine by hand, six digits
-    expect(90.0, 23.44, 3.0, 45.0, 23.44);    // at the pole the sun goes round level; south is where it stands at 12
-}
 
 /// Posts 50 apart: rough in the west, in the east a valley along x = 2000 … 4000 whose floor is y = 2000.
 TEST(TownSite, IsGentleAndRisesToTheNorthAndHasNoHole) {

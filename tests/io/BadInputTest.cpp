@@ -165,6 +165,21 @@ TEST_F(BadInput, LightThatIsNotFinite) {
                                                    "that is not 0,0,0, or a position with w = 1.");
 }
 
+TEST_F(BadInput, SunOfNoMomentOrPlaceOrNight) {
+    for (const char* sun : {"noon", "2026-06-21T15:00:00Z", "2026-02-30T15:00:00Z,40,0", "2026-06-21T15:00:00,40,0"})
+        EXPECT_EQ(
+            refusalWith({"--sun", sun}),
+            "--sun " + std::string(sun) +
+                " cannot be used; allowed: a moment in UTC as 2026-06-21T15:00:00Z, a latitude from -90 to 90 and a "
+                "longitude from -180 to 180 degrees, with commas between.");
+    EXPECT_EQ(refusalWith({"--sun", "2026-06-21T15:00:00Z,91,0"}),
+              "--sun 2026-06-21T15:00:00Z,91,0 cannot be used; a latitude is from -90 to 90 degrees.");
+    EXPECT_EQ(refusalWith({"--sun", "2026-06-21T00:00:00Z,0,0"})
+                  .find("--sun 2026-06-21T00:00:00Z,0,0 cannot be used; the sun "
+                        "is 66.6 degrees below the horizon"),
+              0u); // 90 degrees less the declination of 23.44
+}
+
 TEST_F(BadInput, NineLights) {
     Arguments lights;
     for (int i = 0; i < 9; ++i) lights.insert(lights.end(), {"--light", "0,0,1,0"});
@@ -232,7 +247,7 @@ TEST_F(BadInput, AFileThatIsThereStaysAsItIs) {
 }
 
 TEST_F(BadInput, OptionsThatAreWrong) {
-    EXPECT_EQ(refusalWith({"--sun", "noon"}), "there is no option --sun; --help lists those there are.");
+    EXPECT_EQ(refusalWith({"--moon", "full"}), "there is no option --moon; --help lists those there are.");
     EXPECT_EQ(refusalWith({"--size"}), "--size needs a value: WxH.");
     EXPECT_EQ(refusal({scene, "--out", "--size", "8x8"}), "--out needs a value: IMAGE.");
     EXPECT_EQ(refusalWith({"--size", "8x8", "--size", "9x9"}), "--size is given twice; once is allowed.");
