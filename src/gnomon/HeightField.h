@@ -34,6 +34,11 @@ public:
     bool isHole(int x, int y) const; ///< of a cell.
     CellCut cut(int x, int y) const; ///< as given: a rising or falling cell may still be a hole by its heights.
     bool allRising() const { return _cuts.empty(); }
+    const glm::dvec2& origin() const { return _origin; }
+    const glm::dvec2& step() const { return _step; }
+    double base() const { return _base; }
+    const float* heights() const { return _heights.data(); } ///< as given.
+    const CellCut* cuts() const { return _cuts.empty() ? nullptr : _cuts.data(); }
     glm::dvec3 post(int x, int y) const;
     /// The two triangles over a block of side × side cells, from its corner posts alone; cut as its cell is if it is one,
     /// else rising.

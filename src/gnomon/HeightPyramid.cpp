@@ -2,6 +2,7 @@
 #include <gnomon/HeightPyramid.h>
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -50,9 +51,15 @@ const HeightPyramid::Node& HeightPyramid::node(const Block& block) const {
     return level.nodes[std::size_t(block.y) * std::size_t(level.columns) + std::size_t(block.x)];
 }
 
+bool HeightPyramid::Node::hasHoles() const { return std::signbit(slope); }
+double HeightPyramid::Node::steepest() const { return std::abs(double(slope)); }
+
 HeightPyramid::Node HeightPyramid::cell(int x, int y) const {
     Node result;
-    if (_field.isHole(x, y)) return result;
+    if (_field.isHole(x, y)) {
+        result.slope = -0.0f;
+        return result;
+    }
     const auto triangles = _field.triangles(x, y);
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const GroundTriangle& triangle : triangles) {
@@ -71,14 +78,15 @@ HeightPyramid::Node HeightPyramid::merged(const Block& block) const {
     for (int y = 2 * block.y; y < std::min(2 * block.y + 2, lower.rows); ++y)
         for (int x = 2 * block.x; x < std::min(2 * block.x + 2, lower.columns); ++x) {
             const Node& part = node({block.level - 1, x, y});
-            holes = holes || part.low > part.high || part.off == infinite;
-            if (part.low > part.high) continue;
-            const bool first = result.low > result.high;
+            holes = holes || part.hasHoles();
+            if (part.isHole()) continue;
+            const bool first = result.isHole();
             result.low = first ? part.low : std::min(result.low, part.low);
             result.high = first ? part.high : std::max(result.high, part.high);
-            result.slope = std::max(result.slope, part.slope);
+            result.slope = std::max(result.slope, std::abs(part.slope));
         }
     result.off = holes ? infinite : off(block);
+    if (holes) result.slope = -result.slope;
     return result;
 }
 
@@ -115,15 +123,17 @@ GroundBox HeightPyramid::boxOf(const Block& block) const {
     return {low, high};
 }
 
-void HeightPyramid::descend(const Block& from, const std::function<bool(const Block&)>& enter) const {
-    if (node(from).low > node(from).high || !enter(from) || from.level == 0) return;
+template <class Enter>
+void HeightPyramid::descend(const Block& from, const Enter& enter) const {
+    if (node(from).isHole() || !enter(from) || from.level == 0) return;
     const Level& lower = _levels[std::size_t(from.level) - 1];
     for (int y = 2 * from.y; y < std::min(2 * from.y + 2, lower.rows); ++y)
         for (int x = 2 * from.x; x < std::min(2 * from.x + 2, lower.columns); ++x)
             descend({from.level - 1, x, y}, enter);
 }
 
-void HeightPyramid::descend(const std::function<bool(const Block&)>& enter) const {
+template <class Enter>
+void HeightPyramid::descend(const Enter& enter) const {
     descend({static_cast<int>(_levels.size()) - 1, 0, 0}, enter);
 }
 
@@ -155,11 +165,40 @@ std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm:
 double HeightPyramid::steepest(const std::vector<glm::dvec4>& planes) const {
     double most = 0.0;
     descend([&](const Block& block) {
-        if (double(node(block).slope) <= most || !mayHold(boxOf(block), planes)) return false;
-        if (block.level == 0) most = double(node(block).slope);
+        if (node(block).steepest() <= most || !mayHold(boxOf(block), planes)) return false;
+        if (block.level == 0) most = node(block).steepest();
         return true;
     });
     return most;
+}
+
+double HeightPyramid::steepest() const {
+    const Node& all = _levels.back().nodes.front();
+    return all.hasHoles() ? std::numeric_limits<double>::infinity() : all.steepest();
+}
+
+bool HeightPyramid::isGentle(const glm::dvec2& low, const glm::dvec2& high, double tangent) const {
+    if (!(low.x <= high.x && low.y <= high.y)) return false;
+    const glm::dvec2 last(_levels[0].columns - 1, _levels[0].rows - 1);
+    const glm::ivec2 from(glm::clamp(glm::floor(low), glm::dvec2(0.0), last)),
+        to(glm::clamp(glm::floor(high), glm::dvec2(0.0), last));
+    int level = 0;
+    const auto isWide = [&](int axis) { return (to[axis] >> level) - (from[axis] >> level) > 1; };
+    while (isWide(0) || isWide(1)) ++level;
+    for (int y = from.y >> level; y <= to.y >> level; ++y)
+        for (int x = from.x >> level; x <= to.x >> level; ++x)
+            if (!isGentle({level, x, y}, from, to, tangent)) return false;
+    return true;
+}
+
+bool HeightPyramid::isGentle(const Block& from, const glm::ivec2& low, const glm::ivec2& high, double tangent) const {
+    if (!node(from).hasHoles() && node(from).steepest() < tangent) return true;
+    if (from.level == 0) return false;
+    const int level = from.level - 1;
+    for (int y = std::max(2 * from.y, low.y >> level); y <= std::min(2 * from.y + 1, high.y >> level); ++y)
+        for (int x = std::max(2 * from.x, low.x >> level); x <= std::min(2 * from.x + 1, high.x >> level); ++x)
+            if (!isGentle({level, x, y}, low, high, tangent)) return false;
+    return true;
 }
 
 } // namespace gnomon

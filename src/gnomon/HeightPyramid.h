@@ -21,12 +21,20 @@ public:
     void cover(const std::vector<glm::dvec4>& planes, double error,
                const std::function<void(const GroundTriangle&)>& take) const override;
     double steepest(const std::vector<glm::dvec4>& planes) const override;
+    double steepest() const; ///< of all, infinite if there are holes.
+    /// Whether all of the cells that a rectangle touches are less steep than `tangent`, and none of them is a hole.
+    /// @param low,high  as HeightField::cellOf() has places; what is beside the grid is left out.
+    bool isGentle(const glm::dvec2& low, const glm::dvec2& high, double tangent) const;
 
 private:
     struct Node {
         float low = 1.0f, high = 0.0f; ///< low > high: all of it is a hole.
         float off = 0.0f;              ///< infinite where its triangles cannot stand for it.
-        float slope = 0.0f;
+        float slope = 0.0f;            ///< steepest; below 0, or -0, where there is a hole in it.
+
+        bool isHole() const { return low > high; }
+        bool hasHoles() const;
+        double steepest() const;
     };
     struct Level {
         int columns = 0, rows = 0;
@@ -45,8 +53,11 @@ private:
     float off(const Block& block) const;
     Level levelOver(const Level& below, int level) const;
     /// Goes down from the top wherever `enter` says so.
-    void descend(const Block& from, const std::function<bool(const Block&)>& enter) const;
-    void descend(const std::function<bool(const Block&)>& enter) const;
+    template <class Enter>
+    void descend(const Block& from, const Enter& enter) const;
+    template <class Enter>
+    void descend(const Enter& enter) const;
+    bool isGentle(const Block& from, const glm::ivec2& low, const glm::ivec2& high, double tangent) const;
     GroundBox boxOf(const Block& block) const;
 
     const HeightField _field;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ConvexHull.h>
 #include <gnomon/Drape.h>
 
 namespace gnomon {
@@ -17,11 +18,12 @@ struct HullFan {
 /// needs no ray. A house takes four triangles; of round casters corners are left out down to twelve, for at most 1 % of
 /// the area that is seen.
 ///
-/// @param light  homogeneous: w = 0 the way towards a sun, w > 0 a lamp; the one of `shadow`.
-/// @return triangles as drape()'s; nullopt if a ray meets no ground, or the polygon overlaps itself: drape() is right there.
+/// @param light  homogeneous: w = 0 the way towards a sun, w > 0 a lamp.
+/// @return triangles as drape()'s; nullopt if there is no shadow, a ray meets no ground, or the polygon overlaps itself:
+///         drape() is right there.
 ///
-/// Cost   a ray a corner above the ground, and one an edge that runs across the light.
+/// Cost   a ray a corner above the ground, and one an edge that runs across the light. Many at once: packedShadows().
 /// Limits straight from corner to corner; `off` has not seen what is small beside its triangles.
-std::optional<HullFan> hullFan(const Ground& ground, const ConvexShadow& shadow, const glm::dvec4& light);
+std::optional<HullFan> hullFan(const Ground& ground, const ConvexHull& hull, const glm::dvec4& light);
 
 } // namespace gnomon

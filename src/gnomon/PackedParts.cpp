@@ -1,23 +1,91 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/PackedParts.h>
 
-#include <utility>
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
 
 namespace gnomon {
 
-PackedParts::PackedParts(const std::vector<ConvexPart>& parts) : _parts(parts) {}
-
-void PackedParts::add(const ConvexPart& part) { _parts.push_back(part); }
-
-void PackedParts::replace(std::size_t at, const ConvexPart& part) { _parts[at] = part; }
-
-void PackedParts::remove(std::size_t at) {
-    if (at + 1 < _parts.size()) _parts[at] = std::move(_parts.back());
-    _parts.pop_back();
+PackedParts::PackedParts(const std::vector<ConvexPart>& parts) {
+    for (const ConvexPart& part : parts) add(part);
 }
 
-ConvexPart PackedParts::part(std::size_t at) const { return _parts[at]; }
+void PackedParts::addEmpty() {
+    _anchors.emplace_back();
+    _ends.push_back(static_cast<unsigned>(_others.size()));
+    _kinds.push_back(0);
+}
 
-std::size_t PackedParts::bytes() const { return _parts.size() * sizeof(ConvexPart); }
+void PackedParts::add(const ConvexPart& part) {
+    addEmpty();
+    replace(size() - 1, part);
+}
+
+void PackedParts::add(const PackedParts& from, std::size_t part) {
+    addEmpty();
+    _anchors.back() = from._anchors[part];
+    _others.insert(_others.end(), from.others(part), from.others(part) + (from._ends[part] - from.begin(part)));
+    _ends.back() = static_cast<unsigned>(_others.size());
+    _kinds.back() = kindOf(from._topologies[from._kinds[part]]);
+}
+
+void PackedParts::replace(std::size_t at, const ConvexPart& part) {
+    const ArrangedHull hull(part.hull, part.front ? &*part.front : nullptr);
+    _kinds[at] = kindOf(hull.topology);
+    _anchors[at] = hull.corners.front();
+    makeRoom(at, hull.corners.size() - 1);
+    for (std::size_t i = 1; i < hull.corners.size(); ++i)
+        _others[begin(at) + i - 1] = glm::vec3(hull.corners[i] - _anchors[at]);
+}
+
+void PackedParts::makeRoom(std::size_t part, std::size_t corners) {
+    const std::size_t had = _ends[part] - begin(part);
+    const auto end = _others.begin() + std::ptrdiff_t(_ends[part]);
+    if (corners > had) _others.insert(end, corners - had, glm::vec3(0.0f));
+    if (corners < had) _others.erase(end - std::ptrdiff_t(had - corners), end);
+    for (std::size_t i = part; i < size(); ++i) _ends[i] = unsigned(_ends[i] + corners - had);
+}
+
+void PackedParts::remove(std::size_t at) {
+    const std::size_t last = size() - 1;
+    const std::vector<glm::vec3> moved(others(last), others(last) + (_ends[last] - begin(last)));
+    if (at != last) {
+        makeRoom(at, moved.size());
+        std::copy(moved.begin(), moved.end(), _others.begin() + begin(at));
+        _anchors[at] = _anchors[last];
+        _kinds[at] = _kinds[last];
+    }
+    makeRoom(last, 0);
+    _anchors.pop_back();
+    _ends.pop_back();
+    _kinds.pop_back();
+}
+
+/// A caster that turns may hang together otherwise each time, by rounding.
+std::uint16_t PackedParts::kindOf(const std::shared_ptr<const HullTopology>& topology) {
+    const auto known = std::find(_topologies.begin(), _topologies.end(), topology);
+    if (known != _topologies.end()) return std::uint16_t(known - _topologies.begin());
+    if (_topologies.size() > 2 * size() + 16) forgetUnused();
+    if (_topologies.size() > std::numeric_limits<std::uint16_t>::max())
+        throw std::length_error("packed parts are of 65536 kinds at most.");
+    _topologies.push_back(topology);
+    return std::uint16_t(_topologies.size() - 1);
+}
+
+void PackedParts::forgetUnused() {
+    std::vector<std::shared_ptr<const HullTopology>> used;
+    for (std::uint16_t& kind : _kinds) {
+        const auto known = std::find(used.begin(), used.end(), _topologies[kind]);
+        if (known == used.end()) used.push_back(_topologies[kind]);
+        kind = std::uint16_t(std::find(used.begin(), used.end(), _topologies[kind]) - used.begin());
+    }
+    _topologies = std::move(used);
+}
+
+std::size_t PackedParts::bytes() const {
+    return _anchors.size() * sizeof(glm::dvec3) + _others.size() * sizeof(glm::vec3) + _ends.size() * sizeof(unsigned) +
+           _kinds.size() * sizeof(std::uint16_t);
+}
 
 } // namespace gnomon

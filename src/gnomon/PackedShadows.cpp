@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/PackedShadows.h>
+#include <gnomon/TerrainSteps.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -13,31 +14,44 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Of triangles that share their first corner.
-Drape outlineOf(const Drape& fan) {
-    Drape outline{fan[0], fan[1], fan[2]};
-    for (std::size_t i = 3; i + 2 < fan.size(); i += 3) {
-        if (fan[i + 1] != outline.back()) outline.push_back(fan[i + 1]);
-        outline.push_back(fan[i + 2]);
+constexpr std::size_t together = 32; // what is found of so many parts stays in the nearest cache
+
+void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
+    const FanBatch::Entry& entry = batch.entry(i);
+    const glm::dvec3 anchor = entry.anchor - found.origin;
+    double low = infinite;
+    for (std::size_t k = 0; k < batch.cornerCount(i); ++k) {
+        const glm::dvec3 corner = batch.corner(i, k);
+        low = std::min(low, corner.z);
+        found.corners.emplace_back(anchor + corner);
     }
-    return outline;
+    found.highest = std::max(found.highest, entry.top.z - low);
 }
 
-void add(PackedShadows& found, const TerrainShadow& shadow) {
-    const bool isFan = shadow.outcome == TerrainOutcome::fan;
-    const Drape corners = isFan ? outlineOf(shadow.triangles) : shadow.triangles;
-    for (std::size_t i = 0; i < corners.size() && !isFan; ++i) found.indices.push_back(unsigned(i));
-    for (const glm::dvec3& corner : corners) found.corners.emplace_back(corner - found.origin);
+void addDrape(PackedShadows& found, const FanBatch::Entry& entry, const Drape& drape) {
+    double low = infinite;
+    for (const glm::dvec3& corner : drape) {
+        low = std::min(low, corner.z);
+        found.indices.push_back(unsigned(found.corners.size()) -
+                                (found.cornerEnds.empty() ? 0u : found.cornerEnds.back()));
+        found.corners.emplace_back(corner - found.origin);
+    }
+    found.highest = std::max(found.highest, entry.anchor.z + entry.top.z - low);
+}
+
+void addEnds(PackedShadows& found, TerrainOutcome outcome) {
     found.cornerEnds.push_back(unsigned(found.corners.size()));
     found.indexEnds.push_back(unsigned(found.indices.size()));
-    found.outcomes.push_back(shadow.outcome);
+    found.outcomes.push_back(outcome);
 }
 
-double heightOver(const ConvexHull& hull, const Drape& shadow) {
-    double top = -infinite, bottom = infinite;
-    for (const glm::dvec3& vertex : hull.vertices) top = std::max(top, vertex.z);
-    for (const glm::dvec3& corner : shadow) bottom = std::min(bottom, corner.z);
-    return top - bottom;
+void clear(PackedShadows& found) {
+    found.corners.clear();
+    found.indices.clear();
+    found.cornerEnds.clear();
+    found.indexEnds.clear();
+    found.outcomes.clear();
+    found.highest = 0.0;
 }
 
 /// The light's way in plan a unit of height.
@@ -81,17 +95,24 @@ std::size_t PackedShadows::bytes() const {
 void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
                    double error, const glm::dvec3& origin, PackedShadows& found) {
     found.origin = origin;
-    found.corners.clear();
-    found.indices.clear();
-    found.cornerEnds.clear();
-    found.indexEnds.clear();
-    found.outcomes.clear();
-    found.highest = 0.0;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        const ConvexPart part = parts.part(i);
-        const TerrainShadow shadow = terrainShadow(ground, part, light, method, error);
-        add(found, shadow);
-        found.highest = std::max(found.highest, heightOver(part.hull, shadow.triangles));
+    clear(found);
+    if (isLightBelow(ground, light)) {
+        for (std::size_t i = 0; i < parts.size(); ++i) addEnds(found, TerrainOutcome::lightBelow);
+        return;
+    }
+    const TerrainAsk asked{ground, light, method, error};
+    FanBatch& batch = threadsBatch();
+    batch.begin(ground, light);
+    Drape drape;
+    for (std::size_t first = 0; first < parts.size(); first += together) {
+        findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            drape.clear();
+            const TerrainOutcome outcome = settled(batch, i, asked, parts, first + i, drape);
+            if (outcome == TerrainOutcome::fan) addFan(found, batch, i);
+            if (!drape.empty()) addDrape(found, batch.entry(i), drape);
+            addEnds(found, outcome);
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/HullFan.h>
 #include <gnomon/Plane.h>
-#include <gnomon/TerrainShadow.h>
+#include <gnomon/TerrainSteps.h>
 
 #include <glm/geometric.hpp>
 
@@ -18,33 +17,9 @@ constexpr double mostOff = 0.05;
 constexpr double inGround = 1e-6; // of a part's size: what single precision leaves of a height, and some more
 constexpr double grazing = 0.8;   // of the light's tangent: above it a small height moves an edge by five times as much
 
-/// Tangent of the light's least elevation as seen from where the shadow falls.
-///
-/// It is the same all along a ray, and all points from which it is at least so much are convex: so it is least at a
-/// corner of the hull.
-double leastTangent(const ConvexHull& hull, const glm::dvec4& light) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const glm::dvec3& vertex : hull.vertices) {
-        const glm::dvec3 towards = glm::dvec3(light) - light.w * vertex;
-        least = std::min(least, towards.z / std::hypot(towards.x, towards.y));
-    }
-    return least;
-}
-
 bool isBelow(const Ground& ground, const glm::dvec3& point, double margin = 0.0) {
     const auto height = ground.height(point.x, point.y);
     return height && point.z <= *height + margin;
-}
-
-bool isLightBelow(const Ground& ground, const glm::dvec4& light) {
-    if (light.w == 0.0) return !(light.z > 0.0);
-    return isBelow(ground, glm::dvec3(light) / light.w);
-}
-
-double sizeOf(const ConvexHull& hull) {
-    double size = 0.0;
-    for (const glm::dvec3& vertex : hull.vertices) size = std::max(size, glm::length(vertex - hull.vertices.front()));
-    return size;
 }
 
 /// Whether a triangle of the ground is under the part's upper side by more than `margin` somewhere.
@@ -54,28 +29,27 @@ bool reachesUnder(const glm::dvec3* triangle, const ConvexShadow& beneath, doubl
                        [&](const glm::dvec4& plane) { return distance(plane, middle) > margin; });
 }
 
-/// Whether the ground is over all of the part, or in it as a rug is.
-bool isBuried(const Ground& ground, const ConvexHull& hull) {
-    const double margin = inGround * sizeOf(hull);
-    const auto below = [&](const glm::dvec3& vertex) { return isBelow(ground, vertex, margin); };
-    if (!std::all_of(hull.vertices.begin(), hull.vertices.end(), below)) return false;
-    const auto beneath = convexShadow(hull, {0.0, 0.0, 1.0, 0.0});
-    if (!beneath) return true;
-    const Drape under = drape(ground, *beneath, 0.0);
-    for (std::size_t i = 0; i + 2 < under.size(); i += 3)
-        if (reachesUnder(&under[i], *beneath, margin)) return false;
-    return true;
+/// What lies straight below a part.
+ConvexShadow beneath(const Ground& ground, const PackedParts& parts, std::size_t part) {
+    FanBatch batch;
+    batch.begin(ground, {0.0, 0.0, 1.0, 0.0});
+    if (!batch.add(parts, part)) return {};
+    batch.findEdges();
+    return batch.shadow(0);
 }
 
-/// Why there is no shadow, nullopt if there is one. @param isThere  whether convexShadow() gives one.
-std::optional<TerrainOutcome> obstacle(const Ground& ground, const ConvexPart& part, const glm::dvec4& light,
-                                       bool isThere) {
-    if (isLightBelow(ground, light)) return TerrainOutcome::lightBelow;
-    if (isTurnedAway(part, light)) return TerrainOutcome::turnedAway;
-    if (!isThere)
-        return light.w > 0.0 && part.hull.faces.size() > 2 ? TerrainOutcome::lightInside : TerrainOutcome::edgeOn;
-    if (isBuried(ground, part.hull)) return TerrainOutcome::buried;
-    return std::nullopt;
+/// Whether the ground is over all of the part, or in it as a rug is.
+bool isBuried(const Ground& ground, const PackedParts& parts, std::size_t part, const FanBatch::Entry& entry) {
+    const double margin = inGround * entry.size;
+    if (entry.isOut || !isBelow(ground, entry.anchor + entry.top, margin)) return false;
+    if (!isBelow(ground, entry.anchor, margin)) return false;
+    for (unsigned i = 0; i + 1 < parts.topology(part).corners; ++i)
+        if (!isBelow(ground, entry.anchor + glm::dvec3(parts.others(part)[i]), margin)) return false;
+    const ConvexShadow below = beneath(ground, parts, part);
+    const Drape under = below.planes.empty() ? Drape() : drape(ground, below, 0.0);
+    for (std::size_t i = 0; i + 2 < under.size(); i += 3)
+        if (reachesUnder(&under[i], below, margin)) return false;
+    return true;
 }
 
 } // namespace
@@ -108,24 +82,53 @@ const char* sentence(TerrainOutcome outcome) {
     return "No shadow: it meets no ground.";
 }
 
+bool isLightBelow(const Ground& ground, const glm::dvec4& light) {
+    if (light.w == 0.0) return !(light.z > 0.0);
+    return isBelow(ground, glm::dvec3(light) / light.w);
+}
+
+void findTogether(FanBatch& batch, const TerrainAsk& asked, const PackedParts& parts, std::size_t first,
+                  std::size_t end) {
+    batch.clear();
+    for (std::size_t part = first; part < end; ++part) batch.add(parts, part);
+    batch.findEdges();
+    if (asked.method == TerrainMethod::hull) batch.findFans();
+}
+
+TerrainOutcome settled(const FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts,
+                       std::size_t part, Drape& drape) {
+    const FanBatch::Entry& entry = batch.entry(i);
+    TerrainOutcome outcome = entry.outcome;
+    if (outcome == TerrainOutcome::lightInside) drape = gnomon::drape(asked.ground, {}, asked.error);
+    if (outcome != TerrainOutcome::fan && outcome != TerrainOutcome::noFan) return outcome;
+    if (isBuried(asked.ground, parts, part, entry)) return TerrainOutcome::buried;
+    if (asked.method == TerrainMethod::drape) outcome = TerrainOutcome::draped;
+    if (outcome == TerrainOutcome::fan && entry.off() <= mostOff) return outcome;
+    const ConvexShadow shadow = batch.shadow(i);
+    const double slope = asked.ground.steepest(shadow.planes);
+    if (outcome == TerrainOutcome::fan)
+        outcome = slope >= grazing * entry.tangent ? TerrainOutcome::steep : TerrainOutcome::rough;
+    drape = gnomon::drape(asked.ground, shadow, heightError(asked.error, entry.tangent, slope));
+    return drape.empty() ? TerrainOutcome::noGround : outcome;
+}
+
+FanBatch& threadsBatch() {
+    thread_local FanBatch batch;
+    return batch;
+}
+
 TerrainShadow terrainShadow(const Ground& ground, const ConvexPart& part, const glm::dvec4& light, TerrainMethod method,
                             double error) {
-    const auto shadow = convexShadow(part.hull, light);
-    if (const auto reason = obstacle(ground, part, light, shadow.has_value())) {
-        if (*reason == TerrainOutcome::lightInside) return {drape(ground, {}, error), *reason};
-        return {{}, *reason};
-    }
-    TerrainOutcome outcome = TerrainOutcome::draped;
-    if (method == TerrainMethod::hull) {
-        auto fan = hullFan(ground, *shadow, light);
-        if (fan && fan->off <= mostOff) return {std::move(fan->triangles), TerrainOutcome::fan};
-        outcome = fan ? TerrainOutcome::rough : TerrainOutcome::noFan;
-    }
-    const double tangent = leastTangent(part.hull, light), slope = ground.steepest(shadow->planes);
-    if (outcome == TerrainOutcome::rough && slope >= grazing * tangent) outcome = TerrainOutcome::steep;
-    Drape triangles = drape(ground, *shadow, heightError(error, tangent, slope));
-    if (triangles.empty()) outcome = TerrainOutcome::noGround;
-    return {std::move(triangles), outcome};
+    if (isLightBelow(ground, light)) return {{}, TerrainOutcome::lightBelow};
+    const TerrainAsk asked{ground, light, method, error};
+    const PackedParts parts({part});
+    FanBatch& batch = threadsBatch();
+    batch.begin(ground, light);
+    findTogether(batch, asked, parts, 0, 1);
+    TerrainShadow shadow;
+    shadow.outcome = settled(batch, 0, asked, parts, 0, shadow.triangles);
+    if (shadow.outcome == TerrainOutcome::fan) shadow.triangles = batch.triangles(0);
+    return shadow;
 }
 
 } // namespace gnomon

@@ -29,8 +29,7 @@ double hills(double x, double y) {
 double level(double, double) { return 3.0; }
 
 std::optional<Drape> fanOf(const Ground& ground, const House& house, const glm::dvec3& sun) {
-    const auto shadow = gnomon::convexShadow(*gnomon::convexHull(house.corners()), glm::dvec4(sun, 0.0));
-    const auto fan = gnomon::hullFan(ground, *shadow, glm::dvec4(sun, 0.0));
+    const auto fan = gnomon::hullFan(ground, *gnomon::convexHull(house.corners()), glm::dvec4(sun, 0.0));
     return fan ? std::optional(fan->triangles) : std::nullopt;
 }
 
@@ -95,7 +94,7 @@ TEST(HullFan, KnowsHowMuchOfWhatIsSeenIsWrong) {
         const double height = *ground.height(middle.x, middle.y);
         const test::Prism hall = test::boxAt(middle, {20.0, 15.0}, i, height - 40.0, height + 8.0);
         const glm::dvec4 sun(sunAt(137.5 * i, 60.0), 0.0);
-        const auto fan = gnomon::hullFan(ground, *gnomon::convexShadow(hall.parts()[0].hull, sun), sun);
+        const auto fan = gnomon::hullFan(ground, hall.parts()[0].hull, sun);
         ASSERT_TRUE(fan);
         const test::Contestant given{"fan", [&](const auto&, const auto&, const auto&) { return fan->triangles; }};
         off += fan->off;
@@ -113,7 +112,7 @@ TEST(HullFan, OfATankInALowSunTakesTwelveTrianglesAndHardlyLosesAnything) {
         for (const double elevation : {10.0, 60.0}) {
             if (tank.kind != "tank") continue;
             const glm::dvec4 sun(sunAt(30.0 * elevation, elevation), 0.0);
-            const auto fan = gnomon::hullFan(ground, *gnomon::convexShadow(tank.parts()[0].hull, sun), sun);
+            const auto fan = gnomon::hullFan(ground, tank.parts()[0].hull, sun);
             ASSERT_TRUE(fan);
             EXPECT_LE(fan->triangles.size(), elevation < 20.0 && tank.roof > 15.0 ? 36u : 60u);
             const test::Contestant given{"fan", [&](const auto&, const auto&, const auto&) { return fan->triangles; }};

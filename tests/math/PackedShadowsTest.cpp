@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Shadows of many parts at once, against those of the parts one by one; and how far they move.
+#include "GroundTriangles.h"
 #include "Houses.h"
 
 #include <gnomon/PackedShadows.h>
+#include <gnomon/ShadowKernel.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
+#include <thread>
 
 using gnomon::Drape;
 using gnomon::Ground;
@@ -18,6 +22,7 @@ using gnomon::TerrainMethod;
 using gnomon::TerrainOutcome;
 using gnomon::terrainShadow;
 using test::groundOf;
+using test::pitch;
 using test::sunAt;
 
 namespace {
@@ -62,20 +67,114 @@ void expectAsOneByOne(const Ground& ground, const std::vector<gnomon::ConvexPart
     }
 }
 
+/// Mountains on posts far apart, as an elevation model of 3 arc-seconds has them: steeper than a low sun.
+HeightPyramid mountains() {
+    std::vector<float> heights;
+    for (int j = 0; j < 24; ++j)
+        for (int i = 0; i < 24; ++i) heights.push_back(float(4.0 * hills(92.0 * i, 75.0 * j)));
+    return HeightPyramid({24, 24, {0.0, 0.0}, {75.0, 92.0}, heights});
+}
+
+/// Hills with cells cut both ways, some left out, and posts without height.
+HeightPyramid patched() {
+    std::vector<float> heights;
+    std::vector<gnomon::CellCut> cuts;
+    for (int j = 0; j < posts; ++j)
+        for (int i = 0; i < posts; ++i) heights.push_back(float(hills(pitch * i, pitch * j)));
+    for (int i = 0; i < (posts - 1) * (posts - 1); ++i)
+        cuts.push_back(gnomon::CellCut(i % 101 == 0 ? 2 : i * 7 / 3 % 2));
+    for (std::size_t i = 700; i < heights.size(); i += 997) heights[i] = std::nanf("");
+    return HeightPyramid({posts, posts, {0.0, 0.0}, {pitch, pitch}, heights, 0.0, cuts});
+}
+
+const glm::dvec4 lights[] = {sun(77.0, 60.0), sun(200.0, 30.0), sun(310.0, 8.0), {800.0, 800.0, 150.0, 1.0}};
+
+void expectSame(const PackedShadows& a, const PackedShadows& b, const std::string& where) {
+    EXPECT_EQ(a.outcomes, b.outcomes) << where;
+    EXPECT_EQ(a.cornerEnds, b.cornerEnds) << where;
+    EXPECT_EQ(a.indices, b.indices) << where;
+    ASSERT_EQ(a.corners.size(), b.corners.size()) << where;
+    EXPECT_EQ(std::memcmp(a.corners.data(), b.corners.data(), a.corners.size() * sizeof(glm::vec3)), 0) << where;
+}
+
+struct ChosenKernel {
+    explicit ChosenKernel(const std::string& name) { gnomon::chooseShadowKernel(name); }
+    ~ChosenKernel() { gnomon::chooseShadowKernel(gnomon::shadowKernels().back()); }
+};
+
 TEST(PackedShadows, AreThoseOfThePartsOneByOneBitForBit) {
     const HeightPyramid ground = groundOf(hills, posts);
     const auto parts = townOn(ground, 120);
     const PackedParts packed(parts);
-    const glm::dvec4 lights[] = {sun(77.0, 60.0), sun(200.0, 30.0), sun(310.0, 8.0), {800.0, 800.0, 150.0, 1.0}};
     for (const glm::dvec4& light : lights)
         for (const TerrainMethod method : {TerrainMethod::hull, TerrainMethod::drape})
             expectAsOneByOne(ground, parts, found(ground, packed, light, method), light, method);
 }
 
+TEST(PackedShadows, AreTheSameBitForBitWithAndWithoutSimd) {
+    const auto kernels = gnomon::shadowKernels();
+    ASSERT_GE(kernels.size(), 2u) << "one is without SIMD";
+    for (const HeightPyramid& ground : {groundOf(hills, posts), mountains(), patched()}) {
+        const PackedParts packed(townOn(ground, 200));
+        for (const glm::dvec4& light : lights)
+            for (const TerrainMethod method : {TerrainMethod::hull, TerrainMethod::drape}) {
+                const PackedShadows best = found(ground, packed, light, method);
+                for (const std::string& name : kernels) {
+                    const ChosenKernel chosen(name);
+                    EXPECT_EQ(gnomon::shadowKernel().instructions, name);
+                    expectSame(best, found(ground, packed, light, method), name);
+                }
+            }
+    }
+}
+
+TEST(PackedShadows, AreTheSameBitForBitForOneThreadAndForMany) {
+    const HeightPyramid ground = patched();
+    const auto parts = townOn(ground, 400);
+    std::vector<PackedParts> tiles;
+    for (std::size_t i = 0; i < parts.size(); i += 50)
+        tiles.emplace_back(std::vector(parts.begin() + long(i), parts.begin() + long(std::min(i + 50, parts.size()))));
+    for (const glm::dvec4& light : lights) {
+        std::vector<PackedShadows> one;
+        for (const PackedParts& tile : tiles) one.push_back(found(ground, tile, light));
+        std::vector<std::vector<PackedShadows>> many(4, std::vector<PackedShadows>(tiles.size()));
+        std::vector<std::thread> threads;
+        for (std::size_t t = 0; t < many.size(); ++t)
+            threads.emplace_back([&, t] {
+                for (std::size_t i = 0; i < tiles.size(); ++i) {
+                    const std::size_t tile = (i + 2 * t) % tiles.size(); // each another at one time
+                    many[t][tile] = found(ground, tiles[tile], light);
+                }
+            });
+        for (std::thread& thread : threads) thread.join();
+        for (const auto& of : many)
+            for (std::size_t i = 0; i < tiles.size(); ++i) expectSame(one[i], of[i], "tile " + std::to_string(i));
+    }
+}
+
+/// Without the gentle ground's short cut, on triangles: other ways to the same places.
+TEST(PackedShadows, OnAGridAreThoseOnItsTriangles) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    const gnomon::TriangleGround loose = test::LooseTriangles(test::trianglesOf(ground.field())).ground();
+    const PackedParts packed(townOn(ground, 60));
+    for (const glm::dvec4& light : lights) {
+        const PackedShadows grid = found(ground, packed, light), triangles = found(loose, packed, light);
+        ASSERT_EQ(grid.outcomes, triangles.outcomes);
+        for (std::size_t i = 0; i < grid.size(); ++i) {
+            if (!grid[i].isFan()) continue;
+            ASSERT_EQ(grid[i].cornerCount, triangles[i].cornerCount) << i;
+            for (std::size_t k = 0; k < grid[i].cornerCount; ++k)
+                EXPECT_LT(glm::length(grid[i].corners[k] - triangles[i].corners[k]), 1e-3f) << "floats of 1000 m: 6e-5";
+        }
+    }
+}
+
 TEST(PackedShadows, OfPartsAddedMovedAndRemovedAreThoseOfWhatIsThere) {
     const HeightPyramid ground = groundOf(hills, posts);
     auto parts = townOn(ground, 40);
-    PackedParts packed({parts.begin(), parts.begin() + 20});
+    PackedParts packed({parts.begin(), parts.begin() + 10});
+    const PackedParts others({parts.begin() + 10, parts.begin() + 20});
+    for (std::size_t i = 0; i < others.size(); ++i) packed.add(others, i);
     for (std::size_t i = 20; i < parts.size(); ++i) packed.add(parts[i]);
     std::swap(parts[3], parts[17]); // of another shape
     packed.replace(3, parts[3]);
