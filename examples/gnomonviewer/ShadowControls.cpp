@@ -14,12 +14,19 @@ const char* onOff(bool on) { return on ? "on" : "OFF"; }
 
 std::string whole(double number) { return std::to_string(std::lround(number)); }
 
+/// The same moment by day, in the night the next minute of sunshine; within the polar night the same time of the next day.
+double nextDaylight(const SunClock& clock, double day) {
+    constexpr int minutes = 24 * 60;
+    for (int i = 0; i < minutes && !(clock.at(day).elevation > 0.0); ++i) day += 1.0 / minutes;
+    return day;
+}
+
 /// 0 to 360.
 double compass(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
 
 } // namespace
 
-ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : _setup(setup) {
+ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : _setup(setup), _sun(options.sun) {
     const std::string given = options.shadows.empty() ? "none" : options.shadows.front().technique;
     for (const std::string& name : shadowTechniques()) {
         if (name == given) _chosen = _choices.size();
@@ -57,6 +64,15 @@ void ShadowControls::raiseLight(double degrees) {
     _setup.lights->move(_moved, _setup.bounds.center());
 }
 
+void ShadowControls::runSun(double seconds) {
+    const auto given = _setup.lights->given(_setup.bounds.center());
+    if (!_sun || !given) return;
+    _sun->day = nextDaylight(_sun->clock, _sun->day + seconds / 86400.0);
+    const SunPosition now = _sun->clock.at(_sun->day);
+    _moved = {compass(now.azimuth - given->azimuth), std::max(now.elevation, 0.0) - given->elevation};
+    _setup.lights->move(_moved, _setup.bounds.center());
+}
+
 void ShadowControls::toggle(bool PlanarCures::*cure) {
     _cures.*cure = !(_cures.*cure);
     applyCures();
@@ -86,8 +102,8 @@ std::vector<std::string> ShadowControls::describe() const {
 std::string ShadowControls::describeLight() const {
     const auto given = _setup.lights->given(_setup.bounds.center());
     if (!given) return "the scene's own, which stays";
-    return "azimuth " + whole(compass(given->azimuth + _moved.azimuth)) + ", elevation " +
-           whole(given->elevation + _moved.elevation) + " degrees";
+    return (_sun ? momentOf(_sun->day) + ", " : "") + "azimuth " + whole(compass(given->azimuth + _moved.azimuth)) +
+           ", elevation " + whole(given->elevation + _moved.elevation) + " degrees";
 }
 
 std::string ShadowControls::describeCures() const {

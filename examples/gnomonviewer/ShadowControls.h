@@ -21,6 +21,8 @@ public:
     void turnLight(double degrees);
     /// Degrees; stops overhead and underfoot.
     void raiseLight(double degrees);
+    /// Lets time go on over --sun's place; nights of up to a day are passed over. Seconds.
+    void runSun(double seconds);
     void toggle(bool PlanarCures::*cure);
 
     /// How things stand, a line each, and why shadows are missing.
@@ -35,6 +37,7 @@ private:
     std::string describeCures() const;
 
     SceneSetup& _setup;
+    std::optional<SunMoment> _sun; ///< now.
     std::vector<Specs> _choices;
     std::size_t _chosen = 0;
     std::string _refusal; ///< why the chosen technique does not suit the scene.

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "ViewerOptions.h"
+#include "RunningSun.h"
 #include "SceneWindow.h"
 #include "ShadowKeys.h"
+
+#include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
 
 Options viewerOptions(ViewerOptions& into) {
     Options table = viewOptions(into.view);
+    table.push_back(sunSpeedOption(into.sunSpeed));
     table.push_back({"--help", "", "print this", "", [&into](const std::string&) { into.help = true; }});
     return table;
 }
@@ -21,6 +25,8 @@ ViewerOptions readViewerOptions(osg::ArgumentParser& arguments) {
     if (options.help) return options;
     readFiles(arguments, options.view);
     requireConsistent(options.view);
+    if (options.sunSpeed > 0.0 && (!options.view.sun || options.view.lights.size() != 1))
+        throw std::invalid_argument("--sun-speed needs --sun, once, and no --light beside it.");
     return options;
 }
 

@@ -7,6 +7,7 @@ namespace gnomon::examples {
 /// What gnomonviewer's command line asks for.
 struct ViewerOptions {
     ViewOptions view;
+    double sunSpeed = 0.0; ///< 1 is the clock's.
     bool help = false;
 };
 

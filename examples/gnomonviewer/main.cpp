@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // gnomonviewer: scene files with shadows in a window, as osgviewer shows them without.
+#include "RunningSun.h"
 #include "SceneFile.h"
 #include "SceneWindow.h"
 #include "ShadowKeys.h"
@@ -11,18 +12,23 @@ namespace {
 
 using namespace gnomon::examples;
 
-int show(const ViewOptions& options) {
+int show(const ViewerOptions& asked) {
+    const ViewOptions& options = asked.view;
     SceneSetup setup = setUpScene(options, *readScene(options.files, "gnomonviewer"));
     ShadowControls controls(options, setup);
     const osg::ref_ptr<Hud> hud = new Hud([&] { return controls.describe(); });
     const osg::ref_ptr<osgGA::GUIEventHandler> keys = new KeyHandler<ShadowControls>(shadowKeys(), controls, *hud);
+    const osg::ref_ptr<RunningSun> sun =
+        new RunningSun(asked.sunSpeed, [&](double seconds) { controls.runSun(seconds); });
     const WindowNames names = {"gnomonviewer", "shows scene files with shadows.", "gnomonshot"};
-    return SceneWindow(names, options, setup, *hud, *keys).run();
+    SceneWindow window(names, options, setup, *hud, *keys);
+    if (asked.sunSpeed > 0.0) window.add(*sun);
+    return window.run();
 }
 
 int run(osg::ArgumentParser& arguments) {
     const ViewerOptions options = readViewerOptions(arguments);
-    if (!options.help) return show(options.view);
+    if (!options.help) return show(options);
     std::cout << viewerHelp();
     return 0;
 }

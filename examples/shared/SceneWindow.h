@@ -25,6 +25,8 @@ public:
     SceneWindow(const WindowNames& names, const ViewOptions& options, SceneSetup& setup, Hud& hud,
                 osgGA::GUIEventHandler& keys);
 
+    /// Asked after the keys.
+    void add(osgGA::GUIEventHandler& handler) { _viewer.addEventHandler(&handler); }
     /// Until the user ends it. @return the program's exit status.
     int run() { return _viewer.run(); }
 

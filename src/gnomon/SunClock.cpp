@@ -17,6 +17,7 @@
 namespace gnomon {
 namespace {
 
+constexpr double secondsADay = 86400.0;
 constexpr double pressure = 1010.0, temperature = 10.0; // mbar and degrees Celsius, as almanacs have it
 constexpr double lowest = -1.0; // degrees: what is lower is not seen, and the formula has a pole there
 
@@ -58,6 +59,15 @@ std::optional<double> julianDay(const std::string& moment) {
                                  &date.hours, &date.minutes, &date.seconds, &zone, &end);
     if (read != 7 || zone != 'Z' || std::size_t(end) != moment.size() || !isThere(date)) return std::nullopt;
     return ln_get_julian_day(&date);
+}
+
+std::string momentOf(double julianDay) {
+    ln_date date;
+    ln_get_date(julianDay + 0.5 / secondsADay, &date); // to the nearest second, whatever is carried
+    char text[32];
+    std::snprintf(text, sizeof text, "%04d-%02d-%02dT%02d:%02d:%02dZ", date.years, date.months, date.days, date.hours,
+                  date.minutes, static_cast<int>(date.seconds));
+    return text;
 }
 
 SunClock::SunClock(double latitude, double longitude) : _latitude(latitude), _longitude(longitude) {

@@ -15,6 +15,9 @@ struct SunPosition {
 /// The Julian day, UTC, of "2026-06-21T15:00:00Z"; nullopt if there is no such moment. Seconds may have decimals.
 std::optional<double> julianDay(const std::string& moment);
 
+/// The other way, to the second: "2026-06-21T15:00:00Z".
+std::string momentOf(double julianDay);
+
 /// Where the sun is seen from one place on earth, at any time.
 ///
 ///     const gnomon::SunClock clock(36.6, -84.3);

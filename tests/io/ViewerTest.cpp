@@ -97,16 +97,16 @@ class Viewer : public testing::Test {
 protected:
     /// Starts the viewer and hides its text.
     void start(const std::vector<std::string>& options = {"--shadow", "planar"}) {
-        std::vector<std::string> command = {
-            GNOMONVIEWER, GNOMON_DATA "/lab8.osgt", "--light", "2,-1.5,2.5,1", "--eye", "-1,-3.6,2.2",
-            "--center",   "-0.15,0.1,0.1",          "--size",  "480x360"};
+        std::vector<std::string> command = {GNOMONVIEWER, GNOMON_DATA "/lab8.osgt", "--eye",  "-1,-3.6,2.2",
+                                            "--center",   "-0.15,0.1,0.1",          "--size", "480x360"};
+        command.insert(command.end(), light.begin(), light.end());
         command.insert(command.end(), options.begin(), options.end());
         program = std::make_unique<ChildProcess>(command, folder.path(),
                                                  std::vector<std::string>{"DISPLAY=" + desktop.name()});
         desktop.useWindow("gnomonviewer");
-        withText = desktop.pictureWhere("the scene and the text are drawn", [](const Screenshot& p) {
-            return p.width == width && p.at(0, 0) == background && hasText(p);
-        });
+        withText = desktop.pictureWhere(
+            "the scene and the text are drawn",
+            [](const Screenshot& p) { return p.width == width && p.at(0, 0) == background && hasText(p); }, still);
         first = pressed("g");
     }
 
@@ -116,7 +116,8 @@ protected:
         for (int i = 0; i < times; ++i) {
             const Screenshot before = now;
             desktop.press(key);
-            now = desktop.pictureWhere(key + " has changed it", [&](const Screenshot& p) { return p != before; });
+            now = desktop.pictureWhere(
+                key + " has changed it", [&](const Screenshot& p) { return p != before; }, still);
         }
         return now;
     }
@@ -147,6 +148,8 @@ protected:
     }
 
     TemporaryFolder folder;
+    std::vector<std::string> light = {"--light", "2,-1.5,2.5,1"};
+    bool still = true; ///< whether pictures are when no key is pressed.
     Desktop desktop{folder.path()};
     std::unique_ptr<ChildProcess> program;
     Screenshot withText, first; ///< first: with shadow, without text.
@@ -205,6 +208,27 @@ TEST_F(Viewer, JKUDMoveTheLightAndItsShadow) {
     pressed("d", 2);
     pressed("j", 2);
     expectAfter("j", first);
+}
+
+/// Over the equator, seen from the south, shadows go from left to right each day: their middle is left of the sphere's at
+/// 8 h, right of the cube's left side at 16 h. In them there is the scene's ambient light alone, a fifth of the ground's
+/// three quarters.
+TEST_F(Viewer, ASunThatRunsCastsToTheWestThenToTheEastAndOnTheNextMorningToTheWest) {
+    light = {"--sun", "2026-03-20T08:00:00Z,0,0"};
+    still = false;
+    start({"--shadow", "planar", "--sun-speed", "8000"});
+    const auto middle = [](const Screenshot& p) {
+        double sum = 0.0, count = 0.0;
+        for (int y = 0; y < p.height; ++y)
+            for (int x = 0; x < p.width; ++x)
+                if (p.at(x, y) == 0x262626u) sum += x, ++count;
+        return count > 0.0 ? sum / count : width / 2.0;
+    };
+    const auto isWest = [&](const Screenshot& p) { return middle(p) < 203.0; };
+    EXPECT_NO_THROW(desktop.pictureWhere("a first morning", isWest, still)); // a busy machine may have missed the first
+    EXPECT_NO_THROW(desktop.pictureWhere(
+        "evening", [&](const Screenshot& p) { return middle(p) > 280.0; }, still));
+    EXPECT_NO_THROW(desktop.pictureWhere("morning", isWest, still));
 }
 
 TEST_F(Viewer, XShowsDoubleDarkeningOfTheGround) {
@@ -378,6 +402,8 @@ TEST(ViewerInput, SaysInOneSentenceWhatItCannotDo) {
     expectRefused({GNOMON_DATA "/lab8.osgt", "--shadow", "moon"}, "not a shadow technique");
     expectRefused({GNOMON_DATA "/lab8.osgt", "--size", "0x5"}, "allowed: WIDTHxHEIGHT");
     expectRefused({GNOMON_DATA "/lab8.osgt", "--out", "x.png"}, "no option --out");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--sun-speed", "60"}, "--sun-speed needs --sun");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--sun-speed", "-1"}, "allowed: a number from 0 to 100000.");
     expectRefused({GNOMON_DATA "/lab8.osgt", "--shadow", "planar", "--receiver", "sea"}, "no node is named \"sea\"");
 }
 

@@ -69,6 +69,12 @@ TEST(JulianDay, IsTheAlmanacs) {
     EXPECT_EQ(dayOf("2024-02-29T00:00:00Z") + 1.0, dayOf("2024-03-01T00:00:00Z"));
 }
 
+TEST(JulianDay, IsToldAsTheMomentThatItWas) {
+    for (const char* moment : {"2026-06-21T15:00:00Z", "2024-02-29T23:59:59Z", "1999-12-31T00:00:01Z"})
+        EXPECT_EQ(gnomon::momentOf(dayOf(moment)), moment);
+    EXPECT_EQ(gnomon::momentOf(dayOf("2023-12-31T23:59:59.8Z")), "2024-01-01T00:00:00Z");
+}
+
 TEST(JulianDay, IsNoneForAMomentThatIsNone) {
     for (const char* text :
          {"", "noon", "2026-02-29T00:00:00Z", "2026-13-01T00:00:00Z", "2026-06-21T24:00:00Z", "2026-06-21T15:60:00Z",
