@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
@@ -10,6 +11,10 @@
 namespace gnomon {
 
 using GroundTriangle = std::array<glm::dvec3, 3>; ///< counter-clockwise from above.
+
+struct GroundRange {
+    double low, high, steepest; ///< tangent of the slope.
+};
 
 /// What shadows fall on: triangles, z up, of which no two lie over one another in plan. Where there is none is a hole.
 ///
@@ -29,6 +34,9 @@ public:
                        const std::function<void(const GroundTriangle&)>& take) const = 0;
     /// Tangent of the steepest slope where the ground may be on the inner side of all planes; 0 if it is nowhere.
     virtual double steepest(const std::vector<glm::dvec4>& planes) const = 0;
+    /// No point of the ground over a rectangle in plan is lower, higher or steeper; nullopt if there is no ground. Quick: others
+    /// about may be taken for it.
+    virtual std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const = 0;
 };
 
 } // namespace gnomon

@@ -172,6 +172,25 @@ double HeightPyramid::steepest(const std::vector<glm::dvec4>& planes) const {
     return most;
 }
 
+std::optional<GroundRange> HeightPyramid::range(const glm::dvec2& low, const glm::dvec2& high) const {
+    const glm::dvec2 from = glm::floor(_field.cellOf(low.x, low.y)), to = glm::floor(_field.cellOf(high.x, high.y));
+    const glm::dvec2 last(_levels[0].columns - 1, _levels[0].rows - 1);
+    if (!(from.x <= last.x && from.y <= last.y && to.x >= 0.0 && to.y >= 0.0)) return std::nullopt;
+    const glm::ivec2 first(glm::max(from, glm::dvec2(0.0))), end(glm::min(to, last));
+    int level = 0;
+    while ((end.x >> level) - (first.x >> level) > 3 || (end.y >> level) - (first.y >> level) > 3) ++level;
+    std::optional<GroundRange> range;
+    for (int y = first.y >> level; y <= end.y >> level; ++y)
+        for (int x = first.x >> level; x <= end.x >> level; ++x) {
+            const Node& block = node({level, x, y});
+            if (block.isHole()) continue;
+            if (!range) range = {double(block.low), double(block.high), 0.0};
+            range = {std::min(range->low, double(block.low)), std::max(range->high, double(block.high)),
+                     std::max(range->steepest, block.steepest())};
+        }
+    return range;
+}
+
 double HeightPyramid::steepest() const {
     const Node& all = _levels.back().nodes.front();
     return all.hasHoles() ? std::numeric_limits<double>::infinity() : all.steepest();

@@ -21,6 +21,7 @@ public:
     void cover(const std::vector<glm::dvec4>& planes, double error,
                const std::function<void(const GroundTriangle&)>& take) const override;
     double steepest(const std::vector<glm::dvec4>& planes) const override;
+    std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;
     double steepest() const; ///< of all, infinite if there are holes.
     /// Whether all of the cells that a rectangle touches are less steep than `tangent`, and none of them is a hole.
     /// @param low,high  as HeightField::cellOf() has places; what is beside the grid is left out.

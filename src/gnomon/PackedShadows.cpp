@@ -51,21 +51,20 @@ void clear(PackedShadows& found) {
     found.cornerEnds.clear();
     found.indexEnds.clear();
     found.outcomes.clear();
-    found.highest = 0.0;
+    found.highest = found.steepest = 0.0;
 }
 
 /// The light's way in plan a unit of height.
 glm::dvec2 shiftOf(const glm::dvec4& sun) { return glm::dvec2(sun) / sun.z; }
 
-/// Of the ground where the shadows are, and `margin` around them.
-double steepestAbout(const Ground& ground, const PackedShadows& shadows, double margin) {
-    glm::dvec3 low(infinite), high(-infinite);
-    for (const glm::vec3& corner : shadows.corners)
-        low = glm::min(low, glm::dvec3(corner)), high = glm::max(high, glm::dvec3(corner));
-    low += shadows.origin - margin;
-    high += shadows.origin + margin;
-    return ground.steepest(
-        {{1.0, 0.0, 0.0, -low.x}, {-1.0, 0.0, 0.0, high.x}, {0.0, 1.0, 0.0, -low.y}, {0.0, -1.0, 0.0, high.y}});
+double steepestAbout(const Ground& ground, const PackedShadows& shadows) {
+    if (shadows.corners.empty()) return infinite;
+    glm::vec3 low = shadows.corners[0], high = low;
+    for (const glm::vec3& corner : shadows.corners) low = glm::min(low, corner), high = glm::max(high, corner);
+    const glm::dvec2 origin(shadows.origin), margin(shadows.highest);
+    const auto range =
+        ground.range(origin + glm::dvec2(glm::vec2(low)) - margin, origin + glm::dvec2(glm::vec2(high)) + margin);
+    return range ? range->steepest : infinite;
 }
 
 } // namespace
@@ -84,6 +83,13 @@ Drape PackedShadows::triangles(std::size_t part) const {
     for (std::size_t i = 2; i < shadow.cornerCount && shadow.isFan(); ++i)
         result.insert(result.end(), {at(0), at(i - 1), at(i)});
     return result;
+}
+
+std::size_t PackedShadows::triangleCount() const {
+    std::size_t count = indices.size() / 3;
+    for (std::size_t i = 0; i < size(); ++i)
+        if ((*this)[i].isFan()) count += (*this)[i].cornerCount - 2;
+    return count;
 }
 
 std::size_t PackedShadows::bytes() const {
@@ -114,17 +120,17 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
             addEnds(found, outcome);
         }
     }
+    found.steepest = steepestAbout(ground, found);
 }
 
 /// Where a shadow moves from p to p', z' - z <= g |p' - p|, and p' - p = (z' - z) d - h (d - d').
-double movedAtMost(const Ground& ground, const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now) {
+double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now) {
     if (then == now) return 0.0;
     if (then.w != 0.0 || now.w != 0.0 || !(then.z > 0.0) || !(now.z > 0.0)) return infinite;
-    if (shadows.corners.empty()) return infinite;
     const double straight = shadows.highest * glm::length(shiftOf(now) - shiftOf(then));
-    const double slope = steepestAbout(ground, shadows, 2.0 * straight);
-    const double share = 1.0 - slope * glm::length(shiftOf(now));
-    return share >= 0.5 ? straight / share : infinite; // else it may be beyond the margin
+    const double share = 1.0 - shadows.steepest * glm::length(shiftOf(now));
+    const double moved = straight / share;
+    return share > 0.0 && moved <= shadows.highest ? moved : infinite; // else beyond where the ground is known
 }
 
 } // namespace gnomon

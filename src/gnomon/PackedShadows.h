@@ -24,13 +24,15 @@ struct PackedShadows {
     std::vector<unsigned> indices;
     std::vector<unsigned> cornerEnds, indexEnds; ///< one past each part's own.
     std::vector<TerrainOutcome> outcomes;
-    double highest = 0.0; ///< over its shadow of any corner of the parts whose shadow is an outline's.
+    /// What movedAtMost() needs: of any point of the parts over its shadow; of the ground where shadows are and as far around.
+    double highest = 0.0, steepest = 0.0;
 
     std::size_t size() const { return outcomes.size(); }
     PackedShadow operator[](std::size_t part) const;
     /// As terrainShadow() gives them, but for the rounding to single precision about the origin.
     Drape triangles(std::size_t part) const;
-    std::size_t bytes() const; ///< that are kept.
+    std::size_t triangleCount() const; ///< of all.
+    std::size_t bytes() const;         ///< that are kept.
 };
 
 /// terrainShadow() of each part, bit for bit. Memory that `found` has is used again.
@@ -49,6 +51,6 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
 /// A point at height h over its shadow moves it by h |d - d'| / (1 - g |d|), where d is the light's way in plan a unit of
 /// height, d' what it was and g the tangent of the ground's steepest slope about.
 /// Source: the tip's speed h / sin^2 e of a shadow on level ground, e the sun's elevation.
-double movedAtMost(const Ground& ground, const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now);
+double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now);
 
 } // namespace gnomon

@@ -157,4 +157,20 @@ double TriangleGround::steepest(const std::vector<glm::dvec4>& planes) const {
     return most;
 }
 
+std::optional<GroundRange> TriangleGround::range(const glm::dvec2& low, const glm::dvec2& high) const {
+    std::optional<GroundRange> range;
+    const auto touches = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        return to.x >= low.x && from.x <= high.x && to.y >= low.y && from.y <= high.y;
+    };
+    descend(
+        all(), [&](const Node& node) { return touches(node.box.low, node.box.high); },
+        [&](const GroundTriangle& t) {
+            const glm::dvec3 from = glm::min(t[0], glm::min(t[1], t[2])), to = glm::max(t[0], glm::max(t[1], t[2]));
+            if (!touches(from, to)) return;
+            if (!range) range = {from.z, to.z, 0.0};
+            range = {std::min(range->low, from.z), std::max(range->high, to.z), std::max(range->steepest, slopeOf(t))};
+        });
+    return range;
+}
+
 } // namespace gnomon

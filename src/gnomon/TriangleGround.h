@@ -29,6 +29,7 @@ public:
                const std::function<void(const GroundTriangle&)>& take) const override;
     /// Infinite where a vertical triangle may be within.
     double steepest(const std::vector<glm::dvec4>& planes) const override;
+    std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;
 
 private:
     using Corners = std::array<unsigned, 3>;

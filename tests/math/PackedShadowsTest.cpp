@@ -208,10 +208,10 @@ TEST(PackedShadows, MoveByNoMoreThanTheBoundAndOnLevelGroundByIt) {
     const PackedParts packed(tower.parts());
     const glm::dvec4 then = sun(100.0, 30.0), now = sun(100.0, 31.0);
     const double expected = 40.0 / std::tan(30.0 * test::degree) - 40.0 / std::tan(31.0 * test::degree);
-    EXPECT_NEAR(movedAtMost(level, found(level, packed, then), then, now), expected, 1e-4);
-    EXPECT_EQ(movedAtMost(level, found(level, packed, then), then, then), 0.0);
-    EXPECT_GT(movedAtMost(level, found(level, packed, then), then, sun(100.0, -1.0)), 1e9);
-    EXPECT_GT(movedAtMost(level, found(level, packed, then), {0, 0, 99, 1}, {0, 1, 99, 1}), 1e9) << "a lamp";
+    EXPECT_NEAR(movedAtMost(found(level, packed, then), then, now), expected, 1e-4);
+    EXPECT_EQ(movedAtMost(found(level, packed, then), then, then), 0.0);
+    EXPECT_GT(movedAtMost(found(level, packed, then), then, sun(100.0, -1.0)), 1e9);
+    EXPECT_GT(movedAtMost(found(level, packed, then), {0, 0, 99, 1}, {0, 1, 99, 1}), 1e9) << "a lamp";
 }
 
 /// Where a roof's corner falls, by rays alone.
@@ -221,7 +221,7 @@ TEST(PackedShadows, OnHillsNoCornerMovesByMoreThanTheBound) {
     double most = 0.0;
     for (const auto& part : parts) {
         const glm::dvec4 then = sun(77.0, 40.0), now = sun(79.0, 41.5);
-        const double bound = movedAtMost(ground, found(ground, PackedParts({part}), then), then, now);
+        const double bound = movedAtMost(found(ground, PackedParts({part}), then), then, now);
         for (const glm::dvec3& vertex : part.hull.vertices) {
             const auto a = ground.hit(vertex, -glm::dvec3(then)), b = ground.hit(vertex, -glm::dvec3(now));
             if (!a || !b || vertex.z <= *ground.height(vertex.x, vertex.y)) continue;

@@ -121,6 +121,45 @@ TEST(ShadowPrisms, OfOneLayerDoNotOverlapAndAllAreThere) {
     }
 }
 
+/// Of a tile: each holds the ground under its shadow, but for what the margin gives no more.
+TEST(ShadowPrisms, OfATileHoldTheGroundUnderTheirShadowsAndNoMoreThanTheirMargin) {
+    const gnomon::HeightPyramid ground =
+        test::groundOf([](double x, double y) { return 20.0 * std::sin(x * 0.02) + 10.0 * std::cos(y * 0.03); }, 60);
+    const glm::dvec4 sun(test::sunAt(140.0, 25.0), 0.0);
+    gnomon::PackedParts parts;
+    for (const test::Prism& prism : test::prismsOn(ground, glm::dvec2(150.0), glm::dvec2(450.0), 80, 3))
+        for (const gnomon::ConvexPart& part : prism.parts()) parts.add(part);
+    ShadowPrisms prisms;
+    for (const auto method : {gnomon::TerrainMethod::drape, gnomon::TerrainMethod::hull}) { // into used memory
+        gnomon::PackedShadows shadows;
+        packedShadows(ground, parts, sun, method, 0.0, {300.0, 300.0, 0.0}, shadows);
+        shadowPrisms(ground, shadows, 0.05, prisms);
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> place(160.0, 440.0);
+        unsigned most = 0;
+        for (int i = 0; i < 400; ++i) {
+            const glm::dvec2 p(place(random), place(random));
+            const double z = *ground.height(p.x, p.y);
+            unsigned expected = 0, found = 0, far = 0;
+            for (std::size_t k = 0; k < shadows.size(); ++k) expected += covers(shadows.triangles(k), p);
+            for (const auto& layer : prisms.layers) {
+                const int here = static_cast<int>(std::lround(winding(prisms, layer, glm::dvec3(p - 300.0, z))));
+                EXPECT_LE(here, 1);
+                found += unsigned(here);
+                far += unsigned(std::lround(winding(prisms, layer, glm::dvec3(p - 300.0, z + 70.0))));
+            }
+            EXPECT_EQ(found, expected) << p.x << " " << p.y;
+            EXPECT_EQ(far, 0u) << "70 m over the ground";
+            most = std::max(most, found);
+        }
+        EXPECT_GE(prisms.mostOver, most);
+        EXPECT_LE(prisms.mostOver, 30u) << "of 100 parts";
+        EXPECT_GT(most, 1u);
+    }
+    shadowPrisms(ground, {}, 0.05, prisms);
+    EXPECT_TRUE(prisms.layers.empty() && prisms.vertices.empty());
+}
+
 TEST(ShadowPrisms, OfNothingAreNone) {
     EXPECT_TRUE(shadowPrisms({}, {}).layers.empty());
     EXPECT_TRUE(shadowPrisms({{}, {}}, {}).layers.empty());

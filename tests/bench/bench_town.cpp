@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Shadows of a town's houses on hills with posts every 10 m: houses a second, a step of the sun, memory, and what the
+// machine could do at most. Each run's result is checked before it is timed.
+#include <support/TerrainTrial.h>
+
+#include <gnomon/HeightPyramid.h>
+#include <gnomon/PackedShadows.h>
+#include <gnomon/ShadowKernel.h>
+
+#include <benchmark/benchmark.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <random>
+
+using gnomon::PackedParts;
+using gnomon::PackedShadows;
+using gnomon::TerrainMethod;
+
+namespace {
+
+constexpr int posts = 513, tileSize = 256;
+constexpr double pitch = 10.0;
+
+/// Slopes of 8.5 degrees, root mean square, as in hills of the Appalachians.
+double hills(double x, double y) {
+    return 40.0 * std::sin(x * 0.0031) * std::cos(y * 0.0037) + 10.0 * std::sin(x * 0.011 + 1.0) * std::cos(y * 0.013) +
+           2.0 * std::sin(x * 0.04 + y * 0.03);
+}
+
+const gnomon::HeightPyramid& ground() {
+    static const auto pyramid = [] {
+        std::vector<float> heights;
+        for (int j = 0; j < posts; ++j)
+            for (int i = 0; i < posts; ++i) heights.push_back(float(hills(i * pitch, j * pitch)));
+        return std::make_unique<gnomon::HeightPyramid>(
+            gnomon::HeightField(posts, posts, glm::dvec2(0.0), glm::dvec2(pitch), heights));
+    }();
+    return *pyramid;
+}
+
+struct Tile {
+    PackedParts parts;
+    PackedShadows shadows;
+    glm::dvec3 origin{0.0};
+};
+
+struct Town {
+    std::vector<Tile> tiles;
+    std::vector<test::Prism> prisms; ///< of the first tile.
+    std::size_t size = 0;
+};
+
+test::Prism houseNear(const glm::dvec2& middle, std::mt19937& random) {
+    std::uniform_real_distribution<double> unit;
+    const glm::dvec2 half(4.0 + 8.0 * unit(random), 4.0 + 8.0 * unit(random));
+    const double turn = 180.0 * test::degree * unit(random), above = 5.0 + 25.0 * unit(random);
+    const double height = *ground().height(middle.x, middle.y);
+    return test::boxAt(middle, half, turn, height - 40.0, height + above);
+}
+
+/// Turned houses of 8 to 24 m, 5 to 30 m high, in tiles in rows over the ground, at least 300 m from its borders; the more,
+/// the nearer to one another.
+Town townOf(std::size_t count) {
+    Town town;
+    std::mt19937 random(5);
+    const std::size_t tiles = (count + tileSize - 1) / tileSize,
+                      side = std::size_t(std::ceil(std::sqrt(double(tiles))));
+    const double width = ((posts - 1) * pitch - 600.0) / double(side);
+    std::uniform_real_distribution<double> within(0.0, width);
+    for (std::size_t t = 0; t < tiles; ++t) {
+        const glm::dvec2 corner(300.0 + width * double(t % side), 300.0 + width * double(t / side));
+        Tile tile;
+        tile.origin = glm::dvec3(corner, *ground().height(corner.x, corner.y));
+        for (std::size_t i = 0; i < tileSize && town.size < count; ++i, ++town.size) {
+            const test::Prism house = houseNear(corner + glm::dvec2(within(random), within(random)), random);
+            if (t == 0) town.prisms.push_back(house);
+            tile.parts.add(house.parts().front());
+        }
+        town.tiles.push_back(std::move(tile));
+    }
+    return town;
+}
+
+Town& town(std::size_t count) {
+    static std::map<std::size_t, Town> towns;
+    const auto known = towns.find(count);
+    return known != towns.end() ? known->second : towns.emplace(count, townOf(count)).first->second;
+}
+
+glm::dvec4 sunAt(double azimuth) { return {test::sunAt(azimuth, 30.0), 0.0}; }
+
+void step(Town& town, const glm::dvec4& sun, TerrainMethod method) {
+    tbb::parallel_for(std::size_t{0}, town.tiles.size(), [&](std::size_t i) {
+        Tile& tile = town.tiles[i];
+        packedShadows(ground(), tile.parts, sun, method, 0.1, tile.origin, tile.shadows);
+    });
+}
+
+/// Intersection over union with rays at the houses of the first tile.
+double quality(const Town& town, const glm::dvec4& sun) {
+    std::vector<test::Share> shares;
+    for (std::size_t i = 0; i < town.prisms.size(); i += 8) {
+        const test::Method found = [&](const auto&, const auto&, const auto&) {
+            return town.tiles[0].shadows.triangles(i);
+        };
+        shares.push_back(judge(ground(), town.prisms[i], sun, {{"found", found}}, 1000)[0]);
+    }
+    return tally(shares).pooled;
+}
+
+struct Chosen {
+    Chosen(int threads, bool simd) : control(tbb::global_control::max_allowed_parallelism, std::size_t(threads)) {
+        gnomon::chooseShadowKernel(simd ? gnomon::shadowKernels().back() : gnomon::shadowKernels().front());
+    }
+    ~Chosen() { gnomon::chooseShadowKernel(gnomon::shadowKernels().back()); }
+    tbb::global_control control;
+};
+
+/// A step of the sun over all of the town. Arguments: houses, threads, with SIMD or without.
+void sunStep(benchmark::State& state, TerrainMethod method) {
+    Town& houses = town(std::size_t(state.range(0)));
+    const Chosen chosen(int(state.range(1)), state.range(2) != 0);
+    double azimuth = 100.0;
+    step(houses, sunAt(azimuth), method);
+    if (!(quality(houses, sunAt(azimuth)) > 0.99)) return state.SkipWithError("the shadows are wrong.");
+    std::size_t triangles = 0, kept = 0, parts = 0;
+    for (auto _ : state) step(houses, sunAt(azimuth += 0.25), method);
+    for (const Tile& tile : houses.tiles) {
+        parts += tile.parts.bytes();
+        kept += tile.shadows.bytes();
+        triangles += tile.shadows.triangleCount();
+    }
+    const auto count = double(houses.size);
+    state.counters["houses/s"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
+    state.counters["triangles"] = double(triangles) / count;
+    state.counters["B/house"] = double(parts + kept) / count;
+    state.counters["B/triangle"] = double(kept) / double(triangles);
+}
+
+void sizes(benchmark::internal::Benchmark* run) {
+    run->ArgNames({"houses", "threads", "simd"})->Unit(benchmark::kMillisecond)->UseRealTime();
+    for (const int count : {1000, 10000, 100000, 1000000}) run->Args({count, 2, 1});
+    run->Args({100000, 1, 1})->Args({100000, 2, 0})->Args({100000, 1, 0});
+}
+
+BENCHMARK_CAPTURE(sunStep, hull, TerrainMethod::hull)->Apply(sizes);
+BENCHMARK_CAPTURE(sunStep, drape, TerrainMethod::drape)->Apply(sizes);
+
+} // namespace
+
+BENCHMARK_MAIN();
