@@ -29,6 +29,9 @@ void addChartOptions(Options& table, ChartOptions& into) {
                      "", [&into](Text) { into.quick = true; }});
     table.push_back({"--frames", "N", "frames timed, of each motion, 2 to 10000", "60, with --quick 12",
                      [&into](Text t) { into.frames = readWhole(t, leastFrames, mostFrames); }});
+    table.push_back({"--resume", "",
+                     "go on with an interrupted run: scenes that FOLDER holds whole are not measured again", "",
+                     [&into](Text) { into.resume = true; }});
     table.push_back({"--again", "FOLDER",
                      "measure nothing: draw the figures and index.html in FOLDER again from its results.json", "",
                      [&into](Text t) { into.again = t; }});

@@ -16,6 +16,7 @@ struct ChartOptions {
     std::string out = "chart-out";   ///< folder.
     std::string again;               ///< folder of results to be drawn again; empty: measure.
     std::optional<int> frames;       ///< 60, or 12 with quick.
+    bool resume = false;             ///< go on with what is in `out`.
     bool quick = false, list = false, help = false;
 
     int frameCount() const { return frames.value_or(quick ? 12 : 60); }

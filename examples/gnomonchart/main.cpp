@@ -3,6 +3,7 @@
 #include "ChartOptions.h"
 #include "ChartReport.h"
 #include "ChartRun.h"
+#include "Kept.h"
 #include "OutputFile.h"
 #include "ResultsFile.h"
 #include "SceneFile.h"
@@ -92,6 +93,7 @@ int chart(const ChartOptions& options, const std::string& command) {
     ChartPlan plan = planOf(options);
     plan.made.insert(plan.made.begin(), {"command", command});
     requireFolder(options.out);
+    if (options.resume) plan.kept = keptOf(loadResults((fs::path(options.out) / "results.json").string()), plan);
     std::signal(SIGINT, askToStop);
     std::signal(SIGTERM, askToStop);
     const ChartResults results = runChart(

@@ -2,6 +2,7 @@
 // gnomonchart as users run it, small and short.
 #include "../io/Program.h"
 #include "ResultsFile.h"
+#include "ResultsJson.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,7 +14,9 @@ namespace {
 using namespace gnomon::testing;
 using gnomon::examples::ChartPoint;
 using gnomon::examples::ChartResults;
+using gnomon::examples::jsonOf;
 using gnomon::examples::loadResults;
+using gnomon::examples::saveResults;
 using nlohmann::json;
 using Arguments = std::vector<std::string>;
 namespace fs = std::filesystem;
@@ -102,6 +105,34 @@ TEST_F(Gnomonchart, AnInterruptedRunKeepsWhatItHas) {
     EXPECT_TRUE(r.points[0].errors);
     EXPECT_EQ(readFile(folder.path() / "o" / "results.csv").find("lab8"),
               readFile(folder.path() / "o" / "results.csv").find('\n') + 1);
+}
+
+/// What was measured keeps its times to the bit, which no second measurement would have; what was not is measured.
+TEST_F(Gnomonchart, AResumedRunMeasuresOnlyWhatIsLeft) {
+    const Arguments lab = {"--scene", "lab8-45", "--scene",  "lab8-10", "--technique", "Standard", "--quick",
+                           "--size",  "160x120", "--frames", "3",       "--out",       "o"};
+    ASSERT_EQ(run(lab).status, 0);
+    ChartResults whole = results("o"), cut = whole;
+    cut.complete = false;
+    cut.points.pop_back();
+    saveResults(cut, (folder.path() / "o").string());
+    Arguments more = lab;
+    more.push_back("--resume");
+    ASSERT_EQ(run(more).status, 0);
+    const json before = json::parse(jsonOf(whole).dump()), after = json::parse(jsonOf(results("o")).dump());
+    ASSERT_EQ(after["points"].size(), 4u);
+    EXPECT_EQ(after["complete"], true);
+    for (int i : {0, 1}) EXPECT_EQ(after["points"][i], before["points"][i]) << "lab8-45";
+    for (int i : {2, 3}) {
+        EXPECT_EQ(after["points"][i]["errors"], before["points"][i]["errors"]) << "lab8-10";
+        EXPECT_NE(after["points"][i]["cost"], before["points"][i]["cost"]) << "lab8-10";
+    }
+    more[10] = "4"; // --frames
+    EXPECT_EQ(refusal(more),
+              "--resume: the results there were not made with frames 4; leave --resume out to measure all "
+              "anew.\n");
+    more[12] = "elsewhere"; // --out
+    EXPECT_NE(refusal(more).find("there is no file"), std::string::npos);
 }
 
 TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {

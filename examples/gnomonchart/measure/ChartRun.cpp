@@ -53,6 +53,15 @@ double sweepWork(const Peer& peer, SweepWidth width) {
     return sweptValueWork * (width == SweepWidth::WIDE ? double(values) : std::min(double(values), 6.0));
 }
 
+std::vector<std::string> scenesLeft(const ChartPlan& plan) {
+    const auto& kept = plan.kept.scenes;
+    std::vector<std::string> left;
+    for (const std::string& name : plan.scenes)
+        if (std::none_of(kept.begin(), kept.end(), [&](const auto& scene) { return scene.name == name; }))
+            left.push_back(name);
+    return left;
+}
+
 class Run {
 public:
     Run(const ChartPlan& plan, const std::function<void(const ChartResults&)>& save, const std::function<bool()>& stops)
@@ -60,7 +69,9 @@ public:
           _save(save),
           _stops(stops),
           _entries(entries(plan.technique)),
-          _progress(sceneWork() * double(plan.scenes.size())) {
+          _scenes(scenesLeft(plan)),
+          _progress(sceneWork() * double(_scenes.size())) {
+        _results = plan.kept;
         _results.made = plan.made;
         for (auto& fact : machineFacts()) _results.made.push_back(fact);
         _results.made.emplace_back("load at the start", machineLoad());
@@ -68,13 +79,13 @@ public:
 
     ChartResults run() {
         _save(_results);
-        for (std::size_t i = 0; i < _plan.scenes.size() && !_stops(); ++i) {
+        for (std::size_t i = 0; i < _scenes.size() && !_stops(); ++i) {
             if (!hasTime(i)) {
                 leaveOut(i);
                 break;
             }
             _done = sceneWork() * double(i);
-            tryScene(_plan.scenes[i]);
+            tryScene(_scenes[i]);
         }
         _results.made.emplace_back("load at the end", machineLoad());
         _results.complete = !_stops();
@@ -101,7 +112,7 @@ private:
 
     void leaveOut(std::size_t from) {
         std::string names;
-        for (std::size_t i = from; i < _plan.scenes.size(); ++i) names += (i > from ? ", " : "") + _plan.scenes[i];
+        for (std::size_t i = from; i < _scenes.size(); ++i) names += (i > from ? ", " : "") + _scenes[i];
         _results.made.emplace_back("left out for lack of time", names);
     }
 
@@ -260,6 +271,7 @@ private:
     const std::function<void(const ChartResults&)>& _save;
     const std::function<bool()>& _stops;
     const std::vector<Entry> _entries;
+    const std::vector<std::string> _scenes; ///< still to be measured.
     Complaints _complaints;
     Progress _progress;
     double _done = 0.0;

@@ -22,6 +22,7 @@ struct ChartPlan {
     SweepWidth sweep = SweepWidth::WIDE;
     bool disc = true;                                      ///< measure against the sun's disc too.
     std::vector<std::pair<std::string, std::string>> made; ///< what is known of the run already.
+    ChartResults kept; ///< scenes and points that are measured already, of `scenes`; see keptOf().
 };
 
 /// Measures every technique in every scene: errors of still pictures, flicker, then costs, all in one race. A contender
