@@ -28,6 +28,7 @@ CasterMesh::CasterMesh(const VertexTraverser& casters)
       sources(casters.getSources()) {
     // Attached here, for the first geometry to use the array would do so, perhaps in one of several threads.
     vertices->setVertexBufferObject(new osg::VertexBufferObject);
+    triangles->setElementBufferObject(new osg::ElementBufferObject);
     if (bounds.valid()) origin = bounds.center();
     constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
     std::vector<unsigned> places(casters.getVertices().size(), nowhere);
@@ -39,6 +40,15 @@ CasterMesh::CasterMesh(const VertexTraverser& casters)
         }
         triangles->push_back(places[index]);
     }
+}
+
+osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElementsUInt* triangles) {
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setUseDisplayList(false);
+    geometry->setUseVertexBufferObjects(true);
+    geometry->setVertexArray(mesh.vertices.get());
+    geometry->addPrimitiveSet(triangles);
+    return geometry;
 }
 
 } // namespace gnomon

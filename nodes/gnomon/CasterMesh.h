@@ -5,6 +5,7 @@
 
 #include <osg/Array>
 #include <osg/BoundingBox>
+#include <osg/Geometry>
 #include <osg/PrimitiveSet>
 #include <osg/Referenced>
 #include <osg/ref_ptr>
@@ -37,5 +38,8 @@ public:
 protected:
     ~CasterMesh() override = default;
 };
+
+/// Triangles of the mesh's vertices as a drawable, positions only, in the mesh's own buffers.
+osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElementsUInt* triangles);
 
 } // namespace gnomon

@@ -28,15 +28,6 @@ double thicknessOf(const CasterMesh& mesh) {
     return 4.0 * (reach * std::numeric_limits<float>::epsilon() / 2.0 + mesh.rounding);
 }
 
-osg::ref_ptr<osg::Geometry> geometryOf(const CasterMesh& mesh, osg::DrawElementsUInt* triangles) {
-    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
-    geometry->setUseDisplayList(false);
-    geometry->setUseVertexBufferObjects(true);
-    geometry->setVertexArray(mesh.vertices.get());
-    geometry->addPrimitiveSet(triangles);
-    return geometry;
-}
-
 /// osg::Vec3 and glm::vec3 are three floats each.
 ClosedParts solidsOf(const CasterMesh& mesh) {
     static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
@@ -75,7 +66,7 @@ PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlan
     for (const bool crossing : {false, true})
         for (const bool solid : {false, true})
             if (!lists[crossing][solid]->empty())
-                parts.push_back({geometryOf(mesh, lists[crossing][solid]), crossing, solid});
+                parts.push_back({casterGeometry(mesh, lists[crossing][solid]), crossing, solid});
     crosses = !parts.empty() && parts.back().crossing;
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/FramebufferBindings.h>
 #include <gnomon/ResolvedDepth.h>
 #include <gnomon/ScreenPass.h>
 
 #include <OpenThreads/ScopedLock>
 #include <osg/ContextData>
-#include <osg/FrameBufferObject>
-#include <osg/GLExtensions>
 
 #include <algorithm>
 
@@ -13,32 +12,6 @@ namespace gnomon {
 namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
-
-GLuint binding(GLenum what) {
-    GLint value = 0;
-    glGetIntegerv(what, &value);
-    return static_cast<GLuint>(value);
-}
-
-/// Puts framebuffers and the renderbuffer that are bound back at its end.
-class Bindings {
-public:
-    explicit Bindings(const osg::GLExtensions& extensions) : _extensions(extensions) {}
-    ~Bindings() {
-        _extensions.glBindRenderbuffer(GL_RENDERBUFFER_EXT, _renderbuffer);
-        _extensions.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, _read);
-        _extensions.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, draw);
-    }
-    Bindings(const Bindings&) = delete;
-    Bindings& operator=(const Bindings&) = delete;
-
-    const GLuint draw = binding(GL_FRAMEBUFFER_BINDING_EXT);
-
-private:
-    const osg::GLExtensions& _extensions;
-    const GLuint _read = binding(GL_READ_FRAMEBUFFER_BINDING_EXT);
-    const GLuint _renderbuffer = binding(GL_RENDERBUFFER_BINDING_EXT);
-};
 
 GLint attachedDepth(GLenum what) {
     static void (*const ask)(GLenum, GLenum, GLenum, GLint*) = [] {
@@ -72,14 +45,14 @@ GLenum depthFormat(const osg::GLExtensions& extensions) {
     return static_cast<GLenum>(format);
 }
 
+/// Leaves `to` bound for reading.
 void resolve(const osg::GLExtensions& extensions, GLuint from, GLuint to, GLint x, GLint y, GLsizei width,
-             GLsizei height, float* depths) {
+             GLsizei height) {
     extensions.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, from);
     extensions.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, to);
     extensions.glBlitFramebuffer(x, y, x + width, y + height, x, y, x + width, y + height, GL_DEPTH_BUFFER_BIT,
                                  GL_NEAREST);
     extensions.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, to);
-    glReadPixels(x, y, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths);
 }
 
 /// One pixel of several samples; bound for drawing while it lives.
@@ -116,13 +89,13 @@ private:
 } // namespace
 
 std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, GLint x, GLint y, GLsizei width, GLsizei height,
-                                              float* depths) {
+                                              const std::function<void()>& readOut) {
     const auto& extensions = *state.get<osg::GLExtensions>();
-    const Bindings bound(extensions);
+    const FramebufferBindings bound(extensions);
     const GLenum format = depthFormat(extensions);
     if (!format || !extensions.glBlitFramebuffer || !extensions.glRenderbufferStorageMultisample) return std::nullopt;
     Buffers& own = of(state.getContextID());
-    const auto samples = static_cast<GLint>(binding(GL_SAMPLES));
+    const GLint samples = glInteger(GL_SAMPLES);
     const bool known = own.format == format && own.samples == samples;
     if (!known || own.width < x + width || own.height < y + height) {
         own.format = format;
@@ -132,7 +105,8 @@ std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, GLint x, GLint 
     extensions.glBindFramebuffer(GL_FRAMEBUFFER_EXT, own.framebuffer);
     if (extensions.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) != GL_FRAMEBUFFER_COMPLETE_EXT) return std::nullopt;
     if (!known) own.place = {placeOnSlope(own, state, false), placeOnSlope(own, state, true)};
-    resolve(extensions, bound.draw, own.framebuffer, x, y, width, height, depths);
+    resolve(extensions, bound.draw, own.framebuffer, x, y, width, height);
+    readOut();
     return own.place;
 }
 
@@ -159,8 +133,14 @@ double ResolvedDepth::placeOnSlope(const Buffers& buffers, osg::State& state, bo
     const Pixel pixel(extensions, buffers.format, buffers.samples);
     drawQuad(state, 0.0, upwards ? 0.0 : 1.0, upwards ? 1.0 : 0.0);
     float place = 0.5f;
-    resolve(extensions, pixel.framebuffer, buffers.framebuffer, 0, 0, 1, 1, &place);
+    resolve(extensions, pixel.framebuffer, buffers.framebuffer, 0, 0, 1, 1);
+    glReadPixels(0, 0, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &place);
     return static_cast<double>(place);
+}
+
+bool ResolvedDepth::isNeeded(const osg::State& state) {
+    return state.get<osg::GLExtensions>()->isFrameBufferObjectSupported && glInteger(GL_FRAMEBUFFER_BINDING_EXT) != 0 &&
+           glInteger(GL_SAMPLES) > 0;
 }
 
 void ResolvedDepth::release(const osg::State* state) {

@@ -4,6 +4,7 @@
 #include <osg/GL>
 #include <osg/State>
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <map>
 #include <optional>
@@ -13,6 +14,12 @@ class GLExtensions;
 }
 
 namespace gnomon {
+
+/// Causes for ShadowTechnique::report().
+constexpr const char* noDepth =
+    "finds no depth bits in this framebuffer, from which it takes what is seen: give the camera a depth buffer.";
+constexpr const char* unresolvedDepth =
+    "cannot resolve the depth of this multisampled framebuffer object: attach a renderbuffer for it, not a texture.";
 
 /// Reads depths of multisampled framebuffer objects, which glReadPixels() refuses to: resolved into a framebuffer without
 /// samples first, one a context, kept from frame to frame. Which of a pixel's samples counts is the driver's choice: where
@@ -26,10 +33,14 @@ public:
     ResolvedDepth(const ResolvedDepth&) = delete;
     ResolvedDepth& operator=(const ResolvedDepth&) = delete;
 
-    /// Depths of the framebuffer that is bound for drawing, row by row, in window coordinates; bindings stay as they are.
-    /// The scissor must not cut into the rectangle; no program is bound.
+    /// True where glReadPixels() reads no depths: it reads no samples but a window's, which OpenGL resolves by itself.
+    static bool isNeeded(const osg::State& state);
+
+    /// Calls `readOut` while the depths of the framebuffer that is bound for drawing can be read without samples, in window
+    /// coordinates; bindings stay as they are. The scissor must not cut into the rectangle; no program is bound.
     /// @return where in its pixel each depth was taken, 0 … 1; nothing if OpenGL cannot resolve them.
-    std::optional<glm::dvec2> read(osg::State& state, GLint x, GLint y, GLsizei width, GLsizei height, float* depths);
+    std::optional<glm::dvec2> read(osg::State& state, GLint x, GLint y, GLsizei width, GLsizei height,
+                                   const std::function<void()>& readOut);
 
     /// Lets go of what a context holds, of null of what all of them do; OSG deletes it when it next can.
     void release(const osg::State* state);

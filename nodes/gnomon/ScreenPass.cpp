@@ -10,8 +10,6 @@
 namespace gnomon {
 namespace {
 
-constexpr GLenum depthClamp = 0x864F; // GL_DEPTH_CLAMP: in OpenGL 3.2, not in OSG's headers of 3.6
-
 struct Interval {
     GLint first;
     GLsizei count;
@@ -69,6 +67,16 @@ void leaveDefaults(osg::State& state) {
                   static_cast<GLsizei>(viewport->width()), static_cast<GLsizei>(viewport->height()));
     for (A::Type type : {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::BLENDEQUATION, A::DEPTH, A::COLORMASK})
         state.haveAppliedAttribute(type);
+}
+
+PixelRect pixelsInScissor(const osg::Viewport& viewport) {
+    GLint box[4];
+    glGetIntegerv(GL_SCISSOR_BOX, box);
+    const GLint left = std::max(box[0], static_cast<GLint>(viewport.x()));
+    const GLint low = std::max(box[1], static_cast<GLint>(viewport.y()));
+    const GLint right = std::min(box[0] + box[2], static_cast<GLint>(viewport.x() + viewport.width()));
+    const GLint high = std::min(box[1] + box[3], static_cast<GLint>(viewport.y() + viewport.height()));
+    return {left, low, right - left, high - low};
 }
 
 void addBlended(const osg::State& state, GLenum source, GLenum destination) {

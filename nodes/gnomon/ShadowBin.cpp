@@ -185,6 +185,10 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
         reportNoReceiver(entry, *getStage());
         return;
     }
+    view.stage = getStage();
+    for (const StageLeaf& leaf : leaves)
+        if (view.receivers ? receivers.count(leaf.leaf) > 0 : sameLens(*leaf.leaf->_projection, *entry.projection))
+            view.seen.push_back(leaf.leaf);
     for (const ShadowLight& light : lights) {
         ShadowJob job = jobFor(entry, light);
         job.receivers = receivers;

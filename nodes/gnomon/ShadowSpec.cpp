@@ -74,6 +74,21 @@ bool takeError(ShadowSpec& spec, const std::string& value) {
     return spec.error.has_value();
 }
 
+bool takeSize(ShadowSpec& spec, const std::string& value) {
+    spec.size = numberIn(value, 16, 16384);
+    return spec.size.has_value();
+}
+
+bool takeFilter(ShadowSpec& spec, const std::string& value) {
+    if (value == "nearest")
+        spec.filter = ShadowMapTechnique::NEAREST;
+    else if (value == "bilinear")
+        spec.filter = ShadowMapTechnique::BILINEAR;
+    else if (value == "bicubic")
+        spec.filter = ShadowMapTechnique::BICUBIC;
+    return spec.filter.has_value();
+}
+
 bool takeReceiver(ShadowSpec& spec, const std::string& value) {
     spec.receiver = value;
     return !value.empty();
@@ -98,6 +113,13 @@ osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec&, const NamedNode* nam
 
 osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec&, const NamedNode*) { return new TracedShadowTechnique; }
 
+osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const NamedNode*) {
+    osg::ref_ptr<ShadowMapTechnique> node = new ShadowMapTechnique;
+    if (spec.size) node->setSize(*spec.size);
+    if (spec.filter) node->setFilter(*spec.filter);
+    return node;
+}
+
 template <TerrainShadowGeode::Method method>
 osg::ref_ptr<ShadowTechnique> makeTerrain(const ShadowSpec& spec, const NamedNode*) {
     osg::ref_ptr<TerrainShadowGeode> node = new TerrainShadowGeode;
@@ -110,7 +132,8 @@ const std::vector<Key>& sharedKeys() {
     static const std::vector<Key> keys = {
         {"composite", "relight, blend", "relight", "take exactly the light away, or darken by a factor", takeComposite},
         {"dark", "0 to 1", "0.5", "with composite=blend: factor of the colour in shadow", takeDark},
-        {"receiver", "a node's name", "traced: everything; else: ground", "what the shadow falls on", takeReceiver},
+        {"receiver", "a node's name", "map, traced: everything; else: ground", "what the shadow falls on",
+         takeReceiver},
     };
     return keys;
 }
@@ -118,6 +141,9 @@ const std::vector<Key>& sharedKeys() {
 const std::vector<Technique>& techniques() {
     static const Key error = {"error", "0 to 1e6, scene's unit", "0.1",
                               "how far off a draped edge may be in plan; 0 is exact", takeError};
+    static const Key size = {"size", "16 to 16384, texels", "1024", "side of a light's map", takeSize};
+    static const Key filter = {"filter", "nearest, bilinear, bicubic", "bicubic",
+                               "compare 1, 2 x 2 or 4 x 4 texels of the map", takeFilter};
     static const std::vector<Technique> table = {
         {"none", true, "no shadow", nullptr, true, {}},
         {"planar",
@@ -144,7 +170,12 @@ const std::vector<Technique>& techniques() {
          makeTerrain<TerrainShadowGeode::DRAPE>,
          false,
          {error}},
-        {"map", false, "", nullptr, true, {}},
+        {"map",
+         true,
+         "depth maps of the casters as the lights see them; on everything that is seen",
+         makeMap,
+         true,
+         {size, filter}},
         {"volume", false, "", nullptr, true, {}},
         {"traced",
          true,

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/Export.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowTechnique.h>
 
 #include <optional>
@@ -12,15 +13,17 @@ namespace gnomon {
 
 /// What a specification string says: which technique, and how. The same text selects a technique everywhere.
 ///
-///     none | planar | box | hull | drape | traced    the others that are planned are refused as not built yet
+///     none | planar | box | hull | drape | map | traced    the others that are planned are refused as not built yet
 ///     NAME:key=value,key=value               planar:composite=blend,dark=0.4,receiver=floor
 struct ShadowSpec {
     std::string text;                                      ///< as given.
     std::string technique = "none";                        ///< one of shadowTechniques().
     std::optional<ShadowCasterGroup::Composite> composite; ///< not given: RELIGHT.
     std::optional<float> dark;                             ///< factor of BLEND, 0 … 1; not given: the group's 0.5.
-    std::optional<double> error; ///< of hull and drape: in plan, scene's unit; not given: 0.1.
-    /// Name of the node that receives; empty: traced everything, the others the node named "ground".
+    std::optional<double> error;                      ///< of hull and drape: in plan, scene's unit; not given: 0.1.
+    std::optional<int> size;                          ///< of map: texels on a side; not given: 1024.
+    std::optional<ShadowMapTechnique::Filter> filter; ///< of map; not given: BICUBIC.
+    /// Name of the node that receives; empty: map and traced everything, the others the node named "ground".
     std::string receiver;
 };
 
@@ -36,7 +39,7 @@ GNOMON_EXPORT std::string shadowSpecHelp(const std::vector<std::string>& names =
 
 /// Adds what `specs` ask for as children of `group`, and sets its composite. The receiver is looked for under the
 /// group. planar: a plane for each flat part of the receiver, up to eight, the largest first, none under 1 % of the
-/// largest. box, hull, drape: the receiver is the terrain. traced: everything receives, unless a receiver is given.
+/// largest. box, hull, drape: the receiver is the terrain. map, traced: everything receives, unless a receiver is given.
 /// @return the techniques added, in the order of `specs`; none for "none".
 /// @throws std::invalid_argument, one sentence, if the specs' composites differ, the receiver is not there or has
 /// nothing flat.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/DepthShadow.h>
+#include <gnomon/FramebufferBindings.h>
 #include <gnomon/ScreenPass.h>
 #include <gnomon/TracedMark.h>
 
-#include <osg/FrameBufferObject>
-#include <osg/GLExtensions>
 #include <osg/State>
 
 #include <algorithm>
@@ -12,12 +11,6 @@
 
 namespace gnomon {
 namespace {
-
-GLint integer(GLenum what) {
-    GLint value = 0;
-    glGetIntegerv(what, &value);
-    return value;
-}
 
 /// Pixels go to and come from memory as they are, without gaps; put back at its end.
 class PlainPixels {
@@ -45,24 +38,17 @@ public:
     PlainPixels& operator=(const PlainPixels&) = delete;
 };
 
-/// What is neither cut away by the scissor, which stands at the marks' bounds, nor by the viewport.
+/// What the marks' bounds leave, at which the scissor stands.
 DepthPicture partInScissor(const osg::Viewport& viewport) {
-    GLint box[4];
-    glGetIntegerv(GL_SCISSOR_BOX, box);
+    const PixelRect pixels = pixelsInScissor(viewport);
     DepthPicture part;
     part.viewportWidth = static_cast<int>(viewport.width());
     part.viewportHeight = static_cast<int>(viewport.height());
-    part.x = std::max(0, box[0] - static_cast<int>(viewport.x()));
-    part.y = std::max(0, box[1] - static_cast<int>(viewport.y()));
-    part.width = std::min(box[2], part.viewportWidth - part.x);
-    part.height = std::min(box[3], part.viewportHeight - part.y);
+    part.x = pixels.x - static_cast<int>(viewport.x());
+    part.y = pixels.y - static_cast<int>(viewport.y());
+    part.width = pixels.width;
+    part.height = pixels.height;
     return part;
-}
-
-/// glReadPixels reads no samples but a window's, which OpenGL resolves by itself.
-bool isMultisampledObject(const osg::State& state) {
-    return state.get<osg::GLExtensions>()->isFrameBufferObjectSupported && integer(GL_FRAMEBUFFER_BINDING_EXT) != 0 &&
-           integer(GL_SAMPLES) > 0;
 }
 
 /// @return false if this framebuffer's depth cannot be read.
@@ -70,15 +56,18 @@ bool readDepth(osg::State& state, ResolvedDepth& resolved, DepthPicture& part) {
     const osg::Viewport& viewport = *state.getCurrentViewport();
     const GLint x = part.x + static_cast<GLint>(viewport.x()), y = part.y + static_cast<GLint>(viewport.y());
     part.depths.resize(std::size_t(part.width) * std::size_t(part.height));
-    part.step = std::ldexp(1.0, -std::min(integer(GL_DEPTH_BITS), 24));
-    part.subpixel = std::ldexp(1.0, -std::clamp(integer(GL_SUBPIXEL_BITS), 4, 16));
-    if (isMultisampledObject(state)) {
-        const auto place = resolved.read(state, x, y, part.width, part.height, part.depths.data());
+    part.step = std::ldexp(1.0, -std::min(glInteger(GL_DEPTH_BITS), 24));
+    part.subpixel = std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
+    const auto read = [&] {
+        glReadPixels(x, y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, part.depths.data());
+    };
+    if (ResolvedDepth::isNeeded(state)) {
+        const auto place = resolved.read(state, x, y, part.width, part.height, read);
         part.place = place.value_or(part.place);
         return place.has_value();
     }
-    part.offPlace = integer(GL_SAMPLES) > 0 ? 0.5 : 0.0; // whichever sample a window's depth is
-    glReadPixels(x, y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, part.depths.data());
+    part.offPlace = glInteger(GL_SAMPLES) > 0 ? 0.5 : 0.0; // whichever sample a window's depth is
+    read();
     return true;
 }
 
@@ -113,18 +102,14 @@ void drawRuns(osg::State& state, const DepthPicture& part, const std::vector<std
 
 std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     osg::State& state = *renderInfo.getState();
-    if (integer(GL_DEPTH_BITS) == 0)
-        return "finds no depth bits in this framebuffer, from which it takes what is seen: give the camera a depth "
-               "buffer.";
+    if (glInteger(GL_DEPTH_BITS) == 0) return noDepth;
     const PlainPixels plain(state);
     DepthPicture part = partInScissor(*state.getCurrentViewport());
     if (part.width <= 0 || part.height <= 0) return "";
-    if (!readDepth(state, *resolved, part))
-        return "cannot resolve the depth of this multisampled framebuffer object: attach a renderbuffer for it, not a "
-               "texture.";
+    if (!readDepth(state, *resolved, part)) return unresolvedDepth;
     pass.stencilEqual(bit, 0, bit);
     const std::vector<std::uint8_t> bits = depthShadow(*scene, part, clipFromScene, light);
-    (integer(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, bits);
+    (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, bits);
     return "";
 }
 

@@ -6,27 +6,10 @@
 #include <gnomon/UsableLight.h>
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <osg/io_utils>
 
-#include <optional>
-#include <sstream>
 #include <stdexcept>
 
 namespace gnomon {
-namespace {
-
-/// The casters' box and everything behind it as the light sees it: each corner, and where its shadow goes.
-std::optional<ScreenRect> boundsOf(const CasterMesh& mesh, const TracedMark& mark) {
-    std::vector<glm::dvec4> points;
-    for (unsigned i = 0; i < 8; ++i) {
-        const glm::dvec3 corner = toGlm(mesh.bounds.corner(i) - mesh.origin), light(mark.light);
-        points.push_back(mark.clipFromScene * glm::dvec4(corner, 1.0));
-        points.push_back(mark.clipFromScene * glm::dvec4(mark.light.w == 0.0 ? -light : corner - light, 0.0));
-    }
-    return screenBounds(points);
-}
-
-} // namespace
 
 TracedShadowTechnique::TracedShadowTechnique() : _casters(new TracedCasters), _resolved(new ResolvedDepth) {}
 
@@ -39,16 +22,14 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
                                                                   const CasterMesh& mesh) const {
     const auto usable = usableLight(light.inGroup, mesh.origin);
     if (!usable) {
-        std::ostringstream cause;
-        cause << "cannot use the light at (" << light.inGroup << "), which is nowhere: set the light's position.";
-        report(view.frameNumber, cause.str());
+        report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
     osg::ref_ptr<TracedMark> mark = new TracedMark;
     mark->light = *usable;
     mark->resolved = _resolved;
     mark->clipFromScene = glm::translate(toGlm(view.eyeFromGroup * view.projection), toGlm(mesh.origin));
-    const auto bounds = boundsOf(mesh, *mark);
+    const auto bounds = shadowBounds(mesh, mark->clipFromScene, *usable);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
     try {

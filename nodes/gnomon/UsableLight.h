@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CasterMesh.h>
 #include <gnomon/Convert.h>
+#include <gnomon/ScreenBounds.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <osg/io_utils>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace gnomon {
 
@@ -16,6 +22,26 @@ inline std::optional<glm::dvec4> usableLight(const osg::Vec4d& inGroup, const os
     if (!(std::isfinite(given.w) && std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z)))
         return std::nullopt;
     return light;
+}
+
+/// The cause for ShadowTechnique::report() where there is none.
+inline std::string notUsable(const osg::Vec4d& light) {
+    std::ostringstream cause;
+    cause << "cannot use the light at (" << light << "), which is nowhere: set the light's position.";
+    return cause.str();
+}
+
+/// The casters' box and everything behind it as a usable light sees it: each corner, and where its shadow goes. Nullopt
+/// if nothing of it is in sight.
+inline std::optional<ScreenRect> shadowBounds(const CasterMesh& mesh, const glm::dmat4& clipFromScene,
+                                              const glm::dvec4& light) {
+    std::vector<glm::dvec4> points;
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner = toGlm(mesh.bounds.corner(i) - mesh.origin), at(light);
+        points.push_back(clipFromScene * glm::dvec4(corner, 1.0));
+        points.push_back(clipFromScene * glm::dvec4(light.w == 0.0 ? -at : corner - at, 0.0));
+    }
+    return screenBounds(points);
 }
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #include <osgUtil/RenderLeaf>
 
 #include <set>
+#include <vector>
 
 namespace gnomon {
 
@@ -17,8 +18,10 @@ struct ViewFrame {
     const ShadowCasterGroup* group = nullptr;
     float dark = 0.5f; ///< of the ShadowCasterGroup.
     unsigned frameNumber = 0;
+    const void* stage = nullptr; ///< whose view it is: tells views apart.
     const std::set<const osgUtil::RenderLeaf*>* receivers =
-        nullptr; ///< leaves of the named receiver; null if none is named.
+        nullptr;                                  ///< leaves of the named receiver; null if none is named.
+    std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
 };
 
 } // namespace gnomon

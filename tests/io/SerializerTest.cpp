@@ -4,6 +4,7 @@
 
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
@@ -226,6 +227,15 @@ TEST_P(SceneFile, DrawsTheSameTracedPictureOnceLoaded) {
     expectSamePictureOnceLoaded(scene);
 }
 
+TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
+    technique->setSize(20); // so that its own size and filter show
+    technique->setFilter(gnomon::ShadowMapTechnique::NEAREST);
+    scene.addShadow(technique);
+    expectSamePictureOnceLoaded(scene);
+}
+
 TEST(SceneFileText, SaysNothingOfDefaults) {
     test::usePluginsOfThisBuild();
     const std::string start = "#Ascii Scene \n#Version 161 \n#Generator OpenSceneGraph 3.6.5 \n\n";
@@ -233,6 +243,8 @@ TEST(SceneFileText, SaysNothingOfDefaults) {
               start + "gnomon::ShadowCasterGroup {\n  UniqueID 1 \n}\n");
     EXPECT_EQ(test::written(*osg::ref_ptr<osg::Node>(new PlanarShadowNode), "osgt"),
               start + "gnomon::PlanarShadowNode {\n  UniqueID 1 \n  CullingActive FALSE \n}\n");
+    EXPECT_EQ(test::written(*osg::ref_ptr<osg::Node>(new gnomon::ShadowMapTechnique), "osgt"),
+              start + "gnomon::ShadowMapTechnique {\n  UniqueID 1 \n  CullingActive FALSE \n}\n");
 }
 
 TEST(SceneFileText, CanBeWrittenByHand) {

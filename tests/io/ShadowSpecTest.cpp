@@ -71,6 +71,20 @@ TEST(ShadowSpec, ANameAloneHasNothingElseSet) {
     EXPECT_EQ(spec.receiver, "");
 }
 
+TEST(ShadowSpec, KeysOfMapAreReadAndSet) {
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
+    const auto added = addShadows(*group, {parseShadowSpec("map"), parseShadowSpec("map:size=2048,filter=nearest")});
+    const auto &plain = dynamic_cast<ShadowMapTechnique&>(*added.at(0)),
+               &asked = dynamic_cast<ShadowMapTechnique&>(*added.at(1));
+    EXPECT_EQ(plain.getSize(), 1024);
+    EXPECT_EQ(plain.getFilter(), ShadowMapTechnique::BICUBIC);
+    EXPECT_FALSE(plain.hasReceiver());
+    EXPECT_EQ(asked.getSize(), 2048);
+    EXPECT_EQ(asked.getFilter(), ShadowMapTechnique::NEAREST);
+    EXPECT_EQ(refusal("map:size=8"), "size=8 cannot be used; allowed: 16 to 16384, texels.");
+    EXPECT_EQ(refusal("map:filter=soft"), "filter=soft cannot be used; allowed: nearest, bilinear, bicubic.");
+}
+
 TEST(ShadowSpec, KeysAreRead) {
     const ShadowSpec spec = parseShadowSpec("planar:composite=blend,dark=0.25,receiver=the floor");
     EXPECT_EQ(spec.composite, ShadowCasterGroup::BLEND);
@@ -80,7 +94,7 @@ TEST(ShadowSpec, KeysAreRead) {
 }
 
 TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
-    const std::string allowed = "allowed: none, planar, box, hull, drape, traced.";
+    const std::string allowed = "allowed: none, planar, box, hull, drape, map, traced.";
     EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique; " + allowed);
     EXPECT_EQ(refusal(""), "\"\" is not a shadow technique; " + allowed);
     EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique; " + allowed);
@@ -89,7 +103,8 @@ TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
 TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
     for (const char* name : {"map", "volume", "auto"})
         EXPECT_EQ(refusal(std::string(name) + ":size=4"),
-                  "\"" + std::string(name) + "\" is not built yet; built: none, planar, box, hull, drape, traced.");
+                  "\"" + std::string(name) +
+                      "\" is not built yet; built: none, planar, box, hull, drape, map, traced.");
 }
 
 TEST(ShadowSpec, HullAndDrapeTakeAnErrorAndAllThreeTheTerrain) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Trial.h"
 
+#include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 
@@ -13,6 +14,11 @@ using gnomon::ShadowCasterGroup;
 using gnomon::TerrainShadowGeode;
 
 By casting = By::Planar;
+
+/// Pixels from an edge to where a picture must be right.
+int edgeReach(const Truth& truth) { return casting == By::Map ? truth.mapEdge : 1; }
+/// True if what faces away from the light is in shadow, as its own.
+bool shadowsWhatFacesAway() { return casting == By::Traced || casting == By::Map; }
 
 ::testing::AssertionResult judged(const Comparison& found) {
     if (found.wrongInside == 0 && found.wrongAtEdge == 0) return ::testing::AssertionSuccess();
@@ -37,7 +43,7 @@ ByTechnique::ByTechnique() { casting = GetParam(); }
 ByTechnique::~ByTechnique() { casting = By::Planar; }
 
 std::ostream& operator<<(std::ostream& out, By technique) {
-    constexpr const char* names[] = {"Planar", "Hull", "Drape", "Traced"};
+    constexpr const char* names[] = {"Planar", "Hull", "Drape", "Traced", "Map"};
     return out << names[static_cast<int>(technique)];
 }
 
@@ -46,6 +52,8 @@ osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver) {
     osg::ref_ptr<gnomon::ShadowTechnique> technique;
     if (casting == By::Traced)
         technique = new gnomon::TracedShadowTechnique;
+    else if (casting == By::Map)
+        technique = new gnomon::ShadowMapTechnique;
     else
         technique = terrainShadow(casting == By::Hull ? TerrainShadowGeode::HULL : TerrainShadowGeode::DRAPE);
     if (receiver) technique->setReceiver({receiver});
@@ -62,7 +70,7 @@ Truth truthOf(const Trial& trial, const osg::Vec4d& lightOfRays) {
     Scene lit = trial.build(), dark = trial.build();
     dark.takeLightAway();
     return {render(lit.root, trial.view), render(dark.root, trial.view),
-            castRays(square(trial.half), trial.casters, lightOfRays, trial.view)};
+            castRays(square(trial.half), trial.casters, lightOfRays, trial.view), trial.mapEdge};
 }
 
 Truth truthOf(const Trial& trial) { return truthOf(trial, trial.light); }
@@ -74,11 +82,11 @@ Picture black(const Picture& sizeOf) {
 }
 
 ::testing::AssertionResult shows(const Picture& actual, const Truth& truth) {
-    return judged(compare(actual, truth.lit, truth.dark, truth.mask));
+    return judged(compare(actual, truth.lit, truth.dark, truth.mask, edgeReach(truth)));
 }
 
 ::testing::AssertionResult showsInBlack(const Picture& actual, const Truth& truth) {
-    return judged(compare(actual, truth.lit, black(truth.lit), truth.mask));
+    return judged(compare(actual, truth.lit, black(truth.lit), truth.mask, edgeReach(truth)));
 }
 
 ::testing::AssertionResult same(const Picture& actual, const Picture& expected) {
@@ -106,7 +114,7 @@ Picture black(const Picture& sizeOf) {
     Camera camera(scene.root, view);
     for (const char* frame : {"first", "second"})
         if (auto relit = same(camera.frame(), lit); !relit) return relit << ", relit, " << frame << " frame";
-    if (casting == By::Traced && turned == Ground::Away)
+    if (shadowsWhatFacesAway() && turned == Ground::Away)
         return ::testing::AssertionSuccess(); // blends what shadows itself
     blendToBlack(scene);
     if (auto blended = same(camera.frame(), lit); !blended) return blended << ", blended";

@@ -61,9 +61,9 @@ Seen see(const Ray& ray, const Mesh& receiver, const std::vector<Mesh>& casters,
 
 int Mask::count(Seen what) const { return static_cast<int>(std::count(pixels.begin(), pixels.end(), what)); }
 
-bool Mask::atEdge(int x, int y) const {
-    for (int v = std::max(0, y - 1); v <= std::min(height - 1, y + 1); ++v)
-        for (int u = std::max(0, x - 1); u <= std::min(width - 1, x + 1); ++u)
+bool Mask::atEdge(int x, int y, int reach) const {
+    for (int v = std::max(0, y - reach); v <= std::min(height - 1, y + reach); ++v)
+        for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u)
             if (at(u, v) != at(x, y)) return true;
     return false;
 }
@@ -82,14 +82,14 @@ Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg:
     return mask;
 }
 
-Comparison compare(const Picture& actual, const Picture& lit, const Picture& dark, const Mask& mask) {
+Comparison compare(const Picture& actual, const Picture& lit, const Picture& dark, const Mask& mask, int reach) {
     Comparison result;
     for (int y = 0; y < mask.height; ++y)
         for (int x = 0; x < mask.width; ++x) {
             const bool inShadow = mask.at(x, y) == Seen::ShadowedReceiver;
             const bool right = actual.at(x, y) == (inShadow ? dark : lit).at(x, y);
             const bool possible = actual.at(x, y) == lit.at(x, y) || actual.at(x, y) == dark.at(x, y);
-            const bool edge = mask.atEdge(x, y);
+            const bool edge = mask.atEdge(x, y, reach);
             result.edges += edge;
             result.wrongInside += !right && !edge;
             result.wrongAtEdge += !possible && edge;

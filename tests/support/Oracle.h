@@ -18,8 +18,9 @@ struct Mask {
 
     Seen at(int x, int y) const { return pixels[static_cast<std::size_t>(y * width + x)]; }
     int count(Seen what) const;
-    /// True if one of the eight neighbours says something else: sampling may decide either way there.
-    bool atEdge(int x, int y) const;
+    /// True if a pixel up to `reach` from this one, along either axis, says something else: sampling may decide either way
+    /// there.
+    bool atEdge(int x, int y, int reach = 1) const;
 };
 
 /// Casts a ray a pixel against all triangles and, where it meets the receiver first, one towards the light against the
@@ -33,6 +34,7 @@ struct Comparison {
     int flipped = 0;     ///< pixels at edges where the rasteriser decided otherwise than the ray through the centre.
     int edges = 0;
 };
-Comparison compare(const Picture& actual, const Picture& lit, const Picture& dark, const Mask& mask);
+/// @param reach  see Mask::atEdge().
+Comparison compare(const Picture& actual, const Picture& lit, const Picture& dark, const Mask& mask, int reach = 1);
 
 } // namespace test

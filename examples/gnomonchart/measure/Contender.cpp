@@ -25,6 +25,13 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"error 0.5", "drape:error=0.5", Receives::TERRAIN},
     {"error 0.1", "drape", Receives::TERRAIN},
     {"exact", "drape:error=0", Receives::TERRAIN},
+    {"size 512", "map:size=512", Receives::EVERYTHING},
+    {"size 1024", "map", Receives::EVERYTHING},
+    {"size 2048", "map:size=2048", Receives::EVERYTHING},
+    {"size 4096", "map:size=4096", Receives::EVERYTHING},
+    {"bilinear, size 1024", "map:filter=bilinear", Receives::EVERYTHING},
+    {"blend, size 1024", "map:composite=blend", Receives::EVERYTHING},
+    {"blend, size 2048", "map:composite=blend,size=2048", Receives::EVERYTHING},
     {"relight", "traced", Receives::EVERYTHING},
     {"blend", "traced:composite=blend", Receives::EVERYTHING},
 };

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/DepthMap.h>
+#include <gnomon/FramebufferBindings.h>
+#include <gnomon/MarkProgram.h>
+#include <gnomon/ScreenPass.h>
+
+#include <OpenThreads/ScopedLock>
+#include <osg/ContextData>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+osg::ref_ptr<osg::Texture2D> mapTexture(const glm::ivec2& size, osg::Texture::FilterMode filter) {
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+    texture->setTextureSize(size.x, size.y);
+    texture->setInternalFormat(GL_DEPTH_COMPONENT24);
+    texture->setSourceFormat(GL_DEPTH_COMPONENT);
+    texture->setSourceType(GL_UNSIGNED_INT);
+    texture->setResizeNonPowerOfTwoHint(false);
+    texture->setShadowComparison(true);
+    texture->setShadowCompareFunc(osg::Texture::LEQUAL);
+    for (const auto which : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER}) texture->setFilter(which, filter);
+    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T})
+        texture->setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
+    return texture;
+}
+
+/// OpenGL as a map is drawn under; put back at its end.
+class MapState {
+public:
+    explicit MapState(double slopeOffset) {
+        glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
+                     GL_STENCIL_BUFFER_BIT);
+        for (const GLenum mode : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
+        for (const GLenum mode : {GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)}) glEnable(mode);
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_TRUE);
+        glDepthRange(0.0, 1.0);
+        glClearDepth(1.0);
+        glPolygonOffset(static_cast<GLfloat>(slopeOffset), 0.0f);
+    }
+    ~MapState() { glPopAttrib(); }
+    MapState(const MapState&) = delete;
+    MapState& operator=(const MapState&) = delete;
+};
+
+} // namespace
+
+DepthMap::DepthMap(const glm::ivec2& texels, osg::Texture::FilterMode filter)
+    : size(texels), _texture(mapTexture(texels, filter)) {}
+
+DepthMap::~DepthMap() { release(nullptr); }
+
+std::string DepthMap::show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn) {
+    osg::State& state = *renderInfo.getState();
+    const GLint most = glInteger(GL_MAX_TEXTURE_SIZE);
+    if (std::max(size.x, size.y) > most)
+        return "cannot make a map of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
+               " texels, for this OpenGL's textures end at " + std::to_string(most) + ": set a smaller size.";
+    Target& target = targetOf(state.getContextID());
+    const auto* texture = _texture->getTextureObject(state.getContextID());
+    if (texture && target.shown == &picture && target.texture == texture) return "";
+    const std::string cause = draw(renderInfo, target, picture);
+    if (cause.empty()) drawn += static_cast<unsigned>(picture.tiles.size());
+    return cause;
+}
+
+void DepthMap::bind(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _texture); }
+
+/// @return false if OpenGL cannot draw to it.
+bool DepthMap::bindTarget(osg::State& state, Target& target) const {
+    bind(state, 0); // which makes it
+    const auto& gl = *state.get<osg::GLExtensions>();
+    if (!target.framebuffer) gl.glGenFramebuffers(1, &target.framebuffer);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, target.framebuffer);
+    target.texture = _texture->getTextureObject(state.getContextID());
+    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, GL_TEXTURE_2D, target.texture->id(), 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    return gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
+}
+
+std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture) const {
+    constexpr const char* noTarget =
+        "cannot draw into a texture in this context: it needs OpenGL's framebuffer objects.";
+    osg::State& state = *renderInfo.getState();
+    const auto& gl = *state.get<osg::GLExtensions>();
+    if (!gl.isFrameBufferObjectSupported) return noTarget;
+    state.apply(picture.program.get());
+    if (!hasProgram(state)) return noProgram;
+    const FramebufferBindings bound(gl);
+    if (!bindTarget(state, target)) return noTarget;
+    const MapState mapState(picture.slopeOffset);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    for (const MapPicture::Tile& tile : picture.tiles) {
+        glViewport(tile.corner.x, tile.corner.y, picture.size, picture.size);
+        setUniform(state, "clipFromCaster", tile.clipFromCaster);
+        picture.casters->geometry->draw(renderInfo);
+    }
+    target.shown = &picture;
+    return "";
+}
+
+DepthMap::Target& DepthMap::targetOf(unsigned context) {
+    Lock lock(_mutex);
+    return _targets[context];
+}
+
+void DepthMap::resizeGLObjectBuffers(unsigned maxSize) { _texture->resizeGLObjectBuffers(maxSize); }
+
+void DepthMap::release(osg::State* state) {
+    _texture->releaseGLObjects(state);
+    Lock lock(_mutex);
+    for (auto entry = _targets.begin(); entry != _targets.end();) {
+        const bool meant = !state || state->getContextID() == entry->first;
+        if (meant && entry->second.framebuffer)
+            osg::get<osg::GLFrameBufferObjectManager>(entry->first)
+                ->scheduleGLObjectForDeletion(entry->second.framebuffer);
+        entry = meant ? _targets.erase(entry) : std::next(entry);
+    }
+}
+
+} // namespace gnomon

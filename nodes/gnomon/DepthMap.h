@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/MapCasters.h>
+
+#include <OpenThreads/Mutex>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <osg/RenderInfo>
+#include <osg/StateSet>
+#include <osg/Texture2D>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What one light's maps are to show. Never changed once made, so that a frame that is still drawn keeps its own.
+struct MapPicture : public osg::Referenced {
+    /// A square part of the texture, and what is drawn there.
+    struct Tile {
+        glm::ivec2 corner{0};
+        glm::dmat4 clipFromCaster{1.0}; ///< caster: about their mesh's origin.
+    };
+    osg::ref_ptr<const MapCasters> casters;
+    osg::ref_ptr<const osg::StateSet> program; ///< see markProgram().
+    int size = 0;                              ///< of a tile's side, texels.
+    double slopeOffset = 0.0;                  ///< how many texels of each surface's own slope it is drawn deeper.
+    std::vector<Tile> tiles;
+
+protected:
+    ~MapPicture() override = default;
+};
+
+/// A depth texture that pictures are drawn into, in every context that asks for them.
+///
+/// Threads one a context.
+class DepthMap : public osg::Referenced {
+public:
+    /// @param filter  GL_LINEAR compares 2 × 2 texels at once, GL_NEAREST one.
+    DepthMap(const glm::ivec2& size, osg::Texture::FilterMode filter);
+
+    const glm::ivec2 size; ///< texels.
+
+    /// Makes the texture of this context show the picture, unless it does.
+    /// @param drawn  counts tiles drawn.
+    /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
+    std::string show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn);
+    void bind(osg::State& state, unsigned unit) const;
+
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void release(osg::State* state);
+
+protected:
+    ~DepthMap() override;
+
+private:
+    struct Target {
+        GLuint framebuffer = 0;
+        const osg::Texture::TextureObject* texture = nullptr; ///< attached to it.
+        osg::ref_ptr<const MapPicture> shown;
+    };
+    Target& targetOf(unsigned context);
+    bool bindTarget(osg::State& state, Target& target) const;
+    std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture) const;
+
+    osg::ref_ptr<osg::Texture2D> _texture;
+    OpenThreads::Mutex _mutex;
+    std::map<unsigned, Target> _targets; ///< by context.
+};
+
+} // namespace gnomon

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/LightMaps.h>
+
+#include <OpenThreads/ScopedLock>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+constexpr double reserve = 1.0 / 16.0; // of a map's sides
+constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
+constexpr double border = 3.0;         // texels: what a comparison reaches over, and one against rounding
+constexpr unsigned keptCalls = 256;    // maps that nobody asked for since are let go
+constexpr double sameLight = 1e-7;     // of the distance: what OSG's matrices and floats make of a light at rest
+
+bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
+    return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
+}
+
+/// What OpenGL keeps of the scene, near and far included.
+std::vector<glm::dvec4> halfSpacesOf(const glm::dmat4& clipFromScene) {
+    std::vector<glm::dvec4> result;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {1.0, -1.0})
+            result.push_back(glm::row(clipFromScene, 3) + sign * glm::row(clipFromScene, axis));
+    return result;
+}
+
+/// Of a sun one; of a lamp that sees all casters to one side one, else those of a cube, a little larger so that what is
+/// on an edge is in both.
+///
+/// A lamp is a sun where that moves no shadow by more than an eighth of a texel: else its depths would be rounded off.
+std::vector<LightFrame> framesOf(const glm::dvec4& light, const glm::dvec3& reach, int texels) {
+    const glm::dvec3 at(light);
+    if (light.w == 0.0 || glm::length(at) > 8.0 * texels * glm::length(reach)) return {sunFrame(glm::normalize(at))};
+    std::vector<LightFrame> frames;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {1.0, -1.0}) {
+            glm::dvec3 way(0.0);
+            way[axis] = sign;
+            frames.push_back(lampFrame(at, way, 1.05));
+        }
+    constexpr double wide = 2.0;
+    const LightFrame ahead = lampFrame(at, glm::normalize(-at), wide);
+    const auto inside = [&](int corner) {
+        const glm::dvec4 p(corner & 1 ? reach.x : -reach.x, corner & 2 ? reach.y : -reach.y,
+                           corner & 4 ? reach.z : -reach.z, 1.0);
+        return std::all_of(ahead.halfSpaces.begin(), ahead.halfSpaces.end(),
+                           [&](const glm::dvec4& half) { return glm::dot(half, p) > 0.0; });
+    };
+    for (int corner = 0; corner < 8; ++corner)
+        if (!inside(corner)) return frames;
+    return {ahead};
+}
+
+} // namespace
+
+/// One direction that a light looks in.
+struct LightMaps::Face {
+    explicit Face(const LightFrame& given) : frame(given), casters(given), needed(given) {}
+
+    LightFrame frame;
+    MapOutline casters, needed; ///< what they can darken; what of that is seen.
+    std::optional<MapFit> fit;  ///< of the map that is drawn.
+};
+
+struct LightMaps::LightMap {
+    const void* stage = nullptr;
+    int lightNumber = 0;
+    glm::dvec4 light{0.0};
+    MapWish wish;
+    osg::ref_ptr<const MapCasters> casters;
+    std::vector<Face> faces;
+    osg::ref_ptr<DepthMap> map;
+    osg::ref_ptr<const MapPicture> picture;
+    std::vector<MapLookUp> lookUps;
+    unsigned lastCall = 0;
+
+    bool isOf(const glm::dvec4& given, const MapCasters& asked, const MapWish& wanted) const {
+        return casters == &asked && wish == wanted && isSame(given, light, glm::length(asked.reach));
+    }
+    void start(const glm::dvec4& given, const MapCasters& asked, const MapWish& wanted);
+    bool findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene);
+    MapFit fitOf(const Face& face) const {
+        return fitMap(face.frame, face.needed, face.casters, reserve, border / wish.size,
+                      glm::length(casters->reach) / 64.0);
+    }
+};
+
+/// The box of something that is seen.
+struct LightMaps::Receiver {
+    glm::dvec3 low, high;
+    glm::dmat4 sceneFromBox;
+    double size; ///< of its diagonal, scene.
+};
+
+namespace {
+
+template <class Receiver>
+std::vector<Receiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
+    const glm::dmat4 sceneFromEye = glm::inverse(eyeFromScene);
+    std::vector<Receiver> result;
+    for (const osgUtil::RenderLeaf* leaf : view.seen) {
+        const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+        if (!box.valid()) continue;
+        Receiver receiver{toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)),
+                          sceneFromEye * toGlm(*leaf->_modelview), 0.0};
+        receiver.size = glm::length(glm::dvec3(receiver.sceneFromBox * glm::dvec4(receiver.high - receiver.low, 0.0)));
+        result.push_back(receiver);
+    }
+    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.size > b.size; });
+    return result;
+}
+
+} // namespace
+
+LightMaps::LightMaps() : _resources(new MapResources) {}
+LightMaps::~LightMaps() = default;
+
+osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
+                                      const CasterMesh& mesh, const MapWish& wish) {
+    const glm::dmat4 eyeFromScene = glm::translate(toGlm(view.eyeFromGroup), toGlm(mesh.origin));
+    const glm::dmat4 clipFromScene = toGlm(view.projection) * eyeFromScene;
+    Lock lock(_mutex);
+    LightMap& map = find(view.stage, lightNumber);
+    const osg::ref_ptr<const MapCasters> casters = castersOf(mesh);
+    if (!map.isOf(light, *casters, wish)) map.start(light, *casters, wish);
+    if (!map.findNeeded(receiversOf<Receiver>(view, eyeFromScene), clipFromScene)) return nullptr;
+    if (needsNew(map)) redo(map);
+    osg::ref_ptr<MapMark> mark = new MapMark;
+    mark->resources = _resources;
+    mark->map = map.map;
+    mark->picture = map.picture;
+    mark->lookUps = map.lookUps;
+    mark->clipFromScene = clipFromScene;
+    mark->defines = wish.defines + "#define MAPS " + std::to_string(map.lookUps.size()) + "\n";
+    return mark;
+}
+
+void LightMaps::LightMap::start(const glm::dvec4& given, const MapCasters& asked, const MapWish& wanted) {
+    if (!(wish == wanted)) map = nullptr;
+    light = given;
+    casters = &asked;
+    wish = wanted;
+    picture = nullptr;
+    faces.clear();
+    for (const LightFrame& frame : framesOf(light, casters->reach, wish.size)) {
+        Face& face = faces.emplace_back(frame);
+        for (const MapCasters::Box& box : casters->boxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
+    }
+}
+
+/// @return false if nothing is needed.
+bool LightMaps::LightMap::findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene) {
+    const std::vector<glm::dvec4> halfSpaces = halfSpacesOf(clipFromScene);
+    bool any = false;
+    for (Face& face : faces) {
+        face.needed = MapOutline(face.frame);
+        if (face.casters.empty()) continue;
+        for (const Receiver& receiver : receivers)
+            face.needed.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+        face.needed.cut(face.casters);
+        face.needed.limitNearest();
+        any = any || !face.needed.empty();
+    }
+    return any;
+}
+
+bool LightMaps::needsNew(const LightMap& map) const {
+    if (!map.picture) return true;
+    const double margin = (border - 1.0) / map.wish.size;
+    return std::any_of(map.faces.begin(), map.faces.end(), [&](const Face& face) {
+        if (face.needed.empty()) return false;
+        if (!face.fit || !face.fit->covers(face.needed, margin)) return true;
+        return face.fit->area() > mostWaste * map.fitOf(face).area();
+    });
+}
+
+void LightMaps::redo(LightMap& map) const {
+    osg::ref_ptr<MapPicture> picture = new MapPicture;
+    picture->casters = map.casters;
+    picture->program = _resources->casterProgram;
+    picture->size = map.wish.size;
+    picture->slopeOffset = 0.5;
+    map.lookUps.clear();
+    glm::ivec2 end(0);
+    const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
+    for (Face& face : map.faces) {
+        face.fit = std::nullopt;
+        if (face.needed.empty()) continue;
+        face.fit = map.fitOf(face);
+        const int tile = static_cast<int>(picture->tiles.size());
+        const glm::ivec2 corner = picture->size * glm::ivec2(tile % 3, tile / 3);
+        picture->tiles.push_back({corner, clipFromMap * face.fit->mapFromScene});
+        map.lookUps.push_back(
+            {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, map.casters->reach, picture->size)});
+        end = glm::max(end, corner + picture->size);
+    }
+    if (!map.map || !glm::all(glm::greaterThanEqual(map.map->size, end))) map.map = new DepthMap(end, map.wish.compare);
+    map.picture = picture;
+}
+
+LightMaps::LightMap& LightMaps::find(const void* stage, int lightNumber) {
+    ++_calls;
+    const auto old = [this](const auto& map) { return _calls - map->lastCall > keptCalls; };
+    _maps.erase(std::remove_if(_maps.begin(), _maps.end(), old), _maps.end());
+    const auto found = std::find_if(_maps.begin(), _maps.end(), [&](const auto& map) {
+        return map->stage == stage && map->lightNumber == lightNumber;
+    });
+    if (found == _maps.end()) {
+        _maps.push_back(std::make_unique<LightMap>());
+        _maps.back()->stage = stage;
+        _maps.back()->lightNumber = lightNumber;
+    } else {
+        std::rotate(found, found + 1, _maps.end());
+    }
+    _maps.back()->lastCall = _calls;
+    return *_maps.back();
+}
+
+osg::ref_ptr<const MapCasters> LightMaps::castersOf(const CasterMesh& mesh) {
+    if (!_casters || _casters->mesh != &mesh) _casters = new MapCasters(mesh);
+    return _casters;
+}
+
+void LightMaps::resizeGLObjectBuffers(unsigned maxSize) {
+    _resources->resizeGLObjectBuffers(maxSize);
+    Lock lock(_mutex);
+    for (const auto& map : _maps) {
+        if (map->map) map->map->resizeGLObjectBuffers(maxSize);
+        if (map->casters) map->casters->geometry->resizeGLObjectBuffers(maxSize);
+    }
+}
+
+void LightMaps::release(osg::State* state) {
+    _resources->release(state);
+    Lock lock(_mutex);
+    for (const auto& map : _maps) {
+        if (map->map) map->map->release(state);
+        if (map->casters) map->casters->geometry->releaseGLObjects(state);
+    }
+}
+
+} // namespace gnomon

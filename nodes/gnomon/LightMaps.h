@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/MapMark.h>
+#include <gnomon/ShadowLight.h>
+#include <gnomon/ViewFrame.h>
+
+#include <OpenThreads/Mutex>
+#include <osg/Texture>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+/// How a technique wants its maps.
+struct MapWish {
+    int size = 1024; ///< texels on a side of a tile.
+    osg::Texture::FilterMode compare = osg::Texture::LINEAR;
+    std::string defines; ///< see MapMark.
+
+    bool operator==(const MapWish& other) const {
+        return size == other.size && compare == other.compare && defines == other.defines;
+    }
+};
+
+/// A technique's maps: of each light in each view those drawn last, and whether they still do.
+///
+/// Threads any number.
+class LightMaps {
+public:
+    LightMaps();
+    ~LightMaps();
+
+    /// @param light  about the casters' origin, see usableLight().
+    /// @return the marks of a light, screenBounds left open; null if none of its shadow can be seen.
+    osg::ref_ptr<MapMark> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light, const CasterMesh& mesh,
+                               const MapWish& wish);
+
+    const MapResources& resources() const { return *_resources; }
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void release(osg::State* state);
+
+private:
+    struct Face;
+    struct LightMap;
+    struct Receiver;
+
+    LightMap& find(const void* stage, int lightNumber);
+    osg::ref_ptr<const MapCasters> castersOf(const CasterMesh& mesh);
+    bool needsNew(const LightMap& map) const;
+    void redo(LightMap& map) const;
+
+    const osg::ref_ptr<MapResources> _resources;
+    OpenThreads::Mutex _mutex;
+    std::vector<std::unique_ptr<LightMap>> _maps; ///< used last at the end.
+    osg::ref_ptr<const MapCasters> _casters;      ///< asked for last.
+    unsigned _calls = 0;
+};
+
+} // namespace gnomon

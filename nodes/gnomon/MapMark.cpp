@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/FramebufferBindings.h>
+#include <gnomon/MapMark.h>
+#include <gnomon/MarkProgram.h>
+#include <gnomon/ScreenPass.h>
+
+#include <gnomon_shaders.h>
+
+#include <OpenThreads/ScopedLock>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+constexpr unsigned seenUnit = 0, mapUnit = 1;
+constexpr double border = 2.0; // texels at a tile's sides that a comparison may reach over
+
+/// From window coordinates x and y, and 1 - depth.
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
+    const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);
+    const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
+    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
+}
+
+} // namespace
+
+MapResources::MapResources() : casterProgram(markProgram()) {}
+
+osg::ref_ptr<const osg::StateSet> MapResources::program(const std::string& defines) {
+    Lock lock(_mutex);
+    osg::ref_ptr<osg::StateSet>& set = _programs[defines];
+    if (!set) set = quadProgram("gnomon map", defines, shaders::map_frag);
+    return set;
+}
+
+void MapResources::resizeGLObjectBuffers(unsigned maxSize) {
+    casterProgram->resizeGLObjectBuffers(maxSize);
+    Lock lock(_mutex);
+    for (const auto& [defines, set] : _programs) set->resizeGLObjectBuffers(maxSize);
+}
+
+void MapResources::release(osg::State* state) {
+    casterProgram->releaseGLObjects(state);
+    seen.release(state);
+    Lock lock(_mutex);
+    for (const auto& [defines, set] : _programs) set->releaseGLObjects(state);
+}
+
+std::string MapMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+    osg::State& state = *renderInfo.getState();
+    const PixelRect pixels = pixelsInScissor(*state.getCurrentViewport());
+    if (pixels.empty()) return "";
+    unsigned drawn = 0;
+    const std::string cause = map->show(renderInfo, *picture, drawn);
+    resources->passes += drawn;
+    if (!cause.empty()) return cause;
+    const SeenDepth::Copy copy = resources->seen.copy(state, pixels);
+    if (!copy.cause.empty()) return copy.cause;
+    state.apply(resources->program(defines).get());
+    if (!hasProgram(state)) return noProgram;
+    map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
+    resources->seen.bind(state, seenUnit);
+    setUniforms(state, copy.error);
+    pass.stencilEqual(bit, 0, bit);
+    pass.drawQuad();
+    state.apply();
+    return "";
+}
+
+void MapMark::setUniforms(osg::State& state, const glm::dvec4& depthError) const {
+    const glm::dmat4 sceneFromPixel = glm::inverse(clipFromScene) * clipFromPixel(*state.getCurrentViewport());
+    std::vector<glm::dmat4> mapFromPixel;
+    std::vector<glm::dvec4> columns[3], places, nearest, farthest;
+    const auto add = [](std::vector<glm::dvec4>& to, const MapError& error) {
+        to.emplace_back(error.depth, error.texels, error.steepest, 0.0);
+    };
+    for (std::size_t i = 0; i < lookUps.size(); ++i) {
+        const glm::dmat4 matrix = lookUps[i].mapFromScene * sceneFromPixel, back = glm::inverse(matrix);
+        mapFromPixel.push_back(matrix);
+        for (int axis = 0; axis < 3; ++axis) columns[axis].push_back(back[axis]);
+        places.emplace_back(glm::dvec2(picture->tiles[i].corner), picture->size, border / picture->size);
+        add(nearest, lookUps[i].errors.nearest);
+        add(farthest, lookUps[i].errors.farthest);
+    }
+    setUniform(state, "seen", int(seenUnit));
+    setUniform(state, "maps", int(mapUnit));
+    setUniform(state, "texel", 1.0 / glm::dvec2(map->size));
+    setUniform(state, "depthError", depthError);
+    setUniform(state, "mapFromPixel", mapFromPixel);
+    setUniform(state, "pixelFromMapX", columns[0]);
+    setUniform(state, "pixelFromMapY", columns[1]);
+    setUniform(state, "pixelFromMapZ", columns[2]);
+    setUniform(state, "place", places);
+    setUniform(state, "nearestError", nearest);
+    setUniform(state, "farthestError", farthest);
+}
+
+} // namespace gnomon

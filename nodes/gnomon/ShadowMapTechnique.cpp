@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/LightMaps.h>
+#include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/UsableLight.h>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+constexpr int leastSize = 16, mostSize = 16384;
+
+/// The half that decides hard edges is reached with half a texel of slope; see map.frag.
+std::string definesOf(ShadowMapTechnique::Filter filter) {
+    constexpr const char* names[] = {"NEAREST", "BILINEAR", "BICUBIC"};
+    return std::string("#define ") + names[filter] + "\n#define KERNEL 0.5\n#define THRESHOLD 0.5\n";
+}
+
+} // namespace
+
+ShadowMapTechnique::ShadowMapTechnique() : _maps(std::make_unique<LightMaps>()) {}
+
+ShadowMapTechnique::ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp)
+    : ShadowTechnique(other, copyOp),
+      _size(other._size),
+      _filter(other._filter),
+      _maps(std::make_unique<LightMaps>()) {}
+
+ShadowMapTechnique::~ShadowMapTechnique() = default;
+
+void ShadowMapTechnique::setSize(int texels) { _size = std::clamp(texels, leastSize, mostSize); }
+
+unsigned ShadowMapTechnique::passes() const { return _maps->resources().passes; }
+
+std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                               const CasterMesh& mesh) const {
+    const auto usable = usableLight(light.inGroup, mesh.origin);
+    if (!usable) {
+        report(view.frameNumber, notUsable(light.inGroup));
+        return {};
+    }
+    const MapWish wish{_size, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR, definesOf(_filter)};
+    osg::ref_ptr<MapMark> mark = _maps->mark(view, light.number, *usable, mesh, wish);
+    if (!mark) return {};
+    const auto bounds = shadowBounds(mesh, mark->clipFromScene, *usable);
+    if (!bounds) return {}; // out of sight: nothing to say
+    mark->screenBounds = *bounds;
+    return {mark};
+}
+
+void ShadowMapTechnique::resizeGLObjectBuffers(unsigned maxSize) {
+    ShadowTechnique::resizeGLObjectBuffers(maxSize);
+    _maps->resizeGLObjectBuffers(maxSize);
+}
+
+void ShadowMapTechnique::releaseGLObjects(osg::State* state) const {
+    ShadowTechnique::releaseGLObjects(state);
+    _maps->release(state);
+}
+
+} // namespace gnomon

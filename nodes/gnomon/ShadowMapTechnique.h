@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowTechnique.h>
+
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+class LightMaps;
+
+/// Shadow on everything that is seen, by depth maps: the casters drawn once as each light sees them, and what is seen
+/// compared with that.
+///
+///     osg::ref_ptr<gnomon::ShadowMapTechnique> shadow = new gnomon::ShadowMapTechnique;
+///     shadow->setSize(2048);
+///     group->addChild(shadow);
+///
+/// Maps    A map covers what of the seen receivers the casters can darken, and no more: the smallest rectangle about it, and
+///         a sixteenth more on each side so that it holds for a while. It is drawn again only when the light or a caster has
+///         changed, or when what is seen is no longer in it or would fill less than half of it. Casters between it and the
+///         light count wherever they are.
+/// Bias    none to set. Both the surface in the map and the one that is seen allow for their own slope within the texels
+///         that are compared, and for the rounding of depth, here and in the frame. Thin things lose their shadow where
+///         they are less than about a texel off the surface, measured along the light.
+/// Edges   hard: what gets less than half of the light, by the filter, gets none.
+///
+/// Cost    while nothing changes, a copy of the depth buffer and one quad over what the shadows' bounds cover; a draw of
+///         all casters' positions when a map is made.
+/// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named.
+/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). Alpha-tested casters cast as if they were
+///         solid. What writes no depth does not receive; what is drawn with a polygon offset or a depth range of its own
+///         receives as if it stood where its depth says. Multisampled framebuffers are decided a pixel, by one of its
+///         samples.
+/// Threads any number of cull and draw threads; set properties between frames.
+/// Source: L. Williams, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 1978; CS-4470, part 2; W. Reeves, D. Salesin
+///         and R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987.
+///
+/// In a file (.osgt, .osgb, .osgx), where what is left out has its default:
+///
+///     gnomon::ShadowMapTechnique {
+///       UniqueID 2
+///       Size 2048
+///       Filter BILINEAR
+///     }
+class GNOMON_EXPORT ShadowMapTechnique : public ShadowTechnique {
+public:
+    /// How a pixel is compared with the map. How far the middle of an edge is off, 95 % of it, is of random edges.
+    enum Filter : int {
+        NEAREST,  ///< with one texel: steps, 0.51 texel off.
+        BILINEAR, ///< with 2 × 2, weighted: 0.41 texel off.
+        BICUBIC   ///< with 4 × 4, weighted by cubic B-splines: rounded, 0.35 texel off.
+    };
+
+    ShadowMapTechnique();
+    ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+    META_Node(gnomon, ShadowMapTechnique)
+
+        /// Texels on a side of each map, 16 … 16384; default 1024. Clamped; beyond what OpenGL has there is no shadow, and
+        /// diagnose() says so.
+        void setSize(int texels);
+    int getSize() const { return _size; }
+
+    /// Default BICUBIC, which any value that is none of them stands for too.
+    void setFilter(Filter filter) { _filter = filter == NEAREST || filter == BILINEAR ? filter : BICUBIC; }
+    Filter getFilter() const { return _filter; }
+
+    /// Maps drawn so far, over all lights, views and contexts: rises only where something changed.
+    unsigned passes() const;
+
+    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+                                               const CasterMesh& casters) const override;
+
+    void resizeGLObjectBuffers(unsigned maxSize) override;
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
+protected:
+    ~ShadowMapTechnique() override;
+
+private:
+    int _size = 1024;
+    Filter _filter = BICUBIC;
+    std::unique_ptr<LightMaps> _maps;
+};
+
+} // namespace gnomon

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ShadowMapTechnique.h>
+
+#include <osgDB/ObjectWrapper>
+
+REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechnique, gnomon::ShadowMapTechnique,
+                        "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
+                        "gnomon::ShadowMapTechnique") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    ADD_INT_SERIALIZER(Size, fresh->getSize());
+    BEGIN_ENUM_SERIALIZER(Filter, BICUBIC);
+    ADD_ENUM_VALUE(NEAREST);
+    ADD_ENUM_VALUE(BILINEAR);
+    ADD_ENUM_VALUE(BICUBIC);
+    END_ENUM_SERIALIZER();
+}

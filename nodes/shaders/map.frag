@@ -1,0 +1,73 @@
+// What share of a light reaches what is seen in a pixel, by its depth and the light's maps: see ShadowMapTechnique.
+//
+// In what follows a pixel's place is (x, y, e, 1), x and y in window coordinates, e = 1 - depth: of what is far, where
+// floats are fine. FILTER is NEAREST, BILINEAR or BICUBIC; MAPS is how many there are, beside one another in one texture.
+
+uniform sampler2D seen;       // depths of the frame
+uniform sampler2DShadow maps;
+uniform vec2 texel;           // of the texture, whose sides are 1
+uniform vec4 depthError;      // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
+
+uniform mat4 mapFromPixel[MAPS];
+uniform vec4 pixelFromMapX[MAPS], pixelFromMapY[MAPS], pixelFromMapZ[MAPS]; // columns of its inverse
+uniform vec4 place[MAPS];     // in the texture: corner, and texels on a side; share of it that is border
+uniform vec4 nearestError[MAPS], farthestError[MAPS]; // see MapErrors
+
+// At p, in texels of the texture; `slope` is the change of depth a texel on the surface that is compared.
+float lit(vec2 p, float depth, vec2 slope) {
+#ifdef BICUBIC
+    // The cubic B-spline over 4 x 4 comparisons as four of 2 x 2. Source: C. Sigg and M. Hadwiger, "Fast Third-Order
+    // Texture Filtering", GPU Gems 2, 2005.
+    vec2 corner = floor(p - 0.5) + 0.5, f = p - corner, g = 1.0 - f;
+    vec2 w0 = g * g * g / 6.0, w3 = f * f * f / 6.0;
+    vec2 w1 = 2.0 / 3.0 - 0.5 * f * f * (2.0 - f);
+    vec2 low = w0 + w1, high = 1.0 - low;
+    vec2 a = corner - 1.0 + w1 / low, b = corner + 1.0 + w3 / high;
+    vec2 atA = slope * (a - p), atB = slope * (b - p);
+    a *= texel;
+    b *= texel;
+    return low.y * (low.x * texture(maps, vec3(a, depth + atA.x + atA.y))
+                    + high.x * texture(maps, vec3(b.x, a.y, depth + atB.x + atA.y)))
+         + high.y * (low.x * texture(maps, vec3(a.x, b.y, depth + atA.x + atB.y))
+                     + high.x * texture(maps, vec3(b, depth + atB.x + atB.y)));
+#else
+    return texture(maps, vec3(p * texel, depth));
+#endif
+}
+
+// Share of the light; outside all maps it is 1.
+float visibility(vec4 pixel, vec4 plane) {
+    for (int i = 0; i < MAPS; ++i) {
+        vec4 at = mapFromPixel[i] * pixel;
+        if (!(at.w > 0.0)) continue;
+        at /= at.w;
+        if (any(lessThan(at.xy, place[i].ww)) || any(greaterThan(at.xy, 1.0 - place[i].ww))) continue;
+        vec2 across = vec2(dot(plane, pixelFromMapX[i]), dot(plane, pixelFromMapY[i]));
+        vec2 slope = -across / (dot(plane, pixelFromMapZ[i]) * place[i].z);
+        float steepness = abs(slope.x) + abs(slope.y);
+        vec4 error = mix(nearestError[i], farthestError[i], clamp(at.z, 0.0, 1.0));
+        if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
+            slope = vec2(0.0);
+            steepness = error.z;
+        }
+        float depth = min(at.z, 1.0) - (KERNEL + error.y) * steepness - error.x;
+        return lit(place[i].xy + at.xy * place[i].z, depth, slope);
+    }
+    return 1.0;
+}
+
+void main() {
+    float e = 1.0 - texelFetch(seen, ivec2(gl_FragCoord.xy), 0).r;
+    vec2 slope = vec2(dFdx(e), dFdy(e));
+    if (e <= 0.0) discard; // nothing is seen
+    // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
+    float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));
+    vec2 at = gl_FragCoord.xy + depthError.zw;
+    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
+#ifdef SHARE
+    gl_FragColor = vec4(BLOCKED ? 1.0 - arrives : arrives);
+#else
+    if (arrives >= THRESHOLD) discard;
+    gl_FragColor = vec4(0.0);
+#endif
+}

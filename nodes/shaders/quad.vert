@@ -1,0 +1,2 @@
+// A rectangle over the whole viewport.
+void main() { gl_Position = gl_Vertex; }

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/MapFit.h>
+#include <gnomon/ScreenBounds.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+using Polygon = std::vector<glm::dvec2>;
+
+constexpr double thinnest = 1e-6;              // of a rectangle's sides, the shorter to the longer
+constexpr double steps = 1.0 / (1 << 19);      // of depth, as tests/render/PlanarBandTest.cpp measured
+constexpr double floatError = 8.0 / (1 << 24); // of a matrix of floats times a vector of floats
+constexpr double edgeOn = 20.0;                // tangent: the cosine of surface and light is 0.05
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+glm::dvec3 anyAcross(const glm::dvec3& axis) {
+    const glm::dvec3 thin = glm::abs(axis);
+    const glm::dvec3 other = thin.x <= thin.y && thin.x <= thin.z ? glm::dvec3(1, 0, 0)
+                             : thin.y <= thin.z                   ? glm::dvec3(0, 1, 0)
+                                                                  : glm::dvec3(0, 0, 1);
+    return glm::normalize(glm::cross(axis, other));
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+/// Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", IPL 9(5), 1979.
+Polygon hullOf(Polygon points) {
+    std::sort(points.begin(), points.end(),
+              [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < 3) return points;
+    Polygon hull;
+    for (const bool back : {false, true}) {
+        const std::size_t start = hull.size();
+        for (const glm::dvec2& point : points) {
+            while (hull.size() >= start + 2 && !(cross(hull.back() - hull[hull.size() - 2], point - hull.back()) > 0.0))
+                hull.pop_back();
+            hull.push_back(point);
+        }
+        hull.pop_back(); // the other half begins with it
+        if (!back) std::reverse(points.begin(), points.end());
+    }
+    return hull;
+}
+
+double areaOf(const Polygon& polygon) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i + 2 < polygon.size(); ++i)
+        twice += cross(polygon[i + 1] - polygon[0], polygon[i + 2] - polygon[0]);
+    return twice / 2.0;
+}
+
+/// What of a polygon is on the left of the line from `a` to `b`.
+Polygon leftOf(const Polygon& polygon, const glm::dvec2& a, const glm::dvec2& b) {
+    Polygon kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+        const double atFrom = cross(b - a, from - a), atTo = cross(b - a, to - a);
+        if (atFrom >= 0.0) kept.push_back(from);
+        if ((atFrom >= 0.0) != (atTo >= 0.0)) kept.push_back(from + (to - from) * (atFrom / (atFrom - atTo)));
+    }
+    return kept;
+}
+
+/// A rectangle's way along one side, unit, and what it holds along that and across.
+struct Rectangle {
+    glm::dvec2 along{1.0, 0.0}, low{infinity}, high{-infinity};
+
+    glm::dvec2 across() const { return {-along.y, along.x}; }
+    void add(const glm::dvec2& point) {
+        const glm::dvec2 at(glm::dot(along, point), glm::dot(across(), point));
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    double area() const { return (high.x - low.x) * (high.y - low.y); }
+};
+
+Rectangle rectangleAlong(const glm::dvec2& along, const Polygon& polygon) {
+    Rectangle result;
+    result.along = along;
+    for (const glm::dvec2& point : polygon) result.add(point);
+    return result;
+}
+
+Rectangle smallestAbout(const Polygon& polygon) {
+    Rectangle best = rectangleAlong({1.0, 0.0}, polygon);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+        if (!(glm::dot(edge, edge) > 0.0)) continue;
+        const Rectangle next = rectangleAlong(glm::normalize(edge), polygon);
+        if (next.area() < best.area()) best = next;
+    }
+    return best;
+}
+
+/// No side is nothing.
+void widen(Rectangle& rectangle) {
+    const glm::dvec2 size = rectangle.high - rectangle.low;
+    const double least = std::max(thinnest * std::max(size.x, size.y), std::numeric_limits<double>::min());
+    for (int i = 0; i < 2; ++i) {
+        const double missing = std::max(0.0, least - size[i]) / 2.0;
+        rectangle.low[i] -= missing;
+        rectangle.high[i] += missing;
+    }
+}
+
+/// Rows that take a homogeneous place of the light's to 0 … 1.
+glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double farthest) {
+    const glm::dvec2 size = rectangle.high - rectangle.low, across = rectangle.across();
+    const double range = farthest - nearest;
+    glm::dmat4 result(0.0);
+    result = glm::row(result, 0, glm::dvec4(rectangle.along / size.x, 0.0, -rectangle.low.x / size.x));
+    result = glm::row(result, 1, glm::dvec4(across / size.y, 0.0, -rectangle.low.y / size.y));
+    result = glm::row(result, 2, glm::dvec4(0.0, 0.0, 1.0 / range, -nearest / range));
+    return glm::row(result, 3, glm::dvec4(0.0, 0.0, 0.0, 1.0));
+}
+
+bool isWithin(const std::vector<glm::dvec4>& halfSpaces, const glm::dvec4& point) {
+    return std::all_of(halfSpaces.begin(), halfSpaces.end(),
+                       [&](const glm::dvec4& half) { return glm::dot(half, point) >= 0.0; });
+}
+
+} // namespace
+
+LightFrame sunFrame(const glm::dvec3& towardsSun) {
+    const glm::dvec3 away = -towardsSun, right = anyAcross(away), up = glm::cross(away, right);
+    LightFrame frame;
+    frame.lightFromScene = glm::dmat4(glm::transpose(glm::dmat3(right, up, away)));
+    return frame;
+}
+
+LightFrame lampFrame(const glm::dvec3& lamp, const glm::dvec3& axis, double spread) {
+    const glm::dvec3 right = anyAcross(axis), up = glm::cross(axis, right);
+    const auto along = [&lamp](const glm::dvec3& way) { return glm::dvec4(way, -glm::dot(way, lamp)); };
+    LightFrame frame;
+    frame.sun = false;
+    frame.lightFromScene =
+        glm::transpose(glm::dmat4(along(right), along(up), glm::dvec4(0.0, 0.0, 0.0, -1.0), along(axis)));
+    for (const glm::dvec3& side : {right, -right, up, -up}) frame.halfSpaces.push_back(along(spread * axis + side));
+    return frame;
+}
+
+bool MapOutline::covers(const glm::dvec4& p) const {
+    const glm::dvec2 at = glm::dvec2(p) / p.w;
+    const double depth = p.z / p.w;
+    if (corners.size() < 3 || !(p.w > 0.0 && depth >= nearest && depth <= farthest)) return false;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        if (!(cross(corners[(i + 1) % corners.size()] - corners[i], at - corners[i]) >= 0.0)) return false;
+    return true;
+}
+
+void MapOutline::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
+                        const std::vector<glm::dvec4>& given) {
+    std::vector<glm::dvec4> halfSpaces = given;
+    halfSpaces.insert(halfSpaces.end(), _frame.halfSpaces.begin(), _frame.halfSpaces.end());
+    std::vector<glm::dvec4> seen;
+    bool known = true, whole = true;
+    for (int i = 0; i < 8; ++i) {
+        const glm::dvec4 corner =
+            sceneFromBox * glm::dvec4(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0);
+        seen.push_back(_frame.lightFromScene * corner);
+        known = known && covers(seen.back());
+        whole = whole && isWithin(halfSpaces, corner);
+    }
+    if (known) return;
+    if (!whole) {
+        seen.clear();
+        for (glm::dvec4& half : halfSpaces) half = half * sceneFromBox;
+        for (const glm::dvec3& corner : cutBox(low, high, halfSpaces))
+            seen.push_back(_frame.lightFromScene * (sceneFromBox * glm::dvec4(corner, 1.0)));
+    }
+    for (const glm::dvec4& p : seen) {
+        if (!(p.w > 0.0)) continue; // the lamp's own place
+        const double depth = p.z / p.w;
+        nearest = corners.empty() ? depth : std::min(nearest, depth);
+        farthest = corners.empty() ? depth : std::max(farthest, depth);
+        corners.push_back(glm::dvec2(p) / p.w);
+    }
+    corners = hullOf(std::move(corners));
+}
+
+void MapOutline::cut(const MapOutline& other) {
+    const Polygon& edges = other.corners;
+    if (edges.empty()) corners.clear();
+    if (!(areaOf(edges) > 0.0)) return;
+    for (std::size_t i = 0; i < edges.size(); ++i) corners = leftOf(corners, edges[i], edges[(i + 1) % edges.size()]);
+}
+
+void MapOutline::limitNearest() {
+    if (!_frame.sun) nearest = std::max(nearest, 64.0 * farthest);
+}
+
+bool MapFit::covers(const MapOutline& outline, double margin) const {
+    const auto inside = [&](const glm::dvec2& corner) {
+        const glm::dvec4 at = mapFromLight * glm::dvec4(corner, nearest, 1.0);
+        return std::min(at.x, at.y) >= margin * at.w && std::max(at.x, at.y) <= (1.0 - margin) * at.w;
+    };
+    return outline.nearest >= nearest && outline.farthest <= farthest &&
+           std::all_of(outline.corners.begin(), outline.corners.end(), inside);
+}
+
+MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, double reserve, double margin,
+              double thick) {
+    Rectangle rectangle = smallestAbout(hullOf(outline.corners));
+    const Rectangle limit = rectangleAlong(rectangle.along, most.corners);
+    const glm::dvec2 around = reserve * (rectangle.high - rectangle.low);
+    rectangle.low = glm::min(rectangle.low, glm::max(rectangle.low - around, limit.low));
+    rectangle.high = glm::max(rectangle.high, glm::min(rectangle.high + around, limit.high));
+    widen(rectangle);
+    const glm::dvec2 border = margin / (1.0 - 2.0 * margin) * (rectangle.high - rectangle.low);
+    rectangle.low -= border;
+    rectangle.high += border;
+    MapFit fit;
+    const double least = frame.sun ? thick : thick * outline.farthest * outline.farthest; // d(-1/w) is dw/w²
+    const double more = 0.125 * std::max(outline.farthest - outline.nearest, 4.0 * least);
+    fit.nearest = outline.nearest - more;
+    fit.farthest = frame.sun ? outline.farthest + more : std::min(0.0, outline.farthest + more);
+    fit.size = rectangle.high - rectangle.low;
+    fit.mapFromLight = unitFromLight(rectangle, fit.nearest, fit.farthest);
+    fit.mapFromScene = fit.mapFromLight * frame.lightFromScene;
+    return fit;
+}
+
+MapErrors mapErrors(const LightFrame& frame, const MapFit& fit, const glm::dvec3& reach, int texels) {
+    const auto rounding = [&](int axis) {
+        const glm::dvec4 row = glm::abs(glm::row(fit.mapFromScene, axis));
+        return floatError * (glm::dot(glm::dvec3(row), reach) + row.w);
+    };
+    const double range = fit.farthest - fit.nearest, texel = std::max(fit.size.x, fit.size.y) / texels;
+    const auto at = [&](double depth) {
+        const double perW = frame.sun ? 1.0 : -depth;
+        return MapError{steps + 2.0 * floatError + rounding(2) * perW,
+                        texels * std::max(rounding(0), rounding(1)) * perW, edgeOn * texel / range * perW};
+    };
+    return {at(fit.nearest), at(fit.farthest)};
+}
+
+} // namespace gnomon

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/MapFit.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace gnomon;
+
+namespace {
+
+const glm::dmat4 here(1.0);
+
+glm::dvec3 seenBy(const glm::dmat4& matrix, const glm::dvec3& point) {
+    const glm::dvec4 p = matrix * glm::dvec4(point, 1.0);
+    return glm::dvec3(p) / p.w;
+}
+
+MapOutline outlineOf(const LightFrame& frame, const glm::dvec3& low, const glm::dvec3& high,
+                     const glm::dmat4& sceneFromBox = here) {
+    MapOutline outline(frame);
+    outline.addBox(low, high, sceneFromBox);
+    return outline;
+}
+
+} // namespace
+
+TEST(LightFrame, OfASunPutsWhatLiesOnARayInOnePlaceTheFartherTheDeeper) {
+    const glm::dvec3 sun = glm::normalize(glm::dvec3(1.0, 2.0, 3.0));
+    const LightFrame frame = sunFrame(sun);
+    const glm::dvec3 near = seenBy(frame.lightFromScene, {4.0, 5.0, 6.0}),
+                     far = seenBy(frame.lightFromScene, glm::dvec3(4.0, 5.0, 6.0) - 7.0 * sun);
+    EXPECT_NEAR(near.x, far.x, 1e-14);
+    EXPECT_NEAR(near.y, far.y, 1e-14);
+    EXPECT_NEAR(far.z - near.z, 7.0, 1e-14);
+}
+
+TEST(LightFrame, OfALampPutsWhatLiesOnARayInOnePlaceTheFartherTheDeeper) {
+    const glm::dvec3 lamp(1.0, 2.0, 3.0), way(0.5, -0.25, 2.0);
+    const LightFrame frame = lampFrame(lamp, {0.0, 0.0, 1.0}, 1.0);
+    const glm::dvec3 near = seenBy(frame.lightFromScene, lamp + way),
+                     far = seenBy(frame.lightFromScene, lamp + 3.0 * way);
+    EXPECT_NEAR(near.x, far.x, 1e-14);
+    EXPECT_NEAR(near.y, far.y, 1e-14);
+    EXPECT_NEAR(near.z, -1.0 / 2.0, 1e-14); // -1/w, w along the axis
+    EXPECT_NEAR(far.z, -1.0 / 6.0, 1e-14);
+}
+
+TEST(MapOutline, OfABoxFromAboveIsItsFootprintAndHeight) {
+    const MapOutline outline = outlineOf(sunFrame({0.0, 0.0, 1.0}), {-1.0, -2.0, 0.0}, {1.0, 2.0, 5.0});
+    EXPECT_EQ(outline.corners.size(), 4u);
+    EXPECT_EQ(outline.nearest, -5.0); // the sun is at z = +∞
+    EXPECT_EQ(outline.farthest, 0.0);
+}
+
+TEST(MapOutline, OfALampHoldsWhatIsBeforeItOnly) {
+    const LightFrame frame = lampFrame({0.0, 0.0, 4.0}, {0.0, 0.0, -1.0}, 1.0);
+    EXPECT_TRUE(outlineOf(frame, {-1.0, -1.0, 5.0}, {1.0, 1.0, 6.0}).empty());
+    const MapOutline outline = outlineOf(frame, {-9.0, -9.0, 0.0}, {9.0, 9.0, 0.0});
+    for (const glm::dvec2& corner : outline.corners)
+        EXPECT_NEAR(std::max(std::abs(corner.x), std::abs(corner.y)), 1.0, 1e-12);
+    EXPECT_NEAR(outline.farthest, -0.25, 1e-12);
+}
+
+TEST(MapOutline, CutToAnotherIsWhatBothHold) {
+    const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
+    MapOutline outline = outlineOf(frame, {0.0, 0.0, 0.0}, {4.0, 4.0, 1.0});
+    outline.cut(outlineOf(frame, {3.0, 1.0, 0.0}, {9.0, 2.0, 9.0}));
+    EXPECT_NEAR(fitMap(frame, outline, outline, 0.0, 0.0, 1.0).area(), 1.0, 1e-12); // x 3 … 4, y 1 … 2
+    outline.cut(outlineOf(frame, {5.0, 5.0, 0.0}, {6.0, 6.0, 1.0}));
+    EXPECT_TRUE(outline.empty());
+}
+
+TEST(FitMap, TurnsWithWhatItCovers) {
+    const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
+    const glm::dmat4 turned = glm::rotate(here, 0.5, glm::dvec3(0.0, 0.0, 1.0));
+    const MapOutline outline = outlineOf(frame, {-3.0, -1.0, 0.0}, {3.0, 1.0, 1.0}, turned);
+    EXPECT_NEAR(fitMap(frame, outline, outline, 0.0, 0.0, 1.0).area(), 12.0, 1e-9);
+}
+
+TEST(FitMap, KeepsAReserveWithinWhatCastsAndLeavesAMargin) {
+    const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
+    const MapOutline needed = outlineOf(frame, {0.0, 0.0, 0.0}, {8.0, 8.0, 1.0});
+    const MapOutline wide = outlineOf(frame, {-9.0, -9.0, 0.0}, {8.5, 8.5, 1.0});
+    EXPECT_NEAR(fitMap(frame, needed, wide, 0.125, 0.0, 1.0).area(), 9.5 * 9.5,
+                1e-9); // 8 and one more on each side, or half
+    EXPECT_NEAR(fitMap(frame, needed, needed, 0.125, 0.1, 1.0).area(), 100.0, 1e-9); // 8 is 80 % of the side
+}
+
+TEST(MapFit, CoversWhatItWasMadeForAndNothingThatSticksOut) {
+    const LightFrame frame = sunFrame(glm::normalize(glm::dvec3(1.0, 0.5, 1.0)));
+    const MapOutline needed = outlineOf(frame, {0.0, 0.0, 0.0}, {8.0, 8.0, 1.0});
+    const MapFit fit = fitMap(frame, needed, needed, 0.0, 0.01, 1.0);
+    EXPECT_TRUE(fit.covers(needed, 0.009));
+    EXPECT_FALSE(fit.covers(outlineOf(frame, {-0.5, 0.0, 0.0}, {8.0, 8.0, 1.0}), 0.0));
+    EXPECT_FALSE(fit.covers(outlineOf(frame, {0.0, 0.0, -40.0}, {8.0, 8.0, 1.0}), 0.0));
+}
+
+/// By points: whatever of a box is in view lies within the map.
+TEST(MapFit, HoldsEveryPointOfABoxThatIsInView) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
+    const auto point = [&] { return glm::dvec3(anywhere(random), anywhere(random), anywhere(random)); };
+    int held = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        const LightFrame frame =
+            trial % 2 ? sunFrame(glm::normalize(point())) : lampFrame(5.0 * point(), {0.0, 1.0, 0.0}, 1.5);
+        const glm::dvec4 view(point(), 0.25);
+        MapOutline outline(frame);
+        outline.addBox(glm::dvec3(-1.0), glm::dvec3(1.0), here, {view});
+        if (outline.empty()) continue;
+        const MapFit fit = fitMap(frame, outline, outline, 0.0, 0.001, 1e-3);
+        for (int i = 0; i < 100; ++i) {
+            const glm::dvec4 p(point(), 1.0);
+            bool seen = glm::dot(view, p) >= 0.0;
+            for (const glm::dvec4& half : frame.halfSpaces) seen = seen && glm::dot(half, p) >= 0.0;
+            if (!seen) continue;
+            const glm::dvec3 at = seenBy(fit.mapFromScene, glm::dvec3(p));
+            for (int axis = 0; axis < 3; ++axis) EXPECT_TRUE(at[axis] >= 0.0 && at[axis] <= 1.0) << at[axis];
+            ++held;
+        }
+    }
+    EXPECT_GT(held, 4000);
+}
+
+TEST(MapErrors, GrowWithTheTexelAndOfALampTowardsIt) {
+    const glm::dvec3 reach(10.0, 10.0, 1.0);
+    const LightFrame sun = sunFrame({0.0, 0.0, 1.0}), lamp = lampFrame({0.0, 0.0, 5.0}, {0.0, 0.0, -1.0}, 1.0);
+    const auto errors = [&](const LightFrame& frame, int texels) {
+        const MapOutline outline = outlineOf(frame, -reach, reach);
+        return mapErrors(frame, fitMap(frame, outline, outline, 0.0, 0.0, 0.1), reach, texels);
+    };
+    EXPECT_EQ(errors(sun, 512).nearest.steepest, 2.0 * errors(sun, 1024).farthest.steepest);
+    EXPECT_GT(errors(lamp, 512).nearest.steepest, errors(lamp, 512).farthest.steepest);
+    EXPECT_LT(errors(sun, 1024).nearest.depth, 1e-5);
+    EXPECT_LT(errors(sun, 1024).nearest.texels, 0.01);
+}

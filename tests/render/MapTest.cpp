@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Shadow maps against the truth image; acne, lights, passes, limits.
+#include "TracedCases.h"
+
+#include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/TracedShadowTechnique.h>
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+
+#include <cmath>
+#include <iostream>
+
+using gnomon::ShadowMapTechnique;
+using test::labEight;
+using test::Picture;
+using test::room;
+using test::Scene;
+using test::townOfHouses;
+using test::TracedCase;
+
+namespace {
+
+osg::ref_ptr<ShadowMapTechnique> mapOf(int size, ShadowMapTechnique::Filter filter = ShadowMapTechnique::BICUBIC) {
+    osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    technique->setSize(size);
+    technique->setFilter(filter);
+    return technique;
+}
+
+test::TruthComparison judged(const TracedCase& given, ShadowMapTechnique* technique) {
+    Scene lit = given.build(), dark = given.build(), shadowed = given.build();
+    dark.takeLightAway();
+    shadowed.addShadow(technique);
+    return test::compare(test::render(shadowed.root, given.view), test::render(lit.root, given.view),
+                         test::render(dark.root, given.view), given.truth());
+}
+
+TEST(Map, IsWrongNowhereButAtEdgesAndThereByAFractionOfAPixel) {
+    for (const TracedCase& given : {labEight(), townOfHouses(), room()}) {
+        const osg::ref_ptr<ShadowMapTechnique> technique = mapOf(2048);
+        const test::TruthComparison result = judged(given, technique);
+        std::cout << given.name << ": " << result << "\n";
+        EXPECT_EQ(result.neither, 0) << given.name;
+        EXPECT_EQ(result.certain, 0) << given.name << ": a texel is less than a pixel there";
+        // An edge that is off by a share of a pixel decides that share of the pixels on it otherwise; a third of a texel
+        // that is a third of a pixel is a ninth.
+        EXPECT_LE(result.wrong - result.floor, result.edges / 8) << given.name;
+        EXPECT_GT(result.shadowed, 5000) << given.name;
+        EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+    }
+}
+
+TEST(Map, EachFilterAndEachSizeIsBetterThanTheOneBefore) {
+    const TracedCase town = townOfHouses();
+    int before = town.view.width * town.view.height;
+    for (const int size : {256, 1024})
+        for (const auto filter :
+             {ShadowMapTechnique::NEAREST, ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC}) {
+            const int wrong = judged(town, mapOf(size, filter)).wrong;
+            EXPECT_LT(wrong, before) << "size " << size << ", filter " << filter;
+            before = wrong;
+        }
+}
+
+TEST(Map, FlatGroundsAreFreeOfAcne) {
+    for (const double elevation : {90.0, 45.0, 20.0, 5.0})
+        for (const auto& [half, height, near, far, side] :
+             {std::tuple(8.0, 3.0, 1.0, 100.0, 1), std::tuple(8.0, 0.5, 4.0, 20.0, 200),
+              std::tuple(0.008, 0.003, 0.001, 0.1, 1), std::tuple(500.0, 20.0, 1.0, 2000.0, 1)}) {
+            const TracedCase given = test::flatGround(half, height, elevation, near, far, side);
+            const Picture lit = test::render(given.build().root, given.view);
+            for (const int size : {256, 2048})
+                for (const auto filter : {ShadowMapTechnique::NEAREST, ShadowMapTechnique::BICUBIC}) {
+                    Scene shadowed = given.build();
+                    shadowed.addShadow(mapOf(size, filter));
+                    EXPECT_EQ(test::render(shadowed.root, given.view).different(lit), 0)
+                        << elevation << " degrees, half side " << half << ", size " << size << ", filter " << filter;
+                }
+        }
+}
+
+/// Pixels about which pictures differ in a block of 3 × 3: edges that are off by less are thinner.
+int differingBlocks(const Picture& a, const Picture& b) {
+    int blocks = 0;
+    for (int y = 1; y + 1 < a.height; ++y)
+        for (int x = 1; x + 1 < a.width; ++x) {
+            bool all = true;
+            for (int v = y - 1; v <= y + 1; ++v)
+                for (int u = x - 1; u <= x + 1; ++u) all = all && a.at(u, v) != b.at(u, v);
+            blocks += all;
+        }
+    return blocks;
+}
+
+TEST(Map, TakesEachOfThreeLightsFromWhereItDoesNotReach) {
+    const TracedCase given = labEight();
+    const auto picture = [&](gnomon::ShadowTechnique* technique) {
+        Scene scene = given.build();
+        for (int i = 1; i < 3; ++i) {
+            osg::ref_ptr<osg::LightSource> more = new osg::LightSource;
+            more->getLight()->setLightNum(i);
+            more->getLight()->setPosition(i == 1 ? osg::Vec4(-1.0f, -0.5f, 0.9f, 0.0f) : osg::Vec4(0, -3, 6, 1));
+            more->getLight()->setAmbient({0.0f, 0.0f, 0.0f, 1.0f});
+            more->getLight()->setDiffuse({0.05f, 0.1f * float(i), 0.1f, 1.0f});
+            scene.root->addChild(more);
+            scene.root->getOrCreateStateSet()->setMode(GL_LIGHT0 + GLenum(i), osg::StateAttribute::ON);
+        }
+        if (technique) scene.addShadow(technique);
+        test::Camera camera(scene.root, given.view);
+        camera.frame();
+        return camera.frame();
+    };
+    const osg::ref_ptr<ShadowMapTechnique> technique = mapOf(2048);
+    const Picture mapped = picture(technique), traced = picture(new gnomon::TracedShadowTechnique);
+    EXPECT_EQ(differingBlocks(mapped, traced), 0);
+    EXPECT_GT(differingBlocks(mapped, picture(nullptr)), 10000);
+    EXPECT_EQ(technique->passes(), 2u + 4u); // in the first of two frames: each sun; the lamp down and to where the
+    // ground goes on for more than its height
+}
+
+/// A scene with a caster that can be moved, seen by a camera that can be turned.
+struct Moving {
+    Moving() {
+        mover->addChild(test::node(test::box({3.0, 3.0, 1.0}, {4.0, 4.0, 2.0})));
+        scene.content->addChild(mover);
+        scene.addShadow(technique);
+    }
+    unsigned passesInFrame() {
+        const unsigned before = technique->passes();
+        camera.frame();
+        return technique->passes() - before;
+    }
+
+    TracedCase given = labEight();
+    Scene scene = given.build();
+    osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+    osg::ref_ptr<ShadowMapTechnique> technique = mapOf(512);
+    test::Camera camera{scene.root, given.view};
+};
+
+TEST(MapPasses, AreOneAndThenNoneUntilACasterMoves) {
+    Moving moving;
+    EXPECT_EQ(moving.passesInFrame(), 1u);
+    for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(moving.passesInFrame(), 0u);
+    moving.mover->setMatrix(osg::Matrixd::translate(0.0, -2.0, 0.0));
+    EXPECT_EQ(moving.passesInFrame(), 1u);
+    EXPECT_EQ(moving.passesInFrame(), 0u);
+    moving.scene.light->getLight()->setPosition({1.0f, 0.2f, 1.2f, 0.0f});
+    EXPECT_EQ(moving.passesInFrame(), 1u);
+    EXPECT_EQ(moving.passesInFrame(), 0u);
+}
+
+TEST(MapPasses, AreNoneWhileTheCameraTurnsWithinWhatIsCovered) {
+    Moving moving;
+    moving.passesInFrame();
+    for (int step = 1; step <= 20; ++step) { // 5 degrees in all, of a picture of 53
+        test::View view = moving.given.view;
+        view.view = view.view * osg::Matrixd::rotate(osg::DegreesToRadians(0.25 * step), 0.0, 1.0, 0.0);
+        moving.camera.setView(view);
+        EXPECT_EQ(moving.passesInFrame(), 0u) << step;
+    }
+}
+
+TEST(MapPasses, FollowACameraThatLeavesWhatIsCovered) {
+    Moving moving;
+    moving.passesInFrame();
+    unsigned passes = 0;
+    for (int step = 1; step <= 20; ++step) {
+        const osg::Vec3d eye(-8.0 + step, -14.0 + step, 10.0 - 0.45 * step);
+        moving.camera.setView(test::perspective(eye, {0.0, 0.0, 0.0}, 640, 480));
+        passes += moving.passesInFrame();
+    }
+    EXPECT_GE(passes, 1u); // the view holds ever less: the map gets finer
+    EXPECT_LE(passes, 10u);
+    TracedCase last = moving.given;
+    last.view = test::perspective({12.0, 6.0, 1.0}, {0.0, 0.0, 0.0}, 640, 480);
+    EXPECT_EQ(judged(last, moving.technique).certain, 0);
+}
+
+TEST(Map, ASizeBeyondTheDriversIsDiagnosed) {
+    const TracedCase given = room();
+    Scene scene = given.build();
+    const osg::ref_ptr<ShadowMapTechnique> technique = mapOf(16384);
+    scene.addShadow(technique);
+    const Picture lit = test::render(given.build().root, given.view);
+    test::Camera camera(scene.root, given.view);
+    EXPECT_EQ(camera.frame().different(lit), 0);
+    ASSERT_EQ(technique->diagnose().size(), 1u);
+    EXPECT_NE(technique->diagnose()[0].find("cannot make a map of 49152 x 32768 texels"), std::string::npos);
+    technique->setSize(256);
+    EXPECT_GT(camera.frame().different(lit), 10000);
+    EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+}
+
+TEST(Map, TakesSizesOnlyThatItHas) {
+    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    EXPECT_EQ(technique->getSize(), 1024);
+    for (const auto& [asked, kept] : {std::pair(-5, 16), {16, 16}, {300, 300}, {100000, 16384}}) {
+        technique->setSize(asked);
+        EXPECT_EQ(technique->getSize(), kept);
+    }
+}
+
+} // namespace
