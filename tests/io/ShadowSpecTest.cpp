@@ -101,7 +101,7 @@ TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
 }
 
 TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
-    for (const char* name : {"map", "volume", "auto"})
+    for (const char* name : {"volume", "auto"})
         EXPECT_EQ(refusal(std::string(name) + ":size=4"),
                   "\"" + std::string(name) +
                       "\" is not built yet; built: none, planar, box, hull, drape, map, traced.");
