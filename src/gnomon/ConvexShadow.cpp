@@ -61,15 +61,10 @@ void addFaces(ConvexShadow& shadow, const ConvexHull& hull, const std::vector<bo
     }
 }
 
-std::vector<glm::dvec3> clippedBy(const std::vector<glm::dvec3>& polygon, const glm::dvec4& plane) {
-    std::vector<glm::dvec3> result;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const double from = distance(plane, a), to = distance(plane, b);
-        if (from >= 0.0) result.push_back(a);
-        if ((from >= 0.0) != (to >= 0.0)) result.push_back(glm::mix(a, b, from / (from - to)));
-    }
-    return result;
+/// Between two points on either side of a plane; the same whichever comes first.
+glm::dvec3 crossing(const glm::dvec3& a, double from, const glm::dvec3& b, double to) {
+    const bool inOrder = a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+    return inOrder ? a + (from / (from - to)) * (b - a) : b + (to / (to - from)) * (a - b);
 }
 
 } // namespace
@@ -96,12 +91,38 @@ std::optional<ConvexShadow> convexShadow(const ConvexHull& hull, const glm::dvec
 }
 
 std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow) {
-    std::vector<glm::dvec3> polygon(triangle.begin(), triangle.end());
-    for (const glm::dvec4& plane : shadow.planes) {
-        if (polygon.empty()) break;
-        polygon = clippedBy(polygon, plane);
+    return Clipper().clip(triangle, shadow.planes, 0);
+}
+
+const std::vector<glm::dvec3>& Clipper::clip(const std::array<glm::dvec3, 3>& triangle,
+                                             const std::vector<glm::dvec4>& planes, std::uint64_t inside) {
+    const std::size_t most = 3 + planes.size(); // a plane adds one corner
+    if (_next.size() < most) _next.resize(most), _distances.resize(most);
+    _polygon.assign(triangle.begin(), triangle.end());
+    for (std::size_t i = 0; i < planes.size(); ++i)
+        if ((i >= 64 || !(inside >> i & 1u)) && !clipBy(planes[i])) break;
+    return _polygon;
+}
+
+/// @return whether something is left.
+bool Clipper::clipBy(const glm::dvec4& plane) {
+    const std::size_t count = _polygon.size();
+    std::size_t outside = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::dvec3& p = _polygon[i];
+        _distances[i] = plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w;
+        outside += !(_distances[i] >= 0.0);
     }
-    return polygon;
+    if (outside == 0) return true;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count && outside < count; ++i) {
+        const std::size_t j = i + 1 < count ? i + 1 : 0;
+        const double from = _distances[i], to = _distances[j];
+        if (from >= 0.0) _next[left++] = _polygon[i];
+        if ((from >= 0.0) != (to >= 0.0)) _next[left++] = crossing(_polygon[i], from, _polygon[j], to);
+    }
+    _polygon.assign(_next.begin(), _next.begin() + std::ptrdiff_t(left));
+    return left > 0;
 }
 
 } // namespace gnomon

@@ -3,6 +3,7 @@
 #include <gnomon/ConvexHull.h>
 
 #include <array>
+#include <cstdint>
 
 namespace gnomon {
 
@@ -30,5 +31,19 @@ std::optional<ConvexShadow> convexShadow(const ConvexHull& hull, const glm::dvec
 ///
 /// Source: I. E. Sutherland and G. W. Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974.
 std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow);
+
+/// The same for many triangles, with memory that is used again. What triangles that share an edge get on it is the same bit
+/// for bit.
+class Clipper {
+public:
+    /// @param inside  a bit for each of the first 64 planes that need not be asked. @return until the next call.
+    const std::vector<glm::dvec3>& clip(const std::array<glm::dvec3, 3>& triangle,
+                                        const std::vector<glm::dvec4>& planes, std::uint64_t inside);
+
+private:
+    bool clipBy(const glm::dvec4& plane);
+    std::vector<glm::dvec3> _polygon, _next;
+    std::vector<double> _distances;
+};
 
 } // namespace gnomon

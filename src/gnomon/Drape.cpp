@@ -9,8 +9,9 @@ double heightError(double error, double tangent, double slope) { return std::max
 
 Drape drape(const Ground& ground, const ConvexShadow& shadow, double error) {
     Drape result;
-    ground.cover(shadow.planes, error, [&](const GroundTriangle& triangle) {
-        const std::vector<glm::dvec3> polygon = clipped(triangle, shadow);
+    Clipper clipper;
+    ground.cover(shadow.planes, error, [&](const GroundTriangle& triangle, PlaneSet inside) {
+        const std::vector<glm::dvec3>& polygon = clipper.clip(triangle, shadow.planes, inside);
         for (std::size_t i = 2; i < polygon.size(); ++i)
             result.insert(result.end(), {polygon[0], polygon[i - 1], polygon[i]});
     });

@@ -285,7 +285,7 @@ void FanBatch::findFans() {
         KernelFan& fan = _fans[entry.fan];
         if (entry.outcome != TerrainOutcome::fan) fan.corners = 2;
         fan.place = places;
-        places += 3 * (fan.corners - 2);
+        places += fan.corners - 2;
     }
     grow({&_px, &_py, &_pu, &_pv, &_pz}, places);
     grow({&_lightened}, _fans.size());

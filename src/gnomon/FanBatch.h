@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ConvexShadow.h>
+#include <gnomon/GridDrape.h>
 #include <gnomon/HeightPyramid.h>
 #include <gnomon/PackedParts.h>
 #include <gnomon/ShadowKernel.h>
@@ -51,6 +52,9 @@ public:
         return {_cx[place], _cy[place], _cz[place]};
     }
     Drape triangles(std::size_t i) const; ///< of a fan that was found, in the ground's frame.
+    /// The ground's triangles in the shadow, about its anchor. @param error  in plan. @return until the next call.
+    const Drape& drape(std::size_t i, double error);
+    const Drape& allGround(std::size_t i); ///< the same of all the ground.
     /// In the ground's frame, planes with unit normals.
     ConvexShadow shadow(std::size_t i) const;
 
@@ -87,6 +91,8 @@ private:
     bool turnToStart(KernelFan& fan);
     void judge(std::size_t places);
     KernelFans kernelFans();
+    bool findReach(std::size_t i, glm::dvec2& low, glm::dvec2& high) const;
+    void takePlanes(std::size_t i);
 
     const Ground* _ground = nullptr;
     const HeightPyramid* _grid = nullptr; ///< the ground, if it is one.
@@ -108,6 +114,9 @@ private:
     Lane _cx, _cy, _cz;
     Lane _px, _py, _pu, _pv, _pz, _lightened;
     Queries _upper, _lower;
+    GridDrape::Planes _planes;
+    GridDrape _gridDrape;
+    Drape _drape;
     std::vector<unsigned> _asked; ///< twice the place in _upper, or in _lower and one more.
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -11,6 +12,9 @@
 namespace gnomon {
 
 using GroundTriangle = std::array<glm::dvec3, 3>; ///< counter-clockwise from above.
+
+/// A bit for each of the first 64 planes.
+using PlaneSet = std::uint64_t;
 
 struct GroundRange {
     double low, high, steepest; ///< tangent of the slope.
@@ -30,8 +34,9 @@ public:
     /// Triangles that stand for the ground to within `error` of its height, each point of it once in plan, wherever a
     /// point of them may be on the inner side of all `planes` (unit normals); others may be left out.
     /// @param error  scene's unit; 0 gives the ground's own triangles.
+    /// @param take   gets a triangle, and some of the planes that all of it is on the inner side of.
     virtual void cover(const std::vector<glm::dvec4>& planes, double error,
-                       const std::function<void(const GroundTriangle&)>& take) const = 0;
+                       const std::function<void(const GroundTriangle&, PlaneSet)>& take) const = 0;
     /// Tangent of the steepest slope where the ground may be on the inner side of all planes; 0 if it is nowhere.
     virtual double steepest(const std::vector<glm::dvec4>& planes) const = 0;
     /// No point of the ground over a rectangle in plan is lower, higher or steeper; nullopt if there is no ground. Quick: others

@@ -12,11 +12,28 @@
 namespace gnomon {
 namespace {
 
+constexpr double rounding = 1e-15; // of the terms of a sum of four products of doubles
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// Floats that are not inside of the doubles they stand for.
 float below(double value) { return std::nextafter(static_cast<float>(value), -infinite); }
 float above(double value) { return std::nextafter(static_cast<float>(value), infinite); }
+
+/// As mayHold(). @param inside  planes that hold all of the box are added, those that it has are not asked.
+bool holdsSome(const GroundBox& box, const std::vector<glm::dvec4>& planes, PlaneSet& inside) {
+    const glm::dvec3 middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const bool isKnown = i < 64;
+        if (isKnown && inside >> i & 1u) continue;
+        const glm::dvec4& p = planes[i];
+        const double x = p.x * middle.x, y = p.y * middle.y, z = p.z * middle.z, at = x + y + z + p.w;
+        const double reach = std::abs(p.x) * half.x + std::abs(p.y) * half.y + std::abs(p.z) * half.z;
+        const double slack = rounding * (std::abs(x) + std::abs(y) + std::abs(z) + std::abs(p.w));
+        if (!(at + reach >= -slack)) return false;
+        if (isKnown && at - reach > slack) inside |= PlaneSet(1) << i;
+    }
+    return true;
+}
 
 } // namespace
 
@@ -134,16 +151,26 @@ void HeightPyramid::descend(const Block& from, const Enter& enter) const {
 
 template <class Enter>
 void HeightPyramid::descend(const Enter& enter) const {
-    descend({static_cast<int>(_levels.size()) - 1, 0, 0}, enter);
+    descend(top(), enter);
+}
+
+template <class Enter>
+void HeightPyramid::descendWithin(const Block& from, const std::vector<glm::dvec4>& planes, PlaneSet inside,
+                                  const Enter& enter) const {
+    if (node(from).isHole() || !holdsSome(boxOf(from), planes, inside) || !enter(from, inside) || from.level == 0)
+        return;
+    const Level& lower = _levels[std::size_t(from.level) - 1];
+    for (int y = 2 * from.y; y < std::min(2 * from.y + 2, lower.rows); ++y)
+        for (int x = 2 * from.x; x < std::min(2 * from.x + 2, lower.columns); ++x)
+            descendWithin({from.level - 1, x, y}, planes, inside, enter);
 }
 
 void HeightPyramid::cover(const std::vector<glm::dvec4>& planes, double error,
-                          const std::function<void(const GroundTriangle&)>& take) const {
-    descend([&](const Block& block) {
-        if (!mayHold(boxOf(block), planes)) return false;
+                          const std::function<void(const GroundTriangle&, PlaneSet)>& take) const {
+    descendWithin(top(), planes, 0, [&](const Block& block, PlaneSet inside) {
         if (block.level > 0 && !(double(node(block).off) <= error)) return true;
         for (const GroundTriangle& triangle : _field.triangles(block.column(), block.row(), block.side()))
-            take(triangle);
+            take(triangle, inside);
         return false;
     });
 }
@@ -164,19 +191,38 @@ std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm:
 
 double HeightPyramid::steepest(const std::vector<glm::dvec4>& planes) const {
     double most = 0.0;
-    descend([&](const Block& block) {
-        if (node(block).steepest() <= most || !mayHold(boxOf(block), planes)) return false;
+    descendWithin(top(), planes, 0, [&](const Block& block, PlaneSet) {
+        if (node(block).steepest() <= most) return false;
         if (block.level == 0) most = node(block).steepest();
         return true;
     });
     return most;
 }
 
-std::optional<GroundRange> HeightPyramid::range(const glm::dvec2& low, const glm::dvec2& high) const {
-    const glm::dvec2 from = glm::floor(_field.cellOf(low.x, low.y)), to = glm::floor(_field.cellOf(high.x, high.y));
+std::optional<HeightPyramid::Cells> HeightPyramid::cells(const glm::dvec2& low, const glm::dvec2& high) const {
+    const glm::dvec2 from = glm::floor(low), to = glm::floor(high);
     const glm::dvec2 last(_levels[0].columns - 1, _levels[0].rows - 1);
     if (!(from.x <= last.x && from.y <= last.y && to.x >= 0.0 && to.y >= 0.0)) return std::nullopt;
     const glm::ivec2 first(glm::max(from, glm::dvec2(0.0))), end(glm::min(to, last));
+    return Cells{first.x, first.y, end.x, end.y};
+}
+
+double HeightPyramid::steepest(const Cells& cells) const {
+    double most = 0.0;
+    for (int y = cells.low; y <= cells.high; ++y)
+        for (int x = cells.left; x <= cells.right; ++x) most = std::max(most, node({0, x, y}).steepest());
+    return most;
+}
+
+GroundRange HeightPyramid::range() const {
+    const Node& all = _levels.back().nodes.front();
+    return {double(all.low), double(all.high), all.steepest()};
+}
+
+std::optional<GroundRange> HeightPyramid::range(const glm::dvec2& low, const glm::dvec2& high) const {
+    const auto touched = cells(_field.cellOf(low.x, low.y), _field.cellOf(high.x, high.y));
+    if (!touched) return std::nullopt;
+    const glm::ivec2 first(touched->left, touched->low), end(touched->right, touched->high);
     int level = 0;
     while ((end.x >> level) - (first.x >> level) > 3 || (end.y >> level) - (first.y >> level) > 3) ++level;
     std::optional<GroundRange> range;
@@ -197,10 +243,9 @@ double HeightPyramid::steepest() const {
 }
 
 bool HeightPyramid::isGentle(const glm::dvec2& low, const glm::dvec2& high, double tangent) const {
-    if (!(low.x <= high.x && low.y <= high.y)) return false;
-    const glm::dvec2 last(_levels[0].columns - 1, _levels[0].rows - 1);
-    const glm::ivec2 from(glm::clamp(glm::floor(low), glm::dvec2(0.0), last)),
-        to(glm::clamp(glm::floor(high), glm::dvec2(0.0), last));
+    const auto touched = cells(low, high);
+    if (!touched) return false;
+    const glm::ivec2 from(touched->left, touched->low), to(touched->right, touched->high);
     int level = 0;
     const auto isWide = [&](int axis) { return (to[axis] >> level) - (from[axis] >> level) > 1; };
     while (isWide(0) || isWide(1)) ++level;

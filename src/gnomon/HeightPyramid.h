@@ -19,10 +19,21 @@ public:
     std::optional<double> height(double x, double y) const override { return _field.height(x, y); }
     std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const override;
     void cover(const std::vector<glm::dvec4>& planes, double error,
-               const std::function<void(const GroundTriangle&)>& take) const override;
+               const std::function<void(const GroundTriangle&, PlaneSet)>& take) const override;
     double steepest(const std::vector<glm::dvec4>& planes) const override;
     std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;
     double steepest() const; ///< of all, infinite if there are holes.
+    /// Cells, the last ones included.
+    struct Cells {
+        int left, low, right, high;
+    };
+    /// Those that a rectangle touches; nullopt if it is beside the grid. @param low,high  as HeightField::cellOf() has them.
+    std::optional<Cells> cells(const glm::dvec2& low, const glm::dvec2& high) const;
+    /// How far a block's two triangles are off the ground that they stand for, infinite where they cannot.
+    double off(int level, int x, int y) const { return double(node({level, x, y}).off); }
+    double steepest(const Cells& cells) const;                                          ///< of those that are no holes.
+    bool isHole(int level, int x, int y) const { return node({level, x, y}).isHole(); } ///< all of a block.
+    GroundRange range() const; ///< of all; not one of holes alone.
     /// Whether all of the cells that a rectangle touches are less steep than `tangent`, and none of them is a hole.
     /// @param low,high  as HeightField::cellOf() has places; what is beside the grid is left out.
     bool isGentle(const glm::dvec2& low, const glm::dvec2& high, double tangent) const;
@@ -60,6 +71,11 @@ private:
     void descend(const Enter& enter) const;
     bool isGentle(const Block& from, const glm::ivec2& low, const glm::ivec2& high, double tangent) const;
     GroundBox boxOf(const Block& block) const;
+    /// Goes down where a point may be on the inner side of all planes. @param inside  those that are known to hold all.
+    template <class Enter>
+    void descendWithin(const Block& from, const std::vector<glm::dvec4>& planes, PlaneSet inside,
+                       const Enter& enter) const;
+    Block top() const { return {static_cast<int>(_levels.size()) - 1, 0, 0}; }
 
     const HeightField _field;
     std::vector<Level> _levels; ///< cells first.

@@ -9,7 +9,7 @@ namespace gnomon {
 struct HullFan {
     Drape triangles;
     /// How much is wrong, of the area in plan that the caster does not stand on: 0 is right, may be above 1. From places on
-    /// the ground inside, three a triangle, that are not in shadow, and from where rays through the middles of the
+    /// the ground inside, one a triangle, that are not in shadow, and from where rays through the middles of the
     /// silhouette's edges meet the ground, beside the straight line between the corners.
     double off = 0.0;
 };

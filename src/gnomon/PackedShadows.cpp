@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Numbers.h>
 #include <gnomon/PackedShadows.h>
 #include <gnomon/TerrainSteps.h>
 
@@ -16,27 +17,39 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 constexpr std::size_t together = 32; // what is found of so many parts stays in the nearest cache
 
+glm::vec3 rounded(const PackedShadows& found, const glm::dvec3& anchor, const glm::dvec3& corner) {
+    return glm::vec3(anchor + corner - found.origin);
+}
+
 void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
     const FanBatch::Entry& entry = batch.entry(i);
-    const glm::dvec3 anchor = entry.anchor - found.origin;
     double low = infinite;
     for (std::size_t k = 0; k < batch.cornerCount(i); ++k) {
         const glm::dvec3 corner = batch.corner(i, k);
         low = std::min(low, corner.z);
-        found.corners.emplace_back(anchor + corner);
+        found.corners.push_back(rounded(found, entry.anchor, corner));
     }
     found.highest = std::max(found.highest, entry.top.z - low);
 }
 
+/// Corners at one place are one; of a triangle that goes on from the one before, as those of a polygon do, two are known.
 void addDrape(PackedShadows& found, const FanBatch::Entry& entry, const Drape& drape) {
+    thread_local Numbers<glm::vec3> numbers;
+    numbers.clear(drape.size());
     double low = infinite;
-    for (const glm::dvec3& corner : drape) {
+    const auto number = [&](const glm::dvec3& corner) {
         low = std::min(low, corner.z);
-        found.indices.push_back(unsigned(found.corners.size()) -
-                                (found.cornerEnds.empty() ? 0u : found.cornerEnds.back()));
-        found.corners.emplace_back(corner - found.origin);
+        return numbers.of(rounded(found, entry.anchor, corner) + 0.0f); // -0 and 0 are one place
+    };
+    for (std::size_t i = 0; i + 2 < drape.size(); i += 3) {
+        const bool goesOn = i > 0 && drape[i] == drape[i - 3] && drape[i + 1] == drape[i - 1];
+        const std::size_t last = found.indices.size();
+        found.indices.push_back(goesOn ? found.indices[last - 3] : number(drape[i]));
+        found.indices.push_back(goesOn ? found.indices[last - 1] : number(drape[i + 1]));
+        found.indices.push_back(number(drape[i + 2]));
     }
-    found.highest = std::max(found.highest, entry.anchor.z + entry.top.z - low);
+    found.corners.insert(found.corners.end(), numbers.keys.begin(), numbers.keys.end());
+    found.highest = std::max(found.highest, entry.top.z - low);
 }
 
 void addEnds(PackedShadows& found, TerrainOutcome outcome) {
@@ -109,15 +122,13 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
     const TerrainAsk asked{ground, light, method, error};
     FanBatch& batch = threadsBatch();
     batch.begin(ground, light);
-    Drape drape;
     for (std::size_t first = 0; first < parts.size(); first += together) {
         findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
         for (std::size_t i = 0; i < batch.size(); ++i) {
-            drape.clear();
-            const TerrainOutcome outcome = settled(batch, i, asked, parts, first + i, drape);
-            if (outcome == TerrainOutcome::fan) addFan(found, batch, i);
-            if (!drape.empty()) addDrape(found, batch.entry(i), drape);
-            addEnds(found, outcome);
+            const Settled one = settled(batch, i, asked, parts, first + i);
+            if (one.outcome == TerrainOutcome::fan) addFan(found, batch, i);
+            if (one.drape) addDrape(found, batch.entry(i), *one.drape);
+            addEnds(found, one.outcome);
         }
     }
     found.steepest = steepestAbout(ground, found);

@@ -228,66 +228,54 @@ void edges(const KernelFans& all) {
     for (std::size_t i = 0; i < all.count; ++i) edgesOf(all, all.fans[i]);
 }
 
-/// Half-way from a triangle's middle to each of its corners. Vectors end in what comes after and is written later.
+/// The middles of triangles. Vectors end in what comes after and is written later.
 HWY_INLINE void placesOf(const KernelFans& all, const KernelFan& fan) {
     const D d;
     const std::size_t triangles = fan.corners - 2;
-    const V ax = set(all.cx[fan.corner]), ay = set(all.cy[fan.corner]), sixth = set(1.0 / 6.0), half = set(0.5);
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t t = 0; t < triangles; t += hn::Lanes(d)) {
-            const V x[] = {ax, hn::LoadU(d, all.cx + fan.corner + t + 1), hn::LoadU(d, all.cx + fan.corner + t + 2)};
-            const V y[] = {ay, hn::LoadU(d, all.cy + fan.corner + t + 1), hn::LoadU(d, all.cy + fan.corner + t + 2)};
-            const V middleX = hn::Mul(hn::Add(hn::Add(x[0], x[1]), x[2]), sixth),
-                    middleY = hn::Mul(hn::Add(hn::Add(y[0], y[1]), y[2]), sixth);
-            const std::size_t at = fan.place + k * triangles + t;
-            const V px = hn::Add(middleX, hn::Mul(x[k], half)), py = hn::Add(middleY, hn::Mul(y[k], half));
-            hn::StoreU(px, d, all.px + at);
-            hn::StoreU(py, d, all.py + at);
-            hn::StoreU(hn::Add(set(fan.u), hn::Mul(px, set(all.scaleX))), d, all.pu + at);
-            hn::StoreU(hn::Add(set(fan.v), hn::Mul(py, set(all.scaleY))), d, all.pv + at);
-        }
+    const V ax = set(all.cx[fan.corner]), ay = set(all.cy[fan.corner]), third = set(1.0 / 3.0);
+    for (std::size_t t = 0; t < triangles; t += hn::Lanes(d)) {
+        const std::size_t at = fan.place + t, b = fan.corner + t + 1, c = b + 1;
+        const V px = hn::Mul(hn::Add(hn::Add(ax, hn::LoadU(d, all.cx + b)), hn::LoadU(d, all.cx + c)), third);
+        const V py = hn::Mul(hn::Add(hn::Add(ay, hn::LoadU(d, all.cy + b)), hn::LoadU(d, all.cy + c)), third);
+        hn::StoreU(px, d, all.px + at);
+        hn::StoreU(py, d, all.py + at);
+        hn::StoreU(hn::Add(set(fan.u), hn::Mul(px, set(all.scaleX))), d, all.pu + at);
+        hn::StoreU(hn::Add(set(fan.v), hn::Mul(py, set(all.scaleY))), d, all.pv + at);
+    }
 }
 
 void places(const KernelFans& all) {
     for (std::size_t i = 0; i < all.count; ++i) placesOf(all, all.fans[i]);
 }
 
-HWY_INLINE M inside(const double* x, const double* y, const double* z, const double* w, std::size_t count,
-                    const V3& p) {
-    M is = hn::Eq(p.x, p.x);
-    for (std::size_t i = 0; i < count; ++i) {
-        const V side = hn::Add(hn::Add(hn::Mul(set(x[i]), p.x), hn::Mul(set(y[i]), p.y)),
-                               hn::Add(hn::Mul(set(z[i]), p.z), set(w[i])));
-        is = hn::And(is, hn::Ge(side, hn::Zero(D())));
-    }
-    return is;
+/// The least of how far inside of planes points are.
+HWY_INLINE V leastInside(V least, const double* x, const double* y, const double* z, const double* w, std::size_t count,
+                         const V3& p) {
+    for (std::size_t i = 0; i < count; ++i)
+        least = hn::Min(least, hn::Add(hn::Add(hn::Mul(set(x[i]), p.x), hn::Mul(set(y[i]), p.y)),
+                                       hn::Add(hn::Mul(set(z[i]), p.z), set(w[i]))));
+    return least;
 }
 
 /// Summed in the triangles' order, whatever the lanes.
 HWY_INLINE double litOf(const KernelFans& all, const KernelFan& fan) {
     const D d;
-    const std::size_t triangles = fan.corners - 2;
-    const double* cx = all.cx + fan.corner;
-    const double* cy = all.cy + fan.corner;
+    const std::size_t triangles = fan.corners - 2, e = fan.edge, f = fan.face;
+    const double *cx = all.cx + fan.corner, *cy = all.cy + fan.corner;
     double sum = 0.0;
-    HWY_ALIGN double shares[HWY_MAX_BYTES / 8];
+    HWY_ALIGN double lit[HWY_MAX_BYTES / 8];
     for (std::size_t t = 0; t < triangles; t += hn::Lanes(d)) {
-        V lit = hn::Zero(d);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t at = fan.place + k * triangles + t;
-            const V3 p{hn::LoadU(d, all.px + at), hn::LoadU(d, all.py + at),
-                       hn::Sub(hn::LoadU(d, all.pz + at), set(fan.z))};
-            const M is = hn::And(
-                inside(all.ex + fan.edge, all.ey + fan.edge, all.ez + fan.edge, all.ew + fan.edge, fan.edges, p),
-                inside(all.fx + fan.face, all.fy + fan.face, all.fz + fan.face, all.fw + fan.face, fan.faces, p));
-            const M isLit = hn::Or(hn::Not(is), hn::IsNaN(p.z));
-            lit = hn::Add(lit, hn::IfThenElseZero(isLit, set(1.0 / 3.0)));
-        }
-        if (hn::AllTrue(d, hn::Eq(lit, hn::Zero(d)))) continue;
-        hn::Store(lit, d, shares);
+        const std::size_t at = fan.place + t;
+        const V3 p{hn::LoadU(d, all.px + at), hn::LoadU(d, all.py + at),
+                   hn::Sub(hn::LoadU(d, all.pz + at), set(fan.z))};
+        V least = leastInside(hn::Zero(d), all.ex + e, all.ey + e, all.ez + e, all.ew + e, fan.edges, p);
+        least = leastInside(least, all.fx + f, all.fy + f, all.fz + f, all.fw + f, fan.faces, p);
+        const M isLit = hn::Or(hn::Lt(least, hn::Zero(d)), hn::IsNaN(p.z));
+        if (hn::AllFalse(d, isLit)) continue;
+        hn::Store(hn::IfThenElseZero(isLit, set(1.0)), d, lit);
         for (std::size_t i = 0; i < hn::Lanes(d) && t + i < triangles; ++i) {
             const std::size_t b = t + i + 1, c = t + i + 2;
-            sum += shares[i] * ((cx[b] - cx[0]) * (cy[c] - cy[0]) - (cy[b] - cy[0]) * (cx[c] - cx[0]));
+            sum += lit[i] * ((cx[b] - cx[0]) * (cy[c] - cy[0]) - (cy[b] - cy[0]) * (cx[c] - cx[0]));
         }
     }
     return sum;
@@ -297,7 +285,22 @@ void judge(const KernelFans& all) {
     for (std::size_t i = 0; i < all.count; ++i) all.lit[i] = litOf(all, all.fans[i]);
 }
 
-ShadowKernel kernel() { return {hwy::TargetName(HWY_TARGET), cast, heights, edges, places, judge}; }
+void sides(const KernelPoints& points, const double* planes, std::size_t count) {
+    const D d;
+    for (std::size_t at = 0; at < points.count; at += hn::Lanes(d)) {
+        const V x = hn::LoadU(d, points.x + at), y = hn::LoadU(d, points.y + at), z = hn::LoadU(d, points.z + at);
+        V outside = hn::Zero(d);
+        double bit = 1.0;
+        for (const double* p = planes; p < planes + 4 * count; p += 4, bit *= 2.0) {
+            const V side = hn::Add(hn::Add(hn::Mul(set(p[0]), x), hn::Mul(set(p[1]), y)),
+                                   hn::Add(hn::Mul(set(p[2]), z), set(p[3])));
+            outside = hn::Add(outside, hn::IfThenZeroElse(hn::Ge(side, hn::Zero(d)), set(bit)));
+        }
+        hn::StoreU(outside, d, points.outside + at);
+    }
+}
+
+ShadowKernel kernel() { return {hwy::TargetName(HWY_TARGET), cast, heights, edges, places, judge, sides}; }
 
 } // namespace HWY_NAMESPACE
 } // namespace gnomon

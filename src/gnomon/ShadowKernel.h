@@ -29,7 +29,7 @@ struct KernelFan {
     std::size_t edge, edges; ///< in the arrays of the silhouette; one more is there: the first corner again.
     std::size_t face, faces;
     std::size_t corner, corners; ///< of the polygon.
-    std::size_t place;           ///< first of three places a triangle.
+    std::size_t place;           ///< first of a place a triangle.
     double light[4];             ///< about the part's anchor.
     double u, v, z;              ///< of the anchor on the grid.
 };
@@ -49,6 +49,15 @@ struct KernelFans {
     double* lit;                       ///< twice the area in plan that holds no shadow, a fan.
 };
 
+constexpr std::size_t mostKernelPlanes = 48;
+
+/// Points that planes are asked at.
+struct KernelPoints {
+    std::size_t count;
+    const double *x, *y, *z;
+    double* outside; ///< the sum of 2^i for each plane i that the point is on the outer side of.
+};
+
 /// What runs on as many lanes as there are. Each has the same bits on every set of instructions: products and sums are
 /// rounded one by one, and no lane knows of another.
 struct ShadowKernel {
@@ -58,6 +67,8 @@ struct ShadowKernel {
     void (*edges)(const KernelFans& fans);
     void (*places)(const KernelFans& fans);
     void (*judge)(const KernelFans& fans);
+    /// @param planes  x, y, z, w of each, `mostKernelPlanes` at most.
+    void (*sides)(const KernelPoints& points, const double* planes, std::size_t count);
 };
 
 /// For the best instructions that this machine has, or those chosen.

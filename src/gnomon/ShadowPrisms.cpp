@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/GroundQuery.h>
+#include <gnomon/Numbers.h>
 #include <gnomon/ShadowPrisms.h>
 
 #include <glm/common.hpp>
@@ -36,45 +37,6 @@ GroundBox boxOf(const Drape& shadow) {
 struct Plan {
     std::vector<glm::dvec3> corners;
     std::vector<std::array<unsigned, 3>> triangles;
-};
-
-std::size_t mixed(std::uint64_t value) { return std::size_t((value ^ value >> 29) * 0x9E3779B97F4A7C15u >> 20); }
-
-/// Numbers for keys, in the order in which they come: a table without memory of its own for each, used again.
-template <class Key>
-class Numbers {
-public:
-    std::vector<Key> keys;
-
-    void clear(std::size_t expected) {
-        keys.clear();
-        std::size_t size = 16;
-        while (size < 2 * expected) size *= 2;
-        _slots.assign(size, none);
-    }
-    /// None, if it has none.
-    unsigned find(const Key& key) const { return _slots[slot(key)]; }
-    unsigned of(const Key& key) {
-        const std::size_t at = slot(key);
-        if (_slots[at] == none) {
-            _slots[at] = unsigned(keys.size());
-            keys.push_back(key);
-        }
-        return _slots[at];
-    }
-    static constexpr unsigned none = ~0u;
-
-private:
-    static std::size_t hash(std::uint64_t key) { return mixed(key); }
-    static std::size_t hash(const std::array<std::int64_t, 3>& key) {
-        return mixed(std::uint64_t(key[0]) + 0x10001u * std::uint64_t(key[1]) + 0x100000007u * std::uint64_t(key[2]));
-    }
-    std::size_t slot(const Key& key) const {
-        std::size_t at = hash(key) % _slots.size();
-        while (_slots[at] != none && keys[_slots[at]] != key) at = (at + 1) % _slots.size();
-        return at;
-    }
-    std::vector<unsigned> _slots;
 };
 
 /// Corners of neighbours that rounding has parted are one to a millionth of the shadow's size.

@@ -95,21 +95,21 @@ void findTogether(FanBatch& batch, const TerrainAsk& asked, const PackedParts& p
     if (asked.method == TerrainMethod::hull) batch.findFans();
 }
 
-TerrainOutcome settled(const FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts,
-                       std::size_t part, Drape& drape) {
+Settled settled(FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts, std::size_t part) {
     const FanBatch::Entry& entry = batch.entry(i);
     TerrainOutcome outcome = entry.outcome;
-    if (outcome == TerrainOutcome::lightInside) drape = gnomon::drape(asked.ground, {}, asked.error);
-    if (outcome != TerrainOutcome::fan && outcome != TerrainOutcome::noFan) return outcome;
-    if (isBuried(asked.ground, parts, part, entry)) return TerrainOutcome::buried;
+    if (outcome == TerrainOutcome::lightInside) return {outcome, &batch.allGround(i)};
+    if (outcome != TerrainOutcome::fan && outcome != TerrainOutcome::noFan) return {outcome};
+    if (isBuried(asked.ground, parts, part, entry)) return {TerrainOutcome::buried};
     if (asked.method == TerrainMethod::drape) outcome = TerrainOutcome::draped;
-    if (outcome == TerrainOutcome::fan && entry.off() <= mostOff) return outcome;
-    const ConvexShadow shadow = batch.shadow(i);
-    const double slope = asked.ground.steepest(shadow.planes);
-    if (outcome == TerrainOutcome::fan)
+    if (outcome == TerrainOutcome::fan && entry.off() <= mostOff) return {outcome};
+    if (outcome == TerrainOutcome::fan) {
+        const double slope = asked.ground.steepest(batch.shadow(i).planes);
         outcome = slope >= grazing * entry.tangent ? TerrainOutcome::steep : TerrainOutcome::rough;
-    drape = gnomon::drape(asked.ground, shadow, heightError(asked.error, entry.tangent, slope));
-    return drape.empty() ? TerrainOutcome::noGround : outcome;
+    }
+    const Drape& drape = batch.drape(i, asked.error);
+    if (drape.empty()) return {TerrainOutcome::noGround};
+    return {outcome, &drape};
 }
 
 FanBatch& threadsBatch() {
@@ -125,10 +125,12 @@ TerrainShadow terrainShadow(const Ground& ground, const ConvexPart& part, const 
     FanBatch& batch = threadsBatch();
     batch.begin(ground, light);
     findTogether(batch, asked, parts, 0, 1);
-    TerrainShadow shadow;
-    shadow.outcome = settled(batch, 0, asked, parts, 0, shadow.triangles);
-    if (shadow.outcome == TerrainOutcome::fan) shadow.triangles = batch.triangles(0);
-    return shadow;
+    const Settled found = settled(batch, 0, asked, parts, 0);
+    if (found.outcome == TerrainOutcome::fan) return {batch.triangles(0), found.outcome};
+    if (!found.drape) return {{}, found.outcome};
+    Drape triangles = *found.drape;
+    for (glm::dvec3& corner : triangles) corner += batch.entry(0).anchor;
+    return {std::move(triangles), found.outcome};
 }
 
 } // namespace gnomon

@@ -18,9 +18,13 @@ bool isLightBelow(const Ground& ground, const glm::dvec4& light);
 void findTogether(FanBatch& batch, const TerrainAsk& asked, const PackedParts& parts, std::size_t first,
                   std::size_t end);
 
-/// What becomes of one of a batch's. @param drape  gets its triangles if it is no fan.
-TerrainOutcome settled(const FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts,
-                       std::size_t part, Drape& drape);
+/// What becomes of one of a batch's, and its triangles about its anchor if it is no fan.
+struct Settled {
+    TerrainOutcome outcome;
+    const Drape* drape = nullptr; ///< until the next one is asked for.
+};
+
+Settled settled(FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts, std::size_t part);
 
 /// One a thread, used again.
 FanBatch& threadsBatch();

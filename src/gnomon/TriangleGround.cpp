@@ -139,11 +139,11 @@ std::optional<glm::dvec3> TriangleGround::hit(const glm::dvec3& start, const glm
 }
 
 void TriangleGround::cover(const std::vector<glm::dvec4>& planes, double,
-                           const std::function<void(const GroundTriangle&)>& take) const {
+                           const std::function<void(const GroundTriangle&, PlaneSet)>& take) const {
     descend(
         all(), [&](const Node& node) { return mayHold(node.box, planes); },
         [&](const GroundTriangle& t) {
-            if (mayHold(t, planes)) take(t);
+            if (mayHold(t, planes)) take(t, 0);
         });
 }
 

@@ -26,7 +26,7 @@ public:
     std::optional<double> height(double x, double y) const override;
     std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const override;
     void cover(const std::vector<glm::dvec4>& planes, double error,
-               const std::function<void(const GroundTriangle&)>& take) const override;
+               const std::function<void(const GroundTriangle&, PlaneSet)>& take) const override;
     /// Infinite where a vertical triangle may be within.
     double steepest(const std::vector<glm::dvec4>& planes) const override;
     std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;

@@ -142,7 +142,7 @@ void sunStep(benchmark::State& state, TerrainMethod method) {
 }
 
 void sizes(benchmark::internal::Benchmark* run) {
-    run->ArgNames({"houses", "threads", "simd"})->Unit(benchmark::kMillisecond)->UseRealTime();
+    run->ArgNames({"houses", "threads", "simd"})->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
     for (const int count : {1000, 10000, 100000, 1000000}) run->Args({count, 2, 1});
     run->Args({100000, 1, 1})->Args({100000, 2, 0})->Args({100000, 1, 0});
 }

@@ -94,7 +94,7 @@ TEST(HeightPyramid, KeepsToItsErrorInTheMiddleOfCellsThatFall) {
         for (const double error : {0.0, 0.49, 0.51}) {
             int count = 0;
             double most = 0.0;
-            ground.cover({}, error, [&](const GroundTriangle& t) {
+            ground.cover({}, error, [&](const GroundTriangle& t, gnomon::PlaneSet) {
                 ++count;
                 const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
                 for (int y = 0; y < 8; ++y) {

@@ -48,7 +48,7 @@ std::vector<GroundTriangle> terraces() {
 
 int covered(const Ground& ground, const std::vector<glm::dvec4>& planes) {
     int count = 0;
-    ground.cover(planes, 1.0, [&](const GroundTriangle&) { ++count; });
+    ground.cover(planes, 1.0, [&](const GroundTriangle&, gnomon::PlaneSet) { ++count; });
     return count;
 }
 
@@ -169,7 +169,7 @@ TEST(TriangleGround, OfOneTriangleIsThatTriangleWhicheverWayItTurns) {
         EXPECT_TRUE(near(*ground.hit({1, 2, -9}, {0, 0, 3}), glm::dvec3(1, 2, 3), 1e-12)) << "from below";
         EXPECT_FALSE(ground.hit({1, 2, 9}, {0, 0, 3}));
         EXPECT_DOUBLE_EQ(ground.steepest({}), 1.0);
-        ground.cover({}, 0.0, [](const GroundTriangle& t) {
+        ground.cover({}, 0.0, [](const GroundTriangle& t, gnomon::PlaneSet) {
             EXPECT_GT(glm::cross(t[1] - t[0], t[2] - t[0]).z, 0.0) << "counter-clockwise from above";
         });
         EXPECT_EQ(covered(ground, {}), 1);

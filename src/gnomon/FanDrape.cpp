@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// FanBatch: shadows as the ground's triangles.
+#include <gnomon/FanBatch.h>
+
+#include <glm/common.hpp>
+
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+} // namespace
+
+/// Where on the grid the shadow can be at most, about the anchor: no ground there is lower than the lowest in what was found
+/// before. @return false if the light is not above all of the part.
+bool FanBatch::findReach(std::size_t i, glm::dvec2& low, glm::dvec2& high) const {
+    const Entry& entry = _entries[i];
+    const KernelFan& fan = _fans[entry.fan];
+    double bottom = _grid->range().low;
+    for (int step = 0; step < 3; ++step) {
+        low = glm::dvec2(infinite);
+        high = -low;
+        for (std::size_t e = fan.edge; e < fan.edge + fan.edges; ++e) {
+            const glm::dvec3 corner = silhouette(e);
+            const double down = std::max(0.0, corner.z + entry.anchor.z - bottom);
+            const glm::dvec2 end = glm::dvec2(corner) + down * wayOf(entry, corner);
+            low = glm::min(low, glm::min(glm::dvec2(corner), end));
+            high = glm::max(high, glm::max(glm::dvec2(corner), end));
+            if (!(end.x + end.y > -infinite)) return false;
+        }
+        const auto range = _grid->range(glm::dvec2(entry.anchor) + low, glm::dvec2(entry.anchor) + high);
+        if (!range || range->low <= bottom) break;
+        bottom = range->low;
+    }
+    return true;
+}
+
+void FanBatch::takePlanes(std::size_t i) {
+    const KernelFan& fan = _fans[_entries[i].fan];
+    _planes.anchor = _entries[i].anchor;
+    _planes.about.clear();
+    for (std::size_t f = fan.face; f < fan.face + fan.faces; ++f)
+        _planes.about.emplace_back(_fx[f], _fy[f], _fz[f], _fw[f]);
+    for (std::size_t e = fan.edge; e < fan.edge + fan.edges; ++e)
+        _planes.about.emplace_back(_ex[e], _ey[e], _ez[e], _ew[e]);
+}
+
+const Drape& FanBatch::drape(std::size_t i, double error) {
+    const Entry& entry = _entries[i];
+    glm::dvec2 low, high;
+    if (_grid && findReach(i, low, high)) {
+        takePlanes(i);
+        if (const Drape* found = _gridDrape.drape(*_grid, _planes, low, high, error, entry.tangent)) return *found;
+    }
+    const ConvexShadow all = shadow(i);
+    const double slope = error > 0.0 ? _ground->steepest(all.planes) : 0.0;
+    _drape = gnomon::drape(*_ground, all, heightError(error, entry.tangent, slope));
+    for (glm::dvec3& corner : _drape) corner -= entry.anchor;
+    return _drape;
+}
+
+const Drape& FanBatch::allGround(std::size_t i) {
+    _drape = gnomon::drape(*_ground, {}, 0.0);
+    for (glm::dvec3& corner : _drape) corner -= _entries[i].anchor;
+    return _drape;
+}
+
+} // namespace gnomon
