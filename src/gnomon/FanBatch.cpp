@@ -14,7 +14,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double inGround = 1e-6; // of a part's size: what single precision leaves of a height, and some more
 
 /// Room for `count` and what vectors take beyond.
 void grow(std::initializer_list<std::vector<double>*> lanes, std::size_t count) {
@@ -37,7 +36,7 @@ std::optional<glm::dvec3> shadowOf(const glm::dvec3& point, const Ground& ground
 } // namespace
 
 void FanBatch::begin(const Ground& ground, const glm::dvec4& light) {
-    clear();
+    _entries.clear();
     _ground = &ground;
     _light = light;
     _isLight = isUsable(light);
@@ -46,88 +45,98 @@ void FanBatch::begin(const Ground& ground, const glm::dvec4& light) {
     _origin = _grid ? _grid->field().origin() : glm::dvec2(0.0);
     _scale = _grid ? 1.0 / _grid->field().step() : glm::dvec2(1.0);
     _base = _grid ? _grid->field().base() : 0.0;
+    _tangent = light.z / std::hypot(light.x, light.y);
     if (_grid) {
+        _steepest = _grid->steepest();
         const HeightField& field = _grid->field();
         _view = {field.heights(), field.cuts(), field.columns(), field.rows()};
     }
 }
 
-void FanBatch::clear() {
-    _entries.clear();
+void FanBatch::take(const PackedParts& parts, std::size_t first, std::size_t end) {
+    _entries.assign(end - first, {});
     _fans.clear();
-    _asked.clear();
-    _edges = _faces = _outlined = 0;
-    _upper.count = _lower.count = 0;
+    _edges = _faces = _queries = 0;
+    _taken.assign(end - first, false);
+    for (std::size_t i = 0; i < size(); ++i) {
+        if (_taken[i]) continue;
+        _same.clear();
+        for (std::size_t k = i; k < size(); ++k) {
+            if (&parts.topology(first + k) != &parts.topology(first + i)) continue;
+            _same.push_back(k);
+            _taken[k] = true;
+        }
+        takeKind(parts, first, _same);
+    }
+    makeRoom();
+    shadowKernel().edges(kernelFans());
 }
 
-bool FanBatch::add(const PackedParts& parts, std::size_t part) {
-    Entry& entry = _entries.emplace_back();
-    decode(parts, part, entry);
-    const HullTopology& topology = parts.topology(part);
-    const std::size_t face = _faces;
-    const bool isThere = _isLight && addFaces(topology, entry) && addSilhouette(topology);
-    const bool isInside = entry.light.w > 0.0 && !topology.isPlate();
-    entry.outcome = isThere ? TerrainOutcome::fan : isInside ? TerrainOutcome::lightInside : TerrainOutcome::edgeOn;
-    if (topology.front >= 0 && !(_isLight && _lit[std::size_t(topology.front)]))
-        entry.outcome = TerrainOutcome::turnedAway;
-    if (isThere) {
-        entry.fan = _fans.size();
-        entry.tangent = leastTangent(entry);
-        const glm::dvec4& l = entry.light;
-        const glm::dvec2 at = (glm::dvec2(entry.anchor) - _origin) * _scale;
-        _fans.push_back({_edges,
-                         _loop.size(),
-                         face,
-                         _faces - face,
-                         0,
-                         2,
-                         0,
-                         {l.x, l.y, l.z, l.w},
-                         at.x,
-                         at.y,
-                         entry.anchor.z - _base});
-        _edges += _loop.size() + 1;
+/// Parts of one topology, side by side.
+void FanBatch::takeKind(const PackedParts& parts, std::size_t first, const std::vector<std::size_t>& same) {
+    const HullTopology& topology = parts.topology(first + same.front());
+    askFaces(parts, first, same);
+    grow({&_fx, &_fy, &_fz, &_fw}, _faces + same.size() * topology.faces.size());
+    grow({&_sx, &_sy, &_sz}, _edges + same.size() * (topology.corners + 1));
+    for (std::size_t lane = 0; lane < same.size(); ++lane) {
+        Entry& entry = _entries[same[lane]];
+        entry.size = std::sqrt(_sizes[lane]);
+        entry.low = _lows[lane];
+        entry.high = _highs[lane];
+        const std::size_t face = _faces;
+        const bool isThere = _isLight && addFaces(topology, lane) && addSilhouette(topology, lane);
+        const bool isInside = entry.light.w > 0.0 && !topology.isPlate();
+        entry.outcome = isThere ? TerrainOutcome::fan : isInside ? TerrainOutcome::lightInside : TerrainOutcome::edgeOn;
+        if (topology.front >= 0 && !(_isLight && _lit[std::size_t(topology.front)]))
+            entry.outcome = TerrainOutcome::turnedAway;
+        entry.fan = none;
+        if (isThere) addFan(entry, face);
     }
-    return isThere;
 }
 
-void FanBatch::decode(const PackedParts& parts, std::size_t part, Entry& entry) {
-    entry.anchor = parts.anchor(part);
-    entry.light = glm::dvec4(glm::dvec3(_light) - _light.w * entry.anchor, _light.w);
-    _corners.assign(1, glm::dvec3(0.0));
-    const unsigned count = parts.topology(part).corners;
-    const glm::vec3* others = parts.others(part);
-    double square = 0.0;
-    for (unsigned i = 0; i + 1 < count; ++i) {
-        const glm::dvec3 corner(others[i]);
-        _corners.push_back(corner);
-        square = std::max(square, glm::dot(corner, corner));
-        entry.low = std::min(entry.low, corner.z);
-        if (corner.z > entry.top.z) entry.top = corner;
+void FanBatch::askFaces(const PackedParts& parts, std::size_t first, const std::vector<std::size_t>& same) {
+    const HullTopology& topology = parts.topology(first + same.front());
+    const std::size_t faces = topology.faces.size(), numbers = 3 * std::size_t(topology.corners);
+    _stride = same.size() + kernelPad;
+    _places.resize(numbers * _stride + kernelPad);
+    grow({&_lightX, &_lightY, &_lightZ, &_sizes, &_lows, &_highs}, _stride);
+    grow({&_facePlanes}, 4 * faces * _stride);
+    grow({&_facing}, faces * _stride);
+    for (std::size_t lane = 0; lane < same.size(); ++lane) {
+        Entry& entry = _entries[same[lane]];
+        entry.anchor = parts.anchor(first + same[lane]);
+        entry.light = glm::dvec4(glm::dvec3(_light) - _light.w * entry.anchor, _light.w);
+        _lightX[lane] = entry.light.x;
+        _lightY[lane] = entry.light.y;
+        _lightZ[lane] = entry.light.z;
+        const float* others = &parts.others(first + same[lane])->x;
+        float* to = _places.data() + lane;
+        for (std::size_t k = 0; k < 3; ++k) to[k * _stride] = 0.0f;
+        for (std::size_t k = 3; k < numbers; ++k) to[k * _stride] = others[k - 3];
     }
-    entry.size = std::sqrt(square);
+    shadowKernel().face({same.size(), _stride, topology.corners, faces, _places.data(), topology.faces.data(),
+                         _lightX.data(), _lightY.data(), _lightZ.data(), _light.w, _facePlanes.data(), _facing.data(),
+                         _sizes.data(), _lows.data(), _highs.data()});
 }
 
 /// @return whether the light meets any.
-bool FanBatch::addFaces(const HullTopology& topology, const Entry& entry) {
+bool FanBatch::addFaces(const HullTopology& topology, std::size_t lane) {
     const std::size_t first = _faces;
-    grow({&_fx, &_fy, &_fz, &_fw}, _faces + topology.faces.size());
     _lit.assign(topology.faces.size() + 1, 0);
     for (std::size_t f = 0; f < topology.faces.size(); ++f) {
-        const auto& [i, j, k] = topology.faces[f];
-        const glm::dvec3& a = _corners[i];
-        const glm::dvec3 normal = glm::cross(_corners[j] - a, _corners[k] - a);
-        if (!(glm::dot(normal, glm::dvec3(entry.light) - entry.light.w * a) > 0.0)) continue;
+        if (!(_facing[f * _stride + lane] > 0.0)) continue;
+        const double* plane = _facePlanes.data() + 4 * f * _stride + lane;
         _lit[f] = 1;
-        _fx[_faces] = -normal.x;
-        _fy[_faces] = -normal.y;
-        _fz[_faces] = -normal.z;
-        _fw[_faces++] = glm::dot(normal, a);
+        _fx[_faces] = plane[0];
+        _fy[_faces] = plane[_stride];
+        _fz[_faces] = plane[2 * _stride];
+        _fw[_faces++] = plane[3 * _stride];
     }
     return _faces > first;
 }
 
-bool FanBatch::addSilhouette(const HullTopology& topology) {
+/// With its first corner once more at the end.
+bool FanBatch::addSilhouette(const HullTopology& topology, std::size_t lane) {
     if (topology.isTabled()) {
         unsigned bits = 0;
         for (std::size_t f = 0; f < topology.faces.size(); ++f) bits |= unsigned(_lit[f]) << f;
@@ -137,37 +146,74 @@ bool FanBatch::addSilhouette(const HullTopology& topology) {
         topology.silhouette(_lit.data(), _loop);
     }
     if (_loop.empty()) return false;
-    grow({&_sx, &_sy, &_sz, &_ex, &_ey, &_ez, &_ew, &_along}, _edges + _loop.size() + 1);
-    for (std::size_t i = 0; i <= _loop.size(); ++i) {
-        const glm::dvec3& corner = _corners[_loop[i < _loop.size() ? i : 0]];
-        _sx[_edges + i] = corner.x;
-        _sy[_edges + i] = corner.y;
-        _sz[_edges + i] = corner.z;
+    _loop.push_back(_loop.front());
+    for (std::size_t i = 0; i < _loop.size(); ++i) {
+        const float* corner = _places.data() + 3 * _loop[i] * _stride + lane;
+        _sx[_edges + i] = double(corner[0]);
+        _sy[_edges + i] = double(corner[_stride]);
+        _sz[_edges + i] = double(corner[2 * _stride]);
     }
     return true;
+}
+
+void FanBatch::addFan(Entry& entry, std::size_t face) {
+    const std::size_t edges = _loop.size() - 1;
+    KernelFan fan{};
+    fan.edge = _edges;
+    fan.edges = fan.corners = edges;
+    fan.face = face;
+    fan.faces = _faces - face;
+    fan.query = _queries;
+    for (int k = 0; k < 4; ++k) fan.light[k] = entry.light[k];
+    fan.u = (entry.anchor.x - _origin.x) * _scale.x;
+    fan.v = (entry.anchor.y - _origin.y) * _scale.y;
+    fan.z = entry.anchor.z - _base;
+    fan.margin = inGround * entry.size;
+    entry.fan = _fans.size();
+    entry.tangent = _light.w == 0.0 ? _tangent : leastTangent(entry, _edges, edges);
+    _fans.push_back(fan);
+    _edges += edges + 1;
+    _queries += 2 * edges;
 }
 
 /// Tangent of the light's least elevation as seen from where the shadow falls.
 ///
 /// It is the same all along a ray, and all points from which it is at least so much are convex: so it is least at a
-/// corner of the hull.
-double FanBatch::leastTangent(const Entry& entry) const {
+/// corner of the silhouette.
+double FanBatch::leastTangent(const Entry& entry, std::size_t edge, std::size_t edges) const {
     double least = infinite;
-    for (const glm::dvec3& corner : _corners) {
-        const glm::dvec3 towards = glm::dvec3(entry.light) - entry.light.w * corner;
+    for (std::size_t e = edge; e < edge + edges; ++e) {
+        const glm::dvec3 towards = glm::dvec3(entry.light) - entry.light.w * silhouette(e);
         least = std::min(least, towards.z / std::hypot(towards.x, towards.y));
-        if (entry.light.w == 0.0) break;
     }
     return least;
 }
 
-KernelFans FanBatch::kernelFans() {
-    return {_fans.size(), _fans.data(),  _sx.data(), _sy.data(), _sz.data(), _ex.data(), _ey.data(), _ez.data(),
-            _ew.data(),   _along.data(), _fx.data(), _fy.data(), _fz.data(), _fw.data(), _cx.data(), _cy.data(),
-            _scale.x,     _scale.y,      _px.data(), _py.data(), _pu.data(), _pv.data(), _pz.data(), _lightened.data()};
+glm::dvec3 FanBatch::top(std::size_t i) const {
+    const KernelFan& fan = _fans[_entries[i].fan];
+    glm::dvec3 highest = silhouette(fan.edge);
+    for (std::size_t e = fan.edge + 1; e < fan.edge + fan.edges; ++e)
+        if (_sz[e] > highest.z) highest = silhouette(e);
+    return highest;
 }
 
-void FanBatch::findEdges() { shadowKernel().edges(kernelFans()); }
+void FanBatch::makeRoom() {
+    grow({&_sx, &_sy, &_sz, &_ex, &_ey, &_ez, &_ew, &_along, &_cx, &_cy, &_cz, &_mx, &_my}, _edges + 1);
+    grow({&_u, &_v, &_z, &_du, &_dv, &_descent, &_height}, _queries);
+    grow({&_px, &_py, &_pu, &_pv, &_pz}, _edges);
+    grow({&_work}, 6 * (_queries + kernelPad));
+    if (_order.size() < _queries + kernelPad) _order.resize(2 * _queries + kernelPad);
+}
+
+KernelFans FanBatch::kernelFans() {
+    const KernelRays rays{_queries,   _u.data(),       _v.data(),      _z.data(),    _du.data(),
+                          _dv.data(), _descent.data(), _height.data(), _work.data(), _order.data()};
+    return {_fans.size(), _fans.data(), _sx.data(),    _sy.data(), _sz.data(), _ex.data(), _ey.data(),
+            _ez.data(),   _ew.data(),   _along.data(), _fx.data(), _fy.data(), _fz.data(), _fw.data(),
+            _scale.x,     _scale.y,     _way.x,        _way.y,     rays,       _u.data(),  _v.data(),
+            _z.data(),    _du.data(),   _dv.data(),    _cx.data(), _cy.data(), _cz.data(), _mx.data(),
+            _my.data(),   _px.data(),   _py.data(),    _pu.data(), _pv.data(), _pz.data()};
+}
 
 Drape FanBatch::triangles(std::size_t i) const {
     Drape result;
@@ -198,97 +244,75 @@ glm::dvec2 FanBatch::wayOf(const Entry& entry, const glm::dvec3& point) const {
     return towards.z > 0.0 ? -glm::dvec2(towards) / towards.z : glm::dvec2(nan);
 }
 
-unsigned FanBatch::ask(const Entry& entry, const glm::dvec3& point) {
-    const bool isLow = point.z <= 0.5 * (entry.low + entry.top.z);
-    Queries& to = isLow ? _lower : _upper;
-    const KernelFan& fan = _fans[entry.fan];
-    const glm::dvec2 way = wayOf(entry, point);
-    const std::size_t at = to.count++;
-    to.u[at] = fan.u + point.x * _scale.x;
-    to.v[at] = fan.v + point.y * _scale.y;
-    to.z[at] = fan.z + point.z;
-    to.du[at] = way.x * _scale.x;
-    to.dv[at] = way.y * _scale.y;
-    return unsigned(2 * at + isLow);
-}
-
-/// Where do the corners and the middles of the edges fall?
-void FanBatch::ask(Entry& entry) {
-    const KernelFan& fan = _fans[entry.fan];
-    for (Queries* to : {&_upper, &_lower})
-        grow({&to->u, &to->v, &to->z, &to->du, &to->dv, &to->descent, &to->height}, to->count + 2 * fan.edges);
-    entry.query = _asked.size();
-    for (std::size_t e = fan.edge; e < fan.edge + fan.edges; ++e) _asked.push_back(ask(entry, silhouette(e)));
-    for (std::size_t e = fan.edge; e < fan.edge + fan.edges; ++e)
-        _asked.push_back(_along[e] > 0.0 ? none : ask(entry, middle(e)));
-}
-
-void FanBatch::cast(Queries& queries) const {
+void FanBatch::cast() {
     if (_grid) {
-        shadowKernel().cast(_view,
-                            {queries.count, queries.u.data(), queries.v.data(), queries.z.data(), queries.du.data(),
-                             queries.dv.data(), queries.descent.data(), queries.height.data()});
+        shadowKernel().cast(_view, kernelFans().rays);
         return;
     }
-    for (std::size_t i = 0; i < queries.count; ++i) {
-        queries.height[i] = _ground->height(queries.u[i], queries.v[i]).value_or(nan);
-        queries.descent[i] = queries.z[i] <= queries.height[i] ? 0.0 : nan;
+    for (std::size_t i = 0; i < _queries; ++i) {
+        _height[i] = _ground->height(_u[i], _v[i]).value_or(nan);
+        _descent[i] = _z[i] <= _height[i] ? 0.0 : nan;
     }
-}
-
-/// Of a place of a part that has been asked for; about the anchor.
-std::optional<glm::dvec3> FanBatch::placeOf(const Entry& entry, const glm::dvec3& point, unsigned query,
-                                            bool exactly) const {
-    const double down = descent(query);
-    if (down == 0.0) return glm::dvec3(point.x, point.y, height(query) - _fans[entry.fan].z);
-    if (down > 0.0 && !exactly) return point + down * glm::dvec3(wayOf(entry, point), -1.0);
-    const auto place = shadowOf(entry.anchor + point, *_ground, _light);
-    if (!place) return std::nullopt;
-    return *place - entry.anchor;
-}
-
-bool FanBatch::isOut(const Entry& entry) const {
-    const KernelFan& fan = _fans[entry.fan];
-    for (std::size_t i = 0; i < fan.edges; ++i)
-        if (!(fan.z + _sz[fan.edge + i] <= height(_asked[entry.query + i]) + inGround * entry.size)) return true;
-    return false;
 }
 
 /// Whether the ground is less steep than the light wherever rays pass: then they meet it once.
 bool FanBatch::isGentle(const Entry& entry) const {
     if (!_grid) return false;
-    if (_grid->steepest() < entry.tangent) return true;
+    if (_steepest < entry.tangent) return true;
+    const KernelFan& fan = _fans[entry.fan];
     glm::dvec2 low(infinite), high(-infinite);
-    for (std::size_t i = entry.query; i < entry.query + 2 * _fans[entry.fan].edges; ++i) {
-        if (_asked[i] == none) continue;
-        const Queries& from = _asked[i] % 2 ? _lower : _upper;
-        const std::size_t at = _asked[i] / 2;
-        const glm::dvec2 start(from.u[at], from.v[at]);
-        const glm::dvec2 end =
-            from.descent[at] > 0.0 ? start + from.descent[at] * glm::dvec2(from.du[at], from.dv[at]) : start;
+    for (std::size_t i = fan.query; i < fan.query + 2 * fan.edges; ++i) {
+        const glm::dvec2 start(_u[i], _v[i]), way(_du[i], _dv[i]);
+        const glm::dvec2 end = _descent[i] > 0.0 ? start + _descent[i] * way : start;
         low = glm::min(low, glm::min(start, end));
         high = glm::max(high, glm::max(start, end));
     }
     return _grid->isGentle(low, high, entry.tangent);
 }
 
+/// Where a ray ends of which the kernel does not know, or not for sure; about the anchor.
+std::optional<glm::dvec3> FanBatch::exactEnd(const Entry& entry, const glm::dvec3& point, std::size_t query) const {
+    if (_descent[query] == 0.0) return glm::dvec3(point.x, point.y, _height[query] - _fans[entry.fan].z);
+    const auto end = shadowOf(entry.anchor + point, *_ground, _light);
+    if (!end) return std::nullopt;
+    return *end - entry.anchor;
+}
+
+/// @return false if a corner's ray meets no ground; an edge's is then not a number.
+bool FanBatch::landExactly(const Entry& entry) {
+    const KernelFan& fan = _fans[entry.fan];
+    for (std::size_t i = 0; i < fan.edges; ++i) {
+        const std::size_t e = fan.edge + i;
+        const auto end = exactEnd(entry, silhouette(e), fan.query + i);
+        if (!end) return false;
+        _cx[e] = end->x;
+        _cy[e] = end->y;
+        _cz[e] = end->z;
+        if (_along[e] > 0.0) continue;
+        const glm::dvec3 middle = exactEnd(entry, this->middle(e), fan.query + fan.edges + i).value_or(glm::dvec3(nan));
+        _mx[e] = middle.x;
+        _my[e] = middle.y;
+    }
+    return true;
+}
+
 void FanBatch::findFans() {
-    for (Entry& entry : _entries)
-        if (entry.outcome == TerrainOutcome::fan) ask(entry);
-    cast(_upper);
-    cast(_lower);
-    std::size_t places = 0;
+    cast();
+    shadowKernel().land(kernelFans());
     for (Entry& entry : _entries) {
-        if (entry.outcome != TerrainOutcome::fan) continue;
-        entry.isOut = isOut(entry);
-        if (!outline(entry)) entry.outcome = TerrainOutcome::noFan;
-        KernelFan& fan = _fans[entry.fan];
-        if (entry.outcome != TerrainOutcome::fan) fan.corners = 2;
+        if (entry.outcome != TerrainOutcome::fan || (_fans[entry.fan].isKnown && isGentle(entry))) continue;
+        if (!landExactly(entry)) entry.outcome = TerrainOutcome::noFan;
+    }
+    shadowKernel().measure(kernelFans());
+    for (Entry& entry : _entries) {
+        if (entry.outcome == TerrainOutcome::fan) finish(entry);
+        if (entry.fan != none && entry.outcome != TerrainOutcome::fan) _fans[entry.fan].corners = 2;
+    }
+    std::size_t places = 0;
+    for (KernelFan& fan : _fans) { // in their order: vectors end in the next one's
         fan.place = places;
         places += fan.corners - 2;
     }
-    grow({&_px, &_py, &_pu, &_pv, &_pz}, places);
-    grow({&_lightened}, _fans.size());
     judge(places);
 }
 
@@ -301,7 +325,7 @@ void FanBatch::judge(std::size_t places) {
         for (std::size_t i = 0; i < places; ++i) _pz[i] = _ground->height(_pu[i], _pv[i]).value_or(nan);
     shadowKernel().judge(fans);
     for (Entry& entry : _entries)
-        if (entry.outcome == TerrainOutcome::fan) entry.wrong += _lightened[entry.fan];
+        if (entry.outcome == TerrainOutcome::fan) entry.wrong += _fans[entry.fan].lit;
 }
 
 } // namespace gnomon

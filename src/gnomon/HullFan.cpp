@@ -7,8 +7,7 @@ namespace gnomon {
 std::optional<HullFan> hullFan(const Ground& ground, const ConvexHull& hull, const glm::dvec4& light) {
     FanBatch batch;
     batch.begin(ground, light);
-    if (!batch.add(PackedParts({{hull, std::nullopt}}), 0)) return std::nullopt;
-    batch.findEdges();
+    batch.take(PackedParts({{hull, std::nullopt}}), 0, 1);
     batch.findFans();
     if (batch.entry(0).outcome != TerrainOutcome::fan) return std::nullopt;
     return HullFan{batch.triangles(0), batch.entry(0).off()};

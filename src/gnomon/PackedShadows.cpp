@@ -29,7 +29,7 @@ void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
         low = std::min(low, corner.z);
         found.corners.push_back(rounded(found, entry.anchor, corner));
     }
-    found.highest = std::max(found.highest, entry.top.z - low);
+    found.highest = std::max(found.highest, entry.high - low);
 }
 
 /// Corners at one place are one; of a triangle that goes on from the one before, as those of a polygon do, two are known.
@@ -49,7 +49,7 @@ void addDrape(PackedShadows& found, const FanBatch::Entry& entry, const Drape& d
         found.indices.push_back(number(drape[i + 2]));
     }
     found.corners.insert(found.corners.end(), numbers.keys.begin(), numbers.keys.end());
-    found.highest = std::max(found.highest, entry.top.z - low);
+    found.highest = std::max(found.highest, entry.high - low);
 }
 
 void addEnds(PackedShadows& found, TerrainOutcome outcome) {

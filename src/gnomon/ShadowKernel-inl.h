@@ -1,195 +1,10 @@
 // SPDX-License-Identifier: MIT
-// No include guard: ShadowKernel.cpp compiles it once for each set of instructions.
-#include <gnomon/ShadowKernel.h>
-
-#include <hwy/highway.h>
+// Silhouettes and polygons. No include guard: ShadowKernel.cpp compiles it once for each set of instructions.
+#include <gnomon/ShadowKernelGrid-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace gnomon {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<double>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-using Half = hn::Rebind<float, D>;
-using Bits = hn::Rebind<std::uint64_t, D>;
-
-constexpr int mostSteps = 16;   // of a ray from triangle to triangle: then it is left to others
-constexpr std::size_t wide = 2; // vectors at once, so that one computes while another waits for memory
-
-HWY_INLINE V set(double value) { return hn::Set(D(), value); }
-
-/// Two posts side by side, of each lane.
-struct Pair {
-    V left, right;
-};
-
-HWY_INLINE Pair pairAt(const float* heights, hn::Vec<Bits> place) {
-    const Bits bits;
-#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    const hn::RebindToSigned<Bits> ints;
-    const auto both = hn::GatherOffset(bits, reinterpret_cast<const std::uint64_t*>(heights),
-                                       hn::BitCast(ints, hn::ShiftLeft<2>(place)));
-    const auto low = hn::TruncateTo(hn::Rebind<std::uint32_t, D>(), both),
-               high = hn::TruncateTo(hn::Rebind<std::uint32_t, D>(), hn::ShiftRight<32>(both));
-    return {hn::PromoteTo(D(), hn::BitCast(Half(), low)), hn::PromoteTo(D(), hn::BitCast(Half(), high))};
-#else
-    HWY_ALIGN std::uint64_t places[HWY_MAX_BYTES / 8];
-    HWY_ALIGN double left[HWY_MAX_BYTES / 8], right[HWY_MAX_BYTES / 8];
-    hn::Store(place, bits, places);
-    for (std::size_t i = 0; i < hn::Lanes(bits); ++i) {
-        left[i] = double(heights[places[i]]);
-        right[i] = double(heights[places[i] + 1]);
-    }
-    return {hn::Load(D(), left), hn::Load(D(), right)};
-#endif
-}
-
-/// A triangle of the grid.
-struct Cell {
-    V number, u, v; ///< of the cell; place in it.
-    M right;        ///< in its lower right triangle, or its lower left one.
-};
-
-struct Plane {
-    V height, alongU, alongV; ///< at the place; slopes.
-};
-
-class Grid {
-public:
-    explicit Grid(const GridView& view)
-        : _view(view), _mostU(set(view.columns - 2)), _mostV(set(view.rows - 2)), _stride(set(view.columns)) {}
-
-    /// Of the nearest cell, for a place that is beside the grid.
-    HWY_INLINE Cell cell(V u, V v) const {
-        const V zero = hn::Zero(D());
-        const V i = hn::Min(hn::Max(hn::Floor(u), zero), _mostU), j = hn::Min(hn::Max(hn::Floor(v), zero), _mostV);
-        Cell cell{hn::Add(hn::Mul(j, _stride), i), hn::Sub(u, i), hn::Sub(v, j), {}};
-        cell.right = hn::Ge(cell.u, cell.v);
-        if (_view.cuts) {
-            const M falling = cutIs(cell.number, j, CellCut::falling);
-            cell.right =
-                hn::Or(hn::AndNot(falling, cell.right), hn::And(falling, hn::Le(hn::Add(cell.u, cell.v), set(1.0))));
-        }
-        return cell;
-    }
-
-    HWY_INLINE Plane plane(const Cell& cell) const {
-        const auto place = placeOf(cell.number);
-        const Pair below = pairAt(_view.heights, place), above = pairAt(_view.heights + _view.columns, place);
-        const V a = below.left, b = below.right, d = above.left, c = above.right;
-        const V ba = hn::Sub(b, a), cd = hn::Sub(c, d), cb = hn::Sub(c, b), da = hn::Sub(d, a);
-        Plane plane{a, hn::IfThenElse(cell.right, ba, cd), hn::IfThenElse(cell.right, cb, da)};
-        if (_view.cuts) {
-            const V j = hn::Floor(hn::Div(cell.number, _stride));
-            const M falling = cutIs(cell.number, j, CellCut::falling);
-            plane.alongV = hn::IfThenElse(falling, hn::IfThenElse(cell.right, da, cb), plane.alongV);
-            plane.height = hn::IfThenElse(hn::AndNot(cell.right, falling), hn::Sub(hn::Add(b, d), c), a);
-            plane.height = hn::IfThenElse(cutIs(cell.number, j, CellCut::hole), set(std::nan("")), plane.height);
-        }
-        // A corner without a height makes a hole of all of the cell.
-        const V none = hn::Mul(hn::Add(hn::Add(ba, cd), hn::Add(cb, da)), hn::Zero(D()));
-        plane.height =
-            hn::Add(hn::Add(plane.height, none), hn::Add(hn::Mul(cell.u, plane.alongU), hn::Mul(cell.v, plane.alongV)));
-        return plane;
-    }
-
-    HWY_INLINE M holds(V u, V v) const {
-        const V zero = hn::Zero(D()), one = set(1.0);
-        return hn::And(hn::And(hn::Ge(u, zero), hn::Ge(v, zero)),
-                       hn::And(hn::Le(u, hn::Add(_mostU, one)), hn::Le(v, hn::Add(_mostV, one))));
-    }
-
-private:
-    /// A whole number from 0 to 2^52 as an integer.
-    HWY_INLINE hn::Vec<Bits> placeOf(V number) const {
-        const V magic = set(4503599627370496.0);
-        return hn::Xor(hn::BitCast(Bits(), hn::Add(number, magic)), hn::BitCast(Bits(), magic));
-    }
-    HWY_INLINE M cutIs(V number, V row, CellCut cut) const {
-        HWY_ALIGN std::uint64_t places[HWY_MAX_BYTES / 8];
-        HWY_ALIGN double is[HWY_MAX_BYTES / 8];
-        hn::Store(placeOf(hn::Sub(number, row)), Bits(), places); // a row has a cell less than it has posts
-        for (std::size_t i = 0; i < hn::Lanes(D()); ++i) is[i] = _view.cuts[places[i]] == cut ? 1.0 : 0.0;
-        return hn::Gt(hn::Load(D(), is), hn::Zero(D()));
-    }
-
-    const GridView& _view;
-    const V _mostU, _mostV, _stride;
-};
-
-/// A ray on its way down, from triangle to triangle.
-struct Ray {
-    V u, v, z, du, dv, descent, height, number;
-    M right, done;
-};
-
-HWY_INLINE void start(Ray& ray, const Grid& grid, const KernelRays& rays, std::size_t at) {
-    const D d;
-    ray.u = hn::LoadU(d, rays.u + at);
-    ray.v = hn::LoadU(d, rays.v + at);
-    ray.z = hn::LoadU(d, rays.z + at);
-    ray.du = hn::LoadU(d, rays.du + at);
-    ray.dv = hn::LoadU(d, rays.dv + at);
-    const Cell cell = grid.cell(ray.u, ray.v);
-    const Plane plane = grid.plane(cell);
-    const V none = set(std::nan(""));
-    ray.height = hn::IfThenElse(grid.holds(ray.u, ray.v), plane.height, none);
-    const V gap = hn::Sub(ray.z, ray.height);
-    const V slope = hn::Add(hn::Mul(plane.alongU, ray.du), hn::Mul(plane.alongV, ray.dv));
-    const M isBelow = hn::Le(gap, hn::Zero(d));
-    ray.descent = hn::IfThenElse(isBelow, hn::Zero(d), hn::Div(gap, hn::Add(set(1.0), slope)));
-    ray.done = hn::Or(isBelow, hn::IsNaN(ray.descent));
-    ray.number = cell.number;
-    ray.right = cell.right;
-}
-
-/// To where it meets the plane of the triangle that it is over: the last step is the one that stays in its triangle.
-HWY_INLINE void step(Ray& ray, const Grid& grid) {
-    const V u = hn::Add(ray.u, hn::Mul(ray.descent, ray.du)), v = hn::Add(ray.v, hn::Mul(ray.descent, ray.dv));
-    const Cell cell = grid.cell(u, v);
-    const M same = hn::And(hn::Eq(cell.number, ray.number), hn::Not(hn::Xor(cell.right, ray.right)));
-    const V beside = hn::IfThenElse(grid.holds(u, v), ray.descent, set(std::nan("")));
-    ray.descent = hn::IfThenElse(hn::AndNot(ray.done, same), beside, ray.descent);
-    ray.done = hn::Or(ray.done, same);
-    const Plane plane = grid.plane(cell);
-    const V gap = hn::Sub(hn::Sub(ray.z, ray.descent), plane.height);
-    const V slope = hn::Add(hn::Mul(plane.alongU, ray.du), hn::Mul(plane.alongV, ray.dv));
-    const V next = hn::Add(ray.descent, hn::Div(gap, hn::Add(set(1.0), slope)));
-    ray.descent = hn::IfThenElse(ray.done, ray.descent, next);
-    ray.number = cell.number;
-    ray.right = cell.right;
-}
-
-void cast(const GridView& view, const KernelRays& rays) {
-    const D d;
-    const Grid grid(view);
-    const std::size_t lanes = hn::Lanes(d);
-    for (std::size_t at = 0; at < rays.count; at += wide * lanes) {
-        Ray group[wide];
-        for (std::size_t k = 0; k < wide; ++k) start(group[k], grid, rays, at + k * lanes);
-        for (int i = 0; i < mostSteps; ++i) {
-            if (hn::AllTrue(d, hn::And(group[0].done, group[1].done))) break;
-            for (std::size_t k = 0; k < wide; ++k) step(group[k], grid);
-        }
-        for (std::size_t k = 0; k < wide; ++k) {
-            hn::StoreU(hn::IfThenElse(group[k].done, group[k].descent, set(std::nan(""))), d,
-                       rays.descent + at + k * lanes);
-            hn::StoreU(group[k].height, d, rays.height + at + k * lanes);
-        }
-    }
-}
-
-void heights(const GridView& view, const double* u, const double* v, double* z, std::size_t count) {
-    const D d;
-    const Grid grid(view);
-    for (std::size_t at = 0; at < count; at += hn::Lanes(d)) {
-        const V atU = hn::LoadU(d, u + at), atV = hn::LoadU(d, v + at);
-        const Plane plane = grid.plane(grid.cell(atU, atV));
-        hn::StoreU(hn::IfThenElse(grid.holds(atU, atV), plane.height, set(std::nan(""))), d, z + at);
-    }
-}
 
 struct V3 {
     V x, y, z;
@@ -203,38 +18,212 @@ HWY_INLINE V3 cross(const V3& a, const V3& b) {
             hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
-/// An edge that points at the light has no plane.
-HWY_INLINE void edgesOf(const KernelFans& all, const KernelFan& fan) {
+HWY_INLINE V3 cornerOf(const KernelHulls& all, std::size_t corner, std::size_t at) {
     const D d;
-    for (std::size_t i = fan.edge; i < fan.edge + fan.edges; i += hn::Lanes(d)) {
-        const V3 a{hn::LoadU(d, all.sx + i), hn::LoadU(d, all.sy + i), hn::LoadU(d, all.sz + i)};
-        const V3 b{hn::LoadU(d, all.sx + i + 1), hn::LoadU(d, all.sy + i + 1), hn::LoadU(d, all.sz + i + 1)};
-        const V w = set(fan.light[3]);
-        const V3 towards = minus({set(fan.light[0]), set(fan.light[1]), set(fan.light[2])},
-                                 {hn::Mul(w, a.x), hn::Mul(w, a.y), hn::Mul(w, a.z)});
-        const V3 edge = minus(b, a), normal = cross(towards, edge);
-        const V size = dot(normal, normal), whole = hn::Mul(dot(towards, towards), dot(edge, edge));
-        const M isPlane = hn::Gt(size, hn::Mul(set(1e-28), whole));
-        const M leans = hn::Gt(hn::Mul(normal.z, normal.z), hn::Mul(set(1e-18), size));
-        hn::StoreU(hn::IfThenElseZero(isPlane, normal.x), d, all.ex + i);
-        hn::StoreU(hn::IfThenElseZero(isPlane, normal.y), d, all.ey + i);
-        hn::StoreU(hn::IfThenElseZero(isPlane, normal.z), d, all.ez + i);
-        hn::StoreU(hn::IfThenElseZero(isPlane, hn::Neg(dot(normal, a))), d, all.ew + i);
-        hn::StoreU(hn::IfThenElse(leans, hn::Zero(d), set(1.0)), d, all.along + i);
+    const float* from = all.places + 3 * corner * all.stride + at;
+    const auto load = [&](std::size_t k) { return hn::PromoteTo(d, hn::LoadU(Half(), from + k * all.stride)); };
+    return {load(0), load(1), load(2)};
+}
+
+HWY_INLINE void faceOf(const KernelHulls& all, std::size_t f, std::size_t at) {
+    const D d;
+    const V3 a = cornerOf(all, all.triples[f][0], at);
+    const V3 normal =
+        cross(minus(cornerOf(all, all.triples[f][1], at), a), minus(cornerOf(all, all.triples[f][2], at), a));
+    const V w = set(all.lightW);
+    const V3 towards =
+        minus({hn::LoadU(d, all.lightX + at), hn::LoadU(d, all.lightY + at), hn::LoadU(d, all.lightZ + at)},
+              {hn::Mul(w, a.x), hn::Mul(w, a.y), hn::Mul(w, a.z)});
+    double* to = all.planes + 4 * f * all.stride + at;
+    hn::StoreU(hn::Neg(normal.x), d, to);
+    hn::StoreU(hn::Neg(normal.y), d, to + all.stride);
+    hn::StoreU(hn::Neg(normal.z), d, to + 2 * all.stride);
+    hn::StoreU(dot(normal, a), d, to + 3 * all.stride);
+    hn::StoreU(dot(normal, towards), d, all.facing + f * all.stride + at);
+}
+
+void face(const KernelHulls& all) {
+    const D d;
+    for (std::size_t at = 0; at < all.count; at += hn::Lanes(d)) {
+        V size = hn::Zero(d), low = size, high = size;
+        for (std::size_t c = 1; c < all.corners; ++c) {
+            const V3 corner = cornerOf(all, c, at);
+            size = hn::Max(size, dot(corner, corner));
+            low = hn::Min(low, corner.z);
+            high = hn::Max(high, corner.z);
+        }
+        hn::StoreU(size, d, all.size + at);
+        hn::StoreU(low, d, all.low + at);
+        hn::StoreU(high, d, all.high + at);
+        for (std::size_t f = 0; f < all.faces; ++f) faceOf(all, f, at);
     }
 }
 
+HWY_INLINE V3 silhouetteAt(const KernelFans& all, std::size_t i) {
+    const D d;
+    return {hn::LoadU(d, all.sx + i), hn::LoadU(d, all.sy + i), hn::LoadU(d, all.sz + i)};
+}
+
+HWY_INLINE V3 towardsLight(const KernelFan& fan, const V3& a) {
+    const V w = set(fan.light[3]);
+    return minus({set(fan.light[0]), set(fan.light[1]), set(fan.light[2])},
+                 {hn::Mul(w, a.x), hn::Mul(w, a.y), hn::Mul(w, a.z)});
+}
+
+/// An edge that points at the light has no plane.
+HWY_INLINE void planeOf(const KernelFans& all, const KernelFan& fan, std::size_t i) {
+    const D d;
+    const V3 a = silhouetteAt(all, i), edge = minus(silhouetteAt(all, i + 1), a), towards = towardsLight(fan, a);
+    const V3 normal = cross(towards, edge);
+    const V size = dot(normal, normal), whole = hn::Mul(dot(towards, towards), dot(edge, edge));
+    const M isPlane = hn::Gt(size, hn::Mul(set(1e-28), whole));
+    const M leans = hn::Gt(hn::Mul(normal.z, normal.z), hn::Mul(set(1e-18), size));
+    hn::StoreU(hn::IfThenElseZero(isPlane, normal.x), d, all.ex + i);
+    hn::StoreU(hn::IfThenElseZero(isPlane, normal.y), d, all.ey + i);
+    hn::StoreU(hn::IfThenElseZero(isPlane, normal.z), d, all.ez + i);
+    hn::StoreU(hn::IfThenElseZero(isPlane, hn::Neg(dot(normal, a))), d, all.ew + i);
+    hn::StoreU(hn::IfThenElse(leans, hn::Zero(d), set(1.0)), d, all.along + i);
+}
+
+/// The way in plan of rays through points, a unit of descent; NaN if the light is not above them.
+HWY_INLINE void wayOf(const KernelFans& all, const KernelFan& fan, const V3& p, V& x, V& y) {
+    x = set(all.wayX);
+    y = set(all.wayY);
+    if (fan.light[3] == 0.0) return;
+    const V3 towards = towardsLight(fan, p);
+    const V down = hn::Neg(hn::IfThenElse(hn::Gt(towards.z, hn::Zero(D())), towards.z, set(std::nan(""))));
+    x = hn::Div(towards.x, down);
+    y = hn::Div(towards.y, down);
+}
+
+HWY_INLINE void ask(const KernelFans& all, const KernelFan& fan, const V3& p, std::size_t at) {
+    const D d;
+    V x, y;
+    wayOf(all, fan, p, x, y);
+    hn::StoreU(hn::Add(set(fan.u), hn::Mul(p.x, set(all.scaleX))), d, all.u + at);
+    hn::StoreU(hn::Add(set(fan.v), hn::Mul(p.y, set(all.scaleY))), d, all.v + at);
+    hn::StoreU(hn::Add(set(fan.z), p.z), d, all.z + at);
+    hn::StoreU(hn::Mul(x, set(all.scaleX)), d, all.du + at);
+    hn::StoreU(hn::Mul(y, set(all.scaleY)), d, all.dv + at);
+}
+
+HWY_INLINE V3 middleOf(const KernelFans& all, std::size_t i) {
+    const V3 a = silhouetteAt(all, i), b = silhouetteAt(all, i + 1);
+    const V half = set(0.5);
+    return {hn::Mul(half, hn::Add(a.x, b.x)), hn::Mul(half, hn::Add(a.y, b.y)), hn::Mul(half, hn::Add(a.z, b.z))};
+}
+
+/// Vectors end in what comes after and is written later. Of edges whose shadow is straight whatever the ground nothing is
+/// asked: as if they were below it.
 void edges(const KernelFans& all) {
-    for (std::size_t i = 0; i < all.count; ++i) edgesOf(all, all.fans[i]);
+    const D d;
+    for (std::size_t k = 0; k < all.count; ++k) {
+        const KernelFan& fan = all.fans[k];
+        for (std::size_t i = 0; i < fan.edges; i += hn::Lanes(d)) {
+            planeOf(all, fan, fan.edge + i);
+            ask(all, fan, silhouetteAt(all, fan.edge + i), fan.query + i);
+        }
+        for (std::size_t i = 0; i < fan.edges; i += hn::Lanes(d)) {
+            V3 middle = middleOf(all, fan.edge + i);
+            const M isAlong = hn::Gt(hn::LoadU(d, all.along + fan.edge + i), hn::Zero(d));
+            middle.z = hn::IfThenElse(isAlong, set(-HUGE_VAL), middle.z);
+            ask(all, fan, middle, fan.query + fan.edges + i);
+        }
+    }
+}
+
+/// Where rays end, about the anchor.
+HWY_INLINE V3 endOf(const KernelFans& all, const KernelFan& fan, const V3& start, std::size_t query) {
+    const D d;
+    const V descent = hn::LoadU(d, all.rays.descent + query), ground = hn::LoadU(d, all.rays.height + query);
+    V x, y;
+    wayOf(all, fan, start, x, y);
+    const M isBelow = hn::Eq(descent, hn::Zero(d));
+    return {hn::IfThenElse(isBelow, start.x, hn::Add(start.x, hn::Mul(descent, x))),
+            hn::IfThenElse(isBelow, start.y, hn::Add(start.y, hn::Mul(descent, y))),
+            hn::IfThenElse(isBelow, hn::Sub(ground, set(fan.z)), hn::Sub(start.z, descent))};
+}
+
+HWY_INLINE void landOf(const KernelFans& all, KernelFan& fan) {
+    const D d;
+    M isOut = none(), isUnknown = isOut;
+    for (std::size_t i = 0; i < fan.edges; i += hn::Lanes(d)) {
+        const M isOne = hn::FirstN(d, fan.edges - i);
+        const V3 start = silhouetteAt(all, fan.edge + i), end = endOf(all, fan, start, fan.query + i);
+        hn::StoreU(end.x, d, all.cx + fan.edge + i);
+        hn::StoreU(end.y, d, all.cy + fan.edge + i);
+        hn::StoreU(end.z, d, all.cz + fan.edge + i);
+        const V top = hn::Add(hn::LoadU(d, all.rays.height + fan.query + i), set(fan.margin));
+        isOut = hn::Or(isOut, hn::AndNot(hn::Le(hn::Add(set(fan.z), start.z), top), isOne));
+        isUnknown = hn::Or(isUnknown, hn::And(hn::IsNaN(end.x), isOne));
+    }
+    for (std::size_t i = 0; i < fan.edges; i += hn::Lanes(d)) {
+        const V3 end = endOf(all, fan, middleOf(all, fan.edge + i), fan.query + fan.edges + i);
+        hn::StoreU(end.x, d, all.mx + fan.edge + i);
+        hn::StoreU(end.y, d, all.my + fan.edge + i);
+        const M asks = hn::Eq(hn::LoadU(d, all.along + fan.edge + i), hn::Zero(d));
+        isUnknown = hn::Or(isUnknown, hn::And(hn::And(hn::IsNaN(end.x), asks), hn::FirstN(d, fan.edges - i)));
+    }
+    fan.isOut = !hn::AllFalse(d, isOut);
+    fan.isKnown = hn::AllFalse(d, isUnknown);
+}
+
+void land(const KernelFans& all) {
+    for (std::size_t i = 0; i < all.count; ++i) landOf(all, all.fans[i]);
+}
+
+/// Twice the area of a triangle in plan.
+HWY_INLINE V areaOf(V ax, V ay, V bx, V by, V cx, V cy) {
+    return hn::Sub(hn::Mul(hn::Sub(bx, ax), hn::Sub(cy, ay)), hn::Mul(hn::Sub(by, ay), hn::Sub(cx, ax)));
+}
+
+/// Adds up in order, whatever the lanes.
+template <class Take>
+HWY_INLINE void each(V values, std::size_t count, const Take& take) {
+    HWY_ALIGN double one[HWY_MAX_BYTES / 8];
+    hn::Store(values, D(), one);
+    for (std::size_t i = 0; i < hn::Lanes(D()) && i < count; ++i) take(one[i]);
+}
+
+HWY_INLINE void measureOf(const KernelFans& all, KernelFan& fan) {
+    const D d;
+    const std::size_t n = fan.edges;
+    const double *sx = all.sx + fan.edge, *sy = all.sy + fan.edge;
+    double *cx = all.cx + fan.edge, *cy = all.cy + fan.edge;
+    cx[n] = cx[0];
+    cy[n] = cy[0];
+    fan.lenses = fan.area = fan.under = fan.most = 0.0;
+    fan.least = HUGE_VAL;
+    const auto load = [&](const double* from) { return hn::LoadU(d, from); };
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+        const V lens = areaOf(load(cx + i), load(cy + i), load(cx + i + 1), load(cy + i + 1),
+                              load(all.mx + fan.edge + i), load(all.my + fan.edge + i));
+        const M asks = hn::Eq(load(all.along + fan.edge + i), hn::Zero(d));
+        each(hn::IfThenElseZero(asks, hn::Abs(lens)), n - i, [&](double one) { fan.lenses += 4.0 / 3.0 * one; });
+    }
+    for (std::size_t i = 1; i + 1 < n; i += hn::Lanes(d)) {
+        each(areaOf(set(cx[0]), set(cy[0]), load(cx + i), load(cy + i), load(cx + i + 1), load(cy + i + 1)), n - 1 - i,
+             [&](double one) {
+                 fan.area += one;
+                 fan.least = one < fan.least ? one : fan.least;
+                 fan.most = one > fan.most ? one : fan.most;
+             });
+        each(areaOf(set(sx[0]), set(sy[0]), load(sx + i), load(sy + i), load(sx + i + 1), load(sy + i + 1)), n - 1 - i,
+             [&](double one) { fan.under += one; });
+    }
+}
+
+void measure(const KernelFans& all) {
+    for (std::size_t i = 0; i < all.count; ++i) measureOf(all, all.fans[i]);
 }
 
 /// The middles of triangles. Vectors end in what comes after and is written later.
 HWY_INLINE void placesOf(const KernelFans& all, const KernelFan& fan) {
     const D d;
     const std::size_t triangles = fan.corners - 2;
-    const V ax = set(all.cx[fan.corner]), ay = set(all.cy[fan.corner]), third = set(1.0 / 3.0);
+    const V ax = set(all.cx[fan.edge]), ay = set(all.cy[fan.edge]), third = set(1.0 / 3.0);
     for (std::size_t t = 0; t < triangles; t += hn::Lanes(d)) {
-        const std::size_t at = fan.place + t, b = fan.corner + t + 1, c = b + 1;
+        const std::size_t at = fan.place + t, b = fan.edge + t + 1, c = b + 1;
         const V px = hn::Mul(hn::Add(hn::Add(ax, hn::LoadU(d, all.cx + b)), hn::LoadU(d, all.cx + c)), third);
         const V py = hn::Mul(hn::Add(hn::Add(ay, hn::LoadU(d, all.cy + b)), hn::LoadU(d, all.cy + c)), third);
         hn::StoreU(px, d, all.px + at);
@@ -261,7 +250,7 @@ HWY_INLINE V leastInside(V least, const double* x, const double* y, const double
 HWY_INLINE double litOf(const KernelFans& all, const KernelFan& fan) {
     const D d;
     const std::size_t triangles = fan.corners - 2, e = fan.edge, f = fan.face;
-    const double *cx = all.cx + fan.corner, *cy = all.cy + fan.corner;
+    const double *cx = all.cx + fan.edge, *cy = all.cy + fan.edge;
     double sum = 0.0;
     HWY_ALIGN double lit[HWY_MAX_BYTES / 8];
     for (std::size_t t = 0; t < triangles; t += hn::Lanes(d)) {
@@ -282,7 +271,7 @@ HWY_INLINE double litOf(const KernelFans& all, const KernelFan& fan) {
 }
 
 void judge(const KernelFans& all) {
-    for (std::size_t i = 0; i < all.count; ++i) all.lit[i] = litOf(all, all.fans[i]);
+    for (std::size_t i = 0; i < all.count; ++i) all.fans[i].lit = litOf(all, all.fans[i]);
 }
 
 void sides(const KernelPoints& points, const double* planes, std::size_t count) {
@@ -300,7 +289,9 @@ void sides(const KernelPoints& points, const double* planes, std::size_t count) 
     }
 }
 
-ShadowKernel kernel() { return {hwy::TargetName(HWY_TARGET), cast, heights, edges, places, judge, sides}; }
+ShadowKernel kernel() {
+    return {hwy::TargetName(HWY_TARGET), cast, heights, face, edges, land, measure, places, judge, sides};
+}
 
 } // namespace HWY_NAMESPACE
 } // namespace gnomon

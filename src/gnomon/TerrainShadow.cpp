@@ -14,8 +14,7 @@ namespace {
 // Of a fan's area. On hills of 8.5 degrees 1 % would drape every fifth shadow in a sun at 10 degrees, and a mean of 17
 // triangles buys 0.2 %; what is missed is in proportion to it.
 constexpr double mostOff = 0.05;
-constexpr double inGround = 1e-6; // of a part's size: what single precision leaves of a height, and some more
-constexpr double grazing = 0.8;   // of the light's tangent: above it a small height moves an edge by five times as much
+constexpr double grazing = 0.8; // of the light's tangent: above it a small height moves an edge by five times as much
 
 bool isBelow(const Ground& ground, const glm::dvec3& point, double margin = 0.0) {
     const auto height = ground.height(point.x, point.y);
@@ -33,22 +32,23 @@ bool reachesUnder(const glm::dvec3* triangle, const ConvexShadow& beneath, doubl
 ConvexShadow beneath(const Ground& ground, const PackedParts& parts, std::size_t part) {
     FanBatch batch;
     batch.begin(ground, {0.0, 0.0, 1.0, 0.0});
-    if (!batch.add(parts, part)) return {};
-    batch.findEdges();
-    return batch.shadow(0);
+    batch.take(parts, part, part + 1);
+    return batch.isThere(0) ? batch.shadow(0) : ConvexShadow();
 }
 
-/// Whether the ground is over all of the part, or in it as a rug is.
-bool isBuried(const Ground& ground, const PackedParts& parts, std::size_t part, const FanBatch::Entry& entry) {
-    const double margin = inGround * entry.size;
-    if (entry.isOut || !isBelow(ground, entry.anchor + entry.top, margin)) return false;
-    if (!isBelow(ground, entry.anchor, margin)) return false;
-    for (unsigned i = 0; i + 1 < parts.topology(part).corners; ++i)
-        if (!isBelow(ground, entry.anchor + glm::dvec3(parts.others(part)[i]), margin)) return false;
-    const ConvexShadow below = beneath(ground, parts, part);
-    const Drape under = below.planes.empty() ? Drape() : drape(ground, below, 0.0);
-    for (std::size_t i = 0; i + 2 < under.size(); i += 3)
-        if (reachesUnder(&under[i], below, margin)) return false;
+/// Whether the ground is over all of the part, or in it as a rug is. @param i  of the part in the batch.
+bool isBuried(const FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts,
+              std::size_t part) {
+    const FanBatch::Entry& entry = batch.entry(i);
+    const double margin = FanBatch::inGround * entry.size;
+    const auto isUnder = [&](const glm::dvec3& corner) { return isBelow(asked.ground, entry.anchor + corner, margin); };
+    if (!isUnder(batch.top(i)) || !isUnder(glm::dvec3(0.0))) return false;
+    for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k)
+        if (!isUnder(glm::dvec3(parts.others(part)[k]))) return false;
+    const ConvexShadow below = beneath(asked.ground, parts, part);
+    const Drape under = below.planes.empty() ? Drape() : drape(asked.ground, below, 0.0);
+    for (std::size_t k = 0; k + 2 < under.size(); k += 3)
+        if (reachesUnder(&under[k], below, margin)) return false;
     return true;
 }
 
@@ -89,9 +89,7 @@ bool isLightBelow(const Ground& ground, const glm::dvec4& light) {
 
 void findTogether(FanBatch& batch, const TerrainAsk& asked, const PackedParts& parts, std::size_t first,
                   std::size_t end) {
-    batch.clear();
-    for (std::size_t part = first; part < end; ++part) batch.add(parts, part);
-    batch.findEdges();
+    batch.take(parts, first, end);
     if (asked.method == TerrainMethod::hull) batch.findFans();
 }
 
@@ -100,8 +98,9 @@ Settled settled(FanBatch& batch, std::size_t i, const TerrainAsk& asked, const P
     TerrainOutcome outcome = entry.outcome;
     if (outcome == TerrainOutcome::lightInside) return {outcome, &batch.allGround(i)};
     if (outcome != TerrainOutcome::fan && outcome != TerrainOutcome::noFan) return {outcome};
-    if (isBuried(asked.ground, parts, part, entry)) return {TerrainOutcome::buried};
-    if (asked.method == TerrainMethod::drape) outcome = TerrainOutcome::draped;
+    const bool isDrape = asked.method == TerrainMethod::drape;
+    if ((isDrape || !batch.isOut(i)) && isBuried(batch, i, asked, parts, part)) return {TerrainOutcome::buried};
+    if (isDrape) outcome = TerrainOutcome::draped;
     if (outcome == TerrainOutcome::fan && entry.off() <= mostOff) return {outcome};
     if (outcome == TerrainOutcome::fan) {
         const double slope = asked.ground.steepest(batch.shadow(i).planes);

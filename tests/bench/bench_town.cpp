@@ -150,6 +150,39 @@ void sizes(benchmark::internal::Benchmark* run) {
 BENCHMARK_CAPTURE(sunStep, hull, TerrainMethod::hull)->Apply(sizes);
 BENCHMARK_CAPTURE(sunStep, drape, TerrainMethod::drape)->Apply(sizes);
 
+/// What bounds a step: heights of the ground at places in random houses' shadows, by the kernel alone. Without SIMD or with.
+void heightsAlone(benchmark::State& state) {
+    const Chosen chosen(1, state.range(0) != 0);
+    constexpr std::size_t count = 4096, together = 16;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> anywhere(30.0, posts - 30.0), near(-3.0, 3.0);
+    std::vector<double> u(count + gnomon::kernelPad), v(u.size()), z(u.size());
+    for (std::size_t i = 0; i < count; i += together) {
+        const double x = anywhere(random), y = anywhere(random);
+        for (std::size_t k = i; k < i + together; ++k) u[k] = x + near(random), v[k] = y + near(random);
+    }
+    const gnomon::HeightField& field = ground().field();
+    const gnomon::GridView view{field.heights(), field.cuts(), field.columns(), field.rows()};
+    for (auto _ : state) gnomon::shadowKernel().heights(view, u.data(), v.data(), z.data(), count);
+    for (std::size_t i = 0; i < count; ++i)
+        if (!(std::abs(z[i] - *field.height(u[i] * pitch, v[i] * pitch)) < 1e-9))
+            return state.SkipWithError("the heights are wrong.");
+    state.counters["heights/s"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+/// The other bound: memory, read and written.
+void memoryAlone(benchmark::State& state) {
+    std::vector<double> from(std::size_t(1) << 24, 1.0), to(from.size());
+    for (auto _ : state) {
+        std::copy(from.begin(), from.end(), to.begin());
+        benchmark::ClobberMemory();
+    }
+    state.SetBytesProcessed(std::int64_t(state.iterations()) * std::int64_t(2 * from.size() * sizeof(double)));
+}
+
+BENCHMARK(heightsAlone)->ArgName("simd")->Arg(1)->Arg(0);
+BENCHMARK(memoryAlone);
+
 } // namespace
 
 BENCHMARK_MAIN();

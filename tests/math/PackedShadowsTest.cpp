@@ -152,6 +152,29 @@ TEST(PackedShadows, AreTheSameBitForBitForOneThreadAndForMany) {
     }
 }
 
+/// Parts of many kinds over and over: what a part is found together with differs, its shadow does not.
+TEST(PackedShadows, OfAHundredThousandPartsAreThoseOfEachWhateverItIsFoundWith) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    const PackedParts few(townOn(ground, 160));
+    const PackedShadows expected = found(ground, few, sun(200.0, 30.0));
+    PackedParts many;
+    std::mt19937 random(1);
+    std::vector<std::size_t> which;
+    for (int i = 0; i < 100000; ++i) {
+        which.push_back(random() % few.size());
+        many.add(few, which.back());
+    }
+    const PackedShadows all = found(ground, many, sun(200.0, 30.0));
+    ASSERT_EQ(all.size(), which.size());
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        const gnomon::PackedShadow a = all[i], b = expected[which[i]];
+        ASSERT_EQ(a.outcome, b.outcome) << i;
+        ASSERT_EQ(a.cornerCount, b.cornerCount) << i;
+        ASSERT_EQ(std::memcmp(a.corners, b.corners, a.cornerCount * sizeof(glm::vec3)), 0) << i;
+        ASSERT_TRUE(std::equal(a.indices, a.indices + a.indexCount, b.indices, b.indices + b.indexCount)) << i;
+    }
+}
+
 /// Without the gentle ground's short cut, on triangles: other ways to the same places.
 TEST(PackedShadows, OnAGridAreThoseOnItsTriangles) {
     const HeightPyramid ground = groundOf(hills, posts);
