@@ -30,7 +30,11 @@ Compositor::Compositor(StageDraw draw) : _draw(std::move(draw)), _lightBits(_dra
     _lightBits.resize(std::min(_lightBits.size(), mostRelitLights));
 }
 
-void Compositor::compose(const std::vector<ShadowJob>& jobs) {
+void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<StageEffect>>& effects) {
+    const auto draw = [&](StageEffect::Turn turn) {
+        for (const osg::ref_ptr<StageEffect>& effect : effects)
+            if (effect->turn() == turn) effect->draw(_draw);
+    };
     Jobs relit;
     std::map<float, Jobs> blended;
     for (const ShadowJob& job : jobs) {
@@ -41,8 +45,10 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs) {
             blended[job.dark].push_back(&job);
     }
     if (!relit.empty()) relightAny(relit, blended);
+    draw(StageEffect::Turn::BeforeBlending);
     for (const auto& [dark, group] : blended)
         for (const Jobs& view : byView(group)) blendAny(view, dark);
+    draw(StageEffect::Turn::Last);
 }
 
 void Compositor::blendAny(const Jobs& jobs, float dark) {
@@ -89,18 +95,9 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended) 
 }
 
 bool Compositor::canMark(const ShadowJob& job) const {
-    const char* cause = nullptr;
-    if (!_draw.hasStencil)
-        cause =
-            "finds no stencil bits in this framebuffer: ask for 8, by "
-            "osg::DisplaySettings::setMinimumNumStencilBits(8) before the window is made or by a stencil attachment "
-            "of the camera.";
-    else if (_draw.stage.getClearDepth() < 1.0)
-        cause = "does not know this view's depth buffer, which is cleared to less than 1: clear it to 1.";
-    else if (_lightBits.empty())
-        cause = "finds every stencil bit reserved: leave one to ShadowBin::reserve().";
-    if (cause) job.technique->report(job.frameNumber, cause);
-    return !cause;
+    const std::string cause = whyNotComposed(_draw);
+    if (!cause.empty()) job.technique->report(job.frameNumber, cause);
+    return cause.empty();
 }
 
 /// The short way for a single job: the leaves of its named receiver are drawn again at the depth that stands, and take

@@ -16,7 +16,8 @@ class Compositor {
 public:
     explicit Compositor(StageDraw draw);
 
-    void compose(const std::vector<ShadowJob>& jobs);
+    /// @param effects  drawn in their turn.
+    void compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<StageEffect>>& effects);
 
 private:
     /// Jobs of the lights that are dark in one relight pass, and the bits that say so.

@@ -19,6 +19,8 @@ inline glm::dmat4 toGlm(const osg::Matrixd& matrix) {
     return result;
 }
 
+inline osg::Matrixd toOsg(const glm::dmat4& matrix) { return osg::Matrixd(&matrix[0][0]); }
+
 inline glm::dvec3 toGlm(const osg::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
 inline glm::dvec4 toGlm(const osg::Vec4d& v) { return {v.x(), v.y(), v.z(), v.w()}; }
 

@@ -5,6 +5,7 @@
 #include <gnomon/ShadowBin.h>
 
 #include <osg/ColorMask>
+#include <osg/FrontFace>
 #include <osg/GLExtensions>
 #include <osg/Light>
 #include <osgUtil/StateGraph>
@@ -41,6 +42,11 @@ LeafReplay::~LeafReplay() {
     _state.popStateSetStackToSize(_stackSize);
     darken(0);
     leaveDefaults(_state);
+    if (!_overlay.mirrored) return;
+    glFrontFace(GL_CCW);
+    _state.haveAppliedAttribute(osg::StateAttribute::FRONTFACE);
+    glDisable(mirrorClipPlane);
+    _state.haveAppliedMode(mirrorClipPlane, osg::StateAttribute::OFF);
 }
 
 void LeafReplay::draw(const StageLeaf& entry, unsigned dark) {
@@ -83,6 +89,20 @@ bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geo
 }
 
 void LeafReplay::drawGeometry(const osgUtil::RenderLeaf& leaf) {
+    if (_overlay.shifts.empty()) return drawOnce(leaf);
+    const osg::Viewport& view = *_state.getCurrentViewport();
+    const auto x = static_cast<GLint>(view.x()), y = static_cast<GLint>(view.y());
+    const auto width = static_cast<GLsizei>(view.width()), height = static_cast<GLsizei>(view.height());
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x, y, width, height);
+    for (const glm::ivec2& shift : _overlay.shifts) {
+        glViewport(x + shift.x, y + shift.y, width, height);
+        drawOnce(leaf);
+    }
+    glViewport(x, y, width, height);
+}
+
+void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const bool cut = geometry && canDrawClusters(leaf, *geometry);
     const osg::ref_ptr<const IndexClusters> clusters = cut ? IndexClusters::of(*geometry) : nullptr;
@@ -122,13 +142,22 @@ void LeafReplay::enter(osgUtil::RenderBin* bin) {
 void LeafReplay::layOver() {
     glEnable(GL_STENCIL_TEST);
     glStencilFunc(_overlay.stencilFunction, static_cast<GLint>(_overlay.reference), _overlay.test);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilOp(GL_KEEP, GL_KEEP, _overlay.stencilPass);
     glStencilMask(_overlay.write);
     if (_overlay.equalDepth || _overlay.keepDepth) {
         glDepthMask(GL_FALSE);
         if (_overlay.equalDepth) glDepthFunc(GL_EQUAL);
     }
+    if (_overlay.mirrored) layMirrorOver();
     layColorOver();
+}
+
+void LeafReplay::layMirrorOver() {
+    const auto* front =
+        static_cast<const osg::FrontFace*>(_state.getLastAppliedAttribute(osg::StateAttribute::FRONTFACE));
+    const bool clockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
+    glFrontFace(clockwise ? GL_CCW : GL_CW);
+    glEnable(mirrorClipPlane);
 }
 
 void LeafReplay::layColorOver() {

@@ -7,6 +7,8 @@
 #include <osg/RenderInfo>
 #include <osg/State>
 
+#include <glm/vec2.hpp>
+
 #include <vector>
 
 namespace gnomon {
@@ -32,9 +34,12 @@ public:
     struct Overlay {
         GLenum stencilFunction = GL_ALWAYS; ///< compares (reference & test) with (stencil & test).
         unsigned reference = 0, test = 0;
-        unsigned write = 0;      ///< bits that become those of `reference` where drawn.
-        bool equalDepth = false; ///< only where the leaf's depth is the one that stands; depth is not written.
-        bool keepDepth = false;  ///< depth is not written.
+        unsigned write = 0;              ///< bits that become those of `reference` where drawn.
+        bool equalDepth = false;         ///< only where the leaf's depth is the one that stands; depth is not written.
+        bool keepDepth = false;          ///< depth is not written.
+        GLenum stencilPass = GL_REPLACE; ///< what becomes of the bits of `write`.
+        bool mirrored = false;           ///< fronts are seen as backs, and OpenGL's last clip plane cuts.
+        std::vector<glm::ivec2> shifts;  ///< pixels by which it is drawn, once each, cut to the viewport; empty: once.
         Color color = Color::Replace;
         float factor = 1.0f;
         float unlit =
@@ -42,6 +47,9 @@ public:
         ScreenRect bounds{{-1.0, -1.0}, {1.0, 1.0}}; ///< nothing need be drawn outside.
         std::vector<LightUniform> lightUniforms;     ///< by which programs read lights.
     };
+
+    /// The last clip plane that every OpenGL has; scenes rarely use it.
+    static constexpr GLenum mirrorClipPlane = GL_CLIP_PLANE5;
 
     LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay);
     ~LeafReplay(); ///< puts lights and state back; the stack of state sets is as it was.
@@ -61,12 +69,14 @@ private:
     void apply(const StageLeaf& entry);
     void enter(osgUtil::RenderBin* bin);
     void layOver();
+    void layMirrorOver();
     void layColorOver();
     void keepAlpha();
     void setBlendColor(float grey);
     void darken(unsigned lights);
     bool canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry);
     void drawGeometry(const osgUtil::RenderLeaf& leaf);
+    void drawOnce(const osgUtil::RenderLeaf& leaf);
     void drawFaded(const osgUtil::RenderLeaf& leaf);
 
     osg::RenderInfo& _renderInfo;

@@ -5,6 +5,7 @@
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
+#include <gnomon/ScreenBounds.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/gtc/matrix_access.hpp>
@@ -31,11 +32,6 @@ std::string sentence(const char* start, const osg::Vec4d& what, const char* rest
 
 bool isFinite(const glm::dvec4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-}
-
-/// The point all lines of sight go through, homogeneous: the eye, or for an orthographic view the direction towards it.
-glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame) {
-    return glm::inverse(clipFromFrame) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
 }
 
 /// The plane as a function on the screen, z = x·a + y·b + c in normalised device coordinates; nullopt if it is seen

@@ -104,6 +104,11 @@ void ScreenPass::stencilAny(unsigned test) {
     glStencilMask(0);
 }
 
+void ScreenPass::stencilAtLeast(unsigned least, unsigned test) {
+    stencilAny(test);
+    glStencilFunc(GL_LEQUAL, static_cast<GLint>(least), test);
+}
+
 void ScreenPass::takeStencil(unsigned test, unsigned bits) {
     stencilAny(test);
     glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
@@ -145,6 +150,14 @@ void ScreenPass::writeColor(const osg::Vec4& color) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 
+void ScreenPass::blendColor(const osg::Vec3& color, float opacity) {
+    openChannels(GL_FALSE);
+    addBlended(_state, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    drawColor({color, opacity});
+    glDisable(GL_BLEND);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+}
+
 void ScreenPass::multiplyColor(float factor) {
     beginMultiply(factor);
     drawQuad();
@@ -154,6 +167,19 @@ void ScreenPass::beginMultiply(float factor) {
     openChannels(GL_FALSE);
     addBlended(_state, GL_ZERO, GL_CONSTANT_COLOR);
     _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
+}
+
+void ScreenPass::beginMix(const osg::Vec3& kept) {
+    const auto& gl = *_state.get<osg::GLExtensions>();
+    openChannels(GL_TRUE);
+    addBlended(_state, GL_ONE_MINUS_CONSTANT_COLOR, GL_CONSTANT_COLOR);
+    gl.glBlendFuncSeparate(GL_ONE_MINUS_CONSTANT_COLOR, GL_CONSTANT_COLOR, GL_ONE, GL_ZERO);
+    gl.glBlendColor(kept.x(), kept.y(), kept.z(), 0.0f);
+}
+
+void ScreenPass::endMix() {
+    glDisable(GL_BLEND);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 
 void ScreenPass::setAlpha(float value) {

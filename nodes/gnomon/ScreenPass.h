@@ -6,6 +6,7 @@
 
 #include <osg/RenderInfo>
 #include <osg/StateSet>
+#include <osg/Vec3>
 #include <osg/Vec4>
 #include <osg/Viewport>
 
@@ -63,6 +64,8 @@ public:
     void stencilEqual(unsigned reference, unsigned test, unsigned write);
     /// Pass where any bit of `test` is set.
     void stencilAny(unsigned test);
+    /// Pass where the number that the bits of `test` make, from bit 0 on, is `least` or more.
+    void stencilAtLeast(unsigned least, unsigned test);
     /// Pass where any bit of `test` is set, and set `bits` to 0.
     void takeStencil(unsigned test, unsigned bits);
     /// Stencil bits that nobody else uses, 0 before and after each step: several are the lowest ones, from bit 0 on, so
@@ -75,9 +78,15 @@ public:
     void takeCount(unsigned bits, unsigned mark);
     void writeFarDepth();
     void writeColor(const osg::Vec4& color);
+    /// opacity · color + (1 - opacity) · what stands; alpha stays.
+    void blendColor(const osg::Vec3& color, float opacity);
     void multiplyColor(float factor);
     /// What is drawn next multiplies what stands by the factor, whatever its own colour.
     void beginMultiply(float factor);
+    /// What is drawn next and what stands are mixed: (1 - kept) of the one, kept of the other, a channel each. Alpha is
+    /// that of what is drawn.
+    void beginMix(const osg::Vec3& kept);
+    void endMix();
     /// Alpha alone: set; alpha = factor + (1 - factor) alpha.
     void setAlpha(float value);
     void fadeAlpha(float factor);

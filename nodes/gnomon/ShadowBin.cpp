@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <map>
 
 namespace gnomon {
@@ -71,20 +70,10 @@ bool hasCasters(const EnlistedTechnique& entry, const CasterMesh& mesh) {
     return false;
 }
 
-const osg::Node& rootOf(const osg::Node& node) { return node.getNumParents() ? rootOf(*node.getParent(0)) : node; }
-
 /// A receiver that is out of sight is nothing to report; one that can never be seen to receive is.
 void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage) {
-    const Selection& receiver = entry.technique->getReceiver();
-    const std::vector<StageLeaf> all = leavesBelow(stage, std::numeric_limits<int>::max());
-    if (!receiversAmong(all, receiver, *stage.getInitialViewMatrix()).empty())
-        entry.technique->report(
-            entry.frameNumber,
-            "names a receiver that is drawn after the shadows, in a bin above 8 as transparent things "
-            "are: name one that is opaque.");
-    else if (receiver.node && &rootOf(*receiver.node) != &rootOf(*entry.group))
-        entry.technique->report(entry.frameNumber, "names the receiver '" + receiver.node->getName() +
-                                                       "', which is not in this graph: add it to the scene.");
+    const std::string cause = whyMissing(entry.technique->getReceiver(), "receiver", *entry.group, stage);
+    if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
 }
 
 ViewFrame viewOf(const EnlistedTechnique& entry) {
@@ -135,6 +124,15 @@ bool ShadowBin::getFilter() { return filterLeaves; }
 
 void ShadowBin::enlist(const EnlistedTechnique& technique) {
     _enlisted.push_back(technique);
+    clearWithStage();
+}
+
+void ShadowBin::enlist(StageEffect& effect) {
+    _effects.push_back(&effect);
+    clearWithStage();
+}
+
+void ShadowBin::clearWithStage() {
     osgUtil::RenderStage& stage = *getStage();
     _stageClears = reserved() == 0 && (stage.getClearMask() & GL_DEPTH_BUFFER_BIT) && stage.getClearStencil() == 0;
     if (_stageClears) stage.setClearMask(stage.getClearMask() | GL_STENCIL_BUFFER_BIT);
@@ -145,6 +143,7 @@ void ShadowBin::reset() {
     setSortMode(getDefaultRenderBinSortMode());
     _enlisted.clear();
     _jobs.clear();
+    _effects.clear();
 }
 
 void ShadowBin::sortImplementation() {
@@ -158,6 +157,7 @@ void ShadowBin::sortImplementation() {
         for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
         prepare(entry, found.lights, mesh, leaves);
     }
+    for (const osg::ref_ptr<StageEffect>& effect : _effects) effect->prepare(*getStage(), leaves);
     sortAsAsked();
     osgUtil::RenderBin::sortImplementation();
 }
@@ -200,13 +200,13 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
 }
 
 void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
-    if (!_jobs.empty()) {
+    if (!isIdle()) {
         popLeafState(*renderInfo.getState(), previous);
         std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
         const bool clean = _stageClears && !isModeOn(leaves, GL_STENCIL_TEST);
         const bool counts =
             std::any_of(_jobs.begin(), _jobs.end(), [](const auto& job) { return job.marks->counts(); });
-        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean, counts)).compose(_jobs);
+        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean, counts)).compose(_jobs, _effects);
         renderInfo.getState()->decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);
@@ -214,7 +214,7 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
 
 /// The leaves drawn again, and the casters, may be dynamic: the frame is not done with them before this bin is.
 unsigned ShadowBin::computeNumberOfDynamicRenderLeaves() const {
-    return osgUtil::RenderBin::computeNumberOfDynamicRenderLeaves() + (_jobs.empty() ? 0u : 1u);
+    return osgUtil::RenderBin::computeNumberOfDynamicRenderLeaves() + (isIdle() ? 0u : 1u);
 }
 
 } // namespace gnomon

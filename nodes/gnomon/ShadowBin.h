@@ -5,6 +5,7 @@
 #include <gnomon/MarkJob.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
+#include <gnomon/StageEffect.h>
 #include <gnomon/StageLeaves.h>
 
 #include <osgUtil/RenderBin>
@@ -92,6 +93,8 @@ public:
     /// Also lets the stage clear its stencil buffer, if it clears depth and no bits are reserved: the two together cost
     /// less than a clear of our bits later.
     void enlist(const EnlistedTechnique& technique);
+    /// The same for what is no shadow: mirror images and halos.
+    void enlist(StageEffect& effect);
 
     void reset() override;
     void sortImplementation() override;
@@ -102,12 +105,15 @@ protected:
     ~ShadowBin() override = default;
 
 private:
+    bool isIdle() const { return _jobs.empty() && _effects.empty(); }
+    void clearWithStage();
     void sortAsAsked();
     void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const CasterMesh& mesh,
                  const std::vector<StageLeaf>& leaves);
 
     std::vector<EnlistedTechnique> _enlisted;
     std::vector<ShadowJob> _jobs;
+    std::vector<osg::ref_ptr<StageEffect>> _effects;
     bool _stageClears = false;
 };
 

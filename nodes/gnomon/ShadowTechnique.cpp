@@ -4,20 +4,11 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 
-#include <OpenThreads/ScopedLock>
 #include <osg/Transform>
 #include <osgUtil/CullVisitor>
 
-#include <algorithm>
-
 namespace gnomon {
 namespace {
-
-using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
-
-unsigned frameOf(const osg::NodeVisitor& visitor) {
-    return visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : visitor.getTraversalNumber();
-}
 
 /// The nearest ShadowCasterGroup on the way to a technique, and the way from there.
 struct GroupAbove {
@@ -80,32 +71,14 @@ void ShadowTechnique::traverse(osg::NodeVisitor& visitor) {
 
 bool ShadowTechnique::isLit(const LightProbe& probe, const glm::dvec3& point) const { return probe.reachesFrom(point); }
 
-std::vector<std::string> ShadowTechnique::diagnose() const {
-    Lock lock(_causesMutex);
-    return _causes;
-}
+std::vector<std::string> ShadowTechnique::diagnose() const { return _causes.all(); }
 
 void ShadowTechnique::report(unsigned frame, const std::string& cause) const {
-    const std::string sentence = describe() + " " + cause;
-    Lock lock(_causesMutex);
-    if (frame != _causesFrame) return;
-    if (std::find(_causes.begin(), _causes.end(), sentence) != _causes.end()) return;
-    _causes.push_back(sentence);
-    OSG_INFO << "gnomon: " << sentence << std::endl;
+    _causes.add(frame, describe() + " " + cause);
 }
 
-void ShadowTechnique::beginFrame(unsigned frame, const void* view) const {
-    Lock lock(_causesMutex);
-    if (frame != _causesFrame || _causesViews.count(view)) {
-        _causesFrame = frame;
-        _causes.clear();
-        _causesViews.clear();
-    }
-    _causesViews.insert(view);
-}
+void ShadowTechnique::beginFrame(unsigned frame, const void* view) const { _causes.begin(frame, view); }
 
-std::string ShadowTechnique::describe() const {
-    return std::string(className()) + (getName().empty() ? "" : " '" + getName() + "'");
-}
+std::string ShadowTechnique::describe() const { return described(*this); }
 
 } // namespace gnomon

@@ -2,16 +2,15 @@
 #pragma once
 #include <gnomon/CasterMesh.h>
 #include <gnomon/Export.h>
+#include <gnomon/FrameCauses.h>
 #include <gnomon/MarkJob.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 #include <gnomon/ViewFrame.h>
 
-#include <OpenThreads/Mutex>
 #include <glm/vec3.hpp>
 #include <osg/Geode>
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -76,10 +75,7 @@ protected:
 
 private:
     Selection _receiver;
-    mutable OpenThreads::Mutex _causesMutex;
-    mutable std::vector<std::string> _causes;
-    mutable unsigned _causesFrame = 0;
-    mutable std::set<const void*> _causesViews; ///< met in that frame.
+    mutable FrameCauses _causes;
 };
 
 } // namespace gnomon

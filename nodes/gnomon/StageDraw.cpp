@@ -43,4 +43,14 @@ void StageDraw::clearLeftovers(unsigned stencil) const {
     if (!clean) clear(stencil | counters, {{-1.0, -1.0}, {1.0, 1.0}});
 }
 
+std::string whyNotComposed(const StageDraw& draw) {
+    if (!draw.hasStencil)
+        return "finds no stencil bits in this framebuffer: ask for 8, by "
+               "osg::DisplaySettings::setMinimumNumStencilBits(8) before the window is made or by a stencil attachment "
+               "of the camera.";
+    if (draw.stage.getClearDepth() < 1.0)
+        return "does not know this view's depth buffer, which is cleared to less than 1: clear it to 1.";
+    return draw.bits.empty() ? "finds every stencil bit reserved: leave one to ShadowBin::reserve()." : "";
+}
+
 } // namespace gnomon

@@ -6,6 +6,7 @@
 #include <osg/RenderInfo>
 #include <osgUtil/RenderStage>
 
+#include <string>
 #include <vector>
 
 namespace gnomon {
@@ -39,5 +40,8 @@ public:
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.
     unsigned counters = 0;      ///< some of them, see ScreenPass::counters(); 0 if nobody counts.
 };
+
+/// Why nothing can be composed in this stage, as a cause for diagnose(); empty if all is well.
+std::string whyNotComposed(const StageDraw& draw);
 
 } // namespace gnomon

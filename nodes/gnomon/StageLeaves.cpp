@@ -175,17 +175,7 @@ bool isFilledSet(const osg::StateSet& set) {
                      mode->getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL);
 }
 
-/// nullopt where it can draw nowhere.
-std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
-    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    if (!box.valid()) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
-    const glm::dmat4 clipFromLocal = toGlm(*leaf._modelview * *leaf._projection);
-    std::vector<glm::dvec4> corners;
-    corners.reserve(8);
-    for (unsigned i = 0; i < 8; ++i)
-        corners.push_back(clipFromLocal * glm::dvec4(toGlm(osg::Vec3d(box.corner(i))), 1.0));
-    return screenBounds(corners);
-}
+const osg::Node& rootOf(const osg::Node& node) { return node.getNumParents() ? rootOf(*node.getParent(0)) : node; }
 
 std::string nameOf(const osg::Node& node) {
     for (const osg::Node* above = &node; above; above = above->getNumParents() ? above->getParent(0) : nullptr)
@@ -208,6 +198,18 @@ std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<StageLeaf>
     for (const StageLeaf& entry : leaves)
         if (isReceiver(*entry.leaf)) result.insert(entry.leaf);
     return result;
+}
+
+std::string whyMissing(const Selection& selection, const char* role, const osg::Node& from,
+                       osgUtil::RenderStage& stage) {
+    const std::vector<StageLeaf> all = leavesBelow(stage, INT_MAX);
+    if (!receiversAmong(all, selection, *stage.getInitialViewMatrix()).empty())
+        return std::string("names a ") + role +
+               " that is drawn after the shadows, in a bin above 8 as transparent things are: name one that is opaque.";
+    if (selection.node && &rootOf(*selection.node) != &rootOf(from))
+        return std::string("names the ") + role + " '" + selection.node->getName() +
+               "', which is not in this graph: add it to the scene.";
+    return "";
 }
 
 bool isModeOn(const std::vector<StageLeaf>& leaves, osg::StateAttribute::GLMode mode) {
@@ -258,6 +260,17 @@ bool FilledTest::operator()(const osgUtil::RenderLeaf& leaf) {
         !std::all_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), hasArea))
         return false;
     return LeafTest::operator()(leaf);
+}
+
+std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    if (!box.valid()) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
+    const glm::dmat4 clipFromLocal = toGlm(*leaf._modelview * *leaf._projection);
+    std::vector<glm::dvec4> corners;
+    corners.reserve(8);
+    for (unsigned i = 0; i < 8; ++i)
+        corners.push_back(clipFromLocal * glm::dvec4(toGlm(osg::Vec3d(box.corner(i))), 1.0));
+    return screenBounds(corners);
 }
 
 bool TouchTest::operator()(const osgUtil::RenderLeaf& leaf) {

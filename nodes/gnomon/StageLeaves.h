@@ -29,6 +29,11 @@ std::vector<StageLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);
 std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<StageLeaf>& leaves, const Selection& receiver,
                                                     const osg::Matrixd& eyeFromWorld);
 
+/// Why none of the leaves that a stage draws before its ShadowBin is of `selection`, as a cause for diagnose(); empty if
+/// it merely is out of sight. @param role  what the selection is to be: "receiver". @param from  a node of the graph.
+std::string whyMissing(const Selection& selection, const char* role, const osg::Node& from,
+                       osgUtil::RenderStage& stage);
+
 /// True if any of the leaves is drawn with `mode` on.
 bool isModeOn(const std::vector<StageLeaf>& leaves, osg::StateAttribute::GLMode mode);
 
@@ -75,6 +80,9 @@ public:
     FilledTest();
     bool operator()(const osgUtil::RenderLeaf& leaf);
 };
+
+/// Where on the screen a leaf of filled triangles can draw; nullopt if nowhere.
+std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf);
 
 /// Tells whether a leaf can draw in a part of the screen.
 class TouchTest {

@@ -91,16 +91,42 @@ public:
 
     bool read(osgDB::InputStream& in, osg::Object& object) override {
         const typename Base::Setter setter = this->_setter;
-        if (in.isBinary() || in.matchString(this->_name)) (static_cast<Class&>(object).*setter)(readExact<Number>(in));
+        if (in.isBinary() || in.matchString(this->_name)) (OBJECT_CAST<Class&>(object).*setter)(readExact<Number>(in));
         return true;
     }
 
     bool write(osgDB::OutputStream& out, const osg::Object& object) override {
         const typename Base::Getter getter = this->_getter;
-        const Number value = (static_cast<const Class&>(object).*getter)();
+        const Number value = (OBJECT_CAST<const Class&>(object).*getter)();
         if (!out.isBinary() && value == this->_defaultValue) return true;
         out << out.PROPERTY(this->_name.c_str());
         writeExact(out, value);
+        out << std::endl;
+        return true;
+    }
+};
+
+/// The same for a vector.
+template <typename Class, typename Vector>
+class ExactVector : public osgDB::PropByRefSerializer<Class, Vector> {
+    using Base = osgDB::PropByRefSerializer<Class, Vector>;
+
+public:
+    using Base::Base;
+
+    bool read(osgDB::InputStream& in, osg::Object& object) override {
+        const typename Base::Setter setter = this->_setter;
+        if (in.isBinary() || in.matchString(this->_name))
+            (OBJECT_CAST<Class&>(object).*setter)(readExactVector<Vector>(in));
+        return true;
+    }
+
+    bool write(osgDB::OutputStream& out, const osg::Object& object) override {
+        const typename Base::Getter getter = this->_getter;
+        const Vector& value = (OBJECT_CAST<const Class&>(object).*getter)();
+        if (!out.isBinary() && value == this->_defaultValue) return true;
+        out << out.PROPERTY(this->_name.c_str());
+        writeExactVector(out, value);
         out << std::endl;
         return true;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
 
@@ -150,6 +151,10 @@ std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints
     const glm::dvec2 low = glm::max(glm::dvec2(x.low, y.low), -1.0), high = glm::min(glm::dvec2(x.high, y.high), 1.0);
     if (!glm::all(glm::lessThanEqual(low, high))) return std::nullopt;
     return ScreenRect{low, high};
+}
+
+glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame) {
+    return glm::inverse(clipFromFrame) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
 }
 
 } // namespace gnomon

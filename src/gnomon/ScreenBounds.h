@@ -28,4 +28,8 @@ struct ScreenRect {
 /// nullopt if nothing of it can be seen. Points that are not finite make the whole screen the answer.
 std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints);
 
+/// The point all lines of sight go through, homogeneous, w >= 0: the eye, or for an orthographic view the direction
+/// towards it. Not finite if the matrix cannot be inverted.
+glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame);
+
 } // namespace gnomon

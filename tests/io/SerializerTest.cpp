@@ -2,6 +2,9 @@
 // Scene files keep every property, to the bit.
 #include "SceneText.h"
 
+#include <gnomon/HaloNode.h>
+#include <gnomon/HaloPulse.h>
+#include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
@@ -128,6 +131,58 @@ TEST_P(SceneFile, KeepsEachCureOfPlanarShadows) {
         EXPECT_EQ(copy->getOffsetCure(), off != 1);
         EXPECT_EQ(copy->getClipCure(), off != 2);
     }
+}
+
+TEST_P(SceneFile, KeepsMirrorsAndTheirSurface) {
+    osg::ref_ptr<gnomon::PlanarReflectionNode> mirror = new gnomon::PlanarReflectionNode;
+    mirror->addChild(test::node(test::square(1.0), "floor"));
+    mirror->setSurface({mirror->getChild(0), 0xf0u});
+    mirror->setPlane(delicate[0]);
+    mirror->setReflectance({0.1f, 1.0f / 3.0f, std::nextafter(0.5f, 1.0f)});
+    mirror->setStencilCure(false);
+    const auto copy = test::throughFile(*mirror, kind());
+    ASSERT_TRUE(copy);
+    EXPECT_EQ(copy->getSurface(), Selection({copy->getChild(0), 0xf0u}));
+    EXPECT_TRUE(sameBits(copy->getPlane(), delicate[0]));
+    EXPECT_EQ(copy->getReflectance(), mirror->getReflectance());
+    EXPECT_FALSE(copy->getStencilCure());
+    const osg::ref_ptr<gnomon::PlanarReflectionNode> fresh = new gnomon::PlanarReflectionNode;
+    const auto plain = test::throughFile(*fresh, kind());
+    ASSERT_TRUE(plain);
+    EXPECT_EQ(plain->getSurface(), Selection());
+    EXPECT_EQ(plain->getPlane(), fresh->getPlane());
+    EXPECT_EQ(plain->getReflectance(), fresh->getReflectance());
+    EXPECT_TRUE(plain->getStencilCure());
+}
+
+TEST_P(SceneFile, KeepsHalosAndTheirPulse) {
+    osg::ref_ptr<gnomon::HaloNode> halo = new gnomon::HaloNode;
+    for (const auto shape : {gnomon::HaloNode::WHOLE, gnomon::HaloNode::PARTS, gnomon::HaloNode::PIXELS}) {
+        halo->setShape(shape);
+        halo->setScale(1.0 + 1.0 / 3.0);
+        halo->setWidth(5);
+        halo->setColor({0.1f, 0.2f, 1.0f / 3.0f, 1e-7f});
+        halo->setStencilCure(false);
+        halo->setUpdateCallback(new gnomon::HaloPulse(0.1));
+        const auto copy = test::throughFile(*halo, kind());
+        ASSERT_TRUE(copy);
+        EXPECT_EQ(copy->getShape(), shape);
+        EXPECT_EQ(copy->getScale(), halo->getScale());
+        EXPECT_EQ(copy->getWidth(), 5);
+        EXPECT_EQ(copy->getColor(), halo->getColor());
+        EXPECT_FALSE(copy->getStencilCure());
+        const auto* pulse = dynamic_cast<const gnomon::HaloPulse*>(copy->getUpdateCallback());
+        ASSERT_TRUE(pulse);
+        EXPECT_EQ(pulse->getAmplitude(), 0.1);
+    }
+    const osg::ref_ptr<gnomon::HaloNode> fresh = new gnomon::HaloNode;
+    const auto plain = test::throughFile(*fresh, kind());
+    ASSERT_TRUE(plain);
+    EXPECT_EQ(plain->getShape(), fresh->getShape());
+    EXPECT_EQ(plain->getScale(), 1.0);
+    EXPECT_EQ(plain->getWidth(), fresh->getWidth());
+    EXPECT_EQ(plain->getColor(), fresh->getColor());
+    EXPECT_TRUE(plain->getStencilCure());
 }
 
 TEST_P(SceneFile, KeepsMasksWithoutANode) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ShadowBin.h>
+#include <gnomon/StageEffectNode.h>
+#include <gnomon/SubgraphCull.h>
+
+namespace gnomon {
+
+void StageEffectNode::report(unsigned frame, const std::string& cause) const {
+    _causes.add(frame, described(*this) + " " + cause);
+}
+
+void StageEffectNode::traverse(osg::NodeVisitor& visitor) {
+    osg::Group::traverse(visitor);
+    osgUtil::CullVisitor* cull = visitor.asCullVisitor();
+    if (cull && !isSubgraphCull(visitor)) enlist(*cull);
+}
+
+void StageEffectNode::enlist(osgUtil::CullVisitor& cull) {
+    osgUtil::RenderStage* stage = cull.getCurrentRenderBin()->getStage();
+    _causes.begin(frameOf(cull), stage);
+    if (cull.getViewport() != stage->getViewport())
+        report(frameOf(cull), "is under a nested camera with a viewport of its own, where it would draw elsewhere: set "
+                              "that camera's render order to PRE_RENDER or POST_RENDER.");
+    else if (const osg::ref_ptr<StageEffect> effect = makeEffect(cull))
+        ShadowBin::of(stage).enlist(*effect);
+}
+
+} // namespace gnomon

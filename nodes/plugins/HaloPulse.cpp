@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#define OBJECT_CAST dynamic_cast // a callback has osg::Object for a virtual base
+#include "Fields.h"
+
+#include <gnomon/HaloPulse.h>
+
+#include <osgDB/ObjectWrapper>
+
+using namespace gnomon;
+
+REGISTER_OBJECT_WRAPPER(gnomon_HaloPulse, new gnomon::HaloPulse, gnomon::HaloPulse,
+                        "osg::Object osg::Callback gnomon::HaloPulse") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("Amplitude", fresh->getAmplitude(),
+                                                                    &MyClass::getAmplitude, &MyClass::setAmplitude),
+                           osgDB::BaseSerializer::RW_DOUBLE);
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "Fields.h"
+
+#include <gnomon/PlanarReflectionNode.h>
+
+#include <osgDB/ObjectWrapper>
+
+using namespace gnomon;
+
+static bool checkSurface(const PlanarReflectionNode& node) { return node.getSurface() != Selection(); }
+
+static bool readSurface(osgDB::InputStream& in, PlanarReflectionNode& node) {
+    node.setSurface(fields::readSelection(in));
+    return true;
+}
+
+static bool writeSurface(osgDB::OutputStream& out, const PlanarReflectionNode& node) {
+    return fields::writeSelection(out, node.getSurface());
+}
+
+REGISTER_OBJECT_WRAPPER(gnomon_PlanarReflectionNode, new gnomon::PlanarReflectionNode, gnomon::PlanarReflectionNode,
+                        "osg::Object osg::Node osg::Group gnomon::PlanarReflectionNode") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec4d>("Plane", fresh->getPlane(), &MyClass::getPlane,
+                                                                        &MyClass::setPlane),
+                           osgDB::BaseSerializer::RW_VEC4D);
+    ADD_USER_SERIALIZER(Surface);
+    wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec3f>("Reflectance", fresh->getReflectance(),
+                                                                        &MyClass::getReflectance,
+                                                                        &MyClass::setReflectance),
+                           osgDB::BaseSerializer::RW_VEC3F);
+    ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
+}
