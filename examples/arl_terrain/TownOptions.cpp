@@ -19,17 +19,12 @@ ShadowSpec readTownSpec(Text text) {
     return spec;
 }
 
-/// As the other programs have it.
-void addSize(Options& table, ViewOptions& into) {
-    for (const Option& option : viewOptions(into))
-        if (option.name == "--size") table.push_back(option);
-}
-
 Options townOptions(TownOptions& into) {
     Options table;
     table.push_back({"--shadow", "none|box|hull|drape", "how shadows are made; keys of SPEC may follow, see below",
                      "hull", [&into](Text t) { into.view.shadows = {readTownSpec(t)}; }});
-    table.push_back({"--hour", "H", "mean solar time on 20 March, 6.5 to 17.5 hours; the sun is due south a little after 12", "9",
+    table.push_back({"--hour", "H",
+                     "mean solar time on 20 March, 6.5 to 17.5 hours; the sun is due south a little after 12", "9",
                      [&into](Text t) { into.hour = readNumber(t, firstHour, lastHour); }});
     addSize(table, into.view);
     table.push_back({"--out", "IMAGE", "draw one picture into this file, without a window or display", "a window",

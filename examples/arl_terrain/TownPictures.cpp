@@ -3,8 +3,6 @@
 #include "OutputFile.h"
 #include "TownOptions.h"
 
-#include <osg/DisplaySettings>
-
 namespace gnomon::examples {
 namespace {
 
@@ -16,19 +14,9 @@ constexpr TimeOfDay times[] = {{"morning", 8.0}, {"noon", 12.0}, {"evening", 16.
 
 } // namespace
 
-TownPictures::TownPictures(TownScene& town) : _town(town), _context(town.view().width, town.view().height) {
-    osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
-    _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
-    _viewer.setLightingMode(osg::View::NO_LIGHT);
-    _context.attach(*_viewer.getCamera());
-    placeCamera(*_viewer.getCamera(), town.view(), town.setup().bounds);
-    _viewer.setSceneData(town.setup().root);
-}
+TownPictures::TownPictures(TownScene& town) : _town(town), _picture(town.view(), town.setup()) {}
 
-osg::ref_ptr<osg::Image> TownPictures::draw() {
-    _viewer.frame();
-    return _context.image();
-}
+osg::ref_ptr<osg::Image> TownPictures::draw() { return _picture.draw(); }
 
 void TownPictures::report(const std::filesystem::path& folder) {
     requireFolder(folder);

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "ScenePicture.h"
 #include "TownScene.h"
-
-#include <gnomon/HeadlessContext.h>
-
-#include <osgViewer/Viewer>
 
 #include <filesystem>
 
@@ -23,8 +20,7 @@ public:
 
 private:
     TownScene& _town;
-    HeadlessContext _context; // before the viewer: it must outlive it
-    osgViewer::Viewer _viewer;
+    ScenePicture _picture;
 };
 
 } // namespace gnomon::examples

@@ -60,6 +60,25 @@ Mesh sphere(const glm::dvec3& centre, double radius, int slices) {
     return mesh;
 }
 
+/// The corners of three golden rectangles; a face is where three of them are as near to each other as can be.
+Mesh icosahedron(double radius) {
+    const double golden = (1.0 + std::sqrt(5.0)) / 2.0;
+    Mesh corners, mesh;
+    for (const double a : {-1.0, 1.0})
+        for (const double b : {-golden, golden}) corners.insert(corners.end(), {{0.0, a, b}, {a, b, 0.0}, {b, 0.0, a}});
+    const auto edge = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < 2.1; };
+    for (std::size_t i = 0; i < 12; ++i)
+        for (std::size_t j = i + 1; j < 12; ++j)
+            for (std::size_t k = j + 1; k < 12; ++k) {
+                glm::dvec3 a = corners[i], b = corners[j], c = corners[k];
+                if (!edge(a, b) || !edge(b, c) || !edge(a, c)) continue;
+                if (glm::dot(glm::cross(b - a, c - a), a) < 0.0) std::swap(b, c);
+                for (const glm::dvec3& corner : {a, b, c})
+                    mesh.push_back(corner * (radius / std::sqrt(1.0 + golden * golden)));
+            }
+    return mesh;
+}
+
 Mesh joined(std::vector<Mesh> parts) {
     Mesh all;
     for (const Mesh& part : parts) all.insert(all.end(), part.begin(), part.end());

@@ -19,6 +19,8 @@ Mesh box(const glm::dvec3& low, const glm::dvec3& high);
 /// Box on the ground, turned about the vertical by `degrees`.
 Mesh house(const glm::dvec2& centre, const glm::dvec3& size, double degrees);
 Mesh sphere(const glm::dvec3& centre, double radius, int slices = 48);
+/// About the origin. @param radius  of its corners.
+Mesh icosahedron(double radius);
 Mesh joined(std::vector<Mesh> parts);
 Mesh moved(Mesh mesh, const glm::dvec3& by);
 /// Seen from inside: the corners go round the other way.

@@ -66,6 +66,11 @@ osg::Vec3d chooseUp(const ViewOptions& o, osg::Vec3d view) {
     return up;
 }
 
+void placeOrthographic(osg::Camera& camera, double half, double aspect) {
+    camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+    camera.setProjectionMatrixAsOrtho(-half * aspect, half * aspect, -half, half, -half, half);
+}
+
 } // namespace
 
 void SceneSetup::show(bool shadows) {
@@ -129,11 +134,12 @@ Lookout lookout(const ViewOptions& options, const osg::BoundingBoxd& bounds) {
 void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds) {
     const Lookout place = lookout(options, bounds);
     camera.setViewMatrixAsLookAt(place.eye, place.center, place.up);
+    const osg::Vec3d& b = options.background;
+    camera.setClearColor(osg::Vec4(osg::Vec3(b), 1.0f));
+    if (options.orthographic) return placeOrthographic(camera, *options.orthographic, aspectOf(options));
     if (options.zNear) camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
     camera.setProjectionMatrixAsPerspective(options.fovy, aspectOf(options), options.zNear.value_or(1.0),
                                             options.zFar.value_or(1e4));
-    const osg::Vec3d& b = options.background;
-    camera.setClearColor(osg::Vec4(osg::Vec3(b), 1.0f));
 }
 
 } // namespace gnomon::examples

@@ -105,6 +105,8 @@ void SceneWindow::openWindow(const WindowNames& names, const ViewOptions& option
         throw std::runtime_error("no window can be opened: DISPLAY must name an X server with OpenGL and a stencil "
                                  "buffer; " +
                                  names.without + " draws without one.");
+    if (windows.front()->getTraits()->stencil == 0)
+        throw std::runtime_error("at least 1 bit of stencil is needed, and this display offers no window with any.");
     _viewer.realize();
     windows.front()->setWindowName(names.program);
 }

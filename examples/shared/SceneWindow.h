@@ -25,7 +25,7 @@ public:
     SceneWindow(const WindowNames& names, const ViewOptions& options, SceneSetup& setup, Hud& hud,
                 osgGA::GUIEventHandler& keys);
 
-    /// Asked after the keys.
+    /// Another handler, after the program's own keys and before the ways to move.
     void add(osgGA::GUIEventHandler& handler) { _viewer.addEventHandler(&handler); }
     /// Until the user ends it. @return the program's exit status.
     int run() { return _viewer.run(); }

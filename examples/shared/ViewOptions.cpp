@@ -123,8 +123,7 @@ void addCameraOptions(Options& table, ViewOptions& into) {
                      [&into](Text t) { into.zFar = readNumber(t, smallestLength, largestNumber); }});
     table.push_back({"--background", "r,g,b", "colour behind the scene, 0 to 1 each", "0.2,0.2,0.4",
                      [&into](Text t) { into.background = readVec3(t, 0.0, 1.0); }});
-    table.push_back({"--size", "WxH", "of the picture, 1x1 to 16384x16384 pixels", "800x600",
-                     [&into](Text t) { takeSize(into, t); }});
+    addSize(table, into);
 }
 
 void requireCamera(const ViewOptions& o) {
@@ -143,6 +142,12 @@ void requireDepthRange(const ViewOptions& o) {
 }
 
 } // namespace
+
+void addSize(Options& table, ViewOptions& into) {
+    table.push_back({"--size", "WxH", "of the picture, 1x1 to 16384x16384 pixels",
+                     std::to_string(into.width) + "x" + std::to_string(into.height),
+                     [&into](Text t) { takeSize(into, t); }});
+}
 
 Options viewOptions(ViewOptions& into) {
     Options table;

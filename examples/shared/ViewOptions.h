@@ -36,6 +36,8 @@ struct ViewOptions {
     std::optional<osg::Vec3d> center;
     std::optional<osg::Vec3d> viewUp;
     double fovy = 40.0; ///< degrees, of the picture's height.
+    /// Instead of a perspective: half of what the picture's height shows, and how far is seen before and behind the eye.
+    std::optional<double> orthographic;
     std::optional<double> zNear;
     std::optional<double> zFar;
     osg::Vec3d background{0.2, 0.2, 0.4};
@@ -44,6 +46,9 @@ struct ViewOptions {
 
 /// The options of `into`, as a table.
 Options viewOptions(ViewOptions& into);
+
+/// Adds the option of the picture's size.
+void addSize(Options& table, ViewOptions& into);
 
 /// Takes what is left of the command line as scene files, if anything. @throws std::invalid_argument if something is an
 /// option.

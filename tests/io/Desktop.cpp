@@ -142,6 +142,26 @@ void Desktop::press(const std::string& key) {
     XFlush(_display);
 }
 
+void Desktop::drag(unsigned button, int right, int down) {
+    constexpr int steps = 8;
+    const auto wait = [this] {
+        XFlush(_display);
+        std::this_thread::sleep_for(2 * pause);
+    };
+    XTestFakeButtonEvent(_display, button, True, 0);
+    wait();
+    for (int step = 0; step < steps; ++step) {
+        XTestFakeRelativeMotionEvent(_display, right * (step + 1) / steps - right * step / steps,
+                                     down * (step + 1) / steps - down * step / steps, 0);
+        wait();
+    }
+    std::this_thread::sleep_for(20 * pause); // what is let go while it moves is thrown on by OSG's manipulators
+    XTestFakeButtonEvent(_display, button, False, 0);
+    wait();
+    XTestFakeRelativeMotionEvent(_display, -right, -down, 0);
+    XFlush(_display);
+}
+
 Screenshot Desktop::picture() {
     XWindowAttributes place{};
     XGetWindowAttributes(_display, _window, &place);

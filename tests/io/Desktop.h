@@ -54,6 +54,9 @@ public:
     void useWindow(const std::string& name);
     /// A letter, a digit or an X key name as "Escape".
     void press(const std::string& key);
+    /// Moves the pointer from the window's middle by so many pixels to the right and down, with a mouse button held (1:
+    /// left, 2: middle), in small steps, and back without.
+    void drag(unsigned button, int right, int down);
     Screenshot picture();
     /// The first picture for which `wanted` holds, twice the same in a row if `still`.
     /// @throws std::runtime_error with `what` if there is none within 10 s.

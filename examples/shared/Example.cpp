@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "Example.h"
+#include "SceneFile.h"
+#include "ScenePicture.h"
+
+#include <osgDB/Registry>
+
+namespace gnomon::examples {
+namespace {
+
+using Text = const std::string&;
+
+constexpr int mostFrames = 10000;
+
+int readStencilBits(Text text) {
+    if (text != "0" && text != "8") throw std::invalid_argument("allowed: 0, 8.");
+    return text == "0" ? 0 : 8;
+}
+
+Options exampleOptions(ExampleOptions& into, const std::string& program) {
+    Options table;
+    addSize(table, into.view);
+    table.push_back({"--out", "IMAGE", "draw one picture into this file, without a window or display", "a window",
+                     [&into](Text t) { into.out = t; }});
+    table.push_back({"--offscreen", "", "the same as --out " + program + ".png", "",
+                     [&into, program](Text) { into.out = program + ".png"; }});
+    table.push_back(
+        {"--keys", "LETTERS", "keys, see below, that are pressed before", "none", [&into](Text t) { into.keys = t; }});
+    table.push_back({"--frames", "N", "frames drawn for the picture, the last is written; 1 to 10000, 30 a second", "1",
+                     [&into](Text t) { into.frames = readWhole(t, 1, mostFrames); }});
+    table.push_back({"--stencil-bits", "0|8", "of the picture's framebuffer", "8",
+                     [&into](Text t) { into.stencilBits = readStencilBits(t); }});
+    table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
+    return table;
+}
+
+Options joined(Options first, const Options& second) {
+    first.insert(first.end(), second.begin(), second.end());
+    return first;
+}
+
+} // namespace
+
+void readExample(osg::ArgumentParser& arguments, const ExampleText& text, Options own, ExampleOptions& into) {
+    readOptions(arguments, joined(std::move(own), exampleOptions(into, text.program)));
+    readOsgOptions(arguments);
+    refuseUnknownOptions(arguments);
+    if (arguments.argc() > 1)
+        throw std::invalid_argument(std::string("\"") + arguments[1] +
+                                    "\" is no option; --help lists those there are.");
+}
+
+std::string exampleHelp(const ExampleText& text, Options own, ExampleOptions defaults, const std::string& keys) {
+    return text.program + " [OPTION...]\n" + text.about + "\n" +
+           describeOptions(joined(std::move(own), exampleOptions(defaults, text.program))) + osgOptionsHelp() +
+           "\nKEYS\n" + keys + "  m        Time that a frame takes to draw.\n" + windowKeysHelp(text.program) +
+           "\nDrag with the left mouse button to move the camera, with the middle one to move the light.\n"
+           "\nExample: " +
+           text.example + "\n";
+}
+
+osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string& program) {
+    osgDB::Registry::instance()->getLibraryFilePathList().push_front(GNOMON_LIBRARIES);
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(readScene({file}, program));
+    return root;
+}
+
+void writePicture(const ExampleText& text, const ExampleOptions& options, SceneSetup& setup, OutputFile& file) {
+    if (options.stencilBits == 0)
+        throw std::runtime_error("at least 1 bit of stencil is needed, and this framebuffer has none.");
+    const osg::ref_ptr<osg::Image> picture =
+        ScenePicture(options.view, setup, options.stencilBits).draw(options.frames);
+    for (const std::string& cause : setup.diagnose()) std::cerr << text.program << ": note: " << cause << std::endl;
+    file.write(*picture);
+}
+
+} // namespace gnomon::examples

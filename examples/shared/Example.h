@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "DragHandler.h"
+#include "DrawTime.h"
+#include "Keys.h"
+#include "OutputFile.h"
+#include "SceneWindow.h"
+
+#include <iostream>
+#include <stdexcept>
+
+namespace gnomon::examples {
+
+/// What every source document's example has on its command line.
+struct ExampleOptions {
+    ViewOptions view;    ///< camera and size.
+    std::string out;     ///< picture; empty: a window.
+    std::string keys;    ///< pressed before the picture is drawn.
+    int frames = 1;      ///< drawn for the picture.
+    int stencilBits = 8; ///< 0 or 8, of the picture.
+    bool help = false;
+};
+
+/// What an example says of itself.
+struct ExampleText {
+    std::string program; ///< also the window's title.
+    std::string does;    ///< "shows …", one sentence.
+    std::string about;   ///< for --help: a paragraph, lines of at most 120 letters.
+    std::string example; ///< a command line.
+};
+
+/// Takes an example's own options and those of all examples. @throws std::invalid_argument, one sentence.
+void readExample(osg::ArgumentParser& arguments, const ExampleText& text, Options own, ExampleOptions& into);
+/// What --help prints. @param defaults  what holds without options. @param keys  as keysHelp() lists them.
+std::string exampleHelp(const ExampleText& text, Options own, ExampleOptions defaults, const std::string& keys);
+
+/// A scene file that Gnomon's own nodes stand in, in a group; the plugin that reads them is the one that this build made.
+/// @throws std::runtime_error as readScene() does.
+osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string& program);
+
+/// Draws a scene into the file; why something is missing goes to standard error.
+/// @throws std::runtime_error, one sentence, if the framebuffer has no stencil bits or there is no OpenGL.
+void writePicture(const ExampleText& text, const ExampleOptions& options, SceneSetup& setup, OutputFile& file);
+
+/// Does what a key does, by its letter. @throws std::invalid_argument, one sentence, if there is none.
+template <class Controls>
+void press(const std::string& letters, const std::vector<Key<Controls>>& keys, Controls& controls, Hud& hud) {
+    for (const char letter : letters) {
+        const auto found = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.key == letter; });
+        if (found == keys.end())
+            throw std::invalid_argument(std::string("--keys: there is no key ") + letter +
+                                        "; --help lists those there are.");
+        found->act(controls, hud);
+    }
+}
+
+/// A window or a picture of one scene with its controls. @param Controls  has SceneSetup& setup(), what its text says in
+/// describe(), and what a drag with the middle mouse button does in drag(right, up), pixels.
+template <class Controls>
+int showExample(const ExampleText& text, const ExampleOptions& options, const std::vector<Key<Controls>>& keys,
+                Controls& controls) {
+    const osg::ref_ptr<DrawTime> time = new DrawTime;
+    const osg::ref_ptr<Hud> hud = new Hud([&] {
+        std::vector<std::string> lines = controls.describe();
+        if (!time->line().empty()) lines.push_back(time->line());
+        lines.push_back("h shows all keys, g hides this text");
+        return lines;
+    });
+    press(options.keys, keys, controls, *hud);
+    if (!options.out.empty()) {
+        OutputFile file(options.out);
+        return file.requireImage(), writePicture(text, options, controls.setup(), file), 0;
+    }
+    const osg::ref_ptr<osgGA::GUIEventHandler> handler = new KeyHandler<Controls>(keys, controls, *hud);
+    SceneWindow window({text.program, text.does, "--out IMAGE"}, options.view, controls.setup(), *hud, *handler);
+    window.add(*time);
+    window.add(*new DragHandler([&controls](double right, double up) { controls.drag(right, up); }));
+    return window.run();
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "SceneSetup.h"
+
+#include <gnomon/HeadlessContext.h>
+
+#include <osgViewer/Viewer>
+
+namespace gnomon::examples {
+
+/// Draws a scene into memory, without a window or a display. Programs that use it link a headless library.
+class ScenePicture {
+public:
+    /// @param stencilBits  0 or 8.
+    /// @throws std::runtime_error, one sentence, if there is no OpenGL.
+    ScenePicture(const ViewOptions& view, SceneSetup& setup, int stencilBits = 8);
+
+    /// The picture after so many frames, 30 a second of simulation time.
+    osg::ref_ptr<osg::Image> draw(int frames = 1);
+
+private:
+    HeadlessContext _context; // before the viewer: it must outlive it
+    osgViewer::Viewer _viewer;
+    int _drawn = 0;
+};
+
+} // namespace gnomon::examples

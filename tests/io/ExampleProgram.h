@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "Desktop.h"
+#include "Program.h"
+
+#include <gtest/gtest.h>
+#include <osg/Image>
+#include <osg/Matrixd>
+#include <osg/Vec3d>
+
+#include <functional>
+
+namespace gnomon::testing {
+
+using Arguments = std::vector<std::string>;
+
+/// A source document's example, run as a user runs it.
+class ExampleProgram : public ::testing::Test {
+protected:
+    explicit ExampleProgram(const std::string& program) : _program(program) {}
+
+    Ending run(const Arguments& arguments) { return runProgram(_program, arguments, folder.path()); }
+    /// Its picture. @throws std::runtime_error if there is none.
+    osg::ref_ptr<osg::Image> picture(Arguments arguments);
+    /// It says in one sentence what is wrong, ends with status 1 and leaves no file.
+    void expectRefused(const Arguments& arguments, const std::string& says);
+    /// --help names these, its keys and the options of all examples.
+    void expectHelp(const Arguments& texts);
+
+    /// Opens its window and hides the text.
+    void open(const Arguments& arguments = {});
+    /// The window after something that changes it.
+    Screenshot changed(const std::string& what, const std::function<void()>& act);
+    Screenshot pressed(const std::string& key);
+    /// After this key the picture does not stand still.
+    void expectMotionAfter(const std::string& key);
+
+    TemporaryFolder folder;
+    std::unique_ptr<Desktop> desktop;
+    std::unique_ptr<ChildProcess> window;
+    Screenshot first; ///< of the window, without text.
+
+private:
+    const std::string _program;
+};
+
+/// Colour of a pixel, 0 … 255, from the lower left.
+osg::Vec3d colorAt(const osg::Image& image, int x, int y);
+/// The largest difference in a channel.
+double apart(const osg::Vec3d& a, const osg::Vec3d& b);
+
+/// Pixels of a picture, row by row from the lower left.
+using Mask = std::vector<bool>;
+Mask differing(const osg::Image& a, const osg::Image& b);
+Mask maskOf(const osg::Image& image, const std::function<bool(const osg::Vec3d& color)>& holds);
+int count(const Mask& mask);
+/// Pixels of `a` that are not in `b`.
+int beyond(const Mask& a, const Mask& b);
+/// Pixels where the masks differ, but for those that have a neighbour at most `margin` pixels away where `b` is another.
+int misplaced(const Mask& a, const Mask& b, int width, int margin = 1);
+
+/// Lines of sight of a picture, from the near plane.
+struct Sights {
+    int width, height;
+    osg::Matrixd clip; ///< from world.
+
+    /// Asks for each pixel's line, by a point on it and its way.
+    Mask where(const std::function<bool(const osg::Vec3d& from, const osg::Vec3d& way)>& holds) const;
+};
+
+/// How far along from + t · way a box is met, in the box's own frame; infinite if not.
+double meetBox(const osg::Vec3d& from, const osg::Vec3d& way, const osg::Vec3d& low, const osg::Vec3d& high);
+
+} // namespace gnomon::testing

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// halomagic: shadow, reflection and halo, each where it belongs and nowhere else; each switch and the fault it shows.
+#include "ExampleProgram.h"
+
+#include <cmath>
+
+namespace {
+
+using namespace gnomon::testing;
+
+class Halomagic : public ExampleProgram {
+protected:
+    Halomagic() : ExampleProgram(HALOMAGIC) {}
+
+    osg::ref_ptr<osg::Image> keys(const std::string& letters, int frames = 1) {
+        Arguments arguments = {"--frames", std::to_string(frames)};
+        if (!letters.empty()) arguments.insert(arguments.end(), {"--keys", letters});
+        return picture(arguments);
+    }
+};
+
+constexpr int size = 600;
+
+/// Pixels whose line of sight meets the floor, seen from above: y = 0, 20 to either side.
+Mask floorPixels() {
+    const osg::Matrixd clip =
+        osg::Matrixd::lookAt(osg::Vec3d(23.98, 36.93, -41.54), osg::Vec3d(-2.0, 6.93, 3.46), osg::Vec3d(0, 1, 0)) *
+        osg::Matrixd::perspective(40.0, 1.0, 20.0, 100.0);
+    return Sights{size, size, clip}.where([](const osg::Vec3d& from, const osg::Vec3d& way) {
+        const osg::Vec3d floor = from - way * (from.y() / way.y());
+        return way.y() < 0.0 && std::abs(floor.x()) < 20.1 && std::abs(floor.z()) < 20.1;
+    });
+}
+
+/// Changed pixels must be what the function says of the colour before, to one step a channel. @return how many there are.
+int expectEach(const osg::Image& before, const osg::Image& after,
+               const std::function<osg::Vec3d(const osg::Vec3d&)>& expected, double tolerance = 1.6) {
+    int changed = 0, wrong = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const osg::Vec3d a = colorAt(before, x, y), b = colorAt(after, x, y);
+            if (apart(a, b) < 0.5) continue;
+            ++changed;
+            wrong += apart(b, expected(a)) > tolerance;
+        }
+    EXPECT_EQ(wrong, 0) << "of " << changed;
+    return changed;
+}
+
+osg::Vec3d haloOver(const osg::Vec3d& under) { return osg::Vec3d(204.0, 204.0, 0.0) * 0.3 + under * 0.7; }
+
+bool isBlue(const osg::Vec3d& c) {
+    return c.z() > c.x() + 5.0 && c.z() > c.y() + 5.0;
+} // the sphere; the floor's rings too
+
+} // namespace
+
+TEST_F(Halomagic, MirrorsInTheFloorAndNowhereElse) {
+    const auto with = keys(""), without = keys("d");
+    EXPECT_EQ(beyond(differing(*with, *without), floorPixels()), 0);
+    EXPECT_GT(count(differing(*with, *without)), 50000) << "all of the floor";
+    // The source's floor is 30 % over the image: what mirrors the black background keeps 30 % of its own.
+    int image = 0, own = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const osg::Vec3d a = colorAt(*without, x, y), b = colorAt(*with, x, y);
+            if (apart(a, b) < 0.5) continue;
+            (apart(b, a * 0.3) < 1.6 ? own : image) += 1;
+        }
+    EXPECT_GT(own, image);
+    EXPECT_GT(image, 3000) << "dinosaur and pillar";
+}
+
+// Blending as the source does: half of floor and reflection alike.
+TEST_F(Halomagic, ItsShadowHalvesFloorAndReflectionOnce) {
+    const auto without = keys("a"), with = keys("");
+    EXPECT_GT(expectEach(*without, *with, [](const osg::Vec3d& c) { return c * 0.5; }), 1500);
+    EXPECT_EQ(beyond(differing(*without, *with), floorPixels()), 0);
+}
+
+TEST_F(Halomagic, EachHaloPixelIsBlendedOnceAndTheModelNeverCovered) {
+    for (const std::string model : {"", "n", "nn", "nnn"})
+        for (const std::string shape : {"", "v", "vv"}) {
+            const auto without = keys(model + shape), with = keys(model + shape + "k");
+            EXPECT_GT(expectEach(*without, *with, haloOver), 500) << model << " " << shape;
+        }
+    const auto bare = keys("adn"), sphere = keys("adnk");
+    int onSphere = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const osg::Vec3d was = colorAt(*bare, x, y);
+            if (!isBlue(was) || was.x() > 0.0) continue; // the sphere alone has no red
+            ++onSphere;
+            ASSERT_EQ(was, colorAt(*sphere, x, y)) << x << " " << y;
+        }
+    EXPECT_GT(onSphere, 5000);
+}
+
+TEST_F(Halomagic, AnOpaqueHaloHidesWhatIsBehindIt) {
+    const auto without = keys("n"), with = keys("nke");
+    EXPECT_GT(expectEach(*without, *with, [](const osg::Vec3d&) { return osg::Vec3d(128.0, 128.0, 0.0); }), 5000);
+}
+
+TEST_F(Halomagic, WithoutHaloStencilTheModelIsCovered) {
+    const auto without = keys("n"), with = keys("nkq");
+    const osg::Vec3d was = colorAt(*without, 290, 310), now = colorAt(*with, 290, 310); // on the sphere
+    ASSERT_TRUE(isBlue(was));
+    EXPECT_LE(apart(now, haloOver(was)), 1.6) << "its front alone is before the sphere";
+    int twice = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            twice += apart(colorAt(*with, x, y), haloOver(haloOver(colorAt(*without, x, y)))) < 1.6;
+    EXPECT_GT(twice, 3000) << "the rim has a front and a back";
+}
+
+TEST_F(Halomagic, WithoutShadowStencilPixelsDarkenTwice) {
+    const auto none = keys("a"), off = keys("z");
+    int twice = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const osg::Vec3d lit = colorAt(*none, x, y), now = colorAt(*off, x, y);
+            twice += apart(lit, now) > 2.0 && apart(now, lit * 0.25) < 2.1;
+        }
+    EXPECT_GT(twice, 500);
+}
+
+TEST_F(Halomagic, WithoutOffsetTheShadowFightsTheFloor) {
+    const auto none = keys("a"), on = keys(""), off = keys("i");
+    const Mask shadow = differing(*none, *on), fought = differing(*none, *off);
+    EXPECT_EQ(beyond(fought, shadow), 0);
+    EXPECT_LT(count(fought), count(shadow) * 49 / 50);
+}
+
+TEST_F(Halomagic, RelightTakesTheLightFromALitFloor) {
+    const auto none = keys("ar"), on = keys("r");
+    const Mask shadow = differing(*none, *on);
+    EXPECT_GT(count(shadow), 1500);
+    EXPECT_EQ(beyond(shadow, floorPixels()), 0);
+    EXPECT_EQ(count(differing(*keys("rr"), *keys(""))), 0);
+}
+
+TEST_F(Halomagic, EverySwitchIsSeenAndSwitchedBack) {
+    const auto base = keys("");
+    for (const std::string key : {"k", "u", "9", "x", "a", "r", "z", "d", "o"}) {
+        EXPECT_GT(count(differing(*keys(key), *base)), 100) << key;
+        const std::string back = key == "x" ? "xxxx" : key + key;
+        EXPECT_EQ(count(differing(*keys(back), *base)), 0) << key;
+    }
+    const auto second = keys("n"), third = keys("nn"), fourth = keys("nnn");
+    for (const auto& other : {second, third, fourth}) EXPECT_GT(count(differing(*base, *other)), 5000);
+    EXPECT_GT(count(differing(*second, *third)), 2000);
+    EXPECT_EQ(count(differing(*keys("nnnn"), *base)), 0);
+    EXPECT_GT(count(differing(*keys("x"), *keys("xx"))), 100) << "linear and mipmap";
+}
+
+TEST_F(Halomagic, ThePulseGrowsAndEndsAndMotionJumps) {
+    const auto base = keys("");
+    EXPECT_GT(expectEach(*base, *keys("p", 16), haloOver), 1000);
+    EXPECT_EQ(count(differing(*keys("p", 40), *base)), 0);
+    EXPECT_GT(count(differing(*keys("j", 10), *base)), 2000);
+}
+
+TEST_F(Halomagic, SaysWhatItCannotDoAndHelps) {
+    expectRefused({"--stencil-bits", "0", "--offscreen"}, "at least 1 bit of stencil is needed");
+    expectRefused({"--keys", "W", "--offscreen"}, "there is no key W");
+    expectHelp({"  p        ", "  q        ", "  y        ", "  9        ", "halo"});
+}
+
+TEST_F(Halomagic, KeysAndMouseAreSeenInItsWindow) {
+    open();
+    for (const char* key : {"k", "a", "d", "o", "r", "u", "9"}) {
+        const Screenshot before = desktop->picture();
+        pressed(key);
+        EXPECT_EQ(pressed(key), before) << key;
+    }
+    for (int i = 0; i < 3; ++i) pressed("n");
+    EXPECT_EQ(pressed("n"), first);
+    desktop->press("p");
+    desktop->pictureWhere(
+        "the halo pulses", [&](const Screenshot& p) { return p != first; }, false);
+    EXPECT_NO_THROW(desktop->pictureWhere("the pulse is over", [&](const Screenshot& p) { return p == first; }));
+    EXPECT_NE(changed("the middle button", [&] { desktop->drag(2, 40, -20); }), first);
+    EXPECT_EQ(count(differing(*keys(""), *keys("y"))), 0) << "from up here all of the image lies behind the floor";
+    EXPECT_NE(changed("the left button", [&] { desktop->drag(1, 0, -170); }), first);
+    const Screenshot low = desktop->picture();
+    pressed("y"); // from low down the image leaves the floor's near edge
+    EXPECT_EQ(pressed("y"), low);
+    expectMotionAfter("j");
+    desktop->press("j");
+    pressed("g");
+    pressed("m"); // the time of a frame is in the text
+    desktop->press("Escape");
+    EXPECT_EQ(window->ended(std::chrono::seconds(10)), 0);
+}
