@@ -99,7 +99,7 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     for (const MapPicture::Tile& tile : picture.tiles) {
         glViewport(tile.corner.x, tile.corner.y, picture.size, picture.size);
         setUniform(state, "clipFromCaster", tile.clipFromCaster);
-        picture.casters->geometry->draw(renderInfo);
+        picture.casters->draw(renderInfo);
     }
     target.shown = &picture;
     return "";

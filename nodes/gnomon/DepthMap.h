@@ -23,7 +23,7 @@ struct MapPicture : public osg::Referenced {
         glm::ivec2 corner{0};
         glm::dmat4 clipFromCaster{1.0}; ///< caster: about their mesh's origin.
     };
-    osg::ref_ptr<const MapCasters> casters;
+    osg::ref_ptr<osg::Geometry> casters;
     osg::ref_ptr<const osg::StateSet> program; ///< see markProgram().
     int size = 0;                              ///< of a tile's side, texels.
     double slopeOffset = 0.0;                  ///< how many texels of each surface's own slope it is drawn deeper.

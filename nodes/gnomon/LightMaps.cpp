@@ -79,16 +79,19 @@ struct LightMaps::LightMap {
     glm::dvec4 light{0.0};
     MapWish wish;
     osg::ref_ptr<const MapCasters> casters;
+    bool flats = false; ///< those that are flat cast, too.
     std::vector<Face> faces;
     osg::ref_ptr<DepthMap> map;
     osg::ref_ptr<const MapPicture> picture;
     std::vector<MapLookUp> lookUps;
     unsigned lastCall = 0;
 
-    bool isOf(const glm::dvec4& given, const MapCasters& asked, const MapWish& wanted) const {
-        return casters == &asked && wish == wanted && isSame(given, light, glm::length(asked.reach));
+    bool isOf(const glm::dvec4& given, const MapCasters& asked, bool flatToo, const MapWish& wanted) const {
+        return casters == &asked && flats == flatToo && wish == wanted &&
+               isSame(given, light, glm::length(asked.reach));
     }
-    void start(const glm::dvec4& given, const MapCasters& asked, const MapWish& wanted);
+    void start(const glm::dvec4& given, const MapCasters& asked, bool flatToo, const MapWish& wanted);
+    std::optional<ScreenRect> screenBounds(const glm::dmat4& clipFromScene) const;
     bool findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene);
     MapFit fitOf(const Face& face) const {
         return fitMap(face.frame, face.needed, face.casters, reserve, border / wish.size,
@@ -121,6 +124,25 @@ std::vector<Receiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFr
     return result;
 }
 
+/// True if what is flat, a ground for one, may stand between the light and any part of what is seen: not if all of that is
+/// on the light's side of it, or in it.
+template <class Receiver>
+bool isBetween(const MapCasters::Box& flat, const glm::dvec4& light, const std::vector<Receiver>& receivers,
+               const glm::dvec3& reach) {
+    const glm::dvec3 size = flat.high - flat.low;
+    const int axis = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : 2;
+    const double level = flat.low[axis], in = 1e-6 * glm::length(reach); // what eye space makes of a place in it
+    const double side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
+    return std::any_of(receivers.begin(), receivers.end(), [&](const Receiver& receiver) {
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec4 corner(i & 1 ? receiver.high.x : receiver.low.x, i & 2 ? receiver.high.y : receiver.low.y,
+                                    i & 4 ? receiver.high.z : receiver.low.z, 1.0);
+            if (!(side * ((receiver.sceneFromBox * corner)[axis] - level) >= -in)) return true;
+        }
+        return false;
+    });
+}
+
 } // namespace
 
 LightMaps::LightMaps() : _resources(new MapResources) {}
@@ -133,10 +155,16 @@ osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     Lock lock(_mutex);
     LightMap& map = find(view.stage, lightNumber);
     const osg::ref_ptr<const MapCasters> casters = castersOf(mesh);
-    if (!map.isOf(light, *casters, wish)) map.start(light, *casters, wish);
-    if (!map.findNeeded(receiversOf<Receiver>(view, eyeFromScene), clipFromScene)) return nullptr;
+    const std::vector<Receiver> receivers = receiversOf<Receiver>(view, eyeFromScene);
+    const bool flats = std::any_of(casters->flatBoxes.begin(), casters->flatBoxes.end(),
+                                   [&](const auto& flat) { return isBetween(flat, light, receivers, casters->reach); });
+    if (!map.isOf(light, *casters, flats, wish)) map.start(light, *casters, flats, wish);
+    if (!map.findNeeded(receivers, clipFromScene)) return nullptr;
+    const auto bounds = map.screenBounds(clipFromScene);
+    if (!bounds) return nullptr;
     if (needsNew(map)) redo(map);
     osg::ref_ptr<MapMark> mark = new MapMark;
+    mark->screenBounds = *bounds;
     mark->resources = _resources;
     mark->map = map.map;
     mark->picture = map.picture;
@@ -146,26 +174,40 @@ osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     return mark;
 }
 
-void LightMaps::LightMap::start(const glm::dvec4& given, const MapCasters& asked, const MapWish& wanted) {
+void LightMaps::LightMap::start(const glm::dvec4& given, const MapCasters& asked, bool flatToo, const MapWish& wanted) {
     if (!(wish == wanted)) map = nullptr;
     light = given;
     casters = &asked;
+    flats = flatToo;
     wish = wanted;
     picture = nullptr;
     faces.clear();
     for (const LightFrame& frame : framesOf(light, casters->reach, wish.size)) {
         Face& face = faces.emplace_back(frame);
-        for (const MapCasters::Box& box : casters->boxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
+        for (const MapCasters::Box& box : casters->bodyBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
+        if (!flats) continue;
+        for (const MapCasters::Box& box : casters->flatBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
     }
+}
+
+/// Of what is needed.
+std::optional<ScreenRect> LightMaps::LightMap::screenBounds(const glm::dmat4& clipFromScene) const {
+    std::vector<glm::dvec4> points;
+    for (const Face& face : faces)
+        for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);
+    return gnomon::screenBounds(points);
 }
 
 /// @return false if nothing is needed.
 bool LightMaps::LightMap::findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene) {
-    const std::vector<glm::dvec4> halfSpaces = halfSpacesOf(clipFromScene);
+    const std::vector<glm::dvec4> inView = halfSpacesOf(clipFromScene);
     bool any = false;
     for (Face& face : faces) {
         face.needed = MapOutline(face.frame);
         if (face.casters.empty()) continue;
+        std::vector<glm::dvec4> halfSpaces = inView;
+        if (face.frame.sun) // a lamp's have sides of their own
+            for (const glm::dvec4& side : face.casters.sides()) halfSpaces.push_back(side);
         for (const Receiver& receiver : receivers)
             face.needed.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
         face.needed.cut(face.casters);
@@ -187,10 +229,10 @@ bool LightMaps::needsNew(const LightMap& map) const {
 
 void LightMaps::redo(LightMap& map) const {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
-    picture->casters = map.casters;
+    picture->casters = map.flats ? map.casters->all : map.casters->bodies;
     picture->program = _resources->casterProgram;
     picture->size = map.wish.size;
-    picture->slopeOffset = 0.5;
+    picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
     map.lookUps.clear();
     glm::ivec2 end(0);
     const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
@@ -205,7 +247,7 @@ void LightMaps::redo(LightMap& map) const {
             {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, map.casters->reach, picture->size)});
         end = glm::max(end, corner + picture->size);
     }
-    if (!map.map || !glm::all(glm::greaterThanEqual(map.map->size, end))) map.map = new DepthMap(end, map.wish.compare);
+    if (!map.map || map.map->size != end) map.map = new DepthMap(end, map.wish.compare);
     map.picture = picture;
 }
 
@@ -237,7 +279,7 @@ void LightMaps::resizeGLObjectBuffers(unsigned maxSize) {
     Lock lock(_mutex);
     for (const auto& map : _maps) {
         if (map->map) map->map->resizeGLObjectBuffers(maxSize);
-        if (map->casters) map->casters->geometry->resizeGLObjectBuffers(maxSize);
+        if (map->casters) map->casters->resizeGLObjectBuffers(maxSize);
     }
 }
 
@@ -246,7 +288,7 @@ void LightMaps::release(osg::State* state) {
     Lock lock(_mutex);
     for (const auto& map : _maps) {
         if (map->map) map->map->release(state);
-        if (map->casters) map->casters->geometry->releaseGLObjects(state);
+        if (map->casters) map->casters->releaseGLObjects(state);
     }
 }
 

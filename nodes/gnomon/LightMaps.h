@@ -33,7 +33,7 @@ public:
     ~LightMaps();
 
     /// @param light  about the casters' origin, see usableLight().
-    /// @return the marks of a light, screenBounds left open; null if none of its shadow can be seen.
+    /// @return the marks of a light; null if none of its shadow can be seen.
     osg::ref_ptr<MapMark> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light, const CasterMesh& mesh,
                                const MapWish& wish);
 

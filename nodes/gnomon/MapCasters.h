@@ -18,9 +18,14 @@ struct MapCasters : public osg::Referenced {
     explicit MapCasters(const CasterMesh& mesh);
 
     const osg::ref_ptr<const CasterMesh> mesh;
-    const osg::ref_ptr<osg::Geometry> geometry;
-    std::vector<Box> boxes; ///< of the drawables, about mesh->origin, the largest first.
-    glm::dvec3 reach{0.0};  ///< half sides of the bounds.
+    osg::ref_ptr<osg::Geometry> all;    ///< everything.
+    osg::ref_ptr<osg::Geometry> bodies; ///< all but what is flat, as grounds are: null if that is nothing.
+    std::vector<Box> bodyBoxes;         ///< of the drawables, about mesh->origin, the largest first.
+    std::vector<Box> flatBoxes;         ///< of those that are flat along an axis of the group.
+    glm::dvec3 reach{0.0};              ///< half sides of the bounds.
+
+    void resizeGLObjectBuffers(unsigned maxSize) const;
+    void releaseGLObjects(osg::State* state) const;
 
 protected:
     ~MapCasters() override = default;

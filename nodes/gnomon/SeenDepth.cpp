@@ -12,11 +12,14 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-osg::ref_ptr<osg::Texture2D> depthTexture() {
+/// Formats of depths: OpenGL copies between equal ones as they are, which is faster.
+bool isPacked() { return glInteger(GL_DEPTH_BITS) == 24 && glInteger(GL_STENCIL_BITS) == 8; }
+
+osg::ref_ptr<osg::Texture2D> depthTexture(bool packed) {
     osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
-    texture->setInternalFormat(GL_DEPTH_COMPONENT24);
-    texture->setSourceFormat(GL_DEPTH_COMPONENT);
-    texture->setSourceType(GL_UNSIGNED_INT);
+    texture->setInternalFormat(packed ? GL_DEPTH24_STENCIL8_EXT : GL_DEPTH_COMPONENT24);
+    texture->setSourceFormat(packed ? GL_DEPTH_STENCIL_EXT : GL_DEPTH_COMPONENT);
+    texture->setSourceType(packed ? GL_UNSIGNED_INT_24_8_EXT : GL_UNSIGNED_INT);
     texture->setResizeNonPowerOfTwoHint(false);
     for (const auto filter : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
         texture->setFilter(filter, osg::Texture::NEAREST);
@@ -50,11 +53,12 @@ SeenDepth::Copy SeenDepth::copy(osg::State& state, const PixelRect& pixels) {
     result.error.x = stepsOff * std::ldexp(1.0, -std::min(bits, 24));
     result.error.y = snapsOff * std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
     const PlainTransfer plain;
+    const bool resolves = ResolvedDepth::isNeeded(state), packed = !resolves && isPacked();
     const auto read = [&] {
-        state.applyTextureAttribute(0, &textureFor(state.getContextID(), pixels));
+        state.applyTextureAttribute(0, &textureFor(state.getContextID(), pixels, packed));
         glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
     };
-    if (ResolvedDepth::isNeeded(state)) {
+    if (resolves) {
         const auto place = _resolved.read(state, pixels.x, pixels.y, pixels.width, pixels.height, read);
         if (!place) return {unresolvedDepth};
         result.error.z = place->x - 0.5;
@@ -67,13 +71,15 @@ SeenDepth::Copy SeenDepth::copy(osg::State& state, const PixelRect& pixels) {
 }
 
 void SeenDepth::bind(osg::State& state, unsigned unit) {
-    state.applyTextureAttribute(unit, &textureFor(state.getContextID(), {}));
+    Lock lock(_mutex);
+    state.applyTextureAttribute(unit, _textures.at(state.getContextID()));
 }
 
-osg::Texture2D& SeenDepth::textureFor(unsigned context, const PixelRect& pixels) {
+osg::Texture2D& SeenDepth::textureFor(unsigned context, const PixelRect& pixels, bool packed) {
     Lock lock(_mutex);
     osg::ref_ptr<osg::Texture2D>& texture = _textures[context];
-    if (!texture) texture = depthTexture();
+    const GLint format = packed ? GL_DEPTH24_STENCIL8_EXT : GL_DEPTH_COMPONENT24;
+    if (!texture || texture->getInternalFormat() != format) texture = depthTexture(packed);
     const int width = std::max(texture->getTextureWidth(), pixels.x + pixels.width);
     const int height = std::max(texture->getTextureHeight(), pixels.y + pixels.height);
     if (width != texture->getTextureWidth() || height != texture->getTextureHeight()) {

@@ -30,7 +30,7 @@ public:
     void release(osg::State* state);
 
 private:
-    osg::Texture2D& textureFor(unsigned context, const PixelRect& pixels);
+    osg::Texture2D& textureFor(unsigned context, const PixelRect& pixels, bool packed);
 
     ResolvedDepth _resolved;
     OpenThreads::Mutex _mutex;

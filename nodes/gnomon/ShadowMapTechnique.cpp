@@ -41,10 +41,7 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
     }
     const MapWish wish{_size, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR, definesOf(_filter)};
     osg::ref_ptr<MapMark> mark = _maps->mark(view, light.number, *usable, mesh, wish);
-    if (!mark) return {};
-    const auto bounds = shadowBounds(mesh, mark->clipFromScene, *usable);
-    if (!bounds) return {}; // out of sight: nothing to say
-    mark->screenBounds = *bounds;
+    if (!mark) return {}; // out of sight: nothing to say
     return {mark};
 }
 

@@ -199,6 +199,32 @@ void MapOutline::limitNearest() {
     if (!_frame.sun) nearest = std::max(nearest, 64.0 * farthest);
 }
 
+std::vector<glm::dvec4> MapOutline::sides() const {
+    Rectangle rectangle = smallestAbout(corners);
+    widen(rectangle);
+    const glm::dvec2 more = 1e-3 * (rectangle.high - rectangle.low); // cutBox() minds planes that are nearly one
+    rectangle.low -= more;
+    rectangle.high += more;
+    std::vector<glm::dvec4> result;
+    for (int axis = 0; axis < 2; ++axis) {
+        const glm::dvec2 way = axis ? rectangle.across() : rectangle.along;
+        result.push_back(glm::dvec4(way, 0.0, -rectangle.low[axis]) * _frame.lightFromScene);
+        result.push_back(glm::dvec4(-way, 0.0, rectangle.high[axis]) * _frame.lightFromScene);
+    }
+    return result;
+}
+
+std::vector<glm::dvec4> MapOutline::body() const {
+    const glm::dmat4 sceneFromLight = glm::inverse(_frame.lightFromScene);
+    std::vector<glm::dvec4> points;
+    for (const glm::dvec2& corner : corners)
+        for (const double depth : {nearest, farthest}) { // a lamp's in proportion to its distance, so that w is 1
+            const double scale = _frame.sun ? 1.0 : -1.0 / depth;
+            points.push_back(sceneFromLight * (scale * glm::dvec4(corner, depth, 1.0)));
+        }
+    return points;
+}
+
 bool MapFit::covers(const MapOutline& outline, double margin) const {
     const auto inside = [&](const glm::dvec2& corner) {
         const glm::dvec4 at = mapFromLight * glm::dvec4(corner, nearest, 1.0);

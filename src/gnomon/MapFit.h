@@ -34,6 +34,10 @@ public:
                 const std::vector<glm::dvec4>& halfSpaces = {});
 
     bool empty() const { return corners.empty(); }
+    /// Half-spaces of the scene, the sides of the smallest rectangle about it: what is outside them has no place in it.
+    std::vector<glm::dvec4> sides() const;
+    /// The corners of all between nearest and farthest, homogeneous, in the scene.
+    std::vector<glm::dvec4> body() const;
     /// Cuts this outline to the other one, of the same frame; depths stay. One that is all on a line cuts nothing.
     void cut(const MapOutline& other);
     /// Of a lamp: what is nearer than a 64th of the farthest counts as if it were there, for depths of a map get coarse by

@@ -74,6 +74,22 @@ TEST(MapOutline, CutToAnotherIsWhatBothHold) {
     EXPECT_TRUE(outline.empty());
 }
 
+TEST(MapOutline, HasSidesAndABodyAboutWhatIsInIt) {
+    for (const LightFrame& frame : {sunFrame({0.0, 0.6, 0.8}), lampFrame({0.0, 0.0, 9.0}, {0.0, 0.0, -1.0}, 2.0)}) {
+        const MapOutline outline = outlineOf(frame, {-1.0, -2.0, 0.0}, {1.0, 2.0, 3.0});
+        for (const glm::dvec4& side : outline.sides()) {
+            EXPECT_GT(glm::dot(side, glm::dvec4(1.0, -2.0, 3.0, 1.0)), 0.0);
+            EXPECT_GT(glm::dot(side, glm::dvec4(-1.0, 2.0, 0.0, 1.0)), 0.0);
+        }
+        MapOutline again(frame); // from the scene's places back to the light's
+        for (const glm::dvec4& p : outline.body()) again.addBox(glm::dvec3(p) / p.w, glm::dvec3(p) / p.w, here);
+        EXPECT_NEAR(again.nearest, outline.nearest, 1e-12);
+        EXPECT_NEAR(again.farthest, outline.farthest, 1e-12);
+        EXPECT_NEAR(fitMap(frame, again, again, 0.0, 0.0, 1.0).area(),
+                    fitMap(frame, outline, outline, 0.0, 0.0, 1.0).area(), 1e-9);
+    }
+}
+
 TEST(FitMap, TurnsWithWhatItCovers) {
     const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
     const glm::dmat4 turned = glm::rotate(here, 0.5, glm::dvec3(0.0, 0.0, 1.0));

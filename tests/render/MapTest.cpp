@@ -114,8 +114,7 @@ TEST(Map, TakesEachOfThreeLightsFromWhereItDoesNotReach) {
     const Picture mapped = picture(technique), traced = picture(new gnomon::TracedShadowTechnique);
     EXPECT_EQ(differingBlocks(mapped, traced), 0);
     EXPECT_GT(differingBlocks(mapped, picture(nullptr)), 10000);
-    EXPECT_EQ(technique->passes(), 2u + 4u); // in the first of two frames: each sun; the lamp down and to where the
-    // ground goes on for more than its height
+    EXPECT_EQ(technique->passes(), 2u + 3u); // in the first of two frames: each sun; the lamp down and to two sides
 }
 
 /// A scene with a caster that can be moved, seen by a camera that can be turned.
@@ -170,7 +169,6 @@ TEST(MapPasses, FollowACameraThatLeavesWhatIsCovered) {
         moving.camera.setView(test::perspective(eye, {0.0, 0.0, 0.0}, 640, 480));
         passes += moving.passesInFrame();
     }
-    EXPECT_GE(passes, 1u); // the view holds ever less: the map gets finer
     EXPECT_LE(passes, 10u);
     TracedCase last = moving.given;
     last.view = test::perspective({12.0, 6.0, 1.0}, {0.0, 0.0, 0.0}, 640, 480);
