@@ -19,7 +19,8 @@ class LightMaps;
 /// Maps    A map covers what of the seen receivers the casters can darken, and no more: the smallest rectangle about it, and
 ///         a sixteenth more on each side so that it holds for a while. It is drawn again only when the light or a caster has
 ///         changed, or when what is seen is no longer in it or would fill less than half of it. Casters between it and the
-///         light count wherever they are.
+///         light count wherever they are. What is flat along an axis of the group, as grounds are, is left out while all that
+///         is seen is on the light's side of it: it darkens nothing.
 /// Bias    none to set. Both the surface in the map and the one that is seen allow for their own slope within the texels
 ///         that are compared, and for the rounding of depth, here and in the frame. Thin things lose their shadow where
 ///         they are less than about a texel off the surface, measured along the light.
