@@ -95,7 +95,7 @@ bool isGrid(const std::shared_ptr<const Ground>& ground) { return dynamic_cast<c
 
 int covered(const Ground& ground) {
     int count = 0;
-    ground.cover({}, 0.0, [&](const GroundTriangle&) { ++count; });
+    ground.cover({}, 0.0, [&](const GroundTriangle&, gnomon::PlaneSet) { ++count; });
     return count;
 }
 
