@@ -11,6 +11,8 @@ namespace {
 
 using Text = const std::string&;
 
+constexpr int mostBuildings = 1000000;
+
 ShadowSpec readTownSpec(Text text) {
     const ShadowSpec spec = parseShadowSpec(text);
     const auto& allowed = townTechniques();
@@ -26,6 +28,8 @@ Options townOptions(TownOptions& into) {
     table.push_back({"--hour", "H",
                      "mean solar time on 20 March, 6.5 to 17.5 hours; the sun is due south a little after 12", "9",
                      [&into](Text t) { into.hour = readNumber(t, firstHour, lastHour); }});
+    table.push_back({"--objects", "N", "buildings, 1 to 1000000; a plot of 45 by 45 m each", "400",
+                     [&into](Text t) { into.plan.buildings = readWhole(t, 1, mostBuildings); }});
     addSize(table, into.view);
     table.push_back({"--out", "IMAGE", "draw one picture into this file, without a window or display", "a window",
                      [&into](Text t) { into.out = t; }});
@@ -66,7 +70,7 @@ TownOptions readTownOptions(osg::ArgumentParser& arguments) {
 std::string townHelp() {
     TownOptions defaults;
     return "arl_terrain [ELEVATION] [OPTION...]\n"
-           "Shows a town of 400 buildings on an elevation model, its shadows by ARL-TN-156's bounding-box method and "
+           "Shows a town on an elevation model, its shadows by ARL-TN-156's bounding-box method and "
            "by\n"
            "what came after it.\n\n"
            "ELEVATION is what GDAL reads, in metres, with .gdal behind its name: dem.tif.gdal (default: mountains "

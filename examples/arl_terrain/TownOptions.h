@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "Town.h"
 #include "ViewOptions.h"
 
 namespace gnomon::examples {
@@ -9,8 +10,9 @@ struct TownOptions {
     ViewOptions view;      ///< one shadow, one of townTechniques(); the picture's size.
     std::string elevation; ///< file of the elevation model.
     double hour = 9.0;     ///< solar time.
-    std::string out;       ///< picture; empty: none.
-    std::string report;    ///< folder for pictures; empty: none.
+    TownPlan plan;
+    std::string out;    ///< picture; empty: none.
+    std::string report; ///< folder for pictures; empty: none.
     bool help = false;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "TownScene.h"
-#include "Town.h"
 #include "TownSite.h"
 
+#include <gnomon/Progress.h>
 #include <gnomon/TerrainGround.h>
 
 #include <osg/Geode>
@@ -18,6 +18,8 @@ namespace {
 constexpr double latitude = 36.6;                               // degrees
 constexpr double cameraAzimuth = 240.0, cameraDistance = 960.0; // degrees and m, from the town's middle
 constexpr double cameraHeight = 420.0, clearance = 60.0;        // m, above the town's middle and any ground below it
+constexpr double mostAway = 800.0 / cameraHeight;               // so many times: a large town is looked over from 800 m
+constexpr double townSeenWhole = 900.0;                         // m, its side
 
 osg::ref_ptr<osg::Geode> drawTerrain(osg::HeightField& field) {
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
@@ -30,13 +32,13 @@ osg::ref_ptr<osg::Geode> drawTerrain(osg::HeightField& field) {
     return geode;
 }
 
-void lookAt(ViewOptions& view, const Ground& ground, const glm::dvec2& middle) {
-    const double azimuth = osg::DegreesToRadians(cameraAzimuth);
-    const glm::dvec2 eye = middle + cameraDistance * glm::dvec2(std::sin(azimuth), std::cos(azimuth));
+void lookAt(ViewOptions& view, const Ground& ground, const glm::dvec2& middle, double side) {
+    const double azimuth = osg::DegreesToRadians(cameraAzimuth), away = std::clamp(side / townSeenWhole, 1.0, mostAway);
+    const glm::dvec2 eye = middle + away * cameraDistance * glm::dvec2(std::sin(azimuth), std::cos(azimuth));
     const double low = ground.height(middle.x, middle.y).value_or(0.0);
     const double below = ground.height(eye.x, eye.y).value_or(low);
     view.center = osg::Vec3d(middle.x, middle.y, low);
-    view.eye = osg::Vec3d(eye.x, eye.y, std::max(low + cameraHeight, below + clearance));
+    view.eye = osg::Vec3d(eye.x, eye.y, std::max(low + away * cameraHeight, below + clearance));
 }
 
 void setLooks(ViewOptions& view, double hour) {
@@ -51,15 +53,16 @@ void setLooks(ViewOptions& view, double hour) {
 }
 
 /// Fills in the view, too.
-osg::ref_ptr<osg::Group> makeScene(ViewOptions& view, double hour, osg::HeightField& field) {
+osg::ref_ptr<osg::Group> makeScene(ViewOptions& view, double hour, osg::HeightField& field, const TownPlan& plan) {
     field.setOrigin(osg::Vec3());
     const std::shared_ptr<const Ground> ground = groundOf(field);
-    const glm::dvec2 middle = townSite(field, townSide);
-    lookAt(view, *ground, middle);
+    const glm::dvec2 middle = townSite(field, plan.side());
+    lookAt(view, *ground, middle, plan.side());
     setLooks(view, hour);
     osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->addChild(drawTerrain(field));
-    scene->addChild(makeTown(*ground, middle));
+    Progress progress("building the town");
+    scene->addChild(makeTown(*ground, middle, plan, [&](double share) { progress.show(share); }));
     return scene;
 }
 
@@ -70,9 +73,9 @@ SunPosition townSun(double hour) {
     return meridian.at(*julianDay("2026-03-20T00:00:00Z") + hour / 24.0);
 }
 
-TownScene::TownScene(ViewOptions view, double hour, osg::HeightField& terrain)
+TownScene::TownScene(ViewOptions view, double hour, osg::HeightField& terrain, const TownPlan& plan)
     : _given(hour), _hour(hour), _view(std::move(view)) {
-    const osg::ref_ptr<osg::Group> scene = makeScene(_view, hour, terrain);
+    const osg::ref_ptr<osg::Group> scene = makeScene(_view, hour, terrain, plan);
     _setup = setUpScene(_view, *scene);
 }
 

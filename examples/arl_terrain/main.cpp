@@ -36,7 +36,7 @@ int run(osg::ArgumentParser& arguments) {
     if (options.help) return std::cout << townHelp(), 0;
     std::optional<OutputFile> picture;
     if (!options.out.empty()) picture.emplace(options.out).requireImage();
-    TownScene town(options.view, options.hour, *readElevation(options.elevation, "arl_terrain"));
+    TownScene town(options.view, options.hour, *readElevation(options.elevation, "arl_terrain"), options.plan);
     if (picture) return writePicture(town, *picture), 0;
     if (!options.report.empty()) return TownPictures(town).report(options.report), 0;
     return show(town);

@@ -10,46 +10,43 @@ namespace {
 /// Two counts of 32 bits as one word.
 std::uint64_t word(unsigned high, unsigned low) { return std::uint64_t{high} << 32 | low; }
 
+void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, Fingerprint& into) {
+    into.mix(static_cast<const void*>(vertices));
+    if (vertices) into.mix(word(vertices->getModifiedCount(), vertices->getNumElements()));
+    into.mix(std::uint64_t{geometry.getNumPrimitiveSets()});
+    for (const auto& primitives : geometry.getPrimitiveSetList()) {
+        const bool listed = primitives->getDrawElements() != nullptr; // then a look at the first would touch the list
+        const unsigned indices = primitives->getNumIndices();
+        into.mix(static_cast<const void*>(primitives.get()));
+        into.mix(word(primitives->getModifiedCount(), indices));
+        into.mix(word(primitives->getMode(), listed || indices == 0 ? 0 : primitives->index(0)));
+    }
+}
+
+void mixBounds(const osg::Drawable& drawable, Fingerprint& into) {
+    const osg::BoundingBox& bounds = drawable.getBoundingBox();
+    into.mix(static_cast<const void*>(&drawable));
+    for (int i = 0; i < 3; ++i) into.mix(double{bounds._min[i]});
+    for (int i = 0; i < 3; ++i) into.mix(double{bounds._max[i]});
+}
+
 } // namespace
 
 CasterRevision::CasterRevision(const Selection& selection) : CasterVisitor(selection) {}
 
 void CasterRevision::reset() {
     CasterVisitor::reset();
-    _hash = 0;
+    _fingerprint = Fingerprint();
 }
 
-void CasterRevision::mix(const osg::Matrixd& matrix) {
-    for (int i = 0; i < 16; ++i) mix(matrix.ptr()[i]);
-}
-
-void CasterRevision::mix(const osg::Geometry& geometry) {
-    const osg::Array* vertices = verticesOf(geometry);
-    mix(static_cast<const void*>(vertices));
-    if (vertices) mix(word(vertices->getModifiedCount(), vertices->getNumElements()));
-    mix(std::uint64_t{geometry.getNumPrimitiveSets()});
-    for (const auto& primitives : geometry.getPrimitiveSetList()) {
-        const bool listed = primitives->getDrawElements() != nullptr; // then a look at the first would touch the list
-        const unsigned indices = primitives->getNumIndices();
-        mix(static_cast<const void*>(primitives.get()));
-        mix(word(primitives->getModifiedCount(), indices));
-        mix(word(primitives->getMode(), listed || indices == 0 ? 0 : primitives->index(0)));
-    }
-}
-
-void CasterRevision::mixBounds(const osg::Drawable& drawable) {
-    const osg::BoundingBox& bounds = drawable.getBoundingBox();
-    mix(static_cast<const void*>(&drawable));
-    for (int i = 0; i < 3; ++i) mix(double{bounds._min[i]});
-    for (int i = 0; i < 3; ++i) mix(double{bounds._max[i]});
-}
-
-void CasterRevision::applyCaster(osg::Drawable& drawable) {
-    mix(rootFromLocal());
+std::uint64_t CasterRevision::of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal) {
+    Fingerprint result;
+    result.mix(rootFromLocal);
     if (const osg::Geometry* geometry = drawable.asGeometry())
-        mix(*geometry);
+        mixGeometry(*geometry, verticesOf(*geometry), result);
     else
-        mixBounds(drawable);
+        mixBounds(drawable, result);
+    return result.value();
 }
 
 } // namespace gnomon

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/CasterVisitor.h>
+#include <gnomon/Fingerprint.h>
 
 #include <cstdint>
-#include <cstring>
-
-namespace osg {
-class Geometry;
-}
 
 namespace gnomon {
 
@@ -27,30 +23,16 @@ public:
     META_NodeVisitor(gnomon, CasterRevision)
 
         void reset() override;
-    std::uint64_t value() const { return _hash; }
+    std::uint64_t value() const { return _fingerprint.value(); }
+
+    /// Of what VertexTraverser would read of one drawable.
+    static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal);
 
 protected:
-    void applyCaster(osg::Drawable& drawable) override;
+    void applyCaster(osg::Drawable& drawable) override { _fingerprint.mix(of(drawable, rootFromLocal())); }
 
 private:
-    /// Each step is one to one, in the word and in what came before: two graphs that differ in one word never agree.
-    /// The odd factor carries a difference up, the shift down again, so that it reaches all bits and the words' order
-    /// matters.
-    void mix(std::uint64_t bits) {
-        _hash = (_hash ^ bits) * 0x9e3779b97f4a7c15u + 1;
-        _hash ^= _hash >> 32;
-    }
-    void mix(double value) {
-        std::uint64_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
-        mix(bits);
-    }
-    void mix(const void* address) { mix(std::uint64_t{reinterpret_cast<std::uintptr_t>(address)}); }
-    void mix(const osg::Matrixd& matrix);
-    void mix(const osg::Geometry& geometry);
-    void mixBounds(const osg::Drawable& drawable);
-
-    std::uint64_t _hash = 0;
+    Fingerprint _fingerprint;
 };
 
 } // namespace gnomon

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/CasterVisitor.h>
+#include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 
 #include <osg/AutoTransform>
@@ -7,11 +8,14 @@
 #include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/LOD>
+#include <osg/MatrixTransform>
+#include <osg/PositionAttitudeTransform>
 #include <osg/Projection>
 
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <typeinfo>
 
 namespace gnomon {
@@ -31,6 +35,13 @@ bool followsTheView(const osg::Transform& transform) {
     const osg::AutoTransform* turning = transform.asAutoTransform();
     return turning &&
            (turning->getAutoScaleToScreen() || turning->getAutoRotateMode() != osg::AutoTransform::NO_ROTATION);
+}
+
+/// A group that shows all its children, and does nothing else with them.
+bool showsAll(const osg::Node& node) {
+    const std::type_info& type = typeid(node);
+    return type == typeid(osg::Group) || type == typeid(osg::MatrixTransform) ||
+           type == typeid(osg::PositionAttitudeTransform) || type == typeid(ShadowCasterGroup);
 }
 
 unsigned usableChildren(const osg::LOD& lod) { return std::min(lod.getNumChildren(), lod.getNumRanges()); }
@@ -62,12 +73,37 @@ CasterVisitor::CasterVisitor(const Selection& selection)
 void CasterVisitor::reset() {
     _matrices.assign(1, osg::Matrixd::identity());
     _inside = _selection.node ? 0 : 1;
+    findWays();
+}
+
+void CasterVisitor::findWays() {
+    if (!_selection.node) return;
+    _ways.clear();
+    std::vector<osg::Node*> reached{_selection.node.get()};
+    for (std::size_t i = 0; i < reached.size(); ++i)
+        for (osg::Group* parent : reached[i]->getParents()) {
+            const auto [way, isNew] = _ways.try_emplace(parent);
+            way->second.push_back(reached[i]);
+            if (isNew) reached.push_back(parent);
+        }
+}
+
+bool CasterVisitor::isOnTheWay(const osg::Node& node) const {
+    return _inside > 0 || &node == _selection.node || _ways.count(&node) > 0;
+}
+
+/// Of a town beside the terrain nothing need be visited to find the terrain.
+bool CasterVisitor::goesTheOnlyWays(osg::Node& node) {
+    if (_inside > 0 || !showsAll(node)) return false;
+    for (osg::Node* child : _ways[&node]) child->accept(*this);
+    return true;
 }
 
 void CasterVisitor::apply(osg::Node& node) {
+    if (!isOnTheWay(node)) return;
     const int entered = &node == _selection.node ? 1 : 0;
     _inside += entered;
-    traverse(node);
+    if (!goesTheOnlyWays(node)) traverse(node);
     _inside -= entered;
 }
 
@@ -81,6 +117,7 @@ void CasterVisitor::apply(osg::Geode& geode) {
 }
 
 void CasterVisitor::apply(osg::LOD& lod) {
+    if (!isOnTheWay(lod)) return;
     const int entered = &lod == _selection.node ? 1 : 0;
     const float finest = finestRange(lod);
     _inside += entered;

@@ -6,6 +6,7 @@
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
 
+#include <map>
 #include <vector>
 
 namespace osg {
@@ -18,6 +19,8 @@ namespace gnomon {
 /// whatever turns or scales with the view (billboards, such AutoTransforms) or does not move with its parents (absolute
 /// transforms). Extraction (VertexTraverser) and change detection (CasterRevision) share it, so that they agree on what
 /// a caster is.
+///
+/// Cost    a visit of what is above and below the selected node; of all nodes where none is.
 ///
 /// Of an LOD it takes the children shown at the nearest range that a loaded child has (by pixels: the largest), not
 /// those that one view shows. The first matrix is that of the root: its own transform counts, its parents' do not.
@@ -50,9 +53,15 @@ protected:
     static void holdSources(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources);
 
 private:
+    void findWays();
+    bool isOnTheWay(const osg::Node& node) const;
+    bool goesTheOnlyWays(osg::Node& node);
+
     Selection _selection;
     std::vector<osg::Matrixd> _matrices;
     int _inside = 0; ///< how often the selected node is on the way down.
+    /// Of what is above the selected node, the children that lead to it; once for each of its places among them.
+    std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };
 
 } // namespace gnomon

@@ -22,12 +22,12 @@ std::vector<Jobs> byView(const Jobs& jobs) {
 
 Compositor::Compositor(StageDraw draw) : _draw(std::move(draw)), _lightBits(_draw.bits) {
     if (_lightBits.size() > 1) {
-        const auto scratch =
-            _lightBits.begin() + static_cast<std::ptrdiff_t>(std::min(_lightBits.size() - 1, mostRelitLights));
+        const std::size_t lights = std::min(mostRelitLights, _draw.own - 1);
+        const auto scratch = _lightBits.begin() + static_cast<std::ptrdiff_t>(std::min(_lightBits.size() - 1, lights));
         _scratch = *scratch;
         _lightBits.erase(scratch);
     }
-    _lightBits.resize(std::min(_lightBits.size(), mostRelitLights));
+    _lightBits.resize(std::min({_lightBits.size(), mostRelitLights, _draw.own - 1}));
 }
 
 void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<StageEffect>>& effects) {
@@ -122,6 +122,7 @@ bool Compositor::composeDirectly(const Jobs& jobs) {
     overlay.test = overlay.write = bit; // back to 0 where drawn: a pixel loses its light once
     overlay.equalDepth = true;
     overlay.bounds = bounds;
+    overlay.marks = job.marks.get();
     if (!relit) {
         overlay.color = LeafReplay::Color::Factor;
         overlay.factor = job.dark;

@@ -4,6 +4,7 @@
 #include <OpenThreads/Mutex>
 #include <OpenThreads/ScopedLock>
 #include <osg/GLExtensions>
+#include <osg/ShapeDrawable>
 #include <osg/State>
 #include <osg/VertexArrayState>
 #include <osg/observer_ptr>
@@ -56,9 +57,10 @@ bool isBig(const osg::Geometry& geometry) {
 /// A geometry that draws just its arrays, where they say.
 bool isPlain(const osg::Geometry& geometry) {
     const auto& sets = geometry.getPrimitiveSetList();
-    return typeid(geometry) == typeid(osg::Geometry) && !geometry.containsDeprecatedData() &&
-           !geometry.getDrawCallback() && !geometry.getComputeBoundingBoxCallback() &&
-           !geometry.getInitialBound().valid() && dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray()) &&
+    const bool isKnown = typeid(geometry) == typeid(osg::Geometry) || typeid(geometry) == typeid(osg::ShapeDrawable);
+    return isKnown && !geometry.containsDeprecatedData() && !geometry.getDrawCallback() &&
+           !geometry.getComputeBoundingBoxCallback() && !geometry.getInitialBound().valid() &&
+           dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray()) &&
            std::all_of(sets.begin(), sets.end(), [](const auto& set) { return canBeCut(*set); });
 }
 
@@ -207,13 +209,14 @@ void IndexClusters::cut(const osg::PrimitiveSet& primitives, unsigned index, con
     }
 }
 
-std::vector<IndexClusters::Run> IndexClusters::touching(const ScreenRect& bounds,
-                                                        const osg::Matrixd& clipFromLocal) const {
+std::vector<IndexClusters::Run>
+IndexClusters::touching(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal,
+                        const std::function<bool(const osg::BoundingBox&)>& test) const {
     const std::array<osg::Vec4d, 4> sides = sidesOf(bounds, clipFromLocal);
     std::vector<Run> runs;
     for (const Cluster& cluster : _clusters) {
         const auto outside = [&](const osg::Vec4d& side) { return isOutside(cluster.box, side); };
-        if (std::any_of(sides.begin(), sides.end(), outside)) continue;
+        if (std::any_of(sides.begin(), sides.end(), outside) || (test && !test(cluster.box))) continue;
         const Run& run = cluster.run;
         // A strip's runs overlap, and so does what is joined.
         const bool follows = !runs.empty() && runs.back().primitiveSet == run.primitiveSet &&

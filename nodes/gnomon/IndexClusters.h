@@ -9,6 +9,7 @@
 #include <osg/RenderInfo>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace gnomon {
@@ -31,7 +32,9 @@ public:
     static osg::ref_ptr<const IndexClusters> of(const osg::Drawable& drawable);
 
     /// Runs that can touch a part of the screen, neighbours joined.
-    std::vector<Run> touching(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal) const;
+    /// @param test  of boxes in the drawable's frame; false for one leaves it out. May be empty.
+    std::vector<Run> touching(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal,
+                              const std::function<bool(const osg::BoundingBox&)>& test = {}) const;
 
     /// Draws runs of the geometry that these clusters are of, as it draws itself.
     static void draw(osg::RenderInfo& renderInfo, const osg::Geometry& geometry, const std::vector<Run>& runs);

@@ -105,10 +105,13 @@ void LeafReplay::drawGeometry(const osgUtil::RenderLeaf& leaf) {
 void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const bool cut = geometry && canDrawClusters(leaf, *geometry);
+    const MarkJob::BoxTest test =
+        cut && _overlay.marks ? _overlay.marks->boxTest(*leaf._modelview) : MarkJob::BoxTest();
+    if (test && !test(geometry->getBoundingBox())) return;
     const osg::ref_ptr<const IndexClusters> clusters = cut ? IndexClusters::of(*geometry) : nullptr;
     if (!clusters) return leaf._drawable->draw(_renderInfo);
     IndexClusters::draw(_renderInfo, *geometry,
-                        clusters->touching(_overlay.bounds, *leaf._modelview * *leaf._projection));
+                        clusters->touching(_overlay.bounds, *leaf._modelview * *leaf._projection, test));
 }
 
 /// Its own colour times a factor, whatever colour stands; a leaf that itself reads what stands stays as it is.

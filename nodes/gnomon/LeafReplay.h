@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/MarkJob.h>
 #include <gnomon/ProgramLights.h>
 #include <gnomon/ScreenBounds.h>
 #include <gnomon/StageLeaves.h>
@@ -45,6 +46,7 @@ public:
         float unlit =
             0.5f; ///< Replace: a leaf that should lose a light and cannot is drawn in its own colour times this.
         ScreenRect bounds{{-1.0, -1.0}, {1.0, 1.0}}; ///< nothing need be drawn outside.
+        const MarkJob* marks = nullptr;              ///< nothing need be drawn where it marks nothing.
         std::vector<LightUniform> lightUniforms;     ///< by which programs read lights.
     };
 

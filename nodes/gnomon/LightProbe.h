@@ -6,7 +6,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <osg/Matrixd>
+#include <osg/Referenced>
 #include <osg/Vec3d>
+#include <osg/ref_ptr>
 
 #include <limits>
 
@@ -22,7 +24,8 @@ struct LightProbe {
     const ShadowCasterGroup& group;
     osg::Vec3d origin; ///< group frame.
     glm::dvec4 light;  ///< about `origin`: w = 0 the way towards a sun, length 1; w = 1 a lamp's position.
-    osg::Matrixd groupFromTechnique; ///< see ViewFrame.
+    osg::Matrixd groupFromTechnique;             ///< see ViewFrame.
+    osg::ref_ptr<const osg::Referenced> answers; ///< the technique's own, see ShadowTechnique::answersFor().
 
     /// The way to the light; of a lamp the whole way.
     glm::dvec3 towardsLight(const glm::dvec3& point) const {

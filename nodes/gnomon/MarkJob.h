@@ -3,10 +3,13 @@
 #include <gnomon/Export.h>
 #include <gnomon/ScreenBounds.h>
 
+#include <osg/BoundingBox>
+#include <osg/Matrixd>
 #include <osg/Referenced>
 #include <osg/RenderInfo>
 #include <osgUtil/RenderLeaf>
 
+#include <functional>
 #include <string>
 
 namespace gnomon {
@@ -30,6 +33,11 @@ public:
 
     /// False if it is known that no mark falls on this leaf, as a cause of diagnose() should be about what receives.
     virtual bool canReach(const osgUtil::RenderLeaf&) const { return true; }
+
+    /// False for a box if it is known that no mark falls on what is in it.
+    using BoxTest = std::function<bool(const osg::BoundingBox&)>;
+    /// For boxes of one frame. Default empty: nothing is known.
+    virtual BoxTest boxTest(const osg::Matrixd& /*eyeFromBox*/) const { return {}; }
 
 protected:
     ~MarkJob() override = default;

@@ -104,7 +104,7 @@ void PlanarShadowNode::addPlane(const osg::Vec4d& plane) { _planes.push_back(pla
 void PlanarShadowNode::setPlanes(const std::vector<osg::Vec4d>& planes) { _planes = planes; }
 
 std::vector<osg::ref_ptr<MarkJob>> PlanarShadowNode::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                             const CasterMesh& mesh) const {
+                                                             const GroupCasters& casters) const {
     std::vector<osg::ref_ptr<MarkJob>> jobs;
     if (_planes.empty()) report(view.frameNumber, "has no plane to cast on: give it one with addPlane().");
     for (unsigned i = 0; i < _planes.size(); ++i) {
@@ -113,7 +113,7 @@ std::vector<osg::ref_ptr<MarkJob>> PlanarShadowNode::prepare(const ViewFrame& vi
             report(view.frameNumber,
                    sentence("cannot use its plane", _planes[i],
                             "whose normal is zero or not a number: give (a, b, c, d) of a x + b y + c z + d = 0."));
-        else if (osg::ref_ptr<MarkJob> job = prepareOne(view, light, mesh, i, *plane))
+        else if (osg::ref_ptr<MarkJob> job = prepareOne(view, light, casters.mesh(), i, *plane))
             jobs.push_back(job);
     }
     return jobs;

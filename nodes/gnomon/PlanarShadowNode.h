@@ -73,7 +73,7 @@ public:
     bool getClipCure() const { return _cures.clip; }
 
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const CasterMesh& casters) const override;
+                                               const GroupCasters& casters) const override;
 
     /// In shadow is what lies in one of the planes, to 10⁻⁵ of the casters' size, on its lit side, with a caster above
     /// that plane in the way. All else is lit, as it is in the picture.

@@ -44,30 +44,23 @@ void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
     previous = nullptr;
 }
 
-/// The casters of each group in one view, asked for once.
-class GroupCasters {
-public:
-    const CasterMesh& of(const ShadowCasterGroup& group) {
-        osg::ref_ptr<const CasterMesh>& mesh = _meshes[&group];
-        if (!mesh) mesh = group.casters();
-        return *mesh;
-    }
-
-private:
-    std::map<const ShadowCasterGroup*, osg::ref_ptr<const CasterMesh>> _meshes;
-};
-
-bool hasCasters(const EnlistedTechnique& entry, const CasterMesh& mesh) {
-    if (mesh.invalidTriangles > 0)
+/// @param casters  a CasterMesh, or CasterPieces.
+template <typename Casters>
+bool areSome(const EnlistedTechnique& entry, const Casters& casters) {
+    if (casters.invalidTriangles > 0)
         entry.technique->report(entry.frameNumber,
-                                "leaves out " + std::to_string(mesh.invalidTriangles) +
-                                    " triangles, the first of them in '" + mesh.invalidNode +
+                                "leaves out " + std::to_string(casters.invalidTriangles) +
+                                    " triangles, the first of them in '" + casters.invalidNode +
                                     "': give every vertex finite coordinates and every index a vertex.");
-    if (!mesh.empty()) return true;
+    if (!casters.empty()) return true;
     entry.technique->report(entry.frameNumber,
                             "has nothing to cast: its group '" + entry.group->getName() +
                                 "' holds no triangles; add the scene to it, or look at its setCasters().");
     return false;
+}
+
+bool hasCasters(const EnlistedTechnique& entry, const GroupCasters& casters) {
+    return entry.technique->takesPieces() ? areSome(entry, casters.pieces()) : areSome(entry, casters.mesh());
 }
 
 /// A receiver that is out of sight is nothing to report; one that can never be seen to receive is.
@@ -76,8 +69,9 @@ void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stag
     if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
 }
 
-ViewFrame viewOf(const EnlistedTechnique& entry) {
+ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) {
     ViewFrame view;
+    view.pixels = {viewport.width(), viewport.height()};
     view.eyeFromGroup = entry.eyeFromGroup;
     view.groupFromTechnique = entry.groupFromTechnique;
     view.projection = *entry.projection;
@@ -98,6 +92,16 @@ ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     job.receiverNamed = entry.technique->hasReceiver();
     job.lightUniforms = entry.group->getLightUniforms();
     return job;
+}
+
+/// Stencil bits that the compositor takes: one a light, and a scratch bit; one more for lights that fade.
+std::size_t ownBits(const std::vector<ShadowJob>& jobs) {
+    if (std::none_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.marks->counts(); })) return 8;
+    if (std::any_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.softMarks(); }))
+        return mostRelitLights + 2;
+    std::set<int> lights;
+    for (const ShadowJob& job : jobs) lights.insert(job.light);
+    return std::min(lights.size(), mostRelitLights) + 1;
 }
 
 } // namespace
@@ -148,14 +152,14 @@ void ShadowBin::reset() {
 
 void ShadowBin::sortImplementation() {
     _jobs.clear();
-    GroupCasters casters;
+    std::map<const ShadowCasterGroup*, GroupCasters> groups;
     const std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
     for (const EnlistedTechnique& entry : _enlisted) {
-        const CasterMesh& mesh = casters.of(*entry.group);
-        if (!hasCasters(entry, mesh)) continue;
+        const GroupCasters& casters = groups.try_emplace(entry.group.get(), *entry.group).first->second;
+        if (!hasCasters(entry, casters)) continue;
         const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
         for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
-        prepare(entry, found.lights, mesh, leaves);
+        prepare(entry, found.lights, casters, leaves);
     }
     for (const osg::ref_ptr<StageEffect>& effect : _effects) effect->prepare(*getStage(), leaves);
     sortAsAsked();
@@ -173,9 +177,9 @@ void ShadowBin::sortAsAsked() {
         }
 }
 
-void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const CasterMesh& mesh,
-                        const std::vector<StageLeaf>& leaves) {
-    ViewFrame view = viewOf(entry);
+void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
+                        const GroupCasters& casters, const std::vector<StageLeaf>& leaves) {
+    ViewFrame view = viewOf(entry, *getStage()->getViewport());
     std::set<const osgUtil::RenderLeaf*> receivers;
     if (entry.technique->hasReceiver()) {
         receivers = receiversAmong(leaves, entry.technique->getReceiver(), *getStage()->getInitialViewMatrix());
@@ -192,7 +196,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
     for (const ShadowLight& light : lights) {
         ShadowJob job = jobFor(entry, light);
         job.receivers = receivers;
-        for (const osg::ref_ptr<MarkJob>& marks : entry.technique->prepare(view, light, mesh)) {
+        for (const osg::ref_ptr<MarkJob>& marks : entry.technique->prepare(view, light, casters)) {
             job.marks = marks;
             _jobs.push_back(job);
         }
@@ -204,9 +208,7 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
         popLeafState(*renderInfo.getState(), previous);
         std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
         const bool clean = _stageClears && !isModeOn(leaves, GL_STENCIL_TEST);
-        const bool counts =
-            std::any_of(_jobs.begin(), _jobs.end(), [](const auto& job) { return job.marks->counts(); });
-        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean, counts)).compose(_jobs, _effects);
+        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean, ownBits(_jobs))).compose(_jobs, _effects);
         renderInfo.getState()->decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);

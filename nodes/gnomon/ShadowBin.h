@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Export.h>
+#include <gnomon/GroupCasters.h>
 #include <gnomon/LightUniform.h>
 #include <gnomon/MarkJob.h>
 #include <gnomon/ShadowCasterGroup.h>
@@ -86,7 +87,8 @@ public:
     static void reserve(unsigned stencilBits);
     static unsigned reserved();
 
-    /// For tests and comparison: with false, every leaf of the stage is drawn again, whether marks can touch it or not.
+    /// For tests and comparison: with false, every leaf of the stage is drawn again, whether marks can touch it or not, and
+    /// every tile of a terrain's shadows is marked.
     static void setFilter(bool filter);
     static bool getFilter();
 
@@ -108,7 +110,7 @@ private:
     bool isIdle() const { return _jobs.empty() && _effects.empty(); }
     void clearWithStage();
     void sortAsAsked();
-    void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const CasterMesh& mesh,
+    void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const GroupCasters& casters,
                  const std::vector<StageLeaf>& leaves);
 
     std::vector<EnlistedTechnique> _enlisted;

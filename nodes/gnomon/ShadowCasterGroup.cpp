@@ -60,6 +60,8 @@ void ShadowCasterGroup::setCasters(const Selection& casters) {
     _selection = casters;
     _watch = new CasterRevision(casters);
     _mesh = nullptr;
+    _pieces = nullptr;
+    _fingerprint = 0;
 }
 
 void ShadowCasterGroup::setDark(float factor) {
@@ -108,13 +110,26 @@ osg::ref_ptr<const CasterMesh> ShadowCasterGroup::casters() const {
     Lock lock(_mutex);
     _watch->reset();
     self->accept(*_watch);
-    if (_mesh && _watch->value() == _fingerprint) return _mesh;
+    noteRevision(_watch->value());
+    if (_mesh && _watch->value() == _meshFingerprint) return _mesh;
     osg::ref_ptr<VertexTraverser> traverser = new VertexTraverser(_selection);
     self->accept(*traverser);
     _mesh = new CasterMesh(*traverser);
-    _fingerprint = _watch->value();
-    ++_revision;
+    _meshFingerprint = _watch->value();
     return _mesh;
+}
+
+void ShadowCasterGroup::noteRevision(std::uint64_t fingerprint) const {
+    if (_revision > 0 && fingerprint == _fingerprint) return;
+    _fingerprint = fingerprint;
+    ++_revision;
+}
+
+osg::ref_ptr<const CasterPieces> ShadowCasterGroup::pieces() const {
+    Lock lock(_mutex);
+    _pieces = CasterPieces::of(*const_cast<ShadowCasterGroup*>(this), _selection, _pieces); // which changes nothing
+    noteRevision(_pieces->fingerprint);
+    return _pieces;
 }
 
 unsigned ShadowCasterGroup::revision() const {

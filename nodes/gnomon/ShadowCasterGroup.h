@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/CasterMesh.h>
+#include <gnomon/CasterPieces.h>
 #include <gnomon/Export.h>
 #include <gnomon/LightUniform.h>
 #include <gnomon/Selection.h>
@@ -87,13 +88,16 @@ public:
     /// The casters as they are now; extracted again only if something changed since the last call. Call it where
     /// reading the graph is allowed: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
-    /// Rises by one with each extraction; 0 before the first.
+    /// The same drawable by drawable: what did not change since the last call is the same piece, and not read again.
+    osg::ref_ptr<const CasterPieces> pieces() const;
+    /// Rises by one with each change that casters() or pieces() finds; 0 before the first call of either.
     unsigned revision() const;
 
 protected:
     ~ShadowCasterGroup() override;
 
 private:
+    void noteRevision(std::uint64_t fingerprint) const;
     /// In a deep copy, what casts, shines and receives are the copy's own nodes.
     void followCopies(const ShadowCasterGroup& original);
 
@@ -107,7 +111,8 @@ private:
     mutable OpenThreads::Mutex _mutex;
     osg::ref_ptr<CasterRevision> _watch;
     mutable osg::ref_ptr<const CasterMesh> _mesh;
-    mutable std::uint64_t _fingerprint = 0;
+    mutable osg::ref_ptr<const CasterPieces> _pieces;
+    mutable std::uint64_t _fingerprint = 0, _meshFingerprint = 0;
     mutable unsigned _revision = 0;
 };
 

@@ -33,7 +33,8 @@ void ShadowMapTechnique::setSize(int texels) { _size = std::clamp(texels, leastS
 unsigned ShadowMapTechnique::passes() const { return _maps->resources().passes; }
 
 std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                               const CasterMesh& mesh) const {
+                                                               const GroupCasters& casters) const {
+    const CasterMesh& mesh = casters.mesh();
     const auto usable = usableLight(light.inGroup, mesh.origin);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));

@@ -70,7 +70,7 @@ public:
     unsigned passes() const;
 
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const CasterMesh& casters) const override;
+                                               const GroupCasters& casters) const override;
 
     void resizeGLObjectBuffers(unsigned maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;

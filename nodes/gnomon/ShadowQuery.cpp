@@ -48,6 +48,11 @@ ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& li
     _origin = _mesh->origin;
     _light = *usable;
     _scene = TracedCasters().of(*_mesh, "ShadowQuery");
+    _answers = technique.answersFor(probe());
+}
+
+LightProbe ShadowQuery::probe() const {
+    return {*_scene, *_mesh, *_group, _origin, _light, _groupFromTechnique, _answers};
 }
 
 ShadowQuery ShadowQuery::exact() const {
@@ -57,9 +62,8 @@ ShadowQuery ShadowQuery::exact() const {
 }
 
 bool ShadowQuery::isLit(const osg::Vec3d& point) const {
-    const LightProbe probe{*_scene, *_mesh, *_group, _origin, _light, _groupFromTechnique};
     const glm::dvec3 local = toGlm(point - _origin);
-    return _technique ? _technique->isLit(probe, local) : probe.reachesFrom(local);
+    return _technique ? _technique->isLit(probe(), local) : probe().reachesFrom(local);
 }
 
 bool ShadowQuery::isBlocked(const osg::Vec3d& from, const osg::Vec3d& to) const {

@@ -19,6 +19,7 @@
 namespace gnomon {
 
 class ShadowCasterGroup;
+struct LightProbe;
 
 /// "Is this point lit?", "is this line blocked?": asked of the technique that is drawn, so that the answer is the
 /// picture's, or by exact() of rays at the casters whatever is drawn.
@@ -57,6 +58,8 @@ public:
     std::vector<std::uint8_t> areBlocked(const osg::Vec3d& from, const std::vector<osg::Vec3d>& to) const;
 
 private:
+    LightProbe probe() const;
+
     osg::ref_ptr<const ShadowTechnique> _technique; ///< null: exact.
     osg::ref_ptr<const ShadowCasterGroup> _group;
     osg::ref_ptr<const CasterMesh> _mesh;
@@ -64,6 +67,7 @@ private:
     osg::Vec3d _origin;
     glm::dvec4 _light{0.0};
     osg::Matrixd _groupFromTechnique;
+    osg::ref_ptr<const osg::Referenced> _answers; ///< of the technique; null: exact.
 };
 
 } // namespace gnomon

@@ -71,6 +71,8 @@ void ShadowTechnique::traverse(osg::NodeVisitor& visitor) {
 
 bool ShadowTechnique::isLit(const LightProbe& probe, const glm::dvec3& point) const { return probe.reachesFrom(point); }
 
+osg::ref_ptr<const osg::Referenced> ShadowTechnique::answersFor(const LightProbe&) const { return nullptr; }
+
 std::vector<std::string> ShadowTechnique::diagnose() const { return _causes.all(); }
 
 void ShadowTechnique::report(unsigned frame, const std::string& cause) const {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/CasterMesh.h>
 #include <gnomon/Export.h>
 #include <gnomon/FrameCauses.h>
+#include <gnomon/GroupCasters.h>
 #include <gnomon/MarkJob.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
@@ -51,12 +51,17 @@ public:
     /// @return what to draw; nothing if this light casts nothing in this view (report() says why, where a user could
     /// wonder).
     virtual std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                                       const CasterMesh& casters) const = 0;
+                                                       const GroupCasters& casters) const = 0;
+    /// True if prepare() asks for the casters' pieces alone, so that nobody need make a mesh of all.
+    virtual bool takesPieces() const { return false; }
 
     /// Whether the light reaches a point as this technique draws it; see ShadowQuery, which asks.
     /// Default: whether a ray from there to the light meets no caster.
     /// @param point  about the probe's origin.
     virtual bool isLit(const LightProbe& probe, const glm::dvec3& point) const;
+    /// What isLit() needs to have found before, for many points; the ShadowQuery keeps it, and hands it over as
+    /// LightProbe::answers. Default none.
+    virtual osg::ref_ptr<const osg::Referenced> answersFor(const LightProbe& probe) const;
 
     /// Notes a cause for diagnose(); repeated causes count once. Called in cull or draw.
     void report(unsigned frame, const std::string& cause) const;

@@ -7,24 +7,21 @@
 namespace gnomon {
 namespace {
 
-/// Three lights, a scratch bit, and one for lights that fade are the compositor's own.
-constexpr std::size_t ownBits = 5;
-
 /// The lowest bits, one beside the other from bit 0 on, for OpenGL counts from there; else any single one.
-unsigned countersAmong(const std::vector<unsigned>& bits) {
+unsigned countersAmong(const std::vector<unsigned>& bits, std::size_t own) {
     unsigned result = 0;
-    for (std::size_t i = bits.size(); i-- > ownBits;) {
+    for (std::size_t i = bits.size(); i-- > own;) {
         if (bits[i] != result + 1) break;
         result |= bits[i];
     }
-    return result || bits.size() <= ownBits ? result : bits.back();
+    return result || bits.size() <= own ? result : bits.back();
 }
 
 } // namespace
 
 StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<StageLeaf> before, bool isClean,
-                     bool counts)
-    : renderInfo(info), state(*info.getState()), stage(drawn), leaves(std::move(before)), clean(isClean) {
+                     std::size_t ownBits)
+    : renderInfo(info), state(*info.getState()), stage(drawn), leaves(std::move(before)), clean(isClean), own(ownBits) {
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
     glGetIntegerv(GL_ALPHA_BITS, &alpha);
@@ -32,7 +29,7 @@ StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::ve
     hasAlpha = alpha > 0;
     for (int i = std::min(stencil, 8); i-- > 0;)
         if (!(ShadowBin::reserved() & (1u << i))) bits.push_back(1u << i);
-    if (counts) counters = countersAmong(bits);
+    counters = countersAmong(bits, own);
 }
 
 void StageDraw::clear(unsigned stencil, const ScreenRect& bounds) const {

@@ -16,9 +16,9 @@ class StageDraw {
 public:
     /// @param leaves  what the stage drew before, in order.
     /// @param clean   the stencil buffer is known to be zero.
-    /// @param counts  some job needs counters.
+    /// @param own     how many stencil bits the compositor takes for itself, 2 to 8; others are counters.
     StageDraw(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves, bool clean,
-              bool counts);
+              std::size_t own);
 
     /// One step, cut to `bounds`, from and back to OpenGL's defaults.
     template <typename Step>
@@ -38,7 +38,8 @@ public:
     const bool clean;
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.
-    unsigned counters = 0;      ///< some of them, see ScreenPass::counters(); 0 if nobody counts.
+    const std::size_t own;      ///< how many of them, from the first on, are the compositor's.
+    unsigned counters = 0;      ///< some of the others, see ScreenPass::counters(); 0 if there are none.
 };
 
 /// Why nothing can be composed in this stage, as a cause for diagnose(); empty if all is well.

@@ -70,6 +70,7 @@ void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
     overlay.equalDepth = true;
     overlay.color = LeafReplay::Color::None;
     overlay.bounds = job.marks->screenBounds;
+    overlay.marks = job.marks.get();
     LeafReplay replay(_draw.renderInfo, overlay);
     TouchTest touches(job.marks->screenBounds);
     for (const StageLeaf& entry : _draw.leaves)

@@ -7,34 +7,58 @@
 #include <osg/Geometry>
 #include <osg/StateSet>
 
+#include <memory>
 #include <vector>
 
 namespace gnomon {
 
+class PlanCoverage;
+struct LayerSlice;
 struct ShadowPrisms;
+struct TileShadows;
 
-/// Prisms over shadows on the ground, ready to be drawn: a geometry a layer. Never changed once made.
-struct TerrainPrisms : public osg::Referenced {
-    explicit TerrainPrisms(const ShadowPrisms& prisms);
-    void resizeGLObjectBuffers(unsigned maxSize);
-    void releaseGLObjects(osg::State* state) const;
-    std::vector<osg::ref_ptr<osg::Geometry>> layers;
-    glm::dvec3 low, high; ///< bounds, about the casters' origin.
+/// Prisms over shadows on the ground, ready to be drawn.
+class TerrainPrisms : public osg::Referenced {
+public:
+    TerrainPrisms();
+    /// In place of those before, in the same buffers. Not while they are drawn.
+    void set(const ShadowPrisms& prisms);
+
+    unsigned layers() const { return static_cast<unsigned>(_ends.size()); }
+    void draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const;
+    void resizeGLObjectBuffers(unsigned maxSize) { _geometry->resizeGLObjectBuffers(maxSize); }
+    void releaseGLObjects(osg::State* state) const { _geometry->releaseGLObjects(state); }
+
+    glm::dvec3 low{0.0}, high{0.0}; ///< bounds, about the casters' origin.
+    unsigned mostOver = 0;          ///< see ShadowPrisms.
+
+protected:
+    ~TerrainPrisms() override = default;
+
+private:
+    osg::ref_ptr<osg::Geometry> _geometry;
+    std::vector<unsigned> _ends; ///< of each layer among the corners.
 };
 
 /// Marks of one light in one view: all that stands in a prism. What of that is ground is for the compositor to tell, which
 /// cuts the marks to the receiver.
 class TerrainMark : public MarkJob {
 public:
-    osg::ref_ptr<const TerrainPrisms> prisms;
-    osg::ref_ptr<const osg::StateSet> program; ///< see markProgram().
+    std::vector<osg::ref_ptr<const TileShadows>> tiles; ///< each with a layer of prisms or more.
+    osg::ref_ptr<const osg::StateSet> program;          ///< see markProgram().
     glm::dmat4 clipFromPrisms{1.0};
+    osg::Matrixd prismsFromEye;
+    std::shared_ptr<const PlanCoverage> coverage; ///< of the tiles; null: not known.
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
     bool counts() const override { return true; }
+    BoxTest boxTest(const osg::Matrixd& eyeFromBox) const override;
 
 protected:
     ~TerrainMark() override = default;
+
+private:
+    std::vector<std::vector<LayerSlice>> roundsOf(unsigned counters) const;
 };
 
 } // namespace gnomon

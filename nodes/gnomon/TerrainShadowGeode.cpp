@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/GroundQuery.h>
 #include <gnomon/LightProbe.h>
 #include <gnomon/MarkProgram.h>
+#include <gnomon/PlanCoverage.h>
+#include <gnomon/ReplayFilter.h>
+#include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/TerrainCache.h>
 #include <gnomon/TerrainScene.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/UsableLight.h>
 #include <gnomon/VertexTraverser.h>
 
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
@@ -18,7 +23,9 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 namespace gnomon {
@@ -28,27 +35,53 @@ const char* nameOf(TerrainShadowGeode::Method method) {
     return method == TerrainShadowGeode::BOX ? "BOX" : method == TerrainShadowGeode::DRAPE ? "DRAPE" : "HULL";
 }
 
-std::optional<ScreenRect> boundsOf(const TerrainPrisms& prisms, const glm::dmat4& clipFromPrisms) {
-    std::vector<glm::dvec4> corners;
-    for (int i = 0; i < 8; ++i) {
+using Corners = std::array<glm::dvec4, 8>;
+
+Corners cornersOf(const TerrainPrisms& prisms, const glm::dmat4& clipFromPrisms) {
+    Corners corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec3 corner(i & 1 ? prisms.high.x : prisms.low.x, i & 2 ? prisms.high.y : prisms.low.y,
                                 i & 4 ? prisms.high.z : prisms.low.z);
-        corners.push_back(clipFromPrisms * glm::dvec4(corner, 1.0));
+        corners[i] = clipFromPrisms * glm::dvec4(corner, 1.0);
     }
-    return screenBounds(corners);
+    return corners;
 }
 
-bool isUnder(const Drape& shadow, const glm::dvec2& p) {
-    for (std::size_t i = 0; i + 2 < shadow.size(); i += 3) {
-        int left = 0, right = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double side = doubleArea(shadow[i + k], shadow[i + (k + 1) % 3], glm::dvec3(p, 0.0));
-            left += side >= 0.0;
-            right += side <= 0.0;
-        }
-        if (left == 3 || right == 3) return true;
+/// How many pixels long a length at the nearest of the corners can be.
+double pixelsOf(double length, const Corners& corners, const glm::dmat4& clipFromPrisms, const osg::Vec2d& pixels) {
+    double nearest = std::numeric_limits<double>::infinity(), most = 0.0;
+    for (const glm::dvec4& corner : corners) nearest = std::min(nearest, corner.w);
+    for (int i = 0; i < 2; ++i)
+        most = std::max(most, 0.5 * pixels[i] * glm::length(glm::dvec3(glm::row(clipFromPrisms, i))));
+    return nearest > 0.0 ? length * most / nearest : std::numeric_limits<double>::infinity();
+}
+
+// Below it a shadow holds the middle of one pixel at most and of most of them none: what is left of it is noise.
+constexpr double leastPixels = 1.0;
+
+/// Adds those tiles that can be seen. @return where they are.
+std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const ViewFrame& view, TerrainMark& mark) {
+    std::optional<ScreenRect> all;
+    for (const auto& tile : frame.tiles) {
+        if (tile->prisms->layers() == 0) continue;
+        const Corners corners = cornersOf(*tile->prisms, mark.clipFromPrisms);
+        const auto bounds = screenBounds({corners.begin(), corners.end()});
+        const bool isTiny = pixelsOf(tile->widest, corners, mark.clipFromPrisms, view.pixels) < leastPixels;
+        if (ShadowBin::getFilter() && (!bounds || isTiny)) continue;
+        mark.tiles.push_back(tile);
+        if (bounds) all = all ? united(*all, *bounds) : *bounds;
     }
-    return false;
+    return all;
+}
+
+std::shared_ptr<const PlanCoverage> coverageOf(const TerrainMark& mark) {
+    std::vector<PlanCoverage::Rect> rectangles;
+    for (const auto& tile : mark.tiles) {
+        const glm::dvec2 low(tile->prisms->low), high(tile->prisms->high);
+        const glm::dvec2 rounding = 1e-6 * glm::max(glm::abs(low), glm::abs(high)); // of prisms in single precision
+        rectangles.push_back({low - rounding, high + rounding});
+    }
+    return std::make_shared<PlanCoverage>(rectangles);
 }
 
 /// Black of half opacity, as published; drawn before the ground that it lies on.
@@ -104,10 +137,10 @@ void TerrainShadowGeode::setError(double error) {
                  << ": give a length of 0 or more, in the scene's unit." << std::endl;
 }
 
-unsigned TerrainShadowGeode::builds() const { return _cache->builds(); }
+unsigned TerrainShadowGeode::builds() const { return _foundAlone + _cache->found(); }
 
 std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                               const CasterMesh& mesh) const {
+                                                               const GroupCasters& casters) const {
     const auto refuse = [&](const std::string& cause) {
         report(view.frameNumber, cause);
         return std::vector<osg::ref_ptr<MarkJob>>();
@@ -115,31 +148,36 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     if (!hasReceiver()) return refuse("has no terrain to fall on: name it with setReceiver().");
     const auto usable = usableLight(light.inGroup, osg::Vec3d());
     if (!usable) return refuse("cannot use its light, which is nowhere: set the light's position.");
-    const auto shadows =
-        _cache->shadows(mesh, TerrainPlace::inFrameOf(*view.group, getReceiver()), *usable, {_method, _error, {}});
-    for (const std::string& cause : shadows->causes) report(view.frameNumber, cause);
-    const auto prisms = _cache->prismsOf(*shadows);
-    if (prisms->layers.empty()) return {};
+    const TerrainFrame frame =
+        _cache->frame(*view.group, casters.pieces(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
+                      *usable, {_method, _error, {}});
+    for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
-    mark->prisms = prisms;
     mark->program = _program;
-    mark->clipFromPrisms = glm::translate(toGlm(view.eyeFromGroup * view.projection), toGlm(mesh.origin));
-    const auto bounds = boundsOf(*prisms, mark->clipFromPrisms);
+    mark->clipFromPrisms = glm::translate(toGlm(view.eyeFromGroup * view.projection), frame.origin);
+    mark->prismsFromEye = osg::Matrixd::inverse(view.eyeFromGroup) *
+                          osg::Matrixd::translate(-frame.origin.x, -frame.origin.y, -frame.origin.z);
+    const auto bounds = addSeen(frame, view, *mark);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
+    mark->coverage = ShadowBin::getFilter() ? coverageOf(*mark) : nullptr;
     return {mark};
 }
 
+osg::ref_ptr<const osg::Referenced> TerrainShadowGeode::answersFor(const LightProbe& probe) const {
+    if (!hasReceiver()) return nullptr;
+    const glm::dvec4 light(glm::dvec3(probe.light) + probe.light.w * toGlm(probe.origin), probe.light.w);
+    return _cache->answer(probe.group, *probe.group.pieces(), TerrainPlace::inFrameOf(probe.group, getReceiver()),
+                          light, {_method, _error, {}});
+}
+
 bool TerrainShadowGeode::isLit(const LightProbe& probe, const glm::dvec3& point) const {
-    if (!hasReceiver()) return true;
-    const glm::dvec3 origin = toGlm(probe.origin), place = point + origin;
-    const glm::dvec4 light(glm::dvec3(probe.light) + probe.light.w * origin, probe.light.w);
-    const auto shadows =
-        _cache->shadows(probe.mesh, TerrainPlace::inFrameOf(probe.group, getReceiver()), light, {_method, _error, {}});
-    const auto height = shadows->scene->drawn->ground->height(place.x, place.y);
+    const auto* answer = static_cast<const TerrainAnswer*>(probe.answers.get());
+    if (!answer) return true;
+    const glm::dvec3 place = point + toGlm(probe.origin);
+    const auto height = answer->drawn->ground->height(place.x, place.y);
     if (!height || !(std::abs(place.z - *height) <= 1e-5 * probe.casters.reach())) return true;
-    return std::none_of(shadows->shadows.begin(), shadows->shadows.end(),
-                        [&](const Drape& shadow) { return isUnder(shadow, glm::dvec2(place)); });
+    return !answer->covers(glm::dvec2(place));
 }
 
 /// With no group above it is what it holds: plain geometry.
@@ -191,7 +229,9 @@ bool TerrainShadowGeode::compute(const Asked& with) {
         report(0, with.refusal);
         return false;
     }
-    _shown = _cache->shadows(*meshOf(with.object), terrain(), with.light, with.settings);
+    const auto shadows = TerrainShadows::of(*meshOf(with.object), terrain(), with.light, with.settings, _shown);
+    _foundAlone += shadows == _shown ? 0 : 1;
+    _shown = shadows;
     _shownObject = with.object;
     for (const std::string& cause : _shown->causes) report(0, cause);
     show();

@@ -19,7 +19,8 @@ TracedShadowTechnique::TracedShadowTechnique(const TracedShadowTechnique& other,
 TracedShadowTechnique::~TracedShadowTechnique() = default;
 
 std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                                  const CasterMesh& mesh) const {
+                                                                  const GroupCasters& casters) const {
+    const CasterMesh& mesh = casters.mesh();
     const auto usable = usableLight(light.inGroup, mesh.origin);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));

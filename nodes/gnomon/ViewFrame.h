@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <osg/Matrixd>
+#include <osg/Vec2d>
 #include <osgUtil/RenderLeaf>
 
 #include <set>
@@ -15,6 +16,7 @@ struct ViewFrame {
     osg::Matrixd eyeFromGroup;       ///< modelview of the ShadowCasterGroup.
     osg::Matrixd groupFromTechnique; ///< identity unless a transform stands between group and technique.
     osg::Matrixd projection;         ///< as drawn, near and far included.
+    osg::Vec2d pixels;               ///< of the viewport.
     const ShadowCasterGroup* group = nullptr;
     float dark = 0.5f; ///< of the ShadowCasterGroup.
     unsigned frameNumber = 0;

@@ -20,6 +20,7 @@ using gnomon::examples::quartiles;
 using Times = std::vector<double> Contender::*;
 
 void timeFrame(Contender& contender, bool record) {
+    if (contender.before) contender.before();
     const FrameTime time = gnomon::examples::timeFrame(contender.camera->viewer());
     if (!record) return;
     contender.wall.push_back(time.wall);

@@ -3,6 +3,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@ struct Contender {
     std::string name;
     osg::ref_ptr<osg::Group> root;
     std::unique_ptr<test::Camera> camera;
+    std::function<void()> before;  ///< each frame, not timed; may be empty.
     std::vector<double> wall, cpu; ///< milliseconds a frame; cpu over all threads of the process
 };
 

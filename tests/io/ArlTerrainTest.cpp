@@ -137,8 +137,9 @@ TEST_F(ArlTerrain, ReportsMorningNoonAndEveningWithEachTechnique) {
 TEST_F(ArlTerrain, HelpNamesOptionsUnitsAndKeys) {
     const Ending ending = run({"--help"});
     EXPECT_EQ(ending.status, 0);
-    for (const char* text : {"--shadow none|box|hull|drape", "--hour H", "6.5 to 17.5 hours", "--size WxH",
-                             "--out IMAGE", "--report FOLDER", "(default hull)", "(default 9)", "Half an hour later"})
+    for (const char* text :
+         {"--shadow none|box|hull|drape", "--objects N", "1 to 1000000", "--hour H", "6.5 to 17.5 hours", "--size WxH",
+          "--out IMAGE", "--report FOLDER", "(default hull)", "(default 9)", "Half an hour later"})
         EXPECT_NE(ending.out.find(text), std::string::npos) << text;
     EXPECT_EQ(ending.out.find("planar"), std::string::npos) << "what is not allowed";
 }

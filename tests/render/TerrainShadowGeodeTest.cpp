@@ -231,9 +231,11 @@ TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAre
     EXPECT_GT(darkened(all, plain), 1500);
     EXPECT_EQ(picture(0x03, cause).different(all), 0) << "one counter: odd from even";
     EXPECT_EQ(cause, "");
-    EXPECT_EQ(picture(0x80, cause).different(all), 0) << "two counters";
-    EXPECT_EQ(picture(0x07, cause).different(plain), 0);
-    EXPECT_NE(cause.find("sixth stencil bit"), std::string::npos) << cause;
+    EXPECT_EQ(picture(0xf0, cause).different(all), 0) << "two counters";
+    EXPECT_EQ(picture(0x1f, cause).different(all), 0) << "three bits";
+    EXPECT_EQ(cause, "");
+    EXPECT_EQ(picture(0x3f, cause).different(plain), 0);
+    EXPECT_NE(cause.find("needs another stencil bit"), std::string::npos) << cause;
 }
 
 /// Its counters are bits that nobody else takes and nobody left anything in.

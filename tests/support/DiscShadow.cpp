@@ -93,7 +93,7 @@ osg::ref_ptr<gnomon::MarkJob> markOf(const DiscShadow& disc) {
 } // namespace
 
 std::vector<osg::ref_ptr<gnomon::MarkJob>>
-DiscShadow::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight& light, const gnomon::CasterMesh&) const {
+DiscShadow::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight& light, const gnomon::GroupCasters&) const {
     if (!lights.empty() && !lights.count(light.number)) return {};
     return {inner < outer ? markOf<SoftDiscMark>(*this) : markOf<DiscMark<gnomon::MarkJob>>(*this)};
 }

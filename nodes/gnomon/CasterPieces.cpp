@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/CasterMesh.h>
+#include <gnomon/CasterPieces.h>
+#include <gnomon/CasterRevision.h>
+#include <gnomon/VertexTraverser.h>
+
+#include <unordered_map>
+
+namespace gnomon {
+namespace {
+
+/// Meets casters, and knows those again that it is told of.
+class PieceVisitor : public CasterVisitor {
+public:
+    PieceVisitor(const Selection& casters, const CasterPieces* known)
+        : CasterVisitor(casters), _known(known ? known->list : _none) {}
+
+    bool changed() const { return _changed || _same != _known.size(); }
+    std::uint64_t fingerprint() const { return _fingerprint.value(); }
+    /// Those that were met.
+    CasterPieces::List take() {
+        startOwnList();
+        return std::move(_met);
+    }
+
+protected:
+    void applyCaster(osg::Drawable& drawable) override {
+        const std::uint64_t value = CasterRevision::of(drawable, rootFromLocal());
+        _fingerprint.mix(value);
+        if (!_changed && isAt(_next, value)) {
+            ++_same;
+            ++_next;
+            return;
+        }
+        startOwnList();
+        osg::ref_ptr<const CasterPiece> piece = find(value);
+        if (!piece) piece = make(drawable, value);
+        _met.push_back(piece);
+    }
+
+private:
+    bool isAt(std::size_t place, std::uint64_t value) const {
+        return place < _known.size() && _known[place]->fingerprint == value;
+    }
+
+    /// Nothing is copied as long as nothing differs.
+    void startOwnList() {
+        if (!_changed) _met.assign(_known.begin(), _known.begin() + static_cast<std::ptrdiff_t>(_same));
+        _changed = true;
+    }
+
+    /// In the old order as a rule. One that differs has changed in place, unless the one after it is met: then it is gone. If
+    /// two differ, any may be anywhere.
+    const CasterPiece* find(std::uint64_t value) {
+        if (isAt(_next + 1, value)) ++_next;
+        if (!isAt(_next, value)) {
+            const std::size_t place = _missed ? placeOf(value) : _known.size();
+            if (place == _known.size()) {
+                ++_next;
+                _missed = true;
+                return nullptr;
+            }
+            _next = place;
+        }
+        _missed = false;
+        return _known[_next++].get();
+    }
+
+    std::size_t placeOf(std::uint64_t value) {
+        if (_places.empty())
+            for (std::size_t i = 0; i < _known.size(); ++i) _places.emplace(_known[i]->fingerprint, i);
+        const auto found = _places.find(value);
+        return found == _places.end() ? _known.size() : found->second;
+    }
+
+    osg::ref_ptr<const CasterPiece> make(osg::Drawable& drawable, std::uint64_t fingerprint) const {
+        VertexTraverser found;
+        found.setRootFromVisited(rootFromLocal());
+        for (osg::Node* node : getNodePath()) found.pushOntoNodePath(node); // for the names in it
+        drawable.accept(found);
+        osg::ref_ptr<CasterPiece> piece = new CasterPiece;
+        piece->fingerprint = fingerprint;
+        piece->drawable = &drawable;
+        piece->groupFromLocal = rootFromLocal();
+        for (const unsigned index : found.getTriangles()) piece->bounds.expandBy(found.getVertices()[index]);
+        piece->invalidTriangles = found.getInvalidTriangles();
+        piece->invalidNode = found.getInvalidNode();
+        piece->sources = found.getSources();
+        return piece;
+    }
+
+    const CasterPieces::List _none, &_known;
+    CasterPieces::List _met;
+    std::unordered_map<std::uint64_t, std::size_t> _places;
+    std::size_t _same = 0, _next = 0;
+    bool _changed = false, _missed = false;
+    Fingerprint _fingerprint;
+};
+
+} // namespace
+
+CasterPieces::CasterPieces(List pieces, std::uint64_t fingerprintOfAll)
+    : list(std::move(pieces)), fingerprint(fingerprintOfAll) {
+    for (const auto& piece : list) {
+        bounds.expandBy(piece->bounds);
+        if (invalidTriangles == 0) invalidNode = piece->invalidNode;
+        invalidTriangles += piece->invalidTriangles;
+    }
+}
+
+osg::ref_ptr<const CasterPieces> CasterPieces::of(osg::Node& root, const Selection& casters,
+                                                  const osg::ref_ptr<const CasterPieces>& known) {
+    PieceVisitor visitor(casters, known.get());
+    root.accept(visitor);
+    if (known && !visitor.changed()) return known;
+    return new CasterPieces(visitor.take(), visitor.fingerprint());
+}
+
+osg::ref_ptr<CasterMesh> meshOf(const CasterPieces::List& pieces) {
+    VertexTraverser all;
+    for (const auto& piece : pieces) {
+        all.setRootFromVisited(piece->groupFromLocal);
+        const_cast<osg::Drawable&>(*piece->drawable).accept(all); // which changes nothing
+    }
+    return new CasterMesh(all);
+}
+
+} // namespace gnomon

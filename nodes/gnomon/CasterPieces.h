@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Export.h>
+#include <gnomon/Selection.h>
+
+#include <osg/BoundingBox>
+#include <osg/Drawable>
+#include <osg/Matrixd>
+#include <osg/Referenced>
+#include <osg/ref_ptr>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+class CasterMesh;
+
+/// A drawable that casts, on one way down to it, in one revision. Never changes once made.
+struct GNOMON_EXPORT CasterPiece : public osg::Referenced {
+    std::uint64_t fingerprint = 0; ///< of all that VertexTraverser reads of it; see CasterRevision.
+    osg::ref_ptr<const osg::Drawable> drawable;
+    osg::Matrixd groupFromLocal;
+    osg::BoundingBoxd bounds;      ///< of all its triangles, group frame; invalid if there is none.
+    unsigned invalidTriangles = 0; ///< left out; see VertexTraverser::getInvalidTriangles().
+    std::string invalidNode;       ///< where the first of them is.
+    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().
+
+protected:
+    ~CasterPiece() override = default;
+};
+
+/// What casts below a group in one revision, drawable by drawable: of a change, all but what changed are the same pieces.
+///
+/// Cost    400 bytes a drawable. What it looks like is not kept; see meshOf().
+class GNOMON_EXPORT CasterPieces : public osg::Referenced {
+public:
+    using List = std::vector<osg::ref_ptr<const CasterPiece>>;
+    CasterPieces(List pieces, std::uint64_t fingerprint);
+
+    bool empty() const { return !bounds.valid(); }
+
+    const List list;                 ///< in the order in which a traversal meets them.
+    const std::uint64_t fingerprint; ///< of all, that of CasterRevision.
+    osg::BoundingBoxd bounds;        ///< of all triangles, group frame; invalid if there is none.
+    unsigned invalidTriangles = 0;   ///< of all.
+    std::string invalidNode;         ///< where the first of them is.
+
+    /// Those below a node now. Reads the graph as a cull traversal does.
+    /// @param known  an earlier answer, whose pieces are used again; may be null.
+    /// @return `known` itself if nothing changed.
+    ///
+    /// Cost  a visit of the nodes; an extraction (VertexTraverser) of each piece that is new.
+    static osg::ref_ptr<const CasterPieces> of(osg::Node& root, const Selection& casters,
+                                               const osg::ref_ptr<const CasterPieces>& known);
+
+protected:
+    ~CasterPieces() override = default;
+};
+
+/// Pieces as one mesh. Reads the graph as a cull traversal does: call it in the traversal that found them.
+GNOMON_EXPORT osg::ref_ptr<CasterMesh> meshOf(const CasterPieces::List& pieces);
+
+} // namespace gnomon

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/Matrixd>
+
+#include <cstdint>
+#include <cstring>
+
+namespace gnomon {
+
+/// 64 bits that stand for all that was mixed in, in its order.
+///
+/// Each step is one to one, in the word and in what came before: two that differ in one word never agree. The odd factor
+/// carries a difference up, the shift down again, so that it reaches all bits and the words' order matters.
+class Fingerprint {
+public:
+    void mix(std::uint64_t bits) {
+        _hash = (_hash ^ bits) * 0x9e3779b97f4a7c15u + 1;
+        _hash ^= _hash >> 32;
+    }
+    void mix(double value) {
+        std::uint64_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        mix(bits);
+    }
+    void mix(const void* address) { mix(std::uint64_t{reinterpret_cast<std::uintptr_t>(address)}); }
+    void mix(const osg::Matrixd& matrix) {
+        for (int i = 0; i < 16; ++i) mix(matrix.ptr()[i]);
+    }
+    std::uint64_t value() const { return _hash; }
+
+private:
+    std::uint64_t _hash = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ShadowPrisms.h>
+#include <gnomon/TerrainTiles.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double sameLight = 1e-12;   // of its length: what turning a view takes off it in double
+constexpr double worthFinding = 0.5;  // of the error: so that tiles which fall due together are spread over frames
+constexpr std::size_t atOnce = 8;     // tiles, between looks at the clock
+constexpr std::size_t mostSpare = 64; // as many as are found anew in a frame while the sun moves on
+
+bool isBelow(const glm::dvec4& light) { return light.w == 0.0 && !(light.z > 0.0); }
+
+/// How far in plan an edge may be off that was found with another light.
+double offBy(const TileShadows& shadows, const glm::dvec4& light, const TerrainSettings& settings) {
+    if (shadows.light == light || (isBelow(shadows.light) && isBelow(light))) return 0.0;
+    if (settings.method == TerrainShadowGeode::BOX) return infinite;
+    return movedAtMost(shadows.found, shadows.light, light);
+}
+
+void add(PackedShadows& found, const TerrainShadow& shadow) {
+    for (const glm::dvec3& corner : shadow.triangles) {
+        found.indices.push_back(unsigned(found.corners.size()) -
+                                (found.cornerEnds.empty() ? 0 : found.cornerEnds.back()));
+        found.corners.emplace_back(corner - found.origin);
+    }
+    found.cornerEnds.push_back(unsigned(found.corners.size()));
+    found.indexEnds.push_back(unsigned(found.indices.size()));
+    found.outcomes.push_back(shadow.outcome == TerrainOutcome::fan ? TerrainOutcome::draped : shadow.outcome);
+}
+
+PackedShadows boxShadows(const Ground& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
+                         const glm::dvec3& origin) {
+    PackedShadows found;
+    found.origin = origin;
+    for (const ObjectPoints& object : tile.objects) add(found, boxShadowOf(ground, object, {}, light));
+    return found;
+}
+
+void measure(TileShadows& shadows) {
+    shadows.low = glm::dvec2(infinite);
+    shadows.high = glm::dvec2(-infinite);
+    shadows.widest = 0.0;
+    shadows.outcomes = {};
+    for (std::size_t i = 0; i < shadows.found.size(); ++i) {
+        const PackedShadow shadow = shadows.found[i];
+        shadows.outcomes.add(shadow.outcome);
+        glm::dvec3 low(infinite), high(-infinite);
+        for (std::size_t k = 0; k < shadow.cornerCount; ++k)
+            low = glm::min(low, glm::dvec3(shadow.corners[k])), high = glm::max(high, glm::dvec3(shadow.corners[k]));
+        if (shadow.cornerCount > 0) shadows.widest = std::max(shadows.widest, glm::length(high - low));
+        shadows.low = glm::min(shadows.low, glm::dvec2(low));
+        shadows.high = glm::max(shadows.high, glm::dvec2(high));
+    }
+}
+
+} // namespace
+
+void findShadows(const Ground& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
+                 const TerrainSettings& settings, const glm::dvec3& origin, double margin, TileShadows& into) {
+    into.light = light;
+    if (settings.method == TerrainShadowGeode::BOX)
+        into.found = boxShadows(ground, tile, light, origin);
+    else
+        packedShadows(ground, tile.parts, light, methodOf(settings), settings.error, origin, into.found);
+    measure(into);
+    if (!into.prisms) return;
+    thread_local ShadowPrisms prisms; // memory that is used again
+    shadowPrisms(ground, into.found, margin, prisms);
+    into.prisms->set(prisms);
+}
+
+struct TerrainTiles::Late {
+    std::size_t tile;
+    double off;
+    bool operator<(const Late& other) const { return off > other.off; }
+};
+
+bool TerrainTiles::isSame(const glm::dvec4& light) const {
+    return light.w == _light.w && glm::length(light - _light) <= sameLight * glm::length(light);
+}
+
+void TerrainTiles::update(const TerrainTown& town, const Ground& ground, const glm::dvec4& light,
+                          const TerrainSettings& settings, double margin, double seconds) {
+    const Clock::time_point start = Clock::now();
+    const bool still = isSame(light);
+    if (!still) _light = light;
+    if (!(settings == _settings)) _states.clear();
+    _settings = settings;
+    const std::vector<TerrainTown::Tile>& tiles = town.tiles();
+    _shadows.resize(tiles.size());
+    _states.resize(tiles.size(), 0);
+    std::vector<std::size_t> due;
+    std::vector<Late> late;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const double off = _states[i] == tiles[i].revision ? offBy(*_shadows[i], _light, settings) : infinite;
+        if (!(off <= settings.error))
+            due.push_back(i);
+        else if (off > (still ? 0.0 : worthFinding * settings.error))
+            late.push_back({i, off});
+    }
+    if (due.empty() && late.empty()) return;
+    find(town, ground, margin, due);
+    std::sort(late.begin(), late.end());
+    for (std::size_t i = 0; i < late.size() && std::chrono::duration<double>(Clock::now() - start).count() < seconds;) {
+        due.clear();
+        for (; i < late.size() && due.size() < atOnce; ++i) due.push_back(late[i].tile);
+        find(town, ground, margin, due);
+    }
+    countOutcomes(town);
+}
+
+/// None that a frame still to be drawn holds.
+osg::ref_ptr<TileShadows> TerrainTiles::unused() {
+    for (std::size_t i = 0; i < _spare.size(); ++i)
+        if (_spare[i]->referenceCount() == 1) {
+            const osg::ref_ptr<TileShadows> result = _spare[i];
+            _spare.erase(_spare.begin() + std::ptrdiff_t(i));
+            return result;
+        }
+    osg::ref_ptr<TileShadows> result = new TileShadows;
+    result->prisms = new TerrainPrisms;
+    return result;
+}
+
+void TerrainTiles::find(const TerrainTown& town, const Ground& ground, double margin,
+                        const std::vector<std::size_t>& tiles) {
+    std::vector<osg::ref_ptr<TileShadows>> into(tiles.size());
+    for (osg::ref_ptr<TileShadows>& shadows : into) shadows = unused();
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+        findShadows(ground, town.tiles()[tiles[i]], _light, _settings, town.origin(), margin, *into[i]);
+    });
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const osg::ref_ptr<TileShadows> old = const_cast<TileShadows*>(_shadows[tiles[i]].get());
+        _shadows[tiles[i]] = into[i];
+        _states[tiles[i]] = town.tiles()[tiles[i]].revision;
+        if (old && _spare.size() < mostSpare) _spare.push_back(old);
+    }
+    _found += static_cast<unsigned>(tiles.size());
+}
+
+void TerrainTiles::countOutcomes(const TerrainTown& town) {
+    OutcomeCounts all;
+    for (std::size_t i = 0; i < town.tiles().size(); ++i) all.add(_shadows[i]->outcomes);
+    _causes = all.causes();
+}
+
+void TerrainTiles::resizeGLObjectBuffers(unsigned maxSize) {
+    for (const auto& shadows : _shadows) shadows->prisms->resizeGLObjectBuffers(maxSize);
+    for (const auto& shadows : _spare) shadows->prisms->resizeGLObjectBuffers(maxSize);
+}
+
+void TerrainTiles::releaseGLObjects(osg::State* state) const {
+    for (const auto& shadows : _shadows) shadows->prisms->releaseGLObjects(state);
+    for (const auto& shadows : _spare) shadows->prisms->releaseGLObjects(state);
+}
+
+} // namespace gnomon

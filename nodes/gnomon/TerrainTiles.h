@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Ground.h>
+#include <gnomon/PackedShadows.h>
+#include <gnomon/TerrainMark.h>
+#include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/TerrainTown.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// How shadows are to be found.
+struct TerrainSettings {
+    TerrainShadowGeode::Method method;
+    double error;
+    osg::BoundingBoxd box; ///< BOX alone: of the only object; invalid: found from each.
+    bool operator==(const TerrainSettings& other) const {
+        return method == other.method && error == other.error && box._min == other.box._min &&
+               box._max == other.box._max;
+    }
+};
+
+/// Of HULL and DRAPE.
+inline TerrainMethod methodOf(const TerrainSettings& settings) {
+    return settings.method == TerrainShadowGeode::DRAPE ? TerrainMethod::drape : TerrainMethod::hull;
+}
+
+/// The shadows of a tile of casters. Whoever holds it may read: it is never changed while somebody else does.
+struct TileShadows : public osg::Referenced {
+    PackedShadows found;
+    OutcomeCounts outcomes;
+    glm::dvec4 light{0.0};              ///< that they were found with.
+    osg::ref_ptr<TerrainPrisms> prisms; ///< null if nobody draws them.
+    glm::dvec2 low{0.0}, high{0.0};     ///< bounds in plan, about the origin; low > high if there is no shadow.
+    double widest = 0.0;                ///< diameter of the largest shadow.
+
+protected:
+    ~TileShadows() override = default;
+};
+
+/// Finds the shadows of one tile. @param into  whose memory is used again; its prisms are made anew if it has any.
+void findShadows(const Ground& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
+                 const TerrainSettings& settings, const glm::dvec3& origin, double margin, TileShadows& into);
+
+/// The shadows of one light on a town's ground, tile by tile, kept while the light moves.
+///
+/// A tile is found anew at once where its casters changed, and where a shadow may be off by more than the error since it
+/// was found: so a jump of the light is right in the frame in which it happens. What is off by less is brought up to date
+/// a few tiles a frame, those that are off most first, and all of it soon after the light stands still.
+class TerrainTiles {
+public:
+    using List = std::vector<osg::ref_ptr<const TileShadows>>;
+
+    /// @param ground   the same until groundChanged().
+    /// @param margin   see shadowPrisms().
+    /// @param seconds  to be spent on what may wait.
+    void update(const TerrainTown& town, const Ground& ground, const glm::dvec4& light, const TerrainSettings& settings,
+                double margin, double seconds);
+    void groundChanged() { _states.clear(); }
+
+    const List& shadows() const { return _shadows; }
+    const std::vector<std::string>& causes() const { return _causes; }
+    unsigned found() const { return _found; } ///< how many tiles' shadows, so far.
+
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void releaseGLObjects(osg::State* state) const;
+
+private:
+    struct Late; // a tile that may wait
+    bool isSame(const glm::dvec4& light) const;
+    void find(const TerrainTown& town, const Ground& ground, double margin, const std::vector<std::size_t>& tiles);
+    osg::ref_ptr<TileShadows> unused();
+    void countOutcomes(const TerrainTown& town);
+
+    List _shadows;
+    std::vector<std::uint64_t> _states; ///< revisions of the tiles that the shadows are of.
+    std::vector<osg::ref_ptr<TileShadows>> _spare;
+    TerrainSettings _settings{TerrainShadowGeode::HULL, 0.0, {}};
+    glm::dvec4 _light{0.0};
+    std::vector<std::string> _causes;
+    unsigned _found = 0;
+};
+
+} // namespace gnomon

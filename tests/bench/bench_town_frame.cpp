@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// What the shadows of a town on mountains add to a frame, 800 m above ground: with the sun still, with the sun at 60 times
+// its pace, and after a jump of an hour; in one interleaved run. The pictures are checked.
+#include "Contenders.h"
+
+#include <ElevationFile.h>
+#include <FrameTime.h>
+#include <TownScene.h>
+
+#include <gnomon/ShadowBin.h>
+
+#include <osg/ArgumentParser>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+namespace {
+
+using gnomon::examples::quartiles;
+using gnomon::examples::SceneSetup;
+using gnomon::examples::TownScene;
+
+constexpr int width = 640, height = 480;
+constexpr double pace = 60.0, framesASecond = 60.0; // of the sun, and of a display
+
+SceneSetup setUp(const TownScene& town, const std::string& shadow) {
+    gnomon::examples::ViewOptions view = town.view();
+    view.shadows = {gnomon::parseShadowSpec(shadow)};
+    view.shadows.front().receiver = "terrain";
+    return setUpScene(view, *town.setup().group->getChild(0));
+}
+
+test::View viewOf(const TownScene& town) {
+    const auto& view = town.view();
+    return test::perspective(*view.eye, *view.center, width, height, view.fovy, 10.0, 4e4);
+}
+
+/// Turns the sun on and on.
+class Turning {
+public:
+    Turning(SceneSetup& setup, const osg::Vec3d& centre, double degreesAFrame)
+        : _setup(setup), _centre(centre), _step(degreesAFrame) {}
+    void operator()() { _setup.lights->move({_step * ++_frames, 0.0}, _centre); }
+
+private:
+    SceneSetup& _setup;
+    const osg::Vec3d _centre;
+    const double _step;
+    int _frames = 0;
+};
+
+double median(const bench::Contender& contender) { return quartiles(contender.wall).median; }
+
+/// Against the ground's own triangles, exactly cut; and with nothing left out.
+bool rightPicture(const TownScene& town, const test::View& view) {
+    const auto picture = [&](const std::string& shadow) {
+        const SceneSetup setup = setUp(town, shadow);
+        return test::render(setup.root, view);
+    };
+    const test::Picture plain = picture("none"), hull = picture("hull"), exact = picture("drape:error=0");
+    gnomon::ShadowBin::setFilter(false);
+    const int lost = picture("hull").different(hull);
+    gnomon::ShadowBin::setFilter(true);
+    const int shadow = exact.different(plain), wrong = hull.different(exact);
+    std::printf("  picture: %d pixels in shadow; hull and exact drape differ in %d; culling changes %d\n", shadow,
+                wrong, lost);
+    return shadow > 0 && wrong < shadow / 50 && lost == 0;
+}
+
+bool run(int buildings, int frames) {
+    const auto field = gnomon::examples::readElevation(GNOMON_JACKSBORO, "bench_town_frame");
+    TownScene town({}, 9.0, *field, {buildings});
+    const test::View view = viewOf(town);
+    const double pacePerFrame = 360.0 / 86400.0 * pace / framesASecond;
+    std::vector<SceneSetup> setups;
+    for (const char* shadow : {"none", "hull:composite=blend", "hull", "hull:composite=blend", "hull:composite=blend"})
+        setups.push_back(setUp(town, shadow));
+    const char* const names[] = {"none", "blend", "relight", "60 x real time", "an hour a frame"};
+    std::vector<bench::Contender> contenders;
+    for (std::size_t i = 0; i < setups.size(); ++i)
+        contenders.push_back(bench::contender(names[i], setups[i].root, view));
+    contenders[3].before = Turning(setups[3], *town.view().center, pacePerFrame);
+    contenders[4].before = Turning(setups[4], *town.view().center, 15.0);
+    std::printf("%d buildings, %dx%d, 800 m above ground\n", buildings, width, height);
+    bench::race(contenders, frames);
+    const double plain = median(contenders[0]), still = median(contenders[1]);
+    std::printf("  sun still: blend adds %.0f %% of the frame (goal 25), relight %.0f %% (goal 60)\n",
+                100.0 * (still / plain - 1.0), 100.0 * (median(contenders[2]) / plain - 1.0));
+    std::printf("  sun at 60 x real time: the update takes %.2f ms a frame (goal 2); after a jump %.1f ms\n",
+                median(contenders[3]) - still, median(contenders[4]) - still);
+    return rightPicture(town, view);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const auto frames = bench::framesAsked(
+        argc, argv,
+        "Cost of the shadows of a town on mountains; medians of interleaved frames. [--objects N] buildings.");
+    if (!frames) return 0;
+    osg::ArgumentParser arguments(&argc, argv);
+    int buildings = 100000;
+    arguments.read("--objects", buildings);
+    return run(buildings, *frames) ? 0 : 1;
+}

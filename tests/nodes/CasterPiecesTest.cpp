@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "Scene.h"
+
+#include <gnomon/CasterPieces.h>
+#include <gnomon/CasterRevision.h>
+#include <gnomon/CasterWeld.h>
+#include <gnomon/VertexTraverser.h>
+
+#include <osg/Switch>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+using gnomon::CasterPieces;
+
+namespace {
+
+/// A triangle at (x, 0, 0) … (x + 1, 1, 0).
+osg::ref_ptr<osg::Geometry> triangle(float x) {
+    return scene::geometryOf(scene::vec3s({{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}}),
+                             new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+}
+
+struct Row {
+    Row() {
+        for (int i = 0; i < 6; ++i) {
+            osg::ref_ptr<osg::MatrixTransform> place =
+                new osg::MatrixTransform(osg::Matrixd::translate(10.0 * i, 0, 0));
+            place->addChild(triangle(0.0f));
+            root->addChild(place);
+        }
+    }
+    osg::MatrixTransform& place(unsigned i) { return static_cast<osg::MatrixTransform&>(*root->getChild(i)); }
+    osg::ref_ptr<const CasterPieces> now(const osg::ref_ptr<const CasterPieces>& known) {
+        return CasterPieces::of(*root, {}, known);
+    }
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+};
+
+int shared(const CasterPieces& a, const CasterPieces& b) {
+    int count = 0;
+    for (const auto& piece : a.list) count += std::count(b.list.begin(), b.list.end(), piece) > 0;
+    return count;
+}
+
+/// Counts the nodes it meets.
+class Counting : public gnomon::CasterRevision {
+public:
+    using CasterRevision::apply;
+    using CasterRevision::CasterRevision;
+    void apply(osg::Node& node) override {
+        ++met;
+        CasterRevision::apply(node);
+    }
+    int met = 0;
+};
+
+} // namespace
+
+TEST(CasterPieces, AreTheSameAsLongAsNothingChanges) {
+    Row row;
+    const auto first = row.now(nullptr);
+    ASSERT_EQ(first->list.size(), 6u);
+    EXPECT_EQ(first->bounds._min, osg::Vec3d(0.0, 0.0, 0.0));
+    EXPECT_EQ(first->bounds._max, osg::Vec3d(51.0, 1.0, 0.0));
+    EXPECT_EQ(row.now(first), first);
+}
+
+TEST(CasterPieces, OfAChangeAreNewOnlyWhereItIs) {
+    Row row;
+    auto known = row.now(nullptr);
+    const auto expect = [&](std::size_t size, int same, const char* what) {
+        const auto now = row.now(known);
+        EXPECT_NE(now, known) << what;
+        EXPECT_EQ(now->list.size(), size) << what;
+        EXPECT_EQ(shared(*now, *known), same) << what;
+        EXPECT_EQ(row.now(now), now) << what;
+        known = now;
+    };
+    row.place(2).setMatrix(osg::Matrixd::translate(20.5, 0.0, 0.0));
+    expect(6, 5, "one moved");
+    EXPECT_EQ(known->list[2]->bounds.xMin(), 20.5);
+    auto& corners = static_cast<osg::Vec3Array&>(*row.place(5).getChild(0)->asGeometry()->getVertexArray());
+    corners[0].x() = -1.0f;
+    corners.dirty();
+    expect(6, 5, "the last one's corners changed");
+    EXPECT_EQ(known->list[5]->bounds.xMin(), 49.0);
+    row.root->addChild(triangle(99.0f));
+    expect(7, 6, "one more");
+    row.root->insertChild(0, triangle(199.0f));
+    row.root->insertChild(4, triangle(299.0f));
+    expect(9, 7, "two in between");
+    row.root->removeChild(6);
+    expect(8, 8, "one less");
+    row.root->removeChildren(1, 4);
+    EXPECT_GE(shared(*row.now(known), *known), 3) << "four less: but for one everything is known again";
+}
+
+TEST(CasterPieces, NameWhatIsNotUsable) {
+    Row row;
+    auto& corners = static_cast<osg::Vec3Array&>(*row.place(1).getChild(0)->asGeometry()->getVertexArray());
+    corners[1].y() = std::numeric_limits<float>::quiet_NaN();
+    row.place(1).setName("broken");
+    const auto pieces = row.now(nullptr);
+    EXPECT_EQ(pieces->invalidTriangles, 1u);
+    EXPECT_EQ(pieces->invalidNode, "broken");
+    row.root->removeChildren(0, 1);
+    row.root->removeChildren(1, 4);
+    EXPECT_TRUE(row.now(nullptr)->empty());
+}
+
+/// Exactly: 10 + 1 is where the next begins.
+TEST(CasterPieces, AreWeldedWhereTheyShareACorner) {
+    Row row;
+    row.place(1).setMatrix(osg::Matrixd::translate(1.0, 0.0, 0.0));
+    row.place(3).setMatrix(osg::Matrixd::translate(41.0, 0.0, 0.0));
+    row.place(5).setMatrix(osg::Matrixd::translate(40.25, 0.0, 0.0)); // meets others' bounds, none of their corners
+    const auto pieces = row.now(nullptr);
+    EXPECT_EQ(gnomon::weldedPieces(pieces->list), (std::vector<std::size_t>{0, 0, 2, 3, 3, 5}));
+}
+
+/// Of many things beside the selected one none is visited.
+TEST(CasterVisitor, GoesStraightToTheSelectedNode) {
+    osg::ref_ptr<osg::Group> root = new osg::Group, aside = new osg::Group, town = new osg::Group;
+    osg::ref_ptr<osg::Switch> chosen = new osg::Switch;
+    for (int i = 0; i < 100; ++i) town->addChild(new osg::Group);
+    root->addChild(town);
+    root->addChild(chosen);
+    root->addChild(aside);
+    osg::ref_ptr<osg::Geode> terrain = new osg::Geode;
+    terrain->addDrawable(triangle(0.0f));
+    chosen->addChild(terrain);
+    aside->addChild(terrain);
+    Counting all, found({terrain});
+    root->accept(all);
+    root->accept(found);
+    EXPECT_GT(all.met, 100);
+    EXPECT_EQ(found.met, 5) << "the root, two ways, and twice the terrain";
+    const std::uint64_t both = found.value();
+    chosen->setAllChildrenOff();
+    found.reset();
+    root->accept(found);
+    EXPECT_NE(found.value(), both) << "a switch counts on the way";
+    EXPECT_NE(found.value(), gnomon::CasterRevision().value());
+}
