@@ -39,8 +39,8 @@ std::vector<PrismLayers> someTiles(unsigned count) {
     std::vector<PrismLayers> tiles;
     for (unsigned i = 0; i < count; ++i) {
         const glm::dvec2 low(dice() % 100, dice() % 100), size(1 + dice() % 30, 1 + dice() % 30);
-        const unsigned layers = 1 + dice() % 9;
-        tiles.push_back({low, low + size, layers, std::min<unsigned>(layers, 1 + dice() % 9)});
+        const unsigned layers = 1u + unsigned(dice() % 9);
+        tiles.push_back({low, low + size, layers, std::min(layers, 1u + unsigned(dice() % 9))});
     }
     return tiles;
 }
