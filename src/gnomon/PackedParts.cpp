@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace gnomon {
 
@@ -23,11 +24,13 @@ void PackedParts::add(const ConvexPart& part) {
 }
 
 void PackedParts::add(const PackedParts& from, std::size_t part) {
+    const std::uint16_t kind = kindOf(from._topologies[from._kinds[part]]);
+    const std::vector<glm::vec3> others(from.others(part), from.others(part) + (from._ends[part] - from.begin(part)));
     addEmpty();
     _anchors.back() = from._anchors[part];
-    _others.insert(_others.end(), from.others(part), from.others(part) + (from._ends[part] - from.begin(part)));
+    _others.insert(_others.end(), others.begin(), others.end());
     _ends.back() = static_cast<unsigned>(_others.size());
-    _kinds.back() = kindOf(from._topologies[from._kinds[part]]);
+    _kinds.back() = kind;
 }
 
 void PackedParts::replace(std::size_t at, const ConvexPart& part) {
@@ -63,13 +66,13 @@ void PackedParts::remove(std::size_t at) {
 }
 
 /// A caster that turns may hang together otherwise each time, by rounding.
-std::uint16_t PackedParts::kindOf(const std::shared_ptr<const HullTopology>& topology) {
+std::uint16_t PackedParts::kindOf(std::shared_ptr<const HullTopology> topology) {
     const auto known = std::find(_topologies.begin(), _topologies.end(), topology);
     if (known != _topologies.end()) return std::uint16_t(known - _topologies.begin());
     if (_topologies.size() > 2 * size() + 16) forgetUnused();
     if (_topologies.size() > std::numeric_limits<std::uint16_t>::max())
         throw std::length_error("packed parts are of 65536 kinds at most.");
-    _topologies.push_back(topology);
+    _topologies.push_back(std::move(topology));
     return std::uint16_t(_topologies.size() - 1);
 }
 

@@ -39,7 +39,7 @@ private:
     unsigned begin(std::size_t part) const { return part > 0 ? _ends[part - 1] : 0u; }
     void addEmpty();
     void makeRoom(std::size_t part, std::size_t corners);
-    std::uint16_t kindOf(const std::shared_ptr<const HullTopology>& topology);
+    std::uint16_t kindOf(std::shared_ptr<const HullTopology> topology);
     void forgetUnused();
 
     std::vector<glm::dvec3> _anchors;
