@@ -10,6 +10,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
+
 namespace gnomon {
 namespace {
 
@@ -24,6 +26,26 @@ glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
     const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
     return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
 }
+
+struct Span {
+    int from, to;
+};
+
+/// Pixels of a viewport along one axis. One that begins left of the window has no pixels there.
+Span seenSpan(double origin, double size) { return {std::max(int(origin), 0), int(origin + size)}; }
+
+/// Whole quads of pixels, which OpenGL shades together, as far as they are in view.
+Span wholeQuads(int from, int size, const Span& view) {
+    return {std::max(from & ~1, view.from), std::min((from + size + 1) & ~1, view.to)};
+}
+
+PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport) {
+    const Span x = wholeQuads(pixels.x, pixels.width, seenSpan(viewport.x(), viewport.width()));
+    const Span y = wholeQuads(pixels.y, pixels.height, seenSpan(viewport.y(), viewport.height()));
+    return {x.from, y.from, x.to - x.from, y.to - y.from};
+}
+
+bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p.height)) & 1) != 0; }
 
 } // namespace
 
@@ -51,19 +73,24 @@ void MapResources::release(osg::State* state) {
 
 std::string MapMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     osg::State& state = *renderInfo.getState();
-    const PixelRect pixels = pixelsInScissor(*state.getCurrentViewport());
-    if (pixels.empty()) return "";
+    const osg::Viewport& viewport = *state.getCurrentViewport();
+    const PixelRect marked = pixelsInScissor(viewport);
+    if (marked.empty()) return "";
+    const PixelRect pixels = wholeQuads(marked, viewport);
     unsigned drawn = 0;
     const std::string cause = map->show(renderInfo, *picture, drawn);
     resources->passes += drawn;
     if (!cause.empty()) return cause;
     const SeenDepth::Copy copy = resources->seen.copy(state, pixels);
     if (!copy.cause.empty()) return copy.cause;
-    state.apply(resources->program(defines).get());
+    state.apply(resources->program(isOdd(pixels) ? defines + "#define ODD\n" : defines).get());
     if (!hasProgram(state)) return noProgram;
     map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
     resources->seen.bind(state, seenUnit);
     setUniforms(state, copy.error);
+    if (isOdd(pixels))
+        setUniform(state, "seenPixels",
+                   glm::dvec4(pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1));
     pass.stencilEqual(bit, 0, bit);
     pass.drawQuad();
     state.apply();

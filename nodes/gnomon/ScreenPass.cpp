@@ -72,8 +72,8 @@ void leaveDefaults(osg::State& state) {
 PixelRect pixelsInScissor(const osg::Viewport& viewport) {
     GLint box[4];
     glGetIntegerv(GL_SCISSOR_BOX, box);
-    const GLint left = std::max(box[0], static_cast<GLint>(viewport.x()));
-    const GLint low = std::max(box[1], static_cast<GLint>(viewport.y()));
+    const GLint left = std::max({0, box[0], static_cast<GLint>(viewport.x())});
+    const GLint low = std::max({0, box[1], static_cast<GLint>(viewport.y())});
     const GLint right = std::min(box[0] + box[2], static_cast<GLint>(viewport.x() + viewport.width()));
     const GLint high = std::min(box[1] + box[3], static_cast<GLint>(viewport.y() + viewport.height()));
     return {left, low, right - left, high - low};

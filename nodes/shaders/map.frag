@@ -13,6 +13,21 @@ uniform vec4 pixelFromMapX[MAPS], pixelFromMapY[MAPS], pixelFromMapZ[MAPS]; // c
 uniform vec4 place[MAPS];     // in the texture: corner, and texels on a side; share of it that is border
 uniform vec4 nearestError[MAPS], farthestError[MAPS]; // see MapErrors
 
+#ifdef ODD
+uniform vec4 seenPixels;      // first and last pixel that `seen` holds: x, y; x, y
+
+// Change of e a pixel along an axis, as dFdx() and dFdy() have it, by the other pixel of its quad; by the one on the other
+// side where that is beside the view, of which nothing is known.
+float change(float e, ivec2 here, ivec2 axis) {
+    ivec2 first = ivec2(seenPixels.xy), last = ivec2(seenPixels.zw), at = here * axis;
+    ivec2 to = ((at.x + at.y) & 1) == 0 ? here + axis : here - axis;
+    if (any(lessThan(to, first)) || any(greaterThan(to, last))) to = 2 * here - to;
+    to = clamp(to, first, last);
+    ivec2 way = to - here;
+    return (1.0 - texelFetch(seen, to, 0).r - e) * float(way.x + way.y);
+}
+#endif
+
 // At p, in texels of the texture; `slope` is the change of depth a texel on the surface that is compared.
 float lit(vec2 p, float depth, vec2 slope) {
 #ifdef BICUBIC
@@ -58,7 +73,12 @@ float visibility(vec4 pixel, vec4 plane) {
 
 void main() {
     float e = 1.0 - texelFetch(seen, ivec2(gl_FragCoord.xy), 0).r;
+#ifdef ODD
+    ivec2 here = ivec2(gl_FragCoord.xy);
+    vec2 slope = vec2(change(e, here, ivec2(1, 0)), change(e, here, ivec2(0, 1)));
+#else
     vec2 slope = vec2(dFdx(e), dFdy(e));
+#endif
     if (e <= 0.0) discard; // nothing is seen
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));

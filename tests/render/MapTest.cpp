@@ -50,6 +50,37 @@ TEST(Map, IsWrongNowhereButAtEdgesAndThereByAFractionOfAPixel) {
     }
 }
 
+/// Pixels of the picture's last column and row, and of the ones before them, that differ from the traced ones.
+struct AtTheRim {
+    int last = 0, before = 0;
+};
+
+AtTheRim differences(const Picture& a, const Picture& b) {
+    const auto differ = [&](int x, int y) { return a.at(x, y) != b.at(x, y); };
+    AtTheRim result;
+    for (int y = 0; y < a.height; ++y) {
+        result.last += differ(a.width - 1, y);
+        result.before += differ(a.width - 2, y);
+    }
+    for (int x = 0; x < a.width; ++x) {
+        result.last += differ(x, a.height - 1);
+        result.before += differ(x, a.height - 2);
+    }
+    return result;
+}
+
+/// A quad of pixels sticks out of such a picture: what it finds there must not count.
+TEST(Map, IsRightInTheLastColumnAndRowOfAPictureOfOddSize) {
+    TracedCase town = townOfHouses();
+    town.view.width = 641;
+    town.view.height = 481;
+    Scene byMap = town.build(), byRays = town.build();
+    byMap.addShadow(mapOf(2048));
+    byRays.addShadow(new gnomon::TracedShadowTechnique);
+    const AtTheRim found = differences(test::render(byMap.root, town.view), test::render(byRays.root, town.view));
+    EXPECT_LE(found.last, found.before + 10) << "before it: " << found.before;
+}
+
 TEST(Map, EachFilterAndEachSizeIsBetterThanTheOneBefore) {
     const TracedCase town = townOfHouses();
     int before = town.view.width * town.view.height;
