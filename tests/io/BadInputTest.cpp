@@ -129,10 +129,10 @@ TEST_F(BadInput, UnknownTechniqueOrKey) {
     EXPECT_EQ(
         refusalWith({"--shadow", "plane"}),
         "--shadow plane cannot be used; \"plane\" is not a shadow technique; allowed: none, planar, box, hull, drape, "
-        "traced.");
-    EXPECT_EQ(refusalWith({"--shadow", "map:size=4096"}),
-              "--shadow map:size=4096 cannot be used; \"map\" is not built yet; built: none, planar, box, hull, "
-              "drape, traced.");
+        "map, traced.");
+    EXPECT_EQ(refusalWith({"--shadow", "volume:bits=8"}),
+              "--shadow volume:bits=8 cannot be used; \"volume\" is not built yet; built: none, planar, box, hull, "
+              "drape, map, traced.");
     EXPECT_EQ(refusalWith({"--shadow", "planar:soft=1"}), "--shadow planar:soft=1 cannot be used; the technique planar "
                                                           "has no key \"soft\"; allowed: composite, dark, receiver.");
 }

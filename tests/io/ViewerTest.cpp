@@ -138,8 +138,8 @@ protected:
         return desktop.pictureWhere("g hides the text", [](const Screenshot& p) { return !hasText(p); });
     }
 
-    /// From planar shadows on through box, hull, drape and traced to none; from there n leads back.
-    Screenshot withoutShadow() { return after("n", 5); }
+    /// From planar shadows on through box, hull, drape, map and traced to none; from there n leads back.
+    Screenshot withoutShadow() { return after("n", 6); }
     /// The first picture without its shadow, which n then brings back.
     Screenshot glimpseWithoutShadow() {
         const Screenshot none = withoutShadow();
@@ -170,7 +170,7 @@ TEST_F(Viewer, StartsWithoutShadowUnlessAskedForOne) {
     start({});
     const Screenshot planar = pressed("n");
     EXPECT_LE(misplaced(changed(first, planar), lamp), atFeet);
-    after("n", 4); // box, hull, drape, traced
+    after("n", 5); // box, hull, drape, map, traced
     expectAfter("n", first);
 }
 
