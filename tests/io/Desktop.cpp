@@ -162,13 +162,22 @@ void Desktop::drag(unsigned button, int right, int down) {
     XFlush(_display);
 }
 
+/// While a window is made to fill the screen a part of it lies beside the screen, of which there is no picture.
+static int noPicture(Display*, XErrorEvent*) { return 0; }
+
 Screenshot Desktop::picture() {
     XWindowAttributes place{};
-    XGetWindowAttributes(_display, _window, &place);
-    Screenshot result{place.width, place.height, {}};
-    XImage* image =
-        XGetImage(_display, _window, 0, 0, unsigned(place.width), unsigned(place.height), AllPlanes, ZPixmap);
+    XImage* image = nullptr;
+    XSync(_display, False);
+    const XErrorHandler before = XSetErrorHandler(noPicture);
+    waitFor(limit, [&] {
+        XGetWindowAttributes(_display, _window, &place);
+        image = XGetImage(_display, _window, 0, 0, unsigned(place.width), unsigned(place.height), AllPlanes, ZPixmap);
+        return image != nullptr;
+    });
+    XSetErrorHandler(before);
     if (!image) fail("the window has no picture");
+    Screenshot result{place.width, place.height, {}};
     for (int y = 0; y < place.height; ++y)
         for (int x = 0; x < place.width; ++x)
             result.pixels.push_back(static_cast<std::uint32_t>(XGetPixel(image, x, y) & 0xffffffu));
