@@ -28,7 +28,8 @@ public:
         double tangent = 0.0;                            ///< of the light's least elevation.
         TerrainOutcome outcome = TerrainOutcome::edgeOn; ///< fan, as long as nothing else is known.
         double wrong = 0.0, seen = 0.0;                  ///< twice areas; what is wrong with the fan, of what is seen.
-        std::size_t fan = 0;                             ///< its own of the kernel's.
+        std::size_t fan = 0, lane = 0;                   ///< of the kernel's.
+        std::size_t corners = 0;                         ///< of the polygon that are left.
 
         double off() const { return wrong > 0.0 ? wrong / seen : 0.0; } ///< see HullFan.
     };
@@ -43,15 +44,14 @@ public:
     std::size_t size() const { return _entries.size(); }
     const Entry& entry(std::size_t i) const { return _entries[i]; }
     /// Corners of a fan that was found, about its anchor, counter-clockwise, from the one that sees all others.
-    std::size_t cornerCount(std::size_t i) const { return _fans[_entries[i].fan].corners; }
-    glm::dvec3 corner(std::size_t i, std::size_t at) const {
-        const std::size_t place = _fans[_entries[i].fan].edge + at;
-        return {_cx[place], _cy[place], _cz[place]};
-    }
+    std::size_t cornerCount(std::size_t i) const { return _entries[i].corners; }
+    glm::dvec3 corner(std::size_t i, std::size_t at) const { return endOf(_entries[i], at); }
     /// Whether it has a silhouette, though it may be turned away.
     bool isThere(std::size_t i) const { return _entries[i].fan != none; }
-    bool isOut(std::size_t i) const { return _fans[_entries[i].fan].isOut; } ///< some corner is over the ground.
-    glm::dvec3 top(std::size_t i) const;                                     ///< highest corner of its silhouette.
+    bool isOut(std::size_t i) const {
+        return partOf(_entries[i]).isOut[_entries[i].lane] > 0.0;
+    }                                     ///< some corner is over the ground.
+    glm::dvec3 top(std::size_t i) const;  ///< highest corner of its silhouette.
     Drape triangles(std::size_t i) const; ///< of a fan that was found, in the ground's frame.
     /// The ground's triangles in the shadow, about its anchor. @param error  in plan. @return until the next call.
     const Drape& drape(std::size_t i, double error);
@@ -60,29 +60,51 @@ public:
     ConvexShadow shadow(std::size_t i) const;
 
 private:
-    using Lane = std::vector<double>;
     static constexpr std::size_t none = ~std::size_t(0);
 
-    void takeKind(const PackedParts& parts, std::size_t first, const std::vector<std::size_t>& same);
-    void askFaces(const PackedParts& parts, std::size_t first, const std::vector<std::size_t>& same);
-    bool addFaces(const HullTopology& topology, std::size_t lane);
-    bool addSilhouette(const HullTopology& topology, std::size_t lane);
-    void addFan(Entry& entry, std::size_t face);
-    double leastTangent(const Entry& entry, std::size_t edge, std::size_t edges) const;
+    void takeKind(const PackedParts& parts, std::size_t first);
+    void askFaces(const PackedParts& parts, std::size_t first);
+    void packBlock(const PackedParts& parts, std::size_t first, std::size_t block);
+    bool isAlike(std::size_t a, std::size_t b) const;
+    void takeAlike(const HullTopology& topology);
+    void findSilhouette(const HullTopology& topology);
+    void addFans();
+    void addParts(const std::size_t* lanes);
+    std::uint64_t litOf(std::size_t inKind, std::size_t word) const {
+        const std::size_t block = inKind / kernelLanes, lane = inKind % kernelLanes;
+        return _lit[((_hulls.faces / 64 + 1) * block + word) * kernelLanes + lane];
+    }
+
+    const KernelFan& fanOf(const Entry& entry) const { return _fans[entry.fan]; }
+    const KernelPart& partOf(const Entry& entry) const { return _parts[entry.fan]; }
+    const KernelEdge& edgeOf(const Entry& entry, std::size_t e) const { return _edges[fanOf(entry).edge + e]; }
+    KernelEdge& edgeOf(const Entry& entry, std::size_t e) { return _edges[fanOf(entry).edge + e]; }
+    const KernelRay& rayOf(const Entry& entry, std::size_t r) const { return _rays[fanOf(entry).ray + r]; }
+    glm::dvec3 endOf(const Entry& entry, std::size_t e) const {
+        const KernelEdge& edge = edgeOf(entry, e);
+        return {edge.endX[entry.lane], edge.endY[entry.lane], edge.endZ[entry.lane]};
+    }
+    void setEnd(const Entry& entry, std::size_t e, const glm::dvec3& end);
+    double leastTangent(const Entry& entry) const;
     glm::dvec2 wayOf(const Entry& entry, const glm::dvec3& point) const;
-    glm::dvec3 silhouette(std::size_t at) const { return {_sx[at], _sy[at], _sz[at]}; }
-    glm::dvec3 middle(std::size_t edge) const { return 0.5 * (silhouette(edge) + silhouette(edge + 1)); }
-    void makeRoom();
-    void cast();
+    glm::dvec3 silhouette(const Entry& entry, std::size_t e) const;
+    glm::dvec4 edgePlane(const Entry& entry, std::size_t e) const;
+    glm::dvec4 facePlane(const Entry& entry, std::size_t f) const;
+    void findFans(std::size_t first, std::size_t end);
+    template <class Do>
+    void eachEntry(std::size_t first, std::size_t end, const Do& what);
+    void beginRays(std::size_t first, std::size_t end);
+    void cast(std::size_t first, std::size_t end);
     bool isGentle(const Entry& entry) const;
     bool landExactly(const Entry& entry);
-    std::optional<glm::dvec3> exactEnd(const Entry& entry, const glm::dvec3& point, std::size_t query) const;
+    std::optional<glm::dvec3> exactEnd(const Entry& entry, const glm::dvec3& point, const KernelRay& ray) const;
     void finish(Entry& entry);
-    double areaAt(std::size_t a, std::size_t b, std::size_t c) const;
-    double simplify(KernelFan& fan, double most);
-    bool turnToStart(KernelFan& fan);
-    void judge(std::size_t places);
-    KernelFans kernelFans();
+    double areaAt(const Entry& entry, std::size_t a, std::size_t b, std::size_t c) const;
+    double simplify(Entry& entry, double most);
+    bool turnToStart(const Entry& entry);
+    void turn(const Entry& entry, std::size_t start);
+    void addHeights(std::size_t first, std::size_t end);
+    KernelFans kernelFans(std::size_t first, std::size_t end);
     bool findReach(std::size_t i, glm::dvec2& low, glm::dvec2& high) const;
     void takePlanes(std::size_t i);
 
@@ -97,26 +119,32 @@ private:
     double _tangent = 0.0, _steepest = 0.0; ///< of the sun's elevation; of the grid's slopes.
 
     std::vector<Entry> _entries;
-    std::vector<KernelFan> _fans;
-    // Of parts of one kind, see KernelHulls.
+    std::vector<char> _taken;
+    // Of parts of one kind:
+    KernelHulls _hulls{};
+    std::vector<std::size_t> _kind;
     std::vector<float> _places;
-    std::size_t _stride = 0;
-    Lane _lightX, _lightY, _lightZ, _facePlanes, _facing, _sizes, _lows, _highs;
-    std::vector<char> _lit; ///< faces of one part.
-    std::vector<unsigned> _loop;
-    std::vector<std::size_t> _same;
-    std::vector<bool> _taken;
+    std::vector<double> _lights, _facePlanes, _sizes;
+    std::vector<std::uint64_t> _lit;
+    // Of those of them that the light meets at the same faces:
+    std::vector<std::size_t> _alike, _left; ///< places in `_kind`.
+    std::vector<char> _isLit;
+    std::vector<unsigned> _litFaces, _loop;
 
-    std::size_t _edges = 0, _faces = 0, _queries = 0; ///< in use of the following.
-    Lane _sx, _sy, _sz, _ex, _ey, _ez, _ew, _along, _cx, _cy, _cz, _mx, _my;
-    Lane _fx, _fy, _fz, _fw;
-    Lane _u, _v, _z, _du, _dv, _descent, _height, _work;
+    std::vector<KernelFan> _fans;
+    std::vector<std::size_t> _members; ///< the entry in each lane of them.
+    std::vector<KernelPart> _parts;
+    std::vector<KernelEdge> _edges;
+    std::vector<KernelFace> _faces;
+    // Of fans that are found together:
+    std::vector<KernelRay> _rays;
+    std::vector<KernelPlace> _inside; ///< of the triangles.
     std::vector<unsigned> _order;
-    Lane _px, _py, _pu, _pv, _pz;
+    std::size_t _edgeCount = 0, _faceCount = 0, _rayCount = 0; ///< in use.
+    std::vector<glm::dvec3> _turned;
     GridDrape::Planes _planes;
     GridDrape _gridDrape;
     Drape _drape;
-    std::vector<unsigned> _asked; ///< twice the place in _upper, or in _lower and one more.
 };
 
 } // namespace gnomon

@@ -17,13 +17,12 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// before. @return false if the light is not above all of the part.
 bool FanBatch::findReach(std::size_t i, glm::dvec2& low, glm::dvec2& high) const {
     const Entry& entry = _entries[i];
-    const KernelFan& fan = _fans[entry.fan];
     double bottom = _grid->range().low;
     for (int step = 0; step < 3; ++step) {
         low = glm::dvec2(infinite);
         high = -low;
-        for (std::size_t e = fan.edge; e < fan.edge + fan.edges; ++e) {
-            const glm::dvec3 corner = silhouette(e);
+        for (std::size_t e = 0; e < fanOf(entry).edges; ++e) {
+            const glm::dvec3 corner = silhouette(entry, e);
             const double down = std::max(0.0, corner.z + entry.anchor.z - bottom);
             const glm::dvec2 end = glm::dvec2(corner) + down * wayOf(entry, corner);
             low = glm::min(low, glm::min(glm::dvec2(corner), end));
@@ -38,13 +37,11 @@ bool FanBatch::findReach(std::size_t i, glm::dvec2& low, glm::dvec2& high) const
 }
 
 void FanBatch::takePlanes(std::size_t i) {
-    const KernelFan& fan = _fans[_entries[i].fan];
-    _planes.anchor = _entries[i].anchor;
+    const Entry& entry = _entries[i];
+    _planes.anchor = entry.anchor;
     _planes.about.clear();
-    for (std::size_t f = fan.face; f < fan.face + fan.faces; ++f)
-        _planes.about.emplace_back(_fx[f], _fy[f], _fz[f], _fw[f]);
-    for (std::size_t e = fan.edge; e < fan.edge + fan.edges; ++e)
-        _planes.about.emplace_back(_ex[e], _ey[e], _ez[e], _ew[e]);
+    for (std::size_t f = 0; f < fanOf(entry).faces; ++f) _planes.about.push_back(facePlane(entry, f));
+    for (std::size_t e = 0; e < fanOf(entry).edges; ++e) _planes.about.push_back(edgePlane(entry, e));
 }
 
 const Drape& FanBatch::drape(std::size_t i, double error) {

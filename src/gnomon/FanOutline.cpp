@@ -16,63 +16,68 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-double FanBatch::areaAt(std::size_t a, std::size_t b, std::size_t c) const {
-    return doubleArea({_cx[a], _cy[a], 0.0}, {_cx[b], _cy[b], 0.0}, {_cx[c], _cy[c], 0.0});
+double FanBatch::areaAt(const Entry& entry, std::size_t a, std::size_t b, std::size_t c) const {
+    const auto at = [&](std::size_t corner) {
+        const KernelEdge& edge = edgeOf(entry, corner);
+        return glm::dvec3(edge.endX[entry.lane], edge.endY[entry.lane], 0.0);
+    };
+    return doubleArea(at(a), at(b), at(c));
 }
 
 /// Leaves out the corners that matter least while there are more triangles than wanted. @param most  twice the area in plan
 /// that may be lost or won by it. @return what is.
-double FanBatch::simplify(KernelFan& fan, double most) {
+double FanBatch::simplify(Entry& entry, double most) {
     double sum = 0.0;
-    while (fan.corners > wantedTriangles + 2) {
-        const auto at = [&](std::size_t i) { return fan.edge + i % fan.corners; };
+    while (entry.corners > wantedTriangles + 2) {
+        const std::size_t n = entry.corners;
         std::size_t least = 0;
         double area = infinite;
-        for (std::size_t i = 0; i < fan.corners; ++i) {
-            const double one = std::abs(areaAt(at(i + fan.corners - 1), at(i), at(i + 1)));
+        for (std::size_t i = 0; i < n; ++i) {
+            const double one = std::abs(areaAt(entry, (i + n - 1) % n, i, (i + 1) % n));
             if (one < area) area = one, least = i;
         }
         if (!(sum + area <= most)) break;
         sum += area;
-        for (Lane* lane : {&_cx, &_cy, &_cz}) {
-            const auto first = lane->begin() + std::ptrdiff_t(fan.edge + least);
-            std::copy(first + 1, lane->begin() + std::ptrdiff_t(fan.edge + fan.corners), first);
-        }
-        --fan.corners;
+        for (std::size_t i = least; i + 1 < n; ++i) setEnd(entry, i, endOf(entry, i + 1));
+        --entry.corners;
     }
     return sum;
 }
 
 /// To the corner that sees all others. @return false if none does.
-bool FanBatch::turnToStart(KernelFan& fan) {
-    for (std::size_t start = 0; start < fan.corners; ++start) {
-        const auto at = [&](std::size_t i) { return fan.edge + (start + i) % fan.corners; };
+bool FanBatch::turnToStart(const Entry& entry) {
+    const std::size_t n = entry.corners;
+    for (std::size_t start = 0; start < n; ++start) {
         double least = infinite, most = 0.0;
-        for (std::size_t i = 1; i + 1 < fan.corners && least >= 0.0; ++i) {
-            const double area = areaAt(fan.edge + start, at(i), at(i + 1));
+        for (std::size_t i = 1; i + 1 < n && least >= 0.0; ++i) {
+            const double area = areaAt(entry, start, (start + i) % n, (start + i + 1) % n);
             least = std::min(least, area);
             most = std::max(most, area);
         }
         if (!(least >= 0.0 && most > 0.0)) continue;
-        if (start > 0)
-            for (Lane* lane : {&_cx, &_cy, &_cz}) {
-                const auto first = lane->begin() + std::ptrdiff_t(fan.edge);
-                std::rotate(first, first + std::ptrdiff_t(start), first + std::ptrdiff_t(fan.corners));
-            }
+        turn(entry, start);
         return true;
     }
     return false;
 }
 
+void FanBatch::turn(const Entry& entry, std::size_t start) {
+    _turned.clear();
+    for (std::size_t k = 0; k < entry.corners; ++k) _turned.push_back(endOf(entry, (start + k) % entry.corners));
+    for (std::size_t k = 0; k < entry.corners; ++k) setEnd(entry, k, _turned[k]);
+}
+
 /// Of a polygon that was measured.
 void FanBatch::finish(Entry& entry) {
-    KernelFan& fan = _fans[entry.fan];
-    entry.seen = std::max(0.0, fan.area - std::abs(fan.under));
-    entry.wrong = std::isnan(fan.lenses) ? infinite : fan.lenses;
-    const double lost = simplify(fan, mostLost * entry.seen);
+    const KernelPart& part = partOf(entry);
+    const std::size_t at = entry.lane;
+    entry.corners = fanOf(entry).edges;
+    entry.seen = std::max(0.0, part.area[at] - std::abs(part.under[at]));
+    entry.wrong = std::isnan(part.lenses[at]) ? infinite : part.lenses[at];
+    const double lost = simplify(entry, mostLost * entry.seen);
     entry.wrong += lost;
-    const bool isStart = lost == 0.0 && fan.least >= 0.0 && fan.most > 0.0;
-    if (!isStart && !turnToStart(fan)) entry.outcome = TerrainOutcome::noFan;
+    const bool isStart = lost == 0.0 && part.least[at] >= 0.0 && part.most[at] > 0.0;
+    if (!isStart && !turnToStart(entry)) entry.outcome = TerrainOutcome::noFan;
 }
 
 } // namespace gnomon

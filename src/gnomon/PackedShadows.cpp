@@ -15,19 +15,29 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-constexpr std::size_t together = 32; // what is found of so many parts stays in the nearest cache
+constexpr std::size_t together = 256; // what is found of so many parts stays in the nearest cache
 
 glm::vec3 rounded(const PackedShadows& found, const glm::dvec3& anchor, const glm::dvec3& corner) {
     return glm::vec3(anchor + corner - found.origin);
 }
 
+/// Room for more, at the end. @return the first of them.
+template <class Kept>
+Kept* room(std::vector<Kept>& kept, std::size_t count) {
+    if (kept.capacity() < kept.size() + count) kept.reserve(2 * (kept.size() + count));
+    kept.resize(kept.size() + count);
+    return kept.data() + kept.size() - count;
+}
+
 void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
     const FanBatch::Entry& entry = batch.entry(i);
+    const std::size_t count = batch.cornerCount(i);
+    glm::vec3* to = room(found.corners, count);
     double low = infinite;
-    for (std::size_t k = 0; k < batch.cornerCount(i); ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
         const glm::dvec3 corner = batch.corner(i, k);
         low = std::min(low, corner.z);
-        found.corners.push_back(rounded(found, entry.anchor, corner));
+        to[k] = rounded(found, entry.anchor, corner);
     }
     found.highest = std::max(found.highest, entry.high - low);
 }

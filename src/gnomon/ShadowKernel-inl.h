@@ -18,261 +18,369 @@ HWY_INLINE V3 cross(const V3& a, const V3& b) {
             hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
-HWY_INLINE V3 cornerOf(const KernelHulls& all, std::size_t corner, std::size_t at) {
-    const D d;
-    const float* from = all.places + 3 * corner * all.stride + at;
-    const auto load = [&](std::size_t k) { return hn::PromoteTo(d, hn::LoadU(Half(), from + k * all.stride)); };
-    return {load(0), load(1), load(2)};
+/// Four numbers of four parts turned into four parts of each number.
+HWY_INLINE void turnFour(const float* const* from, std::size_t k, float* to) {
+#if HWY_TARGET == HWY_AVX2
+    __m128 rows[4];
+    for (int i = 0; i < 4; ++i) rows[i] = _mm_loadu_ps(from[i] + k);
+    _MM_TRANSPOSE4_PS(rows[0], rows[1], rows[2], rows[3]);
+    for (std::size_t i = 0; i < 4; ++i) _mm_storeu_ps(to + i * kernelLanes, rows[i]);
+#else
+    for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t lane = 0; lane < 4; ++lane) to[i * kernelLanes + lane] = from[lane][k + i];
+#endif
 }
 
-HWY_INLINE void faceOf(const KernelHulls& all, std::size_t f, std::size_t at) {
+void pack(const std::array<const float*, kernelLanes>& from, std::size_t numbers, float* to) {
+    for (std::size_t i = 0; i < 3 * kernelLanes; ++i) to[i] = 0.0f;
+    to += 3 * kernelLanes;
+    std::size_t k = 0;
+    for (; k + 4 <= numbers; k += 4, to += 4 * kernelLanes)
+        for (std::size_t lane = 0; lane < kernelLanes; lane += 4) turnFour(from.data() + lane, k, to + lane);
+    for (; k < numbers; ++k, to += kernelLanes)
+        for (std::size_t lane = 0; lane < kernelLanes; ++lane) to[lane] = from[lane][k];
+}
+
+/// Some lanes of a block of parts.
+struct HullLanes {
+    const KernelHulls& all;
+    std::size_t block, lane;
+
+    /// Of the k-th of a part's n numbers.
+    std::size_t at(std::size_t n, std::size_t k) const { return (n * block + k) * kernelLanes + lane; }
+    HWY_INLINE V3 corner(std::size_t c) const {
+        const float* from = all.places + at(3 * all.corners, 3 * c);
+        const auto load = [&](std::size_t k) { return hn::PromoteTo(D(), hn::LoadU(Half(), from + k * kernelLanes)); };
+        return {load(0), load(1), load(2)};
+    }
+    HWY_INLINE V3 towardsLight(const V3& a) const {
+        if (all.lightW == 0.0) return {set(all.lightX), set(all.lightY), set(all.lightZ)};
+        const double* from = all.lights + at(3, 0);
+        const V w = set(all.lightW);
+        return minus({hn::LoadU(D(), from), hn::LoadU(D(), from + kernelLanes), hn::LoadU(D(), from + 2 * kernelLanes)},
+                     {hn::Mul(w, a.x), hn::Mul(w, a.y), hn::Mul(w, a.z)});
+    }
+};
+
+/// @return its bit where the light meets it.
+HWY_INLINE V faceOf(const HullLanes& of, std::size_t f) {
     const D d;
-    const V3 a = cornerOf(all, all.triples[f][0], at);
-    const V3 normal =
-        cross(minus(cornerOf(all, all.triples[f][1], at), a), minus(cornerOf(all, all.triples[f][2], at), a));
-    const V w = set(all.lightW);
-    const V3 towards =
-        minus({hn::LoadU(d, all.lightX + at), hn::LoadU(d, all.lightY + at), hn::LoadU(d, all.lightZ + at)},
-              {hn::Mul(w, a.x), hn::Mul(w, a.y), hn::Mul(w, a.z)});
-    double* to = all.planes + 4 * f * all.stride + at;
+    const std::array<unsigned, 3>& triple = of.all.triples[f];
+    const V3 a = of.corner(triple[0]);
+    const V3 normal = cross(minus(of.corner(triple[1]), a), minus(of.corner(triple[2]), a));
+    double* to = of.all.planes + of.at(4 * of.all.faces, 4 * f);
     hn::StoreU(hn::Neg(normal.x), d, to);
-    hn::StoreU(hn::Neg(normal.y), d, to + all.stride);
-    hn::StoreU(hn::Neg(normal.z), d, to + 2 * all.stride);
-    hn::StoreU(dot(normal, a), d, to + 3 * all.stride);
-    hn::StoreU(dot(normal, towards), d, all.facing + f * all.stride + at);
+    hn::StoreU(hn::Neg(normal.y), d, to + kernelLanes);
+    hn::StoreU(hn::Neg(normal.z), d, to + 2 * kernelLanes);
+    hn::StoreU(dot(normal, a), d, to + 3 * kernelLanes);
+    const V bit = hn::BitCast(d, hn::Set(Bits(), std::uint64_t(1) << f % 64));
+    return hn::IfThenElseZero(hn::Gt(dot(normal, of.towardsLight(a)), hn::Zero(d)), bit);
 }
 
-void face(const KernelHulls& all) {
-    const D d;
-    for (std::size_t at = 0; at < all.count; at += hn::Lanes(d)) {
-        V size = hn::Zero(d), low = size, high = size;
-        for (std::size_t c = 1; c < all.corners; ++c) {
-            const V3 corner = cornerOf(all, c, at);
-            size = hn::Max(size, dot(corner, corner));
-            low = hn::Min(low, corner.z);
-            high = hn::Max(high, corner.z);
-        }
-        hn::StoreU(size, d, all.size + at);
-        hn::StoreU(low, d, all.low + at);
-        hn::StoreU(high, d, all.high + at);
-        for (std::size_t f = 0; f < all.faces; ++f) faceOf(all, f, at);
+HWY_INLINE void facesOf(const HullLanes& of) {
+    const std::size_t words = of.all.faces / 64 + 1;
+    for (std::size_t word = 0; word < words; ++word) {
+        V lit = hn::Zero(D());
+        for (std::size_t f = 64 * word; f < 64 * word + 64 && f < of.all.faces; ++f) lit = hn::Or(lit, faceOf(of, f));
+        hn::StoreU(hn::BitCast(Bits(), lit), Bits(), of.all.lit + of.at(words, word));
     }
 }
 
-HWY_INLINE V3 silhouetteAt(const KernelFans& all, std::size_t i) {
+HWY_INLINE void sizeOf(const HullLanes& of) {
     const D d;
-    return {hn::LoadU(d, all.sx + i), hn::LoadU(d, all.sy + i), hn::LoadU(d, all.sz + i)};
+    V size = hn::Zero(d), low = size, high = size;
+    for (std::size_t c = 1; c < of.all.corners; ++c) {
+        const V3 corner = of.corner(c);
+        size = hn::Max(size, dot(corner, corner));
+        low = hn::Min(low, corner.z);
+        high = hn::Max(high, corner.z);
+    }
+    double* to = of.all.sizes + of.at(3, 0);
+    hn::StoreU(hn::Sqrt(size), d, to);
+    hn::StoreU(low, d, to + kernelLanes);
+    hn::StoreU(high, d, to + 2 * kernelLanes);
 }
 
-HWY_INLINE V3 towardsLight(const KernelFan& fan, const V3& a) {
-    const V w = set(fan.light[3]);
-    return minus({set(fan.light[0]), set(fan.light[1]), set(fan.light[2])},
-                 {hn::Mul(w, a.x), hn::Mul(w, a.y), hn::Mul(w, a.z)});
+void face(const KernelHulls& all) {
+    for (std::size_t block = 0; block < all.blocks; ++block)
+        for (std::size_t lane = 0; lane < kernelLanes; lane += hn::Lanes(D())) {
+            sizeOf({all, block, lane});
+            facesOf({all, block, lane});
+        }
+}
+
+HWY_INLINE V promoted(const float* from, const std::size_t* places) {
+#if HWY_TARGET == HWY_AVX2
+    return V{_mm256_cvtps_pd(_mm_set_ps(from[places[3]], from[places[2]], from[places[1]], from[places[0]]))};
+#else
+    HWY_ALIGN double one[HWY_MAX_BYTES / 8];
+    for (std::size_t i = 0; i < hn::Lanes(D()); ++i) one[i] = double(from[places[i]]);
+    return hn::Load(D(), one);
+#endif
+}
+
+void choose(const KernelHulls& hulls, const KernelChoice& choice, const KernelFans& all, std::size_t number) {
+    const KernelFan& fan = all.fans[number];
+    std::array<std::size_t, kernelLanes> corners, planes;
+    for (std::size_t i = 0; i < kernelLanes; ++i) {
+        const std::size_t block = choice.parts[i] / kernelLanes * kernelLanes, lane = choice.parts[i] % kernelLanes;
+        corners[i] = 3 * hulls.corners * block + lane;
+        planes[i] = 4 * hulls.faces * block + lane;
+    }
+    for (std::size_t lane = 0; lane < fan.parts; lane += hn::Lanes(D())) {
+        for (std::size_t e = 0; e < fan.edges; ++e) {
+            KernelEdge& to = all.edges[fan.edge + e];
+            const float* from = hulls.places + 3 * choice.corners[e] * kernelLanes;
+            store(promoted(from, corners.data() + lane), to.x, lane);
+            store(promoted(from + kernelLanes, corners.data() + lane), to.y, lane);
+            store(promoted(from + 2 * kernelLanes, corners.data() + lane), to.z, lane);
+        }
+        for (std::size_t f = 0; f < fan.faces; ++f) {
+            KernelFace& to = all.faces[fan.face + f];
+            const double* from = hulls.planes + 4 * choice.faces[f] * kernelLanes;
+            store(at(from, planes.data() + lane), to.x, lane);
+            store(at(from + kernelLanes, planes.data() + lane), to.y, lane);
+            store(at(from + 2 * kernelLanes, planes.data() + lane), to.z, lane);
+            store(at(from + 3 * kernelLanes, planes.data() + lane), to.w, lane);
+        }
+    }
+}
+
+/// Some lanes of a block of parts.
+struct Lanes {
+    const KernelFans& all;
+    const KernelFan& fan;
+    KernelPart& part;
+    std::size_t lane;
+
+    KernelEdge& edge(std::size_t e) const { return all.edges[fan.edge + e]; }
+    KernelRay& ray(std::size_t r) const { return all.rays[fan.ray + r]; }
+    KernelPlace& place(std::size_t t) const { return all.places[fan.place + t]; }
+    HWY_INLINE V get(const KernelRow& row) const { return load(row, lane); }
+    HWY_INLINE void put(V value, KernelRow& row) const { store(value, row, lane); }
+
+    HWY_INLINE V3 silhouette(std::size_t e) const {
+        const KernelEdge& at = edge(e < fan.edges ? e : 0);
+        return {get(at.x), get(at.y), get(at.z)};
+    }
+    HWY_INLINE M isAlong(const KernelEdge& edge) const { return hn::Gt(get(edge.along), hn::Zero(D())); }
+    HWY_INLINE V3 towardsLight(const V3& a) const {
+        if (all.lightW == 0.0) return {set(all.lightX), set(all.lightY), set(all.lightZ)};
+        const V w = set(all.lightW);
+        return minus({get(part.lightX), get(part.lightY), get(part.lightZ)},
+                     {hn::Mul(w, a.x), hn::Mul(w, a.y), hn::Mul(w, a.z)});
+    }
+};
+
+HWY_INLINE V3 middleOf(const V3& a, const V3& b) {
+    const V half = set(0.5);
+    return {hn::Mul(half, hn::Add(a.x, b.x)), hn::Mul(half, hn::Add(a.y, b.y)), hn::Mul(half, hn::Add(a.z, b.z))};
+}
+
+template <class Do>
+HWY_INLINE void eachLanes(const KernelFans& all, const Do& what) {
+    for (std::size_t i = 0; i < all.count; ++i)
+        for (std::size_t lane = 0; lane < all.fans[i].parts; lane += hn::Lanes(D()))
+            what(Lanes{all, all.fans[i], all.parts[i], lane});
 }
 
 /// An edge that points at the light has no plane.
-HWY_INLINE void planeOf(const KernelFans& all, const KernelFan& fan, std::size_t i) {
-    const D d;
-    const V3 a = silhouetteAt(all, i), edge = minus(silhouetteAt(all, i + 1), a), towards = towardsLight(fan, a);
-    const V3 normal = cross(towards, edge);
+HWY_INLINE void planeOf(const Lanes& of, KernelEdge& to, const V3& a, const V3& b) {
+    const V3 edge = minus(b, a), towards = of.towardsLight(a), normal = cross(towards, edge);
     const V size = dot(normal, normal), whole = hn::Mul(dot(towards, towards), dot(edge, edge));
     const M isPlane = hn::Gt(size, hn::Mul(set(1e-28), whole));
     const M leans = hn::Gt(hn::Mul(normal.z, normal.z), hn::Mul(set(1e-18), size));
-    hn::StoreU(hn::IfThenElseZero(isPlane, normal.x), d, all.ex + i);
-    hn::StoreU(hn::IfThenElseZero(isPlane, normal.y), d, all.ey + i);
-    hn::StoreU(hn::IfThenElseZero(isPlane, normal.z), d, all.ez + i);
-    hn::StoreU(hn::IfThenElseZero(isPlane, hn::Neg(dot(normal, a))), d, all.ew + i);
-    hn::StoreU(hn::IfThenElse(leans, hn::Zero(d), set(1.0)), d, all.along + i);
+    of.put(hn::IfThenElseZero(isPlane, normal.x), to.planeX);
+    of.put(hn::IfThenElseZero(isPlane, normal.y), to.planeY);
+    of.put(hn::IfThenElseZero(isPlane, normal.z), to.planeZ);
+    of.put(hn::IfThenElseZero(isPlane, hn::Neg(dot(normal, a))), to.planeW);
+    of.put(hn::IfThenZeroElse(leans, set(1.0)), to.along);
+}
+
+void edges(const KernelFans& all) {
+    eachLanes(all, [](const Lanes& of) {
+        V3 a = of.silhouette(0);
+        for (std::size_t e = 0; e < of.fan.edges; ++e) {
+            const V3 b = of.silhouette(e + 1);
+            planeOf(of, of.edge(e), a, b);
+            a = b;
+        }
+    });
 }
 
 /// The way in plan of rays through points, a unit of descent; NaN if the light is not above them.
-HWY_INLINE void wayOf(const KernelFans& all, const KernelFan& fan, const V3& p, V& x, V& y) {
-    x = set(all.wayX);
-    y = set(all.wayY);
-    if (fan.light[3] == 0.0) return;
-    const V3 towards = towardsLight(fan, p);
+HWY_INLINE void wayOf(const Lanes& of, const V3& p, V& x, V& y) {
+    x = set(of.all.wayX);
+    y = set(of.all.wayY);
+    if (of.all.lightW == 0.0) return;
+    const V3 towards = of.towardsLight(p);
     const V down = hn::Neg(hn::IfThenElse(hn::Gt(towards.z, hn::Zero(D())), towards.z, set(std::nan(""))));
     x = hn::Div(towards.x, down);
     y = hn::Div(towards.y, down);
 }
 
-HWY_INLINE void ask(const KernelFans& all, const KernelFan& fan, const V3& p, std::size_t at) {
-    const D d;
+HWY_INLINE void ask(const Lanes& of, const V3& p, M isAsked, KernelRay& to) {
+    const KernelFans& all = of.all;
+    of.put(hn::Add(of.get(of.part.u), hn::Mul(p.x, set(all.scaleX))), to.u);
+    of.put(hn::Add(of.get(of.part.v), hn::Mul(p.y, set(all.scaleY))), to.v);
+    of.put(hn::IfThenElse(isAsked, hn::Add(of.get(of.part.z), p.z), set(-HUGE_VAL)), to.z);
+    if (all.lightW == 0.0) return;
     V x, y;
-    wayOf(all, fan, p, x, y);
-    hn::StoreU(hn::Add(set(fan.u), hn::Mul(p.x, set(all.scaleX))), d, all.u + at);
-    hn::StoreU(hn::Add(set(fan.v), hn::Mul(p.y, set(all.scaleY))), d, all.v + at);
-    hn::StoreU(hn::Add(set(fan.z), p.z), d, all.z + at);
-    hn::StoreU(hn::Mul(x, set(all.scaleX)), d, all.du + at);
-    hn::StoreU(hn::Mul(y, set(all.scaleY)), d, all.dv + at);
+    wayOf(of, p, x, y);
+    of.put(hn::Mul(x, set(all.scaleX)), to.du);
+    of.put(hn::Mul(y, set(all.scaleY)), to.dv);
 }
 
-HWY_INLINE V3 middleOf(const KernelFans& all, std::size_t i) {
-    const V3 a = silhouetteAt(all, i), b = silhouetteAt(all, i + 1);
-    const V half = set(0.5);
-    return {hn::Mul(half, hn::Add(a.x, b.x)), hn::Mul(half, hn::Add(a.y, b.y)), hn::Mul(half, hn::Add(a.z, b.z))};
-}
-
-/// Vectors end in what comes after and is written later. Of edges whose shadow is straight whatever the ground nothing is
-/// asked: as if they were below it.
-void edges(const KernelFans& all) {
-    const D d;
-    for (std::size_t k = 0; k < all.count; ++k) {
-        const KernelFan& fan = all.fans[k];
-        for (std::size_t i = 0; i < fan.edges; i += hn::Lanes(d)) {
-            planeOf(all, fan, fan.edge + i);
-            ask(all, fan, silhouetteAt(all, fan.edge + i), fan.query + i);
+/// Nothing is asked of edges whose shadow is straight whatever the ground, and of lanes without a part.
+void rays(const KernelFans& all) {
+    for (std::size_t i = 0; i < all.rayCount; ++i) all.rays[i].z.fill(-HUGE_VAL);
+    eachLanes(all, [](const Lanes& of) {
+        const M isPart = hn::FirstN(D(), of.fan.parts - of.lane);
+        V3 a = of.silhouette(0);
+        for (std::size_t e = 0; e < of.fan.edges; ++e) {
+            const V3 b = of.silhouette(e + 1);
+            ask(of, a, isPart, of.ray(e));
+            ask(of, middleOf(a, b), hn::AndNot(of.isAlong(of.edge(e)), isPart), of.ray(of.fan.edges + e));
+            a = b;
         }
-        for (std::size_t i = 0; i < fan.edges; i += hn::Lanes(d)) {
-            V3 middle = middleOf(all, fan.edge + i);
-            const M isAlong = hn::Gt(hn::LoadU(d, all.along + fan.edge + i), hn::Zero(d));
-            middle.z = hn::IfThenElse(isAlong, set(-HUGE_VAL), middle.z);
-            ask(all, fan, middle, fan.query + fan.edges + i);
-        }
-    }
+    });
 }
 
 /// Where rays end, about the anchor.
-HWY_INLINE V3 endOf(const KernelFans& all, const KernelFan& fan, const V3& start, std::size_t query) {
-    const D d;
-    const V descent = hn::LoadU(d, all.rays.descent + query), ground = hn::LoadU(d, all.rays.height + query);
+HWY_INLINE V3 endOf(const Lanes& of, const V3& start, const KernelRay& ray) {
+    const V descent = of.get(ray.descent);
     V x, y;
-    wayOf(all, fan, start, x, y);
-    const M isBelow = hn::Eq(descent, hn::Zero(d));
+    wayOf(of, start, x, y);
+    const M isBelow = hn::Eq(descent, hn::Zero(D()));
     return {hn::IfThenElse(isBelow, start.x, hn::Add(start.x, hn::Mul(descent, x))),
             hn::IfThenElse(isBelow, start.y, hn::Add(start.y, hn::Mul(descent, y))),
-            hn::IfThenElse(isBelow, hn::Sub(ground, set(fan.z)), hn::Sub(start.z, descent))};
+            hn::IfThenElse(isBelow, hn::Sub(of.get(ray.height), of.get(of.part.z)), hn::Sub(start.z, descent))};
 }
 
-HWY_INLINE void landOf(const KernelFans& all, KernelFan& fan) {
-    const D d;
+HWY_INLINE void landOf(const Lanes& of) {
+    const V z = of.get(of.part.z), margin = of.get(of.part.margin);
     M isOut = none(), isUnknown = isOut;
-    for (std::size_t i = 0; i < fan.edges; i += hn::Lanes(d)) {
-        const M isOne = hn::FirstN(d, fan.edges - i);
-        const V3 start = silhouetteAt(all, fan.edge + i), end = endOf(all, fan, start, fan.query + i);
-        hn::StoreU(end.x, d, all.cx + fan.edge + i);
-        hn::StoreU(end.y, d, all.cy + fan.edge + i);
-        hn::StoreU(end.z, d, all.cz + fan.edge + i);
-        const V top = hn::Add(hn::LoadU(d, all.rays.height + fan.query + i), set(fan.margin));
-        isOut = hn::Or(isOut, hn::AndNot(hn::Le(hn::Add(set(fan.z), start.z), top), isOne));
-        isUnknown = hn::Or(isUnknown, hn::And(hn::IsNaN(end.x), isOne));
+    V3 a = of.silhouette(0);
+    for (std::size_t e = 0; e < of.fan.edges; ++e) {
+        const V3 b = of.silhouette(e + 1);
+        KernelEdge& to = of.edge(e);
+        const V3 end = endOf(of, a, of.ray(e)), middle = endOf(of, middleOf(a, b), of.ray(of.fan.edges + e));
+        of.put(end.x, to.endX);
+        of.put(end.y, to.endY);
+        of.put(end.z, to.endZ);
+        of.put(middle.x, to.middleX);
+        of.put(middle.y, to.middleY);
+        isOut = hn::Or(isOut, hn::Not(hn::Le(hn::Add(z, a.z), hn::Add(of.get(of.ray(e).height), margin))));
+        isUnknown = hn::Or(isUnknown, hn::Or(hn::IsNaN(end.x), hn::AndNot(of.isAlong(to), hn::IsNaN(middle.x))));
+        a = b;
     }
-    for (std::size_t i = 0; i < fan.edges; i += hn::Lanes(d)) {
-        const V3 end = endOf(all, fan, middleOf(all, fan.edge + i), fan.query + fan.edges + i);
-        hn::StoreU(end.x, d, all.mx + fan.edge + i);
-        hn::StoreU(end.y, d, all.my + fan.edge + i);
-        const M asks = hn::Eq(hn::LoadU(d, all.along + fan.edge + i), hn::Zero(d));
-        isUnknown = hn::Or(isUnknown, hn::And(hn::And(hn::IsNaN(end.x), asks), hn::FirstN(d, fan.edges - i)));
-    }
-    fan.isOut = !hn::AllFalse(d, isOut);
-    fan.isKnown = hn::AllFalse(d, isUnknown);
+    of.put(hn::IfThenElseZero(isOut, set(1.0)), of.part.isOut);
+    of.put(hn::IfThenElseZero(isUnknown, set(1.0)), of.part.isUnknown);
 }
 
-void land(const KernelFans& all) {
-    for (std::size_t i = 0; i < all.count; ++i) landOf(all, all.fans[i]);
-}
+void land(const KernelFans& all) { eachLanes(all, landOf); }
+
+struct V2 {
+    V x, y;
+};
 
 /// Twice the area of a triangle in plan.
-HWY_INLINE V areaOf(V ax, V ay, V bx, V by, V cx, V cy) {
-    return hn::Sub(hn::Mul(hn::Sub(bx, ax), hn::Sub(cy, ay)), hn::Mul(hn::Sub(by, ay), hn::Sub(cx, ax)));
+HWY_INLINE V areaOf(const V2& a, const V2& b, const V2& c) {
+    return hn::Sub(hn::Mul(hn::Sub(b.x, a.x), hn::Sub(c.y, a.y)), hn::Mul(hn::Sub(b.y, a.y), hn::Sub(c.x, a.x)));
 }
 
-/// Adds up in order, whatever the lanes.
-template <class Take>
-HWY_INLINE void each(V values, std::size_t count, const Take& take) {
-    HWY_ALIGN double one[HWY_MAX_BYTES / 8];
-    hn::Store(values, D(), one);
-    for (std::size_t i = 0; i < hn::Lanes(D()) && i < count; ++i) take(one[i]);
+HWY_INLINE V2 endAt(const Lanes& of, std::size_t e) {
+    const KernelEdge& at = of.edge(e < of.fan.edges ? e : 0);
+    return {of.get(at.endX), of.get(at.endY)};
 }
 
-HWY_INLINE void measureOf(const KernelFans& all, KernelFan& fan) {
-    const D d;
-    const std::size_t n = fan.edges;
-    const double *sx = all.sx + fan.edge, *sy = all.sy + fan.edge;
-    double *cx = all.cx + fan.edge, *cy = all.cy + fan.edge;
-    cx[n] = cx[0];
-    cy[n] = cy[0];
-    fan.lenses = fan.area = fan.under = fan.most = 0.0;
-    fan.least = HUGE_VAL;
-    const auto load = [&](const double* from) { return hn::LoadU(d, from); };
-    for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-        const V lens = areaOf(load(cx + i), load(cy + i), load(cx + i + 1), load(cy + i + 1),
-                              load(all.mx + fan.edge + i), load(all.my + fan.edge + i));
-        const M asks = hn::Eq(load(all.along + fan.edge + i), hn::Zero(d));
-        each(hn::IfThenElseZero(asks, hn::Abs(lens)), n - i, [&](double one) { fan.lenses += 4.0 / 3.0 * one; });
+/// The area between the straight line from a to b and a parabola through the edge's middle.
+HWY_INLINE V lensOf(const Lanes& of, const KernelEdge& edge, const V2& a, const V2& b) {
+    const V lens = hn::Abs(areaOf(a, b, {of.get(edge.middleX), of.get(edge.middleY)}));
+    return hn::IfThenZeroElse(of.isAlong(edge), hn::Mul(set(4.0 / 3.0), lens));
+}
+
+HWY_INLINE void measureOf(const Lanes& of) {
+    const V2 first = endAt(of, 0), above{of.get(of.edge(0).x), of.get(of.edge(0).y)};
+    V lenses = hn::Zero(D()), area = lenses, under = lenses, least = set(HUGE_VAL), most = lenses;
+    V2 a = first, over = above;
+    for (std::size_t e = 0; e < of.fan.edges; ++e) {
+        const V2 b = endAt(of, e + 1);
+        const V3 corner = of.silhouette(e + 1);
+        const V2 next{corner.x, corner.y};
+        lenses = hn::Add(lenses, lensOf(of, of.edge(e), a, b));
+        if (e > 0 && e + 1 < of.fan.edges) {
+            const V one = areaOf(first, a, b);
+            area = hn::Add(area, one);
+            least = hn::IfThenElse(hn::Lt(one, least), one, least);
+            most = hn::IfThenElse(hn::Gt(one, most), one, most);
+            under = hn::Add(under, areaOf(above, over, next));
+        }
+        over = next;
+        a = b;
     }
-    for (std::size_t i = 1; i + 1 < n; i += hn::Lanes(d)) {
-        each(areaOf(set(cx[0]), set(cy[0]), load(cx + i), load(cy + i), load(cx + i + 1), load(cy + i + 1)), n - 1 - i,
-             [&](double one) {
-                 fan.area += one;
-                 fan.least = one < fan.least ? one : fan.least;
-                 fan.most = one > fan.most ? one : fan.most;
-             });
-        each(areaOf(set(sx[0]), set(sy[0]), load(sx + i), load(sy + i), load(sx + i + 1), load(sy + i + 1)), n - 1 - i,
-             [&](double one) { fan.under += one; });
+    of.put(lenses, of.part.lenses);
+    of.put(area, of.part.area);
+    of.put(under, of.part.under);
+    of.put(least, of.part.least);
+    of.put(most, of.part.most);
+}
+
+void measure(const KernelFans& all) { eachLanes(all, measureOf); }
+
+/// The middles of triangles, of those that a part has not, too.
+HWY_INLINE void placesOf(const Lanes& of) {
+    const KernelFans& all = of.all;
+    const V third = set(1.0 / 3.0), u = of.get(of.part.u), v = of.get(of.part.v);
+    const V2 a = endAt(of, 0);
+    V2 b = endAt(of, 1);
+    for (std::size_t t = 0; t + 2 < of.fan.edges; ++t) {
+        const V2 c = endAt(of, t + 2);
+        KernelPlace& to = of.place(t);
+        const V x = hn::Mul(hn::Add(hn::Add(a.x, b.x), c.x), third),
+                y = hn::Mul(hn::Add(hn::Add(a.y, b.y), c.y), third);
+        of.put(x, to.x);
+        of.put(y, to.y);
+        of.put(hn::Add(u, hn::Mul(x, set(all.scaleX))), to.u);
+        of.put(hn::Add(v, hn::Mul(y, set(all.scaleY))), to.v);
+        b = c;
     }
 }
 
-void measure(const KernelFans& all) {
-    for (std::size_t i = 0; i < all.count; ++i) measureOf(all, all.fans[i]);
-}
+void places(const KernelFans& all) { eachLanes(all, placesOf); }
 
-/// The middles of triangles. Vectors end in what comes after and is written later.
-HWY_INLINE void placesOf(const KernelFans& all, const KernelFan& fan) {
-    const D d;
-    const std::size_t triangles = fan.corners - 2;
-    const V ax = set(all.cx[fan.edge]), ay = set(all.cy[fan.edge]), third = set(1.0 / 3.0);
-    for (std::size_t t = 0; t < triangles; t += hn::Lanes(d)) {
-        const std::size_t at = fan.place + t, b = fan.edge + t + 1, c = b + 1;
-        const V px = hn::Mul(hn::Add(hn::Add(ax, hn::LoadU(d, all.cx + b)), hn::LoadU(d, all.cx + c)), third);
-        const V py = hn::Mul(hn::Add(hn::Add(ay, hn::LoadU(d, all.cy + b)), hn::LoadU(d, all.cy + c)), third);
-        hn::StoreU(px, d, all.px + at);
-        hn::StoreU(py, d, all.py + at);
-        hn::StoreU(hn::Add(set(fan.u), hn::Mul(px, set(all.scaleX))), d, all.pu + at);
-        hn::StoreU(hn::Add(set(fan.v), hn::Mul(py, set(all.scaleY))), d, all.pv + at);
-    }
-}
-
-void places(const KernelFans& all) {
-    for (std::size_t i = 0; i < all.count; ++i) placesOf(all, all.fans[i]);
-}
-
-/// The least of how far inside of planes points are.
-HWY_INLINE V leastInside(V least, const double* x, const double* y, const double* z, const double* w, std::size_t count,
-                         const V3& p) {
-    for (std::size_t i = 0; i < count; ++i)
-        least = hn::Min(least, hn::Add(hn::Add(hn::Mul(set(x[i]), p.x), hn::Mul(set(y[i]), p.y)),
-                                       hn::Add(hn::Mul(set(z[i]), p.z), set(w[i]))));
+/// How far a point is inside of the plane that has it most outside, 0 at most.
+HWY_INLINE V inside(const Lanes& of, const V3& p) {
+    V least = hn::Zero(D());
+    const auto ask = [&](const KernelRow& x, const KernelRow& y, const KernelRow& z, const KernelRow& w) {
+        least = hn::Min(least, hn::Add(hn::Add(hn::Mul(of.get(x), p.x), hn::Mul(of.get(y), p.y)),
+                                       hn::Add(hn::Mul(of.get(z), p.z), of.get(w))));
+    };
+    const KernelEdge* edge = &of.edge(0);
+    for (std::size_t e = 0; e < of.fan.edges; ++e, ++edge) ask(edge->planeX, edge->planeY, edge->planeZ, edge->planeW);
+    const KernelFace* face = of.all.faces + of.fan.face;
+    for (std::size_t f = 0; f < of.fan.faces; ++f, ++face) ask(face->x, face->y, face->z, face->w);
     return least;
 }
 
-/// Summed in the triangles' order, whatever the lanes.
-HWY_INLINE double litOf(const KernelFans& all, const KernelFan& fan) {
-    const D d;
-    const std::size_t triangles = fan.corners - 2, e = fan.edge, f = fan.face;
-    const double *cx = all.cx + fan.edge, *cy = all.cy + fan.edge;
-    double sum = 0.0;
-    HWY_ALIGN double lit[HWY_MAX_BYTES / 8];
-    for (std::size_t t = 0; t < triangles; t += hn::Lanes(d)) {
-        const std::size_t at = fan.place + t;
-        const V3 p{hn::LoadU(d, all.px + at), hn::LoadU(d, all.py + at),
-                   hn::Sub(hn::LoadU(d, all.pz + at), set(fan.z))};
-        V least = leastInside(hn::Zero(d), all.ex + e, all.ey + e, all.ez + e, all.ew + e, fan.edges, p);
-        least = leastInside(least, all.fx + f, all.fy + f, all.fz + f, all.fw + f, fan.faces, p);
-        const M isLit = hn::Or(hn::Lt(least, hn::Zero(d)), hn::IsNaN(p.z));
-        if (hn::AllFalse(d, isLit)) continue;
-        hn::Store(hn::IfThenElseZero(isLit, set(1.0)), d, lit);
-        for (std::size_t i = 0; i < hn::Lanes(d) && t + i < triangles; ++i) {
-            const std::size_t b = t + i + 1, c = t + i + 2;
-            sum += lit[i] * ((cx[b] - cx[0]) * (cy[c] - cy[0]) - (cy[b] - cy[0]) * (cx[c] - cx[0]));
-        }
+HWY_INLINE void judgeOf(const Lanes& of) {
+    const V corners = of.get(of.part.corners);
+    const V2 a = endAt(of, 0);
+    V2 b = endAt(of, 1);
+    V sum = hn::Zero(D());
+    for (std::size_t t = 0; t + 2 < of.fan.edges; ++t) {
+        const V2 c = endAt(of, t + 2);
+        const KernelPlace& at = of.place(t);
+        const V3 p{of.get(at.x), of.get(at.y), hn::Sub(of.get(at.z), of.get(of.part.z))};
+        const M isLit = hn::Or(hn::Lt(inside(of, p), hn::Zero(D())), hn::IsNaN(p.z));
+        const M isThere = hn::Lt(set(double(t + 2)), corners);
+        sum = hn::Add(sum, hn::IfThenElseZero(hn::And(isLit, isThere), areaOf(a, b, c)));
+        b = c;
     }
-    return sum;
+    of.put(sum, of.part.lit);
 }
 
-void judge(const KernelFans& all) {
-    for (std::size_t i = 0; i < all.count; ++i) all.fans[i].lit = litOf(all, all.fans[i]);
-}
+void judge(const KernelFans& all) { eachLanes(all, judgeOf); }
 
 void sides(const KernelPoints& points, const double* planes, std::size_t count) {
     const D d;
@@ -290,7 +398,19 @@ void sides(const KernelPoints& points, const double* planes, std::size_t count) 
 }
 
 ShadowKernel kernel() {
-    return {hwy::TargetName(HWY_TARGET), cast, heights, face, edges, land, measure, places, judge, sides};
+    return {hwy::TargetName(HWY_TARGET),
+            cast,
+            heights,
+            pack,
+            face,
+            choose,
+            edges,
+            rays,
+            land,
+            measure,
+            places,
+            judge,
+            sides};
 }
 
 } // namespace HWY_NAMESPACE

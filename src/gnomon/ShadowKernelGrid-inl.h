@@ -9,17 +9,36 @@ namespace gnomon {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
-using D = hn::ScalableTag<double>;
+using D = hn::CappedTag<double, kernelLanes>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 using Half = hn::Rebind<float, D>;
 using Bits = hn::Rebind<std::uint64_t, D>;
 
-constexpr int mostSteps = 16;   // of a ray from triangle to triangle: then it is left to others
-constexpr std::size_t wide = 2; // vectors at once, so that one computes while another waits for memory
+constexpr int mostSteps = 16; // of a ray from triangle to triangle: then it is left to others
 
 HWY_INLINE V set(double value) { return hn::Set(D(), value); }
+HWY_INLINE V load(const KernelRow& row, std::size_t lane) { return hn::LoadU(D(), row.data() + lane); }
+HWY_INLINE void store(V value, KernelRow& row, std::size_t lane) { hn::StoreU(value, D(), row.data() + lane); }
 HWY_INLINE M none() { return hn::Lt(hn::Zero(D()), hn::Zero(D())); } // no lane
+
+template <class Number>
+HWY_INLINE V at(const double* from, const Number* order) {
+#if HWY_TARGET == HWY_AVX2
+    return V{_mm256_set_pd(from[order[3]], from[order[2]], from[order[1]], from[order[0]])};
+#else
+    HWY_ALIGN double one[HWY_MAX_BYTES / 8];
+    for (std::size_t i = 0; i < hn::Lanes(D()); ++i) one[i] = from[order[i]];
+    return hn::Load(D(), one);
+#endif
+}
+
+/// A bit a lane.
+HWY_INLINE std::size_t bitsOf(M mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(D(), mask, bits);
+    return bits[0];
+}
 
 /// Two posts side by side, of each lane.
 struct Pair {
@@ -56,18 +75,24 @@ struct Plane {
     V height, alongU, alongV; ///< at the place; slopes.
 };
 
+/// @tparam plain  all cells are rising, none is a hole.
+template <bool plain>
 class Grid {
 public:
     explicit Grid(const GridView& view)
-        : _view(view), _mostU(set(view.columns - 2)), _mostV(set(view.rows - 2)), _stride(set(view.columns)) {}
+        : _view(view),
+          _mostU(set(view.columns - 2)),
+          _mostV(set(view.rows - 2)),
+          _endU(set(view.columns - 1)),
+          _endV(set(view.rows - 1)),
+          _stride(set(view.columns)) {}
 
     /// Of the nearest cell, for a place that is beside the grid.
     HWY_INLINE Cell cell(V u, V v) const {
-        const V zero = hn::Zero(D());
-        const V i = hn::Min(hn::Max(hn::Floor(u), zero), _mostU), j = hn::Min(hn::Max(hn::Floor(v), zero), _mostV);
+        const V i = within(hn::Floor(u), _mostU), j = within(hn::Floor(v), _mostV);
         Cell cell{hn::Add(hn::Mul(j, _stride), i), hn::Sub(u, i), hn::Sub(v, j), {}};
         cell.right = hn::Ge(cell.u, cell.v);
-        if (_view.cuts) {
+        if (!plain && _view.cuts) {
             const M falling = cutIs(cell.number, j, CellCut::falling);
             cell.right =
                 hn::Or(hn::AndNot(falling, cell.right), hn::And(falling, hn::Le(hn::Add(cell.u, cell.v), set(1.0))));
@@ -82,7 +107,7 @@ public:
         const V a = below.left, b = below.right, d = above.left, c = above.right;
         const V ba = hn::Sub(b, a), cd = hn::Sub(c, d), cb = hn::Sub(c, b), da = hn::Sub(d, a);
         Plane plane{a, hn::IfThenElse(cell.right, ba, cd), hn::IfThenElse(cell.right, cb, da)};
-        if (_view.cuts) {
+        if (!plain && _view.cuts) {
             const V j = hn::Floor(hn::Div(cell.number, _stride));
             const M falling = cutIs(cell.number, j, CellCut::falling);
             plane.alongV = hn::IfThenElse(falling, hn::IfThenElse(cell.right, da, cb), plane.alongV);
@@ -90,19 +115,22 @@ public:
             plane.height = hn::IfThenElse(cutIs(cell.number, j, CellCut::hole), set(std::nan("")), plane.height);
         }
         // A corner without a height makes a hole of all of the cell.
-        const V none = hn::Mul(hn::Add(hn::Add(ba, cd), hn::Add(cb, da)), hn::Zero(D()));
-        plane.height =
-            hn::Add(hn::Add(plane.height, none), hn::Add(hn::Mul(cell.u, plane.alongU), hn::Mul(cell.v, plane.alongV)));
+        const V none = plain ? hn::Zero(D()) : hn::Mul(hn::Add(hn::Add(ba, cd), hn::Add(cb, da)), hn::Zero(D()));
+        const V rise = hn::Add(hn::Mul(cell.u, plane.alongU), hn::Mul(cell.v, plane.alongV));
+        plane.height = hn::Add(plain ? plane.height : hn::Add(plane.height, none), rise);
         return plane;
     }
 
     HWY_INLINE M holds(V u, V v) const {
-        const V zero = hn::Zero(D()), one = set(1.0);
-        return hn::And(hn::And(hn::Ge(u, zero), hn::Ge(v, zero)),
-                       hn::And(hn::Le(u, hn::Add(_mostU, one)), hn::Le(v, hn::Add(_mostV, one))));
+        const V zero = hn::Zero(D());
+        return hn::And(hn::And(hn::Ge(u, zero), hn::Ge(v, zero)), hn::And(hn::Le(u, _endU), hn::Le(v, _endV)));
     }
 
 private:
+    /// 0 for what is not a number.
+    HWY_INLINE static V within(V value, V most) {
+        return hn::IfThenElseZero(hn::Gt(value, hn::Zero(D())), hn::Min(value, most));
+    }
     /// A whole number from 0 to 2^52 as an integer.
     HWY_INLINE hn::Vec<Bits> placeOf(V number) const {
         const V magic = set(4503599627370496.0);
@@ -116,106 +144,133 @@ private:
         return hn::Gt(hn::Load(D(), is), hn::Zero(D()));
     }
 
-    const GridView& _view;
-    const V _mostU, _mostV, _stride;
+    const GridView _view;
+    const V _mostU, _mostV, _endU, _endV, _stride;
 };
 
-/// Of a ray over a triangle: down to its plane.
-HWY_INLINE V nextDescent(V descent, V gap, const Plane& plane, V du, V dv) {
-    const V slope = hn::Add(hn::Mul(plane.alongU, du), hn::Mul(plane.alongV, dv));
-    return hn::Add(descent, hn::Div(gap, hn::Add(set(1.0), slope)));
+HWY_INLINE M isSame(const Cell& a, const Cell& b) {
+    return hn::AndNot(hn::Xor(a.right, b.right), hn::Eq(a.number, b.number));
 }
 
-/// The first step of all rays, from where they start. @return how many go on: their numbers are in `rays.order`.
-std::size_t startAll(const Grid& grid, const KernelRays& rays) {
+struct Ray {
+    V u, v, z, du, dv;
+};
+
+/// From a place on a ray down, or up, to the plane of the triangle under it.
+struct Step {
+    V descent; ///< of the ray where it meets the plane; NaN where that is beside the grid.
+    M done;    ///< that is in the triangle.
+};
+
+template <bool plain>
+HWY_INLINE Step step(const Grid<plain>& grid, const Ray& ray, const Cell& cell, const Plane& plane, V descent) {
+    const V gap = hn::Sub(hn::Sub(ray.z, descent), plane.height);
+    const V slope = hn::Add(hn::Mul(plane.alongU, ray.du), hn::Mul(plane.alongV, ray.dv));
+    const V next = hn::Add(descent, hn::Div(gap, hn::Add(set(1.0), slope)));
+    const V u = hn::Add(ray.u, hn::Mul(next, ray.du)), v = hn::Add(ray.v, hn::Mul(next, ray.dv));
+    const M done = isSame(cell, grid.cell(u, v));
+    return {hn::IfThenElse(hn::AndNot(grid.holds(u, v), done), set(std::nan("")), next), done};
+}
+
+constexpr std::size_t rayRows = sizeof(KernelRay) / sizeof(KernelRow);
+
+/// The first step of all rays, from where they start. @return how many go on: their numbers are in `order`, as places in the
+/// rays' first rows.
+template <bool plain>
+std::size_t startAll(const Grid<plain>& grid, const KernelFans& all) {
     const D d;
     std::size_t left = 0;
-    HWY_ALIGN double goesOn[HWY_MAX_BYTES / 8];
-    for (std::size_t at = 0; at < rays.count; at += hn::Lanes(d)) {
-        const V u = hn::LoadU(d, rays.u + at), v = hn::LoadU(d, rays.v + at), z = hn::LoadU(d, rays.z + at);
-        const Plane plane = grid.plane(grid.cell(u, v));
-        const V height = hn::IfThenElse(grid.holds(u, v), plane.height, set(std::nan("")));
-        const V gap = hn::Sub(z, height);
-        const M isBelow = hn::Le(gap, hn::Zero(d));
-        const V next = nextDescent(hn::Zero(d), gap, plane, hn::LoadU(d, rays.du + at), hn::LoadU(d, rays.dv + at));
-        const V descent = hn::IfThenElse(isBelow, hn::Zero(d), next);
-        hn::StoreU(descent, d, rays.descent + at);
-        hn::StoreU(height, d, rays.height + at);
-        hn::Store(hn::IfThenElseZero(hn::Gt(descent, hn::Zero(d)), set(1.0)), d, goesOn);
+    Ray ray{{}, {}, {}, set(all.wayX * all.scaleX), set(all.wayY * all.scaleY)};
+    for (std::size_t at = 0; at < all.rayCount * kernelLanes; at += hn::Lanes(d)) {
+        KernelRay& block = all.rays[at / kernelLanes];
+        const std::size_t lane = at % kernelLanes;
+        ray.z = load(block.z, lane);
+        store(hn::Zero(d), block.descent, lane);
+        if (hn::AllTrue(d, hn::Eq(ray.z, set(-HUGE_VAL)))) continue;
+        ray.u = load(block.u, lane);
+        ray.v = load(block.v, lane);
+        const Cell cell = grid.cell(ray.u, ray.v);
+        const Plane plane = grid.plane(cell);
+        const V height = hn::IfThenElse(grid.holds(ray.u, ray.v), plane.height, set(std::nan("")));
+        store(height, block.height, lane);
+        const M isBelow = hn::Le(ray.z, height);
+        if (hn::AllTrue(d, isBelow)) continue;
+        if (all.lightW != 0.0) ray.du = load(block.du, lane), ray.dv = load(block.dv, lane);
+        const Step first = step(grid, ray, cell, plane, hn::Zero(d));
+        const V descent = hn::IfThenElse(hn::IsNaN(height), height, first.descent);
+        store(hn::IfThenZeroElse(isBelow, descent), block.descent, lane);
+        const M isKnown = hn::Or(isBelow, hn::Or(first.done, hn::IsNaN(height)));
+        const std::size_t goOn = bitsOf(hn::Not(isKnown)), number = (at / kernelLanes) * rayRows * kernelLanes + lane;
         for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
-            rays.order[left] = unsigned(at + i);
-            left += at + i < rays.count && goesOn[i] > 0.0;
+            all.order[left] = unsigned(number + i);
+            left += goOn >> i & 1u;
         }
     }
     return left;
 }
 
-/// A ray on its way down, from triangle to triangle.
-struct Ray {
-    V u, v, z, du, dv, descent, number;
-    M right, done;
-};
-
-/// To where it meets the plane of the triangle that it is over: the last step is the one that stays in its triangle.
-HWY_INLINE void step(Ray& ray, const Grid& grid) {
-    const V u = hn::Add(ray.u, hn::Mul(ray.descent, ray.du)), v = hn::Add(ray.v, hn::Mul(ray.descent, ray.dv));
-    const Cell cell = grid.cell(u, v);
-    const M same = hn::And(hn::Eq(cell.number, ray.number), hn::Not(hn::Xor(cell.right, ray.right)));
-    const V beside = hn::IfThenElse(grid.holds(u, v), ray.descent, set(std::nan("")));
-    ray.descent = hn::IfThenElse(hn::AndNot(ray.done, same), beside, ray.descent);
-    ray.done = hn::Or(ray.done, same);
-    const Plane plane = grid.plane(cell);
-    const V gap = hn::Sub(hn::Sub(ray.z, ray.descent), plane.height);
-    ray.descent = hn::IfThenElse(ray.done, ray.descent, nextDescent(ray.descent, gap, plane, ray.du, ray.dv));
-    ray.number = cell.number;
-    ray.right = cell.right;
-}
-
-/// Those that go on, side by side.
-HWY_INLINE void gather(const KernelRays& rays, std::size_t left, std::size_t room) {
-    const double* const from[] = {rays.u, rays.v, rays.z, rays.du, rays.dv, rays.descent};
-    for (std::size_t k = 0; k < 6; ++k)
-        for (std::size_t i = 0; i < left; ++i) rays.work[k * room + i] = from[k][rays.order[i]];
-}
-
-void cast(const GridView& view, const KernelRays& rays) {
+/// A step of each of the rays that are left. @return how many go on.
+template <bool plain>
+std::size_t stepAll(const Grid<plain>& grid, const KernelFans& all, std::size_t left) {
     const D d;
-    const Grid grid(view);
-    const std::size_t lanes = hn::Lanes(d), left = startAll(grid, rays), room = rays.count + kernelPad;
-    gather(rays, left, room);
-    for (std::size_t at = 0; at < left; at += wide * lanes) {
-        Ray group[wide];
-        for (std::size_t k = 0; k < wide; ++k) {
-            const double* from = rays.work + at + k * lanes;
-            group[k] = {hn::LoadU(d, from),
-                        hn::LoadU(d, from + room),
-                        hn::LoadU(d, from + 2 * room),
-                        hn::LoadU(d, from + 3 * room),
-                        hn::LoadU(d, from + 4 * room),
-                        hn::LoadU(d, from + 5 * room),
-                        set(-1.0),
-                        none(),
-                        none()};
+    std::size_t on = 0;
+    HWY_ALIGN double descents[HWY_MAX_BYTES / 8];
+    KernelRay& rays = *all.rays;
+    Ray ray{{}, {}, {}, set(all.wayX * all.scaleX), set(all.wayY * all.scaleY)};
+    for (std::size_t first = 0; first < left; first += hn::Lanes(d)) {
+        const unsigned* order = all.order + first;
+        ray.u = at(rays.u.data(), order);
+        ray.v = at(rays.v.data(), order);
+        ray.z = at(rays.z.data(), order);
+        if (all.lightW != 0.0) ray.du = at(rays.du.data(), order), ray.dv = at(rays.dv.data(), order);
+        const V descent = at(rays.descent.data(), order);
+        const V u = hn::Add(ray.u, hn::Mul(descent, ray.du)), v = hn::Add(ray.v, hn::Mul(descent, ray.dv));
+        const Cell cell = grid.cell(u, v);
+        const Step one = step(grid, ray, cell, grid.plane(cell), descent);
+        hn::Store(one.descent, d, descents);
+        const std::size_t goOn = bitsOf(hn::Not(hn::Or(one.done, hn::IsNaN(one.descent))));
+        const std::size_t end = left - first < hn::Lanes(d) ? left - first : hn::Lanes(d);
+        for (std::size_t i = 0; i < end; ++i) {
+            const unsigned number = order[i];
+            rays.descent.data()[number] = descents[i];
+            all.order[on] = number;
+            on += goOn >> i & 1u;
         }
-        for (int i = 0; i < mostSteps; ++i) {
-            for (std::size_t k = 0; k < wide; ++k) step(group[k], grid);
-            if (hn::AllTrue(d, hn::And(group[0].done, group[1].done))) break;
-        }
-        for (std::size_t k = 0; k < wide; ++k)
-            hn::StoreU(hn::IfThenElse(group[k].done, group[k].descent, set(std::nan(""))), d,
-                       rays.work + 5 * room + at + k * lanes);
     }
-    for (std::size_t i = 0; i < left; ++i) rays.descent[rays.order[i]] = rays.work[5 * room + i];
+    return on;
 }
 
-void heights(const GridView& view, const double* u, const double* v, double* z, std::size_t count) {
-    const D d;
-    const Grid grid(view);
-    for (std::size_t at = 0; at < count; at += hn::Lanes(d)) {
-        const V atU = hn::LoadU(d, u + at), atV = hn::LoadU(d, v + at);
-        const Plane plane = grid.plane(grid.cell(atU, atV));
-        hn::StoreU(hn::IfThenElse(grid.holds(atU, atV), plane.height, set(std::nan(""))), d, z + at);
-    }
+template <bool plain>
+HWY_INLINE void castOn(const Grid<plain>& grid, const KernelFans& all) {
+    std::size_t left = startAll(grid, all);
+    for (int i = 0; i < mostSteps && left > 0; ++i) left = stepAll(grid, all, left);
+    for (std::size_t i = 0; i < left; ++i) all.rays->descent.data()[all.order[i]] = std::nan("");
+}
+
+HWY_INLINE bool isPlain(const GridView& view) { return !view.cuts && view.isWhole; }
+
+void cast(const GridView& view, const KernelFans& all) {
+    if (isPlain(view))
+        castOn(Grid<true>(view), all);
+    else
+        castOn(Grid<false>(view), all);
+}
+
+template <bool plain>
+HWY_INLINE void heightsOn(const Grid<plain>& grid, KernelPlace* places, std::size_t count, std::size_t lanes) {
+    for (KernelPlace* place = places; place < places + count; ++place)
+        for (std::size_t lane = 0; lane < lanes; lane += hn::Lanes(D())) {
+            const V u = load(place->u, lane), v = load(place->v, lane);
+            const Plane plane = grid.plane(grid.cell(u, v));
+            store(hn::IfThenElse(grid.holds(u, v), plane.height, set(std::nan(""))), place->z, lane);
+        }
+}
+
+void heights(const GridView& view, KernelPlace* places, std::size_t count, std::size_t lanes) {
+    if (isPlain(view))
+        heightsOn(Grid<true>(view), places, count, lanes);
+    else
+        heightsOn(Grid<false>(view), places, count, lanes);
 }
 
 } // namespace HWY_NAMESPACE

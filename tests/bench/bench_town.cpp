@@ -156,17 +156,25 @@ void heightsAlone(benchmark::State& state) {
     constexpr std::size_t count = 4096, together = 16;
     std::mt19937 random(3);
     std::uniform_real_distribution<double> anywhere(30.0, posts - 30.0), near(-3.0, 3.0);
-    std::vector<double> u(count + gnomon::kernelPad), v(u.size()), z(u.size());
+    std::vector<gnomon::KernelPlace> places(count / gnomon::kernelLanes);
+    const auto at = [&](std::size_t i) { return std::pair(i / gnomon::kernelLanes, i % gnomon::kernelLanes); };
     for (std::size_t i = 0; i < count; i += together) {
         const double x = anywhere(random), y = anywhere(random);
-        for (std::size_t k = i; k < i + together; ++k) u[k] = x + near(random), v[k] = y + near(random);
+        for (std::size_t k = i; k < i + together; ++k) {
+            const auto [block, lane] = at(k);
+            places[block].u[lane] = x + near(random);
+            places[block].v[lane] = y + near(random);
+        }
     }
     const gnomon::HeightField& field = ground().field();
-    const gnomon::GridView view{field.heights(), field.cuts(), field.columns(), field.rows()};
-    for (auto _ : state) gnomon::shadowKernel().heights(view, u.data(), v.data(), z.data(), count);
-    for (std::size_t i = 0; i < count; ++i)
-        if (!(std::abs(z[i] - *field.height(u[i] * pitch, v[i] * pitch)) < 1e-9))
+    const gnomon::GridView view{field.heights(), field.cuts(), field.columns(), field.rows(), true};
+    for (auto _ : state) gnomon::shadowKernel().heights(view, places.data(), places.size(), gnomon::kernelLanes);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [block, lane] = at(i);
+        const double u = places[block].u[lane] * pitch, v = places[block].v[lane] * pitch;
+        if (!(std::abs(places[block].z[lane] - *field.height(u, v)) < 1e-9))
             return state.SkipWithError("the heights are wrong.");
+    }
     state.counters["heights/s"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
 }
 
