@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // cs4470_fakeshadow: its shadow against rays, its sketch's overhead light, its double darkening.
 #include "ExampleProgram.h"
+#include "Rays.h"
 
 #include <cmath>
 

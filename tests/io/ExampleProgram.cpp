@@ -91,14 +91,6 @@ Mask maskOf(const osg::Image& image, const std::function<bool(const osg::Vec3d&)
     return mask;
 }
 
-int count(const Mask& mask) { return static_cast<int>(std::count(mask.begin(), mask.end(), true)); }
-
-int beyond(const Mask& a, const Mask& b) {
-    int result = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) result += a[i] && !b[i];
-    return result;
-}
-
 int misplaced(const Mask& a, const Mask& b, int width, int margin) {
     const int height = static_cast<int>(a.size()) / width;
     const auto at = [&](int x, int y) {
@@ -126,16 +118,6 @@ Mask Sights::where(const std::function<bool(const osg::Vec3d&, const osg::Vec3d&
             mask.push_back(holds(from, to - from));
         }
     return mask;
-}
-
-double meetBox(const osg::Vec3d& from, const osg::Vec3d& way, const osg::Vec3d& low, const osg::Vec3d& high) {
-    double enter = 0.0, leave = INFINITY;
-    for (int i = 0; i < 3; ++i) {
-        const double one = (low[i] - from[i]) / way[i], other = (high[i] - from[i]) / way[i];
-        enter = std::max(enter, std::min(one, other));
-        leave = std::min(leave, std::max(one, other));
-    }
-    return enter <= leave ? enter : INFINITY;
 }
 
 } // namespace gnomon::testing

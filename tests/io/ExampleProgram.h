@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "Desktop.h"
+#include "Mask.h"
 #include "Program.h"
 
 #include <gtest/gtest.h>
@@ -49,13 +50,9 @@ osg::Vec3d colorAt(const osg::Image& image, int x, int y);
 /// The largest difference in a channel.
 double apart(const osg::Vec3d& a, const osg::Vec3d& b);
 
-/// Pixels of a picture, row by row from the lower left.
-using Mask = std::vector<bool>;
+/// Masks are from the lower left.
 Mask differing(const osg::Image& a, const osg::Image& b);
 Mask maskOf(const osg::Image& image, const std::function<bool(const osg::Vec3d& color)>& holds);
-int count(const Mask& mask);
-/// Pixels of `a` that are not in `b`.
-int beyond(const Mask& a, const Mask& b);
 /// Pixels where the masks differ, but for those that have a neighbour at most `margin` pixels away where `b` is another.
 int misplaced(const Mask& a, const Mask& b, int width, int margin = 1);
 
@@ -67,8 +64,5 @@ struct Sights {
     /// Asks for each pixel's line, by a point on it and its way.
     Mask where(const std::function<bool(const osg::Vec3d& from, const osg::Vec3d& way)>& holds) const;
 };
-
-/// How far along from + t · way a box is met, in the box's own frame; infinite if not.
-double meetBox(const osg::Vec3d& from, const osg::Vec3d& way, const osg::Vec3d& low, const osg::Vec3d& high);
 
 } // namespace gnomon::testing

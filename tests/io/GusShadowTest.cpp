@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gus_shadow: the shadow on a plane from three points against rays; three points on a line.
 #include "ExampleProgram.h"
+#include "Rays.h"
 
 #include <osg/BoundingBox>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // lab8: its two shadows against rays, its questions, its window.
 #include "ExampleProgram.h"
+#include "Rays.h"
 
 #include <cmath>
 
@@ -15,15 +16,9 @@ protected:
 
 // The handout's scene, y up: a sphere and a cube on y = 0, seen through ortho(-1, 1, -1, 1, -1, 1).
 
-double meetSphere(const osg::Vec3d& from, const osg::Vec3d& way) {
-    const osg::Vec3d away = from - osg::Vec3d(-0.5, 0.25, 0.0);
-    const double a = way * way, b = away * way, c = away * away - 0.25, root = b * b - a * c;
-    const double t = (-b - std::sqrt(root)) / a;
-    return t > 0.0 ? t : INFINITY;
-}
-
 double meetThings(const osg::Vec3d& from, const osg::Vec3d& way) {
-    return std::min(meetSphere(from, way), meetBox(from, way, {0.25, 0.0, -0.25}, {0.75, 0.5, 0.25}));
+    const double cube = meetBox(from, way, {0.25, 0.0, -0.25}, {0.75, 0.5, 0.25});
+    return std::min(meetSphere(from, way, {-0.5, 0.25, 0.0}, 0.5), cube);
 }
 
 /// Where rays from the ground meet the sphere or the cube before the light.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // gnomonviewer as a user has it before him: a window on an X server, keys, and what is then to be seen.
 #include "Desktop.h"
+#include "Mask.h"
 #include "Program.h"
+#include "Rays.h"
 
 #include <gtest/gtest.h>
 
@@ -15,23 +17,13 @@
 namespace {
 
 using namespace gnomon::testing;
-using Pixels = std::vector<bool>;
 
 const osg::Vec3d eye(-1.0, -3.6, 2.2), center(-0.15, 0.1, 0.1), lamp(2.0, -1.5, 2.5);
 constexpr int width = 480, height = 360;
 
-Pixels changed(const Screenshot& a, const Screenshot& b) {
-    Pixels result(a.pixels.size(), true);
+Mask changed(const Screenshot& a, const Screenshot& b) {
+    Mask result(a.pixels.size(), true);
     for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i) result[i] = a.pixels[i] != b.pixels[i];
-    return result;
-}
-
-int count(const Pixels& pixels) { return int(std::count(pixels.begin(), pixels.end(), true)); }
-
-/// Pixels of `a` that are not in `b`.
-int beyond(const Pixels& a, const Pixels& b) {
-    int result = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) result += a[i] && !b[i];
     return result;
 }
 
@@ -44,23 +36,10 @@ bool hasText(const Screenshot& p) { return isGrey(p.at(7, p.height - 7)) && p.at
 
 // The scene of data/lab8.osgt, by rays: a white ground of side 4, a sphere and a cube upon it.
 
-/// How far along from + t · way the sphere is met first; infinite if not.
-double meetSphere(const osg::Vec3d& from, const osg::Vec3d& way) {
-    const osg::Vec3d away = from - osg::Vec3d(-0.5, 0.0, 0.25);
-    const double a = way * way, b = away * way, c = away * away - 0.25, root = b * b - a * c;
-    const double t = (-b - std::sqrt(root)) / a;
-    return t > 0.0 ? t : INFINITY;
-}
-
-double meetCube(const osg::Vec3d& from, const osg::Vec3d& way) {
-    const osg::Vec3d low(0.25, -0.25, 0.0), high(0.75, 0.25, 0.5);
-    double enter = 0.0, leave = INFINITY;
-    for (int i = 0; i < 3; ++i) {
-        const double one = (low[i] - from[i]) / way[i], other = (high[i] - from[i]) / way[i];
-        enter = std::max(enter, std::min(one, other));
-        leave = std::min(leave, std::max(one, other));
-    }
-    return enter <= leave ? enter : INFINITY;
+/// How far along the sphere or the cube is met.
+double meetThings(const osg::Vec3d& from, const osg::Vec3d& way) {
+    const double cube = meetBox(from, way, {0.25, -0.25, 0.0}, {0.75, 0.25, 0.5});
+    return std::min(meetSphere(from, way, {-0.5, 0.0, 0.25}, 0.5), cube);
 }
 
 bool isShadowed(double x, double y, const osg::Vec3d& light) {
@@ -71,15 +50,14 @@ bool isShadowed(double x, double y, const osg::Vec3d& light) {
     const double t = -eye.z() / way.z();
     const osg::Vec3d ground = eye + way * t;
     if (!(t > 0.0) || std::abs(ground.x()) > 2.0 || std::abs(ground.y()) > 2.0) return false;
-    if (std::min(meetSphere(eye, way), meetCube(eye, way)) < t) return false;
-    return std::min(meetSphere(ground, light - ground), meetCube(ground, light - ground)) < 1.0;
+    return meetThings(eye, way) >= t && meetThings(ground, light - ground) < 1.0;
 }
 
 /// Where the sphere's edge meets the ground a sliver of shadow is thinner than the tolerance at edges.
 constexpr int atFeet = 5;
 
-/// Pixels that differ from the rays' answer and have no neighbour of another answer.
-int misplaced(const Pixels& shadow, const osg::Vec3d& light) {
+/// Mask that differ from the rays' answer and have no neighbour of another answer.
+int misplaced(const Mask& shadow, const osg::Vec3d& light) {
     const auto answer = [&](int x, int y) { return isShadowed(x + 0.5, y + 0.5, light); };
     int result = 0;
     for (int y = 2; y < height - 2; ++y)
@@ -160,7 +138,7 @@ protected:
 TEST_F(Viewer, ShowsTheShadowWhereRaysFindItAndNTakesItAway) {
     start();
     const Screenshot none = withoutShadow();
-    const Pixels shadow = changed(first, none);
+    const Mask shadow = changed(first, none);
     EXPECT_GT(count(shadow), 5000);
     EXPECT_LE(misplaced(shadow, lamp), atFeet);
     expectAfter("n", first);
@@ -174,10 +152,10 @@ TEST_F(Viewer, StartsWithoutShadowUnlessAskedForOne) {
     expectAfter("n", first);
 }
 
-TEST_F(Viewer, RelightAndBlendDifferInShadowPixelsOnly) {
+TEST_F(Viewer, RelightAndBlendDifferInShadowMaskOnly) {
     start();
-    const Pixels shadow = changed(first, glimpseWithoutShadow());
-    const Pixels differ = changed(first, pressed("r"));
+    const Mask shadow = changed(first, glimpseWithoutShadow());
+    const Mask differ = changed(first, pressed("r"));
     EXPECT_GT(count(differ), count(shadow) / 2);
     EXPECT_EQ(beyond(differ, shadow), 0);
     withoutShadow(); // the composite stays when the technique changes
@@ -234,7 +212,7 @@ TEST_F(Viewer, ASunThatRunsCastsToTheWestThenToTheEastAndOnTheNextMorningToTheWe
 TEST_F(Viewer, XShowsDoubleDarkeningOfTheGround) {
     start();
     const Screenshot none = glimpseWithoutShadow();
-    const Pixels shadow = changed(first, none);
+    const Mask shadow = changed(first, none);
     const Screenshot off = pressed("x");
     int twice = 0;
     for (std::size_t i = 0; i < off.pixels.size(); ++i) {
@@ -248,8 +226,8 @@ TEST_F(Viewer, XShowsDoubleDarkeningOfTheGround) {
 
 TEST_F(Viewer, OShowsTheFightWithTheGround) {
     start();
-    const Pixels shadow = changed(first, glimpseWithoutShadow());
-    const Pixels lit = changed(first, pressed("o"));
+    const Mask shadow = changed(first, glimpseWithoutShadow());
+    const Mask lit = changed(first, pressed("o"));
     EXPECT_GT(count(lit), count(shadow) / 20);
     EXPECT_LT(count(lit), count(shadow) * 19 / 20);
     EXPECT_EQ(beyond(lit, shadow), 0);
@@ -259,7 +237,7 @@ TEST_F(Viewer, OShowsTheFightWithTheGround) {
 TEST_F(Viewer, PShowsTheAntiShadowOfWhatIsUnderground) {
     start();
     const Screenshot none = glimpseWithoutShadow();
-    const Pixels anti = changed(first, pressed("p"));
+    const Mask anti = changed(first, pressed("p"));
     EXPECT_GT(count(anti), 30); // the sphere's lowest quarter is under the ground, and the sphere hides most of it
     EXPECT_EQ(beyond(changed(first, none), anti), count(changed(first, none))) << "lit before";
     for (std::size_t i = 0; i < anti.size(); ++i) EXPECT_TRUE(!anti[i] || isGrey(none.pixels[i])) << "on the ground";
@@ -275,7 +253,7 @@ TEST_F(Viewer, CuresStayOffWhenTheTechniqueChanges) {
 
 TEST_F(Viewer, GHidesTheTextAndNothingElse) {
     start();
-    const Pixels text = changed(withText, first);
+    const Mask text = changed(withText, first);
     EXPECT_GT(count(text), 1000);
     for (int y = 0; y < height / 2; ++y)
         for (int x = 0; x < width; ++x) EXPECT_FALSE(text[std::size_t(y * width + x)]) << x << " " << y;
