@@ -129,10 +129,7 @@ int run(osg::ArgumentParser& arguments) {
     options.view.eye = viewer, options.view.center = middle, options.view.viewUp = osg::Vec3d(0.0, 1.0, 0.0);
     options.view.zNear = 1.0, options.view.zFar = 10000.0;
     options.view.background = {0.0, 1.0, 1.0};
-    readExample(arguments, text, {}, options);
-    if (options.help) return std::cout << exampleHelp(text, {}, options, keysHelp(keys)), 0;
-    FakeShadow scene;
-    return showExample(text, options, keys, scene);
+    return runExample(arguments, text, {}, options, keys, [](const auto&) { return FakeShadow(); });
 }
 
 } // namespace

@@ -137,11 +137,7 @@ int run(osg::ArgumentParser& arguments) {
                               "textures\".\n",
                               "gus_shadow --points 0,0,0,9,0,0,9,9,2 --out gus.png"};
     Floor floor;
-    ExampleOptions options;
-    readExample(arguments, text, ownOptions(floor), options);
-    if (options.help) return std::cout << exampleHelp(text, ownOptions(floor), options, keysHelp(keys)), 0;
-    GusShadow scene(floor);
-    return showExample(text, options, keys, scene);
+    return runExample(arguments, text, ownOptions(floor), {}, keys, [&](const auto&) { return GusShadow(floor); });
 }
 
 } // namespace

@@ -31,6 +31,7 @@ struct Switches {
     int model = 0, texture = 1, shape = HaloNode::WHOLE;
 };
 
+constexpr float floorOpacity = 0.3f;
 constexpr const char* modelNames[] = {"dinosaur", "sphere", "cube", "icosahedron"};
 constexpr double mostHalo[] = {0.2, 0.35, 0.3, 0.5};
 constexpr const char* textureNames[] = {"none", "nearest", "linear", "mipmap"};
@@ -71,7 +72,7 @@ public:
         _shadow->setNodeMask(mask(s.shadows && s.light && s.object));
         _shadow->setStencilCure(s.shadowStencil);
         _shadow->setOffsetCure(s.shadowOffset);
-        _mirror->setReflectance(osg::Vec3f(1, 1, 1) * (s.reflection ? 0.7f : 0.0f));
+        _mirror->setReflectance(osg::Vec3f(1, 1, 1) * (s.reflection ? 1.0f - floorOpacity : 0.0f));
         _mirror->setStencilCure(s.reflectionStencil);
         for (unsigned i = 0; i < _mirror->getNumChildren(); ++i) _mirror->getChild(i)->setNodeMask(mask(s.object));
         _models->setSingleChildOn(static_cast<unsigned>(s.model));
@@ -81,7 +82,8 @@ public:
         _halo->setColor(s.blendedHalo ? osg::Vec4f(0.8f, 0.8f, 0.0f, 0.3f) : osg::Vec4f(0.5f, 0.5f, 0.0f, 1.0f));
         _halo->setStencilCure(s.haloStencil);
         _setup.group->setComposite(s.relight ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
-        (s.relight ? painted : paintedUnlit)(_floor, {1, 1, 1, 1}); // only what is lit can lose its light
+        const float own = s.reflection ? 1.0f : floorOpacity; // without an image it lies over the black background
+        (s.relight ? painted : paintedUnlit)(_floor, {own, own, own, 1}); // only what is lit can lose its light
         _scene->getStateSet()->setMode(GL_LIGHT0, s.light);
         placeLight(s.directional);
         if (s.model != 0) _model->setMatrix(osg::Matrixd::translate(0.0, 8.01, 0.0));
@@ -187,10 +189,7 @@ int run(osg::ArgumentParser& arguments) {
     options.view.center = osg::Vec3d(-2.0, 6.93, 3.46), options.view.viewUp = osg::Vec3d(0.0, 1.0, 0.0);
     options.view.zNear = 20.0, options.view.zFar = 100.0;
     options.view.background = {0.0, 0.0, 0.0};
-    readExample(arguments, text, {}, options);
-    if (options.help) return std::cout << exampleHelp(text, {}, options, keysHelp(keys)), 0;
-    HaloMagic magic;
-    return showExample(text, options, keys, magic);
+    return runExample(arguments, text, {}, options, keys, [](const auto&) { return HaloMagic(); });
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include <osg/PolygonOffset>
 #include <osg/Program>
 
+#include <iostream>
 #include <sstream>
 
 namespace {
@@ -159,16 +160,15 @@ int run(osg::ArgumentParser& arguments) {
         "picture says them.\n",
         "lab8 --eye 0,0.3,0.3 --at 0,0,0 --light 1,2,1 --out lab8.png"};
     Answers answers;
-    ExampleOptions options;
-    options.view.width = options.view.height = 600;
-    readExample(arguments, text, ownOptions(answers), options);
-    if (options.help) return std::cout << exampleHelp(text, ownOptions(answers), options, keysHelp(keys)), 0;
-    if (options.out.empty() && !askAll(answers)) return 0;
-    options.view.eye = zUp(answers.eye.value_or(usualEye));
-    options.view.center = zUp(answers.at.value_or(usualAt));
-    options.view.orthographic = 1.0;
+    ExampleOptions defaults;
+    defaults.view.width = defaults.view.height = 600;
+    auto options = readExample(arguments, text, ownOptions(answers), defaults, keysHelp(keys));
+    if (!options || (options->out.empty() && !askAll(answers))) return 0;
+    options->view.eye = zUp(answers.eye.value_or(usualEye));
+    options->view.center = zUp(answers.at.value_or(usualAt));
+    options->view.orthographic = 1.0;
     Lab8 lab(answers);
-    return showExample(text, options, keys, lab);
+    return showExample(text, *options, keys, lab);
 }
 
 } // namespace

@@ -5,6 +5,8 @@
 
 #include <osgDB/Registry>
 
+#include <iostream>
+
 namespace gnomon::examples {
 namespace {
 
@@ -17,7 +19,7 @@ int readStencilBits(Text text) {
     return text == "0" ? 0 : 8;
 }
 
-Options exampleOptions(ExampleOptions& into, const std::string& program) {
+Options exampleOptions(ExampleOptions& into, bool& help, const std::string& program) {
     Options table;
     addSize(table, into.view);
     table.push_back({"--out", "IMAGE", "draw one picture into this file, without a window or display", "a window",
@@ -30,7 +32,7 @@ Options exampleOptions(ExampleOptions& into, const std::string& program) {
                      [&into](Text t) { into.frames = readWhole(t, 1, mostFrames); }});
     table.push_back({"--stencil-bits", "0|8", "of the picture's framebuffer", "8",
                      [&into](Text t) { into.stencilBits = readStencilBits(t); }});
-    table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
+    table.push_back({"--help", "", "print this", "", [&help](Text) { help = true; }});
     return table;
 }
 
@@ -39,24 +41,42 @@ Options joined(Options first, const Options& second) {
     return first;
 }
 
-} // namespace
+std::string helpText(const ExampleText& text, const Options& table, const std::string& keys) {
+    return text.program + " [OPTION...]" + (text.files.empty() ? "" : " " + text.files) + "\n" + text.about + "\n" +
+           describeOptions(table) + osgOptionsHelp() + "\nKEYS\n" + keys +
+           "  m        Time that a frame takes to draw.\n" + windowKeysHelp(text.program) +
+           "\nDrag with the left mouse button to move the camera, with the middle one to move the light.\n"
+           "\nExample: " +
+           text.example + "\n";
+}
 
-void readExample(osg::ArgumentParser& arguments, const ExampleText& text, Options own, ExampleOptions& into) {
-    readOptions(arguments, joined(std::move(own), exampleOptions(into, text.program)));
-    readOsgOptions(arguments);
+void takeFilesOf(const ExampleText& text, osg::ArgumentParser& arguments, ViewOptions& into) {
+    if (!text.files.empty()) {
+        takeFiles(arguments, into);
+        if (into.files.empty())
+            throw std::invalid_argument("no scene file is given; usage: " + text.program + " [OPTION...] " +
+                                        text.files);
+        return;
+    }
     refuseUnknownOptions(arguments);
     if (arguments.argc() > 1)
         throw std::invalid_argument(std::string("\"") + arguments[1] +
                                     "\" is no option; --help lists those there are.");
 }
 
-std::string exampleHelp(const ExampleText& text, Options own, ExampleOptions defaults, const std::string& keys) {
-    return text.program + " [OPTION...]\n" + text.about + "\n" +
-           describeOptions(joined(std::move(own), exampleOptions(defaults, text.program))) + osgOptionsHelp() +
-           "\nKEYS\n" + keys + "  m        Time that a frame takes to draw.\n" + windowKeysHelp(text.program) +
-           "\nDrag with the left mouse button to move the camera, with the middle one to move the light.\n"
-           "\nExample: " +
-           text.example + "\n";
+} // namespace
+
+std::optional<ExampleOptions> readExample(osg::ArgumentParser& arguments, const ExampleText& text, const Options& own,
+                                          const ExampleOptions& defaults, const std::string& keys) {
+    ExampleOptions into = defaults;
+    bool help = false;
+    const Options table = joined(own, exampleOptions(into, help, text.program));
+    const std::string says = helpText(text, table, keys);
+    readOptions(arguments, table);
+    readOsgOptions(arguments);
+    if (help) return std::cout << says, std::nullopt;
+    takeFilesOf(text, arguments, into.view);
+    return into;
 }
 
 osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string& program) {

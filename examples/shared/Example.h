@@ -6,7 +6,7 @@
 #include "OutputFile.h"
 #include "SceneWindow.h"
 
-#include <iostream>
+#include <optional>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -18,7 +18,6 @@ struct ExampleOptions {
     std::string keys;    ///< pressed before the picture is drawn.
     int frames = 1;      ///< drawn for the picture.
     int stencilBits = 8; ///< 0 or 8, of the picture.
-    bool help = false;
 };
 
 /// What an example says of itself.
@@ -27,12 +26,14 @@ struct ExampleText {
     std::string does;    ///< "shows …", one sentence.
     std::string about;   ///< for --help: a paragraph, lines of at most 120 letters.
     std::string example; ///< a command line.
+    std::string files{}; ///< "FILE...": it takes scene files and needs one; empty: it takes none.
 };
 
-/// Takes an example's own options and those of all examples. @throws std::invalid_argument, one sentence.
-void readExample(osg::ArgumentParser& arguments, const ExampleText& text, Options own, ExampleOptions& into);
-/// What --help prints. @param defaults  what holds without options. @param keys  as keysHelp() lists them.
-std::string exampleHelp(const ExampleText& text, Options own, ExampleOptions defaults, const std::string& keys);
+/// Takes an example's own options, those of all examples and its files, or prints what --help prints.
+/// @param defaults  what holds without options. @param keys  as keysHelp() lists them.
+/// @return nullopt if it was help that was asked for. @throws std::invalid_argument, one sentence.
+std::optional<ExampleOptions> readExample(osg::ArgumentParser& arguments, const ExampleText& text, const Options& own,
+                                          const ExampleOptions& defaults, const std::string& keys);
 
 /// A scene file that Gnomon's own nodes stand in, in a group; the plugin that reads them is the one that this build made.
 /// @throws std::runtime_error as readScene() does.
@@ -53,6 +54,10 @@ void press(const std::string& letters, const std::vector<Key<Controls>>& keys, C
         found->act(controls, hud);
     }
 }
+
+/// What a program's mouse does besides; overloaded where there is something.
+template <class Controls>
+void addHands(SceneWindow&, Controls&) {}
 
 /// A window or a picture of one scene with its controls. @param Controls  has SceneSetup& setup(), what its text says in
 /// describe(), and what a drag with the middle mouse button does in drag(right, up), pixels.
@@ -75,7 +80,18 @@ int showExample(const ExampleText& text, const ExampleOptions& options, const st
     SceneWindow window({text.program, text.does, "--out IMAGE"}, options.view, controls.setup(), *hud, *handler);
     window.add(*time);
     window.add(*new DragHandler([&controls](double right, double up) { controls.drag(right, up); }));
+    addHands(window, controls);
     return window.run();
+}
+
+/// All that an example does. @param make  what makes its controls of the options.
+template <class Controls, class Make>
+int runExample(osg::ArgumentParser& arguments, const ExampleText& text, const Options& own,
+               const ExampleOptions& defaults, const std::vector<Key<Controls>>& keys, const Make& make) {
+    const std::optional<ExampleOptions> options = readExample(arguments, text, own, defaults, keysHelp(keys));
+    if (!options) return 0;
+    Controls controls = make(*options);
+    return showExample(text, *options, keys, controls);
 }
 
 } // namespace gnomon::examples
