@@ -5,6 +5,7 @@
 #include "SceneTruth.h"
 
 #include <gnomon/PlanarShadowNode.h>
+#include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/VertexTraverser.h>
 
 #include <osg/DisplaySettings>
@@ -53,18 +54,22 @@ void Shot::draw() {
 }
 
 nlohmann::json Shot::measure() {
+    std::array<std::vector<unsigned>, 3> maps;
     const double first = timedFrame(true);
+    maps[0] = mapsDrawn();
     for (int i = 0; i < warmUpFrames; ++i) timedFrame(true), timedFrame(false);
     std::vector<double> steady, moving, none;
     for (int i = 0; i < _options.frameCount(); ++i) {
         steady.push_back(timedFrame(true));
         none.push_back(timedFrame(false));
     }
+    maps[1] = mapsDrawn();
     for (int i = 0; i < _options.frameCount(); ++i) {
         _setup.lights->turn(i + 1.0);
         moving.push_back(timedFrame(true));
         none.push_back(timedFrame(false));
     }
+    maps[2] = mapsDrawn();
     _setup.lights->turn(0.0);
     const unsigned draws = countDraws();
     return {{"renderer", _context.renderer()},
@@ -72,7 +77,7 @@ nlohmann::json Shot::measure() {
             {"diagnosis", diagnose()},
             {"triangles", countTriangles()},
             {"draws", draws},
-            {"shadowPasses", shadowPasses()},
+            {"shadowPasses", shadowPasses(maps)},
             {"msFirst", first},
             {"msSteady", quartilesJson(steady)},
             {"msMoving", quartilesJson(moving)},
@@ -106,13 +111,29 @@ unsigned Shot::countDraws() {
     return static_cast<unsigned>(draws);
 }
 
-nlohmann::json Shot::shadowPasses() const {
+std::vector<unsigned> Shot::mapsDrawn() const {
+    std::vector<unsigned> drawn;
+    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
+        const auto* map = dynamic_cast<const ShadowMapTechnique*>(technique.get());
+        drawn.push_back(map ? map->passes() : 0);
+    }
+    return drawn;
+}
+
+nlohmann::json Shot::shadowPasses(const std::array<std::vector<unsigned>, 3>& maps) const {
     nlohmann::json passes = nlohmann::json::array();
-    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques)
-        if (const auto* planar = dynamic_cast<const PlanarShadowNode*>(technique.get()))
-            passes.push_back({{"technique", technique->getName()},
-                              {"planes", planar->getPlanes().size()},
-                              {"lights", _setup.lights->count()}});
+    for (std::size_t i = 0; i < _setup.techniques.size(); ++i) {
+        const ShadowTechnique* technique = _setup.techniques[i];
+        nlohmann::json entry = {{"technique", technique->getName()}, {"lights", _setup.lights->count()}};
+        if (const auto* planar = dynamic_cast<const PlanarShadowNode*>(technique))
+            entry["planes"] = planar->getPlanes().size();
+        else if (dynamic_cast<const ShadowMapTechnique*>(technique))
+            entry["maps"] = {
+                {"first", maps[0][i]}, {"still", maps[1][i] - maps[0][i]}, {"moving", maps[2][i] - maps[1][i]}};
+        else
+            continue;
+        passes.push_back(entry);
+    }
     return passes;
 }
 

@@ -10,6 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
+#include <vector>
+
 namespace gnomon::examples {
 
 /// A viewer of one scene that draws into memory, and times what it draws.
@@ -30,7 +33,10 @@ public:
 private:
     double timedFrame(bool shadows);
     unsigned countDraws();
-    nlohmann::json shadowPasses() const;
+    /// Depth maps that the technique at each place has drawn so far; 0 of one that draws none.
+    std::vector<unsigned> mapsDrawn() const;
+    /// @param maps  drawn after the first frame, after the still ones and after those under a moving light.
+    nlohmann::json shadowPasses(const std::array<std::vector<unsigned>, 3>& maps) const;
     std::size_t countTriangles() const;
 
     ShotOptions _options;

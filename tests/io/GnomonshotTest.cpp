@@ -227,6 +227,16 @@ TEST_F(Gnomonshot, TakesSeveralFilesAndLights) {
               500);
 }
 
+// Maps are drawn in the first frame, none while all stands still, and one a light in each frame of a moving light.
+TEST_F(Gnomonshot, StatsCountTheMapsThatAreDrawn) {
+    run({scene, "--shadow", "planar", "--shadow", "map:size=256", "--size", "80x60", "--frames", "4", "--light",
+         "1,0,1,0", "--light", "0,1,1,0", "--stats", "s.json"});
+    const nlohmann::json passes = nlohmann::json::parse(readFile(folder.path() / "s.json")).at("shadowPasses");
+    ASSERT_EQ(passes.size(), 2u);
+    const nlohmann::json maps = {{"first", 2}, {"still", 0}, {"moving", 2 * 4}};
+    EXPECT_EQ(passes.at(1), (nlohmann::json{{"technique", "map:size=256"}, {"lights", 2}, {"maps", maps}}));
+}
+
 TEST_F(Gnomonshot, WritesStats) {
     run({scene, "--shadow", "planar", "--size", "80x60", "--frames", "3", "--stats", "s.json"});
     const nlohmann::json stats = nlohmann::json::parse(readFile(folder.path() / "s.json"));

@@ -168,6 +168,26 @@ struct Moving {
     test::Camera camera{scene.root, given.view};
 };
 
+// Each of three suns has a map, and when one of them moves it is its map that is drawn again.
+TEST(MapPasses, AreOneWhenOneOfThreeLightsMoves) {
+    Moving moving;
+    std::vector<osg::ref_ptr<osg::LightSource>> suns;
+    for (int i = 1; i < 3; ++i) {
+        suns.push_back(new osg::LightSource);
+        suns.back()->getLight()->setLightNum(i);
+        suns.back()->getLight()->setPosition(osg::Vec4(i == 1 ? -1.0f : 0.5f, 0.8f, 1.0f, 0.0f));
+        moving.scene.root->addChild(suns.back());
+        moving.scene.root->getOrCreateStateSet()->setMode(GL_LIGHT0 + GLenum(i), osg::StateAttribute::ON);
+    }
+    EXPECT_EQ(moving.passesInFrame(), 3u);
+    EXPECT_EQ(moving.passesInFrame(), 0u);
+    for (const auto& sun : suns) {
+        sun->getLight()->setPosition(osg::Vec4(0.2f, -0.7f, 1.0f, 0.0f));
+        EXPECT_EQ(moving.passesInFrame(), 1u);
+        EXPECT_EQ(moving.passesInFrame(), 0u);
+    }
+}
+
 TEST(MapPasses, AreOneAndThenNoneUntilACasterMoves) {
     Moving moving;
     EXPECT_EQ(moving.passesInFrame(), 1u);
