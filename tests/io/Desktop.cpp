@@ -135,19 +135,24 @@ void Desktop::useWindow(const std::string& name) {
     XFlush(_display);
 }
 
-void Desktop::press(const std::string& key) {
+unsigned Desktop::codeOf(const std::string& key) const {
     const KeyCode code = XKeysymToKeycode(_display, XStringToKeysym(key.c_str()));
     if (code == 0) fail("there is no key " + key);
-    for (const int down : {True, False}) XTestFakeKeyEvent(_display, code, down, 0);
+    return code;
+}
+
+void Desktop::press(const std::string& key) {
+    for (const int down : {True, False}) XTestFakeKeyEvent(_display, codeOf(key), down, 0);
     XFlush(_display);
 }
 
-void Desktop::drag(unsigned button, int right, int down) {
+void Desktop::drag(unsigned button, int right, int down, const std::string& with) {
     constexpr int steps = 8;
     const auto wait = [this] {
         XFlush(_display);
         std::this_thread::sleep_for(2 * pause);
     };
+    if (!with.empty()) XTestFakeKeyEvent(_display, codeOf(with), True, 0);
     XTestFakeButtonEvent(_display, button, True, 0);
     wait();
     for (int step = 0; step < steps; ++step) {
@@ -157,6 +162,7 @@ void Desktop::drag(unsigned button, int right, int down) {
     }
     std::this_thread::sleep_for(20 * pause); // what is let go while it moves is thrown on by OSG's manipulators
     XTestFakeButtonEvent(_display, button, False, 0);
+    if (!with.empty()) XTestFakeKeyEvent(_display, codeOf(with), False, 0);
     wait();
     XTestFakeRelativeMotionEvent(_display, -right, -down, 0);
     XFlush(_display);

@@ -55,8 +55,8 @@ public:
     /// A letter, a digit or an X key name as "Escape".
     void press(const std::string& key);
     /// Moves the pointer from the window's middle by so many pixels to the right and down, with a mouse button held (1:
-    /// left, 2: middle), in small steps, and back without.
-    void drag(unsigned button, int right, int down);
+    /// left, 2: middle, 3: right), in small steps, and back without. @param with  an X key name, held down meanwhile.
+    void drag(unsigned button, int right, int down, const std::string& with = "");
     Screenshot picture();
     /// The first picture for which `wanted` holds, twice the same in a row if `still`.
     /// @throws std::runtime_error with `what` if there is none within 10 s.
@@ -65,6 +65,8 @@ public:
 
 private:
     unsigned long find(unsigned long parent, const std::string& name) const;
+    /// @throws std::runtime_error if there is none.
+    unsigned codeOf(const std::string& key) const;
 
     std::unique_ptr<ChildProcess> _server;
     std::string _name;
