@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 
 namespace gnomon::testing {
 
@@ -46,6 +47,7 @@ void ExampleProgram::open(const Arguments& arguments) {
     desktop->pictureWhere("something is drawn", [](const Screenshot& p) {
         return std::any_of(p.pixels.begin(), p.pixels.end(), [&](auto pixel) { return pixel != p.pixels[0]; });
     });
+    std::this_thread::sleep_for(std::chrono::milliseconds(500)); // a picture that changes by itself is none of g's
     first = pressed("g");
 }
 
