@@ -91,38 +91,49 @@ std::optional<ConvexShadow> convexShadow(const ConvexHull& hull, const glm::dvec
 }
 
 std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow) {
-    return Clipper().clip(triangle, shadow.planes, 0);
+    Clipper clipper;
+    const Clipper::Polygon polygon = clipper.clip(triangle, shadow.planes, 0);
+    std::vector<glm::dvec3> places;
+    for (std::size_t i = 0; i < polygon.size; ++i) places.push_back(polygon.corners[i].place);
+    return places;
 }
 
-const std::vector<glm::dvec3>& Clipper::clip(const std::array<glm::dvec3, 3>& triangle,
-                                             const std::vector<glm::dvec4>& planes, std::uint64_t inside) {
+Clipper::Polygon Clipper::clip(const std::array<glm::dvec3, 3>& triangle, const std::vector<glm::dvec4>& planes,
+                               std::uint64_t inside) {
     const std::size_t most = 3 + planes.size(); // a plane adds one corner
-    if (_next.size() < most) _next.resize(most), _distances.resize(most);
-    _polygon.assign(triangle.begin(), triangle.end());
-    for (std::size_t i = 0; i < planes.size(); ++i)
-        if ((i >= 64 || !(inside >> i & 1u)) && !clipBy(planes[i])) break;
-    return _polygon;
+    if (_next.size() < most) _polygon.resize(most), _next.resize(most), _distances.resize(most);
+    _count = 3;
+    for (int i = 0; i < 3; ++i) _polygon[std::size_t(i)] = {triangle[std::size_t(i)], i, -1, i};
+    bool isSome = true;
+    std::uint64_t asked = planes.size() < 64 ? ~inside & ((std::uint64_t(1) << planes.size()) - 1) : ~inside;
+    for (std::size_t i = 0; asked != 0 && isSome; ++i, asked >>= 1)
+        if (asked & 1u) isSome = clipBy(planes[i], int(i));
+    for (std::size_t i = 64; i < planes.size() && isSome; ++i) isSome = clipBy(planes[i], int(i));
+    return {_polygon.data(), _count};
 }
 
 /// @return whether something is left.
-bool Clipper::clipBy(const glm::dvec4& plane) {
-    const std::size_t count = _polygon.size();
+bool Clipper::clipBy(const glm::dvec4& plane, int number) {
     std::size_t outside = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec3& p = _polygon[i];
+    for (std::size_t i = 0; i < _count; ++i) {
+        const glm::dvec3& p = _polygon[i].place;
         _distances[i] = plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w;
         outside += !(_distances[i] >= 0.0);
     }
     if (outside == 0) return true;
-    std::size_t left = 0;
-    for (std::size_t i = 0; i < count && outside < count; ++i) {
-        const std::size_t j = i + 1 < count ? i + 1 : 0;
+    Corner* left = _next.data();
+    for (std::size_t i = 0; i < _count && outside < _count; ++i) {
+        const std::size_t j = i + 1 < _count ? i + 1 : 0;
         const double from = _distances[i], to = _distances[j];
-        if (from >= 0.0) _next[left++] = _polygon[i];
-        if ((from >= 0.0) != (to >= 0.0)) _next[left++] = crossing(_polygon[i], from, _polygon[j], to);
+        const Corner& corner = _polygon[i];
+        if (from >= 0.0) *left++ = corner;
+        if ((from >= 0.0) == (to >= 0.0)) continue;
+        const int edge = from >= 0.0 ? none : corner.edge;
+        *left++ = {crossing(corner.place, from, _polygon[j].place, to), corner.edge, number, edge};
     }
-    _polygon.assign(_next.begin(), _next.begin() + std::ptrdiff_t(left));
-    return left > 0;
+    _count = std::size_t(left - _next.data());
+    _polygon.swap(_next);
+    return _count > 0;
 }
 
 } // namespace gnomon

@@ -32,18 +32,31 @@ std::optional<ConvexShadow> convexShadow(const ConvexHull& hull, const glm::dvec
 /// Source: I. E. Sutherland and G. W. Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974.
 std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow);
 
-/// The same for many triangles, with memory that is used again. What triangles that share an edge get on it is the same bit
-/// for bit.
+/// The same for many triangles, with memory that is used again, and where each corner comes from. What triangles that share
+/// an edge get on it is the same bit for bit.
 class Clipper {
 public:
+    static constexpr int none = 3; ///< neither of the triangle's three corners nor of its edges.
+    /// Edge i of a triangle runs from its corner i to the next one.
+    struct Corner {
+        glm::dvec3 place;
+        int from;  ///< the triangle's corner that it is; or the edge that it is on, `none` inside.
+        int plane; ///< that cuts the edge there; -1: it is the triangle's corner.
+        int edge;  ///< of the triangle, that leads on from here; `none`: that is one of the planes.
+    };
+    struct Polygon {
+        const Corner* corners;
+        std::size_t size;
+    };
     /// @param inside  a bit for each of the first 64 planes that need not be asked. @return until the next call.
-    const std::vector<glm::dvec3>& clip(const std::array<glm::dvec3, 3>& triangle,
-                                        const std::vector<glm::dvec4>& planes, std::uint64_t inside);
+    Polygon clip(const std::array<glm::dvec3, 3>& triangle, const std::vector<glm::dvec4>& planes,
+                 std::uint64_t inside);
 
 private:
-    bool clipBy(const glm::dvec4& plane);
-    std::vector<glm::dvec3> _polygon, _next;
+    bool clipBy(const glm::dvec4& plane, int number);
+    std::vector<Corner> _polygon, _next;
     std::vector<double> _distances;
+    std::size_t _count = 0;
 };
 
 } // namespace gnomon

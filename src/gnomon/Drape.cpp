@@ -11,9 +11,9 @@ Drape drape(const Ground& ground, const ConvexShadow& shadow, double error) {
     Drape result;
     Clipper clipper;
     ground.cover(shadow.planes, error, [&](const GroundTriangle& triangle, PlaneSet inside) {
-        const std::vector<glm::dvec3>& polygon = clipper.clip(triangle, shadow.planes, inside);
-        for (std::size_t i = 2; i < polygon.size(); ++i)
-            result.insert(result.end(), {polygon[0], polygon[i - 1], polygon[i]});
+        const Clipper::Polygon polygon = clipper.clip(triangle, shadow.planes, inside);
+        for (std::size_t i = 2; i < polygon.size; ++i)
+            for (const std::size_t k : {std::size_t(0), i - 1, i}) result.push_back(polygon.corners[k].place);
     });
     return result;
 }

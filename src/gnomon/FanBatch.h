@@ -46,6 +46,8 @@ public:
     /// Corners of a fan that was found, about its anchor, counter-clockwise, from the one that sees all others.
     std::size_t cornerCount(std::size_t i) const { return _entries[i].corners; }
     glm::dvec3 corner(std::size_t i, std::size_t at) const { return endOf(_entries[i], at); }
+    /// The same corners, in the entry's lane.
+    const KernelEdge* edges(const Entry& entry) const { return &edgeOf(entry, 0); }
     /// Whether it has a silhouette, though it may be turned away.
     bool isThere(std::size_t i) const { return _entries[i].fan != none; }
     bool isOut(std::size_t i) const {
@@ -54,8 +56,8 @@ public:
     glm::dvec3 top(std::size_t i) const;  ///< highest corner of its silhouette.
     Drape triangles(std::size_t i) const; ///< of a fan that was found, in the ground's frame.
     /// The ground's triangles in the shadow, about its anchor. @param error  in plan. @return until the next call.
-    const Drape& drape(std::size_t i, double error);
-    const Drape& allGround(std::size_t i); ///< the same of all the ground.
+    const DrapeMesh& drape(std::size_t i, double error);
+    const DrapeMesh& allGround(std::size_t i); ///< the same of all the ground.
     /// In the ground's frame, planes with unit normals.
     ConvexShadow shadow(std::size_t i) const;
 
@@ -107,6 +109,7 @@ private:
     KernelFans kernelFans(std::size_t first, std::size_t end);
     bool findReach(std::size_t i, glm::dvec2& low, glm::dvec2& high) const;
     void takePlanes(std::size_t i);
+    const DrapeMesh& meshOf(const Drape& triangles, const glm::dvec3& anchor);
 
     const Ground* _ground = nullptr;
     const HeightPyramid* _grid = nullptr; ///< the ground, if it is one.
@@ -144,7 +147,8 @@ private:
     std::vector<glm::dvec3> _turned;
     GridDrape::Planes _planes;
     GridDrape _gridDrape;
-    Drape _drape;
+    Numbers<glm::dvec3> _numbers;
+    DrapeMesh _mesh;
 };
 
 } // namespace gnomon

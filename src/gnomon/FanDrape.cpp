@@ -44,24 +44,29 @@ void FanBatch::takePlanes(std::size_t i) {
     for (std::size_t e = 0; e < fanOf(entry).edges; ++e) _planes.about.push_back(edgePlane(entry, e));
 }
 
-const Drape& FanBatch::drape(std::size_t i, double error) {
+const DrapeMesh& FanBatch::drape(std::size_t i, double error) {
     const Entry& entry = _entries[i];
     glm::dvec2 low, high;
     if (_grid && findReach(i, low, high)) {
         takePlanes(i);
-        if (const Drape* found = _gridDrape.drape(*_grid, _planes, low, high, error, entry.tangent)) return *found;
+        if (const DrapeMesh* found = _gridDrape.drape(*_grid, _planes, low, high, error, entry.tangent)) return *found;
     }
     const ConvexShadow all = shadow(i);
     const double slope = error > 0.0 ? _ground->steepest(all.planes) : 0.0;
-    _drape = gnomon::drape(*_ground, all, heightError(error, entry.tangent, slope));
-    for (glm::dvec3& corner : _drape) corner -= entry.anchor;
-    return _drape;
+    return meshOf(gnomon::drape(*_ground, all, heightError(error, entry.tangent, slope)), entry.anchor);
 }
 
-const Drape& FanBatch::allGround(std::size_t i) {
-    _drape = gnomon::drape(*_ground, {}, 0.0);
-    for (glm::dvec3& corner : _drape) corner -= _entries[i].anchor;
-    return _drape;
+const DrapeMesh& FanBatch::allGround(std::size_t i) {
+    return meshOf(gnomon::drape(*_ground, {}, 0.0), _entries[i].anchor);
+}
+
+/// Corners at one place are one.
+const DrapeMesh& FanBatch::meshOf(const Drape& triangles, const glm::dvec3& anchor) {
+    _numbers.clear(triangles.size());
+    _mesh.indices.clear();
+    for (const glm::dvec3& corner : triangles) _mesh.indices.push_back(_numbers.of(corner - anchor + 0.0)); // no -0
+    _mesh.corners = _numbers.keys;
+    return _mesh;
 }
 
 } // namespace gnomon

@@ -3,8 +3,15 @@
 #include <gnomon/ConvexShadow.h>
 #include <gnomon/Drape.h>
 #include <gnomon/HeightPyramid.h>
+#include <gnomon/Numbers.h>
 
 namespace gnomon {
+
+/// Triangles by the numbers of their corners, three each.
+struct DrapeMesh {
+    std::vector<glm::dvec3> corners; ///< what triangles that share a post or an edge have there is one.
+    std::vector<unsigned> indices;
+};
 
 /// drape() on a grid where the shadow is known to lie in a rectangle: planes are asked at its posts, all posts at once, and
 /// what no plane cuts is not clipped. Memory is used again for the next one.
@@ -18,14 +25,17 @@ public:
     /// @param low,high  of the rectangle in plan, about the anchor.
     /// @param error     in plan, see heightError(). @param tangent  of the light's elevation.
     /// @return nullptr if the rectangle has too many posts for this to be quick; else triangles about the anchor.
-    const Drape* drape(const HeightPyramid& ground, const Planes& planes, const glm::dvec2& low, const glm::dvec2& high,
-                       double error, double tangent);
+    const DrapeMesh* drape(const HeightPyramid& ground, const Planes& planes, const glm::dvec2& low,
+                           const glm::dvec2& high, double error, double tangent);
 
 private:
     void askPlanes();
     void visit(int level, int x, int y);
     void take(int left, int low, int side, bool falls);
     void add(std::size_t a, std::size_t b, std::size_t c);
+    unsigned numberOfPost(std::size_t post);
+    unsigned numberOf(const Clipper::Corner& corner, const std::array<std::size_t, 3>& posts);
+    unsigned newNumber(const glm::dvec3& place);
     glm::dvec3 post(std::size_t i) const { return {_x[i], _y[i], _z[i]}; }
 
     const HeightPyramid* _ground = nullptr;
@@ -33,8 +43,12 @@ private:
     HeightPyramid::Cells _cells{};
     double _off = 0.0;
     std::vector<double> _x, _y, _z, _sides; ///< of the rectangle's posts.
+    std::vector<unsigned> _postNumbers;     ///< of those that are corners.
+    Numbers<std::uint64_t> _cuts;           ///< places where planes cut edges between posts.
+    std::vector<unsigned> _cutNumbers;      ///< of those.
+    std::vector<unsigned> _corners;         ///< of one polygon.
     Clipper _clipper;
-    Drape _triangles;
+    DrapeMesh _mesh;
 };
 
 } // namespace gnomon

@@ -63,11 +63,6 @@ HeightPyramid::Level HeightPyramid::levelOver(const Level& lower, int level) con
     return result;
 }
 
-const HeightPyramid::Node& HeightPyramid::node(const Block& block) const {
-    const Level& level = _levels[std::size_t(block.level)];
-    return level.nodes[std::size_t(block.y) * std::size_t(level.columns) + std::size_t(block.x)];
-}
-
 bool HeightPyramid::Node::hasHoles() const { return std::signbit(slope); }
 double HeightPyramid::Node::steepest() const { return std::abs(double(slope)); }
 

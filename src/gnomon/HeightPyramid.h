@@ -59,7 +59,10 @@ private:
         int row() const { return y << level; }
     };
 
-    const Node& node(const Block& block) const;
+    const Node& node(const Block& block) const {
+        const Level& level = _levels[std::size_t(block.level)];
+        return level.nodes[std::size_t(block.y) * std::size_t(level.columns) + std::size_t(block.x)];
+    }
     Node cell(int x, int y) const;
     Node merged(const Block& block) const;
     float off(const Block& block) const;

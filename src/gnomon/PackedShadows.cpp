@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/Numbers.h>
 #include <gnomon/PackedShadows.h>
 #include <gnomon/TerrainSteps.h>
 
@@ -31,34 +30,25 @@ Kept* room(std::vector<Kept>& kept, std::size_t count) {
 
 void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
     const FanBatch::Entry& entry = batch.entry(i);
-    const std::size_t count = batch.cornerCount(i);
-    glm::vec3* to = room(found.corners, count);
+    glm::vec3* to = room(found.corners, entry.corners);
+    const KernelEdge* edges = batch.edges(entry);
     double low = infinite;
-    for (std::size_t k = 0; k < count; ++k) {
-        const glm::dvec3 corner = batch.corner(i, k);
+    for (std::size_t k = 0; k < entry.corners; ++k) {
+        const glm::dvec3 corner(edges[k].endX[entry.lane], edges[k].endY[entry.lane], edges[k].endZ[entry.lane]);
         low = std::min(low, corner.z);
         to[k] = rounded(found, entry.anchor, corner);
     }
     found.highest = std::max(found.highest, entry.high - low);
 }
 
-/// Corners at one place are one; of a triangle that goes on from the one before, as those of a polygon do, two are known.
-void addDrape(PackedShadows& found, const FanBatch::Entry& entry, const Drape& drape) {
-    thread_local Numbers<glm::vec3> numbers;
-    numbers.clear(drape.size());
+void addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeMesh& drape) {
+    glm::vec3* to = room(found.corners, drape.corners.size());
     double low = infinite;
-    const auto number = [&](const glm::dvec3& corner) {
+    for (const glm::dvec3& corner : drape.corners) {
         low = std::min(low, corner.z);
-        return numbers.of(rounded(found, entry.anchor, corner) + 0.0f); // -0 and 0 are one place
-    };
-    for (std::size_t i = 0; i + 2 < drape.size(); i += 3) {
-        const bool goesOn = i > 0 && drape[i] == drape[i - 3] && drape[i + 1] == drape[i - 1];
-        const std::size_t last = found.indices.size();
-        found.indices.push_back(goesOn ? found.indices[last - 3] : number(drape[i]));
-        found.indices.push_back(goesOn ? found.indices[last - 1] : number(drape[i + 1]));
-        found.indices.push_back(number(drape[i + 2]));
+        *to++ = rounded(found, entry.anchor, corner);
     }
-    found.corners.insert(found.corners.end(), numbers.keys.begin(), numbers.keys.end());
+    std::copy(drape.indices.begin(), drape.indices.end(), room(found.indices, drape.indices.size()));
     found.highest = std::max(found.highest, entry.high - low);
 }
 

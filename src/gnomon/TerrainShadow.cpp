@@ -106,8 +106,8 @@ Settled settled(FanBatch& batch, std::size_t i, const TerrainAsk& asked, const P
         const double slope = asked.ground.steepest(batch.shadow(i).planes);
         outcome = slope >= grazing * entry.tangent ? TerrainOutcome::steep : TerrainOutcome::rough;
     }
-    const Drape& drape = batch.drape(i, asked.error);
-    if (drape.empty()) return {TerrainOutcome::noGround};
+    const DrapeMesh& drape = batch.drape(i, asked.error);
+    if (drape.indices.empty()) return {TerrainOutcome::noGround};
     return {outcome, &drape};
 }
 
@@ -127,8 +127,9 @@ TerrainShadow terrainShadow(const Ground& ground, const ConvexPart& part, const 
     const Settled found = settled(batch, 0, asked, parts, 0);
     if (found.outcome == TerrainOutcome::fan) return {batch.triangles(0), found.outcome};
     if (!found.drape) return {{}, found.outcome};
-    Drape triangles = *found.drape;
-    for (glm::dvec3& corner : triangles) corner += batch.entry(0).anchor;
+    Drape triangles;
+    for (const unsigned corner : found.drape->indices)
+        triangles.push_back(found.drape->corners[corner] + batch.entry(0).anchor);
     return {std::move(triangles), found.outcome};
 }
 

@@ -21,7 +21,7 @@ void findTogether(FanBatch& batch, const TerrainAsk& asked, const PackedParts& p
 /// What becomes of one of a batch's, and its triangles about its anchor if it is no fan.
 struct Settled {
     TerrainOutcome outcome;
-    const Drape* drape = nullptr; ///< until the next one is asked for.
+    const DrapeMesh* drape = nullptr; ///< until the next one is asked for.
 };
 
 Settled settled(FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts, std::size_t part);

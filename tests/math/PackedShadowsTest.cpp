@@ -7,8 +7,10 @@
 #include <gnomon/ShadowKernel.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <thread>
 
 using gnomon::Drape;
@@ -188,6 +190,36 @@ TEST(PackedShadows, OnAGridAreThoseOnItsTriangles) {
             ASSERT_EQ(grid[i].cornerCount, triangles[i].cornerCount) << i;
             for (std::size_t k = 0; k < grid[i].cornerCount; ++k)
                 EXPECT_LT(glm::length(grid[i].corners[k] - triangles[i].corners[k]), 1e-3f) << "floats of 1000 m: 6e-5";
+        }
+    }
+}
+
+double areaInPlan(const Drape& triangles) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+        const glm::dvec2 a(triangles[i]), b(triangles[i + 1]), c(triangles[i + 2]);
+        sum += 0.5 * ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    }
+    return sum;
+}
+
+/// Against the ground's triangles clipped one by one, which know nothing of numbers.
+TEST(PackedShadows, DrapesCoverWhatThePlanesDoAndHaveEachCornerOnce) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    const auto parts = townOn(ground, 60);
+    for (const glm::dvec4& light : lights) {
+        const PackedShadows drapes = found(ground, PackedParts(parts), light, TerrainMethod::drape, 0.0);
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            if (drapes[i].outcome != TerrainOutcome::draped) continue;
+            const auto planes = gnomon::convexShadow(parts[i].hull, light);
+            ASSERT_TRUE(planes) << i;
+            const Drape expected = gnomon::drape(ground, *planes, 0.0);
+            EXPECT_NEAR(areaInPlan(drapes.triangles(i)), areaInPlan(expected), 0.1)
+                << "m^2; floats of 1000 m are off by 6e-5 along edges of some 1000 m in all";
+            std::set<std::array<float, 3>> places;
+            for (std::size_t k = 0; k < drapes[i].cornerCount; ++k)
+                places.insert({drapes[i].corners[k].x, drapes[i].corners[k].y, drapes[i].corners[k].z});
+            EXPECT_EQ(places.size(), drapes[i].cornerCount) << i;
         }
     }
 }
