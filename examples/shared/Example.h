@@ -47,11 +47,11 @@ void writePicture(const ExampleText& text, const ExampleOptions& options, SceneS
 template <class Controls>
 void press(const std::string& letters, const std::vector<Key<Controls>>& keys, Controls& controls, Hud& hud) {
     for (const char letter : letters) {
-        const auto found = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.key == letter; });
-        if (found == keys.end())
+        const Key<Controls>* key = findKey(keys, letter);
+        if (!key)
             throw std::invalid_argument(std::string("--keys: there is no key ") + letter +
                                         "; --help lists those there are.");
-        found->act(controls, hud);
+        key->act(controls, hud);
     }
 }
 

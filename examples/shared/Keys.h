@@ -18,6 +18,13 @@ struct Key {
     void (*act)(Controls& controls, Hud& hud);
 };
 
+/// The one of this letter; null if there is none.
+template <class Controls>
+const Key<Controls>* findKey(const std::vector<Key<Controls>>& keys, int letter) {
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return key.key == letter; });
+    return found == keys.end() ? nullptr : &*found;
+}
+
 /// A program's own keys; none of them is to be one of osgviewer's. Table and controls outlive it.
 template <class Controls>
 class KeyHandler : public osgGA::GUIEventHandler {
@@ -27,10 +34,9 @@ public:
 
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter&) override {
         if (event.getHandled() || event.getEventType() != osgGA::GUIEventAdapter::KEYDOWN) return false;
-        const auto found =
-            std::find_if(_keys.begin(), _keys.end(), [&](const auto& key) { return key.key == event.getKey(); });
-        if (found == _keys.end()) return false;
-        found->act(_controls, *_hud);
+        const Key<Controls>* key = findKey(_keys, event.getKey());
+        if (!key) return false;
+        key->act(_controls, *_hud);
         return true;
     }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/HaloEffect.h>
 #include <gnomon/HaloNode.h>
+#include <gnomon/SubgraphCull.h>
 
 #include <osg/Notify>
 
@@ -20,13 +21,9 @@ osg::Matrixd scaledAbout(const osg::Vec3d& centre, double factor) {
 }
 
 /// Of all the leaves, in the frame of their node.
-osg::BoundingBoxd boxOf(const std::vector<StageLeaf>& leaves, const osg::Matrixd& nodeFromEye) {
+osg::BoundingBoxd boxOfAll(const std::vector<StageLeaf>& leaves, const osg::Matrixd& nodeFromEye) {
     osg::BoundingBoxd all;
-    for (const StageLeaf& entry : leaves) {
-        const osg::BoundingBox& box = entry.leaf->_drawable->getBoundingBox();
-        const osg::Matrixd nodeFromLeaf = *entry.leaf->_modelview * nodeFromEye;
-        for (unsigned i = 0; box.valid() && i < 8; ++i) all.expandBy(osg::Vec3d(box.corner(i)) * nodeFromLeaf);
-    }
+    for (const StageLeaf& entry : leaves) all.expandBy(boxOf(*entry.leaf, *entry.leaf->_modelview * nodeFromEye));
     return all;
 }
 
@@ -34,7 +31,7 @@ osg::BoundingBoxd boxOf(const std::vector<StageLeaf>& leaves, const osg::Matrixd
 std::vector<osg::Matrixd> largerLeaves(const HaloNode& node, const std::vector<StageLeaf>& leaves,
                                        const osg::Matrixd& eyeFromNode) {
     const osg::Matrixd nodeFromEye = osg::Matrixd::inverse(eyeFromNode);
-    const osg::Vec3d middle = boxOf(leaves, nodeFromEye).center();
+    const osg::Vec3d middle = boxOfAll(leaves, nodeFromEye).center();
     const osg::Matrixd whole = nodeFromEye * scaledAbout(middle, node.getScale()) * eyeFromNode;
     std::vector<osg::Matrixd> larger;
     for (const StageLeaf& entry : leaves) {
@@ -50,11 +47,7 @@ std::vector<osg::Matrixd> largerLeaves(const HaloNode& node, const std::vector<S
 void includeLarger(osgUtil::CullVisitor& cull, const std::vector<StageLeaf>& leaves,
                    const std::vector<osg::Matrixd>& larger) {
     osg::BoundingBoxd all;
-    for (std::size_t i = 0; i < larger.size(); ++i) {
-        const osg::BoundingBox& box = leaves[i].leaf->_drawable->getBoundingBox();
-        for (unsigned corner = 0; box.valid() && corner < 8; ++corner)
-            all.expandBy(osg::Vec3d(box.corner(corner)) * larger[i]);
-    }
+    for (std::size_t i = 0; i < larger.size(); ++i) all.expandBy(boxOf(*leaves[i].leaf, larger[i]));
     includeInDepths(cull, all, true);
 }
 

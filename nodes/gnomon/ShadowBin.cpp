@@ -208,7 +208,8 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
         popLeafState(*renderInfo.getState(), previous);
         std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
         const bool clean = _stageClears && !isModeOn(leaves, GL_STENCIL_TEST);
-        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean, ownBits(_jobs))).compose(_jobs, _effects);
+        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean, ownBits(_jobs)))
+            .compose(_jobs, _effects);
         renderInfo.getState()->decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);

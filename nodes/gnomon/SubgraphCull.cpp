@@ -68,11 +68,11 @@ void SubgraphCull::apply(osg::OcclusionQueryNode& node) { apply(static_cast<osg:
 
 bool isSubgraphCull(const osg::NodeVisitor& visitor) { return dynamic_cast<const SubgraphCull*>(&visitor) != nullptr; }
 
-osg::BoundingBoxd boxInEye(const osgUtil::RenderLeaf& leaf) {
+osg::BoundingBoxd boxOf(const osgUtil::RenderLeaf& leaf, const osg::Matrixd& frameFromLocal) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    osg::BoundingBoxd inEye;
-    for (unsigned i = 0; box.valid() && i < 8; ++i) inEye.expandBy(osg::Vec3d(box.corner(i)) * *leaf._modelview);
-    return inEye;
+    osg::BoundingBoxd inFrame;
+    for (unsigned i = 0; box.valid() && i < 8; ++i) inFrame.expandBy(osg::Vec3d(box.corner(i)) * frameFromLocal);
+    return inFrame;
 }
 
 void includeInDepths(osgUtil::CullVisitor& cull, const osg::BoundingBoxd& inEye, bool near) {

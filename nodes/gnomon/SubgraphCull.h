@@ -41,8 +41,8 @@ private:
 /// True within the traversal of a SubgraphCull.
 bool isSubgraphCull(const osg::NodeVisitor& visitor);
 
-/// A drawable's box as a leaf places it; invalid if it has none.
-osg::BoundingBoxd boxInEye(const osgUtil::RenderLeaf& leaf);
+/// The box about a leaf's drawable in another frame; invalid if the drawable has none.
+osg::BoundingBoxd boxOf(const osgUtil::RenderLeaf& leaf, const osg::Matrixd& frameFromLocal);
 
 /// Lets the far plane that OSG computes, and if `near` the near one, take in what lies in a box in eye space.
 void includeInDepths(osgUtil::CullVisitor& cull, const osg::BoundingBoxd& inEye, bool near);

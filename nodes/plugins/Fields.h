@@ -8,6 +8,7 @@
 
 #include <charconv>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// What the wrappers share: numbers, lists and selections in files.
@@ -81,55 +82,43 @@ auto readList(osgDB::InputStream& in, ReadItem readItem) {
 bool writeSelection(osgDB::OutputStream& out, const Selection& selection);
 Selection readSelection(osgDB::InputStream& in);
 
-/// A float or double property that keeps every bit in text as well.
+/// A property that keeps every bit in text as well.
+template <typename Class, typename Value, typename Base>
+class Exact : public Base {
+public:
+    using Base::Base;
+
+    bool read(osgDB::InputStream& in, osg::Object& object) override {
+        const typename Base::Setter setter = this->_setter;
+        if (in.isBinary() || in.matchString(this->_name)) (OBJECT_CAST<Class&>(object).*setter)(readAs(in));
+        return true;
+    }
+
+    bool write(osgDB::OutputStream& out, const osg::Object& object) override {
+        const typename Base::Getter getter = this->_getter;
+        const Value value = (OBJECT_CAST<const Class&>(object).*getter)();
+        if (!out.isBinary() && value == this->_defaultValue) return true;
+        out << out.PROPERTY(this->_name.c_str());
+        if constexpr (std::is_arithmetic_v<Value>)
+            writeExact(out, value);
+        else
+            writeExactVector(out, value);
+        out << std::endl;
+        return true;
+    }
+
+private:
+    static Value readAs(osgDB::InputStream& in) {
+        if constexpr (std::is_arithmetic_v<Value>)
+            return readExact<Value>(in);
+        else
+            return readExactVector<Value>(in);
+    }
+};
+
 template <typename Class, typename Number>
-class ExactNumber : public osgDB::PropByValSerializer<Class, Number> {
-    using Base = osgDB::PropByValSerializer<Class, Number>;
-
-public:
-    using Base::Base;
-
-    bool read(osgDB::InputStream& in, osg::Object& object) override {
-        const typename Base::Setter setter = this->_setter;
-        if (in.isBinary() || in.matchString(this->_name)) (OBJECT_CAST<Class&>(object).*setter)(readExact<Number>(in));
-        return true;
-    }
-
-    bool write(osgDB::OutputStream& out, const osg::Object& object) override {
-        const typename Base::Getter getter = this->_getter;
-        const Number value = (OBJECT_CAST<const Class&>(object).*getter)();
-        if (!out.isBinary() && value == this->_defaultValue) return true;
-        out << out.PROPERTY(this->_name.c_str());
-        writeExact(out, value);
-        out << std::endl;
-        return true;
-    }
-};
-
-/// The same for a vector.
+using ExactNumber = Exact<Class, Number, osgDB::PropByValSerializer<Class, Number>>;
 template <typename Class, typename Vector>
-class ExactVector : public osgDB::PropByRefSerializer<Class, Vector> {
-    using Base = osgDB::PropByRefSerializer<Class, Vector>;
-
-public:
-    using Base::Base;
-
-    bool read(osgDB::InputStream& in, osg::Object& object) override {
-        const typename Base::Setter setter = this->_setter;
-        if (in.isBinary() || in.matchString(this->_name))
-            (OBJECT_CAST<Class&>(object).*setter)(readExactVector<Vector>(in));
-        return true;
-    }
-
-    bool write(osgDB::OutputStream& out, const osg::Object& object) override {
-        const typename Base::Getter getter = this->_getter;
-        const Vector& value = (OBJECT_CAST<const Class&>(object).*getter)();
-        if (!out.isBinary() && value == this->_defaultValue) return true;
-        out << out.PROPERTY(this->_name.c_str());
-        writeExactVector(out, value);
-        out << std::endl;
-        return true;
-    }
-};
+using ExactVector = Exact<Class, Vector, osgDB::PropByRefSerializer<Class, Vector>>;
 
 } // namespace gnomon::fields

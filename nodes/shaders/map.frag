@@ -84,10 +84,6 @@ void main() {
     float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));
     vec2 at = gl_FragCoord.xy + depthError.zw;
     float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
-#ifdef SHARE
-    gl_FragColor = vec4(BLOCKED ? 1.0 - arrives : arrives);
-#else
     if (arrives >= THRESHOLD) discard;
     gl_FragColor = vec4(0.0);
-#endif
 }

@@ -24,8 +24,8 @@ struct ChartCost {
     AddedTime movingWall, movingProcessor; ///< the light moves.
     double memory = 0.0;                   ///< MiB beyond the scene without shadows, where it can be told.
     unsigned draws = 0;                    ///< calls that draw, in a steady frame.
-    unsigned passes = 0;                   ///< cameras that draw in it; Gnomon's marks and relights are in the view's own.
-    std::size_t triangles = 0;             ///< handed to OpenGL in it.
+    unsigned passes = 0;       ///< cameras that draw in it; Gnomon's marks and relights are in the view's own.
+    std::size_t triangles = 0; ///< handed to OpenGL in it.
 };
 
 /// One technique at one setting in one scene.
