@@ -19,8 +19,10 @@ void PackedParts::addEmpty() {
 }
 
 void PackedParts::add(const ConvexPart& part) {
+    const ArrangedHull hull(part.hull, part.front ? &*part.front : nullptr);
+    const std::uint16_t kind = kindOf(hull.topology);
     addEmpty();
-    replace(size() - 1, part);
+    put(size() - 1, hull, kind);
 }
 
 void PackedParts::add(const PackedParts& from, std::size_t part) {
@@ -35,7 +37,11 @@ void PackedParts::add(const PackedParts& from, std::size_t part) {
 
 void PackedParts::replace(std::size_t at, const ConvexPart& part) {
     const ArrangedHull hull(part.hull, part.front ? &*part.front : nullptr);
-    _kinds[at] = kindOf(hull.topology);
+    put(at, hull, kindOf(hull.topology));
+}
+
+void PackedParts::put(std::size_t at, const ArrangedHull& hull, std::uint16_t kind) {
+    _kinds[at] = kind;
     _anchors[at] = hull.corners.front();
     makeRoom(at, hull.corners.size() - 1);
     for (std::size_t i = 1; i < hull.corners.size(); ++i)

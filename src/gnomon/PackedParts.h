@@ -38,6 +38,7 @@ public:
 private:
     unsigned begin(std::size_t part) const { return part > 0 ? _ends[part - 1] : 0u; }
     void addEmpty();
+    void put(std::size_t at, const ArrangedHull& hull, std::uint16_t kind);
     void makeRoom(std::size_t part, std::size_t corners);
     std::uint16_t kindOf(std::shared_ptr<const HullTopology> topology);
     void forgetUnused();

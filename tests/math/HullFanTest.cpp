@@ -13,18 +13,13 @@ using gnomon::Ground;
 using gnomon::HeightPyramid;
 using test::degree;
 using test::groundOf;
+using test::hills;
 using test::House;
 using test::sunAt;
 
 namespace {
 
 constexpr int posts = 160;
-
-/// Slopes of 8.5 degrees, root mean square, as in hills of the Appalachians.
-double hills(double x, double y) {
-    return 40.0 * std::sin(x * 0.0031) * std::cos(y * 0.0037) + 10.0 * std::sin(x * 0.011 + 1.0) * std::cos(y * 0.013) +
-           2.0 * std::sin(x * 0.04 + y * 0.03);
-}
 
 double level(double, double) { return 3.0; }
 

@@ -24,18 +24,13 @@ using gnomon::TerrainMethod;
 using gnomon::TerrainOutcome;
 using gnomon::terrainShadow;
 using test::groundOf;
+using test::hills;
 using test::pitch;
 using test::sunAt;
 
 namespace {
 
 constexpr int posts = 160;
-
-/// Slopes of 8.5 degrees, root mean square.
-double hills(double x, double y) {
-    return 40.0 * std::sin(x * 0.0031) * std::cos(y * 0.0037) + 10.0 * std::sin(x * 0.011 + 1.0) * std::cos(y * 0.013) +
-           2.0 * std::sin(x * 0.04 + y * 0.03);
-}
 
 const glm::dvec3 origin(800.0, 800.0, 20.0);
 

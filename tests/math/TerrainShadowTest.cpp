@@ -22,6 +22,7 @@ using test::Contestant;
 using test::drapeMethod;
 using test::figures;
 using test::groundOf;
+using test::hills;
 using test::hullMethod;
 using test::Prism;
 using test::prismsOn;
@@ -30,12 +31,6 @@ using test::sunAt;
 namespace {
 
 constexpr int posts = 160;
-
-/// Slopes of 8.5 degrees, root mean square, as in hills of the Appalachians.
-double hills(double x, double y) {
-    return 40.0 * std::sin(x * 0.0031) * std::cos(y * 0.0037) + 10.0 * std::sin(x * 0.011 + 1.0) * std::cos(y * 0.013) +
-           2.0 * std::sin(x * 0.04 + y * 0.03);
-}
 
 /// A step of 20 m along x = 600, half a pitch wide.
 double cliff(double x, double) { return x < 600.0 ? 20.0 : 0.0; }

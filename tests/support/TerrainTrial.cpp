@@ -145,6 +145,11 @@ glm::dvec3 sunAt(double azimuth, double elevation) {
     return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
 }
 
+double hills(double x, double y) {
+    return 40.0 * std::sin(x * 0.0031) * std::cos(y * 0.0037) + 10.0 * std::sin(x * 0.011 + 1.0) * std::cos(y * 0.013) +
+           2.0 * std::sin(x * 0.04 + y * 0.03);
+}
+
 int over(const gnomon::Drape& drape, const glm::dvec2& place) {
     int count = 0;
     for (std::size_t i = 0; i + 2 < drape.size(); i += 3)

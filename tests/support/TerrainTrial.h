@@ -16,6 +16,9 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 /// The way towards the sun, of length 1. @param azimuth  degrees, clockwise from north (+y). @param elevation  degrees.
 glm::dvec3 sunAt(double azimuth, double elevation);
 
+/// Height of hills with slopes of 8.5 degrees, root mean square, as the Appalachians have them; metres.
+double hills(double x, double y);
+
 /// Triangles of a drape over a place, those whose edge it lies on too.
 int over(const gnomon::Drape& drape, const glm::dvec2& place);
 
