@@ -3,7 +3,6 @@
 
 #include <FrameTime.h>
 
-#include <osg/ArgumentParser>
 #include <osgShadow/ShadowMap>
 #include <osgShadow/ShadowedScene>
 
@@ -14,9 +13,14 @@
 namespace bench {
 namespace {
 
+using gnomon::examples::describeOptions;
 using gnomon::examples::FrameTime;
+using gnomon::examples::Options;
 using gnomon::examples::Quartiles;
 using gnomon::examples::quartiles;
+using gnomon::examples::readOptions;
+using gnomon::examples::readWhole;
+using gnomon::examples::refuseUnknownOptions;
 using Times = std::vector<double> Contender::*;
 
 void timeFrame(Contender& contender, bool record) {
@@ -61,17 +65,18 @@ void race(std::vector<Contender>& contenders, int frames) {
     std::fflush(stdout);
 }
 
-std::optional<int> framesAsked(int argc, char** argv, const std::string& describes) {
-    osg::ArgumentParser arguments(&argc, argv);
-    arguments.getApplicationUsage()->setDescription(describes);
-    arguments.getApplicationUsage()->addCommandLineOption("--frames N", "frames of each contender (default 200)");
+std::optional<int> framesAsked(osg::ArgumentParser& arguments, const std::string& describes, const Options& others) {
+    int frames = 200;
+    Options table{{"--frames", "N", "frames of each contender, 1 to 100000", "200",
+                   [&](const std::string& value) { frames = readWhole(value, 1, 100000); }}};
+    table.insert(table.end(), others.begin(), others.end());
     if (arguments.read("--help")) {
-        arguments.getApplicationUsage()->write(std::cout);
+        std::cout << describes << "\n\nOptions\n" << describeOptions(table);
         return std::nullopt;
     }
-    int frames = 200;
-    arguments.read("--frames", frames);
-    return std::max(frames, 1);
+    readOptions(arguments, table);
+    refuseUnknownOptions(arguments);
+    return frames;
 }
 
 } // namespace bench

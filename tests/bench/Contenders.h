@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <CommandLine.h>
 #include <support/Picture.h>
 #include <support/Scene.h>
 
@@ -27,7 +28,9 @@ Contender contender(const std::string& name, osg::Group* root, const test::View&
 /// medians, quartiles and what each adds to the first, as a share of what the last adds.
 void race(std::vector<Contender>& contenders, int frames);
 
-/// --frames N and --help. @return nullopt after --help.
-std::optional<int> framesAsked(int argc, char** argv, const std::string& describes);
+/// --frames N, --help and what else a benchmark asks. @return nullopt after --help.
+/// @throws std::invalid_argument, one sentence.
+std::optional<int> framesAsked(osg::ArgumentParser& arguments, const std::string& describes,
+                               const gnomon::examples::Options& others = {});
 
 } // namespace bench

@@ -120,13 +120,10 @@ bool run(const std::string& name, osg::Group* things, int frames) {
     return rightPicture(things, view, 0.07);
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int measure(osg::ArgumentParser& arguments) {
     const auto frames =
-        bench::framesAsked(argc, argv,
-                           "Cost of the compositor for a shadow of 7 % and of 40 % of the screen, beside "
-                           "osgShadow::ShadowMap as a whole; medians of interleaved frames.");
+        bench::framesAsked(arguments, "Cost of the compositor for a shadow of 7 % and of 40 % of the screen, beside "
+                                      "osgShadow::ShadowMap as a whole; medians of interleaved frames.");
     if (!frames) return 0;
     bool right = run("town of 400 boxes", townOnGround(), *frames);
     right = run("terrain of 200,000 triangles, one drawable", terrain(316, 1), *frames) && right;
@@ -135,3 +132,7 @@ int main(int argc, char** argv) {
     right = run("terrain of 3,000,000 triangles, 256 tiles", terrain(1216, 16), few) && right;
     return right ? 0 : 1;
 }
+
+} // namespace
+
+int main(int argc, char** argv) { return gnomon::examples::runProgram("bench_compositor", argc, argv, measure); }

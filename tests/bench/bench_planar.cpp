@@ -43,11 +43,9 @@ bool rightPicture(const Setting& setting) {
     return found.wrongInside + found.wrongAtEdge == 0;
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int measure(osg::ArgumentParser& arguments) {
     const auto frames = bench::framesAsked(
-        argc, argv, "Cost of planar shadows beside osgShadow::ShadowMap, medians of interleaved frames.");
+        arguments, "Cost of planar shadows beside osgShadow::ShadowMap, medians of interleaved frames.");
     if (!frames) return 0;
     const std::vector<Setting> settings = {
         {"sphere and box on a ground",
@@ -67,3 +65,7 @@ int main(int argc, char** argv) {
     }
     return right ? 0 : 1;
 }
+
+} // namespace
+
+int main(int argc, char** argv) { return gnomon::examples::runProgram("bench_planar", argc, argv, measure); }

@@ -25,17 +25,11 @@ namespace {
 constexpr int posts = 513, tileSize = 256;
 constexpr double pitch = 10.0;
 
-/// Slopes of 8.5 degrees, root mean square, as in hills of the Appalachians.
-double hills(double x, double y) {
-    return 40.0 * std::sin(x * 0.0031) * std::cos(y * 0.0037) + 10.0 * std::sin(x * 0.011 + 1.0) * std::cos(y * 0.013) +
-           2.0 * std::sin(x * 0.04 + y * 0.03);
-}
-
 const gnomon::HeightPyramid& ground() {
     static const auto pyramid = [] {
         std::vector<float> heights;
         for (int j = 0; j < posts; ++j)
-            for (int i = 0; i < posts; ++i) heights.push_back(float(hills(i * pitch, j * pitch)));
+            for (int i = 0; i < posts; ++i) heights.push_back(float(test::hills(i * pitch, j * pitch)));
         return std::make_unique<gnomon::HeightPyramid>(
             gnomon::HeightField(posts, posts, glm::dvec2(0.0), glm::dvec2(pitch), heights));
     }();

@@ -9,8 +9,6 @@
 
 #include <gnomon/ShadowBin.h>
 
-#include <osg/ArgumentParser>
-
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
@@ -92,15 +90,17 @@ bool run(int buildings, int frames) {
     return rightPicture(town, view);
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
-    const auto frames = bench::framesAsked(
-        argc, argv,
-        "Cost of the shadows of a town on mountains; medians of interleaved frames. [--objects N] buildings.");
-    if (!frames) return 0;
-    osg::ArgumentParser arguments(&argc, argv);
+int measure(osg::ArgumentParser& arguments) {
     int buildings = 100000;
-    arguments.read("--objects", buildings);
+    const auto frames =
+        bench::framesAsked(arguments, "Cost of the shadows of a town on mountains; medians of interleaved frames.",
+                           {{"--objects", "N", "buildings, 1 to 1000000", "100000", [&](const std::string& value) {
+                                 buildings = gnomon::examples::readWhole(value, 1, 1000000);
+                             }}});
+    if (!frames) return 0;
     return run(buildings, *frames) ? 0 : 1;
 }
+
+} // namespace
+
+int main(int argc, char** argv) { return gnomon::examples::runProgram("bench_town_frame", argc, argv, measure); }

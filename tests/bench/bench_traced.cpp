@@ -58,11 +58,9 @@ bool run(const Setting& setting, int frames) {
     return rightPicture(setting, contenders[1].camera->frame(), contenders[0].camera->frame());
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int measure(osg::ArgumentParser& arguments) {
     const auto frames = bench::framesAsked(
-        argc, argv, "Cost of traced shadows beside osgShadow::ShadowMap, medians of interleaved frames.");
+        arguments, "Cost of traced shadows beside osgShadow::ShadowMap, medians of interleaved frames.");
     if (!frames) return 0;
     bool right = run({"town of 400 boxes", town(20),
                       test::perspective({-50.0, -70.0, 50.0}, {0.0, 0.0, 0.0}, 800, 600, 40.0, 1.0, 300.0), 1},
@@ -73,3 +71,7 @@ int main(int argc, char** argv) {
             right;
     return right ? 0 : 1;
 }
+
+} // namespace
+
+int main(int argc, char** argv) { return gnomon::examples::runProgram("bench_traced", argc, argv, measure); }
