@@ -18,7 +18,10 @@ constexpr double secondsAFrame = 2e-3; // on what may wait: an eighth of a frame
 constexpr double marginOfLevels = 0.5;
 constexpr double marginOfGround = 0.05; // for what a depth buffer and floats leave of heights
 
-double marginOn(const TerrainDrawn& drawn) { return drawn.hasLevels ? marginOfLevels : marginOfGround; }
+TileGround groundOf(const TerrainDrawn& drawn) {
+    const auto* grid = drawn.hasLevels ? nullptr : dynamic_cast<const HeightPyramid*>(drawn.ground.get());
+    return {*drawn.ground, grid, drawn.hasLevels ? marginOfLevels : marginOfGround};
+}
 
 bool isInside(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::dvec3& p) {
     const double sides[] = {doubleArea(a, b, p), doubleArea(b, c, p), doubleArea(c, a, p)};
@@ -78,7 +81,7 @@ TerrainFrame TerrainCache::frame(const ShadowCasterGroup& group, const CasterPie
     Lock lock(_mutex);
     Town& town = townOf(group, casters, place, settings.method == TerrainShadowGeode::BOX);
     TerrainTiles& tiles = town.lights[number];
-    tiles.update(town.casters, *town.drawn->ground, light, settings, marginOn(*town.drawn), secondsAFrame);
+    tiles.update(town.casters, groundOf(*town.drawn), light, settings, secondsAFrame);
     return {tiles.shadows(), tiles.causes(), town.casters.origin()};
 }
 
@@ -94,7 +97,7 @@ osg::ref_ptr<const TerrainAnswer> TerrainCache::answer(const ShadowCasterGroup& 
     answer->tiles.resize(tiles.size());
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
         const osg::ref_ptr<TileShadows> shadows = new TileShadows;
-        findShadows(*town.drawn->ground, tiles[i], light, settings, answer->origin, 0.0, *shadows);
+        findShadows(groundOf(*town.drawn), tiles[i], light, settings, answer->origin, *shadows);
         answer->tiles[i] = shadows;
     });
     return answer;

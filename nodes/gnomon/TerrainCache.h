@@ -24,7 +24,7 @@ struct TerrainFrame {
 /// All shadows of one light, to be asked for places.
 struct TerrainAnswer : public osg::Referenced {
     osg::ref_ptr<const TerrainDrawn> drawn;
-    TerrainTiles::List tiles; ///< without prisms.
+    TerrainTiles::List tiles; ///< without meshes.
     glm::dvec3 origin{0.0};
 
     /// Whether a place is under one of the shadows in plan. @param place  group frame.

@@ -3,42 +3,59 @@
 #include <gnomon/MarkProgram.h>
 #include <gnomon/PlanCoverage.h>
 #include <gnomon/ScreenPass.h>
+#include <gnomon/ShadowDecals.h>
 #include <gnomon/ShadowPrisms.h>
 #include <gnomon/StencilRounds.h>
 #include <gnomon/TerrainMark.h>
 #include <gnomon/TerrainTiles.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon {
 
-TerrainPrisms::TerrainPrisms() : _geometry(new osg::Geometry) {
+TerrainMesh::TerrainMesh() : _geometry(new osg::Geometry) {
     _geometry->setUseDisplayList(false);
     _geometry->setUseVertexBufferObjects(true);
     _geometry->setVertexArray(new osg::Vec3Array);
     _geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES));
 }
 
-void TerrainPrisms::set(const ShadowPrisms& prisms) {
+osg::Vec3Array& TerrainMesh::vertices() { return static_cast<osg::Vec3Array&>(*_geometry->getVertexArray()); }
+osg::DrawElementsUInt& TerrainMesh::corners() {
+    return static_cast<osg::DrawElementsUInt&>(*_geometry->getPrimitiveSet(0));
+}
+
+/// @param of  ShadowPrisms or ShadowDecals, whose layers are appended.
+template <typename Shadows, typename Append>
+void TerrainMesh::setFrom(const Shadows& of, Append append) {
     static_assert(sizeof(glm::vec3) == sizeof(osg::Vec3));
-    auto& vertices = static_cast<osg::Vec3Array&>(*_geometry->getVertexArray());
-    auto& corners = static_cast<osg::DrawElementsUInt&>(*_geometry->getPrimitiveSet(0));
-    const auto* places = reinterpret_cast<const osg::Vec3*>(prisms.vertices.data());
-    vertices.assign(places, places + prisms.vertices.size());
-    corners.clear();
+    const auto* places = reinterpret_cast<const osg::Vec3*>(of.vertices.data());
+    vertices().assign(places, places + of.vertices.size());
+    corners().clear();
     _ends.clear();
-    for (const std::vector<unsigned>& layer : prisms.layers) {
-        corners.insert(corners.end(), layer.begin(), layer.end());
-        _ends.push_back(static_cast<unsigned>(corners.size()));
-    }
-    vertices.dirty();
-    corners.dirty();
-    low = prisms.low;
-    high = prisms.high;
+    append([&](const std::vector<unsigned>& layer) {
+        corners().insert(corners().end(), layer.begin(), layer.end());
+        _ends.push_back(static_cast<unsigned>(corners().size()));
+    });
+    vertices().dirty();
+    corners().dirty();
+    low = of.low;
+    high = of.high;
+}
+
+void TerrainMesh::set(const ShadowPrisms& prisms) {
+    setFrom(prisms, [&](auto add) { std::for_each(prisms.layers.begin(), prisms.layers.end(), add); });
     mostOver = prisms.mostOver;
 }
 
-void TerrainPrisms::draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const {
+void TerrainMesh::set(const ShadowDecals& decals) {
+    setFrom(decals, [&](auto add) {
+        if (!decals.triangles.empty()) add(decals.triangles);
+    });
+}
+
+void TerrainMesh::draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const {
     const unsigned first = firstLayer ? _ends[firstLayer - 1] : 0, end = _ends[firstLayer + count - 1];
     if (first == 0 && end == _ends.back())
         _geometry->draw(renderInfo);
@@ -49,10 +66,8 @@ void TerrainPrisms::draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsig
 /// One bit tells odd from even.
 std::vector<std::vector<LayerSlice>> TerrainMark::roundsOf(unsigned counters) const {
     std::vector<PrismLayers> layers;
-    for (const auto& tile : tiles) {
-        const TerrainPrisms& prisms = *tile->prisms;
-        layers.push_back({glm::dvec2(prisms.low), glm::dvec2(prisms.high), prisms.layers(), prisms.mostOver});
-    }
+    for (const TerrainMesh* mesh : prisms)
+        layers.push_back({glm::dvec2(mesh->low), glm::dvec2(mesh->high), mesh->layers(), mesh->mostOver});
     return stencilRounds(layers, counters & 1u ? counters : 1u);
 }
 
@@ -70,6 +85,21 @@ MarkJob::BoxTest TerrainMark::boxTest(const osg::Matrixd& eyeFromBox) const {
     };
 }
 
+/// What lies on the ground is as deep as the ground is: so it is seen where the ground is, and nowhere else.
+std::string TerrainMark::markDecals(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+    osg::State& state = *renderInfo.getState();
+    state.apply(program.get());
+    if (!hasProgram(state)) return noProgram;
+    glm::dmat4 clipFromDecals = clipFromPrisms;
+    clipFromDecals[3][2] -= decalsNearer;
+    setUniform(state, "clipFromCaster", clipFromDecals);
+    pass.testDepth(GL_LEQUAL);
+    pass.stencilEqual(bit, 0, bit);
+    for (const TerrainMesh* mesh : decals) mesh->draw(renderInfo, 0, 1);
+    state.apply();
+    return "";
+}
+
 std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     osg::State& state = *renderInfo.getState();
     const unsigned counters = pass.counters();
@@ -81,11 +111,11 @@ std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, uns
         if (!hasProgram(state)) return noProgram;
         setUniform(state, "clipFromCaster", clipFromPrisms);
         pass.countHolding(counters ? counters : bit);
-        for (const LayerSlice& slice : round) tiles[slice.tile]->prisms->draw(renderInfo, slice.first, slice.count);
+        for (const LayerSlice& slice : round) prisms[slice.tile]->draw(renderInfo, slice.first, slice.count);
         state.apply();
         if (counters) pass.takeCount(counters, bit);
     }
-    return "";
+    return decals.empty() ? "" : markDecals(renderInfo, pass, bit);
 }
 
 } // namespace gnomon

@@ -14,15 +14,17 @@ namespace gnomon {
 
 class PlanCoverage;
 struct LayerSlice;
+struct ShadowDecals;
 struct ShadowPrisms;
 struct TileShadows;
 
-/// Prisms over shadows on the ground, ready to be drawn.
-class TerrainPrisms : public osg::Referenced {
+/// Prisms over shadows on the ground, or decals on it, ready to be drawn.
+class TerrainMesh : public osg::Referenced {
 public:
-    TerrainPrisms();
+    TerrainMesh();
     /// In place of those before, in the same buffers. Not while they are drawn.
     void set(const ShadowPrisms& prisms);
+    void set(const ShadowDecals& decals); ///< one layer of them, or none.
 
     unsigned layers() const { return static_cast<unsigned>(_ends.size()); }
     void draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const;
@@ -33,25 +35,33 @@ public:
     unsigned mostOver = 0;          ///< see ShadowPrisms.
 
 protected:
-    ~TerrainPrisms() override = default;
+    ~TerrainMesh() override = default;
 
 private:
+    template <typename Shadows, typename Append>
+    void setFrom(const Shadows& of, Append append);
+    osg::Vec3Array& vertices();
+    osg::DrawElementsUInt& corners();
     osg::ref_ptr<osg::Geometry> _geometry;
     std::vector<unsigned> _ends; ///< of each layer among the corners.
 };
 
-/// Marks of one light in one view: all that stands in a prism. What of that is ground is for the compositor to tell, which
-/// cuts the marks to the receiver.
+/// Marks of one light in one view: all that decals cover, and all that stands in a prism. What of that is ground is for
+/// the compositor to tell, which cuts the marks to the receiver.
 class TerrainMark : public MarkJob {
 public:
-    std::vector<osg::ref_ptr<const TileShadows>> tiles; ///< each with a layer of prisms or more.
+    std::vector<osg::ref_ptr<const TileShadows>> tiles; ///< whose meshes these are, so that none is changed:
+    std::vector<const TerrainMesh*> decals, prisms;     ///< each with a layer or more.
     osg::ref_ptr<const osg::StateSet> program;          ///< see markProgram().
     glm::dmat4 clipFromPrisms{1.0};
+    /// Of the depth in clip space: decals are drawn so much nearer, on the same pixels, for the ground is drawn by other
+    /// numbers than they are.
+    double decalsNearer = 0.0;
     osg::Matrixd prismsFromEye;
     std::shared_ptr<const PlanCoverage> coverage; ///< of the tiles; null: not known.
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
-    bool counts() const override { return true; }
+    bool counts() const override { return !prisms.empty(); }
     BoxTest boxTest(const osg::Matrixd& eyeFromBox) const override;
 
 protected:
@@ -59,6 +69,7 @@ protected:
 
 private:
     std::vector<std::vector<LayerSlice>> roundsOf(unsigned counters) const;
+    std::string markDecals(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
 };
 
 } // namespace gnomon

@@ -37,11 +37,11 @@ const char* nameOf(TerrainShadowGeode::Method method) {
 
 using Corners = std::array<glm::dvec4, 8>;
 
-Corners cornersOf(const TerrainPrisms& prisms, const glm::dmat4& clipFromPrisms) {
+Corners cornersOf(const TerrainMesh& mesh, const glm::dmat4& clipFromPrisms) {
     Corners corners;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec3 corner(i & 1 ? prisms.high.x : prisms.low.x, i & 2 ? prisms.high.y : prisms.low.y,
-                                i & 4 ? prisms.high.z : prisms.low.z);
+        const glm::dvec3 corner(i & 1 ? mesh.high.x : mesh.low.x, i & 2 ? mesh.high.y : mesh.low.y,
+                                i & 4 ? mesh.high.z : mesh.low.z);
         corners[i] = clipFromPrisms * glm::dvec4(corner, 1.0);
     }
     return corners;
@@ -59,29 +59,55 @@ double pixelsOf(double length, const Corners& corners, const glm::dmat4& clipFro
 // Below it a shadow holds the middle of one pixel at most and of most of them none: what is left of it is noise.
 constexpr double leastPixels = 1.0;
 
+/// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn.
+std::optional<ScreenRect> seen(const TerrainMesh& mesh, double widest, const ViewFrame& view,
+                               const glm::dmat4& clipFromPrisms) {
+    if (mesh.layers() == 0) return std::nullopt;
+    const Corners corners = cornersOf(mesh, clipFromPrisms);
+    const auto bounds = screenBounds({corners.begin(), corners.end()});
+    if (!ShadowBin::getFilter()) return bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}});
+    return pixelsOf(widest, corners, clipFromPrisms, view.pixels) < leastPixels ? std::nullopt : bounds;
+}
+
 /// Adds those tiles that can be seen. @return where they are.
 std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const ViewFrame& view, TerrainMark& mark) {
     std::optional<ScreenRect> all;
+    const auto add = [&](const TileShadows& tile, const TerrainMesh& mesh, std::vector<const TerrainMesh*>& to) {
+        const auto bounds = seen(mesh, tile.widest, view, mark.clipFromPrisms);
+        if (!bounds) return;
+        to.push_back(&mesh);
+        if (mark.tiles.empty() || mark.tiles.back() != &tile) mark.tiles.push_back(&tile);
+        all = all ? united(*all, *bounds) : *bounds;
+    };
     for (const auto& tile : frame.tiles) {
-        if (tile->prisms->layers() == 0) continue;
-        const Corners corners = cornersOf(*tile->prisms, mark.clipFromPrisms);
-        const auto bounds = screenBounds({corners.begin(), corners.end()});
-        const bool isTiny = pixelsOf(tile->widest, corners, mark.clipFromPrisms, view.pixels) < leastPixels;
-        if (ShadowBin::getFilter() && (!bounds || isTiny)) continue;
-        mark.tiles.push_back(tile);
-        if (bounds) all = all ? united(*all, *bounds) : *bounds;
+        add(*tile, *tile->decals, mark.decals);
+        add(*tile, *tile->prisms, mark.prisms);
     }
     return all;
 }
 
 std::shared_ptr<const PlanCoverage> coverageOf(const TerrainMark& mark) {
     std::vector<PlanCoverage::Rect> rectangles;
-    for (const auto& tile : mark.tiles) {
-        const glm::dvec2 low(tile->prisms->low), high(tile->prisms->high);
+    std::vector<const TerrainMesh*> meshes = mark.decals;
+    meshes.insert(meshes.end(), mark.prisms.begin(), mark.prisms.end());
+    for (const TerrainMesh* mesh : meshes) {
+        const glm::dvec2 low(mesh->low), high(mesh->high);
         const glm::dvec2 rounding = 1e-6 * glm::max(glm::abs(low), glm::abs(high)); // of prisms in single precision
         rectangles.push_back({low - rounding, high + rounding});
     }
     return std::make_shared<PlanCoverage>(rectangles);
+}
+
+/// How much of the depth in clip space takes a point a few pixels' length nearer to the eye, on the same pixel: far more
+/// than depths are off by, and so little that what a crest hides is not taken for the crest by a quarter of a pixel.
+double aFewPixelsNearer(const osg::Matrixd& projection, const osg::Vec2d& pixels) {
+    constexpr double few = 4.0;
+    const glm::dmat4 clipFromEye = toGlm(projection);
+    const glm::dvec4 eye = eyeIn(clipFromEye); // adding it to a point takes 1 off the depth and nothing off the rest
+    double pixel = 0.0;                        // its length where w is 1
+    for (int i = 0; i < 2; ++i)
+        pixel = std::max(pixel, 2.0 / (pixels[i] * glm::length(glm::dvec3(glm::row(clipFromEye, i)))));
+    return few * pixel / (eye.w != 0.0 ? std::abs(eye.w) : glm::length(glm::dvec3(eye)));
 }
 
 /// Black of half opacity, as published; drawn before the ground that it lies on.
@@ -155,6 +181,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
     mark->program = _program;
     mark->clipFromPrisms = glm::translate(toGlm(view.eyeFromGroup * view.projection), frame.origin);
+    mark->decalsNearer = aFewPixelsNearer(view.projection, view.pixels);
     mark->prismsFromEye = osg::Matrixd::inverse(view.eyeFromGroup) *
                           osg::Matrixd::translate(-frame.origin.x, -frame.origin.y, -frame.origin.z);
     const auto bounds = addSeen(frame, view, *mark);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ShadowDecals.h>
 #include <gnomon/ShadowPrisms.h>
 #include <gnomon/TerrainTiles.h>
 
@@ -66,20 +67,30 @@ void measure(TileShadows& shadows) {
     }
 }
 
+/// Fans lie on the ground that is drawn; of the rest, which may stand for it, no more is known than where it is in plan.
+void setMeshes(const TileGround& ground, TileShadows& shadows) {
+    thread_local ShadowDecals decals; // memory that is used again
+    thread_local ShadowPrisms prisms;
+    if (ground.drawn) {
+        shadowDecals(*ground.drawn, shadows.found, decals);
+        shadows.decals->set(decals);
+    } else
+        shadows.decals->set(ShadowDecals());
+    shadowPrisms(ground.found, shadows.found, ground.margin, !ground.drawn, prisms);
+    shadows.prisms->set(prisms);
+}
+
 } // namespace
 
-void findShadows(const Ground& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
-                 const TerrainSettings& settings, const glm::dvec3& origin, double margin, TileShadows& into) {
+void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
+                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into) {
     into.light = light;
     if (settings.method == TerrainShadowGeode::BOX)
-        into.found = boxShadows(ground, tile, light, origin);
+        into.found = boxShadows(ground.found, tile, light, origin);
     else
-        packedShadows(ground, tile.parts, light, methodOf(settings), settings.error, origin, into.found);
+        packedShadows(ground.found, tile.parts, light, methodOf(settings), settings.error, origin, into.found);
     measure(into);
-    if (!into.prisms) return;
-    thread_local ShadowPrisms prisms; // memory that is used again
-    shadowPrisms(ground, into.found, margin, prisms);
-    into.prisms->set(prisms);
+    if (into.prisms) setMeshes(ground, into);
 }
 
 struct TerrainTiles::Late {
@@ -92,8 +103,8 @@ bool TerrainTiles::isSame(const glm::dvec4& light) const {
     return light.w == _light.w && glm::length(light - _light) <= sameLight * glm::length(light);
 }
 
-void TerrainTiles::update(const TerrainTown& town, const Ground& ground, const glm::dvec4& light,
-                          const TerrainSettings& settings, double margin, double seconds) {
+void TerrainTiles::update(const TerrainTown& town, const TileGround& ground, const glm::dvec4& light,
+                          const TerrainSettings& settings, double seconds) {
     const Clock::time_point start = Clock::now();
     const bool still = isSame(light);
     if (!still) _light = light;
@@ -112,12 +123,12 @@ void TerrainTiles::update(const TerrainTown& town, const Ground& ground, const g
             late.push_back({i, off});
     }
     if (due.empty() && late.empty()) return;
-    find(town, ground, margin, due);
+    find(town, ground, due);
     std::sort(late.begin(), late.end());
     for (std::size_t i = 0; i < late.size() && std::chrono::duration<double>(Clock::now() - start).count() < seconds;) {
         due.clear();
         for (; i < late.size() && due.size() < atOnce; ++i) due.push_back(late[i].tile);
-        find(town, ground, margin, due);
+        find(town, ground, due);
     }
     countOutcomes(town);
 }
@@ -131,16 +142,16 @@ osg::ref_ptr<TileShadows> TerrainTiles::unused() {
             return result;
         }
     osg::ref_ptr<TileShadows> result = new TileShadows;
-    result->prisms = new TerrainPrisms;
+    result->decals = new TerrainMesh;
+    result->prisms = new TerrainMesh;
     return result;
 }
 
-void TerrainTiles::find(const TerrainTown& town, const Ground& ground, double margin,
-                        const std::vector<std::size_t>& tiles) {
+void TerrainTiles::find(const TerrainTown& town, const TileGround& ground, const std::vector<std::size_t>& tiles) {
     std::vector<osg::ref_ptr<TileShadows>> into(tiles.size());
     for (osg::ref_ptr<TileShadows>& shadows : into) shadows = unused();
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-        findShadows(ground, town.tiles()[tiles[i]], _light, _settings, town.origin(), margin, *into[i]);
+        findShadows(ground, town.tiles()[tiles[i]], _light, _settings, town.origin(), *into[i]);
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const osg::ref_ptr<TileShadows> old = const_cast<TileShadows*>(_shadows[tiles[i]].get());
@@ -157,14 +168,20 @@ void TerrainTiles::countOutcomes(const TerrainTown& town) {
     _causes = all.causes();
 }
 
+/// Of all that are drawn or may be again.
+template <typename Act>
+void TerrainTiles::eachMesh(const Act& act) const {
+    const auto both = [&](const TileShadows& shadows) { act(*shadows.decals), act(*shadows.prisms); };
+    for (const auto& shadows : _shadows) both(*shadows);
+    for (const auto& shadows : _spare) both(*shadows);
+}
+
 void TerrainTiles::resizeGLObjectBuffers(unsigned maxSize) {
-    for (const auto& shadows : _shadows) shadows->prisms->resizeGLObjectBuffers(maxSize);
-    for (const auto& shadows : _spare) shadows->prisms->resizeGLObjectBuffers(maxSize);
+    eachMesh([&](TerrainMesh& mesh) { mesh.resizeGLObjectBuffers(maxSize); });
 }
 
 void TerrainTiles::releaseGLObjects(osg::State* state) const {
-    for (const auto& shadows : _shadows) shadows->prisms->releaseGLObjects(state);
-    for (const auto& shadows : _spare) shadows->prisms->releaseGLObjects(state);
+    eachMesh([&](const TerrainMesh& mesh) { mesh.releaseGLObjects(state); });
 }
 
 } // namespace gnomon

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Ground.h>
+#include <gnomon/HeightPyramid.h>
 #include <gnomon/PackedShadows.h>
 #include <gnomon/TerrainMark.h>
 #include <gnomon/TerrainShadowGeode.h>
@@ -32,18 +32,25 @@ inline TerrainMethod methodOf(const TerrainSettings& settings) {
 struct TileShadows : public osg::Referenced {
     PackedShadows found;
     OutcomeCounts outcomes;
-    glm::dvec4 light{0.0};              ///< that they were found with.
-    osg::ref_ptr<TerrainPrisms> prisms; ///< null if nobody draws them.
-    glm::dvec2 low{0.0}, high{0.0};     ///< bounds in plan, about the origin; low > high if there is no shadow.
-    double widest = 0.0;                ///< diameter of the largest shadow.
+    glm::dvec4 light{0.0};                    ///< that they were found with.
+    osg::ref_ptr<TerrainMesh> decals, prisms; ///< what shows them together; null if nobody draws them.
+    glm::dvec2 low{0.0}, high{0.0};           ///< bounds in plan, about the origin; low > high if there is no shadow.
+    double widest = 0.0;                      ///< diameter of the largest shadow.
 
 protected:
     ~TileShadows() override = default;
 };
 
-/// Finds the shadows of one tile. @param into  whose memory is used again; its prisms are made anew if it has any.
-void findShadows(const Ground& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
-                 const TerrainSettings& settings, const glm::dvec3& origin, double margin, TileShadows& into);
+/// The ground that shadows are found on, and how it is drawn.
+struct TileGround {
+    const Ground& found;
+    const HeightPyramid* drawn; ///< it, if it is drawn triangle by triangle; null: otherwise, or not known.
+    double margin;              ///< of what is not, see shadowPrisms().
+};
+
+/// Finds the shadows of one tile. @param into  whose memory is used again; its meshes are made anew if it has any.
+void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
+                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into);
 
 /// The shadows of one light on a town's ground, tile by tile, kept while the light moves.
 ///
@@ -55,10 +62,9 @@ public:
     using List = std::vector<osg::ref_ptr<const TileShadows>>;
 
     /// @param ground   the same until groundChanged().
-    /// @param margin   see shadowPrisms().
     /// @param seconds  to be spent on what may wait.
-    void update(const TerrainTown& town, const Ground& ground, const glm::dvec4& light, const TerrainSettings& settings,
-                double margin, double seconds);
+    void update(const TerrainTown& town, const TileGround& ground, const glm::dvec4& light,
+                const TerrainSettings& settings, double seconds);
     void groundChanged() { _states.clear(); }
 
     const List& shadows() const { return _shadows; }
@@ -71,8 +77,10 @@ public:
 private:
     struct Late; // a tile that may wait
     bool isSame(const glm::dvec4& light) const;
-    void find(const TerrainTown& town, const Ground& ground, double margin, const std::vector<std::size_t>& tiles);
+    void find(const TerrainTown& town, const TileGround& ground, const std::vector<std::size_t>& tiles);
     osg::ref_ptr<TileShadows> unused();
+    template <typename Act>
+    void eachMesh(const Act& act) const;
     void countOutcomes(const TerrainTown& town);
 
     List _shadows;

@@ -304,14 +304,15 @@ ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& o
     return prisms;
 }
 
-void shadowPrisms(const Ground& ground, const PackedShadows& shadows, double margin, ShadowPrisms& into) {
+void shadowPrisms(const Ground& ground, const PackedShadows& shadows, double margin, bool fans, ShadowPrisms& into) {
     clear(into);
     thread_local std::vector<std::size_t> parts;
     thread_local std::vector<GroundBox> boxes;
     parts.clear();
     boxes.clear();
     for (std::size_t i = 0; i < shadows.size(); ++i)
-        if (const auto box = boxOver(ground, shadows[i], shadows.origin, margin)) {
+        if (const auto box =
+                !fans && shadows[i].isFan() ? std::nullopt : boxOver(ground, shadows[i], shadows.origin, margin)) {
             parts.push_back(i);
             boxes.push_back(*box);
         }

@@ -26,8 +26,9 @@ ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& o
 /// @param margin  how far a prism reaches below the lowest and above the highest ground about its shadow, as a share of the
 ///                shadow's diameter in plan: some hundredths where that very ground is drawn, half where others of its
 ///                levels of detail are.
+/// @param fans    false leaves those out that shadowDecals() takes.
 ///
 /// Threads any number, each with its own `into`. Cost  linear in the corners; of a drape in its triangles.
-void shadowPrisms(const Ground& ground, const PackedShadows& shadows, double margin, ShadowPrisms& into);
+void shadowPrisms(const Ground& ground, const PackedShadows& shadows, double margin, bool fans, ShadowPrisms& into);
 
 } // namespace gnomon

@@ -31,7 +31,8 @@ SceneSetup setUp(const TownScene& town, const std::string& shadow) {
 
 test::View viewOf(const TownScene& town) {
     const auto& view = town.view();
-    return test::perspective(*view.eye, *view.center, width, height, view.fovy, 10.0, 4e4);
+    // Nothing is nearer than 300 m: with a near plane at 10 m, depths of 24 bits take 1.3 % of the shadows' pixels for others.
+    return test::perspective(*view.eye, *view.center, width, height, view.fovy, 100.0, 4e4);
 }
 
 /// Turns the sun on and on.

@@ -86,7 +86,7 @@ TEST(TerrainTown, HasTheShadowsOfEachHouseAloneBitForBit) {
     const glm::dvec4 sun(test::sunAt(250.0, 35.0), 0.0);
     for (const auto method : {TerrainShadowGeode::HULL, TerrainShadowGeode::DRAPE}) {
         gnomon::TerrainTiles tiles;
-        tiles.update(town, ground, sun, {method, error, {}}, 0.05, 0.0);
+        tiles.update(town, {ground, &ground, 0.05}, sun, {method, error, {}}, 0.0);
         std::vector<Corners> found;
         for (const auto& tile : tiles.shadows())
             for (std::size_t i = 0; i < tile->found.size(); ++i)

@@ -216,7 +216,7 @@ TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAre
     const auto picture = [&](unsigned reserved, std::string& cause) {
         ShadowBin::reserve(reserved);
         Scene scene = test::groundScene(houses, 20.0, sun);
-        const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::HULL);
+        const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::DRAPE); // prisms
         scene.addShadow(shadow);
         test::Picture result = test::render(scene.root, above);
         cause = shadow->diagnose().empty() ? "" : shadow->diagnose().front();

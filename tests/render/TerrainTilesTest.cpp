@@ -356,22 +356,23 @@ TEST(TerrainTiles, AreRightAllDayAtThreeLatitudesAndMemoryDoesNotGrow) {
         return picture;
     };
     for (const double latitude : {0.0, 40.0, 70.0}) {
-        std::size_t afterOneDay = 0;
+        std::size_t least[3]; // of a day: drivers hold a megabyte more now and then
         int dark = 0;
-        for (int day = 0; day < 2; ++day) {
+        for (int day = 0; day < 3; ++day) {
+            least[day] = bytesInUse();
             for (int step = 0; step < 1440; ++step) {
                 const osg::Vec4f sun(Moment{latitude, step}.sun());
                 scene.light->getLight()->setPosition(sun);
                 const test::Picture picture = isDark(camera.frame());
-                if (day > 0 || step % 3 > 0) continue; // the second day is for the memory
+                least[day] = std::min(least[day], bytesInUse());
+                if (day > 0 || step % 3 > 0) continue; // later days are for the memory
                 exact.light->getLight()->setPosition(sun);
                 const test::Picture right = isDark(truth.frame());
                 dark += std::count(right.pixels.begin(), right.pixels.end(), 1u) > 0;
                 ASSERT_EQ(fartherThan(2, picture, right), 0) << latitude << " " << step;
             }
-            if (day == 0) afterOneDay = bytesInUse();
         }
         EXPECT_GT(dark, 200) << latitude;
-        EXPECT_LT(bytesInUse(), afterOneDay + 100000) << latitude;
+        EXPECT_LT(least[2], least[1] + 100000) << latitude;
     }
 }

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/GridDrape.h>
+#include <gnomon/GroundQuery.h>
+#include <gnomon/ShadowDecals.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+// Of a cell: what floats leave of a place on its edge. A decal that reaches so far over an edge is off by as much height.
+constexpr double onEdge = 1e-6;
+
+/// Of numbers that belong to a shape's corners.
+struct Range {
+    double low = infinite, high = -infinite;
+    void take(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    bool isIn(double from, double to) const { return from - onEdge <= low && high <= to + onEdge; }
+};
+
+/// Corners of a polygon in plan, in the ground's frame.
+using Polygon = std::vector<glm::dvec3>;
+
+bool isOnOneTriangle(const HeightField& field, const Polygon& polygon) {
+    Range x, y;
+    for (const glm::dvec3& corner : polygon) {
+        const glm::dvec2 cell = field.cellOf(corner.x, corner.y);
+        x.take(cell.x);
+        y.take(cell.y);
+    }
+    const double left = std::floor(x.low + onEdge), low = std::floor(y.low + onEdge);
+    if (!x.isIn(left, left + 1.0) || !y.isIn(low, low + 1.0)) return false;
+    if (left < 0.0 || low < 0.0 || left > field.columns() - 2 || low > field.rows() - 2) return false;
+    const bool falls = field.cut(int(left), int(low)) == CellCut::falling;
+    Range across; // of the diagonal
+    for (const glm::dvec3& corner : polygon) {
+        const glm::dvec2 in = field.cellOf(corner.x, corner.y) - glm::dvec2(left, low);
+        across.take(falls ? in.x + in.y - 1.0 : in.x - in.y);
+    }
+    return across.isIn(0.0, infinite) || across.isIn(-infinite, 0.0);
+}
+
+bool isConvex(const Polygon& polygon) {
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        if (doubleArea(polygon[i], polygon[(i + 1) % polygon.size()], polygon[(i + 2) % polygon.size()]) < 0.0)
+            return false;
+    return true;
+}
+
+class Builder {
+public:
+    /// Memory is used again.
+    void begin(const HeightPyramid& ground, const glm::dvec3& origin, ShadowDecals& into) {
+        _ground = &ground;
+        _origin = origin;
+        _into = &into;
+    }
+    void add(const PackedShadow& fan) {
+        _polygon.clear();
+        for (std::size_t i = 0; i < fan.cornerCount; ++i) _polygon.push_back(_origin + glm::dvec3(fan.corners[i]));
+        if (isOnOneTriangle(_ground->field(), _polygon))
+            addFan(fan);
+        else if (fan.cornerCount <= mostCorners && isConvex(_polygon))
+            addClipped(_polygon);
+        else
+            for (std::size_t i = 2; i < fan.cornerCount; ++i) addClipped({_polygon[0], _polygon[i - 1], _polygon[i]});
+    }
+
+private:
+    static constexpr std::size_t mostCorners = 16; // each is a plane: triangles of a larger one have fewer
+
+    void addFan(const PackedShadow& fan) {
+        const unsigned first = nextVertex();
+        _into->vertices.insert(_into->vertices.end(), fan.corners, fan.corners + fan.cornerCount);
+        for (unsigned i = 2; i < fan.cornerCount; ++i)
+            _into->triangles.insert(_into->triangles.end(), {first, first + i - 1, first + i});
+    }
+    /// A convex polygon.
+    void addClipped(const Polygon& polygon) {
+        _planes.anchor = polygon.front();
+        _planes.about.clear();
+        glm::dvec2 low(infinite), high(-infinite);
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const glm::dvec2 a(polygon[i] - _planes.anchor), b(polygon[(i + 1) % polygon.size()] - _planes.anchor);
+            const glm::dvec2 inwards(a.y - b.y, b.x - a.x);
+            _planes.about.emplace_back(inwards, 0.0, -glm::dot(inwards, a));
+            low = glm::min(low, a);
+            high = glm::max(high, a);
+        }
+        if (const DrapeMesh* found = _drape.drape(*_ground, _planes, low, high, 0.0, 1.0))
+            addMesh(found->corners, found->indices, _planes.anchor - _origin);
+        else
+            addTriangles(drape(*_ground, upright(), 0.0));
+    }
+    /// The planes in the ground's frame.
+    ConvexShadow upright() const {
+        ConvexShadow shadow;
+        for (const glm::dvec4& plane : _planes.about)
+            if (const double size = glm::length(glm::dvec3(plane)); size > 0.0)
+                shadow.planes.emplace_back(glm::dvec3(plane) / size,
+                                           (plane.w - glm::dot(glm::dvec3(plane), _planes.anchor)) / size);
+        return shadow;
+    }
+    void addMesh(const std::vector<glm::dvec3>& corners, const std::vector<unsigned>& indices,
+                 const glm::dvec3& moved) {
+        const unsigned first = nextVertex();
+        for (const glm::dvec3& corner : corners) _into->vertices.emplace_back(corner + moved);
+        for (const unsigned index : indices) _into->triangles.push_back(first + index);
+    }
+    void addTriangles(const Drape& triangles) {
+        for (const glm::dvec3& corner : triangles) {
+            _into->triangles.push_back(nextVertex());
+            _into->vertices.emplace_back(corner - _origin);
+        }
+    }
+    unsigned nextVertex() const { return unsigned(_into->vertices.size()); }
+
+    const HeightPyramid* _ground = nullptr;
+    glm::dvec3 _origin{0.0};
+    ShadowDecals* _into = nullptr;
+    Polygon _polygon;
+    GridDrape::Planes _planes;
+    GridDrape _drape;
+};
+
+} // namespace
+
+void shadowDecals(const HeightPyramid& ground, const PackedShadows& shadows, ShadowDecals& into) {
+    into.vertices.clear();
+    into.triangles.clear();
+    thread_local Builder builder;
+    builder.begin(ground, shadows.origin, into);
+    for (std::size_t i = 0; i < shadows.size(); ++i)
+        if (const PackedShadow shadow = shadows[i]; shadow.isFan() && shadow.cornerCount >= 3) builder.add(shadow);
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+    for (const glm::vec3& vertex : into.vertices) low = glm::min(low, vertex), high = glm::max(high, vertex);
+    into.low = low;
+    into.high = high;
+}
+
+} // namespace gnomon

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/HeightPyramid.h>
+#include <gnomon/PackedShadows.h>
+
+namespace gnomon {
+
+/// Shadows as triangles in the ground's own planes: drawn over that very ground, cut as it is, they cover what of it is in
+/// shadow.
+struct ShadowDecals {
+    std::vector<glm::vec3> vertices; ///< about the shadows' origin.
+    std::vector<unsigned> triangles; ///< three places in `vertices` each, counter-clockwise from above.
+    glm::dvec3 low{0.0}, high{0.0};  ///< bounds, about the origin.
+};
+
+/// Of the shadows that are fans; of the others see shadowPrisms(). Memory that `into` has is used again.
+///
+/// Threads any number, each with its own `into`. Cost  a fan on one triangle of the ground is itself; another is clipped to
+/// the triangles that it lies on.
+void shadowDecals(const HeightPyramid& ground, const PackedShadows& shadows, ShadowDecals& into);
+
+} // namespace gnomon
