@@ -97,6 +97,20 @@ TEST(ShadowDecals, LieOnCellsCutTheOtherWay) {
                     1000);
 }
 
+/// On cells of 60 m, cut either way, most fans are on one triangle.
+TEST(ShadowDecals, LieOnTheTriangleOrTheTrianglesThatTheyAreOn) {
+    for (const gnomon::CellCut cut : {gnomon::CellCut::rising, gnomon::CellCut::falling}) {
+        std::vector<float> heights;
+        for (int j = 0; j < 27; ++j)
+            for (int i = 0; i < 27; ++i) heights.push_back(float(hills(60.0 * i, 60.0 * j)));
+        const std::vector<gnomon::CellCut> cuts(26 * 26, cut);
+        const HeightPyramid ground({27, 27, {0.0, 0.0}, {60.0, 60.0}, heights, 0.0, cuts});
+        const PackedShadows shadows =
+            shadowsOf(ground, test::prismsOn(ground, glm::dvec2(300.0), glm::dvec2(1290.0), 100, 3));
+        expectTheFansOn(ground, shadows, 200);
+    }
+}
+
 /// A box of 4 by 4 m on one triangle of 10 km.
 TEST(ShadowDecals, OfAFanOnOneTriangleAreItself) {
     const HeightPyramid level({2, 2, {0.0, -500.0}, {10000.0, 10000.0}, std::vector<float>(4, 3.0f)});
