@@ -17,7 +17,6 @@ public:
 
     /// Lights that nothing but these may be added to: there is no ambient light beside theirs.
     osg::Group* node() { return _node; }
-    std::size_t count() const { return _lamps.size(); }
     AddedLamp& operator[](std::size_t i) { return _lamps[i]; }
     const AddedLamp& operator[](std::size_t i) const { return _lamps[i]; }
 

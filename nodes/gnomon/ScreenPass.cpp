@@ -219,9 +219,9 @@ void ScreenPass::drawColor(const osg::Vec4& color) {
     glColor4fv(current);
 }
 
-void ScreenPass::testDepth(GLenum function) {
+void ScreenPass::testDepth(GLenum function, bool clamp) {
     glEnable(GL_DEPTH_TEST);
-    glEnable(depthClamp);
+    clamp ? glEnable(depthClamp) : glDisable(depthClamp);
     glDepthFunc(function);
 }
 

@@ -93,8 +93,9 @@ public:
     /// What is drawn next multiplies alpha by its own, and writes nothing else.
     void multiplyAlpha();
     void multiplyColorByAlpha();
-    /// Passes where the quad's depth compares so with the one that stands; depths beyond near and far are clamped.
-    void testDepth(GLenum function);
+    /// Passes where what is drawn next compares so with the depth that stands.
+    /// @param clamp  what is nearer than the near plane, or beyond the far one, is taken for as far as that; else it is cut off.
+    void testDepth(GLenum function, bool clamp = true);
 
     /// See gnomon::drawQuad().
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);

@@ -19,7 +19,8 @@ constexpr double marginOfLevels = 0.5;
 constexpr double marginOfGround = 0.05; // for what a depth buffer and floats leave of heights
 
 TileGround groundOf(const TerrainDrawn& drawn) {
-    const auto* grid = drawn.hasLevels ? nullptr : dynamic_cast<const HeightPyramid*>(drawn.ground.get());
+    const bool isAsFound = !drawn.hasLevels && !drawn.hasQuads;
+    const auto* grid = !isAsFound ? nullptr : dynamic_cast<const HeightPyramid*>(drawn.ground.get());
     return {*drawn.ground, grid, drawn.hasLevels ? marginOfLevels : marginOfGround};
 }
 

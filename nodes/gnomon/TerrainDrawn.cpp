@@ -4,6 +4,7 @@
 #include <gnomon/TerrainGround.h>
 
 #include <osg/Camera>
+#include <osg/Geometry>
 #include <osg/LOD>
 
 #include <algorithm>
@@ -11,25 +12,38 @@
 namespace gnomon {
 namespace {
 
+/// Whether some of it is more than triangles.
+bool isOfQuads(const osg::Drawable& drawable) {
+    const osg::Geometry* geometry = drawable.asGeometry();
+    const auto isQuads = [](const auto& set) { return set->getMode() >= GL_QUADS && set->getMode() <= GL_POLYGON; };
+    return geometry &&
+           std::any_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), isQuads);
+}
+
 /// The terrain's drawables, and what they are made of.
 class TerrainVisitor : public CasterVisitor {
 public:
     explicit TerrainVisitor(const Selection& terrain) : CasterVisitor(terrain) {}
     using CasterVisitor::apply;
     void apply(osg::LOD& lod) override {
-        const std::size_t before = drawables.size();
+        const unsigned before = _met;
         CasterVisitor::apply(lod);
-        hasLevels = hasLevels || drawables.size() > before;
+        hasLevels = hasLevels || _met > before;
     }
     std::set<const osg::Drawable*> drawables;
     std::vector<osg::ref_ptr<const osg::Referenced>> sources;
-    bool hasLevels = false;
+    bool hasLevels = false, hasQuads = false;
 
 protected:
     void applyCaster(osg::Drawable& drawable) override {
+        ++_met;
         drawables.insert(&drawable);
+        hasQuads = hasQuads || isOfQuads(drawable);
         holdSources(drawable, sources);
     }
+
+private:
+    unsigned _met = 0;
 };
 
 bool isUnder(const osg::Node& node, const osg::Node& root) {
@@ -70,6 +84,7 @@ osg::ref_ptr<const TerrainDrawn> TerrainPlace::drawn(const osg::ref_ptr<const Te
     drawn->drawables = std::move(visitor.drawables);
     drawn->sources = std::move(visitor.sources);
     drawn->hasLevels = visitor.hasLevels;
+    drawn->hasQuads = visitor.hasQuads;
     drawn->ground = groundOf(root, terrain, groundFromRoot);
     return drawn;
 }

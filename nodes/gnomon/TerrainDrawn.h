@@ -19,6 +19,7 @@ struct TerrainDrawn : public osg::Referenced {
     std::set<const osg::Drawable*> drawables;                 ///< to be told apart from others only.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().
     bool hasLevels = false; ///< what is drawn may be coarser than this ground, for there are levels of detail.
+    bool hasQuads = false;  ///< which a driver cuts into triangles by its own rule.
     std::shared_ptr<const Ground> ground;
 
 protected:

@@ -85,15 +85,25 @@ MarkJob::BoxTest TerrainMark::boxTest(const osg::Matrixd& eyeFromBox) const {
     };
 }
 
-/// What lies on the ground is as deep as the ground is: so it is seen where the ground is, and nowhere else.
+/// Nearer by `decalsNearer`, and by some steps of the depth buffer, of which there are few to far distances.
+glm::dmat4 TerrainMark::clipFromDecals() const {
+    constexpr double steps = 4.0; // the ground's own depth, rounded, and what interpolation leaves of both
+    GLint bits = 24;
+    glGetIntegerv(GL_DEPTH_BITS, &bits);
+    glm::dmat4 result = clipFromPrisms;
+    result[3][2] -= decalsNearer;
+    for (int column = 0; column < 4; ++column) result[column][2] -= steps * std::ldexp(2.0, -bits) * result[column][3];
+    return result;
+}
+
+/// What lies on the ground is as deep as the ground is: so it is seen where the ground is, and hidden where the ground is.
+/// What is cut off with the ground in front of the near plane must not be seen through the hole.
 std::string TerrainMark::markDecals(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     osg::State& state = *renderInfo.getState();
     state.apply(program.get());
     if (!hasProgram(state)) return noProgram;
-    glm::dmat4 clipFromDecals = clipFromPrisms;
-    clipFromDecals[3][2] -= decalsNearer;
-    setUniform(state, "clipFromCaster", clipFromDecals);
-    pass.testDepth(GL_LEQUAL);
+    setUniform(state, "clipFromCaster", clipFromDecals());
+    pass.testDepth(GL_LEQUAL, false);
     pass.stencilEqual(bit, 0, bit);
     for (const TerrainMesh* mesh : decals) mesh->draw(renderInfo, 0, 1);
     state.apply();

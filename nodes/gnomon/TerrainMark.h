@@ -69,6 +69,7 @@ protected:
 
 private:
     std::vector<std::vector<LayerSlice>> roundsOf(unsigned counters) const;
+    glm::dmat4 clipFromDecals() const;
     std::string markDecals(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
 };
 

@@ -98,16 +98,15 @@ std::shared_ptr<const PlanCoverage> coverageOf(const TerrainMark& mark) {
     return std::make_shared<PlanCoverage>(rectangles);
 }
 
-/// How much of the depth in clip space takes a point a few pixels' length nearer to the eye, on the same pixel: far more
-/// than depths are off by, and so little that what a crest hides is not taken for the crest by a quarter of a pixel.
-double aFewPixelsNearer(const osg::Matrixd& projection, const osg::Vec2d& pixels) {
-    constexpr double few = 4.0;
+/// How much of the depth in clip space takes a point a pixel's length nearer to the eye, on the same pixel: far more than
+/// what floats leave of places, and so little that of what a crest hides not half a pixel is taken for the crest.
+double aPixelNearer(const osg::Matrixd& projection, const osg::Vec2d& pixels) {
     const glm::dmat4 clipFromEye = toGlm(projection);
     const glm::dvec4 eye = eyeIn(clipFromEye); // adding it to a point takes 1 off the depth and nothing off the rest
     double pixel = 0.0;                        // its length where w is 1
     for (int i = 0; i < 2; ++i)
         pixel = std::max(pixel, 2.0 / (pixels[i] * glm::length(glm::dvec3(glm::row(clipFromEye, i)))));
-    return few * pixel / (eye.w != 0.0 ? std::abs(eye.w) : glm::length(glm::dvec3(eye)));
+    return pixel / (eye.w != 0.0 ? std::abs(eye.w) : glm::length(glm::dvec3(eye)));
 }
 
 /// Black of half opacity, as published; drawn before the ground that it lies on.
@@ -181,7 +180,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
     mark->program = _program;
     mark->clipFromPrisms = glm::translate(toGlm(view.eyeFromGroup * view.projection), frame.origin);
-    mark->decalsNearer = aFewPixelsNearer(view.projection, view.pixels);
+    mark->decalsNearer = aPixelNearer(view.projection, view.pixels);
     mark->prismsFromEye = osg::Matrixd::inverse(view.eyeFromGroup) *
                           osg::Matrixd::translate(-frame.origin.x, -frame.origin.y, -frame.origin.z);
     const auto bounds = addSeen(frame, view, *mark);

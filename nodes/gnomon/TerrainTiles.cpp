@@ -67,7 +67,7 @@ void measure(TileShadows& shadows) {
     }
 }
 
-/// Fans lie on the ground that is drawn; of the rest, which may stand for it, no more is known than where it is in plan.
+/// Decals lie on the ground that is drawn; of the rest, which may stand for it, no more is known than where it is in plan.
 void setMeshes(const TileGround& ground, TileShadows& shadows) {
     thread_local ShadowDecals decals; // memory that is used again
     thread_local ShadowPrisms prisms;
@@ -76,7 +76,7 @@ void setMeshes(const TileGround& ground, TileShadows& shadows) {
         shadows.decals->set(decals);
     } else
         shadows.decals->set(ShadowDecals());
-    shadowPrisms(ground.found, shadows.found, ground.margin, !ground.drawn, prisms);
+    shadowPrisms(ground.found, shadows.found, ground.margin, ground.drawn, prisms);
     shadows.prisms->set(prisms);
 }
 

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+constexpr double reach = 0.25;        // of the parts' height: how far shadows are followed before they are found again
 constexpr std::size_t together = 256; // what is found of so many parts stays in the nearest cache
 
 glm::vec3 rounded(const PackedShadows& found, const glm::dvec3& anchor, const glm::dvec3& corner) {
@@ -64,20 +65,73 @@ void clear(PackedShadows& found) {
     found.cornerEnds.clear();
     found.indexEnds.clear();
     found.outcomes.clear();
-    found.highest = found.steepest = 0.0;
+    found.highest = found.grazing = 0.0;
 }
 
 /// The light's way in plan a unit of height.
 glm::dvec2 shiftOf(const glm::dvec4& sun) { return glm::dvec2(sun) / sun.z; }
 
-double steepestAbout(const Ground& ground, const PackedShadows& shadows) {
-    if (shadows.corners.empty()) return infinite;
-    glm::vec3 low = shadows.corners[0], high = low;
-    for (const glm::vec3& corner : shadows.corners) low = glm::min(low, corner), high = glm::max(high, corner);
-    const glm::dvec2 origin(shadows.origin), margin(shadows.highest);
-    const auto range =
-        ground.range(origin + glm::dvec2(glm::vec2(low)) - margin, origin + glm::dvec2(glm::vec2(high)) + margin);
-    return range ? range->steepest : infinite;
+struct PlanBox {
+    glm::dvec2 low{infinite}, high{-infinite};
+    void take(const glm::dvec2& place) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+};
+
+/// About shadows, in the ground's frame, with what they may move by before they are found again.
+PlanBox reachOf(const PackedShadows& shadows, const glm::vec3* first, const glm::vec3* end) {
+    PlanBox box;
+    for (; first != end; ++first) box.take(glm::dvec2(glm::vec2(*first)));
+    const glm::dvec2 origin(shadows.origin), margin(reach * shadows.highest);
+    return {origin + box.low - margin, origin + box.high + margin};
+}
+
+/// @param rise  most that the ground rises along the light's way.
+double grazingOf(double slope, double rise) { return rise < 1.0 ? slope / (1.0 - rise) : infinite; }
+
+double grazingIn(const Ground& ground, const PlanBox& box, const glm::dvec2& way) {
+    const auto range = ground.range(box.low, box.high);
+    return range ? grazingOf(range->steepest, range->steepest * glm::length(way)) : infinite;
+}
+
+/// By each cell's own gradients, which tell slopes that face the light from those that turn away.
+double grazingIn(const HeightField& field, const HeightPyramid::Cells& cells, const glm::dvec2& way) {
+    double slope = 0.0, rise = -infinite;
+    for (int y = cells.low; y <= cells.high; ++y)
+        for (int x = cells.left; x <= cells.right; ++x) {
+            const double a = field.post(x, y).z, b = field.post(x + 1, y).z, c = field.post(x + 1, y + 1).z,
+                         d = field.post(x, y + 1).z;
+            const glm::dvec2 one = glm::dvec2(b - a, d - a) / field.step(),
+                             other = glm::dvec2(c - d, c - b) / field.step();
+            slope = std::max(slope, glm::length(glm::max(glm::abs(one), glm::abs(other))));
+            const glm::dvec2 most = glm::max(one * way, other * way); // whichever way the cell is cut
+            rise = std::max(rise, most.x + most.y);
+        }
+    return slope >= 0.0 && rise < infinite ? grazingOf(slope, rise) : infinite; // not a number in a hole
+}
+
+/// Of all together, and where that tells too little, of each.
+double grazingAbout(const Ground& ground, const PackedShadows& shadows, const glm::dvec4& light) {
+    constexpr double mostOfAll = 2.0; // the bound is twice or so what the shadows move by
+    constexpr int mostCells = 16;
+    if (shadows.corners.empty() || light.w != 0.0) return infinite;
+    const glm::dvec2 way = shiftOf(light);
+    const glm::vec3* corners = shadows.corners.data();
+    const double ofAll = grazingIn(ground, reachOf(shadows, corners, corners + shadows.corners.size()), way);
+    const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
+    if (!grid || ofAll * glm::length(way) <= mostOfAll) return ofAll;
+    double grazing = 0.0;
+    for (std::size_t i = 0; i < shadows.size() && grazing < infinite; ++i) {
+        const PackedShadow shadow = shadows[i];
+        if (shadow.cornerCount == 0) continue;
+        const PlanBox box = reachOf(shadows, shadow.corners, shadow.corners + shadow.cornerCount);
+        const HeightField& field = grid->field();
+        const auto cells = grid->cells(field.cellOf(box.low.x, box.low.y), field.cellOf(box.high.x, box.high.y));
+        const bool isFew = cells && (cells->right - cells->left + 1) * (cells->high - cells->low + 1) <= mostCells;
+        grazing = std::max(grazing, isFew ? grazingIn(field, *cells, way) : grazingIn(ground, box, way));
+    }
+    return grazing;
 }
 
 } // namespace
@@ -131,17 +185,16 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
             addEnds(found, one.outcome);
         }
     }
-    found.steepest = steepestAbout(ground, found);
+    found.grazing = grazingAbout(ground, found, light);
 }
 
-/// Where a shadow moves from p to p', z' - z <= g |p' - p|, and p' - p = (z' - z) d - h (d - d').
+/// The ground's rise along d is at most |G| |d - d'| more than along d'.
 double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now) {
     if (then == now) return 0.0;
     if (then.w != 0.0 || now.w != 0.0 || !(then.z > 0.0) || !(now.z > 0.0)) return infinite;
-    const double straight = shadows.highest * glm::length(shiftOf(now) - shiftOf(then));
-    const double share = 1.0 - shadows.steepest * glm::length(shiftOf(now));
-    const double moved = straight / share;
-    return share > 0.0 && moved <= shadows.highest ? moved : infinite; // else beyond where the ground is known
+    const double turned = glm::length(shiftOf(now) - shiftOf(then)), left = 1.0 - turned * shadows.grazing;
+    const double moved = shadows.highest * turned * (1.0 + glm::length(shiftOf(now)) * shadows.grazing / left);
+    return left > 0.0 && moved <= reach * shadows.highest ? moved : infinite; // else beyond where the ground is known
 }
 
 } // namespace gnomon

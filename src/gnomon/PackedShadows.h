@@ -24,8 +24,9 @@ struct PackedShadows {
     std::vector<unsigned> indices;
     std::vector<unsigned> cornerEnds, indexEnds; ///< one past each part's own.
     std::vector<TerrainOutcome> outcomes;
-    /// What movedAtMost() needs: of any point of the parts over its shadow; of the ground where shadows are and as far around.
-    double highest = 0.0, steepest = 0.0;
+    /// What movedAtMost() needs: the most that any point of the parts is over its shadow; and of g / (1 - r) wherever shadows
+    /// are or may be by then, where g is the ground's slope and r its rise along the light's way in plan a unit of height.
+    double highest = 0.0, grazing = 0.0;
 
     std::size_t size() const { return outcomes.size(); }
     PackedShadow operator[](std::size_t part) const;
@@ -48,8 +49,8 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
 /// @param shadows  found with the light `then`.
 /// @return infinite where no bound is known: of lamps that moved, or where the ground is as steep as the light.
 ///
-/// A point at height h over its shadow moves it by h |d - d'| / (1 - g |d|), where d is the light's way in plan a unit of
-/// height, d' what it was and g the tangent of the ground's steepest slope about.
+/// A point at height h over its shadow moves it by v = h (d' - d) + (G v) d, where d is the light's way in plan a unit of
+/// height, d' what it was and G the ground's gradient between: so |v| <= h |d - d'| (1 + |d| |G| / (1 - G d)).
 /// Source: the tip's speed h / sin^2 e of a shadow on level ground, e the sun's elevation.
 double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now);
 

@@ -30,15 +30,22 @@ struct Range {
 /// Corners of a polygon in plan, in the ground's frame.
 using Polygon = std::vector<glm::dvec3>;
 
-bool isOnOneTriangle(const HeightField& field, const Polygon& polygon) {
+/// Of a shape's places among the cells.
+struct CellBounds {
     Range x, y;
-    for (const glm::dvec3& corner : polygon) {
-        const glm::dvec2 cell = field.cellOf(corner.x, corner.y);
-        x.take(cell.x);
-        y.take(cell.y);
+    CellBounds(const HeightField& field, const PackedShadow& shadow, const glm::dvec3& origin) {
+        for (std::size_t i = 0; i < shadow.cornerCount; ++i) {
+            const glm::dvec3 corner = origin + glm::dvec3(shadow.corners[i]);
+            const glm::dvec2 cell = field.cellOf(corner.x, corner.y);
+            x.take(cell.x);
+            y.take(cell.y);
+        }
     }
-    const double left = std::floor(x.low + onEdge), low = std::floor(y.low + onEdge);
-    if (!x.isIn(left, left + 1.0) || !y.isIn(low, low + 1.0)) return false;
+};
+
+bool isOnOneTriangle(const HeightField& field, const Polygon& polygon, const CellBounds& bounds) {
+    const double left = std::floor(bounds.x.low + onEdge), low = std::floor(bounds.y.low + onEdge);
+    if (!bounds.x.isIn(left, left + 1.0) || !bounds.y.isIn(low, low + 1.0)) return false;
     if (left < 0.0 || low < 0.0 || left > field.columns() - 2 || low > field.rows() - 2) return false;
     const bool falls = field.cut(int(left), int(low)) == CellCut::falling;
     Range across; // of the diagonal
@@ -67,7 +74,7 @@ public:
     void add(const PackedShadow& fan) {
         _polygon.clear();
         for (std::size_t i = 0; i < fan.cornerCount; ++i) _polygon.push_back(_origin + glm::dvec3(fan.corners[i]));
-        if (isOnOneTriangle(_ground->field(), _polygon))
+        if (isOnOneTriangle(_ground->field(), _polygon, {_ground->field(), fan, _origin}))
             addFan(fan);
         else if (fan.cornerCount <= mostCorners && isConvex(_polygon))
             addClipped(_polygon);
@@ -96,31 +103,14 @@ private:
             low = glm::min(low, a);
             high = glm::max(high, a);
         }
-        if (const DrapeMesh* found = _drape.drape(*_ground, _planes, low, high, 0.0, 1.0))
-            addMesh(found->corners, found->indices, _planes.anchor - _origin);
-        else
-            addTriangles(drape(*_ground, upright(), 0.0));
-    }
-    /// The planes in the ground's frame.
-    ConvexShadow upright() const {
-        ConvexShadow shadow;
-        for (const glm::dvec4& plane : _planes.about)
-            if (const double size = glm::length(glm::dvec3(plane)); size > 0.0)
-                shadow.planes.emplace_back(glm::dvec3(plane) / size,
-                                           (plane.w - glm::dot(glm::dvec3(plane), _planes.anchor)) / size);
-        return shadow;
+        const DrapeMesh& found = *_drape.drape(*_ground, _planes, low, high, -1.0, 1.0); // few cells, few planes
+        addMesh(found.corners, found.indices, _planes.anchor - _origin);
     }
     void addMesh(const std::vector<glm::dvec3>& corners, const std::vector<unsigned>& indices,
                  const glm::dvec3& moved) {
         const unsigned first = nextVertex();
         for (const glm::dvec3& corner : corners) _into->vertices.emplace_back(corner + moved);
         for (const unsigned index : indices) _into->triangles.push_back(first + index);
-    }
-    void addTriangles(const Drape& triangles) {
-        for (const glm::dvec3& corner : triangles) {
-            _into->triangles.push_back(nextVertex());
-            _into->vertices.emplace_back(corner - _origin);
-        }
     }
     unsigned nextVertex() const { return unsigned(_into->vertices.size()); }
 
@@ -134,13 +124,21 @@ private:
 
 } // namespace
 
+bool isDecal(const HeightPyramid& ground, const PackedShadow& shadow, const glm::dvec3& origin) {
+    constexpr double mostCells = 12.0; // a prism has fewer triangles, and no more to clip
+    if (!shadow.isFan() || shadow.cornerCount < 3) return false;
+    const CellBounds bounds(ground.field(), shadow, origin);
+    const auto cells = [](const Range& range) { return std::floor(range.high) - std::floor(range.low) + 1.0; };
+    return cells(bounds.x) * cells(bounds.y) <= mostCells;
+}
+
 void shadowDecals(const HeightPyramid& ground, const PackedShadows& shadows, ShadowDecals& into) {
     into.vertices.clear();
     into.triangles.clear();
     thread_local Builder builder;
     builder.begin(ground, shadows.origin, into);
     for (std::size_t i = 0; i < shadows.size(); ++i)
-        if (const PackedShadow shadow = shadows[i]; shadow.isFan() && shadow.cornerCount >= 3) builder.add(shadow);
+        if (const PackedShadow shadow = shadows[i]; isDecal(ground, shadow, shadows.origin)) builder.add(shadow);
     glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
     for (const glm::vec3& vertex : into.vertices) low = glm::min(low, vertex), high = glm::max(high, vertex);
     into.low = low;

@@ -13,7 +13,11 @@ struct ShadowDecals {
     glm::dvec3 low{0.0}, high{0.0};  ///< bounds, about the origin.
 };
 
-/// Of the shadows that are fans; of the others see shadowPrisms(). Memory that `into` has is used again.
+/// Whether a decal is what shows a shadow best: it is a fan, over few of the ground's cells. For others there are prisms.
+/// @param origin  see PackedShadows.
+bool isDecal(const HeightPyramid& ground, const PackedShadow& shadow, const glm::dvec3& origin);
+
+/// Of those that are to be decals. Memory that `into` has is used again.
 ///
 /// Threads any number, each with its own `into`. Cost  a fan on one triangle of the ground is itself; another is clipped to
 /// the triangles that it lies on.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/GroundQuery.h>
 #include <gnomon/Numbers.h>
+#include <gnomon/ShadowDecals.h>
 #include <gnomon/ShadowPrisms.h>
 
 #include <glm/common.hpp>
@@ -304,15 +305,17 @@ ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& o
     return prisms;
 }
 
-void shadowPrisms(const Ground& ground, const PackedShadows& shadows, double margin, bool fans, ShadowPrisms& into) {
+void shadowPrisms(const Ground& ground, const PackedShadows& shadows, double margin, const HeightPyramid* drawn,
+                  ShadowPrisms& into) {
     clear(into);
     thread_local std::vector<std::size_t> parts;
     thread_local std::vector<GroundBox> boxes;
     parts.clear();
     boxes.clear();
     for (std::size_t i = 0; i < shadows.size(); ++i)
-        if (const auto box =
-                !fans && shadows[i].isFan() ? std::nullopt : boxOver(ground, shadows[i], shadows.origin, margin)) {
+        if (const auto box = drawn && isDecal(*drawn, shadows[i], shadows.origin)
+                                 ? std::nullopt
+                                 : boxOver(ground, shadows[i], shadows.origin, margin)) {
             parts.push_back(i);
             boxes.push_back(*box);
         }

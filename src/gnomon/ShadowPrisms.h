@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/HeightPyramid.h>
 #include <gnomon/PackedShadows.h>
 
 namespace gnomon {
@@ -21,14 +22,15 @@ struct ShadowPrisms {
 /// polygon of n corners 4 n - 4 triangles.
 ShadowPrisms shadowPrisms(const std::vector<Drape>& shadows, const glm::dvec3& origin);
 
-/// About the shadows' own origin. Memory that `into` has is used again.
+/// About the shadows' own origin, but for those that shadowDecals() takes. Memory that `into` has is used again.
 ///
 /// @param margin  how far a prism reaches below the lowest and above the highest ground about its shadow, as a share of the
 ///                shadow's diameter in plan: some hundredths where that very ground is drawn, half where others of its
 ///                levels of detail are.
-/// @param fans    false leaves those out that shadowDecals() takes.
+/// @param drawn   the ground, if it is drawn triangle by triangle: what isDecal() there is left out; else null.
 ///
 /// Threads any number, each with its own `into`. Cost  linear in the corners; of a drape in its triangles.
-void shadowPrisms(const Ground& ground, const PackedShadows& shadows, double margin, bool fans, ShadowPrisms& into);
+void shadowPrisms(const Ground& ground, const PackedShadows& shadows, double margin, const HeightPyramid* drawn,
+                  ShadowPrisms& into);
 
 } // namespace gnomon

@@ -143,11 +143,9 @@ bool run(const Setting& setting, int frames) {
     return wrong == 0;
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int measure(osg::ArgumentParser& arguments) {
     const auto frames = bench::framesAsked(
-        argc, argv, "Cost of a mirror and of halos beside drawing all of it twice; medians of interleaved frames.");
+        arguments, "Cost of a mirror and of halos beside drawing all of it twice; medians of interleaved frames.");
     if (!frames) return 0;
     bool right = run({"sphere and box on a ground",
                       {test::sphere({-2.0, 0.0, 2.5}, 1.0), test::house({2.0, 0.0}, {2.0, 2.0, 2.0}, 30.0)},
@@ -160,3 +158,7 @@ int main(int argc, char** argv) {
             right;
     return right ? 0 : 1;
 }
+
+} // namespace
+
+int main(int argc, char** argv) { return gnomon::examples::runProgram("bench_effects", argc, argv, measure); }

@@ -31,7 +31,7 @@ SceneSetup setUp(const TownScene& town, const std::string& shadow) {
 
 test::View viewOf(const TownScene& town) {
     const auto& view = town.view();
-    // Nothing is nearer than 300 m: with a near plane at 10 m, depths of 24 bits take 1.3 % of the shadows' pixels for others.
+    // Nothing is nearer than 300 m: with a near plane at 10 m, by depths of 24 bits prisms (drape) take 1.3 % of the shadows' pixels for others.
     return test::perspective(*view.eye, *view.center, width, height, view.fovy, 100.0, 4e4);
 }
 

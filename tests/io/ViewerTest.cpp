@@ -56,7 +56,7 @@ bool isShadowed(double x, double y, const osg::Vec3d& light) {
 /// Where the sphere's edge meets the ground a sliver of shadow is thinner than the tolerance at edges.
 constexpr int atFeet = 5;
 
-/// Mask that differ from the rays' answer and have no neighbour of another answer.
+/// Pixels that differ from the rays' answer and have no neighbour of another answer.
 int misplaced(const Mask& shadow, const osg::Vec3d& light) {
     const auto answer = [&](int x, int y) { return isShadowed(x + 0.5, y + 0.5, light); };
     int result = 0;
@@ -152,7 +152,7 @@ TEST_F(Viewer, StartsWithoutShadowUnlessAskedForOne) {
     expectAfter("n", first);
 }
 
-TEST_F(Viewer, RelightAndBlendDifferInShadowMaskOnly) {
+TEST_F(Viewer, RelightAndBlendDifferInShadowOnly) {
     start();
     const Mask shadow = changed(first, glimpseWithoutShadow());
     const Mask differ = changed(first, pressed("r"));

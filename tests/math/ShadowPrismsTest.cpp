@@ -133,7 +133,7 @@ TEST(ShadowPrisms, OfATileHoldTheGroundUnderTheirShadowsAndNoMoreThanTheirMargin
     for (const auto method : {gnomon::TerrainMethod::drape, gnomon::TerrainMethod::hull}) { // into used memory
         gnomon::PackedShadows shadows;
         packedShadows(ground, parts, sun, method, 0.0, {300.0, 300.0, 0.0}, shadows);
-        shadowPrisms(ground, shadows, 0.05, true, prisms);
+        shadowPrisms(ground, shadows, 0.05, nullptr, prisms);
         std::mt19937 random(3);
         std::uniform_real_distribution<double> place(160.0, 440.0);
         unsigned most = 0;
@@ -156,7 +156,7 @@ TEST(ShadowPrisms, OfATileHoldTheGroundUnderTheirShadowsAndNoMoreThanTheirMargin
         EXPECT_LE(prisms.mostOver, 30u) << "of 100 parts";
         EXPECT_GT(most, 1u);
     }
-    shadowPrisms(ground, {}, 0.05, true, prisms);
+    shadowPrisms(ground, {}, 0.05, nullptr, prisms);
     EXPECT_TRUE(prisms.layers.empty() && prisms.vertices.empty());
 }
 
