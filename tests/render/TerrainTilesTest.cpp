@@ -8,8 +8,6 @@
 #include <gtest/gtest.h>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
-#include <osg/Shape>
-#include <osg/ShapeDrawable>
 #include <osg/Switch>
 #include <support/Picture.h>
 
@@ -115,46 +113,6 @@ TEST(TerrainTiles, DarkenOnceWhateverLiesOverWhatAndHoweverFewBitsAreLeft) {
         const Reserve reserve(reserved);
         EXPECT_EQ(fresh(low, all).different(counted), 0) << reserved;
     }
-}
-
-namespace {
-
-/// A ridge of 12 m along y = 60 between the eye and half of 200 boxes.
-/// @param shadow  null: none.
-Scene behindARidge(TerrainShadowGeode* shadow) {
-    Scene scene = test::scene(sun);
-    osg::ref_ptr<osg::HeightField> field = new osg::HeightField;
-    field->allocate(41, 41);
-    field->setXInterval(3.0f);
-    field->setYInterval(3.0f);
-    for (unsigned y = 0; y < 41; ++y)
-        for (unsigned x = 0; x < 41; ++x)
-            field->setHeight(x, y, float(12.0 * std::exp(-0.01 * (3.0 * y - 60.0) * (3.0 * y - 60.0))));
-    osg::ref_ptr<osg::Geode> ground = new osg::Geode;
-    ground->addDrawable(new osg::ShapeDrawable(field));
-    scene.content->addChild(ground);
-    for (int i = 0; i < 200; ++i) {
-        const double x = 10.0 + 10.0 * (i % 10), y = 10.0 + 5.0 * (i / 10);
-        scene.content->addChild(test::node(test::box({x, y, -1.0}, {x + 2.0, y + 2.0, 14.0})));
-    }
-    if (!shadow) return scene;
-    shadow->setReceiver({ground});
-    scene.addShadow(shadow);
-    return scene;
-}
-
-} // namespace
-
-/// Decals against prisms, which stand on their own. What a ridge hides does not shine through it.
-TEST(TerrainTiles, BehindARidgeAreHidden) {
-    const test::View low = test::perspective({60.0, -60.0, 14.0}, {60.0, 60.0, 4.0}, 400, 200, 40.0, 1.0, 400.0);
-    osg::ref_ptr<TerrainShadowGeode> hull = new TerrainShadowGeode, exact = new TerrainShadowGeode;
-    exact->setMethod(TerrainShadowGeode::DRAPE);
-    exact->setError(0.0);
-    const test::Picture right = test::render(behindARidge(exact).root, low);
-    const int dark = right.different(test::render(behindARidge(nullptr).root, low));
-    EXPECT_GT(dark, 2000);
-    EXPECT_LE(test::render(behindARidge(hull).root, low).different(right), 6); // edges through a pixel's middle
 }
 
 TEST(TerrainTiles, CulledAndAllOfThemGiveTheSameBits) {
