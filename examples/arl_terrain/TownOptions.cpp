@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "TownOptions.h"
+#include "RunningSun.h"
 #include "SceneWindow.h"
 #include "TownControls.h"
 
@@ -28,6 +29,7 @@ Options townOptions(TownOptions& into) {
     table.push_back({"--hour", "H",
                      "mean solar time on 20 March, 6.5 to 17.5 hours; the sun is due south a little after 12", "9",
                      [&into](Text t) { into.hour = readNumber(t, firstHour, lastHour); }});
+    table.push_back(sunSpeedOption(into.sunSpeed));
     table.push_back({"--objects", "N", "buildings, 1 to 1000000; a plot of 45 by 45 m each", "400",
                      [&into](Text t) { into.plan.buildings = readWhole(t, 1, mostBuildings); }});
     addSize(table, into.view);

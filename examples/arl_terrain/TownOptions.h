@@ -10,6 +10,7 @@ struct TownOptions {
     ViewOptions view;      ///< one shadow, one of townTechniques(); the picture's size.
     std::string elevation; ///< file of the elevation model.
     double hour = 9.0;     ///< solar time.
+    double sunSpeed = 0.0; ///< of the window's sun, 1 is the clock's.
     TownPlan plan;
     std::string out;    ///< picture; empty: none.
     std::string report; ///< folder for pictures; empty: none.

@@ -2,6 +2,7 @@
 // arl_terrain: a town on mountains, in a window or a picture; its shadows by TerrainShadowGeode.
 #include "ElevationFile.h"
 #include "OutputFile.h"
+#include "RunningSun.h"
 #include "SceneWindow.h"
 #include "TownControls.h"
 #include "TownOptions.h"
@@ -23,12 +24,16 @@ void writePicture(TownScene& town, OutputFile& file) {
     file.write(*picture);
 }
 
-int show(TownScene& town) {
+int show(TownScene& town, double sunSpeed) {
     TownControls controls(town);
     const osg::ref_ptr<Hud> hud = new Hud([&] { return controls.describe(); });
     const osg::ref_ptr<osgGA::GUIEventHandler> keys = new KeyHandler<TownControls>(townKeys(), controls, *hud);
     const WindowNames names = {"arl_terrain", "shows a town's shadows on terrain.", "--out IMAGE"};
-    return SceneWindow(names, town.view(), town.setup(), *hud, *keys).run();
+    const osg::ref_ptr<RunningSun> sun =
+        new RunningSun(sunSpeed, [&](double seconds) { controls.passTime(seconds / 3600.0); });
+    SceneWindow window(names, town.view(), town.setup(), *hud, *keys);
+    if (sunSpeed > 0.0) window.add(*sun);
+    return window.run();
 }
 
 int run(osg::ArgumentParser& arguments) {
@@ -39,7 +44,7 @@ int run(osg::ArgumentParser& arguments) {
     TownScene town(options.view, options.hour, *readElevation(options.elevation, "arl_terrain"), options.plan);
     if (picture) return writePicture(town, *picture), 0;
     if (!options.report.empty()) return TownPictures(town).report(options.report), 0;
-    return show(town);
+    return show(town, options.sunSpeed);
 }
 
 } // namespace

@@ -169,6 +169,31 @@ TEST_F(ArlTerrain, BadInputIsRefusedInOneSentenceAndLeavesNothing) {
     refused({"--report", "small.asc"}, "small.asc");
 }
 
+/// In the evening it stands; k, half an hour a stroke, leads there as well. Without text, which is longer now and then.
+TEST_F(ArlTerrain, ASunThatRunsEndsInTheEvening) {
+    Desktop desktop(folder.path());
+    const auto isDrawn = [](const Screenshot& p) { return p.width == width && p.at(width / 2, height / 2) != 0u; };
+    Screenshot evening;
+    {
+        ChildProcess program({ARL_TERRAIN, "--size", "480x360"}, folder.path(), {"DISPLAY=" + desktop.name()});
+        desktop.useWindow("arl_terrain");
+        const Screenshot withText = desktop.pictureWhere("the town is drawn", isDrawn);
+        desktop.press("g");
+        evening = desktop.pictureWhere("no text", [&](const Screenshot& p) { return p != withText; });
+        for (int i = 0; i < 17; ++i) {
+            const Screenshot before = evening;
+            desktop.press("k");
+            evening = desktop.pictureWhere("half an hour later", [&](const Screenshot& p) { return p != before; });
+        }
+    }
+    ChildProcess program({ARL_TERRAIN, "--size", "480x360", "--sun-speed", "20000"}, folder.path(),
+                         {"DISPLAY=" + desktop.name()});
+    desktop.useWindow("arl_terrain");
+    desktop.pictureWhere("the town is drawn", isDrawn, false);
+    desktop.press("g");
+    EXPECT_NO_THROW(desktop.pictureWhere("it is evening", [&](const Screenshot& p) { return p == evening; }));
+}
+
 TEST_F(ArlTerrain, KeysChangeTechniqueTimeAndComposite) {
     Desktop desktop(folder.path());
     ChildProcess program({ARL_TERRAIN, "--shadow", "none", "--size", "480x360"}, folder.path(),
