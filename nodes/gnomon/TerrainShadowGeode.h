@@ -51,7 +51,7 @@ struct TerrainShadows;
 ///
 /// Cost    found on all cores; then 4 to 10 triangles a house on a grid, 20 elsewhere, stencil only, and the receiver once more
 ///         where marked. A caster that is neither convex nor an upright prism takes a polygon for each of its flat faces: a
-///         bunny of 70,000 triangles 0.05 s a frame, 0.07 s where the light moves (OSMesa, 2 cores).
+///         bunny of 70,000 triangles 0.03 s a frame, 0.06 s where the light moves (OSMesa, 2 cores).
 /// Needs   z up in the group's frame; a stencil bit, for prisms another, one more where they lie over one another, and fewer
 ///         passes with each more.
 /// Limits  receivers are ground: walls receive nothing. Casters stand in the ground or on it: what hangs down lower than
