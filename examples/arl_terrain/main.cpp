@@ -29,10 +29,8 @@ int show(TownScene& town, double sunSpeed) {
     const osg::ref_ptr<Hud> hud = new Hud([&] { return controls.describe(); });
     const osg::ref_ptr<osgGA::GUIEventHandler> keys = new KeyHandler<TownControls>(townKeys(), controls, *hud);
     const WindowNames names = {"arl_terrain", "shows a town's shadows on terrain.", "--out IMAGE"};
-    const osg::ref_ptr<RunningSun> sun =
-        new RunningSun(sunSpeed, [&](double seconds) { controls.passTime(seconds / 3600.0); });
     SceneWindow window(names, town.view(), town.setup(), *hud, *keys);
-    if (sunSpeed > 0.0) window.add(*sun);
+    runSun(window, sunSpeed, [&](double seconds) { controls.passTime(seconds / 3600.0); });
     return window.run();
 }
 

@@ -59,17 +59,16 @@ nlohmann::json Shot::measure() {
     maps[0] = mapsDrawn();
     for (int i = 0; i < warmUpFrames; ++i) timedFrame(true), timedFrame(false);
     std::vector<double> steady, moving, none;
-    for (int i = 0; i < _options.frameCount(); ++i) {
-        steady.push_back(timedFrame(true));
-        none.push_back(timedFrame(false));
-    }
-    maps[1] = mapsDrawn();
-    for (int i = 0; i < _options.frameCount(); ++i) {
-        _setup.lights->turn(i + 1.0);
-        moving.push_back(timedFrame(true));
-        none.push_back(timedFrame(false));
-    }
-    maps[2] = mapsDrawn();
+    const auto time = [&](std::vector<double>& into, double turn) {
+        for (int i = 0; i < _options.frameCount(); ++i) {
+            if (turn != 0.0) _setup.lights->turn((i + 1) * turn);
+            into.push_back(timedFrame(true));
+            none.push_back(timedFrame(false));
+        }
+        return mapsDrawn();
+    };
+    maps[1] = time(steady, 0.0);
+    maps[2] = time(moving, 1.0);
     _setup.lights->turn(0.0);
     const unsigned draws = countDraws();
     return {{"renderer", _context.renderer()},

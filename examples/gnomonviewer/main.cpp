@@ -18,11 +18,9 @@ int show(const ViewerOptions& asked) {
     ShadowControls controls(options, setup);
     const osg::ref_ptr<Hud> hud = new Hud([&] { return controls.describe(); });
     const osg::ref_ptr<osgGA::GUIEventHandler> keys = new KeyHandler<ShadowControls>(shadowKeys(), controls, *hud);
-    const osg::ref_ptr<RunningSun> sun =
-        new RunningSun(asked.sunSpeed, [&](double seconds) { controls.runSun(seconds); });
     const WindowNames names = {"gnomonviewer", "shows scene files with shadows.", "gnomonshot"};
     SceneWindow window(names, options, setup, *hud, *keys);
-    if (asked.sunSpeed > 0.0) window.add(*sun);
+    runSun(window, asked.sunSpeed, [&](double seconds) { controls.runSun(seconds); });
     return window.run();
 }
 

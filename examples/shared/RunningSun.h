@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "CommandLine.h"
+#include "SceneWindow.h"
 
 #include <osgGA/GUIEventHandler>
 
@@ -26,6 +27,11 @@ private:
     std::function<void(double)> _run;
     double _last = -1.0; ///< seconds, the window's; below 0 before the first frame.
 };
+
+/// Lets a window's sun run; at a speed of 0 it stands still.
+inline void runSun(SceneWindow& window, double speed, std::function<void(double)> run) {
+    if (speed > 0.0) window.add(*osg::ref_ptr<RunningSun>(new RunningSun(speed, std::move(run))));
+}
 
 /// --sun-speed of the programs with a window.
 inline Option sunSpeedOption(double& into) {
