@@ -90,14 +90,6 @@ std::optional<ConvexShadow> convexShadow(const ConvexHull& hull, const glm::dvec
     return shadow;
 }
 
-std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow) {
-    Clipper clipper;
-    const Clipper::Polygon polygon = clipper.clip(triangle, shadow.planes, 0);
-    std::vector<glm::dvec3> places;
-    for (std::size_t i = 0; i < polygon.size; ++i) places.push_back(polygon.corners[i].place);
-    return places;
-}
-
 Clipper::Polygon Clipper::clip(const std::array<glm::dvec3, 3>& triangle, const std::vector<glm::dvec4>& planes,
                                std::uint64_t inside) {
     const std::size_t most = 3 + planes.size(); // a plane adds one corner

@@ -26,14 +26,9 @@ struct ConvexShadow {
 /// that the light grazes count as turned away. Cost  linear in the faces.
 std::optional<ConvexShadow> convexShadow(const ConvexHull& hull, const glm::dvec4& light);
 
-/// What of a triangle lies in the shadow: a convex polygon in the triangle's plane, in the triangle's sense, of fewer than
-/// three corners if nothing does. Linear, hence exact, on any ground that is triangles.
+/// Clips triangles, with memory that is used again, and tells where each corner comes from.
 ///
 /// Source: I. E. Sutherland and G. W. Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974.
-std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow);
-
-/// The same for many triangles, with memory that is used again, and where each corner comes from. What triangles that share
-/// an edge get on it is the same bit for bit.
 class Clipper {
 public:
     static constexpr int none = 3; ///< neither of the triangle's three corners nor of its edges.
@@ -48,6 +43,9 @@ public:
         const Corner* corners;
         std::size_t size;
     };
+    /// What of a triangle is on the inner side of all planes: a convex polygon in the triangle's plane, in the triangle's
+    /// sense, of fewer than three corners if nothing is. Linear, hence exact. What triangles that share an edge get on it is
+    /// the same bit for bit.
     /// @param inside  a bit for each of the first 64 planes that need not be asked. @return until the next call.
     Polygon clip(const std::array<glm::dvec3, 3>& triangle, const std::vector<glm::dvec4>& planes,
                  std::uint64_t inside);

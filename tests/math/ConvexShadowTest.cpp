@@ -11,7 +11,6 @@
 #include <limits>
 #include <random>
 
-using gnomon::clipped;
 using gnomon::ConvexHull;
 using gnomon::convexHull;
 using gnomon::ConvexShadow;
@@ -164,6 +163,14 @@ TEST(ConvexShadow, OfABoxIsRightWhereTheLightStandsStraightOverIt) {
             const glm::dvec4 sun(off * std::sin(azimuth * degree), off * std::cos(azimuth * degree), 1.0, 0.0);
             EXPECT_EQ(tally(*hull, sun, azimuth).wrong, 0) << off << ", " << azimuth;
         }
+}
+
+std::vector<glm::dvec3> clipped(const std::array<glm::dvec3, 3>& triangle, const ConvexShadow& shadow) {
+    gnomon::Clipper clipper;
+    const gnomon::Clipper::Polygon polygon = clipper.clip(triangle, shadow.planes, 0);
+    std::vector<glm::dvec3> places;
+    for (std::size_t i = 0; i < polygon.size; ++i) places.push_back(polygon.corners[i].place);
+    return places;
 }
 
 /// A level square so large that every shadow here ends on it, as two triangles.
