@@ -20,7 +20,7 @@ constexpr double marginOfGround = 0.05; // for what a depth buffer and floats le
 
 TileGround groundOf(const TerrainDrawn& drawn) {
     const bool isAsFound = !drawn.hasLevels && !drawn.hasQuads;
-    const auto* grid = !isAsFound ? nullptr : dynamic_cast<const HeightPyramid*>(drawn.ground.get());
+    const auto* grid = isAsFound ? dynamic_cast<const HeightPyramid*>(drawn.ground.get()) : nullptr;
     return {*drawn.ground, grid, drawn.hasLevels ? marginOfLevels : marginOfGround};
 }
 

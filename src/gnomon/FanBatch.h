@@ -50,9 +50,8 @@ public:
     const KernelEdge* edges(const Entry& entry) const { return &edgeOf(entry, 0); }
     /// Whether it has a silhouette, though it may be turned away.
     bool isThere(std::size_t i) const { return _entries[i].fan != none; }
-    bool isOut(std::size_t i) const {
-        return partOf(_entries[i]).isOut[_entries[i].lane] > 0.0;
-    }                                     ///< some corner is over the ground.
+    /// Some corner is over the ground.
+    bool isOut(std::size_t i) const { return partOf(_entries[i]).isOut[_entries[i].lane] > 0.0; }
     glm::dvec3 top(std::size_t i) const;  ///< highest corner of its silhouette.
     Drape triangles(std::size_t i) const; ///< of a fan that was found, in the ground's frame.
     /// The ground's triangles in the shadow, about its anchor. @param error  in plan. @return until the next call.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace gnomon {
 namespace {
@@ -24,6 +25,7 @@ struct Range {
         low = std::min(low, value);
         high = std::max(high, value);
     }
+    double cells() const { return std::floor(high) - std::floor(low) + 1.0; } ///< that it touches.
     bool isIn(double from, double to) const { return from - onEdge <= low && high <= to + onEdge; }
 };
 
@@ -71,10 +73,10 @@ public:
         _origin = origin;
         _into = &into;
     }
-    void add(const PackedShadow& fan) {
+    void add(const PackedShadow& fan, const CellBounds& bounds) {
         _polygon.clear();
         for (std::size_t i = 0; i < fan.cornerCount; ++i) _polygon.push_back(_origin + glm::dvec3(fan.corners[i]));
-        if (isOnOneTriangle(_ground->field(), _polygon, {_ground->field(), fan, _origin}))
+        if (isOnOneTriangle(_ground->field(), _polygon, bounds))
             addFan(fan);
         else if (fan.cornerCount <= mostCorners && isConvex(_polygon))
             addClipped(_polygon);
@@ -104,13 +106,12 @@ private:
             high = glm::max(high, a);
         }
         const DrapeMesh& found = *_drape.drape(*_ground, _planes, low, high, -1.0, 1.0); // few cells, few planes
-        addMesh(found.corners, found.indices, _planes.anchor - _origin);
+        addMesh(found, _planes.anchor - _origin);
     }
-    void addMesh(const std::vector<glm::dvec3>& corners, const std::vector<unsigned>& indices,
-                 const glm::dvec3& moved) {
+    void addMesh(const DrapeMesh& mesh, const glm::dvec3& moved) {
         const unsigned first = nextVertex();
-        for (const glm::dvec3& corner : corners) _into->vertices.emplace_back(corner + moved);
-        for (const unsigned index : indices) _into->triangles.push_back(first + index);
+        for (const glm::dvec3& corner : mesh.corners) _into->vertices.emplace_back(corner + moved);
+        for (const unsigned index : mesh.indices) _into->triangles.push_back(first + index);
     }
     unsigned nextVertex() const { return unsigned(_into->vertices.size()); }
 
@@ -122,14 +123,19 @@ private:
     GridDrape _drape;
 };
 
+/// Of a fan over few cells; else nullopt.
+std::optional<CellBounds> decalBounds(const HeightPyramid& ground, const PackedShadow& shadow,
+                                      const glm::dvec3& origin) {
+    constexpr double mostCells = 12.0; // a prism has fewer triangles, and no more to clip
+    if (!shadow.isFan() || shadow.cornerCount < 3) return std::nullopt;
+    const CellBounds bounds(ground.field(), shadow, origin);
+    return bounds.x.cells() * bounds.y.cells() <= mostCells ? std::optional(bounds) : std::nullopt;
+}
+
 } // namespace
 
 bool isDecal(const HeightPyramid& ground, const PackedShadow& shadow, const glm::dvec3& origin) {
-    constexpr double mostCells = 12.0; // a prism has fewer triangles, and no more to clip
-    if (!shadow.isFan() || shadow.cornerCount < 3) return false;
-    const CellBounds bounds(ground.field(), shadow, origin);
-    const auto cells = [](const Range& range) { return std::floor(range.high) - std::floor(range.low) + 1.0; };
-    return cells(bounds.x) * cells(bounds.y) <= mostCells;
+    return decalBounds(ground, shadow, origin).has_value();
 }
 
 void shadowDecals(const HeightPyramid& ground, const PackedShadows& shadows, ShadowDecals& into) {
@@ -138,7 +144,7 @@ void shadowDecals(const HeightPyramid& ground, const PackedShadows& shadows, Sha
     thread_local Builder builder;
     builder.begin(ground, shadows.origin, into);
     for (std::size_t i = 0; i < shadows.size(); ++i)
-        if (const PackedShadow shadow = shadows[i]; isDecal(ground, shadow, shadows.origin)) builder.add(shadow);
+        if (const auto bounds = decalBounds(ground, shadows[i], shadows.origin)) builder.add(shadows[i], *bounds);
     glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
     for (const glm::vec3& vertex : into.vertices) low = glm::min(low, vertex), high = glm::max(high, vertex);
     into.low = low;

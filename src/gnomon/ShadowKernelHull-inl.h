@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Faces of hulls, and of many hulls those of one silhouette. No include guard: ShadowKernel.cpp compiles it once for each set of instructions.
+// Faces of hulls, and of many hulls those of one silhouette. No include guard: ShadowKernel.cpp compiles it once for each set
+// of instructions.
 #include <gnomon/ShadowKernelGrid-inl.h>
 
 HWY_BEFORE_NAMESPACE();
