@@ -35,8 +35,10 @@ public:
     explicit MapState(double slopeOffset) {
         glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
                      GL_STENCIL_BUFFER_BIT);
-        for (const GLenum mode : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
-        for (const GLenum mode : {GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)}) glEnable(mode);
+        for (const GLenum mode : {GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
+        for (const GLenum mode :
+             {GLenum(GL_SCISSOR_TEST), GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)})
+            glEnable(mode);
         glDepthFunc(GL_LESS);
         glDepthMask(GL_TRUE);
         glDepthRange(0.0, 1.0);
@@ -49,6 +51,14 @@ public:
 };
 
 } // namespace
+
+bool MapPicture::shows(const Tile& tile, const MapPicture& other) const {
+    const auto same = [&tile](const Tile& own) {
+        return own.corner == tile.corner && own.clipFromCaster == tile.clipFromCaster;
+    };
+    return casters == other.casters && size == other.size && slopeOffset == other.slopeOffset &&
+           std::any_of(tiles.begin(), tiles.end(), same);
+}
 
 DepthMap::DepthMap(const glm::ivec2& texels, osg::Texture::FilterMode filter)
     : size(texels), _texture(mapTexture(texels, filter)) {}
@@ -64,9 +74,8 @@ std::string DepthMap::show(osg::RenderInfo& renderInfo, const MapPicture& pictur
     Target& target = targetOf(state.getContextID());
     const auto* texture = _texture->getTextureObject(state.getContextID());
     if (texture && target.shown == &picture && target.texture == texture) return "";
-    const std::string cause = draw(renderInfo, target, picture);
-    if (cause.empty()) drawn += static_cast<unsigned>(picture.tiles.size());
-    return cause;
+    if (target.texture != texture) target.shown = nullptr;
+    return draw(renderInfo, target, picture, drawn);
 }
 
 void DepthMap::bind(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _texture); }
@@ -84,7 +93,8 @@ bool DepthMap::bindTarget(osg::State& state, Target& target) const {
     return gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
 }
 
-std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture) const {
+std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
+                           unsigned& drawn) const {
     constexpr const char* noTarget =
         "cannot draw into a texture in this context: it needs OpenGL's framebuffer objects.";
     osg::State& state = *renderInfo.getState();
@@ -95,9 +105,12 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     const FramebufferBindings bound(gl);
     if (!bindTarget(state, target)) return noTarget;
     const MapState mapState(picture.slopeOffset);
-    glClear(GL_DEPTH_BUFFER_BIT);
     for (const MapPicture::Tile& tile : picture.tiles) {
+        if (target.shown && target.shown->shows(tile, picture)) continue;
+        ++drawn;
         glViewport(tile.corner.x, tile.corner.y, picture.size, picture.size);
+        glScissor(tile.corner.x, tile.corner.y, picture.size, picture.size);
+        glClear(GL_DEPTH_BUFFER_BIT);
         setUniform(state, "clipFromCaster", tile.clipFromCaster);
         picture.casters->draw(renderInfo);
     }

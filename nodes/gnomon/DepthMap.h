@@ -29,6 +29,9 @@ struct MapPicture : public osg::Referenced {
     double slopeOffset = 0.0;                  ///< how many texels of each surface's own slope it is drawn deeper.
     std::vector<Tile> tiles;
 
+    /// True if a tile of another picture shows the same here, so that it need not be drawn again.
+    bool shows(const Tile& tile, const MapPicture& other) const;
+
 protected:
     ~MapPicture() override = default;
 };
@@ -63,7 +66,7 @@ private:
     };
     Target& targetOf(unsigned context);
     bool bindTarget(osg::State& state, Target& target) const;
-    std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture) const;
+    std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn) const;
 
     osg::ref_ptr<osg::Texture2D> _texture;
     OpenThreads::Mutex _mutex;

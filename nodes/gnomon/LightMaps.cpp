@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CascadeSplits.h>
 #include <gnomon/Convert.h>
 #include <gnomon/LightMaps.h>
 
@@ -24,15 +25,6 @@ constexpr double sameLight = 1e-7;     // of the distance: what OSG's matrices a
 
 bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
     return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
-}
-
-/// What OpenGL keeps of the scene, near and far included.
-std::vector<glm::dvec4> halfSpacesOf(const glm::dmat4& clipFromScene) {
-    std::vector<glm::dvec4> result;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double sign : {1.0, -1.0})
-            result.push_back(glm::row(clipFromScene, 3) + sign * glm::row(clipFromScene, axis));
-    return result;
 }
 
 /// Of a sun one; of a lamp that sees all casters to one side one, else those of a cube, a little larger so that what is
@@ -64,11 +56,12 @@ std::vector<LightFrame> framesOf(const glm::dvec4& light, const glm::dvec3& reac
 
 } // namespace
 
-/// One direction that a light looks in.
+/// One direction that a light looks in, and one part of what is seen.
 struct LightMaps::Face {
     explicit Face(const LightFrame& given) : frame(given), casters(given), needed(given) {}
 
     LightFrame frame;
+    std::size_t part = 0;       ///< see viewPart().
     MapOutline casters, needed; ///< what they can darken; what of that is seen.
     std::optional<MapFit> fit;  ///< of the map that is drawn.
 };
@@ -81,6 +74,7 @@ struct LightMaps::LightMap {
     osg::ref_ptr<const MapCasters> casters;
     bool flats = false; ///< those that are flat cast, too.
     std::vector<Face> faces;
+    std::vector<double> splits; ///< of what is seen: see cascadeSplits().
     osg::ref_ptr<DepthMap> map;
     osg::ref_ptr<const MapPicture> picture;
     std::vector<MapLookUp> lookUps;
@@ -92,7 +86,11 @@ struct LightMaps::LightMap {
     }
     void start(const glm::dvec4& given, const MapCasters& asked, bool flatToo, const MapWish& wanted);
     std::optional<ScreenRect> screenBounds(const glm::dmat4& clipFromScene) const;
+    void addFace(const LightFrame& frame);
+    void findSplits(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene);
     bool findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene);
+    /// True if the face's map is not to be drawn again.
+    bool holds(const Face& face) const;
     MapFit fitOf(const Face& face) const {
         return fitMap(face.frame, face.needed, face.casters, reserve, border / wish.size,
                       glm::length(casters->reach) / 64.0);
@@ -171,6 +169,7 @@ osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     mark->lookUps = map.lookUps;
     mark->clipFromScene = clipFromScene;
     mark->defines = wish.defines + "#define MAPS " + std::to_string(map.lookUps.size()) + "\n";
+    if (!map.splits.empty()) mark->defines += "#define CASCADES\n";
     return mark;
 }
 
@@ -182,12 +181,17 @@ void LightMaps::LightMap::start(const glm::dvec4& given, const MapCasters& asked
     wish = wanted;
     picture = nullptr;
     faces.clear();
-    for (const LightFrame& frame : framesOf(light, casters->reach, wish.size)) {
-        Face& face = faces.emplace_back(frame);
-        for (const MapCasters::Box& box : casters->bodyBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
-        if (!flats) continue;
+    splits.clear();
+    for (const LightFrame& frame : framesOf(light, casters->reach, wish.size)) addFace(frame);
+}
+
+void LightMaps::LightMap::addFace(const LightFrame& frame) {
+    Face face(frame);
+    for (const MapCasters::Box& box : casters->bodyBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
+    if (flats)
         for (const MapCasters::Box& box : casters->flatBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
-    }
+    const std::size_t parts = frame.sun ? static_cast<std::size_t>(wish.cascades) : 1;
+    for (; face.part < parts; ++face.part) faces.push_back(face);
 }
 
 /// Of what is needed.
@@ -198,14 +202,24 @@ std::optional<ScreenRect> LightMaps::LightMap::screenBounds(const glm::dmat4& cl
     return gnomon::screenBounds(points);
 }
 
+void LightMaps::LightMap::findSplits(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene) {
+    if (!(faces.size() > 1 && faces.front().frame.sun) || faces.front().casters.empty()) return;
+    std::vector<glm::dvec4> halfSpaces = viewPart(clipFromScene, {}, 0);
+    for (const glm::dvec4& side : faces.front().casters.sides()) halfSpaces.push_back(side);
+    SeenRange seen(clipFromScene);
+    for (const Receiver& receiver : receivers)
+        seen.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+    splits = cascadeSplits(seen, wish.cascades);
+}
+
 /// @return false if nothing is needed.
 bool LightMaps::LightMap::findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene) {
-    const std::vector<glm::dvec4> inView = halfSpacesOf(clipFromScene);
+    findSplits(receivers, clipFromScene);
     bool any = false;
     for (Face& face : faces) {
         face.needed = MapOutline(face.frame);
-        if (face.casters.empty()) continue;
-        std::vector<glm::dvec4> halfSpaces = inView;
+        if (face.casters.empty() || face.part > splits.size()) continue;
+        std::vector<glm::dvec4> halfSpaces = viewPart(clipFromScene, splits, face.part);
         if (face.frame.sun) // a lamp's have sides of their own
             for (const glm::dvec4& side : face.casters.sides()) halfSpaces.push_back(side);
         for (const Receiver& receiver : receivers)
@@ -217,34 +231,42 @@ bool LightMaps::LightMap::findNeeded(const std::vector<Receiver>& receivers, con
     return any;
 }
 
-bool LightMaps::needsNew(const LightMap& map) const {
-    if (!map.picture) return true;
-    const double margin = (border - 1.0) / map.wish.size;
-    return std::any_of(map.faces.begin(), map.faces.end(), [&](const Face& face) {
-        if (face.needed.empty()) return false;
-        if (!face.fit || !face.fit->covers(face.needed, margin)) return true;
-        return face.fit->area() > mostWaste * map.fitOf(face).area();
-    });
+bool LightMaps::LightMap::holds(const Face& face) const {
+    if (!face.fit || !face.fit->covers(face.needed, (border - 1.0) / wish.size)) return false;
+    return face.fit->area() <= mostWaste * fitOf(face).area();
 }
 
+bool LightMaps::needsNew(const LightMap& map) const {
+    if (!map.picture) return true;
+    return std::any_of(map.faces.begin(), map.faces.end(),
+                       [&](const Face& face) { return !face.needed.empty() && !map.holds(face); });
+}
+
+/// Fits anew what does not hold; the finest map comes first, for pixels take the first that holds them.
 void LightMaps::redo(LightMap& map) const {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
     picture->casters = map.flats ? map.casters->all : map.casters->bodies;
     picture->program = _resources->casterProgram;
     picture->size = map.wish.size;
     picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
+    std::vector<std::pair<const Face*, glm::ivec2>> tiles;
+    for (Face& face : map.faces) {
+        if (face.needed.empty())
+            face.fit = std::nullopt;
+        else if (!map.holds(face))
+            face.fit = map.fitOf(face);
+        const int tile = static_cast<int>(tiles.size());
+        if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % 3, tile / 3));
+    }
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const auto& a, const auto& b) { return a.first->fit->area() < b.first->fit->area(); });
     map.lookUps.clear();
     glm::ivec2 end(0);
     const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
-    for (Face& face : map.faces) {
-        face.fit = std::nullopt;
-        if (face.needed.empty()) continue;
-        face.fit = map.fitOf(face);
-        const int tile = static_cast<int>(picture->tiles.size());
-        const glm::ivec2 corner = picture->size * glm::ivec2(tile % 3, tile / 3);
-        picture->tiles.push_back({corner, clipFromMap * face.fit->mapFromScene});
+    for (const auto& [face, corner] : tiles) {
+        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene});
         map.lookUps.push_back(
-            {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, map.casters->reach, picture->size)});
+            {face->fit->mapFromScene, mapErrors(face->frame, *face->fit, map.casters->reach, picture->size)});
         end = glm::max(end, corner + picture->size);
     }
     if (!map.map || map.map->size != end) map.map = new DepthMap(end, map.wish.compare);

@@ -15,12 +15,13 @@ namespace gnomon {
 
 /// How a technique wants its maps.
 struct MapWish {
-    int size = 1024; ///< texels on a side of a tile.
+    int size = 1024;  ///< texels on a side of a tile.
+    int cascades = 1; ///< of a sun: how many of them at most.
     osg::Texture::FilterMode compare = osg::Texture::LINEAR;
     std::string defines; ///< see MapMark.
 
     bool operator==(const MapWish& other) const {
-        return size == other.size && compare == other.compare && defines == other.defines;
+        return size == other.size && cascades == other.cascades && compare == other.compare && defines == other.defines;
     }
 };
 

@@ -8,7 +8,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int leastSize = 16, mostSize = 16384;
+constexpr int leastSize = 16, mostSize = 16384, mostCascades = 4;
 
 /// The half that decides hard edges is reached with half a texel of slope; see map.frag.
 std::string definesOf(ShadowMapTechnique::Filter filter) {
@@ -24,11 +24,14 @@ ShadowMapTechnique::ShadowMapTechnique(const ShadowMapTechnique& other, const os
     : ShadowTechnique(other, copyOp),
       _size(other._size),
       _filter(other._filter),
+      _cascades(other._cascades),
       _maps(std::make_unique<LightMaps>()) {}
 
 ShadowMapTechnique::~ShadowMapTechnique() = default;
 
 void ShadowMapTechnique::setSize(int texels) { _size = std::clamp(texels, leastSize, mostSize); }
+
+void ShadowMapTechnique::setCascades(int maps) { _cascades = std::clamp(maps, 1, mostCascades); }
 
 unsigned ShadowMapTechnique::passes() const { return _maps->resources().passes; }
 
@@ -40,7 +43,8 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    const MapWish wish{_size, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR, definesOf(_filter)};
+    const MapWish wish{_size, _cascades, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
+                       definesOf(_filter)};
     osg::ref_ptr<MapMark> mark = _maps->mark(view, light.number, *usable, mesh, wish);
     if (!mark) return {}; // out of sight: nothing to say
     return {mark};

@@ -66,6 +66,13 @@ public:
     void setFilter(Filter filter) { _filter = filter == NEAREST || filter == BILINEAR ? filter : BICUBIC; }
     Filter getFilter() const { return _filter; }
 
+    /// Maps of a sun at most, 1 … 4; default 1. Clamped. What is seen is divided by its distance along the line of sight, so
+    /// that each part is as many times as far at its end as at its beginning, and each part has a map of its own: for
+    /// views that reach from near to far, a street or a landscape. Fewer are made where the farthest that is seen is less
+    /// than twice as far as the nearest for each; one for orthographic views and for lamps.
+    void setCascades(int maps);
+    int getCascades() const { return _cascades; }
+
     /// Maps drawn so far, over all lights, views and contexts: rises only where something changed.
     unsigned passes() const;
 
@@ -81,6 +88,7 @@ protected:
 private:
     int _size = 1024;
     Filter _filter = BICUBIC;
+    int _cascades = 1;
     std::unique_ptr<LightMaps> _maps;
 };
 

@@ -89,6 +89,11 @@ bool takeFilter(ShadowSpec& spec, const std::string& value) {
     return spec.filter.has_value();
 }
 
+bool takeCascades(ShadowSpec& spec, const std::string& value) {
+    spec.cascades = numberIn(value, 1, 4);
+    return spec.cascades.has_value();
+}
+
 bool takeReceiver(ShadowSpec& spec, const std::string& value) {
     spec.receiver = value;
     return !value.empty();
@@ -117,6 +122,7 @@ osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const NamedNode*) 
     osg::ref_ptr<ShadowMapTechnique> node = new ShadowMapTechnique;
     if (spec.size) node->setSize(*spec.size);
     if (spec.filter) node->setFilter(*spec.filter);
+    if (spec.cascades) node->setCascades(*spec.cascades);
     return node;
 }
 
@@ -144,6 +150,8 @@ const std::vector<Technique>& techniques() {
     static const Key size = {"size", "16 to 16384, texels", "1024", "side of a light's map", takeSize};
     static const Key filter = {"filter", "nearest, bilinear, bicubic", "bicubic",
                                "compare 1, 2 x 2 or 4 x 4 texels of the map", takeFilter};
+    static const Key cascades = {"cascades", "1 to 4", "1", "maps of a sun at most, each for a part of a long view",
+                                 takeCascades};
     static const std::vector<Technique> table = {
         {"none", true, "no shadow", nullptr, true, {}},
         {"planar",
@@ -175,7 +183,7 @@ const std::vector<Technique>& techniques() {
          "depth maps of the casters as the lights see them; on everything that is seen",
          makeMap,
          true,
-         {size, filter}},
+         {size, filter, cascades}},
         {"volume", false, "", nullptr, true, {}},
         {"traced",
          true,

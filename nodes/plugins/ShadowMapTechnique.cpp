@@ -13,4 +13,5 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
     ADD_ENUM_VALUE(BILINEAR);
     ADD_ENUM_VALUE(BICUBIC);
     END_ENUM_SERIALIZER();
+    ADD_INT_SERIALIZER(Cascades, fresh->getCascades());
 }

@@ -1,7 +1,8 @@
 // What share of a light reaches what is seen in a pixel, by its depth and the light's maps: see ShadowMapTechnique.
 //
 // In what follows a pixel's place is (x, y, e, 1), x and y in window coordinates, e = 1 - depth: of what is far, where
-// floats are fine. FILTER is NEAREST, BILINEAR or BICUBIC; MAPS is how many there are, beside one another in one texture.
+// floats are fine. FILTER is NEAREST, BILINEAR or BICUBIC; MAPS is how many there are, beside one another in one texture;
+// CASCADES, if the finer of them hold part of what is seen only.
 
 uniform sampler2D seen;       // depths of the frame
 uniform sampler2DShadow maps;
@@ -57,6 +58,9 @@ float visibility(vec4 pixel, vec4 plane) {
         if (!(at.w > 0.0)) continue;
         at /= at.w;
         if (any(lessThan(at.xy, place[i].ww)) || any(greaterThan(at.xy, 1.0 - place[i].ww))) continue;
+#ifdef CASCADES
+        if (!(at.z >= 0.0 && at.z <= 1.0)) continue;
+#endif
         vec2 across = vec2(dot(plane, pixelFromMapX[i]), dot(plane, pixelFromMapY[i]));
         vec2 slope = -across / (dot(plane, pixelFromMapZ[i]) * place[i].z);
         float steepness = abs(slope.x) + abs(slope.y);

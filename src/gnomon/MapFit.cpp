@@ -124,12 +124,28 @@ glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double fart
     return glm::row(result, 3, glm::dvec4(0.0, 0.0, 0.0, 1.0));
 }
 
-bool isWithin(const std::vector<glm::dvec4>& halfSpaces, const glm::dvec4& point) {
-    return std::all_of(halfSpaces.begin(), halfSpaces.end(),
-                       [&](const glm::dvec4& half) { return glm::dot(half, point) >= 0.0; });
-}
-
 } // namespace
+
+std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
+                                      std::vector<glm::dvec4> halfSpaces) {
+    std::vector<glm::dvec4> corners;
+    for (int i = 0; i < 8; ++i)
+        corners.push_back(sceneFromBox *
+                          glm::dvec4(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0));
+    bool whole = true;
+    for (const glm::dvec4& half : halfSpaces) {
+        const auto outside = [&half](const glm::dvec4& corner) { return glm::dot(half, corner) < 0.0; };
+        const auto count = std::count_if(corners.begin(), corners.end(), outside);
+        if (count == 8) return {};
+        whole = whole && count == 0;
+    }
+    if (whole) return corners;
+    corners.clear();
+    for (glm::dvec4& half : halfSpaces) half = half * sceneFromBox;
+    for (const glm::dvec3& corner : cutBox(low, high, halfSpaces))
+        corners.push_back(sceneFromBox * glm::dvec4(corner, 1.0));
+    return corners;
+}
 
 LightFrame sunFrame(const glm::dvec3& towardsSun) {
     const glm::dvec3 away = -towardsSun, right = anyAcross(away), up = glm::cross(away, right);
@@ -160,25 +176,13 @@ bool MapOutline::covers(const glm::dvec4& p) const {
 
 void MapOutline::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
                         const std::vector<glm::dvec4>& given) {
+    const std::vector<glm::dvec4> all = cornersWithin(low, high, sceneFromBox, {});
+    const auto known = [this](const glm::dvec4& corner) { return covers(_frame.lightFromScene * corner); };
+    if (std::all_of(all.begin(), all.end(), known)) return;
     std::vector<glm::dvec4> halfSpaces = given;
     halfSpaces.insert(halfSpaces.end(), _frame.halfSpaces.begin(), _frame.halfSpaces.end());
-    std::vector<glm::dvec4> seen;
-    bool known = true, whole = true;
-    for (int i = 0; i < 8; ++i) {
-        const glm::dvec4 corner =
-            sceneFromBox * glm::dvec4(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0);
-        seen.push_back(_frame.lightFromScene * corner);
-        known = known && covers(seen.back());
-        whole = whole && isWithin(halfSpaces, corner);
-    }
-    if (known) return;
-    if (!whole) {
-        seen.clear();
-        for (glm::dvec4& half : halfSpaces) half = half * sceneFromBox;
-        for (const glm::dvec3& corner : cutBox(low, high, halfSpaces))
-            seen.push_back(_frame.lightFromScene * (sceneFromBox * glm::dvec4(corner, 1.0)));
-    }
-    for (const glm::dvec4& p : seen) {
+    for (const glm::dvec4& corner : cornersWithin(low, high, sceneFromBox, std::move(halfSpaces))) {
+        const glm::dvec4 p = _frame.lightFromScene * corner;
         if (!(p.w > 0.0)) continue; // the lamp's own place
         const double depth = p.z / p.w;
         nearest = corners.empty() ? depth : std::min(nearest, depth);

@@ -291,6 +291,13 @@ TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
     expectSamePictureOnceLoaded(scene);
 }
 
+TEST_P(SceneFile, KeepsTheCascadesOfMaps) {
+    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
+    technique->setCascades(3);
+    const auto loaded = test::throughFile(*technique, kind());
+    EXPECT_EQ(loaded->getCascades(), 3);
+}
+
 TEST(SceneFileText, SaysNothingOfDefaults) {
     test::usePluginsOfThisBuild();
     const std::string start = "#Ascii Scene \n#Version 161 \n#Generator OpenSceneGraph 3.6.5 \n\n";

@@ -52,6 +52,21 @@ TracedCase room() {
             perspective({-3.5, -4.7, 3.0}, {0.5, 1.0, 0.8}, 640, 480, 70.0, 0.1, 30.0)};
 }
 
+TracedCase longStreet(double azimuth, double elevation) {
+    std::vector<Mesh> meshes{quad({-50.0, -200.0, 0.0}, {2100.0, 0.0, 0.0}, {0.0, 400.0, 0.0})};
+    for (int i = 0; i < 4 * 130; ++i) {
+        const int variety = (i * 7919) % 97;
+        const glm::dvec2 place(15.0 * (i / 4), 12.0 * (i % 4) - 18.0 + (i % 4 < 2 ? -2.0 : 2.0));
+        meshes.push_back(house(
+            place, {5.0 + variety % 5 * 0.8, 5.0 + variety % 7 * 0.5, 3.0 + variety % 11 * 0.6}, variety * 3.7));
+    }
+    const double turn = azimuth / 57.29577951308232, rise = elevation / 57.29577951308232;
+    return {"street",
+            meshes,
+            {std::cos(turn), std::sin(turn), std::tan(rise), 0.0},
+            perspective({-10.0, 0.0, 2.5}, {100.0, 0.0, 0.0}, 640, 480, 40.0, 0.2, 3000.0)};
+}
+
 TracedCase flatGround(double half, double height, double elevation, double near, double far, int side) {
     const double angle = elevation / 57.29577951308232;
     return {"flat",

@@ -25,6 +25,9 @@ TracedCase labEight();
 TracedCase townOfHouses();
 /// A lamp and three things in a closed room.
 TracedCase room();
+/// Four rows of houses along a street of 2 km, as one who stands in it sees it.
+/// @param azimuth  of the sun, degrees from where one looks.
+TracedCase longStreet(double azimuth, double elevation = 15.0);
 /// A level square of `side` × `side` small ones under a sun of `elevation` degrees, seen from `height`.
 TracedCase flatGround(double half, double height, double elevation, double near, double far, int side = 1);
 

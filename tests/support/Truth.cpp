@@ -62,4 +62,17 @@ TruthComparison compare(const Picture& actual, const Picture& lit, const Picture
     return result;
 }
 
+gnomon::metrics::BoundaryDistance edgesOff(const Picture& actual, const Picture& lit, const Picture& dark,
+                                           const gnomon::TruthImage& truth) {
+    gnomon::metrics::Picture drawn(truth.width, truth.height), arrives = drawn;
+    gnomon::metrics::Mask within(truth.width, truth.height);
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) {
+            drawn.at(x, y) = actual.at(x, y) == dark.at(x, y) ? 0.0 : 1.0;
+            arrives.at(x, y) = truth.at(x, y).lit;
+            within.at(x, y) = counts(truth, x, y) && lit.at(x, y) != dark.at(x, y);
+        }
+    return gnomon::metrics::boundaryDistance(drawn, arrives, within).value();
+}
+
 } // namespace test

@@ -4,6 +4,7 @@
 #include <support/Picture.h>
 
 #include <gnomon/ShadowTruth.h>
+#include <gnomon/metrics/BoundaryDistance.h>
 #include <osg/Vec4d>
 
 #include <vector>
@@ -30,5 +31,10 @@ std::ostream& operator<<(std::ostream& out, const TruthComparison& result);
 /// @param lit,dark  the same frame without shadows, and without the light's diffuse and specular.
 TruthComparison compare(const Picture& actual, const Picture& lit, const Picture& dark,
                         const gnomon::TruthImage& truth);
+
+/// How far shadows' edges are from the true ones, pixels, over the same pixels.
+/// @throws std::bad_optional_access if the picture or the truth has no edge.
+gnomon::metrics::BoundaryDistance edgesOff(const Picture& actual, const Picture& lit, const Picture& dark,
+                                           const gnomon::TruthImage& truth);
 
 } // namespace test

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/CascadeSplits.h>
+#include <gnomon/MapFit.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace gnomon;
+
+namespace {
+
+const glm::dmat4 here(1.0);
+
+/// The eye 2 above the ground z = 0, looking along +x, half a right angle to all sides.
+glm::dmat4 standing() {
+    return glm::perspective(std::acos(0.0), 1.0, 0.25, 4000.0) *
+           glm::lookAt(glm::dvec3(0.0, 0.0, 2.0), glm::dvec3(1.0, 0.0, 2.0), glm::dvec3(0.0, 0.0, 1.0));
+}
+
+SeenRange rangeOf(double nearest, double farthest) {
+    SeenRange range(here);
+    range.nearest = nearest;
+    range.farthest = farthest;
+    return range;
+}
+
+bool isIn(const std::vector<glm::dvec4>& part, const glm::dvec4& point) {
+    return std::all_of(part.begin(), part.end(), [&](const auto& half) { return glm::dot(half, point) >= 0.0; });
+}
+
+} // namespace
+
+TEST(CascadeSplits, AreEachAsManyTimesAsFarAsTheOneBefore) {
+    const std::vector<double> splits = cascadeSplits(rangeOf(1.0, 1000.0), 3);
+    ASSERT_EQ(splits.size(), 2u);
+    EXPECT_NEAR(splits[0], 10.0, 1e-9);
+    EXPECT_NEAR(splits[1], 100.0, 1e-9);
+}
+
+TEST(CascadeSplits, AreNoMoreThanAreOfUse) {
+    EXPECT_EQ(cascadeSplits(rangeOf(10.0, 1000.0), 1).size(), 0u);
+    EXPECT_EQ(cascadeSplits(rangeOf(10.0, 39.0), 4).size(), 0u); // two parts would be less than twice as far each
+    EXPECT_EQ(cascadeSplits(rangeOf(10.0, 41.0), 4).size(), 1u);
+    EXPECT_EQ(cascadeSplits(rangeOf(1.0, 1.0), 4).size(), 0u); // as orthographic views are
+    EXPECT_EQ(cascadeSplits(SeenRange(here), 4).size(), 0u);
+}
+
+TEST(CascadeSplits, HoldForWhatIsAtTheEyeItself) {
+    const std::vector<double> splits = cascadeSplits(rangeOf(0.0, 1000.0), 4);
+    EXPECT_EQ(splits.size(), 3u);
+    for (const double split : splits) EXPECT_GT(split, 0.0);
+}
+
+// A ray to the lower edge of such a picture falls as far as it goes: it meets the ground 2 ahead.
+TEST(SeenRange, OfAGroundIsFromWhereThePictureBeginsToWhereTheGroundEnds) {
+    SeenRange range(standing());
+    range.addBox({-50.0, -50.0, 0.0}, {300.0, 50.0, 0.0}, here, viewPart(standing(), {}, 0));
+    EXPECT_NEAR(range.nearest, 2.0, 1e-9);
+    EXPECT_NEAR(range.farthest, 300.0, 1e-9);
+}
+
+TEST(SeenRange, IsEmptyWhereNothingIsInView) {
+    SeenRange range(standing());
+    range.addBox({-50.0, -50.0, 0.0}, {-1.0, 50.0, 9.0}, here, viewPart(standing(), {}, 0));
+    EXPECT_TRUE(range.empty());
+}
+
+TEST(ViewPart, EachPointOfAViewIsInThePartThatItsDistanceSays) {
+    const glm::dmat4 clipFromScene = standing();
+    const std::vector<double> splits{10.0, 100.0};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1.2, 1.2), distance(-2.0, 9.0);
+    for (int i = 0; i < 2000; ++i) {
+        const double w = std::exp(distance(random)), x = unit(random), y = unit(random);
+        const glm::dvec4 point(w, x * w, 2.0 + y * w, 1.0);
+        const bool inView = std::max(std::abs(x), std::abs(y)) <= 1.0 && w >= 0.25 && w <= 4000.0;
+        const std::size_t right = w < 10.0 ? 0 : w < 100.0 ? 1 : 2;
+        for (std::size_t part = 0; part < 3; ++part)
+            EXPECT_EQ(isIn(viewPart(clipFromScene, splits, part), point), inView && part == right) << w << " " << part;
+    }
+}
+
+TEST(CornersWithin, AreABoxsOwnWhereAllOfItIsInside) {
+    const auto corners = cornersWithin({1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, here, {{1.0, 0.0, 0.0, 0.0}});
+    EXPECT_EQ(corners.size(), 8u);
+}
+
+TEST(CornersWithin, AreNoneOfABoxThatIsOutsideOneHalfSpace) {
+    EXPECT_TRUE(cornersWithin({1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}, here, {{-1.0, 0.0, 0.0, 0.5}}).empty());
+}
+
+TEST(CornersWithin, EndAtTheHalfSpacesBoundary) {
+    double most = 0.0;
+    for (const glm::dvec4& corner :
+         cornersWithin({0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}, glm::scale(here, glm::dvec3(3.0)), {{-1.0, 0.0, 0.0, 4.5}}))
+        most = std::max(most, corner.x);
+    EXPECT_NEAR(most, 4.5, 1e-12);
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Cascades: how far edges are off in a long view, seams, what is drawn again.
+#include "TracedCases.h"
+
+#include <gnomon/ShadowMapTechnique.h>
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+
+#include <algorithm>
+#include <iostream>
+
+using gnomon::ShadowMapTechnique;
+using test::longStreet;
+using test::Picture;
+using test::Scene;
+using test::TracedCase;
+
+namespace {
+
+osg::ref_ptr<ShadowMapTechnique> cascadesOf(int cascades, int size) {
+    osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    technique->setSize(size);
+    technique->setCascades(cascades);
+    return technique;
+}
+
+Picture pictureOf(const TracedCase& given, ShadowMapTechnique* technique) {
+    Scene scene = given.build();
+    if (technique) scene.addShadow(technique);
+    return test::render(scene.root, given.view);
+}
+
+/// A case's pictures without shadows and its truth, which maps of several kinds are held against.
+struct Judge {
+    explicit Judge(const TracedCase& asked) : given(asked), lit(pictureOf(asked, nullptr)) {
+        Scene without = given.build();
+        without.takeLightAway();
+        dark = test::render(without.root, given.view);
+    }
+    /// Pixels: of the edges, 95 % are less off.
+    double edgesOff(int cascades, int size) const {
+        return test::edgesOff(pictureOf(given, cascadesOf(cascades, size)), lit, dark, truth).p95;
+    }
+
+    TracedCase given;
+    Picture lit, dark;
+    gnomon::TruthImage truth = given.truth();
+};
+
+// The goal: 1 pixel. A perfect ray through each pixel's centre comes to 0.4.
+TEST(MapCascades, ThreeKeepTheEdgesOfALongStreetWithinAPixelWhereverTheSunStands) {
+    for (const double azimuth : {0.0, 45.0, 90.0, 135.0, 180.0}) {
+        const Judge judge(longStreet(azimuth));
+        const double one = judge.edgesOff(1, 2048), two = judge.edgesOff(2, 2048), three = judge.edgesOff(3, 2048),
+                     small = judge.edgesOff(3, 1024);
+        std::cout << "sun at " << azimuth << "°: " << one << " px with 1, " << two << " with 2, " << three
+                  << " with 3; with 3 of half the size " << small << "\n";
+        EXPECT_LE(three, 1.0) << azimuth;
+        EXPECT_GE(one, 2.0 * two) << azimuth;
+        EXPECT_LE(small, one / 2.0) << azimuth << ": three of them have fewer texels than the one";
+    }
+}
+
+/// What one sees of a ground from where one stands on it, under a roof or the sky.
+TracedCase plain(bool roofed) {
+    std::vector<test::Mesh> meshes{test::square(1000.0)};
+    if (roofed) meshes.push_back(test::quad({-3000.0, -3000.0, 40.0}, {6000.0, 0.0, 0.0}, {0.0, 6000.0, 0.0}));
+    meshes.push_back(test::sphere({30.0, 0.0, 300.0}, 1.0, 16)); // something that is not flat
+    return {"plain",
+            meshes,
+            {0.3, 0.2, 1.0, 0.0},
+            test::perspective({-900.0, 0.0, 2.0}, {0.0, 0.0, 2.0}, 320, 240, 40.0, 0.5, 4000.0)};
+}
+
+// All of the ground is in the roof's shadow, and none of it without the roof: a seam would show in either.
+TEST(MapCascades, HaveNoSeamsInShadowAndNoneInLight) {
+    const TracedCase open = plain(false), roofed = plain(true);
+    const auto technique = cascadesOf(4, 512);
+    const Picture lit = pictureOf(open, nullptr);
+    EXPECT_LE(pictureOf(open, cascadesOf(4, 512)).different(lit), 0);
+    Scene without = roofed.build();
+    without.takeLightAway();
+    const Picture dark = test::render(without.root, roofed.view), shadowed = pictureOf(roofed, technique);
+    EXPECT_EQ(technique->passes(), 4u);
+    int ground = 0, wrong = 0;
+    for (int y = 0; y < 110; ++y) // below the horizon
+        for (int x = 0; x < 320; ++x) {
+            ground += dark.at(x, y) == test::grey(test::shadowedGround);
+            wrong += shadowed.at(x, y) != dark.at(x, y);
+        }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(ground, 110 * 320);
+}
+
+TEST(MapCascades, AreOneMapWhereAllIsAboutAsFar) {
+    TracedCase across = longStreet(45.0);
+    across.view.projection = osg::Matrixd::ortho(-40.0, 40.0, -30.0, 30.0, 0.2, 3000.0);
+    for (const TracedCase& given : {across, test::labEight(), test::room()}) {
+        const auto one = cascadesOf(1, 512), four = cascadesOf(4, 512);
+        EXPECT_EQ(pictureOf(given, four).different(pictureOf(given, one)), 0) << given.name;
+        EXPECT_EQ(four->passes(), one->passes()) << given.name;
+    }
+}
+
+// The sun stands behind the eye: houses near by and a wall far away lie in one part of the light's view, and what stands
+// before the wall is deeper than what the map of the near part holds.
+TEST(MapCascades, ThatAreFineDoNotAnswerForWhatIsBeyondThem) {
+    const TracedCase given{
+        "behind",
+        {test::quad({-50.0, -60.0, 0.0}, {460.0, 0.0, 0.0}, {0.0, 120.0, 0.0}),
+         test::box({20.0, -12.0, 0.0}, {24.0, -4.0, 10.0}), test::box({20.0, 4.0, 0.0}, {24.0, 12.0, 10.0}),
+         test::box({380.0, -3.0, 0.0}, {384.0, 3.0, 6.0}), test::box({400.0, -50.0, 0.0}, {401.0, 50.0, 40.0})},
+        {-1.0, 0.05, 0.01, 0.0},
+        test::perspective({-10.0, 0.0, 2.0}, {100.0, 0.0, 2.0}, 640, 480, 20.0, 0.2, 1000.0)};
+    const Judge judge(given);
+    const auto technique = cascadesOf(2, 1024);
+    const test::TruthComparison result = test::compare(pictureOf(given, technique), judge.lit, judge.dark, judge.truth);
+    EXPECT_EQ(technique->passes(), 2u);
+    EXPECT_EQ(result.certain, 0) << result;
+    EXPECT_GT(result.shadowed, 100) << result;
+}
+
+/// A street with something that can be moved, seen by a camera that can be moved.
+struct Street {
+    Street() {
+        mover->addChild(test::node(test::box({300.0, -3.0, 0.0}, {304.0, 0.0, 2.0})));
+        scene.content->addChild(mover);
+        scene.addShadow(technique);
+    }
+    unsigned passesInFrame() {
+        const unsigned before = technique->passes();
+        camera.frame();
+        return technique->passes() - before;
+    }
+    void look(const osg::Matrixd& from) {
+        test::View view = given.view;
+        view.view = view.view * from;
+        camera.setView(view);
+    }
+
+    TracedCase given = longStreet(45.0);
+    Scene scene = given.build();
+    osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+    osg::ref_ptr<ShadowMapTechnique> technique = cascadesOf(3, 512);
+    test::Camera camera{scene.root, given.view};
+};
+
+TEST(MapCascades, AreAllDrawnAgainWhenACasterMovesAndNoneWhileAllIsStill) {
+    Street street;
+    EXPECT_EQ(street.passesInFrame(), 3u);
+    EXPECT_EQ(street.passesInFrame(), 0u);
+    street.mover->setMatrix(osg::Matrixd::translate(2.0, 0.0, 0.0));
+    EXPECT_EQ(street.passesInFrame(), 3u);
+    EXPECT_EQ(street.passesInFrame(), 0u);
+    street.technique->setCascades(2);
+    EXPECT_EQ(street.passesInFrame(), 2u);
+}
+
+TEST(MapCascades, AreNotDrawnWhileTheCameraTurnsALittle) {
+    Street street;
+    street.passesInFrame();
+    for (int step = 1; step <= 4; ++step) {
+        street.look(osg::Matrixd::rotate(osg::DegreesToRadians(0.25 * step), 0.0, 1.0, 0.0));
+        EXPECT_EQ(street.passesInFrame(), 0u) << step;
+    }
+}
+
+// One who walks 100 steps of half a metre leaves what the nearest map holds soonest; the others stay as they are.
+TEST(MapCascades, AreDrawnAgainOneByOne) {
+    Street street;
+    street.passesInFrame();
+    unsigned most = 0, all = 0;
+    for (int step = 1; step <= 100; ++step) {
+        street.look(osg::Matrixd::translate(0.0, 0.0, 0.5 * step));
+        const unsigned passes = street.passesInFrame();
+        all += passes;
+        most += passes == 3;
+    }
+    std::cout << all << " maps in 100 frames, all three in " << most << "\n";
+    EXPECT_LE(all, 40u);
+    EXPECT_LE(most, 3u);
+    EXPECT_GE(all, 2u);
+}
+
+TEST(MapCascades, ThatAreDrawnAgainOneByOneAreAsGoodAsNew) {
+    Street street;
+    for (int step = 0; step <= 40; ++step) {
+        street.look(osg::Matrixd::translate(0.0, 0.0, 0.5 * step));
+        street.camera.frame();
+    }
+    Street fresh;
+    fresh.look(osg::Matrixd::translate(0.0, 0.0, 20.0));
+    const Picture walked = street.camera.frame(), arrived = fresh.camera.frame();
+    // Maps of other fits have their edges elsewhere by less than a texel, which is less than a pixel but for the farthest.
+    EXPECT_LE(walked.different(arrived), 640 * 480 / 200);
+}
+
+// What is seen from the ground up is divided at a few metres; from 60 m above it, that would leave one map to all.
+TEST(MapCascades, AreDividedAnewForACameraThatHasGoneElsewhere) {
+    const osg::Matrixd above =
+        test::perspective({-60.0, 0.0, 60.0}, {300.0, 0.0, 0.0}, 640, 480, 40.0, 0.2, 3000.0).view;
+    Street street, fresh;
+    street.passesInFrame();
+    street.given.view.view = fresh.given.view.view = above;
+    street.look({});
+    fresh.look({});
+    EXPECT_GE(street.passesInFrame(), 2u);
+    EXPECT_LE(street.camera.frame().different(fresh.camera.frame()), 640 * 480 / 1000);
+}
+
+TEST(MapCascades, AreFromOneToFour) {
+    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    EXPECT_EQ(technique->getCascades(), 1);
+    for (const auto& [asked, kept] : {std::pair(-5, 1), {1, 1}, {3, 3}, {9, 4}}) {
+        technique->setCascades(asked);
+        EXPECT_EQ(technique->getCascades(), kept);
+    }
+    technique->setCascades(3);
+    EXPECT_EQ(osg::clone(technique.get())->getCascades(), 3);
+}
+
+} // namespace
