@@ -4,6 +4,7 @@
 
 #include <osg/BufferObject>
 
+#include <algorithm>
 #include <limits>
 
 namespace gnomon {
@@ -15,6 +16,23 @@ osg::BoundingBoxd boundsOf(const VertexTraverser& casters) {
     return bounds;
 }
 
+constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
+
+/// @param places  where each vertex went, if it is used; those of a drawable still follow one another.
+VertexTraverser::Cutout renumbered(const VertexTraverser::Cutout& found, const std::vector<unsigned>& places) {
+    VertexTraverser::Cutout result{found.drawn, found.test, nowhere, {}};
+    const unsigned* own = &places[found.firstVertex];
+    for (std::size_t i = 0; i < found.coordinates.size(); ++i)
+        result.firstVertex = std::min(result.firstVertex, own[i]);
+    for (std::size_t i = 0; i < found.coordinates.size(); ++i) {
+        if (own[i] == nowhere) continue;
+        const std::size_t at = own[i] - result.firstVertex;
+        if (result.coordinates.size() <= at) result.coordinates.resize(at + 1);
+        result.coordinates[at] = found.coordinates[i];
+    }
+    return result;
+}
+
 } // namespace
 
 CasterMesh::CasterMesh(const VertexTraverser& casters)
@@ -23,6 +41,8 @@ CasterMesh::CasterMesh(const VertexTraverser& casters)
       bounds(boundsOf(casters)),
       rounding(casters.getRounding()),
       drawn(casters.getDrawn()),
+      unknownTests(casters.getUnknownTests()),
+      unknownNode(casters.getUnknownNode()),
       invalidTriangles(casters.getInvalidTriangles()),
       invalidNode(casters.getInvalidNode()),
       sources(casters.getSources()) {
@@ -30,7 +50,6 @@ CasterMesh::CasterMesh(const VertexTraverser& casters)
     vertices->setVertexBufferObject(new osg::VertexBufferObject);
     triangles->setElementBufferObject(new osg::ElementBufferObject);
     if (bounds.valid()) origin = bounds.center();
-    constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
     std::vector<unsigned> places(casters.getVertices().size(), nowhere);
     triangles->reserve(casters.getTriangles().size());
     for (unsigned index : casters.getTriangles()) {
@@ -39,6 +58,10 @@ CasterMesh::CasterMesh(const VertexTraverser& casters)
             vertices->push_back(osg::Vec3(casters.getVertices()[index] - origin));
         }
         triangles->push_back(places[index]);
+    }
+    for (const VertexTraverser::Cutout& cutout : casters.getCutouts()) {
+        cutouts.push_back(renumbered(cutout, places));
+        if (cutouts.back().coordinates.empty()) cutouts.pop_back(); // points and lines
     }
 }
 

@@ -25,7 +25,8 @@ public:
 
 protected:
     void applyCaster(osg::Drawable& drawable) override {
-        const std::uint64_t value = CasterRevision::of(drawable, rootFromLocal());
+        const std::optional<AlphaTest> test = alphaTest();
+        const std::uint64_t value = CasterRevision::of(drawable, rootFromLocal(), test);
         _fingerprint.mix(value);
         if (!_changed && isAt(_next, value)) {
             ++_same;
@@ -34,7 +35,7 @@ protected:
         }
         startOwnList();
         osg::ref_ptr<const CasterPiece> piece = find(value);
-        if (!piece) piece = make(drawable, value);
+        if (!piece) piece = make(drawable, value, test);
         _met.push_back(piece);
     }
 
@@ -73,7 +74,8 @@ private:
         return found == _places.end() ? _known.size() : found->second;
     }
 
-    osg::ref_ptr<const CasterPiece> make(osg::Drawable& drawable, std::uint64_t fingerprint) const {
+    osg::ref_ptr<const CasterPiece> make(osg::Drawable& drawable, std::uint64_t fingerprint,
+                                         const std::optional<AlphaTest>& test) const {
         VertexTraverser found;
         found.setRootFromVisited(rootFromLocal());
         for (osg::Node* node : getNodePath()) found.pushOntoNodePath(node); // for the names in it
@@ -86,6 +88,7 @@ private:
         piece->invalidTriangles = found.getInvalidTriangles();
         piece->invalidNode = found.getInvalidNode();
         piece->sources = found.getSources();
+        if (test) test->hold(drawable, piece->sources);
         return piece;
     }
 

@@ -39,13 +39,15 @@ void CasterRevision::reset() {
     _fingerprint = Fingerprint();
 }
 
-std::uint64_t CasterRevision::of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal) {
+std::uint64_t CasterRevision::of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
+                                 const std::optional<AlphaTest>& test) {
     Fingerprint result;
     result.mix(rootFromLocal);
     if (const osg::Geometry* geometry = drawable.asGeometry())
         mixGeometry(*geometry, verticesOf(*geometry), result);
     else
         mixBounds(drawable, result);
+    if (test) test->mix(drawable, result);
     return result.value();
 }
 

@@ -26,10 +26,11 @@ public:
     std::uint64_t value() const { return _fingerprint.value(); }
 
     /// Of what VertexTraverser would read of one drawable.
-    static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal);
+    static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
+                            const std::optional<AlphaTest>& test);
 
 protected:
-    void applyCaster(osg::Drawable& drawable) override { _fingerprint.mix(of(drawable, rootFromLocal())); }
+    void applyCaster(osg::Drawable& drawable) override { _fingerprint.mix(of(drawable, rootFromLocal(), alphaTest())); }
 
 private:
     Fingerprint _fingerprint;

@@ -62,7 +62,37 @@ float finestRange(const osg::LOD& lod) {
     return finest;
 }
 
+/// Switched on by the node's state, or by one above it if nothing above it is visited.
+int alphaTestsAt(const osg::Node& node, bool first) {
+    int count = AlphaTest::isOn(node);
+    for (const osg::Node* above = &node; first && above->getNumParents() > 0;)
+        count += AlphaTest::isOn(*(above = above->getParent(0)));
+    return count;
+}
+
 } // namespace
+
+/// While a node is on the way down.
+class CasterVisitor::OnTheWay {
+public:
+    OnTheWay(CasterVisitor& visitor, const osg::Node& node)
+        : _visitor(visitor),
+          _entered(&node == visitor._selection.node ? 1 : 0),
+          _alphaTests(alphaTestsAt(node, visitor.getNodePath().size() == 1)) {
+        _visitor._inside += _entered;
+        _visitor._alphaTests += _alphaTests;
+    }
+    ~OnTheWay() {
+        _visitor._inside -= _entered;
+        _visitor._alphaTests -= _alphaTests;
+    }
+    OnTheWay(const OnTheWay&) = delete;
+    OnTheWay& operator=(const OnTheWay&) = delete;
+
+private:
+    CasterVisitor& _visitor;
+    const int _entered, _alphaTests;
+};
 
 CasterVisitor::CasterVisitor(const Selection& selection)
     : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _selection(selection) {
@@ -101,15 +131,13 @@ bool CasterVisitor::goesTheOnlyWays(osg::Node& node) {
 
 void CasterVisitor::apply(osg::Node& node) {
     if (!isOnTheWay(node)) return;
-    const int entered = &node == _selection.node ? 1 : 0;
-    _inside += entered;
+    const OnTheWay here(*this, node);
     if (!goesTheOnlyWays(node)) traverse(node);
-    _inside -= entered;
 }
 
 void CasterVisitor::apply(osg::Drawable& drawable) {
-    const bool selected = _inside > 0 || &drawable == _selection.node;
-    if (selected && !isText(drawable)) applyCaster(drawable);
+    const OnTheWay here(*this, drawable);
+    if (_inside > 0 && !isText(drawable)) applyCaster(drawable);
 }
 
 void CasterVisitor::apply(osg::Geode& geode) {
@@ -118,12 +146,10 @@ void CasterVisitor::apply(osg::Geode& geode) {
 
 void CasterVisitor::apply(osg::LOD& lod) {
     if (!isOnTheWay(lod)) return;
-    const int entered = &lod == _selection.node ? 1 : 0;
+    const OnTheWay here(*this, lod);
     const float finest = finestRange(lod);
-    _inside += entered;
     for (unsigned i = 0; i < usableChildren(lod); ++i)
         if (isShownAt(lod, i, finest)) lod.getChild(i)->accept(*this);
-    _inside -= entered;
 }
 
 void CasterVisitor::apply(osg::Transform& transform) {
@@ -133,6 +159,10 @@ void CasterVisitor::apply(osg::Transform& transform) {
     _matrices.push_back(matrix);
     apply(static_cast<osg::Node&>(transform));
     _matrices.pop_back();
+}
+
+std::optional<AlphaTest> CasterVisitor::alphaTest() const {
+    return _alphaTests > 0 ? AlphaTest::of(getNodePath()) : std::nullopt;
 }
 
 const osg::Array* CasterVisitor::verticesOf(const osg::Geometry& geometry) {

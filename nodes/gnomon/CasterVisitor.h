@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/AlphaTest.h>
 #include <gnomon/Export.h>
 #include <gnomon/Selection.h>
 
@@ -7,6 +8,7 @@
 #include <osg/NodeVisitor>
 
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace osg {
@@ -47,19 +49,24 @@ protected:
     virtual void applyCaster(osg::Drawable& drawable) = 0;
     /// From the frame of the drawable being visited to that of the root.
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
+    /// Of the drawable being visited: nullopt, at no cost, if no state on the way to it switches one on.
+    std::optional<AlphaTest> alphaTest() const;
     /// What OpenSceneGraph's functors take for the vertices of a geometry; null if it has none.
     static const osg::Array* verticesOf(const osg::Geometry& geometry);
     /// Adds the arrays and primitive sets of a drawable that are read; the drawable itself if it is no geometry.
     static void holdSources(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources);
 
 private:
+    class OnTheWay;
+
     void findWays();
     bool isOnTheWay(const osg::Node& node) const;
     bool goesTheOnlyWays(osg::Node& node);
 
     Selection _selection;
     std::vector<osg::Matrixd> _matrices;
-    int _inside = 0; ///< how often the selected node is on the way down.
+    int _inside = 0;     ///< how often the selected node is on the way down.
+    int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.
     /// Of what is above the selected node, the children that lead to it; once for each of its places among them.
     std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };

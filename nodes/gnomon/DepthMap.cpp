@@ -50,14 +50,23 @@ public:
     MapState& operator=(const MapState&) = delete;
 };
 
+/// What is drawn next goes there.
+void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size) {
+    glViewport(tile.corner.x, tile.corner.y, size, size);
+    glScissor(tile.corner.x, tile.corner.y, size, size);
+    setUniform(state, "clipFromCaster", tile.clipFromCaster);
+}
+
 } // namespace
 
 bool MapPicture::shows(const Tile& tile, const MapPicture& other) const {
     const auto same = [&tile](const Tile& own) {
         return own.corner == tile.corner && own.clipFromCaster == tile.clipFromCaster;
     };
-    return casters == other.casters && size == other.size && slopeOffset == other.slopeOffset &&
-           std::any_of(tiles.begin(), tiles.end(), same);
+    const auto alike = [](const auto& a, const auto& b) { return a.geometry == b.geometry; };
+    return casters == other.casters &&
+           std::equal(cutouts.begin(), cutouts.end(), other.cutouts.begin(), other.cutouts.end(), alike) &&
+           size == other.size && slopeOffset == other.slopeOffset && std::any_of(tiles.begin(), tiles.end(), same);
 }
 
 DepthMap::DepthMap(const glm::ivec2& texels, osg::Texture::FilterMode filter)
@@ -105,16 +114,35 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     const FramebufferBindings bound(gl);
     if (!bindTarget(state, target)) return noTarget;
     const MapState mapState(picture.slopeOffset);
-    for (const MapPicture::Tile& tile : picture.tiles) {
-        if (target.shown && target.shown->shows(tile, picture)) continue;
-        ++drawn;
-        glViewport(tile.corner.x, tile.corner.y, picture.size, picture.size);
-        glScissor(tile.corner.x, tile.corner.y, picture.size, picture.size);
+    std::vector<MapPicture::Tile> due;
+    for (const MapPicture::Tile& tile : picture.tiles)
+        if (!target.shown || !target.shown->shows(tile, picture)) due.push_back(tile);
+    drawn += static_cast<unsigned>(due.size());
+    for (const MapPicture::Tile& tile : due) {
+        drawInto(state, tile, picture.size);
         glClear(GL_DEPTH_BUFFER_BIT);
-        setUniform(state, "clipFromCaster", tile.clipFromCaster);
-        picture.casters->draw(renderInfo);
+        if (picture.casters) picture.casters->draw(renderInfo);
     }
-    target.shown = &picture;
+    const std::string cause = drawCutouts(renderInfo, picture, due);
+    target.shown = cause.empty() ? &picture : nullptr;
+    return cause;
+}
+
+std::string DepthMap::drawCutouts(osg::RenderInfo& renderInfo, const MapPicture& picture,
+                                  const std::vector<MapPicture::Tile>& tiles) const {
+    if (picture.cutouts.empty()) return "";
+    osg::State& state = *renderInfo.getState();
+    state.apply(picture.cutoutProgram.get());
+    if (!hasProgram(state)) return noProgram;
+    setUniform(state, "cutout", 0);
+    for (const MapCasters::Cutout& cutout : picture.cutouts) {
+        state.applyTextureAttribute(0, cutout.texture);
+        setUniform(state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
+        for (const MapPicture::Tile& tile : tiles) {
+            drawInto(state, tile, picture.size);
+            cutout.geometry->draw(renderInfo);
+        }
+    }
     return "";
 }
 

@@ -23,10 +23,12 @@ struct MapPicture : public osg::Referenced {
         glm::ivec2 corner{0};
         glm::dmat4 clipFromCaster{1.0}; ///< caster: about their mesh's origin.
     };
-    osg::ref_ptr<osg::Geometry> casters;
-    osg::ref_ptr<const osg::StateSet> program; ///< see markProgram().
-    int size = 0;                              ///< of a tile's side, texels.
-    double slopeOffset = 0.0;                  ///< how many texels of each surface's own slope it is drawn deeper.
+    osg::ref_ptr<osg::Geometry> casters;             ///< solid ones; null if there are none.
+    std::vector<MapCasters::Cutout> cutouts;         ///< those that are not.
+    osg::ref_ptr<const osg::StateSet> program;       ///< see markProgram().
+    osg::ref_ptr<const osg::StateSet> cutoutProgram; ///< the same with CUTOUT.
+    int size = 0;                                    ///< of a tile's side, texels.
+    double slopeOffset = 0.0; ///< how many texels of each surface's own slope it is drawn deeper.
     std::vector<Tile> tiles;
 
     /// True if a tile of another picture shows the same here, so that it need not be drawn again.
@@ -67,6 +69,8 @@ private:
     Target& targetOf(unsigned context);
     bool bindTarget(osg::State& state, Target& target) const;
     std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn) const;
+    std::string drawCutouts(osg::RenderInfo& renderInfo, const MapPicture& picture,
+                            const std::vector<MapPicture::Tile>& tiles) const;
 
     osg::ref_ptr<osg::Texture2D> _texture;
     OpenThreads::Mutex _mutex;

@@ -246,7 +246,10 @@ bool LightMaps::needsNew(const LightMap& map) const {
 void LightMaps::redo(LightMap& map) const {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
     picture->casters = map.flats ? map.casters->all : map.casters->bodies;
+    for (const MapCasters::Cutout& cutout : map.casters->cutouts)
+        if (map.flats || !cutout.flat) picture->cutouts.push_back(cutout);
     picture->program = _resources->casterProgram;
+    picture->cutoutProgram = _resources->cutoutProgram;
     picture->size = map.wish.size;
     picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
     std::vector<std::pair<const Face*, glm::ivec2>> tiles;

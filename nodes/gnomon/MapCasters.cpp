@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <tuple>
 
 namespace gnomon {
 namespace {
@@ -32,38 +34,115 @@ void sortBySize(std::vector<MapCasters::Box>& boxes) {
               [](const auto& a, const auto& b) { return glm::distance(a.low, a.high) > glm::distance(b.low, b.high); });
 }
 
+osg::ref_ptr<osg::DrawElementsUInt> noTriangles() { return new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES); }
+
+/// A drawable's part of the mesh's triangles.
+struct Span {
+    const GLuint* corners;
+    std::size_t count;
+};
+
+void append(osg::DrawElementsUInt& to, const Span& span) {
+    to.insert(to.end(), span.corners, span.corners + span.count);
+}
+
+/// Drawables that share a texture and a test, one after another.
+class CutoutBuilder {
+public:
+    void add(const CasterMesh& mesh, const VertexTraverser::Cutout& cutout, const Span& span) {
+        const auto own = mesh.vertices->begin() + static_cast<std::ptrdiff_t>(cutout.firstVertex);
+        const auto places = static_cast<GLuint>(_vertices->size());
+        for (std::size_t i = 0; i < span.count; ++i)
+            _triangles->push_back(span.corners[i] - cutout.firstVertex + places);
+        _vertices->insert(_vertices->end(), own, own + static_cast<std::ptrdiff_t>(cutout.coordinates.size()));
+        _coordinates->insert(_coordinates->end(), cutout.coordinates.begin(), cutout.coordinates.end());
+    }
+
+    osg::ref_ptr<osg::Geometry> geometry() const {
+        osg::ref_ptr<osg::Geometry> result = new osg::Geometry;
+        result->setUseDisplayList(false);
+        result->setUseVertexBufferObjects(true);
+        result->setVertexArray(_vertices);
+        result->setTexCoordArray(0, _coordinates, osg::Array::BIND_PER_VERTEX);
+        result->addPrimitiveSet(_triangles);
+        return result;
+    }
+
+private:
+    osg::ref_ptr<osg::Vec3Array> _vertices = new osg::Vec3Array, _coordinates = new osg::Vec3Array;
+    osg::ref_ptr<osg::DrawElementsUInt> _triangles = noTriangles();
+};
+
 } // namespace
 
+/// The triangles by how they are drawn.
+struct MapCasters::Sorted {
+    osg::ref_ptr<osg::DrawElementsUInt> solid = noTriangles(), solidBodies = noTriangles();
+    std::map<std::tuple<osg::Texture2D*, int, float, bool>, CutoutBuilder> builders;
+
+    void add(const Span& span, bool flat) {
+        append(*solid, span);
+        if (!flat) append(*solidBodies, span);
+    }
+    void add(const CasterMesh& mesh, const VertexTraverser::Cutout& cutout, const Span& span, bool flat) {
+        const AlphaTest& test = cutout.test;
+        builders[{test.texture.get(), test.passing, test.reference, flat}].add(mesh, cutout, span);
+    }
+    std::vector<Cutout> cutouts() const {
+        std::vector<Cutout> result;
+        for (const auto& [key, builder] : builders) {
+            const auto& [texture, passing, reference, flat] = key;
+            result.push_back({builder.geometry(), texture, passing, reference, flat});
+        }
+        return result;
+    }
+};
+
 MapCasters::MapCasters(const CasterMesh& casters)
-    : mesh(&casters),
-      all(casterGeometry(casters, casters.triangles.get())),
-      reach(toGlm(casters.bounds._max - casters.bounds._min) / 2.0) {
-    osg::ref_ptr<osg::DrawElementsUInt> rest = new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES);
+    : mesh(&casters), reach(toGlm(casters.bounds._max - casters.bounds._min) / 2.0) {
+    Sorted sorted;
+    auto cutout = casters.cutouts.begin();
     for (std::size_t i = 0; i < casters.drawn.size(); ++i) {
         const std::size_t first = casters.drawn[i].first,
                           end = i + 1 < casters.drawn.size() ? casters.drawn[i + 1].first : casters.triangles->size();
         if (first == end) continue;
         const Box box = boxOf(casters, first, end);
         (isFlat(box) ? flatBoxes : bodyBoxes).push_back(box);
-        if (!isFlat(box))
-            rest->insert(rest->end(), &(*casters.triangles)[first], &(*casters.triangles)[first] + (end - first));
+        const Span span{&(*casters.triangles)[first], end - first};
+        if (cutout != casters.cutouts.end() && cutout->drawn == i)
+            sorted.add(casters, *cutout++, span, isFlat(box));
+        else
+            sorted.add(span, isFlat(box));
     }
-    if (flatBoxes.empty())
-        bodies = all;
-    else if (!rest->empty())
-        bodies = casterGeometry(casters, rest);
     sortBySize(bodyBoxes);
     sortBySize(flatBoxes);
+    take(sorted);
+}
+
+void MapCasters::take(const Sorted& sorted) {
+    if (sorted.builders.empty())
+        all = casterGeometry(*mesh, mesh->triangles.get());
+    else if (!sorted.solid->empty())
+        all = casterGeometry(*mesh, sorted.solid);
+    if (flatBoxes.empty())
+        bodies = all;
+    else if (!sorted.solidBodies->empty())
+        bodies = casterGeometry(*mesh, sorted.solidBodies);
+    cutouts = sorted.cutouts();
+}
+
+void MapCasters::forEachGeometry(const std::function<void(osg::Geometry&)>& call) const {
+    if (all) call(*all);
+    if (bodies) call(*bodies);
+    for (const Cutout& cutout : cutouts) call(*cutout.geometry);
 }
 
 void MapCasters::resizeGLObjectBuffers(unsigned maxSize) const {
-    all->resizeGLObjectBuffers(maxSize);
-    if (bodies) bodies->resizeGLObjectBuffers(maxSize);
+    forEachGeometry([=](osg::Geometry& geometry) { geometry.resizeGLObjectBuffers(maxSize); });
 }
 
 void MapCasters::releaseGLObjects(osg::State* state) const {
-    all->releaseGLObjects(state);
-    if (bodies) bodies->releaseGLObjects(state);
+    forEachGeometry([=](osg::Geometry& geometry) { geometry.releaseGLObjects(state); });
 }
 
 } // namespace gnomon

@@ -49,7 +49,7 @@ bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p
 
 } // namespace
 
-MapResources::MapResources() : casterProgram(markProgram()) {}
+MapResources::MapResources() : casterProgram(markProgram()), cutoutProgram(markProgram("#define CUTOUT\n")) {}
 
 osg::ref_ptr<const osg::StateSet> MapResources::program(const std::string& defines) {
     Lock lock(_mutex);
@@ -59,13 +59,13 @@ osg::ref_ptr<const osg::StateSet> MapResources::program(const std::string& defin
 }
 
 void MapResources::resizeGLObjectBuffers(unsigned maxSize) {
-    casterProgram->resizeGLObjectBuffers(maxSize);
+    for (const auto& set : {casterProgram, cutoutProgram}) set->resizeGLObjectBuffers(maxSize);
     Lock lock(_mutex);
     for (const auto& [defines, set] : _programs) set->resizeGLObjectBuffers(maxSize);
 }
 
 void MapResources::release(osg::State* state) {
-    casterProgram->releaseGLObjects(state);
+    for (const auto& set : {casterProgram, cutoutProgram}) set->releaseGLObjects(state);
     seen.release(state);
     Lock lock(_mutex);
     for (const auto& [defines, set] : _programs) set->releaseGLObjects(state);

@@ -21,7 +21,7 @@ class MapResources : public osg::Referenced {
 public:
     MapResources();
 
-    const osg::ref_ptr<osg::StateSet> casterProgram;
+    const osg::ref_ptr<osg::StateSet> casterProgram, cutoutProgram;
     SeenDepth seen;
     std::atomic<unsigned> passes{0}; ///< maps drawn so far.
 

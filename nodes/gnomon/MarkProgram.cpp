@@ -38,7 +38,7 @@ osg::ref_ptr<osg::StateSet> programState(const char* name, const std::string& ve
 } // namespace
 
 osg::ref_ptr<osg::StateSet> markProgram(const std::string& defines) {
-    return programState("gnomon mark", defines + shaders::mark_vert, shaders::mark_frag);
+    return programState("gnomon mark", defines + shaders::mark_vert, defines + shaders::mark_frag);
 }
 
 osg::ref_ptr<osg::StateSet> quadProgram(const char* name, const std::string& defines, const char* fragmentShader) {

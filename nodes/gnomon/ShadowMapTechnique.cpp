@@ -43,11 +43,19 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
+    reportUnknownTests(view.frameNumber, mesh);
     const MapWish wish{_size, _cascades, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
                        definesOf(_filter)};
     osg::ref_ptr<MapMark> mark = _maps->mark(view, light.number, *usable, mesh, wish);
     if (!mark) return {}; // out of sight: nothing to say
     return {mark};
+}
+
+void ShadowMapTechnique::reportUnknownTests(unsigned frame, const CasterMesh& mesh) const {
+    if (mesh.unknownTests == 0) return;
+    report(frame, "casts " + std::to_string(mesh.unknownTests) +
+                      " alpha-tested drawables as if they were solid, the first of " + "them in '" + mesh.unknownNode +
+                      "': give them a 2D texture on unit 0 with coordinates a vertex, and no shader.");
 }
 
 void ShadowMapTechnique::resizeGLObjectBuffers(unsigned maxSize) {

@@ -29,8 +29,11 @@ class LightMaps;
 /// Cost    while nothing changes, a copy of the depth buffer and one quad over what the shadows' bounds cover; a draw of
 ///         all casters' positions when a map is made.
 /// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named.
-/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). Alpha-tested casters cast as if they were
-///         solid. What writes no depth does not receive; what is drawn with a polygon offset or a depth range of its own
+/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). What an alpha test leaves of a
+///         caster casts (osg::AlphaFunc, by a 2D texture on unit 0 with coordinates a vertex), with the alpha of vertices and
+///         materials as 1 and texels averaged where they are smaller than the map's; where alpha is a shader's, another
+///         texture's or at generated coordinates, all of it casts, and diagnose() says so. What is blended casts as if it
+///         were solid, and a ShadowQuery takes all for solid. What writes no depth does not receive; what is drawn with a polygon offset or a depth range of its own
 ///         receives as if it stood where its depth says. Multisampled framebuffers are decided a pixel, by one of its
 ///         samples.
 /// Threads any number of cull and draw threads; set properties between frames.
@@ -86,6 +89,8 @@ protected:
     ~ShadowMapTechnique() override;
 
 private:
+    void reportUnknownTests(unsigned frame, const CasterMesh& mesh) const;
+
     int _size = 1024;
     Filter _filter = BICUBIC;
     int _cascades = 1;

@@ -35,8 +35,11 @@ bool mirrors(const osg::Matrixd& matrix) { return (row(matrix, 0) ^ row(matrix, 
 /// Turns the primitives of one drawable into triangles of the root's frame.
 class VertexTraverser::Collector : public osg::PrimitiveFunctor {
 public:
-    Collector(VertexTraverser& result, const osg::Matrixd& rootFromLocal)
-        : _result(result), _rootFromLocal(rootFromLocal), _mirrored(mirrors(rootFromLocal)) {}
+    /// @param cutout  gets the coordinates of each vertex that is used, in place of those of all; may be null.
+    Collector(VertexTraverser& result, const osg::Matrixd& rootFromLocal, Cutout* cutout)
+        : _result(result), _rootFromLocal(rootFromLocal), _mirrored(mirrors(rootFromLocal)), _cutout(cutout) {
+        if (_cutout) _coordinates.swap(_cutout->coordinates);
+    }
 
     void setVertexArray(unsigned count, const osg::Vec2* array) override { start(count, 2, array, nullptr); }
     void setVertexArray(unsigned count, const osg::Vec3* array) override { start(count, 3, array, nullptr); }
@@ -135,6 +138,7 @@ private:
         if (!isUsable(inRoot)) return nowhere;
         if (_floats) _reach = larger(_reach, absolute(local) * (w == 1.0 ? 1.0 : 2.0)); // w is rounded as well
         _result._vertices.push_back(inRoot);
+        if (_cutout) _cutout->coordinates.push_back(_coordinates[index]);
         return static_cast<unsigned>(_result._vertices.size() - 1);
     }
 
@@ -147,6 +151,8 @@ private:
     VertexTraverser& _result;
     const osg::Matrixd& _rootFromLocal;
     bool _mirrored;
+    Cutout* _cutout;
+    std::vector<osg::Vec3> _coordinates; ///< of all vertices in the array.
     const float* _floats = nullptr;
     const double* _doubles = nullptr;
     unsigned _components = 0;
@@ -162,28 +168,44 @@ void VertexTraverser::reset() {
     _triangles.clear();
     _sources.clear();
     _drawn.clear();
+    _cutouts.clear();
     _slots.clear();
     _array = 0;
     _rounding = 0.0;
     _invalidTriangles = 0;
     _invalidNode.clear();
+    _unknownTests = 0;
+    _unknownNode.clear();
 }
 
 void VertexTraverser::applyCaster(osg::Drawable& drawable) {
     const unsigned invalidBefore = _invalidTriangles;
     _drawn.push_back({&drawable, _triangles.size()});
-    Collector collector(*this, rootFromLocal());
+    Collector collector(*this, rootFromLocal(), startCutout(drawable));
     drawable.accept(collector);
     _rounding = std::max(_rounding, collector.rounding());
-    if (invalidBefore == 0 && _invalidTriangles > 0) noteInvalid(drawable);
+    if (invalidBefore == 0 && _invalidTriangles > 0) _invalidNode = nameHere(drawable);
     holdSources(drawable, _sources);
 }
 
-void VertexTraverser::noteInvalid(const osg::Drawable& drawable) {
+VertexTraverser::Cutout* VertexTraverser::startCutout(const osg::Drawable& drawable) {
+    const std::optional<AlphaTest> test = alphaTest();
+    if (!test) return nullptr;
+    test->hold(drawable, _sources);
+    std::vector<osg::Vec3> coordinates = test->texture ? test->coordinatesOf(drawable) : std::vector<osg::Vec3>();
+    if (coordinates.empty()) {
+        if (_unknownTests++ == 0) _unknownNode = nameHere(drawable);
+        return nullptr;
+    }
+    _cutouts.push_back({_drawn.size() - 1, *test, static_cast<unsigned>(_vertices.size()), std::move(coordinates)});
+    return &_cutouts.back();
+}
+
+std::string VertexTraverser::nameHere(const osg::Drawable& drawable) const {
     const osg::NodePath& path = getNodePath();
     const auto named =
         std::find_if(path.rbegin(), path.rend(), [](const osg::Node* n) { return !n->getName().empty(); });
-    _invalidNode = named != path.rend() ? (*named)->getName() : drawable.className();
+    return named != path.rend() ? (*named)->getName() : drawable.className();
 }
 
 namespace {

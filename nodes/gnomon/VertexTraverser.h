@@ -3,6 +3,7 @@
 #include <gnomon/CasterVisitor.h>
 
 #include <osg/Referenced>
+#include <osg/Vec3>
 #include <osg/Vec3d>
 #include <osg/ref_ptr>
 
@@ -51,6 +52,19 @@ public:
     };
     const std::vector<Drawn>& getDrawn() const { return _drawn; }
 
+    /// One of them that an alpha test leaves parts of.
+    struct Cutout {
+        std::size_t drawn;                  ///< its place in getDrawn().
+        AlphaTest test;                     ///< which has a texture.
+        unsigned firstVertex;               ///< in getVertices(), where all of its own follow one another.
+        std::vector<osg::Vec3> coordinates; ///< of the texture, of each of its vertices.
+    };
+    const std::vector<Cutout>& getCutouts() const { return _cutouts; }
+    /// Drawables that an alpha test leaves parts of which are not known here.
+    unsigned getUnknownTests() const { return _unknownTests; }
+    /// As getInvalidNode(), of the first of them.
+    const std::string& getUnknownNode() const { return _unknownNode; }
+
     /// Vertex nearest to `point`; nullopt if there is no vertex or `point` is not finite. Of equals the first.
     std::optional<osg::Vec3d> nearestVertex(const osg::Vec3d& point) const;
     /// The same in plan: nearest in (x, y), whatever the height.
@@ -77,17 +91,22 @@ private:
         unsigned array = 0;
         unsigned place = 0;
     };
-    void noteInvalid(const osg::Drawable& drawable);
+    /// Its place in _cutouts; null if no test leaves parts of it.
+    Cutout* startCutout(const osg::Drawable& drawable);
+    std::string nameHere(const osg::Drawable& drawable) const;
 
     std::vector<osg::Vec3d> _vertices;
     std::vector<unsigned> _triangles;
     std::vector<osg::ref_ptr<const osg::Referenced>> _sources;
     std::vector<Drawn> _drawn;
+    std::vector<Cutout> _cutouts;
     std::vector<Slot> _slots;
     unsigned _array = 0;
     double _rounding = 0.0;
     unsigned _invalidTriangles = 0;
     std::string _invalidNode;
+    unsigned _unknownTests = 0;
+    std::string _unknownNode;
 };
 
 } // namespace gnomon

@@ -1,2 +1,15 @@
 // Marks are made in the stencil buffer; colour writes are off.
-void main() { gl_FragColor = vec4(0.0); }
+#ifdef CUTOUT
+uniform sampler2D cutout;
+uniform vec2 alphaTest; // which alphas pass, as bits: 1 less than, 2 equal to, 4 greater than the second
+in vec3 coordinates;    // s, t and q of unit 0
+#endif
+
+void main() {
+#ifdef CUTOUT
+    float alpha = textureProj(cutout, coordinates).a;
+    int side = alpha < alphaTest.y ? 1 : alpha > alphaTest.y ? 4 : 2;
+    if ((int(alphaTest.x) & side) == 0) discard;
+#endif
+    gl_FragColor = vec4(0.0);
+}

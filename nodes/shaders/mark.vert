@@ -7,8 +7,15 @@ uniform vec4 abovePlane;
 uniform vec4 belowLight;
 #endif
 
+#ifdef CUTOUT
+out vec3 coordinates;
+#endif
+
 void main() {
     gl_Position = clipFromCaster * gl_Vertex;
+#ifdef CUTOUT
+    coordinates = gl_MultiTexCoord0.xyz;
+#endif
 #ifdef CLIP
     gl_ClipDistance[0] = dot(abovePlane, gl_Vertex);
     gl_ClipDistance[1] = dot(belowLight, gl_Vertex);
