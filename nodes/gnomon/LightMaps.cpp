@@ -27,19 +27,31 @@ bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
     return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
 }
 
+bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) {
+    if (!a || !b) return a.has_value() == b.has_value();
+    return a->cutoff == b->cutoff && glm::distance(a->axis, b->axis) <= sameLight;
+}
+
+glm::dmat4 eyeFromScene(const ViewFrame& view, const CasterMesh& mesh) {
+    return glm::translate(toGlm(view.eyeFromGroup), toGlm(mesh.origin));
+}
+
 /// Of a sun one; of a lamp that sees all casters to one side one, else those of a cube, a little larger so that what is
-/// on an edge is in both.
+/// on an edge is in both. Of a spot one about its cone, unless that is nearly flat.
 ///
 /// A lamp is a sun where that moves no shadow by more than an eighth of a texel: else its depths would be rounded off.
-std::vector<LightFrame> framesOf(const glm::dvec4& light, const glm::dvec3& reach, int texels) {
+std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<SpotCone>& cone, const glm::dvec3& reach,
+                                 int texels) {
     const glm::dvec3 at(light);
     if (light.w == 0.0 || glm::length(at) > 8.0 * texels * glm::length(reach)) return {sunFrame(glm::normalize(at))};
+    constexpr double onEdges = 1.05, flat = 4.0;
+    if (cone && std::tan(cone->cutoff) < flat) return {lampFrame(at, cone->axis, onEdges * std::tan(cone->cutoff))};
     std::vector<LightFrame> frames;
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {1.0, -1.0}) {
             glm::dvec3 way(0.0);
             way[axis] = sign;
-            frames.push_back(lampFrame(at, way, 1.05));
+            frames.push_back(lampFrame(at, way, onEdges));
         }
     constexpr double wide = 2.0;
     const LightFrame ahead = lampFrame(at, glm::normalize(-at), wide);
@@ -70,6 +82,7 @@ struct LightMaps::LightMap {
     const void* stage = nullptr;
     int lightNumber = 0;
     glm::dvec4 light{0.0};
+    std::optional<SpotCone> cone;
     MapWish wish;
     osg::ref_ptr<const MapCasters> casters;
     bool flats = false; ///< those that are flat cast, too.
@@ -80,11 +93,13 @@ struct LightMaps::LightMap {
     std::vector<MapLookUp> lookUps;
     unsigned lastCall = 0;
 
-    bool isOf(const glm::dvec4& given, const MapCasters& asked, bool flatToo, const MapWish& wanted) const {
-        return casters == &asked && flats == flatToo && wish == wanted &&
+    bool isOf(const glm::dvec4& given, const std::optional<SpotCone>& givenCone, const MapCasters& asked, bool flatToo,
+              const MapWish& wanted) const {
+        return casters == &asked && flats == flatToo && wish == wanted && isSame(givenCone, cone) &&
                isSame(given, light, glm::length(asked.reach));
     }
-    void start(const glm::dvec4& given, const MapCasters& asked, bool flatToo, const MapWish& wanted);
+    void start(const glm::dvec4& given, const std::optional<SpotCone>& givenCone, const MapCasters& asked, bool flatToo,
+               const MapWish& wanted);
     std::optional<ScreenRect> screenBounds(const glm::dmat4& clipFromScene) const;
     void addFace(const LightFrame& frame);
     void findSplits(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene);
@@ -146,17 +161,26 @@ bool isBetween(const MapCasters::Box& flat, const glm::dvec4& light, const std::
 LightMaps::LightMaps() : _resources(new MapResources) {}
 LightMaps::~LightMaps() = default;
 
+osg::ref_ptr<ConeMark> LightMaps::around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
+                                         const CasterMesh& mesh) const {
+    osg::ref_ptr<ConeMark> mark = new ConeMark;
+    mark->resources = _resources;
+    mark->clipFromScene = toGlm(view.projection) * eyeFromScene(view, mesh);
+    mark->coneFromScene = coneFromScene(glm::dvec3(light), cone);
+    return mark;
+}
+
 osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
-                                      const CasterMesh& mesh, const MapWish& wish) {
-    const glm::dmat4 eyeFromScene = glm::translate(toGlm(view.eyeFromGroup), toGlm(mesh.origin));
-    const glm::dmat4 clipFromScene = toGlm(view.projection) * eyeFromScene;
+                                      const std::optional<SpotCone>& cone, const CasterMesh& mesh,
+                                      const MapWish& wish) {
+    const glm::dmat4 clipFromScene = toGlm(view.projection) * eyeFromScene(view, mesh);
     Lock lock(_mutex);
     LightMap& map = find(view.stage, lightNumber);
     const osg::ref_ptr<const MapCasters> casters = castersOf(mesh);
-    const std::vector<Receiver> receivers = receiversOf<Receiver>(view, eyeFromScene);
+    const std::vector<Receiver> receivers = receiversOf<Receiver>(view, eyeFromScene(view, mesh));
     const bool flats = std::any_of(casters->flatBoxes.begin(), casters->flatBoxes.end(),
                                    [&](const auto& flat) { return isBetween(flat, light, receivers, casters->reach); });
-    if (!map.isOf(light, *casters, flats, wish)) map.start(light, *casters, flats, wish);
+    if (!map.isOf(light, cone, *casters, flats, wish)) map.start(light, cone, *casters, flats, wish);
     if (!map.findNeeded(receivers, clipFromScene)) return nullptr;
     const auto bounds = map.screenBounds(clipFromScene);
     if (!bounds) return nullptr;
@@ -168,21 +192,25 @@ osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     mark->picture = map.picture;
     mark->lookUps = map.lookUps;
     mark->clipFromScene = clipFromScene;
+    if (cone) mark->coneFromScene = coneFromScene(glm::dvec3(light), *cone);
     mark->defines = wish.defines + "#define MAPS " + std::to_string(map.lookUps.size()) + "\n";
     if (!map.splits.empty()) mark->defines += "#define CASCADES\n";
+    if (cone) mark->defines += "#define CONE\n";
     return mark;
 }
 
-void LightMaps::LightMap::start(const glm::dvec4& given, const MapCasters& asked, bool flatToo, const MapWish& wanted) {
+void LightMaps::LightMap::start(const glm::dvec4& given, const std::optional<SpotCone>& givenCone,
+                                const MapCasters& asked, bool flatToo, const MapWish& wanted) {
     if (!(wish == wanted)) map = nullptr;
     light = given;
+    cone = givenCone;
     casters = &asked;
     flats = flatToo;
     wish = wanted;
     picture = nullptr;
     faces.clear();
     splits.clear();
-    for (const LightFrame& frame : framesOf(light, casters->reach, wish.size)) addFace(frame);
+    for (const LightFrame& frame : framesOf(light, cone, casters->reach, wish.size)) addFace(frame);
 }
 
 void LightMaps::LightMap::addFace(const LightFrame& frame) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ConeMark.h>
 #include <gnomon/MapMark.h>
 #include <gnomon/ShadowLight.h>
+#include <gnomon/SpotCone.h>
 #include <gnomon/ViewFrame.h>
 
 #include <OpenThreads/Mutex>
@@ -34,9 +36,13 @@ public:
     ~LightMaps();
 
     /// @param light  about the casters' origin, see usableLight().
+    /// @param cone   of a lamp that is a spot: nothing outside it is marked.
     /// @return the marks of a light; null if none of its shadow can be seen.
-    osg::ref_ptr<MapMark> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light, const CasterMesh& mesh,
-                               const MapWish& wish);
+    osg::ref_ptr<MapMark> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
+                               const std::optional<SpotCone>& cone, const CasterMesh& mesh, const MapWish& wish);
+    /// Marks of all that is seen outside a spot's cone.
+    osg::ref_ptr<ConeMark> around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
+                                  const CasterMesh& mesh) const;
 
     const MapResources& resources() const { return *_resources; }
     void resizeGLObjectBuffers(unsigned maxSize);

@@ -20,13 +20,6 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 constexpr unsigned seenUnit = 0, mapUnit = 1;
 constexpr double border = 2.0; // texels at a tile's sides that a comparison may reach over
 
-/// From window coordinates x and y, and 1 - depth.
-glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
-    const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);
-    const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
-    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
-}
-
 struct Span {
     int from, to;
 };
@@ -49,23 +42,32 @@ bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p
 
 } // namespace
 
-MapResources::MapResources() : casterProgram(markProgram()), cutoutProgram(markProgram("#define CUTOUT\n")) {}
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
+    const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);
+    const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
+    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
+}
+
+MapResources::MapResources()
+    : casterProgram(markProgram()),
+      cutoutProgram(markProgram("#define CUTOUT\n")),
+      coneProgram(quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag)) {}
 
 osg::ref_ptr<const osg::StateSet> MapResources::program(const std::string& defines) {
     Lock lock(_mutex);
     osg::ref_ptr<osg::StateSet>& set = _programs[defines];
-    if (!set) set = quadProgram("gnomon map", defines, shaders::map_frag);
+    if (!set) set = quadProgram("gnomon map", defines + shaders::cone_frag, shaders::map_frag);
     return set;
 }
 
 void MapResources::resizeGLObjectBuffers(unsigned maxSize) {
-    for (const auto& set : {casterProgram, cutoutProgram}) set->resizeGLObjectBuffers(maxSize);
+    for (const auto& set : {casterProgram, cutoutProgram, coneProgram}) set->resizeGLObjectBuffers(maxSize);
     Lock lock(_mutex);
     for (const auto& [defines, set] : _programs) set->resizeGLObjectBuffers(maxSize);
 }
 
 void MapResources::release(osg::State* state) {
-    for (const auto& set : {casterProgram, cutoutProgram}) set->releaseGLObjects(state);
+    for (const auto& set : {casterProgram, cutoutProgram, coneProgram}) set->releaseGLObjects(state);
     seen.release(state);
     Lock lock(_mutex);
     for (const auto& [defines, set] : _programs) set->releaseGLObjects(state);
@@ -112,6 +114,7 @@ void MapMark::setUniforms(osg::State& state, const glm::dvec4& depthError) const
         add(nearest, lookUps[i].errors.nearest);
         add(farthest, lookUps[i].errors.farthest);
     }
+    if (coneFromScene) setUniform(state, "coneFromPixel", *coneFromScene * sceneFromPixel);
     setUniform(state, "seen", int(seenUnit));
     setUniform(state, "maps", int(mapUnit));
     setUniform(state, "texel", 1.0 / glm::dvec2(map->size));

@@ -12,6 +12,7 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace gnomon {
@@ -21,7 +22,7 @@ class MapResources : public osg::Referenced {
 public:
     MapResources();
 
-    const osg::ref_ptr<osg::StateSet> casterProgram, cutoutProgram;
+    const osg::ref_ptr<osg::StateSet> casterProgram, cutoutProgram, coneProgram;
     SeenDepth seen;
     std::atomic<unsigned> passes{0}; ///< maps drawn so far.
 
@@ -38,6 +39,9 @@ private:
     std::map<std::string, osg::ref_ptr<osg::StateSet>> _programs;
 };
 
+/// From window coordinates x and y, and 1 - depth.
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport);
+
 /// One map of a light, as pixels look it up.
 struct MapLookUp {
     glm::dmat4 mapFromScene{1.0}; ///< see MapFit; the scene is about the casters' origin.
@@ -51,9 +55,10 @@ public:
     osg::ref_ptr<MapResources> resources;
     osg::ref_ptr<DepthMap> map;
     osg::ref_ptr<const MapPicture> picture;
-    std::vector<MapLookUp> lookUps; ///< one a tile of the picture.
-    glm::dmat4 clipFromScene{1.0};  ///< as drawn.
-    std::string defines;            ///< of the fragment shader: how it compares.
+    std::vector<MapLookUp> lookUps;          ///< one a tile of the picture.
+    glm::dmat4 clipFromScene{1.0};           ///< as drawn.
+    std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no marks.
+    std::string defines;                     ///< of the fragment shader: how it compares.
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
 

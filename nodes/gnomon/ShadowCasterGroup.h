@@ -35,6 +35,7 @@ class CasterRevision;
 ///       Dark 0.3
 ///       LightSources 1 { osg::LightSource { UniqueID 9 } }
 ///       Lights 1 { 0 433000.25 5410000.5 60 1 }
+///       Spots 1 { 0 0 -1 30 }
 ///       LightUniforms 1 { 0 "sunColor" }
 ///     }
 ///

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/LightMaps.h>
+#include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/UsableLight.h>
 
@@ -46,9 +47,13 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
     reportUnknownTests(view.frameNumber, mesh);
     const MapWish wish{_size, _cascades, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
                        definesOf(_filter)};
-    osg::ref_ptr<MapMark> mark = _maps->mark(view, light.number, *usable, mesh, wish);
-    if (!mark) return {}; // out of sight: nothing to say
-    return {mark};
+    const std::optional<SpotCone> cone = spotOf(light);
+    std::vector<osg::ref_ptr<MarkJob>> marks;
+    if (cone && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
+        marks.emplace_back(_maps->around(view, *usable, *cone, mesh));
+    const osg::ref_ptr<MapMark> mark = _maps->mark(view, light.number, *usable, cone, mesh, wish);
+    if (mark) marks.emplace_back(mark); // else out of sight: nothing to say
+    return marks;
 }
 
 void ShadowMapTechnique::reportUnknownTests(unsigned frame, const CasterMesh& mesh) const {

@@ -24,18 +24,23 @@ class LightMaps;
 /// Bias    none to set. Both the surface in the map and the one that is seen allow for their own slope within the texels
 ///         that are compared, and for the rounding of depth, here and in the frame. Thin things lose their shadow where
 ///         they are less than about a texel off the surface, measured along the light.
+/// Spots   a lamp with a cutoff (osg::Light::setSpotCutoff(), ShadowLight::cutoff) has one map, about its cone. RELIGHT
+///         takes its light from all that is outside the cone, to the pixel, where OpenGL alone decides a vertex; BLEND
+///         leaves that as OpenGL has drawn it, which is without the light as far as vertices tell. Where no vertex is
+///         in the cone OpenGL gives no light, and none is added.
+/// Alpha   of casters with an alpha test (osg::AlphaFunc) casts what that leaves of them, by the alpha of the 2D texture on
+///         unit 0 at coordinates given a vertex; where alpha comes from elsewhere, all of them casts, and diagnose() says
+///         so.
 /// Edges   hard: what gets less than half of the light, by the filter, gets none.
 ///
 /// Cost    while nothing changes, a copy of the depth buffer and one quad over what the shadows' bounds cover; a draw of
 ///         all casters' positions when a map is made.
 /// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named.
-/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). What an alpha test leaves of a
-///         caster casts (osg::AlphaFunc, by a 2D texture on unit 0 with coordinates a vertex), with the alpha of vertices and
-///         materials as 1 and texels averaged where they are smaller than the map's; where alpha is a shader's, another
-///         texture's or at generated coordinates, all of it casts, and diagnose() says so. What is blended casts as if it
-///         were solid, and a ShadowQuery takes all for solid. What writes no depth does not receive; what is drawn with a polygon offset or a depth range of its own
-///         receives as if it stood where its depth says. Multisampled framebuffers are decided a pixel, by one of its
-///         samples.
+/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). Of alpha tests, alpha of vertices and
+///         materials counts as 1, and where the map is coarser than the texture its mipmaps are what is tested; what is
+///         blended casts as if it were solid. A ShadowQuery takes all casters for solid and knows no cones. What writes no
+///         depth does not receive; what is drawn with a polygon offset or a depth range of its own receives as if it stood
+///         where its depth says. Multisampled framebuffers are decided a pixel, by one of its samples.
 /// Threads any number of cull and draw threads; set properties between frames.
 /// Source: L. Williams, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 1978; CS-4470, part 2; W. Reeves, D. Salesin
 ///         and R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987.

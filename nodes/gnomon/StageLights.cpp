@@ -15,6 +15,12 @@ namespace {
 struct StageLight {
     const osg::Light* light = nullptr;
     osg::Vec4d inEye;
+    osg::Vec3d direction; ///< of a spot, in eye space.
+
+    ShadowLight in(const osg::Matrixd& groupFromEye) const {
+        return {light->getLightNum(), inEye * groupFromEye, osg::Matrixd::transform3x3(direction, groupFromEye),
+                double{light->getSpotCutoff()}};
+    }
 };
 
 void collect(osgUtil::PositionalStateContainer* container, const osg::Matrixd& eyeFromContainer,
@@ -25,7 +31,10 @@ void collect(osgUtil::PositionalStateContainer* container, const osg::Matrixd& e
         if (!light) continue;
         const osg::Vec4d given(light->getPosition());
         const osg::Vec4d position = containerFromLight ? given * *containerFromLight : given;
-        lights[light->getLightNum()] = {light, position * eyeFromContainer}; // as in GL, the last one holds
+        const osg::Vec3d way(light->getDirection());
+        const osg::Vec3d direction = containerFromLight ? osg::Matrixd::transform3x3(way, *containerFromLight) : way;
+        lights[light->getLightNum()] = {light, position * eyeFromContainer, // as in GL, the last one holds
+                                        osg::Matrixd::transform3x3(direction, eyeFromContainer)};
     }
 }
 
@@ -51,7 +60,7 @@ void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight
         }
         const auto found = light ? inStage.find(light->getLightNum()) : inStage.end();
         if (found != inStage.end() && found->second.light == light)
-            result.lights.push_back({light->getLightNum(), found->second.inEye * groupFromEye});
+            result.lights.push_back(found->second.in(groupFromEye));
         else
             result.causes.push_back(
                 "waits for the LightSource '" + source->getName() +
@@ -74,7 +83,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
         if (number < 0 || number > 7)
             result.causes.push_back(notOpenGL(number));
         else if (isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(number)))
-            result.lights.push_back({number, light.inEye * groupFromEye});
+            result.lights.push_back(light.in(groupFromEye));
     if (result.lights.empty() && (inStage.empty() || !leaves.empty())) // with nothing in sight, nobody can tell
         result.causes.push_back(
             "finds no light that is on in this view: add an osg::LightSource and switch its mode on, or set one "

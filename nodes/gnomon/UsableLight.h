@@ -3,6 +3,8 @@
 #include <gnomon/CasterMesh.h>
 #include <gnomon/Convert.h>
 #include <gnomon/ScreenBounds.h>
+#include <gnomon/ShadowLight.h>
+#include <gnomon/SpotCone.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -22,6 +24,15 @@ inline std::optional<glm::dvec4> usableLight(const osg::Vec4d& inGroup, const os
     if (!(std::isfinite(given.w) && std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z)))
         return std::nullopt;
     return light;
+}
+
+/// Of a lamp that is a spot; nullopt of all others.
+inline std::optional<SpotCone> spotOf(const ShadowLight& light) {
+    const glm::dvec3 axis = glm::normalize(toGlm(light.direction));
+    if (light.inGroup.w() == 0.0 || !(light.cutoff >= 0.0 && light.cutoff <= 90.0) ||
+        !std::isfinite(axis.x + axis.y + axis.z))
+        return std::nullopt;
+    return SpotCone{axis, osg::DegreesToRadians(light.cutoff)};
 }
 
 /// The cause for ShadowTechnique::report() where there is none.

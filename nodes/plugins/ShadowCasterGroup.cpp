@@ -5,6 +5,8 @@
 
 #include <osgDB/ObjectWrapper>
 
+#include <algorithm>
+
 using namespace gnomon;
 
 static bool checkCasters(const ShadowCasterGroup& group) { return group.getCasters() != Selection(); }
@@ -48,6 +50,30 @@ static bool writeLights(osgDB::OutputStream& out, const ShadowCasterGroup& group
     });
 }
 
+/// Direction and cutoff of each of Lights, where any of those is a spot.
+static bool checkSpots(const ShadowCasterGroup& group) {
+    const auto& lights = group.getLights();
+    const auto isSpot = [](const ShadowLight& light) { return light.cutoff != ShadowLight().cutoff; };
+    return std::any_of(lights.begin(), lights.end(), isSpot);
+}
+
+static bool readSpots(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    const auto spots = fields::readList(in, [&] { return fields::readExactVector<osg::Vec4d>(in); });
+    std::vector<ShadowLight> lights = group.getLights();
+    for (std::size_t i = 0; i < std::min(lights.size(), spots.size()); ++i) {
+        lights[i].direction = {spots[i].x(), spots[i].y(), spots[i].z()};
+        lights[i].cutoff = spots[i].w();
+    }
+    group.setLights(lights);
+    return true;
+}
+
+static bool writeSpots(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeList(out, group.getLights(), [&](const ShadowLight& light) {
+        fields::writeExactVector(out, osg::Vec4d(light.direction, light.cutoff));
+    });
+}
+
 static bool checkLightUniforms(const ShadowCasterGroup& group) { return !group.getLightUniforms().empty(); }
 
 static bool readLightUniforms(osgDB::InputStream& in, ShadowCasterGroup& group) {
@@ -81,5 +107,6 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup,
         osgDB::BaseSerializer::RW_FLOAT);
     ADD_USER_SERIALIZER(LightSources);
     ADD_USER_SERIALIZER(Lights);
+    ADD_USER_SERIALIZER(Spots);
     ADD_USER_SERIALIZER(LightUniforms);
 }

@@ -87,6 +87,9 @@ void main() {
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));
     vec2 at = gl_FragCoord.xy + depthError.zw;
+#ifdef CONE
+    if (!isInCone(vec4(at, e, 1.0))) discard; // a ConeMark's, or nobody's
+#endif
     float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
     if (arrives >= THRESHOLD) discard;
     gl_FragColor = vec4(0.0);

@@ -107,6 +107,15 @@ TEST_P(SceneFile, KeepsNumbersAndPlacesOfLights) {
     }
 }
 
+TEST_P(SceneFile, KeepsTheConesOfSpotsBesideOtherLights) {
+    osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
+    const osg::Vec3d direction(0.1, -1.0 / 3.0, 4234567.123456789);
+    group->setLights({{1, {1, 2, 3, 0}}, {2, {4, 5, 6, 1}, direction, 100.0 / 3.0}, {3, {7, 8, 9, 1}}});
+    const auto copy = test::throughFile(*group, kind());
+    ASSERT_TRUE(copy);
+    EXPECT_EQ(copy->getLights(), group->getLights());
+}
+
 TEST_P(SceneFile, KeepsTheCompositeAndItsFactor) {
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
     group->setComposite(ShadowCasterGroup::BLEND);

@@ -5,9 +5,12 @@
 #include <gnomon/CasterMesh.h>
 #include <gnomon/CasterRevision.h>
 
+#include <osg/AlphaFunc>
 #include <osg/LOD>
 #include <osg/ShapeDrawable>
 #include <osg/Switch>
+#include <osg/TexMat>
+#include <osg/Texture2D>
 
 #include <gtest/gtest.h>
 
@@ -166,6 +169,40 @@ TEST(CasterRevisionChanges, WithTheBoundsOfADrawableThatIsNoGeometry) {
     Watched watched(unknown.get());
     EXPECT_FALSE(watched.changed());
     unknown->setInitialBound(osg::BoundingBox(0, 0, 0, 1, 1, 1));
+    EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionChanges, WithWhatAnAlphaTestGoesBy) {
+    const osg::ref_ptr<osg::Geometry> geometry = indexed();
+    const osg::ref_ptr<osg::Vec2Array> coordinates = new osg::Vec2Array(4);
+    geometry->setTexCoordArray(0, coordinates);
+    const osg::ref_ptr<osg::Group> above = new osg::Group, root = new osg::Group;
+    above->addChild(root);
+    root->addChild(geometry);
+    Watched watched(root.get());
+    osg::StateSet& set = *geometry->getOrCreateStateSet();
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    set.setTextureAttributeAndModes(0, new osg::Texture2D(image));
+    const osg::ref_ptr<osg::AlphaFunc> test = new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f);
+    set.setAttribute(test);
+    EXPECT_FALSE(watched.changed()) << "no test is on";
+    above->getOrCreateStateSet()->setMode(GL_ALPHA_TEST, osg::StateAttribute::ON);
+    EXPECT_TRUE(watched.changed());
+    test->setReferenceValue(0.4f);
+    EXPECT_TRUE(watched.changed());
+    test->setFunction(osg::AlphaFunc::LESS);
+    EXPECT_TRUE(watched.changed());
+    image->dirty();
+    EXPECT_TRUE(watched.changed());
+    coordinates->dirty();
+    EXPECT_TRUE(watched.changed());
+    set.setTextureAttribute(0, new osg::TexMat(osg::Matrixd::scale(2.0, 1.0, 1.0)));
+    EXPECT_TRUE(watched.changed());
+    set.setTextureAttribute(0, new osg::Texture2D(image));
+    EXPECT_TRUE(watched.changed());
+    EXPECT_FALSE(watched.changed());
+    test->setFunction(osg::AlphaFunc::ALWAYS);
     EXPECT_TRUE(watched.changed());
 }
 

@@ -51,8 +51,8 @@ osg::ref_ptr<osg::Texture2D> fenceTexture(GLenum format = GL_RGBA) {
     return texture;
 }
 
-void setTest(osg::StateSet& set, osg::AlphaFunc::ComparisonFunction how, float reference, unsigned value = On::ON) {
-    set.setAttributeAndModes(new osg::AlphaFunc(how, reference), value);
+void setTest(osg::StateSet& set, osg::AlphaFunc::ComparisonFunction how, float reference) {
+    set.setAttributeAndModes(new osg::AlphaFunc(how, reference));
 }
 
 /// A parallelogram with the fence's texture, once over it.
@@ -80,7 +80,7 @@ struct Fence {
 const Fence level{{-2.0, -1.5, 2.0}, {4.0, 0.0, 0.0}, {0.0, 3.0, 0.0}};
 const Fence upright{{-2.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {0.0, 0.0, 2.5}};
 const Fence leaning{{-2.0, 0.3, 0.1}, {3.9, 0.2, 0.1}, {-0.2, 1.0, 2.5}};
-const osg::Vec4d noon{0.0, 0.0, 1.0, 0.0}, afternoon{0.3, -0.8, 1.0, 0.0}, lamp{0.4, -3.0, 7.0, 1.0};
+const osg::Vec4d noon{0.0, 0.0, 1.0, 0.0}, afternoon{0.3, 0.8, 1.0, 0.0}, lamp{0.4, 5.0, 7.0, 1.0};
 
 /// Whether there is something of it at (s, t).
 using Solid = std::function<bool(double s, double t)>;
@@ -156,7 +156,7 @@ std::vector<std::string> expectShadowOf(const FenceCase& setup, const std::funct
     if (prepare) prepare(scene);
     const Judged result = judge(setup, test::render(scene.root, view));
     EXPECT_EQ(result.wrong, 0);
-    EXPECT_GT(result.shadowed, 3000);
+    EXPECT_GT(result.shadowed, 1000);
     EXPECT_GT(result.lit, 10000);
     return technique->diagnose();
 }
@@ -178,19 +178,22 @@ TEST(MapCutout, WithoutATestAFenceCastsAllOfItself) {
 
 TEST(MapCutout, EachFunctionLeavesWhatItIsToLeave) {
     using F = osg::AlphaFunc;
-    const float reference = 100.0f / 255.0f;
-    for (const auto& [how, passes] : std::vector<std::pair<F::ComparisonFunction, std::function<bool(int)>>>{
-             {F::LESS, [](int a) { return a < 100; }},
-             {F::LEQUAL, [](int a) { return a <= 100; }},
-             {F::GREATER, [](int a) { return a > 100; }},
-             {F::GEQUAL, [](int a) { return a >= 100; }},
-             {F::EQUAL, [](int a) { return a == 100; }},
-             {F::NOTEQUAL, [](int a) { return a != 100; }}}) {
-        const auto set = [how, reference](osg::Geometry& fence) { setTest(*fence.getStateSet(), how, reference); };
-        const auto solid = [passes](double s, double t) {
-            return passes(alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows));
+    struct Function {
+        F::ComparisonFunction how;
+        float reference; ///< where equality counts, one that bytes have as floats to the bit.
+        std::function<bool(int)> passes;
+    };
+    for (const Function& function : {Function{F::LESS, 0.4f, [](int a) { return a < 102; }},
+                                     {F::LEQUAL, 0.0f, [](int a) { return a == 0; }},
+                                     {F::GREATER, 0.4f, [](int a) { return a > 102; }},
+                                     {F::GEQUAL, 1.0f, [](int a) { return a == 255; }},
+                                     {F::EQUAL, 0.0f, [](int a) { return a == 0; }},
+                                     {F::NOTEQUAL, 1.0f, [](int a) { return a < 255; }}}) {
+        const auto set = [&](osg::Geometry& fence) { setTest(*fence.getStateSet(), function.how, function.reference); };
+        const auto solid = [&](double s, double t) {
+            return function.passes(alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows));
         };
-        SCOPED_TRACE(how);
+        SCOPED_TRACE(function.how);
         EXPECT_EQ(expectShadowOf({level, noon, solid, set}), Causes());
     }
 }
@@ -201,7 +204,7 @@ TEST(MapCutout, TextureMatricesMoveTheStripes) {
             0, new osg::TexMat(osg::Matrixd::scale(0.5, 2.0, 1.0) * osg::Matrixd::translate(0.125, 0.25, 0.0)));
     };
     const auto solid = [](double s, double t) { return greater(0.5 * s + 0.125, 2.0 * t + 0.25); };
-    EXPECT_EQ(expectShadowOf({leaning, afternoon, solid, move}), Causes());
+    EXPECT_EQ(expectShadowOf({upright, afternoon, solid, move}), Causes());
 }
 
 /// Two triangles by indices, their vertices in another order and among others, coordinates homogeneous doubles.
@@ -221,6 +224,8 @@ TEST(MapCutout, TakesIndexedTrianglesAndCoordinatesOfOtherKinds) {
         fence.setTexCoordArray(0, coordinates, osg::Array::BIND_PER_VERTEX);
         const std::array<GLushort, 6> corners{3, 7, 1, 3, 1, 5};
         fence.setPrimitiveSet(0, new osg::DrawElementsUShort(GL_TRIANGLES, 6, corners.data()));
+        const std::array<GLushort, 2> points{0, 5}; // which cast nothing, but use vertices before the triangles do
+        fence.insertPrimitiveSet(0, new osg::DrawElementsUShort(GL_POINTS, 2, points.data()));
         fence.dirtyBound();
         fence.setNormalArray(nullptr);
     };
@@ -250,6 +255,12 @@ TEST(MapCutout, AnOverrideAboveWinsUnlessWhatIsBelowIsProtected) {
         fence.getStateSet()->setMode(GL_ALPHA_TEST, On::ON | On::PROTECTED);
     };
     EXPECT_EQ(expectShadowOf({upright, afternoon, greater, protect}, override), Causes());
+    const auto less = [](Scene& scene) {
+        scene.root->getOrCreateStateSet()->setAttribute(new osg::AlphaFunc(osg::AlphaFunc::LESS, 0.5f),
+                                                        On::ON | On::OVERRIDE);
+    };
+    const auto rest = [](double s, double t) { return !greater(s, t); };
+    EXPECT_EQ(expectShadowOf({upright, afternoon, rest}, less), Causes());
 }
 
 TEST(MapCutout, SolidCastersBesideItAndASecondFenceCastToo) {
@@ -257,7 +268,9 @@ TEST(MapCutout, SolidCastersBesideItAndASecondFenceCastToo) {
     const auto add = [](Scene& scene) {
         scene.content->addChild(test::node(test::box({-5.0, 3.0, 0.0}, {-4.0, 4.0, 1.0})));
         const Fence other{{3.0, 2.0, 0.5}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
-        scene.content->addChild(other.geometry());
+        const osg::ref_ptr<osg::Geometry> second = other.geometry();
+        second->setStateSet(test::find(*scene.root, "fence")->getStateSet()); // so that both are drawn in one call
+        scene.content->addChild(second);
     };
     Scene scene = build(setup), without = build(setup);
     scene.addShadow(new ShadowMapTechnique);
@@ -298,7 +311,7 @@ TEST(MapCutout, WhatCannotBeKnownCastsAsIfItWereSolidAndIsDiagnosed) {
     for (const auto& change :
          {std::function<void(osg::Geometry&)>(generated), {otherUnit}, {noCoordinates}, {shader}}) {
         const Causes causes = solidWith(change);
-        ASSERT_EQ(causes.size(), 1u);
+        ASSERT_FALSE(causes.empty());
         EXPECT_NE(causes[0].find("casts 1 alpha-tested drawables as if they were solid, the first of them in 'fence'"),
                   std::string::npos)
             << causes[0];
@@ -321,6 +334,7 @@ TEST(MapCutout, ANewReferenceAnotherTextureAndAnImageDirtiedAreSeenInTheNextFram
     const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
     technique->setSize(2048);
     scene.addShadow(technique);
+    scene.group->setCasters({test::find(*scene.root, "fence")}); // so that nothing solid casts beside it
     test::Camera camera(scene.root, view);
     EXPECT_EQ(judge(setup, camera.frame()).wrong, 0);
     camera.frame();

@@ -53,7 +53,7 @@ glm::dvec3 mixed(const glm::dvec3& own, const glm::dvec3& image, const glm::dvec
 }
 
 /// What one sees of panels, some of which are mirrors; an image shows no mirrors.
-Seen seenIn(const std::vector<Panel>& all, const std::vector<Mirror>& mirrors) {
+Shown seenIn(const std::vector<Panel>& all, const std::vector<Mirror>& mirrors) {
     return [=](const Sight& sight) {
         const auto met = meet(sight, all, [](const Panel&) { return true; });
         if (!met) return background;
@@ -79,7 +79,7 @@ osg::ref_ptr<PlanarReflectionNode> mirrorOf(osg::Node& scene, const Mirror& mirr
     return node;
 }
 
-void expectSeen(const Picture& picture, const View& from, const Seen& seen, int edges = 1500) {
+void expectSeen(const Picture& picture, const View& from, const Shown& seen, int edges = 1500) {
     const Judgement found = judge(picture, from, seen, rounding);
     EXPECT_EQ(found.wrong, 0) << "worst by " << found.worst;
     EXPECT_LT(found.edges, edges);

@@ -74,7 +74,7 @@ std::optional<Met> meet(const Sight& sight, const std::vector<Panel>& panels,
     return nearest;
 }
 
-Judgement judge(const Picture& picture, const View& view, const Seen& seen, double tolerance) {
+Judgement judge(const Picture& picture, const View& view, const Shown& seen, double tolerance) {
     Judgement result;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {

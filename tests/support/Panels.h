@@ -40,7 +40,7 @@ std::optional<Met> meet(const Sight& sight, const std::vector<Panel>& panels,
                         const std::function<bool(const Panel&)>& counts);
 
 /// What a line of sight ought to show.
-using Seen = std::function<glm::dvec3(const Sight&)>;
+using Shown = std::function<glm::dvec3(const Sight&)>;
 
 /// How a picture differs from what lines of sight through its pixels' centres show. Pixels where sights 0.02 pixels
 /// beside the centre show something else are edges, where a rasteriser may decide either way, and do not count.
@@ -49,7 +49,7 @@ struct Judgement {
     double worst = 0.0; ///< the largest difference.
     int edges = 0;      ///< pixels that do not count.
 };
-Judgement judge(const Picture& picture, const View& view, const Seen& seen, double tolerance);
+Judgement judge(const Picture& picture, const View& view, const Shown& seen, double tolerance);
 
 /// Camera's background.
 constexpr glm::dvec3 background{0.0, 0.0, 64.0};

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/MapMark.h>
+
+namespace gnomon {
+
+/// Marks of one spot in one view: what of all that is seen is not in its cone.
+class ConeMark : public MarkJob {
+public:
+    osg::ref_ptr<MapResources> resources;
+    glm::dmat4 clipFromScene{1.0}; ///< as drawn.
+    glm::dmat4 coneFromScene{1.0}; ///< see gnomon::coneFromScene().
+
+    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+
+protected:
+    ~ConeMark() override = default;
+};
+
+} // namespace gnomon

@@ -1,0 +1,20 @@
+// What a spot lights, as map.frag has pixels' places.
+#ifdef CONE
+uniform mat4 coneFromPixel; // see coneFromScene()
+
+bool isInCone(vec4 pixel) {
+    vec3 at = (coneFromPixel * pixel).xyz;
+    return at.z >= 0.0 && dot(at.xy, at.xy) <= at.z * at.z;
+}
+#endif
+
+#ifdef SURROUND
+uniform sampler2D seen;
+uniform vec4 depthError;
+
+void main() {
+    float e = 1.0 - texelFetch(seen, ivec2(gl_FragCoord.xy), 0).r;
+    if (e <= 0.0 || isInCone(vec4(gl_FragCoord.xy + depthError.zw, e, 1.0))) discard;
+    gl_FragColor = vec4(0.0);
+}
+#endif

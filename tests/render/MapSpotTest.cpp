@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+// Lamps with a cutoff: what is outside the cone, or in a caster's shadow, gets none of their light.
+#include <gnomon/Convert.h>
+#include <gnomon/ShadowMapTechnique.h>
+#include <support/Oracle.h>
+#include <support/Panels.h>
+#include <support/Scene.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+
+#include <cmath>
+
+using gnomon::ShadowLight;
+using gnomon::ShadowMapTechnique;
+using test::Mesh;
+using test::Picture;
+using test::Scene;
+using test::View;
+
+namespace {
+
+/// On a ground of half side 8, at z = 0.
+struct Spot {
+    osg::Vec3d place, direction;
+    double cutoff; ///< degrees.
+
+    osg::Vec4d light() const { return {place, 1.0}; }
+    ShadowLight asGiven() const { return {0, light(), direction, cutoff}; }
+    /// By the angle between the axis and the way there, as OpenGL has it.
+    bool lights(const glm::dvec3& point) const {
+        const glm::dvec3 way = glm::normalize(point - gnomon::toGlm(place));
+        return glm::dot(way, glm::normalize(gnomon::toGlm(direction))) >= std::cos(osg::DegreesToRadians(cutoff));
+    }
+};
+
+const Spot down{{0.5, 0.3, 6.0}, {0.0, 0.0, -1.0}, 30.0};
+const Spot slanting{{-3.0, -2.0, 5.0}, {1.4, 1.0, -1.6}, 24.0}; // of a direction that is not of length 1
+const Spot wide{{0.0, 0.0, 1.6}, {0.1, 0.0, -1.0}, 72.0};
+const Spot nearlyFlat{{0.0, 0.5, 2.5}, {0.0, -1.0, -0.12}, 85.0}; // wider than one map can be
+
+const View view = test::perspective({-2.0, -12.0, 11.0}, {0.0, 0.0, 0.0});
+
+/// One in the middle, one that reaches out of `down`'s cone, one that is all outside of it.
+std::vector<Mesh> casters() {
+    return {test::box({-0.5, -0.6, 0.0}, {0.6, 0.3, 1.0}), test::box({2.0, 1.0, 0.0}, {4.2, 1.8, 0.7}),
+            test::box({-4.5, 3.0, 0.3}, {-3.0, 4.5, 0.9})};
+}
+
+Scene build(const osg::Vec4d& light) { return test::groundScene(casters(), 8.0, light); }
+
+/// What is expected of each pixel that shows the ground.
+test::Mask expected(const Spot& spot) {
+    test::Mask mask = test::castRays(test::square(8.0), casters(), spot.light(), view);
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            test::Seen& seen = mask.pixels[std::size_t(y * view.width + x)];
+            const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
+            if (seen == test::Seen::LitReceiver && !spot.lights(sight.from - sight.way * (sight.from.z / sight.way.z)))
+                seen = test::Seen::ShadowedReceiver;
+        }
+    return mask;
+}
+
+struct Judged {
+    int lit = 0, dark = 0, wrong = 0;
+    int told = 0; ///< of `dark`, those that the ground alone shows otherwise.
+};
+
+/// Of the ground's pixels but those at edges; a map's texel is less than a pixel here.
+Judged judge(const test::Mask& mask, const Picture& picture, const Picture& asLit, const Picture& asDark) {
+    Judged result;
+    for (int y = 1; y + 1 < view.height; ++y)
+        for (int x = 1; x + 1 < view.width; ++x) {
+            const test::Seen seen = mask.at(x, y);
+            if (seen == test::Seen::Nothing || seen == test::Seen::Caster || mask.atEdge(x, y)) continue;
+            const bool dark = seen == test::Seen::ShadowedReceiver;
+            ++(dark ? result.dark : result.lit);
+            result.told += dark && asLit.at(x, y) != asDark.at(x, y);
+            result.wrong += picture.at(x, y) != (dark ? asDark : asLit).at(x, y);
+        }
+    return result;
+}
+
+osg::ref_ptr<ShadowMapTechnique> sharpMap() {
+    osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    technique->setSize(2048);
+    return technique;
+}
+
+TEST(MapSpot, OfALightThatShinesAllAroundLeavesTheConeLessItsShadowsToThePixel) {
+    for (const Spot& spot : {down, slanting, wide, nearlyFlat})
+        for (const bool named : {false, true}) {
+            Scene scene = build(spot.light()), lit = build(spot.light()), dark = build(spot.light());
+            dark.takeLightAway();
+            const osg::ref_ptr<ShadowMapTechnique> technique = sharpMap();
+            if (named) technique->setReceiver({test::find(*scene.root, "ground")});
+            scene.addShadow(technique);
+            scene.group->addLight(spot.asGiven());
+            const Judged result = judge(expected(spot), test::render(scene.root, view), test::render(lit.root, view),
+                                        test::render(dark.root, view));
+            EXPECT_EQ(result.wrong, 0) << spot.cutoff;
+            EXPECT_GT(result.lit, 3000) << spot.cutoff;
+            EXPECT_GT(result.told, 3000) << spot.cutoff;
+            EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+        }
+}
+
+/// A ground of squares of side 1, for OpenGL lights vertices.
+Mesh tiled() {
+    Mesh ground;
+    for (int i = 0; i < 256; ++i)
+        for (const glm::dvec3& corner : test::quad({i % 16 - 8.0, i / 16 - 8.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}))
+            ground.push_back(corner);
+    return ground;
+}
+
+/// An OpenGL spot under a transform that turns and moves it to where it is to be.
+Scene buildTurned(const Spot& spot) {
+    Scene scene = build(spot.light());
+    auto* old = test::find(*scene.root, "ground")->asGeode();
+    old->removeDrawables(0, old->getNumDrawables());
+    old->addDrawable(test::node(tiled())->getDrawable(0));
+    const osg::Matrixd turn =
+        osg::Matrixd::rotate(osg::Vec3d(0.0, 1.0, 0.0), spot.direction) * osg::Matrixd::translate(spot.place);
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(turn);
+    scene.root->replaceChild(scene.light, transform);
+    transform->addChild(scene.light);
+    osg::Light& light = *scene.light->getLight();
+    light.setPosition({0.0f, 0.0f, 0.0f, 1.0f});
+    light.setDirection({0.0f, 1.0f, 0.0f});
+    light.setSpotCutoff(float(spot.cutoff));
+    return scene;
+}
+
+TEST(MapSpot, OfOpenGLUnderATransformIsFoundWithItsConeOrNamed) {
+    for (const Spot& spot : {down, slanting})
+        for (const bool named : {false, true}) {
+            Scene scene = buildTurned(spot), lit = buildTurned(spot), dark = buildTurned(spot);
+            dark.takeLightAway();
+            scene.addShadow(sharpMap());
+            if (named) scene.group->addLight(scene.light);
+            const Judged result = judge(expected(spot), test::render(scene.root, view), test::render(lit.root, view),
+                                        test::render(dark.root, view));
+            EXPECT_EQ(result.wrong, 0) << spot.cutoff;
+            EXPECT_GT(result.lit, 3000) << spot.cutoff;
+            EXPECT_GT(result.told, 300) << spot.cutoff << ": what OpenGL lights of squares that reach out of the cone";
+        }
+}
+
+/// The group itself under a transform: cone and casters are told in its frame.
+TEST(MapSpot, IsWhereItIsUnderAGroupThatIsTurnedAndScaled) {
+    Scene scene = build(slanting.light()), lit = build(slanting.light()), dark = build(slanting.light());
+    dark.takeLightAway();
+    scene.addShadow(sharpMap());
+    const osg::Matrixd worldFromGroup = osg::Matrixd::scale(2.0, 2.0, 2.0) *
+                                        osg::Matrixd::rotate(0.7, osg::Vec3d(0.3, -0.2, 1.0)) *
+                                        osg::Matrixd::translate(3.0, -1.0, 2.0);
+    const osg::Matrixd groupFromWorld = osg::Matrixd::inverse(worldFromGroup);
+    osg::ref_ptr<osg::MatrixTransform> outer = new osg::MatrixTransform(worldFromGroup),
+                                       inner = new osg::MatrixTransform(groupFromWorld);
+    inner->addChild(scene.content);
+    scene.group->replaceChild(scene.content, inner);
+    scene.root->replaceChild(scene.group, outer);
+    outer->addChild(scene.group);
+    ShadowLight spot = slanting.asGiven();
+    spot.inGroup = spot.inGroup * groupFromWorld;
+    spot.direction = osg::Matrixd::transform3x3(spot.direction, groupFromWorld);
+    scene.group->addLight(spot);
+    const Judged result = judge(expected(slanting), test::render(scene.root, view), test::render(lit.root, view),
+                                test::render(dark.root, view));
+    // Lighting of vertices under other matrices rounds otherwise: in a few pixels by one step of 255.
+    EXPECT_LE(result.wrong, (result.lit + result.dark) / 100);
+    EXPECT_GT(result.lit, 3000);
+}
+
+TEST(MapSpot, HasOneMapAndDrawsItAgainOnlyWhenItTurns) {
+    Scene scene = build(wide.light());
+    const osg::ref_ptr<ShadowMapTechnique> technique = sharpMap();
+    scene.addShadow(technique);
+    scene.group->addLight(wide.asGiven());
+    test::Camera camera(scene.root, view);
+    camera.frame();
+    EXPECT_EQ(technique->passes(), 1u) << "a lamp without a cone has several here";
+    camera.frame();
+    EXPECT_EQ(technique->passes(), 1u);
+    ShadowLight turned = wide.asGiven();
+    turned.direction = {0.0, 0.1, -1.0};
+    scene.group->setLights({turned});
+    camera.frame();
+    EXPECT_EQ(technique->passes(), 2u);
+    turned.cutoff = 180.0;
+    scene.group->setLights({turned});
+    camera.frame();
+    EXPECT_GT(technique->passes(), 3u);
+}
+
+TEST(MapSpot, WhoseConeMeetsNoCasterIsStillDarkAround) {
+    const Spot spot{{4.5, -4.5, 6.0}, {0.0, 0.0, -1.0}, 20.0};
+    Scene scene = build(spot.light()), lit = build(spot.light()), dark = build(spot.light());
+    dark.takeLightAway();
+    scene.addShadow(sharpMap());
+    scene.group->addLight(spot.asGiven());
+    const Judged result = judge(expected(spot), test::render(scene.root, view), test::render(lit.root, view),
+                                test::render(dark.root, view));
+    EXPECT_EQ(result.wrong, 0);
+    EXPECT_GT(result.lit, 1000);
+}
+
+/// OpenGL has drawn what is outside without the light: to blend it would darken it twice.
+TEST(MapSpot, BlendDarkensShadowsWithinTheConeAlone) {
+    std::vector<Mesh> meshes = casters(); // and one in a corner of the map, outside the cone
+    meshes.push_back(test::box({2.9, 2.7, 0.0}, {3.3, 3.1, 0.5}));
+    Scene scene = test::groundScene(meshes, 8.0, down.light()), lit = test::groundScene(meshes, 8.0, down.light());
+    scene.addShadow(sharpMap());
+    scene.group->addLight(down.asGiven());
+    scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    const test::Mask shadows = test::castRays(test::square(8.0), meshes, down.light(), view);
+    const Picture blended = test::render(scene.root, view), asLit = test::render(lit.root, view);
+    int within = 0, outside = 0, wrong = 0;
+    for (int y = 1; y + 1 < view.height; ++y)
+        for (int x = 1; x + 1 < view.width; ++x) {
+            if (shadows.at(x, y) != test::Seen::ShadowedReceiver || shadows.atEdge(x, y)) continue;
+            const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
+            const glm::dvec3 at = sight.from - sight.way * (sight.from.z / sight.way.z);
+            const double distance = glm::length(glm::dvec2(at) - glm::dvec2(0.5, 0.3)) * std::sqrt(3.0) / 6.0;
+            if (std::abs(distance - 1.0) < 0.02) continue; // at the cone's edge
+            ++(distance < 1.0 ? within : outside);
+            wrong += (blended.at(x, y) != asLit.at(x, y)) != (distance < 1.0);
+        }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(within, 50);
+    EXPECT_GT(outside, 300);
+}
+
+TEST(MapSpot, OfNoDirectionOrOfACutoffThatIsNoneIsALampAllAround) {
+    const auto picture = [](const osg::Vec3d& direction, double cutoff) {
+        Scene scene = build(down.light());
+        scene.addShadow(sharpMap());
+        scene.group->addLight(ShadowLight{0, down.light(), direction, cutoff});
+        return test::render(scene.root, view);
+    };
+    const Picture lamp = picture({0.0, 0.0, -1.0}, 180.0);
+    EXPECT_GT(picture({0.0, 0.0, -1.0}, 30.0).different(lamp), 10000);
+    for (const double cutoff : {90.5, -1.0, double(NAN), double(INFINITY)})
+        EXPECT_EQ(picture({0.0, 0.0, -1.0}, cutoff).different(lamp), 0) << cutoff;
+    for (const osg::Vec3d& direction : {osg::Vec3d(), osg::Vec3d(NAN, 0.0, 1.0)})
+        EXPECT_EQ(picture(direction, 30.0).different(lamp), 0);
+}
+
+} // namespace
