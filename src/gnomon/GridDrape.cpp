@@ -27,7 +27,7 @@ const DrapeMesh* GridDrape::drape(const HeightPyramid& ground, const Planes& pla
     _ground = &ground;
     _planes = &planes;
     _cells = *cells;
-    _off = error > 0.0 ? heightError(error, tangent, ground.steepest(*cells)) : error;
+    _off = heightError(error, tangent, ground.steepest(*cells));
     askPlanes();
     int level = 0;
     while ((cells->right >> level) - (cells->left >> level) > 1 || (cells->high >> level) - (cells->low >> level) > 1)

@@ -23,7 +23,7 @@ public:
         std::vector<glm::dvec4> about;
     };
     /// @param low,high  of the rectangle in plan, about the anchor.
-    /// @param error     in plan, see heightError(); below 0 each triangle is by itself, though some lie in one plane.
+    /// @param error     in plan, see heightError(); 0 is exact.
     /// @param tangent   of the light's elevation.
     /// @return nullptr if the rectangle has too many posts for this to be quick; else triangles about the anchor.
     const DrapeMesh* drape(const HeightPyramid& ground, const Planes& planes, const glm::dvec2& low,

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/GridDrape.h>
+#include <gnomon/GridCut.h>
 #include <gnomon/GroundQuery.h>
 #include <gnomon/ShadowDecals.h>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -78,39 +77,26 @@ public:
         for (std::size_t i = 0; i < fan.cornerCount; ++i) _polygon.push_back(_origin + glm::dvec3(fan.corners[i]));
         if (isOnOneTriangle(_ground->field(), _polygon, bounds))
             addFan(fan);
-        else if (fan.cornerCount <= mostCorners && isConvex(_polygon))
-            addClipped(_polygon);
+        else if (isConvex(_polygon))
+            addCut(_polygon);
         else
-            for (std::size_t i = 2; i < fan.cornerCount; ++i) addClipped({_polygon[0], _polygon[i - 1], _polygon[i]});
+            for (std::size_t i = 2; i < fan.cornerCount; ++i) {
+                _triangle = {_polygon[0], _polygon[i - 1], _polygon[i]};
+                addCut(_triangle);
+            }
     }
 
 private:
-    static constexpr std::size_t mostCorners = 16; // each is a plane: triangles of a larger one have fewer
-
     void addFan(const PackedShadow& fan) {
         const unsigned first = nextVertex();
         _into->vertices.insert(_into->vertices.end(), fan.corners, fan.corners + fan.cornerCount);
         for (unsigned i = 2; i < fan.cornerCount; ++i)
             _into->triangles.insert(_into->triangles.end(), {first, first + i - 1, first + i});
     }
-    /// A convex polygon.
-    void addClipped(const Polygon& polygon) {
-        _planes.anchor = polygon.front();
-        _planes.about.clear();
-        glm::dvec2 low(infinite), high(-infinite);
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const glm::dvec2 a(polygon[i] - _planes.anchor), b(polygon[(i + 1) % polygon.size()] - _planes.anchor);
-            const glm::dvec2 inwards(a.y - b.y, b.x - a.x);
-            _planes.about.emplace_back(inwards, 0.0, -glm::dot(inwards, a));
-            low = glm::min(low, a);
-            high = glm::max(high, a);
-        }
-        const DrapeMesh& found = *_drape.drape(*_ground, _planes, low, high, -1.0, 1.0); // few cells, few planes
-        addMesh(found, _planes.anchor - _origin);
-    }
-    void addMesh(const DrapeMesh& mesh, const glm::dvec3& moved) {
+    void addCut(const Polygon& convex) {
+        const DrapeMesh& mesh = _cut.cut(_ground->field(), convex);
         const unsigned first = nextVertex();
-        for (const glm::dvec3& corner : mesh.corners) _into->vertices.emplace_back(corner + moved);
+        for (const glm::dvec3& corner : mesh.corners) _into->vertices.emplace_back(corner - _origin);
         for (const unsigned index : mesh.indices) _into->triangles.push_back(first + index);
     }
     unsigned nextVertex() const { return unsigned(_into->vertices.size()); }
@@ -118,9 +104,8 @@ private:
     const HeightPyramid* _ground = nullptr;
     glm::dvec3 _origin{0.0};
     ShadowDecals* _into = nullptr;
-    Polygon _polygon;
-    GridDrape::Planes _planes;
-    GridDrape _drape;
+    Polygon _polygon, _triangle;
+    GridCut _cut;
 };
 
 /// Of a fan over few cells; else nullopt.
