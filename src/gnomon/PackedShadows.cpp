@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace gnomon {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-constexpr double reach = 0.25;        // of the parts' height: how far shadows are followed before they are found again
+constexpr double reach = 0.25;        // of a part's height: how far its shadow is followed before it is found again
 constexpr std::size_t together = 256; // what is found of so many parts stays in the nearest cache
 
 glm::vec3 rounded(const PackedShadows& found, const glm::dvec3& anchor, const glm::dvec3& corner) {
@@ -29,7 +30,8 @@ Kept* room(std::vector<Kept>& kept, std::size_t count) {
     return kept.data() + kept.size() - count;
 }
 
-void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
+/// @return how high at most a point of the part is over its shadow.
+double addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
     const FanBatch::Entry& entry = batch.entry(i);
     glm::vec3* to = room(found.corners, entry.corners);
     const KernelEdge* edges = batch.edges(entry);
@@ -39,10 +41,11 @@ void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
         low = std::min(low, corner.z);
         to[k] = rounded(found, entry.anchor, corner);
     }
-    found.highest = std::max(found.highest, entry.high - low);
+    return entry.high - low;
 }
 
-void addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeMesh& drape) {
+/// @return as addFan().
+double addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeMesh& drape) {
     glm::vec3* to = room(found.corners, drape.corners.size());
     double low = infinite;
     for (const glm::dvec3& corner : drape.corners) {
@@ -50,7 +53,7 @@ void addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeMes
         *to++ = rounded(found, entry.anchor, corner);
     }
     std::copy(drape.indices.begin(), drape.indices.end(), room(found.indices, drape.indices.size()));
-    found.highest = std::max(found.highest, entry.high - low);
+    return entry.high - low;
 }
 
 void addEnds(PackedShadows& found, TerrainOutcome outcome) {
@@ -65,7 +68,8 @@ void clear(PackedShadows& found) {
     found.cornerEnds.clear();
     found.indexEnds.clear();
     found.outcomes.clear();
-    found.highest = found.grazing = 0.0;
+    found.rates.fill(0.0);
+    found.steepest = 0.0;
 }
 
 /// The light's way in plan a unit of height.
@@ -80,58 +84,77 @@ struct PlanBox {
 };
 
 /// About shadows, in the ground's frame, with what they may move by before they are found again.
-PlanBox reachOf(const PackedShadows& shadows, const glm::vec3* first, const glm::vec3* end) {
+PlanBox reachOf(const PackedShadows& shadows, const glm::vec3* first, const glm::vec3* end, double height) {
     PlanBox box;
     for (; first != end; ++first) box.take(glm::dvec2(glm::vec2(*first)));
-    const glm::dvec2 origin(shadows.origin), margin(reach * shadows.highest);
+    const glm::dvec2 origin(shadows.origin), margin(reach * height);
     return {origin + box.low - margin, origin + box.high + margin};
 }
 
-/// @param rise  most that the ground rises along the light's way.
-double grazingOf(double slope, double rise) { return rise < 1.0 ? slope / (1.0 - rise) : infinite; }
+/// Of the ground in some place.
+struct Slopes {
+    double steepest = 0.0;
+    double rise = 0.0; ///< along the light's way in plan a unit of height: from 1 on it is as steep as the light.
+    double grazing() const { return rise < 1.0 ? steepest / (1.0 - rise) : infinite; }
+};
 
-double grazingIn(const Ground& ground, const PlanBox& box, const glm::dvec2& way) {
+Slopes slopesIn(const Ground& ground, const PlanBox& box, const glm::dvec2& way) {
     const auto range = ground.range(box.low, box.high);
-    return range ? grazingOf(range->steepest, range->steepest * glm::length(way)) : infinite;
+    return range ? Slopes{range->steepest, range->steepest * glm::length(way)} : Slopes{infinite, infinite};
 }
 
 /// By each cell's own gradients, which tell slopes that face the light from those that turn away.
-double grazingIn(const HeightField& field, const HeightPyramid::Cells& cells, const glm::dvec2& way) {
-    double slope = 0.0, rise = -infinite;
+Slopes slopesIn(const HeightField& field, const HeightPyramid::Cells& cells, const glm::dvec2& way) {
+    Slopes slopes{0.0, -infinite};
     for (int y = cells.low; y <= cells.high; ++y)
         for (int x = cells.left; x <= cells.right; ++x) {
             const double a = field.post(x, y).z, b = field.post(x + 1, y).z, c = field.post(x + 1, y + 1).z,
                          d = field.post(x, y + 1).z;
             const glm::dvec2 one = glm::dvec2(b - a, d - a) / field.step(),
                              other = glm::dvec2(c - d, c - b) / field.step();
-            slope = std::max(slope, glm::length(glm::max(glm::abs(one), glm::abs(other))));
-            const glm::dvec2 most = glm::max(one * way, other * way); // whichever way the cell is cut
-            rise = std::max(rise, most.x + most.y);
+            slopes.steepest = std::max(slopes.steepest, glm::length(glm::max(glm::abs(one), glm::abs(other))));
+            const glm::dvec2 most = glm::max(one * way, other * way);         // whichever way the cell is cut
+            if (!std::isfinite(most.x + most.y)) return {infinite, infinite}; // a hole
+            slopes.rise = std::max(slopes.rise, most.x + most.y);
         }
-    return slope >= 0.0 && rise < infinite ? grazingOf(slope, rise) : infinite; // not a number in a hole
+    return slopes;
 }
 
-/// Of all together, and where that tells too little, of each.
-double grazingAbout(const Ground& ground, const PackedShadows& shadows, const glm::dvec4& light) {
-    constexpr double mostOfAll = 2.0; // the bound is twice or so what the shadows move by
+Slopes slopesIn(const HeightPyramid& grid, const PlanBox& box, const glm::dvec2& way) {
     constexpr int mostCells = 16;
-    if (shadows.corners.empty() || light.w != 0.0) return infinite;
-    const glm::dvec2 way = shiftOf(light);
-    const glm::vec3* corners = shadows.corners.data();
-    const double ofAll = grazingIn(ground, reachOf(shadows, corners, corners + shadows.corners.size()), way);
-    const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
-    if (!grid || ofAll * glm::length(way) <= mostOfAll) return ofAll;
-    double grazing = 0.0;
-    for (std::size_t i = 0; i < shadows.size() && grazing < infinite; ++i) {
-        const PackedShadow shadow = shadows[i];
-        if (shadow.cornerCount == 0) continue;
-        const PlanBox box = reachOf(shadows, shadow.corners, shadow.corners + shadow.cornerCount);
-        const HeightField& field = grid->field();
-        const auto cells = grid->cells(field.cellOf(box.low.x, box.low.y), field.cellOf(box.high.x, box.high.y));
-        const bool isFew = cells && (cells->right - cells->left + 1) * (cells->high - cells->low + 1) <= mostCells;
-        grazing = std::max(grazing, isFew ? grazingIn(field, *cells, way) : grazingIn(ground, box, way));
+    const HeightField& field = grid.field();
+    const auto cells = grid.cells(field.cellOf(box.low.x, box.low.y), field.cellOf(box.high.x, box.high.y));
+    const bool isFew = cells && (cells->right - cells->left + 1) * (cells->high - cells->low + 1) <= mostCells;
+    return isFew ? slopesIn(field, *cells, way) : slopesIn(static_cast<const Ground&>(grid), box, way);
+}
+
+/// A shadow's part in the rates: see movedAtMost().
+void takeRates(PackedShadows& found, double height, double grazing, double way) {
+    for (std::size_t i = 0; i < found.rates.size(); ++i) {
+        const double turned = PackedShadows::turnsKnown[i], left = 1.0 - turned * grazing;
+        const double rate = 1.0 + (way + turned) * grazing / left;
+        found.rates[i] = std::max(found.rates[i], left > 0.0 && turned * rate <= reach ? height * rate : infinite);
     }
-    return grazing;
+}
+
+/// By the ground under all together; where that tells too little, by what is under each.
+void findRates(const Ground& ground, const std::vector<double>& heights, const glm::dvec4& light,
+               PackedShadows& found) {
+    constexpr double enough = 0.25; // more than what shadows move by on level ground
+    if (found.corners.empty() || light.w != 0.0) return;
+    const glm::dvec2 way = shiftOf(light);
+    const glm::vec3* corners = found.corners.data();
+    const double tallest = *std::max_element(heights.begin(), heights.end());
+    const Slopes all = slopesIn(ground, reachOf(found, corners, corners + found.corners.size(), tallest), way);
+    found.steepest = all.steepest;
+    const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
+    const bool isEnough = !grid || all.grazing() * glm::length(way) <= enough;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const PackedShadow shadow = found[i];
+        if (shadow.cornerCount == 0) continue;
+        const PlanBox box = reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, heights[i]);
+        takeRates(found, heights[i], isEnough ? all.grazing() : slopesIn(*grid, box, way).grazing(), glm::length(way));
+    }
 }
 
 } // namespace
@@ -174,27 +197,30 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
         return;
     }
     const TerrainAsk asked{ground, light, method, error};
+    thread_local std::vector<double> heights; // memory that is used again
+    heights.assign(parts.size(), 0.0);
     FanBatch& batch = threadsBatch();
     batch.begin(ground, light);
     for (std::size_t first = 0; first < parts.size(); first += together) {
         findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
         for (std::size_t i = 0; i < batch.size(); ++i) {
             const Settled one = settled(batch, i, asked, parts, first + i);
-            if (one.outcome == TerrainOutcome::fan) addFan(found, batch, i);
-            if (one.drape) addDrape(found, batch.entry(i), *one.drape);
+            if (one.outcome == TerrainOutcome::fan) heights[first + i] = addFan(found, batch, i);
+            if (one.drape) heights[first + i] = addDrape(found, batch.entry(i), *one.drape);
             addEnds(found, one.outcome);
         }
     }
-    found.grazing = grazingAbout(ground, found, light);
+    findRates(ground, heights, light, found);
 }
 
 /// The ground's rise along d is at most |G| |d - d'| more than along d'.
 double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now) {
     if (then == now) return 0.0;
     if (then.w != 0.0 || now.w != 0.0 || !(then.z > 0.0) || !(now.z > 0.0)) return infinite;
-    const double turned = glm::length(shiftOf(now) - shiftOf(then)), left = 1.0 - turned * shadows.grazing;
-    const double moved = shadows.highest * turned * (1.0 + glm::length(shiftOf(now)) * shadows.grazing / left);
-    return left > 0.0 && moved <= reach * shadows.highest ? moved : infinite; // else beyond where the ground is known
+    const double turned = glm::length(shiftOf(now) - shiftOf(then));
+    for (std::size_t i = 0; i < shadows.rates.size(); ++i)
+        if (turned <= PackedShadows::turnsKnown[i]) return turned > 0.0 ? turned * shadows.rates[i] : 0.0;
+    return infinite;
 }
 
 } // namespace gnomon

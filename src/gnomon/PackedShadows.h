@@ -3,6 +3,8 @@
 #include <gnomon/PackedParts.h>
 #include <gnomon/TerrainShadow.h>
 
+#include <array>
+
 namespace gnomon {
 
 /// The shadow of one of many parts, in their PackedShadows.
@@ -24,9 +26,11 @@ struct PackedShadows {
     std::vector<unsigned> indices;
     std::vector<unsigned> cornerEnds, indexEnds; ///< one past each part's own.
     std::vector<TerrainOutcome> outcomes;
-    /// What movedAtMost() needs: the most that any point of the parts is over its shadow; and of g / (1 - r) wherever shadows
-    /// are or may be by then, where g is the ground's slope and r its rise along the light's way in plan a unit of height.
-    double highest = 0.0, grazing = 0.0;
+    /// For movedAtMost(): how far shadows move at most, a unit that the light's way in plan a unit of height turns by, for
+    /// turns up to each of `turnsKnown`.
+    std::array<double, 3> rates{};
+    static constexpr std::array<double, 3> turnsKnown = {1e-3, 1e-2, 1e-1};
+    double steepest = 0.0; ///< slope of the ground wherever they are or may be by then, or more.
 
     std::size_t size() const { return outcomes.size(); }
     PackedShadow operator[](std::size_t part) const;

@@ -283,4 +283,38 @@ TEST(PackedShadows, OnHillsNoCornerMovesByMoreThanTheBound) {
     EXPECT_GT(most, 0.7) << "else the bound is of no use";
 }
 
+/// On a slope of 1 in 10 that falls away from a low sun a tower's shadow moves much; a turn that would take it out of where
+/// the ground was looked at has no bound.
+TEST(PackedShadows, HaveNoBoundBeyondTheGroundThatIsKnown) {
+    const auto slope = [](double x, double) { return 200.0 - 0.1 * x; };
+    const HeightPyramid ground = groundOf(slope, posts);
+    const double x = 400.0, base = slope(x, 0.0);
+    const PackedParts packed(test::boxAt({x, 700.0}, {4.0, 4.0}, 0.0, base - 5.0, base + 30.0).parts());
+    const auto sunOf = [](double shift) {
+        return glm::dvec4(-shift, 0.0, 1.0, 0.0);
+    }; // metres in plan a metre of height
+    const PackedShadows shadows = found(ground, packed, sunOf(7.0));
+    const auto tip = [&](double shift) { return x + 30.0 * shift / (1.0 - 0.1 * shift); };
+    for (const double turned : {0.0009, 0.009}) {
+        const double bound = movedAtMost(shadows, sunOf(7.0), sunOf(7.0 - turned));
+        EXPECT_GE(bound, tip(7.0) - tip(7.0 - turned));
+        EXPECT_LT(bound, 30.0);
+    }
+    EXPECT_GT(movedAtMost(shadows, sunOf(7.0), sunOf(6.91)), 1e9);
+}
+
+/// The tallest does not count with the steepest slope, which is elsewhere.
+TEST(PackedShadows, TogetherMoveByNoMoreThanTheOneThatMovesMost) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    const auto parts = townOn(ground, 60);
+    const glm::dvec4 then = sun(77.0, 30.0), now = sun(77.1, 30.05);
+    double most = 0.0;
+    for (const auto& part : parts)
+        most = std::max(most, movedAtMost(found(ground, PackedParts({part}), then), then, now));
+    ASSERT_GT(most, 0.0);
+    ASSERT_LT(most, 10.0);
+    EXPECT_GE(movedAtMost(found(ground, PackedParts(parts), then), then, now), most * 0.999);
+    EXPECT_LE(movedAtMost(found(ground, PackedParts(parts), then), then, now), most * 1.001);
+}
+
 } // namespace
