@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/GroundQuery.h>
 #include <gnomon/TerrainCache.h>
+#include <gnomon/TerrainView.h>
 
 #include <OpenThreads/ScopedLock>
 #include <tbb/parallel_for.h>
@@ -77,12 +78,13 @@ TerrainCache::Town& TerrainCache::townOf(const ShadowCasterGroup& group, const C
     return town;
 }
 
-TerrainFrame TerrainCache::frame(const ShadowCasterGroup& group, const CasterPieces& casters, const TerrainPlace& place,
+TerrainFrame TerrainCache::frame(const ViewFrame& view, const CasterPieces& casters, const TerrainPlace& place,
                                  int number, const glm::dvec4& light, const TerrainSettings& settings) {
     Lock lock(_mutex);
-    Town& town = townOf(group, casters, place, settings.method == TerrainShadowGeode::BOX);
+    Town& town = townOf(*view.group, casters, place, settings.method == TerrainShadowGeode::BOX);
     TerrainTiles& tiles = town.lights[number];
-    tiles.update(town.casters, groundOf(*town.drawn), light, settings, secondsAFrame);
+    const TerrainView seen(view, town.casters.origin());
+    tiles.update(town.casters, groundOf(*town.drawn), light, settings, seen, secondsAFrame);
     return {tiles.shadows(), tiles.causes(), town.casters.origin()};
 }
 

@@ -13,6 +13,7 @@
 namespace gnomon {
 
 class ShadowCasterGroup;
+struct ViewFrame;
 
 /// What one frame draws of one light.
 struct TerrainFrame {
@@ -39,10 +40,10 @@ protected:
 /// Threads any number; one at a time finds new ones.
 class TerrainCache {
 public:
-    /// @param casters  of the group, now.
+    /// @param casters  of the view's group, now.
     /// @param number   the light's.
-    TerrainFrame frame(const ShadowCasterGroup& group, const CasterPieces& casters, const TerrainPlace& place,
-                       int number, const glm::dvec4& light, const TerrainSettings& settings);
+    TerrainFrame frame(const ViewFrame& view, const CasterPieces& casters, const TerrainPlace& place, int number,
+                       const glm::dvec4& light, const TerrainSettings& settings);
     /// Of any light; what is drawn is not touched.
     osg::ref_ptr<const TerrainAnswer> answer(const ShadowCasterGroup& group, const CasterPieces& casters,
                                              const TerrainPlace& place, const glm::dvec4& light,

@@ -9,6 +9,7 @@
 #include <gnomon/TerrainCache.h>
 #include <gnomon/TerrainScene.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/TerrainView.h>
 #include <gnomon/UsableLight.h>
 #include <gnomon/VertexTraverser.h>
 
@@ -35,45 +36,11 @@ const char* nameOf(TerrainShadowGeode::Method method) {
     return method == TerrainShadowGeode::BOX ? "BOX" : method == TerrainShadowGeode::DRAPE ? "DRAPE" : "HULL";
 }
 
-using Corners = std::array<glm::dvec4, 8>;
-
-Corners cornersOf(const TerrainMesh& mesh, const glm::dmat4& clipFromPrisms) {
-    Corners corners;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec3 corner(i & 1 ? mesh.high.x : mesh.low.x, i & 2 ? mesh.high.y : mesh.low.y,
-                                i & 4 ? mesh.high.z : mesh.low.z);
-        corners[i] = clipFromPrisms * glm::dvec4(corner, 1.0);
-    }
-    return corners;
-}
-
-/// How many pixels long a length at the nearest of the corners can be.
-double pixelsOf(double length, const Corners& corners, const glm::dmat4& clipFromPrisms, const osg::Vec2d& pixels) {
-    double nearest = std::numeric_limits<double>::infinity(), most = 0.0;
-    for (const glm::dvec4& corner : corners) nearest = std::min(nearest, corner.w);
-    for (int i = 0; i < 2; ++i)
-        most = std::max(most, 0.5 * pixels[i] * glm::length(glm::dvec3(glm::row(clipFromPrisms, i))));
-    return nearest > 0.0 ? length * most / nearest : std::numeric_limits<double>::infinity();
-}
-
-// Below it a shadow holds the middle of one pixel at most and of most of them none: what is left of it is noise.
-constexpr double leastPixels = 1.0;
-
-/// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn.
-std::optional<ScreenRect> seen(const TerrainMesh& mesh, double widest, const ViewFrame& view,
-                               const glm::dmat4& clipFromPrisms) {
-    if (mesh.layers() == 0) return std::nullopt;
-    const Corners corners = cornersOf(mesh, clipFromPrisms);
-    const auto bounds = screenBounds({corners.begin(), corners.end()});
-    if (!ShadowBin::getFilter()) return bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}});
-    return pixelsOf(widest, corners, clipFromPrisms, view.pixels) < leastPixels ? std::nullopt : bounds;
-}
-
 /// Adds those tiles that can be seen. @return where they are.
-std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const ViewFrame& view, TerrainMark& mark) {
+std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const TerrainView& view, TerrainMark& mark) {
     std::optional<ScreenRect> all;
     const auto add = [&](const TileShadows& tile, const TerrainMesh& mesh, std::vector<const TerrainMesh*>& to) {
-        const auto bounds = seen(mesh, tile.widest, view, mark.clipFromPrisms);
+        const auto bounds = view.seen(mesh, tile);
         if (!bounds) return;
         to.push_back(&mesh);
         if (mark.tiles.empty() || mark.tiles.back() != &tile) mark.tiles.push_back(&tile);
@@ -174,16 +141,17 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     const auto usable = usableLight(light.inGroup, osg::Vec3d());
     if (!usable) return refuse("cannot use its light, which is nowhere: set the light's position.");
     const TerrainFrame frame =
-        _cache->frame(*view.group, casters.pieces(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
+        _cache->frame(view, casters.pieces(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
                       *usable, {_method, _error, {}});
+    const TerrainView seen(view, frame.origin);
     for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
     mark->program = _program;
-    mark->clipFromPrisms = glm::translate(toGlm(view.eyeFromGroup * view.projection), frame.origin);
+    mark->clipFromPrisms = seen.clipFromTiles();
     mark->decalsNearer = aPixelNearer(view.projection, view.pixels);
     mark->prismsFromEye = osg::Matrixd::inverse(view.eyeFromGroup) *
                           osg::Matrixd::translate(-frame.origin.x, -frame.origin.y, -frame.origin.z);
-    const auto bounds = addSeen(frame, view, *mark);
+    const auto bounds = addSeen(frame, seen, *mark);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
     mark->coverage = ShadowBin::getFilter() ? coverageOf(*mark) : nullptr;

@@ -33,9 +33,10 @@ struct TerrainShadows;
 /// DRAPE  the ground's triangles cut by the caster's shadow, to within setError() in plan; with 0 exact.
 ///
 /// Below a ShadowCasterGroup it marks what of the receiver, which must be named, lies under the polygons, whatever level of
-/// detail is drawn: once where they overlap. Where a grid's own triangles are drawn, HULL's polygons are laid on them, a pixel's
-/// length nearer to the eye; all else is marked by prisms that reach through the ground. What belongs to the receiver casts no such shadow. With no group above, it draws
-/// the shadow of one object as plain transparent geometry of its own, as the published class did:
+/// detail is drawn: once where they overlap. Where a grid's own triangles are drawn, HULL's polygons are laid on them, a
+/// pixel's length nearer to the eye; all else is marked by prisms that reach through the ground. What belongs to the
+/// receiver casts no such shadow. With no group above, it draws the shadow of one object as plain transparent geometry of
+/// its own, as the published class did:
 ///
 ///     shadow->setObjectGraphic(house);
 ///     shadow->setObjectPos({120.0, 80.0, 0.0});
@@ -43,11 +44,12 @@ struct TerrainShadows;
 ///     if (!shadow->compute(sun)) osg::notify(osg::WARN) << shadow->diagnose().front() << std::endl;
 ///     root->addChild(shadow);
 ///
-/// Any number of casters: their shadows are kept in tiles of 256 neighbours at most. A caster that moves, comes or goes has
-/// its tile found anew, and so has a light that moves by so much that a shadow of the tile may be off by more than
-/// setError(); what is off by less follows within 2 ms of each frame, and all of it once the light stands still, when the
-/// picture is that of a fresh start. A jump of the light is right in the frame in which it happens. Tiles out of sight are
-/// not drawn, nor those whose largest shadow is smaller than a pixel.
+/// Any number of casters: their shadows are kept in tiles of 256 neighbours at most, and found where they may be seen. A
+/// caster that moves, comes or goes has its tile found anew, and so has a light that moves by so much that a shadow of the
+/// tile may be off by more than setError() and by more than a quarter of a pixel; what is off by less follows within 2 ms of
+/// each frame, and all that is seen once the light stands still, when the picture is that of a fresh start. A jump of the
+/// light is right in the frame in which it happens. Tiles out of sight are not drawn, nor those whose largest shadow is
+/// smaller than a pixel.
 ///
 /// Cost    found on all cores; then 4 to 10 triangles a house on a grid, 20 elsewhere, stencil only, and the receiver once more
 ///         where marked. A caster that is neither convex nor an upright prism takes a polygon for each of its flat faces: a
@@ -56,8 +58,9 @@ struct TerrainShadows;
 ///         passes with each more.
 /// Limits  receivers are ground: walls receive nothing. Casters stand in the ground or on it: what hangs down lower than
 ///         a silhouette's corner shows no light below it in HULL. Terrain that overlaps itself in plan receives on all of
-///         its storeys. A shader that moves the terrain's vertices, or discards its pixels, is not known here. With no group above: edges may sink into rough ground between the polygon's corners, overlaps
-///         darken twice, and vertices are floats about this node's origin.
+///         its storeys. A shader that moves the terrain's vertices, or discards its pixels, is not known here. With no group
+///         above: edges may sink into rough ground between the polygon's corners, overlaps darken twice, and vertices are
+///         floats about this node's origin.
 /// Threads any number of cull and draw threads; set properties, compute() and update() between frames.
 /// Source: ARL-TN-156, "Real-Time Shadows for Terrain Objects by the Bounding-Box Method".
 ///

@@ -17,19 +17,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double sameLight = 1e-12;   // of its length: what turning a view takes off it in double
-constexpr double worthFinding = 0.5;  // of the error: so that tiles which fall due together are spread over frames
+constexpr double sameLight = 1e-12; // of its length: what turning a view takes off it in double
+constexpr double worthFinding =
+    0.5; // of what a tile may be off: so that those which fall due together are spread over frames
 constexpr std::size_t atOnce = 8;     // tiles, between looks at the clock
 constexpr std::size_t mostSpare = 64; // as many as are found anew in a frame while the sun moves on
 
 bool isBelow(const glm::dvec4& light) { return light.w == 0.0 && !(light.z > 0.0); }
-
-/// How far in plan an edge may be off that was found with another light.
-double offBy(const TileShadows& shadows, const glm::dvec4& light, const TerrainSettings& settings) {
-    if (shadows.light == light || (isBelow(shadows.light) && isBelow(light))) return 0.0;
-    if (settings.method == TerrainShadowGeode::BOX) return infinite;
-    return movedAtMost(shadows.found, shadows.light, light);
-}
 
 void add(PackedShadows& found, const TerrainShadow& shadow) {
     for (const glm::dvec3& corner : shadow.triangles) {
@@ -80,6 +74,18 @@ void setMeshes(const TileGround& ground, TileShadows& shadows) {
     shadows.prisms->set(prisms);
 }
 
+osg::ref_ptr<TileShadows> drawable() {
+    osg::ref_ptr<TileShadows> result = new TileShadows;
+    result->decals = new TerrainMesh;
+    result->prisms = new TerrainMesh;
+    return result;
+}
+
+double lowestOf(const Ground& ground) {
+    const auto range = ground.range(glm::dvec2(-infinite), glm::dvec2(infinite));
+    return range ? range->low : infinite;
+}
+
 } // namespace
 
 void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
@@ -95,32 +101,42 @@ void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const 
 
 struct TerrainTiles::Late {
     std::size_t tile;
-    double off;
+    double off; ///< of what it may be.
     bool operator<(const Late& other) const { return off > other.off; }
 };
+
+TerrainTiles::TerrainTiles() : _none(drawable()) {}
+
+void TerrainTiles::groundChanged() {
+    _states.clear();
+    _lowest = std::nullopt;
+}
 
 bool TerrainTiles::isSame(const glm::dvec4& light) const {
     return light.w == _light.w && glm::length(light - _light) <= sameLight * glm::length(light);
 }
 
 void TerrainTiles::update(const TerrainTown& town, const TileGround& ground, const glm::dvec4& light,
-                          const TerrainSettings& settings, double seconds) {
+                          const TerrainSettings& settings, const TerrainView& view, double seconds) {
     const Clock::time_point start = Clock::now();
     const bool still = isSame(light);
     if (!still) _light = light;
     if (!(settings == _settings)) _states.clear();
     _settings = settings;
     const std::vector<TerrainTown::Tile>& tiles = town.tiles();
-    _shadows.resize(tiles.size());
+    _shadows.resize(tiles.size(), _none);
     _states.resize(tiles.size(), 0);
+    if (!_lowest) _lowest = lowestOf(ground.found);
     std::vector<std::size_t> due;
     std::vector<Late> late;
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const double off = _states[i] == tiles[i].revision ? offBy(*_shadows[i], _light, settings) : infinite;
-        if (!(off <= settings.error))
+        const double off = offBy(i, town);
+        if (off == 0.0) continue;
+        const double mayBe = mayBeOff(i, off, town, ground, view);
+        if (!(off <= mayBe))
             due.push_back(i);
-        else if (off > (still ? 0.0 : worthFinding * settings.error))
-            late.push_back({i, off});
+        else if (mayBe < infinite && (still || off > worthFinding * mayBe))
+            late.push_back({i, off / mayBe});
     }
     if (due.empty() && late.empty()) return;
     find(town, ground, due);
@@ -133,6 +149,29 @@ void TerrainTiles::update(const TerrainTown& town, const TileGround& ground, con
     countOutcomes(town);
 }
 
+/// How far in plan an edge of a tile's shadows may be off; infinite if not known.
+double TerrainTiles::offBy(std::size_t tile, const TerrainTown& town) const {
+    if (_states[tile] != town.tiles()[tile].revision) return infinite;
+    const TileShadows& shadows = *_shadows[tile];
+    if (shadows.light == _light || (isBelow(shadows.light) && isBelow(_light))) return 0.0;
+    if (_settings.method == TerrainShadowGeode::BOX) return infinite;
+    return movedAtMost(shadows.found, shadows.light, _light);
+}
+
+/// By how much they may be. Those of which nothing is known are let go if they cannot be seen.
+double TerrainTiles::mayBeOff(std::size_t tile, double off, const TerrainTown& town, const TileGround& ground,
+                              const TerrainView& view) {
+    if (off < infinite) return std::max(_settings.error, view.mayBeOff(*_shadows[tile], off));
+    const TerrainTown::Tile& casters = town.tiles()[tile];
+    const glm::dvec3& origin = town.origin();
+    if (_settings.method == TerrainShadowGeode::BOX ||
+        view.maySeeShadowsOf(casters.low - origin, casters.high - origin, _light, *_lowest - origin.z, ground.margin))
+        return 0.0;
+    _shadows[tile] = _none;
+    _states[tile] = 0;
+    return infinite;
+}
+
 /// None that a frame still to be drawn holds.
 osg::ref_ptr<TileShadows> TerrainTiles::unused() {
     for (std::size_t i = 0; i < _spare.size(); ++i)
@@ -141,10 +180,7 @@ osg::ref_ptr<TileShadows> TerrainTiles::unused() {
             _spare.erase(_spare.begin() + std::ptrdiff_t(i));
             return result;
         }
-    osg::ref_ptr<TileShadows> result = new TileShadows;
-    result->decals = new TerrainMesh;
-    result->prisms = new TerrainMesh;
-    return result;
+    return drawable();
 }
 
 void TerrainTiles::find(const TerrainTown& town, const TileGround& ground, const std::vector<std::size_t>& tiles) {
@@ -157,7 +193,7 @@ void TerrainTiles::find(const TerrainTown& town, const TileGround& ground, const
         const osg::ref_ptr<TileShadows> old = const_cast<TileShadows*>(_shadows[tiles[i]].get());
         _shadows[tiles[i]] = into[i];
         _states[tiles[i]] = town.tiles()[tiles[i]].revision;
-        if (old && _spare.size() < mostSpare) _spare.push_back(old);
+        if (old != _none.get() && _spare.size() < mostSpare) _spare.push_back(old);
     }
     _found += static_cast<unsigned>(tiles.size());
 }

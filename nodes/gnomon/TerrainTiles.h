@@ -5,8 +5,10 @@
 #include <gnomon/TerrainMark.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TerrainTown.h>
+#include <gnomon/TerrainView.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,18 +56,21 @@ void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const 
 
 /// The shadows of one light on a town's ground, tile by tile, kept while the light moves.
 ///
-/// A tile is found anew at once where its casters changed, and where a shadow may be off by more than the error since it
-/// was found: so a jump of the light is right in the frame in which it happens. What is off by less is brought up to date
-/// a few tiles a frame, those that are off most first, and all of it soon after the light stands still.
+/// A tile that may be seen is found anew at once where its casters changed, and where a shadow may be off by more than the
+/// error since it was found, and by so much that it is seen to be: so a jump of the light is right in the frame in which it
+/// happens. What is off by less is brought up to date a few tiles a frame, those that are off most first, and all that is
+/// seen soon after the light stands still.
 class TerrainTiles {
 public:
     using List = std::vector<osg::ref_ptr<const TileShadows>>;
 
+    TerrainTiles();
+
     /// @param ground   the same until groundChanged().
     /// @param seconds  to be spent on what may wait.
     void update(const TerrainTown& town, const TileGround& ground, const glm::dvec4& light,
-                const TerrainSettings& settings, double seconds);
-    void groundChanged() { _states.clear(); }
+                const TerrainSettings& settings, const TerrainView& view, double seconds);
+    void groundChanged();
 
     const List& shadows() const { return _shadows; }
     const std::vector<std::string>& causes() const { return _causes; }
@@ -76,6 +81,9 @@ public:
 
 private:
     struct Late; // a tile that may wait
+    double offBy(std::size_t tile, const TerrainTown& town) const;
+    double mayBeOff(std::size_t tile, double off, const TerrainTown& town, const TileGround& ground,
+                    const TerrainView& view);
     bool isSame(const glm::dvec4& light) const;
     void find(const TerrainTown& town, const TileGround& ground, const std::vector<std::size_t>& tiles);
     osg::ref_ptr<TileShadows> unused();
@@ -83,8 +91,10 @@ private:
     void eachMesh(const Act& act) const;
     void countOutcomes(const TerrainTown& town);
 
+    const osg::ref_ptr<const TileShadows> _none; ///< of a tile that was not seen yet.
     List _shadows;
-    std::vector<std::uint64_t> _states; ///< revisions of the tiles that the shadows are of.
+    std::vector<std::uint64_t> _states; ///< revisions of the tiles that the shadows are of; 0: of none.
+    std::optional<double> _lowest;      ///< of the ground, its frame.
     std::vector<osg::ref_ptr<TileShadows>> _spare;
     TerrainSettings _settings{TerrainShadowGeode::HULL, 0.0, {}};
     glm::dvec4 _light{0.0};

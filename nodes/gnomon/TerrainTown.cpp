@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
 
 #include <algorithm>
 #include <iterator>
@@ -37,6 +38,21 @@ private:
     osg::BoundingBoxd _all;
 };
 
+void measure(TerrainTown::Tile& tile) {
+    tile.low = glm::dvec3(std::numeric_limits<double>::infinity());
+    tile.high = -tile.low;
+    const auto take = [&](const glm::dvec3& point) {
+        tile.low = glm::min(tile.low, point);
+        tile.high = glm::max(tile.high, point);
+    };
+    for (const ObjectPoints& object : tile.objects) std::for_each(object.begin(), object.end(), take);
+    for (std::size_t i = 0; i < tile.parts.size(); ++i) {
+        take(tile.parts.anchor(i));
+        for (unsigned k = 0; k + 1 < tile.parts.topology(i).corners; ++k)
+            take(tile.parts.anchor(i) + glm::dvec3(tile.parts.others(i)[k]));
+    }
+}
+
 /// The last one takes the place of the one that goes.
 template <typename List>
 void removeAt(List& list, std::size_t at) {
@@ -58,6 +74,7 @@ struct TerrainTown::Found {
 
 void TerrainTown::take(const CasterPieces& casters, const std::set<const osg::Drawable*>& terrain) {
     if (_casters == &casters && _terrain == terrain) return;
+    const std::uint64_t before = _lastRevision;
     CasterPieces::List loose = changesTo(casters, terrain);
     _casters = &casters;
     _terrain = terrain;
@@ -73,6 +90,9 @@ void TerrainTown::take(const CasterPieces& casters, const std::set<const osg::Dr
         cutAnew(found);
     }
     for (Found& unit : found) add(std::move(unit));
+    tbb::parallel_for_each(_tiles, [before](Tile& tile) {
+        if (tile.revision > before) measure(tile);
+    });
 }
 
 /// Takes out what is gone. @return what is new, or has lost what it was connected with.

@@ -5,6 +5,7 @@
 #include <gnomon/TerrainParts.h>
 
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <unordered_map>
 #include <vector>
@@ -18,6 +19,8 @@ namespace gnomon {
 ///
 /// Cost  of a change: the units that changed, and a look at the bounds of all pieces.
 class TerrainTown {
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+
 public:
     static constexpr std::size_t mostInTile = 256;
 
@@ -26,7 +29,8 @@ public:
         std::uint64_t revision = 0; ///< another with each change, never used twice.
         PackedParts parts;
         std::vector<ObjectPoints> objects;
-        std::vector<unsigned> units; ///< whose they are.
+        std::vector<unsigned> units;               ///< whose they are.
+        glm::dvec3 low{infinite}, high{-infinite}; ///< bounds of all, group frame.
         std::size_t size() const { return units.size(); }
     };
 

@@ -78,18 +78,44 @@ std::vector<Corners> oneByOne(osg::Group& town, const gnomon::Ground& ground, co
     return result;
 }
 
+/// From straight above, 1 km wide about x (y is 500 m).
+gnomon::ViewFrame viewAbove(double x, double pixel) {
+    gnomon::ViewFrame view;
+    view.eyeFromGroup = osg::Matrixd::translate(-x, -500.0, -2000.0);
+    view.projection = osg::Matrixd::ortho(-500.0, 500.0, -500.0, 500.0, 1.0, 4000.0);
+    view.pixels.set(1000.0 / pixel, 1000.0 / pixel);
+    return view;
+}
+constexpr double finePixel = 0.04; // metres: a quarter of it is far less than the error
+
 /// Boxes on hills, and what is found of them with no time for what may wait.
 struct Hills {
     Hills() { town.take(*gnomon::CasterPieces::of(*root, {}, nullptr), {}); }
     void update(double azimuth, TerrainShadowGeode::Method method = TerrainShadowGeode::HULL) {
-        tiles.update(town, {ground, &ground, 0.05}, sunAt(azimuth), {method, error, {}}, 0.0);
+        update(azimuth, method, viewAbove(500.0, finePixel), 0.0);
     }
-    static glm::dvec4 sunAt(double azimuth) { return glm::dvec4(test::sunAt(azimuth, 35.0), 0.0); }
+    void update(double azimuth, const gnomon::ViewFrame& view, double seconds = 0.0) {
+        update(azimuth, TerrainShadowGeode::HULL, view, seconds);
+    }
+    void update(double azimuth, TerrainShadowGeode::Method method, const gnomon::ViewFrame& view, double seconds) {
+        tiles.update(town, {ground, &ground, 0.05}, sunAt(azimuth, elevation), {method, error, {}},
+                     gnomon::TerrainView(view, town.origin()), seconds);
+    }
+    /// How many tiles' shadows are those of this sun.
+    long ofSun(double azimuth) const {
+        const auto& shadows = tiles.shadows();
+        return std::count_if(shadows.begin(), shadows.end(),
+                             [&](const auto& tile) { return tile->light == sunAt(azimuth, elevation); });
+    }
+    static glm::dvec4 sunAt(double azimuth, double elevation = 35.0) {
+        return glm::dvec4(test::sunAt(azimuth, elevation), 0.0);
+    }
 
     const gnomon::HeightPyramid ground = hillyGround();
     const osg::ref_ptr<osg::Group> root = townOnHills();
     TerrainTown town{false};
     gnomon::TerrainTiles tiles;
+    double elevation = 35.0; // of the sun, degrees
 };
 
 TEST(TerrainTown, HasTheShadowsOfEachHouseAloneBitForBit) {
@@ -148,6 +174,75 @@ TEST(TerrainTiles, WaitWhileTheyAreOffByLessThanTheErrorAndNoLonger) {
     EXPECT_EQ(hills.tiles.found(), all);
     hills.update(251.05);
     EXPECT_EQ(hills.tiles.found(), 2 * all);
+}
+
+/// Shadows of 12 to 25 m move by 0.2 to 0.4 m in a degree and on slopes by some more, in three by 0.6 m at least.
+TEST(TerrainTiles, WaitWhileTheyAreOffByLessThanAQuarterOfAPixel) {
+    Hills hills;
+    hills.update(250.0);
+    const unsigned all = hills.tiles.found();
+    hills.update(251.0, viewAbove(500.0, 16.0));
+    EXPECT_EQ(hills.tiles.found(), all);
+    hills.update(253.0, viewAbove(500.0, 2.0));
+    EXPECT_EQ(hills.tiles.found(), 2 * all);
+}
+
+/// The last houses end at 829 m; a low sun in the west takes their shadows 70 m further.
+TEST(TerrainTiles, AreFoundWhereShadowsFallIntoTheViewOfWhatIsOutside) {
+    Hills hills;
+    hills.elevation = 10.0;
+    hills.update(250.0, viewAbove(1380.0, finePixel)); // from x = 880
+    ASSERT_GT(hills.ofSun(250.0), 0);
+    double right = 0.0;
+    for (const auto& tile : hills.tiles.shadows())
+        if (tile->found.size() > 0) right = std::max(right, hills.town.origin().x + tile->high.x);
+    EXPECT_GT(right, 880.0);
+}
+
+/// Of tiles that cover 100 to 840 m, those beyond the view wait until they are seen.
+TEST(TerrainTiles, WaitWhileTheyAreOutOfSight) {
+    Hills hills;
+    const gnomon::ViewFrame beside = viewAbove(2000.0, finePixel), half = viewAbove(-200.0, finePixel); // to x = 300
+    hills.update(250.0, beside, 60.0);
+    EXPECT_EQ(hills.tiles.found(), 0u);
+    for (const double azimuth : {250.0, 251.0, 230.0}) { // the first time, by a little, and by too much to tell
+        hills.update(azimuth, half);
+        hills.update(azimuth, beside, 60.0);
+        long found = 0;
+        for (const auto& tile : hills.tiles.shadows()) {
+            if (tile->light != Hills::sunAt(azimuth)) continue;
+            ++found;
+            EXPECT_LT(hills.town.origin().x + tile->low.x, 400.0) << "far from the view";
+        }
+        EXPECT_GT(found, 0);
+        EXPECT_LT(found, long(hills.tiles.shadows().size()));
+    }
+    hills.update(230.0);
+    EXPECT_EQ(hills.ofSun(230.0), long(hills.tiles.shadows().size()));
+}
+
+/// What is drawn has the picture's own shadows and no others, whatever was seen before.
+TEST(TerrainTiles, AreLetGoWhereTheirShadowsWereAndAreNot) {
+    Hills hills;
+    const gnomon::ViewFrame west = viewAbove(-350.0, finePixel); // to x = 150: the houses from 100 on
+    hills.update(250.0, west);
+    ASSERT_GT(hills.tiles.found(), 0u);
+    hills.update(110.0, viewAbove(2000.0, finePixel));
+    for (const auto& tile : hills.tiles.shadows()) EXPECT_EQ(tile->found.size(), 0u);
+}
+
+/// In one degree a shadow moves by some 0.3 m: one of a tile that ends 5 cm beyond the view may be in it now.
+TEST(TerrainTiles, AreFoundWhereTheyMayHaveMovedIntoTheView) {
+    Hills hills;
+    hills.update(250.0);
+    double left = 1e9;
+    for (const auto& tile : hills.tiles.shadows()) left = std::min(left, hills.town.origin().x + tile->low.x);
+    hills.update(251.0, viewAbove(left - 500.05, finePixel));
+    EXPECT_GT(hills.ofSun(251.0), 0);
+    Hills others;
+    others.update(250.0);
+    others.update(251.0, viewAbove(left - 505.0, finePixel));
+    EXPECT_EQ(others.ofSun(251.0), 0);
 }
 
 TEST(TerrainTiles, ThatAFrameHoldsStayAsTheyAre) {

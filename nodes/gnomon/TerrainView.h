@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ScreenBounds.h>
+#include <gnomon/ViewFrame.h>
+
+#include <glm/mat4x4.hpp>
+#include <optional>
+
+namespace gnomon {
+
+class TerrainMesh;
+struct TileShadows;
+
+/// What a view shows of shadows on terrain. With ShadowBin::setFilter(false) all counts as seen, and as seen exactly.
+class TerrainView {
+public:
+    /// @param origin  of the tiles, group's frame.
+    TerrainView(const ViewFrame& view, const glm::dvec3& origin);
+
+    const glm::dmat4& clipFromTiles() const { return _clipFromTiles; }
+    /// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn: it is empty, out of sight, or its
+    /// widest shadow is smaller than a pixel. @param moved  by how much its shadows may be somewhere else, in any direction.
+    std::optional<ScreenRect> seen(const TerrainMesh& mesh, const TileShadows& tile, double moved = 0.0) const;
+    /// By how much a tile's shadows may be off without being seen to be: a quarter of a pixel where they are nearest,
+    /// infinite out of sight. @param off  by how much they may be off in plan.
+    double mayBeOff(const TileShadows& tile, double off) const;
+    /// Whether anything can be seen of the shadows of what is in a box: false only of a sun that has risen.
+    /// @param low,high  about the tiles' origin.
+    /// @param lowest  of the ground, about the origin. @param margin  of its heights, see TileGround.
+    bool maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& light, double lowest,
+                         double margin) const;
+
+private:
+    const osg::Vec2d _pixels;
+    const glm::dmat4 _clipFromTiles;
+};
+
+} // namespace gnomon
