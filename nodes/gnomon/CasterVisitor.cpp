@@ -62,12 +62,13 @@ float finestRange(const osg::LOD& lod) {
     return finest;
 }
 
-/// Switched on by the node's state, or by one above it if nothing above it is visited.
-int alphaTestsAt(const osg::Node& node, bool first) {
-    int count = AlphaTest::isOn(node);
-    for (const osg::Node* above = &node; first && above->getNumParents() > 0;)
-        count += AlphaTest::isOn(*(above = above->getParent(0)));
-    return count;
+/// Most nodes have no state.
+bool testsAlpha(const osg::Node& node) { return node.getStateSet() && AlphaTest::isOn(node); }
+
+bool testsAlphaAbove(const osg::Node& node) {
+    for (const osg::Node* above = &node; above->getNumParents() > 0;)
+        if (testsAlpha(*(above = above->getParent(0)))) return true;
+    return false;
 }
 
 } // namespace
@@ -76,9 +77,7 @@ int alphaTestsAt(const osg::Node& node, bool first) {
 class CasterVisitor::OnTheWay {
 public:
     OnTheWay(CasterVisitor& visitor, const osg::Node& node)
-        : _visitor(visitor),
-          _entered(&node == visitor._selection.node ? 1 : 0),
-          _alphaTests(alphaTestsAt(node, visitor.getNodePath().size() == 1)) {
+        : _visitor(visitor), _entered(&node == visitor._selection.node ? 1 : 0), _alphaTests(testsAlpha(node) ? 1 : 0) {
         _visitor._inside += _entered;
         _visitor._alphaTests += _alphaTests;
     }
@@ -162,7 +161,8 @@ void CasterVisitor::apply(osg::Transform& transform) {
 }
 
 std::optional<AlphaTest> CasterVisitor::alphaTest() const {
-    return _alphaTests > 0 ? AlphaTest::of(getNodePath()) : std::nullopt;
+    if (_alphaTests == 0 && !testsAlphaAbove(*getNodePath().front())) return std::nullopt;
+    return AlphaTest::of(getNodePath());
 }
 
 const osg::Array* CasterVisitor::verticesOf(const osg::Geometry& geometry) {
