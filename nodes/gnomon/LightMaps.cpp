@@ -87,6 +87,7 @@ struct LightMaps::LightMap {
     osg::ref_ptr<const MapCasters> casters;
     bool flats = false; ///< those that are flat cast, too.
     std::vector<Face> faces;
+    int cascades = 0;           ///< maps that a sun is to have; 0 until that is known.
     std::vector<double> splits; ///< of what is seen: see cascadeSplits().
     osg::ref_ptr<DepthMap> map;
     osg::ref_ptr<const MapPicture> picture;
@@ -102,8 +103,9 @@ struct LightMaps::LightMap {
                const MapWish& wanted);
     std::optional<ScreenRect> screenBounds(const glm::dmat4& clipFromScene) const;
     void addFace(const LightFrame& frame);
-    void findSplits(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene);
-    bool findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene);
+    double pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const;
+    void findSplits(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene, double width);
+    bool findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene, double width);
     /// True if the face's map is not to be drawn again.
     bool holds(const Face& face) const;
     MapFit fitOf(const Face& face) const {
@@ -181,7 +183,7 @@ osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     const bool flats = std::any_of(casters->flatBoxes.begin(), casters->flatBoxes.end(),
                                    [&](const auto& flat) { return isBetween(flat, light, receivers, casters->reach); });
     if (!map.isOf(light, cone, *casters, flats, wish)) map.start(light, cone, *casters, flats, wish);
-    if (!map.findNeeded(receivers, clipFromScene)) return nullptr;
+    if (!map.findNeeded(receivers, clipFromScene, view.pixels.x())) return nullptr;
     const auto bounds = map.screenBounds(clipFromScene);
     if (!bounds) return nullptr;
     if (needsNew(map)) redo(map);
@@ -194,7 +196,7 @@ osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     mark->clipFromScene = clipFromScene;
     if (cone) mark->coneFromScene = coneFromScene(glm::dvec3(light), *cone);
     mark->defines = wish.defines + "#define MAPS " + std::to_string(map.lookUps.size()) + "\n";
-    if (!map.splits.empty()) mark->defines += "#define CASCADES\n";
+    if (map.faces.front().frame.sun && map.lookUps.size() > 1) mark->defines += "#define CASCADES\n";
     if (cone) mark->defines += "#define CONE\n";
     return mark;
 }
@@ -210,6 +212,7 @@ void LightMaps::LightMap::start(const glm::dvec4& given, const std::optional<Spo
     picture = nullptr;
     faces.clear();
     splits.clear();
+    cascades = wish.cascades;
     for (const LightFrame& frame : framesOf(light, cone, casters->reach, wish.size)) addFace(frame);
 }
 
@@ -218,7 +221,7 @@ void LightMaps::LightMap::addFace(const LightFrame& frame) {
     for (const MapCasters::Box& box : casters->bodyBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
     if (flats)
         for (const MapCasters::Box& box : casters->flatBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
-    const std::size_t parts = frame.sun ? static_cast<std::size_t>(wish.cascades) : 1;
+    const std::size_t parts = frame.sun ? std::size_t(wish.cascades ? wish.cascades : mostCascades) : 1;
     for (; face.part < parts; ++face.part) faces.push_back(face);
 }
 
@@ -230,19 +233,32 @@ std::optional<ScreenRect> LightMaps::LightMap::screenBounds(const glm::dmat4& cl
     return gnomon::screenBounds(points);
 }
 
-void LightMaps::LightMap::findSplits(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene) {
+/// On a side of a texel, were there one map, at a distance along the line of sight, of a view that is `width` pixels wide.
+double LightMaps::LightMap::pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const {
+    const auto side = [&](int axis) { return 2.0 * distance / glm::length(glm::dvec3(glm::row(clipFromScene, axis))); };
+    const Face& face = faces.front();
+    const glm::dvec2 most = fitMap(face.frame, face.casters, face.casters, 0.0, 0.0, 1.0).size;
+    const double covered = std::min(std::max(most.x, most.y), std::max(side(0), side(1)));
+    return covered / wish.size / (side(0) / width);
+}
+
+void LightMaps::LightMap::findSplits(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene,
+                                     double width) {
     if (!(faces.size() > 1 && faces.front().frame.sun) || faces.front().casters.empty()) return;
     std::vector<glm::dvec4> halfSpaces = viewPart(clipFromScene, {}, 0);
     for (const glm::dvec4& side : faces.front().casters.sides()) halfSpaces.push_back(side);
     SeenRange seen(clipFromScene);
     for (const Receiver& receiver : receivers)
         seen.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
-    splits = cascadeSplits(seen, wish.cascades);
+    if (!wish.cascades && !seen.empty())
+        cascades = cascadesFor(seen, pixelsATexel(seen.farthest, clipFromScene, width), cascades);
+    splits = cascadeSplits(seen, std::max(cascades, 1));
 }
 
 /// @return false if nothing is needed.
-bool LightMaps::LightMap::findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene) {
-    findSplits(receivers, clipFromScene);
+bool LightMaps::LightMap::findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene,
+                                     double width) {
+    findSplits(receivers, clipFromScene, width);
     bool any = false;
     for (Face& face : faces) {
         face.needed = MapOutline(face.frame);

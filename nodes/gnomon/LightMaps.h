@@ -18,7 +18,7 @@ namespace gnomon {
 /// How a technique wants its maps.
 struct MapWish {
     int size = 1024;  ///< texels on a side of a tile.
-    int cascades = 1; ///< of a sun: how many of them at most.
+    int cascades = 0; ///< of a sun: how many of them at most; 0: see cascadesFor().
     osg::Texture::FilterMode compare = osg::Texture::LINEAR;
     std::string defines; ///< see MapMark.
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CascadeSplits.h>
 #include <gnomon/LightMaps.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
@@ -9,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int leastSize = 16, mostSize = 16384, mostCascades = 4;
+constexpr int leastSize = 16, mostSize = 16384;
 
 /// The half that decides hard edges is reached with half a texel of slope; see map.frag.
 std::string definesOf(ShadowMapTechnique::Filter filter) {
@@ -32,7 +33,7 @@ ShadowMapTechnique::~ShadowMapTechnique() = default;
 
 void ShadowMapTechnique::setSize(int texels) { _size = std::clamp(texels, leastSize, mostSize); }
 
-void ShadowMapTechnique::setCascades(int maps) { _cascades = std::clamp(maps, 1, mostCascades); }
+void ShadowMapTechnique::setCascades(int maps) { _cascades = std::clamp(maps, 0, mostCascades); }
 
 unsigned ShadowMapTechnique::passes() const { return _maps->resources().passes; }
 

@@ -74,10 +74,11 @@ public:
     void setFilter(Filter filter) { _filter = filter == NEAREST || filter == BILINEAR ? filter : BICUBIC; }
     Filter getFilter() const { return _filter; }
 
-    /// Maps of a sun at most, 1 … 4; default 1. Clamped. What is seen is divided by its distance along the line of sight, so
+    /// Maps of a sun, 0 … 4: that many at most; default 0, as many as keep their texels to six pixels, which keeps 95 %
+    /// of the edges to within about a pixel. Clamped. What is seen is divided by its distance along the line of sight, so
     /// that each part is as many times as far at its end as at its beginning, and each part has a map of its own: for
-    /// views that reach from near to far, a street or a landscape. Fewer are made where the farthest that is seen is less
-    /// than twice as far as the nearest for each; one for orthographic views and for lamps.
+    /// views that reach from near to far, a street or a landscape. Fewer are made where a part's end would be less than
+    /// twice as far as its beginning; one for orthographic views and for lamps.
     void setCascades(int maps);
     int getCascades() const { return _cascades; }
 
@@ -98,7 +99,7 @@ private:
 
     int _size = 1024;
     Filter _filter = BICUBIC;
-    int _cascades = 1;
+    int _cascades = 0;
     std::unique_ptr<LightMaps> _maps;
 };
 

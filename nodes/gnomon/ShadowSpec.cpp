@@ -90,7 +90,7 @@ bool takeFilter(ShadowSpec& spec, const std::string& value) {
 }
 
 bool takeCascades(ShadowSpec& spec, const std::string& value) {
-    spec.cascades = numberIn(value, 1, 4);
+    spec.cascades = value == "auto" ? 0 : numberIn(value, 1, 4);
     return spec.cascades.has_value();
 }
 
@@ -150,7 +150,7 @@ const std::vector<Technique>& techniques() {
     static const Key size = {"size", "16 to 16384, texels", "1024", "side of a light's map", takeSize};
     static const Key filter = {"filter", "nearest, bilinear, bicubic", "bicubic",
                                "compare 1, 2 x 2 or 4 x 4 texels of the map", takeFilter};
-    static const Key cascades = {"cascades", "1 to 4", "1", "maps of a sun at most, each for a part of a long view",
+    static const Key cascades = {"cascades", "auto, 1 to 4", "auto", "maps of a sun, each for a part of a long view",
                                  takeCascades};
     static const std::vector<Technique> table = {
         {"none", true, "no shadow", nullptr, true, {}},

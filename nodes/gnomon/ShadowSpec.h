@@ -23,7 +23,7 @@ struct ShadowSpec {
     std::optional<double> error;                      ///< of hull and drape: in plan, scene's unit; not given: 0.1.
     std::optional<int> size;                          ///< of map: texels on a side; not given: 1024.
     std::optional<ShadowMapTechnique::Filter> filter; ///< of map; not given: BICUBIC.
-    std::optional<int> cascades;                      ///< of map: maps of a sun at most; not given: 1.
+    std::optional<int> cascades; ///< of map: maps of a sun at most, 0: as many as it takes; not given: 0.
     /// Name of the node that receives; empty: map and traced everything, the others the node named "ground".
     std::string receiver;
 };

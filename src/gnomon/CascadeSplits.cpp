@@ -14,6 +14,14 @@ namespace {
 constexpr double leastRatio = 2.0; // of a part's end to its beginning
 constexpr double mostRatio = 1e6;  // of all: what is nearer than that is a rounded zero
 
+constexpr double mostPixels = 6.0; // on a side of a texel where it is widest
+
+/// Of the farthest to the nearest.
+double ratioOf(const SeenRange& seen) {
+    if (seen.empty() || !(seen.farthest > 0.0)) return 1.0;
+    return seen.farthest / std::max(seen.nearest, seen.farthest / mostRatio);
+}
+
 } // namespace
 
 SeenRange::SeenRange(const glm::dmat4& clipFromScene) : _w(glm::row(clipFromScene, 3)) {}
@@ -32,9 +40,15 @@ void SeenRange::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm:
     }
 }
 
+int cascadesFor(const SeenRange& seen, double pixels, int before) {
+    const double partRatio = std::max(leastRatio, mostPixels / pixels);
+    const double asked = std::log(ratioOf(seen)) / std::log(partRatio);
+    if (before > 0 && asked <= before + 0.125 && asked > before - 1.25) return before;
+    return static_cast<int>(std::clamp(std::ceil(asked), 1.0, double(mostCascades)));
+}
+
 std::vector<double> cascadeSplits(const SeenRange& seen, int most) {
-    if (seen.empty() || !(seen.farthest > 0.0)) return {};
-    const double ratio = seen.farthest / std::max(seen.nearest, seen.farthest / mostRatio);
+    const double ratio = ratioOf(seen);
     const int maps = std::clamp(static_cast<int>(std::log(ratio) / std::log(leastRatio)), 1, most);
     std::vector<double> splits;
     for (int i = 1; i < maps; ++i) splits.push_back(seen.farthest * std::pow(ratio, double(i) / maps - 1.0));

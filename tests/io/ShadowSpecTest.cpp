@@ -78,13 +78,15 @@ TEST(ShadowSpec, KeysOfMapAreReadAndSet) {
                &asked = dynamic_cast<ShadowMapTechnique&>(*added.at(1));
     EXPECT_EQ(plain.getSize(), 1024);
     EXPECT_EQ(plain.getFilter(), ShadowMapTechnique::BICUBIC);
-    EXPECT_EQ(plain.getCascades(), 1);
+    EXPECT_EQ(plain.getCascades(), 0);
     EXPECT_FALSE(plain.hasReceiver());
     EXPECT_EQ(asked.getCascades(), 3);
     EXPECT_EQ(asked.getSize(), 2048);
     EXPECT_EQ(asked.getFilter(), ShadowMapTechnique::NEAREST);
     EXPECT_EQ(refusal("map:size=8"), "size=8 cannot be used; allowed: 16 to 16384, texels.");
-    EXPECT_EQ(refusal("map:cascades=5"), "cascades=5 cannot be used; allowed: 1 to 4.");
+    EXPECT_EQ(parseShadowSpec("map:cascades=auto").cascades, 0);
+    EXPECT_EQ(refusal("map:cascades=0"), "cascades=0 cannot be used; allowed: auto, 1 to 4.");
+    EXPECT_EQ(refusal("map:cascades=5"), "cascades=5 cannot be used; allowed: auto, 1 to 4.");
     EXPECT_EQ(refusal("map:filter=soft"), "filter=soft cannot be used; allowed: nearest, bilinear, bicubic.");
 }
 
