@@ -27,7 +27,8 @@ class LightMaps;
 /// Spots   a lamp with a cutoff (osg::Light::setSpotCutoff(), ShadowLight::cutoff) has one map, about its cone. RELIGHT
 ///         takes its light from all that is outside the cone, to the pixel, where OpenGL alone decides a vertex; BLEND
 ///         leaves that as OpenGL has drawn it, which is without the light as far as vertices tell. Where no vertex is
-///         in the cone OpenGL gives no light, and none is added.
+///         in the cone OpenGL gives no light, and none is added. What is unlit, as a sky, is darkened outside the cone as in
+///         any shadow: name receivers where there is such a thing.
 /// Alpha   of casters with an alpha test (osg::AlphaFunc) casts what that leaves of them, by the alpha of the 2D texture on
 ///         unit 0 at coordinates given a vertex; where alpha comes from elsewhere, all of them casts, and diagnose() says
 ///         so.
