@@ -2,6 +2,7 @@
 #include <gnomon/ClosedParts.h>
 #include <gnomon/ConvexParts.h>
 #include <gnomon/ConvexPolygons.h>
+#include <gnomon/ConvexSolid.h>
 #include <gnomon/Plane.h>
 
 #include <glm/common.hpp>
@@ -193,6 +194,8 @@ bool isFlat(const Piece& piece) {
 /// it is open. An edge that is open in two faces is where they meet; so none may be open in all but on the floor.
 std::optional<ConvexHull> asHull(const Piece& piece) {
     if (isFlat(piece)) return std::nullopt;
+    if (piece.closed)
+        if (auto solid = convexSolid(piece.points, piece.triangles, piece.flatness())) return solid;
     std::optional<ConvexHull> hull = convexHull(piece.points);
     if (!hull) return std::nullopt;
     HullPlanes planes(*hull, piece.flatness());
