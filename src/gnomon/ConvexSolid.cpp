@@ -21,34 +21,57 @@ glm::dvec4 planeOf(const Points& points, const Triangle& t) {
     return {normal, -glm::dot(normal, points[t[0]])};
 }
 
+/// The planes of the faces so far, and how many of them each point is in.
+class FacePlanes {
+public:
+    FacePlanes(const Points& points, double flatness)
+        : _points(points), _flatness(flatness), _planesAt(points.size()) {}
+
+    /// The plane of a triangle; nullopt if a point is outside, or there are too many.
+    std::optional<glm::dvec4> of(const Triangle& t) {
+        const glm::dvec4 own = planeOf(_points, t);
+        const auto known =
+            std::find_if(_planes.begin(), _planes.end(), [&](const glm::dvec4& plane) { return isIn(t, own, plane); });
+        if (known != _planes.end()) return *known;
+        _planes.push_back(own);
+        if (_planes.size() * _points.size() > mostAsked) return std::nullopt;
+        for (std::size_t i = 0; i < _points.size(); ++i) {
+            const double outside = distance(own, _points[i]);
+            if (!(outside <= _flatness)) return std::nullopt;
+            _planesAt[i] += outside >= -_flatness ? 1 : 0;
+        }
+        return own;
+    }
+    bool areAllCorners() const {
+        return std::all_of(_planesAt.begin(), _planesAt.end(), [](int count) { return count >= 3; });
+    }
+
+private:
+    bool isIn(const Triangle& t, const glm::dvec4& own, const glm::dvec4& plane) const {
+        return glm::length(glm::dvec3(plane - own)) <= alike && std::all_of(t.begin(), t.end(), [&](unsigned corner) {
+                   return std::abs(distance(plane, _points[corner])) <= _flatness;
+               });
+    }
+
+    const Points& _points;
+    const double _flatness;
+    std::vector<glm::dvec4> _planes;
+    std::vector<int> _planesAt;
+};
+
 } // namespace
 
 std::optional<ConvexHull> convexSolid(const Points& points, const std::vector<Triangle>& triangles, double flatness) {
     // Euler's formula: else something is covered twice, or there are points elsewhere.
     if (triangles.size() + 4 != 2 * points.size()) return std::nullopt;
     ConvexHull hull{points, {}};
-    std::vector<glm::dvec4> planes;
-    std::vector<int> planesAt(points.size());
+    FacePlanes planes(points, flatness);
     for (const Triangle& t : triangles) {
-        const glm::dvec4 own = planeOf(points, t);
-        const auto holds = [&](const glm::dvec4& plane) {
-            return glm::length(glm::dvec3(plane - own)) <= alike &&
-                   std::all_of(t.begin(), t.end(),
-                               [&](unsigned corner) { return std::abs(distance(plane, points[corner])) <= flatness; });
-        };
-        const auto known = std::find_if(planes.begin(), planes.end(), holds);
-        hull.faces.push_back({{t.begin(), t.end()}, known != planes.end() ? *known : own});
-        if (known != planes.end()) continue;
-        planes.push_back(own);
-        if (planes.size() * points.size() > mostAsked) return std::nullopt;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const double outside = distance(own, points[i]);
-            if (!(outside <= flatness)) return std::nullopt;
-            planesAt[i] += outside >= -flatness ? 1 : 0;
-        }
+        const auto plane = planes.of(t);
+        if (!plane) return std::nullopt;
+        hull.faces.push_back({{t.begin(), t.end()}, *plane});
     }
-    const bool areCorners = std::all_of(planesAt.begin(), planesAt.end(), [](int count) { return count >= 3; });
-    return areCorners ? std::optional(std::move(hull)) : std::nullopt;
+    return planes.areAllCorners() ? std::optional(std::move(hull)) : std::nullopt;
 }
 
 } // namespace gnomon
