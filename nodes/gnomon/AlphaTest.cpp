@@ -164,7 +164,8 @@ void AlphaTest::mix(const osg::Drawable& drawable, Fingerprint& into) const {
     into.mix(double{reference});
     into.mix(static_cast<const void*>(texture.get()));
     into.mix(matrix);
-    const osg::Image* image = texture ? texture->getImage() : nullptr;
+    const bool staysThere = texture && !texture->getUnRefImageDataAfterApply(); // else it is let go when it is drawn
+    const osg::Image* image = staysThere ? texture->getImage() : nullptr;
     into.mix(static_cast<const void*>(image));
     if (image) into.mix(std::uint64_t{image->getModifiedCount()});
     const osg::Array* array = coordinateArray(drawable);

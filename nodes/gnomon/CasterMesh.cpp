@@ -21,7 +21,7 @@ constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
 /// @param places  where each vertex went, if it is used; those of a drawable still follow one another.
 VertexTraverser::Cutout renumbered(const VertexTraverser::Cutout& found, const std::vector<unsigned>& places) {
     VertexTraverser::Cutout result{found.drawn, found.test, nowhere, {}};
-    const unsigned* own = &places[found.firstVertex];
+    const unsigned* own = places.data() + found.firstVertex;
     for (std::size_t i = 0; i < found.coordinates.size(); ++i)
         result.firstVertex = std::min(result.firstVertex, own[i]);
     for (std::size_t i = 0; i < found.coordinates.size(); ++i) {

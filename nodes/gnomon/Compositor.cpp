@@ -87,6 +87,7 @@ bool Compositor::areSoft(const Jobs& jobs) const {
 /// A leaf with a stencil test of its own cannot be drawn again under ours.
 void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended) {
     for (const ShadowJob* job : jobs) {
+        if (job->marks->relightsOnly()) continue;
         if (job->dark < 1.0f) blended[job->dark].push_back(job);
         job->technique->report(job->frameNumber,
                                "blends instead of relighting, for something opaque in this view has a stencil test of "

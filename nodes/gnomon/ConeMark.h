@@ -12,6 +12,7 @@ public:
     glm::dmat4 coneFromScene{1.0}; ///< see gnomon::coneFromScene().
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    bool relightsOnly() const override { return true; }
 
 protected:
     ~ConeMark() override = default;

@@ -20,6 +20,7 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 constexpr double reserve = 1.0 / 16.0; // of a map's sides
 constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
 constexpr double border = 3.0;         // texels: what a comparison reaches over, and one against rounding
+constexpr int largestTexture = 16384;  // texels on a side: what OpenGL has in most places
 constexpr unsigned keptCalls = 256;    // maps that nobody asked for since are let go
 constexpr double sameLight = 1e-7;     // of the distance: what OSG's matrices and floats make of a light at rest
 
@@ -221,7 +222,8 @@ void LightMaps::LightMap::addFace(const LightFrame& frame) {
     for (const MapCasters::Box& box : casters->bodyBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
     if (flats)
         for (const MapCasters::Box& box : casters->flatBoxes) face.casters.addBox(box.low, box.high, glm::dmat4(1.0));
-    const std::size_t parts = frame.sun ? std::size_t(wish.cascades ? wish.cascades : mostCascades) : 1;
+    const int most = 2 * wish.size <= largestTexture ? mostCascades : 1;
+    const std::size_t parts = frame.sun ? std::size_t(wish.cascades ? wish.cascades : most) : 1;
     for (; face.part < parts; ++face.part) faces.push_back(face);
 }
 
@@ -296,6 +298,7 @@ void LightMaps::redo(LightMap& map) const {
     picture->cutoutProgram = _resources->cutoutProgram;
     picture->size = map.wish.size;
     picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
+    const int columns = map.faces.size() > 4 ? 3 : 2;
     std::vector<std::pair<const Face*, glm::ivec2>> tiles;
     for (Face& face : map.faces) {
         if (face.needed.empty())
@@ -303,7 +306,7 @@ void LightMaps::redo(LightMap& map) const {
         else if (!map.holds(face))
             face.fit = map.fitOf(face);
         const int tile = static_cast<int>(tiles.size());
-        if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % 3, tile / 3));
+        if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % columns, tile / columns));
     }
     std::stable_sort(tiles.begin(), tiles.end(),
                      [](const auto& a, const auto& b) { return a.first->fit->area() < b.first->fit->area(); });

@@ -31,6 +31,9 @@ public:
     /// True if mark() needs ScreenPass::counters().
     virtual bool counts() const { return false; }
 
+    /// True of what relighting alone must darken: what OpenGL has drawn without the light, as far as it could.
+    virtual bool relightsOnly() const { return false; }
+
     /// False if it is known that no mark falls on this leaf, as a cause of diagnose() should be about what receives.
     virtual bool canReach(const osgUtil::RenderLeaf&) const { return true; }
 

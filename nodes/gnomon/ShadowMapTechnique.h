@@ -24,7 +24,8 @@ class LightMaps;
 /// Bias    none to set. Both the surface in the map and the one that is seen allow for their own slope within the texels
 ///         that are compared, and for the rounding of depth, here and in the frame. Thin things lose their shadow where
 ///         they are less than about a texel off the surface, measured along the light.
-/// Spots   a lamp with a cutoff (osg::Light::setSpotCutoff(), ShadowLight::cutoff) has one map, about its cone. RELIGHT
+/// Spots   a lamp with a cutoff (osg::Light::setSpotCutoff(), ShadowLight::cutoff) has one map, about its cone, up
+///         to a cutoff of 75 degrees, wider ones have those of a lamp; and nothing without casters. RELIGHT
 ///         takes its light from all that is outside the cone, to the pixel, where OpenGL alone decides a vertex; BLEND
 ///         leaves that as OpenGL has drawn it, which is without the light as far as vertices tell. Where no vertex is
 ///         in the cone OpenGL gives no light, and none is added. What is unlit, as a sky, is darkened outside the cone as in
@@ -35,7 +36,7 @@ class LightMaps;
 /// Edges   hard: what gets less than half of the light, by the filter, gets none.
 ///
 /// Cost    while nothing changes, a copy of the depth buffer and one quad over what the shadows' bounds cover; a draw of
-///         all casters' positions when a map is made.
+///         all casters' positions when a map is made. A spot that relights takes another copy and quad, of all that is seen.
 /// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named.
 /// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). Of alpha tests, alpha of vertices and
 ///         materials counts as 1, and where the map is coarser than the texture its mipmaps are what is tested; what is

@@ -53,7 +53,9 @@ static bool writeLights(osgDB::OutputStream& out, const ShadowCasterGroup& group
 /// Direction and cutoff of each of Lights, where any of those is a spot.
 static bool checkSpots(const ShadowCasterGroup& group) {
     const auto& lights = group.getLights();
-    const auto isSpot = [](const ShadowLight& light) { return light.cutoff != ShadowLight().cutoff; };
+    const auto isSpot = [](const ShadowLight& light) {
+        return light.cutoff != ShadowLight().cutoff || light.direction != ShadowLight().direction;
+    };
     return std::any_of(lights.begin(), lights.end(), isSpot);
 }
 

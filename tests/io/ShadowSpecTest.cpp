@@ -73,7 +73,8 @@ TEST(ShadowSpec, ANameAloneHasNothingElseSet) {
 
 TEST(ShadowSpec, KeysOfMapAreReadAndSet) {
     osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
-    const auto added = addShadows(*group, {parseShadowSpec("map"), parseShadowSpec("map:size=2048,filter=nearest,cascades=3")});
+    const auto added =
+        addShadows(*group, {parseShadowSpec("map"), parseShadowSpec("map:size=2048,filter=nearest,cascades=3")});
     const auto &plain = dynamic_cast<ShadowMapTechnique&>(*added.at(0)),
                &asked = dynamic_cast<ShadowMapTechnique&>(*added.at(1));
     EXPECT_EQ(plain.getSize(), 1024);

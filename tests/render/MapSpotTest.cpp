@@ -107,6 +107,33 @@ TEST(MapSpot, OfALightThatShinesAllAroundLeavesTheConeLessItsShadowsToThePixel) 
         }
 }
 
+/// Where relighting cannot be, for something uses stencil itself, shadows are blended: not what is outside the cone.
+TEST(MapSpot, ThatCannotBeRelitDarkensNothingOutsideItsCone) {
+    Scene scene = build(down.light()), other = build(down.light());
+    const Mesh stencilled = test::box({-1.5, -1.8, 0.0}, {-1.2, -1.5, 0.3});
+    for (Scene* each : {&scene, &other}) {
+        each->content->addChild(test::node(stencilled));
+        each->content->getChild(each->content->getNumChildren() - 1)
+            ->getOrCreateStateSet()
+            ->setMode(GL_STENCIL_TEST, osg::StateAttribute::ON);
+    }
+    const osg::ref_ptr<ShadowMapTechnique> technique = sharpMap();
+    scene.addShadow(technique);
+    scene.group->addLight(down.asGiven());
+    const Picture picture = test::render(scene.root, view), plain = test::render(other.root, view);
+    EXPECT_FALSE(technique->diagnose().empty());
+    int inCone = 0, outside = 0;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
+            const glm::dvec3 onGround = sight.from - sight.way * (sight.from.z / sight.way.z);
+            const bool isFar = glm::distance(glm::dvec2(onGround), glm::dvec2(0.5, 0.3)) > 5.0; // the cone's is 3.5
+            if (picture.at(x, y) != plain.at(x, y)) ++(isFar ? outside : inCone);
+        }
+    EXPECT_EQ(outside, 0);
+    EXPECT_GT(inCone, 50);
+}
+
 /// A ground of squares of side 1, for OpenGL lights vertices.
 Mesh tiled() {
     Mesh ground;
