@@ -24,9 +24,7 @@
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <ostream>
 
 namespace gnomon {

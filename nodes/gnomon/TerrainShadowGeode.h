@@ -30,7 +30,8 @@ struct TerrainShadows;
 /// HULL   the silhouette of each convex part of the caster, a ray for each corner above the ground, and the polygon between
 ///        them: four triangles for a house. Where rays do not settle (slopes as steep as the light, borders, holes, cliffs)
 ///        it drapes instead, and diagnose() says how often.
-/// DRAPE  the ground's triangles cut by the caster's shadow, to within setError() in plan; with 0 exact.
+/// DRAPE  the ground's triangles cut by the caster's shadow, to within setError() in plan; with 0 exact
+///        once the light stands still.
 ///
 /// Below a ShadowCasterGroup it marks what of the receiver, which must be named, lies under the polygons, whatever level of
 /// detail is drawn: once where they overlap. Where a grid's own triangles are drawn, HULL's polygons are laid on them, a

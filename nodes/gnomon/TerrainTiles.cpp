@@ -18,8 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double sameLight = 1e-12; // of its length: what turning a view takes off it in double
-constexpr double worthFinding =
-    0.5; // of what a tile may be off: so that those which fall due together are spread over frames
+// Of what a tile may be off: so that those which fall due together are spread over frames.
+constexpr double worthFinding = 0.5;
 constexpr std::size_t atOnce = 8;     // tiles, between looks at the clock
 constexpr std::size_t mostSpare = 64; // as many as are found anew in a frame while the sun moves on
 
@@ -99,10 +99,16 @@ void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const 
     if (into.prisms) setMeshes(ground, into);
 }
 
-struct TerrainTiles::Late {
-    std::size_t tile;
-    double off; ///< of what it may be.
-    bool operator<(const Late& other) const { return off > other.off; }
+/// What is to be found anew.
+struct TerrainTiles::Wanted {
+    struct Late {
+        std::size_t tile;
+        double off; ///< of what it may be.
+        bool operator<(const Late& other) const { return off > other.off; }
+    };
+    std::vector<std::size_t> due; ///< now.
+    std::vector<Late> late;       ///< as far as there is time.
+    bool letGo = false;           ///< some tile's shadows are.
 };
 
 TerrainTiles::TerrainTiles() : _none(drawable()) {}
@@ -127,26 +133,41 @@ void TerrainTiles::update(const TerrainTown& town, const TileGround& ground, con
     _shadows.resize(tiles.size(), _none);
     _states.resize(tiles.size(), 0);
     if (!_lowest) _lowest = lowestOf(ground.found);
-    std::vector<std::size_t> due;
-    std::vector<Late> late;
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
+    Wanted wanted = wantedIn(view, town, ground, still);
+    if (wanted.due.empty() && wanted.late.empty() && !wanted.letGo) return;
+    find(town, ground, wanted.due);
+    std::sort(wanted.late.begin(), wanted.late.end());
+    const auto isTime = [&] { return std::chrono::duration<double>(Clock::now() - start).count() < seconds; };
+    for (auto next = wanted.late.begin(); next != wanted.late.end() && isTime();) {
+        std::vector<std::size_t> some;
+        for (; next != wanted.late.end() && some.size() < atOnce; ++next) some.push_back(next->tile);
+        find(town, ground, some);
+    }
+    countOutcomes(town);
+}
+
+TerrainTiles::Wanted TerrainTiles::wantedIn(const TerrainView& view, const TerrainTown& town, const TileGround& ground,
+                                            bool still) {
+    Wanted wanted;
+    for (std::size_t i = 0; i < town.tiles().size(); ++i) {
         const double off = offBy(i, town);
         if (off == 0.0) continue;
         const double mayBe = mayBeOff(i, off, town, ground, view);
         if (!(off <= mayBe))
-            due.push_back(i);
+            wanted.due.push_back(i);
         else if (mayBe < infinite && (still || off > worthFinding * mayBe))
-            late.push_back({i, off / mayBe});
+            wanted.late.push_back({i, off / mayBe});
+        else if (!(off < infinite) && _shadows[i] != _none) {
+            letGo(i);
+            wanted.letGo = true;
+        }
     }
-    if (due.empty() && late.empty()) return;
-    find(town, ground, due);
-    std::sort(late.begin(), late.end());
-    for (std::size_t i = 0; i < late.size() && std::chrono::duration<double>(Clock::now() - start).count() < seconds;) {
-        due.clear();
-        for (; i < late.size() && due.size() < atOnce; ++i) due.push_back(late[i].tile);
-        find(town, ground, due);
-    }
-    countOutcomes(town);
+    return wanted;
+}
+
+void TerrainTiles::letGo(std::size_t tile) {
+    _shadows[tile] = _none;
+    _states[tile] = 0;
 }
 
 /// How far in plan an edge of a tile's shadows may be off; infinite if not known.
@@ -158,18 +179,16 @@ double TerrainTiles::offBy(std::size_t tile, const TerrainTown& town) const {
     return movedAtMost(shadows.found, shadows.light, _light);
 }
 
-/// By how much they may be. Those of which nothing is known are let go if they cannot be seen.
+/// By how much they may be; infinite if nothing of them can be seen.
 double TerrainTiles::mayBeOff(std::size_t tile, double off, const TerrainTown& town, const TileGround& ground,
-                              const TerrainView& view) {
+                              const TerrainView& view) const {
     if (off < infinite) return std::max(_settings.error, view.mayBeOff(*_shadows[tile], off));
     const TerrainTown::Tile& casters = town.tiles()[tile];
     const glm::dvec3& origin = town.origin();
-    if (_settings.method == TerrainShadowGeode::BOX ||
-        view.maySeeShadowsOf(casters.low - origin, casters.high - origin, _light, *_lowest - origin.z, ground.margin))
-        return 0.0;
-    _shadows[tile] = _none;
-    _states[tile] = 0;
-    return infinite;
+    const bool isSeen =
+        _settings.method == TerrainShadowGeode::BOX ||
+        view.maySeeShadowsOf(casters.low - origin, casters.high - origin, _light, *_lowest - origin.z, ground.margin);
+    return isSeen ? 0.0 : infinite;
 }
 
 /// None that a frame still to be drawn holds.

@@ -73,17 +73,19 @@ public:
     void groundChanged();
 
     const List& shadows() const { return _shadows; }
-    const std::vector<std::string>& causes() const { return _causes; }
-    unsigned found() const { return _found; } ///< how many tiles' shadows, so far.
+    const std::vector<std::string>& causes() const { return _causes; } ///< of all that are kept.
+    unsigned found() const { return _found; }                          ///< how many tiles' shadows, so far.
 
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
 private:
-    struct Late; // a tile that may wait
+    struct Wanted;
+    Wanted wantedIn(const TerrainView& view, const TerrainTown& town, const TileGround& ground, bool still);
+    void letGo(std::size_t tile);
     double offBy(std::size_t tile, const TerrainTown& town) const;
     double mayBeOff(std::size_t tile, double off, const TerrainTown& town, const TileGround& ground,
-                    const TerrainView& view);
+                    const TerrainView& view) const;
     bool isSame(const glm::dvec4& light) const;
     void find(const TerrainTown& town, const TileGround& ground, const std::vector<std::size_t>& tiles);
     osg::ref_ptr<TileShadows> unused();

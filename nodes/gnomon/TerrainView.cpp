@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace gnomon {
@@ -33,12 +34,12 @@ Corners cornersOf(const TerrainMesh& mesh, const glm::dvec3& margin, const glm::
     return corners;
 }
 
-/// How many pixels long what has a length of 1 at the nearest of the corners can be.
+/// How many pixels long what has a length of 1 at the nearest of the corners can be, wherever it is on the screen.
 double pixelsAt(const Corners& corners, const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
+    const auto lengthOf = [&](int row) { return glm::length(glm::dvec3(glm::row(clipFromTiles, row))); };
     double nearest = infinite, most = 0.0;
     for (const glm::dvec4& corner : corners) nearest = std::min(nearest, corner.w);
-    for (int i = 0; i < 2; ++i)
-        most = std::max(most, 0.5 * pixels[i] * glm::length(glm::dvec3(glm::row(clipFromTiles, i))));
+    for (int i = 0; i < 2; ++i) most = std::max(most, 0.5 * pixels[i] * (lengthOf(i) + lengthOf(3)));
     return nearest > 0.0 ? most / nearest : infinite;
 }
 
@@ -79,11 +80,12 @@ bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high,
 
 double TerrainView::mayBeOff(const TileShadows& tile, double off) const {
     if (!ShadowBin::getFilter()) return 0.0;
+    const double onSlope = std::sqrt(1.0 + tile.found.steepest * tile.found.steepest); // of a length of 1 in plan
     double least = infinite;
     for (const TerrainMesh* mesh : {tile.decals.get(), tile.prisms.get()}) {
         if (!seen(*mesh, tile, off)) continue;
         const Corners corners = cornersOf(*mesh, marginOf(tile, off), _clipFromTiles);
-        least = std::min(least, unseenPixels / pixelsAt(corners, _clipFromTiles, _pixels));
+        least = std::min(least, unseenPixels / (onSlope * pixelsAt(corners, _clipFromTiles, _pixels)));
     }
     return least;
 }

@@ -137,11 +137,18 @@ void takeRates(PackedShadows& found, double height, double grazing, double way) 
     }
 }
 
+/// Of parts that have no shadow, but may have one as soon as the light turns: where and how large it is not known.
+bool mayAppear(TerrainOutcome outcome) {
+    return outcome == TerrainOutcome::edgeOn || outcome == TerrainOutcome::noGround;
+}
+
 /// By the ground under all together; where that tells too little, by what is under each.
 void findRates(const Ground& ground, const std::vector<double>& heights, const glm::dvec4& light,
                PackedShadows& found) {
     constexpr double enough = 0.25; // more than what shadows move by on level ground
-    if (found.corners.empty() || light.w != 0.0) return;
+    if (light.w != 0.0) return;
+    if (std::any_of(found.outcomes.begin(), found.outcomes.end(), mayAppear)) found.rates.fill(infinite);
+    if (found.corners.empty()) return;
     const glm::dvec2 way = shiftOf(light);
     const glm::vec3* corners = found.corners.data();
     const double tallest = *std::max_element(heights.begin(), heights.end());

@@ -3,6 +3,7 @@
 #include "GroundTriangles.h"
 #include "Houses.h"
 
+#include <gnomon/ConvexParts.h>
 #include <gnomon/PackedShadows.h>
 #include <gnomon/ShadowKernel.h>
 #include <gtest/gtest.h>
@@ -301,6 +302,25 @@ TEST(PackedShadows, HaveNoBoundBeyondTheGroundThatIsKnown) {
         EXPECT_LT(bound, 30.0);
     }
     EXPECT_GT(movedAtMost(shadows, sunOf(7.0), sunOf(6.91)), 1e9);
+}
+
+/// A plate that the sun is in, and a tower whose shadow falls beside the ground, among houses that move little.
+TEST(PackedShadows, HaveNoBoundWhereOneMayAppear) {
+    const HeightPyramid ground = groundOf([](double, double) { return 0.0; }, posts);
+    const glm::dvec4 then(-1.0, 0.0, 1.0, 0.0), now(-1.0, 0.001, 1.0, 0.0);
+    const auto house = test::boxAt({400.0, 700.0}, {4.0, 4.0}, 0.0, -5.0, 5.0).parts()[0];
+    const auto tower = test::boxAt({1588.0, 700.0}, {1.0, 1.0}, 0.0, 4.0, 40.0).parts()[0];
+    const std::vector<glm::vec3> wall = {{500, 700, -1}, {510, 700, -1}, {510, 700, 9}, {500, 700, 9}};
+    const std::vector<unsigned> corners = {0, 1, 2, 0, 2, 3};
+    const auto plate = gnomon::convexParts(wall.data(), wall.size(), corners.data(), corners.size());
+    ASSERT_EQ(plate.size(), 1u);
+    ASSERT_LT(movedAtMost(found(ground, PackedParts({house}), then), then, now), 0.1);
+    for (const auto& [part, outcome] : {std::pair(plate[0], TerrainOutcome::edgeOn), {tower, TerrainOutcome::noGround}})
+        for (const auto& parts : {std::vector{part}, {house, part}}) {
+            const PackedShadows shadows = found(ground, PackedParts(parts), then);
+            ASSERT_EQ(shadows.outcomes.back(), outcome);
+            EXPECT_GT(movedAtMost(shadows, then, now), 1e9);
+        }
 }
 
 /// The tallest does not count with the steepest slope, which is elsewhere.

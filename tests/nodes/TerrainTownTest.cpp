@@ -4,7 +4,9 @@
 
 #include <support/TerrainTrial.h>
 
+#include <gnomon/Convert.h>
 #include <gnomon/HeightPyramid.h>
+#include <gnomon/ShadowDecals.h>
 #include <gnomon/TerrainTiles.h>
 
 #include <osg/ShapeDrawable>
@@ -243,6 +245,47 @@ TEST(TerrainTiles, AreFoundWhereTheyMayHaveMovedIntoTheView) {
     others.update(250.0);
     others.update(251.0, viewAbove(left - 505.0, finePixel));
     EXPECT_EQ(others.ofSun(251.0), 0);
+}
+
+/// Longest way on the screen, in pixels, that a point of a box goes which moves by `off` in plan and as much up or down.
+double mostPixels(const gnomon::ViewFrame& view, const osg::BoundingBoxd& box, double off) {
+    const osg::Matrixd clip = view.eyeFromGroup * view.projection;
+    double most = 0.0;
+    for (unsigned corner = 0; corner < 8; ++corner)
+        for (int way = 0; way < 16; ++way)
+            for (const double rise : {-1.0, 1.0}) {
+                const double angle = way * std::acos(-1.0) / 8.0;
+                const osg::Vec3d at = box.corner(corner);
+                const osg::Vec3d moved = at + osg::Vec3d(std::cos(angle), std::sin(angle), rise) * off;
+                const osg::Vec3d by = moved * clip - at * clip;
+                most = std::max(most, std::hypot(by.x() * view.pixels.x(), by.y() * view.pixels.y()) / 2.0);
+            }
+    return most;
+}
+
+/// On slopes of 45 degrees: to the corners of a wide view, where a metre is the most pixels, and along the ground.
+TEST(TerrainView, ShowsWhatMayBeOffAsAQuarterOfAPixelAtMost) {
+    const osg::BoundingBoxd box(-30.0, -20.0, -5.0, 30.0, 20.0, 10.0);
+    gnomon::ShadowDecals corners;
+    corners.low = gnomon::toGlm(box._min);
+    corners.high = gnomon::toGlm(box._max);
+    corners.vertices = {corners.low, corners.high, {30.0f, -20.0f, 0.0f}};
+    corners.triangles = {0, 1, 2};
+    const osg::ref_ptr<gnomon::TileShadows> tile = new gnomon::TileShadows;
+    tile->decals = new gnomon::TerrainMesh;
+    tile->prisms = new gnomon::TerrainMesh;
+    tile->decals->set(corners);
+    tile->found.steepest = 1.0;
+    tile->widest = 10.0;
+    for (const auto& [eye, fovy] : {std::pair(osg::Vec3d(0.0, -60.0, 50.0), 90.0), {{0.0, -400.0, 10.0}, 20.0}}) {
+        gnomon::ViewFrame view;
+        view.eyeFromGroup = osg::Matrixd::lookAt(eye, osg::Vec3d(), osg::Vec3d(osg::Z_AXIS));
+        view.projection = osg::Matrixd::perspective(fovy, 1.0, 1.0, 1000.0);
+        view.pixels.set(500.0, 500.0);
+        const double off = gnomon::TerrainView(view, glm::dvec3(0.0)).mayBeOff(*tile, 0.0);
+        EXPECT_LE(mostPixels(view, box, off), 0.25 * 1.01) << "1 % for what is not linear";
+        EXPECT_GT(mostPixels(view, box, off), 0.1);
+    }
 }
 
 TEST(TerrainTiles, ThatAFrameHoldsStayAsTheyAre) {
