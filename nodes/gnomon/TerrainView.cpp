@@ -43,6 +43,16 @@ double pixelsAt(const Corners& corners, const glm::dmat4& clipFromTiles, const o
     return nearest > 0.0 ? most / nearest : infinite;
 }
 
+/// False if all points are beyond one side of the view, or behind the eye: quick, for it is asked of all that is not seen.
+bool mayBeInView(const std::vector<glm::dvec4>& clipPoints) {
+    for (const auto& side : {glm::dvec4(1, 0, 0, 1), glm::dvec4(-1, 0, 0, 1), glm::dvec4(0, 1, 0, 1),
+                             glm::dvec4(0, -1, 0, 1), glm::dvec4(0, 0, 0, 1)})
+        if (std::all_of(clipPoints.begin(), clipPoints.end(),
+                        [&](const glm::dvec4& point) { return glm::dot(side, point) < 0.0; }))
+            return false;
+    return true;
+}
+
 /// By how much shadows leave their bounds that move in plan on the ground under them.
 glm::dvec3 marginOf(const TileShadows& tile, double moved) {
     if (!(moved > 0.0)) return glm::dvec3(0.0);
@@ -75,7 +85,7 @@ bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high,
                                 i & 4 ? high.z + more.z : low.z - more.z);
         for (const glm::dvec3& at : {corner, corner + way}) corners.push_back(_clipFromTiles * glm::dvec4(at, 1.0));
     }
-    return screenBounds(corners).has_value();
+    return mayBeInView(corners);
 }
 
 double TerrainView::mayBeOff(const TileShadows& tile, double off) const {
