@@ -56,15 +56,11 @@ std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<Sp
         }
     constexpr double wide = 2.0;
     const LightFrame ahead = lampFrame(at, glm::normalize(-at), wide);
-    const auto inside = [&](int corner) {
-        const glm::dvec4 p(corner & 1 ? reach.x : -reach.x, corner & 2 ? reach.y : -reach.y,
-                           corner & 4 ? reach.z : -reach.z, 1.0);
-        return std::all_of(ahead.halfSpaces.begin(), ahead.halfSpaces.end(),
-                           [&](const glm::dvec4& half) { return glm::dot(half, p) > 0.0; });
-    };
-    for (int corner = 0; corner < 8; ++corner)
-        if (!inside(corner)) return frames;
-    return {ahead};
+    const auto corners = boxCorners(-reach, reach, glm::dmat4(1.0));
+    const bool holdsAll = std::all_of(ahead.halfSpaces.begin(), ahead.halfSpaces.end(), [&](const glm::dvec4& half) {
+        return std::all_of(corners.begin(), corners.end(), [&](const auto& p) { return glm::dot(half, p) > 0.0; });
+    });
+    return holdsAll ? std::vector{ahead} : frames;
 }
 
 } // namespace
@@ -150,12 +146,9 @@ bool isBetween(const MapCasters::Box& flat, const glm::dvec4& light, const std::
     const double level = flat.low[axis], in = 1e-6 * glm::length(reach); // what eye space makes of a place in it
     const double side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
     return std::any_of(receivers.begin(), receivers.end(), [&](const Receiver& receiver) {
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec4 corner(i & 1 ? receiver.high.x : receiver.low.x, i & 2 ? receiver.high.y : receiver.low.y,
-                                    i & 4 ? receiver.high.z : receiver.low.z, 1.0);
-            if (!(side * ((receiver.sceneFromBox * corner)[axis] - level) >= -in)) return true;
-        }
-        return false;
+        const auto corners = boxCorners(receiver.low, receiver.high, receiver.sceneFromBox);
+        return std::any_of(corners.begin(), corners.end(),
+                           [&](const glm::dvec4& corner) { return !(side * (corner[axis] - level) >= -in); });
     });
 }
 
@@ -288,8 +281,8 @@ bool LightMaps::needsNew(const LightMap& map) const {
                        [&](const Face& face) { return !face.needed.empty() && !map.holds(face); });
 }
 
-/// Fits anew what does not hold; the finest map comes first, for pixels take the first that holds them.
-void LightMaps::redo(LightMap& map) const {
+/// Without its tiles.
+osg::ref_ptr<MapPicture> LightMaps::pictureOf(const LightMap& map) const {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
     picture->casters = map.flats ? map.casters->all : map.casters->bodies;
     for (const MapCasters::Cutout& cutout : map.casters->cutouts)
@@ -298,6 +291,12 @@ void LightMaps::redo(LightMap& map) const {
     picture->cutoutProgram = _resources->cutoutProgram;
     picture->size = map.wish.size;
     picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
+    return picture;
+}
+
+/// Fits anew what does not hold; the finest map comes first, for pixels take the first that holds them.
+void LightMaps::redo(LightMap& map) const {
+    const osg::ref_ptr<MapPicture> picture = pictureOf(map);
     const int columns = map.faces.size() > 4 ? 3 : 2;
     std::vector<std::pair<const Face*, glm::ivec2>> tiles;
     for (Face& face : map.faces) {

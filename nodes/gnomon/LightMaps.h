@@ -56,6 +56,7 @@ private:
     LightMap& find(const void* stage, int lightNumber);
     osg::ref_ptr<const MapCasters> castersOf(const CasterMesh& mesh);
     bool needsNew(const LightMap& map) const;
+    osg::ref_ptr<MapPicture> pictureOf(const LightMap& map) const;
     void redo(LightMap& map) const;
 
     const osg::ref_ptr<MapResources> _resources;

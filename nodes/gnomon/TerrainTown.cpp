@@ -39,8 +39,9 @@ private:
 };
 
 void measure(TerrainTown::Tile& tile) {
-    tile.low = glm::dvec3(std::numeric_limits<double>::infinity());
-    tile.high = -tile.low;
+    const TerrainTown::Tile none;
+    tile.low = none.low;
+    tile.high = none.high;
     const auto take = [&](const glm::dvec3& point) {
         tile.low = glm::min(tile.low, point);
         tile.high = glm::max(tile.high, point);

@@ -21,21 +21,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double leastPixels = 1.0;
 constexpr double unseenPixels = 0.25; // half of what the edges of a picture are off by themselves
 
-using Corners = std::array<glm::dvec4, 8>;
-
-/// Of a mesh's bounds, in clip space.
-Corners cornersOf(const TerrainMesh& mesh, const glm::dvec3& margin, const glm::dmat4& clipFromTiles) {
-    const glm::dvec3 low = mesh.low - margin, high = mesh.high + margin;
-    Corners corners;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const glm::dvec3 corner(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-        corners[i] = clipFromTiles * glm::dvec4(corner, 1.0);
-    }
-    return corners;
-}
-
 /// How many pixels long what has a length of 1 at the nearest of the corners can be, wherever it is on the screen.
-double pixelsAt(const Corners& corners, const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
+double pixelsAt(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
     const auto lengthOf = [&](int row) { return glm::length(glm::dvec3(glm::row(clipFromTiles, row))); };
     double nearest = infinite, most = 0.0;
     for (const glm::dvec4& corner : corners) nearest = std::min(nearest, corner.w);
@@ -64,13 +51,19 @@ glm::dvec3 marginOf(const TileShadows& tile, double moved) {
 TerrainView::TerrainView(const ViewFrame& view, const glm::dvec3& origin)
     : _pixels(view.pixels), _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)) {}
 
-std::optional<ScreenRect> TerrainView::seen(const TerrainMesh& mesh, const TileShadows& tile, double moved) const {
-    if (mesh.layers() == 0) return std::nullopt;
-    const Corners corners = cornersOf(mesh, marginOf(tile, moved), _clipFromTiles);
+TerrainView::Shown TerrainView::shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const {
+    if (mesh.layers() == 0) return {};
+    const glm::dvec3 margin = marginOf(tile, moved);
+    const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromTiles);
     const auto bounds = screenBounds({corners.begin(), corners.end()});
-    if (!ShadowBin::getFilter()) return bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}});
-    const double widest = (tile.widest + 2.0 * moved) * pixelsAt(corners, _clipFromTiles, _pixels);
-    return widest < leastPixels ? std::nullopt : bounds;
+    const double pixels = pixelsAt(corners, _clipFromTiles, _pixels);
+    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels};
+    const bool isTooSmall = (tile.widest + 2.0 * moved) * pixels < leastPixels;
+    return {isTooSmall ? std::nullopt : bounds, pixels};
+}
+
+std::optional<ScreenRect> TerrainView::seen(const TerrainMesh& mesh, const TileShadows& tile) const {
+    return shown(mesh, tile, 0.0).bounds;
 }
 
 bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& light, double lowest,
@@ -80,11 +73,9 @@ bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high,
     const glm::dvec3 way = -glm::dvec3(light) / light.z * fall; // of the highest, to the lowest ground
     const glm::dvec3 more(margin * glm::length(high - low - way));
     std::vector<glm::dvec4> corners;
-    for (std::size_t i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1 ? high.x + more.x : low.x - more.x, i & 2 ? high.y + more.y : low.y - more.y,
-                                i & 4 ? high.z + more.z : low.z - more.z);
-        for (const glm::dvec3& at : {corner, corner + way}) corners.push_back(_clipFromTiles * glm::dvec4(at, 1.0));
-    }
+    for (const glm::dvec3& moved : {glm::dvec3(0.0), way})
+        for (const glm::dvec4& corner : boxCorners(low - more + moved, high + more + moved, _clipFromTiles))
+            corners.push_back(corner);
     return mayBeInView(corners);
 }
 
@@ -92,11 +83,9 @@ double TerrainView::mayBeOff(const TileShadows& tile, double off) const {
     if (!ShadowBin::getFilter()) return 0.0;
     const double onSlope = std::sqrt(1.0 + tile.found.steepest * tile.found.steepest); // of a length of 1 in plan
     double least = infinite;
-    for (const TerrainMesh* mesh : {tile.decals.get(), tile.prisms.get()}) {
-        if (!seen(*mesh, tile, off)) continue;
-        const Corners corners = cornersOf(*mesh, marginOf(tile, off), _clipFromTiles);
-        least = std::min(least, unseenPixels / (onSlope * pixelsAt(corners, _clipFromTiles, _pixels)));
-    }
+    for (const TerrainMesh* mesh : {tile.decals.get(), tile.prisms.get()})
+        if (const Shown now = shown(*mesh, tile, off); now.bounds)
+            least = std::min(least, unseenPixels / (onSlope * now.pixels));
     return least;
 }
 

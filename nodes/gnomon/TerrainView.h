@@ -19,8 +19,8 @@ public:
 
     const glm::dmat4& clipFromTiles() const { return _clipFromTiles; }
     /// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn: it is empty, out of sight, or its
-    /// widest shadow is smaller than a pixel. @param moved  by how much its shadows may be somewhere else, in any direction.
-    std::optional<ScreenRect> seen(const TerrainMesh& mesh, const TileShadows& tile, double moved = 0.0) const;
+    /// widest shadow is smaller than a pixel.
+    std::optional<ScreenRect> seen(const TerrainMesh& mesh, const TileShadows& tile) const;
     /// By how much a tile's shadows may be off without being seen to be: a quarter of a pixel where they are nearest,
     /// infinite out of sight. @param off  by how much they may be off in plan.
     double mayBeOff(const TileShadows& tile, double off) const;
@@ -31,6 +31,13 @@ public:
                          double margin) const;
 
 private:
+    struct Shown {
+        std::optional<ScreenRect> bounds; ///< see seen().
+        double pixels = 0.0;              ///< that a length of 1 can be there.
+    };
+    /// @param moved  by how much the shadows may be somewhere else, in any direction.
+    Shown shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const;
+
     const osg::Vec2d _pixels;
     const glm::dmat4 _clipFromTiles;
 };

@@ -17,7 +17,6 @@ namespace gnomon {
 namespace {
 
 constexpr double tolerance = 1e-6; // of a part's size: what single precision leaves of a plane, and some more
-constexpr double alike = 1e-3;     // between unit normals of faces in one plane
 
 /// To within 10⁻⁵ radians: no light from above meets such a face from outside.
 bool looksDown(const glm::dvec3& normal) { return normal.z < -1.0 + 0.5e-10; }
@@ -151,13 +150,9 @@ HullPlanes::HullPlanes(const ConvexHull& hull, double flatness) : _flatness(flat
 }
 
 HullPlanes::Known* HullPlanes::find(const glm::dvec3& normal, const Points& points) {
-    const auto end = _planes.upper_bound(normal.z + alike);
-    for (auto at = _planes.lower_bound(normal.z - alike); at != end; ++at) {
-        const auto in = [&](const glm::dvec3& p) { return std::abs(distance(at->second.plane, p)) <= _flatness; };
-        if (glm::length(glm::dvec3(at->second.plane) - normal) <= alike &&
-            std::all_of(points.begin(), points.end(), in))
-            return &at->second;
-    }
+    const auto end = _planes.upper_bound(normal.z + alikeNormals);
+    for (auto at = _planes.lower_bound(normal.z - alikeNormals); at != end; ++at)
+        if (isPlaneOf(at->second.plane, normal, points, _flatness)) return &at->second;
     return nullptr;
 }
 

@@ -10,7 +10,6 @@
 namespace gnomon {
 namespace {
 
-constexpr double alike = 1e-3;          // between unit normals of triangles in one plane
 constexpr std::size_t mostAsked = 1000; // points of planes
 
 using Points = std::vector<glm::dvec3>;
@@ -30,8 +29,10 @@ public:
     /// The plane of a triangle; nullopt if a point is outside, or there are too many.
     std::optional<glm::dvec4> of(const Triangle& t) {
         const glm::dvec4 own = planeOf(_points, t);
-        const auto known =
-            std::find_if(_planes.begin(), _planes.end(), [&](const glm::dvec4& plane) { return isIn(t, own, plane); });
+        const std::array<glm::dvec3, 3> corners = {_points[t[0]], _points[t[1]], _points[t[2]]};
+        const auto known = std::find_if(_planes.begin(), _planes.end(), [&](const glm::dvec4& plane) {
+            return isPlaneOf(plane, glm::dvec3(own), corners, _flatness);
+        });
         if (known != _planes.end()) return *known;
         _planes.push_back(own);
         if (_planes.size() * _points.size() > mostAsked) return std::nullopt;
@@ -47,12 +48,6 @@ public:
     }
 
 private:
-    bool isIn(const Triangle& t, const glm::dvec4& own, const glm::dvec4& plane) const {
-        return glm::length(glm::dvec3(plane - own)) <= alike && std::all_of(t.begin(), t.end(), [&](unsigned corner) {
-                   return std::abs(distance(plane, _points[corner])) <= _flatness;
-               });
-    }
-
     const Points& _points;
     const double _flatness;
     std::vector<glm::dvec4> _planes;

@@ -128,10 +128,8 @@ glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double fart
 
 std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
                                       std::vector<glm::dvec4> halfSpaces) {
-    std::vector<glm::dvec4> corners;
-    for (int i = 0; i < 8; ++i)
-        corners.push_back(sceneFromBox *
-                          glm::dvec4(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0));
+    const auto all = boxCorners(low, high, sceneFromBox);
+    std::vector<glm::dvec4> corners(all.begin(), all.end());
     bool whole = true;
     for (const glm::dvec4& half : halfSpaces) {
         const auto outside = [&half](const glm::dvec4& corner) { return glm::dot(half, corner) < 0.0; };

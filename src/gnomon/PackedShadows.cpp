@@ -147,7 +147,10 @@ void findRates(const Ground& ground, const std::vector<double>& heights, const g
                PackedShadows& found) {
     constexpr double enough = 0.25; // more than what shadows move by on level ground
     if (light.w != 0.0) return;
-    if (std::any_of(found.outcomes.begin(), found.outcomes.end(), mayAppear)) found.rates.fill(infinite);
+    if (std::any_of(found.outcomes.begin(), found.outcomes.end(), mayAppear)) {
+        found.rates.fill(infinite);
+        return;
+    }
     if (found.corners.empty()) return;
     const glm::dvec2 way = shiftOf(light);
     const glm::vec3* corners = found.corners.data();
@@ -155,12 +158,15 @@ void findRates(const Ground& ground, const std::vector<double>& heights, const g
     const Slopes all = slopesIn(ground, reachOf(found, corners, corners + found.corners.size(), tallest), way);
     found.steepest = all.steepest;
     const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
-    const bool isEnough = !grid || all.grazing() * glm::length(way) <= enough;
+    const double shift = glm::length(way);
+    const bool isEnough = !grid || all.grazing() * shift <= enough;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const PackedShadow shadow = found[i];
         if (shadow.cornerCount == 0) continue;
-        const PlanBox box = reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, heights[i]);
-        takeRates(found, heights[i], isEnough ? all.grazing() : slopesIn(*grid, box, way).grazing(), glm::length(way));
+        const auto box = [&] {
+            return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, heights[i]);
+        };
+        takeRates(found, heights[i], isEnough ? all.grazing() : slopesIn(*grid, box(), way).grazing(), shift);
     }
 }
 

@@ -123,6 +123,14 @@ Limits limitsAlong(const std::vector<glm::dvec4>& points, int axis) {
 
 } // namespace
 
+std::array<glm::dvec4, 8> boxCorners(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& frameFromBox) {
+    std::array<glm::dvec4, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        corners[i] =
+            frameFromBox * glm::dvec4(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0);
+    return corners;
+}
+
 std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high,
                                const std::vector<glm::dvec4>& halfSpaces) {
     const bool finite =

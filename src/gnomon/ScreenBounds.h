@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -8,6 +9,9 @@
 #include <vector>
 
 namespace gnomon {
+
+/// The eight corners of a box, homogeneous, in another frame: low and high x in turn, then y, then z.
+std::array<glm::dvec4, 8> boxCorners(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& frameFromBox);
 
 /// Corners of the convex body that is left of a box [low, high] after cutting it by half-spaces
 /// (a point is kept where dot(halfSpace, (x, y, z, 1)) >= 0). A superset of its corners within the body is allowed.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Cascades: how far edges are off in a long view, seams, what is drawn again.
-#include "TracedCases.h"
+#include "MovingCase.h"
 
 #include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>
-#include <osg/MatrixTransform>
 
 #include <algorithm>
 #include <iostream>
@@ -121,29 +120,8 @@ TEST(MapCascades, ThatAreFineDoNotAnswerForWhatIsBeyondThem) {
     EXPECT_GT(result.shadowed, 100) << result;
 }
 
-/// A street with something that can be moved, seen by a camera that can be moved.
-struct Street {
-    Street() {
-        mover->addChild(test::node(test::box({300.0, -3.0, 0.0}, {304.0, 0.0, 2.0})));
-        scene.content->addChild(mover);
-        scene.addShadow(technique);
-    }
-    unsigned passesInFrame() {
-        const unsigned before = technique->passes();
-        camera.frame();
-        return technique->passes() - before;
-    }
-    void look(const osg::Matrixd& from) {
-        test::View view = given.view;
-        view.view = view.view * from;
-        camera.setView(view);
-    }
-
-    TracedCase given = longStreet(45.0);
-    Scene scene = given.build();
-    osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
-    osg::ref_ptr<ShadowMapTechnique> technique = cascadesOf(3, 512);
-    test::Camera camera{scene.root, given.view};
+struct Street : test::MovingCase {
+    Street() : MovingCase(longStreet(45.0), test::box({300.0, -3.0, 0.0}, {304.0, 0.0, 2.0}), cascadesOf(3, 512)) {}
 };
 
 TEST(MapCascades, AreAllDrawnAgainWhenACasterMovesAndNoneWhileAllIsStill) {

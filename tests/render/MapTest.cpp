@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Shadow maps against the truth image; acne, lights, passes, limits.
-#include "TracedCases.h"
+#include "MovingCase.h"
 
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
-#include <osg/MatrixTransform>
 
 #include <cmath>
 #include <iostream>
@@ -148,24 +147,8 @@ TEST(Map, TakesEachOfThreeLightsFromWhereItDoesNotReach) {
     EXPECT_EQ(technique->passes(), 2u + 3u); // in the first of two frames: each sun; the lamp down and to two sides
 }
 
-/// A scene with a caster that can be moved, seen by a camera that can be turned.
-struct Moving {
-    Moving() {
-        mover->addChild(test::node(test::box({3.0, 3.0, 1.0}, {4.0, 4.0, 2.0})));
-        scene.content->addChild(mover);
-        scene.addShadow(technique);
-    }
-    unsigned passesInFrame() {
-        const unsigned before = technique->passes();
-        camera.frame();
-        return technique->passes() - before;
-    }
-
-    TracedCase given = labEight();
-    Scene scene = given.build();
-    osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
-    osg::ref_ptr<ShadowMapTechnique> technique = mapOf(512);
-    test::Camera camera{scene.root, given.view};
+struct Moving : test::MovingCase {
+    Moving() : MovingCase(labEight(), test::box({3.0, 3.0, 1.0}, {4.0, 4.0, 2.0}), mapOf(512)) {}
 };
 
 // Each of three suns has a map, and when one of them moves it is its map that is drawn again.
@@ -204,9 +187,7 @@ TEST(MapPasses, AreNoneWhileTheCameraTurnsWithinWhatIsCovered) {
     Moving moving;
     moving.passesInFrame();
     for (int step = 1; step <= 20; ++step) { // 5 degrees in all, of a picture of 53
-        test::View view = moving.given.view;
-        view.view = view.view * osg::Matrixd::rotate(osg::DegreesToRadians(0.25 * step), 0.0, 1.0, 0.0);
-        moving.camera.setView(view);
+        moving.look(osg::Matrixd::rotate(osg::DegreesToRadians(0.25 * step), 0.0, 1.0, 0.0));
         EXPECT_EQ(moving.passesInFrame(), 0u) << step;
     }
 }
