@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/MapMark.h>
+#include <gnomon/MapQuad.h>
+#include <gnomon/MarkJob.h>
 
 namespace gnomon {
 

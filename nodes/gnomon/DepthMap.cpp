@@ -2,6 +2,7 @@
 #include <gnomon/DepthMap.h>
 #include <gnomon/FramebufferBindings.h>
 #include <gnomon/MarkProgram.h>
+#include <gnomon/RawSampler.h>
 #include <gnomon/ScreenPass.h>
 
 #include <OpenThreads/ScopedLock>
@@ -28,6 +29,9 @@ osg::ref_ptr<osg::Texture2D> mapTexture(const glm::ivec2& size, osg::Texture::Fi
         texture->setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
     return texture;
 }
+
+constexpr const char* noSamplers =
+    "draws penumbras no wider than its filter in this context: wider ones need OpenGL 3.3, or its sampler objects.";
 
 /// OpenGL as a map is drawn under; put back at its end.
 class MapState {
@@ -87,6 +91,19 @@ std::string DepthMap::show(osg::RenderInfo& renderInfo, const MapPicture& pictur
     return draw(renderInfo, target, picture, drawn);
 }
 
+std::string DepthMap::updateBlocks(osg::State& state, const osg::StateSet& program) {
+    if (!RawSampler::isSupported(state)) return noSamplers;
+    Target& target = targetOf(state.getContextID());
+    if (target.inBlocks) return "";
+    {
+        Lock lock(_mutex);
+        if (!_blocks) _blocks = new BlockDepths(size);
+    }
+    const std::string cause = _blocks->update(state, program, *_texture);
+    if (cause.empty()) target.inBlocks = target.shown;
+    return cause;
+}
+
 void DepthMap::bind(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _texture); }
 
 /// @return false if OpenGL cannot draw to it.
@@ -125,6 +142,7 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     }
     const std::string cause = drawCutouts(renderInfo, picture, due);
     target.shown = cause.empty() ? &picture : nullptr;
+    target.inBlocks = nullptr;
     return cause;
 }
 
@@ -151,11 +169,15 @@ DepthMap::Target& DepthMap::targetOf(unsigned context) {
     return _targets[context];
 }
 
-void DepthMap::resizeGLObjectBuffers(unsigned maxSize) { _texture->resizeGLObjectBuffers(maxSize); }
+void DepthMap::resizeGLObjectBuffers(unsigned maxSize) {
+    _texture->resizeGLObjectBuffers(maxSize);
+    if (_blocks) _blocks->resizeGLObjectBuffers(maxSize);
+}
 
 void DepthMap::release(osg::State* state) {
     _texture->releaseGLObjects(state);
     Lock lock(_mutex);
+    if (_blocks) _blocks->release(state);
     for (auto entry = _targets.begin(); entry != _targets.end();) {
         const bool meant = !state || state->getContextID() == entry->first;
         if (meant && entry->second.framebuffer)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/BlockDepths.h>
 #include <gnomon/MapCasters.h>
 
 #include <OpenThreads/Mutex>
@@ -54,6 +55,11 @@ public:
     std::string show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn);
     void bind(osg::State& state, unsigned unit) const;
 
+    /// Makes the blocks of this context those of what it shows, unless they are. After show().
+    /// @return as BlockDepths::update().
+    std::string updateBlocks(osg::State& state, const osg::StateSet& program);
+    void bindBlocks(osg::State& state, unsigned unit) const { _blocks->bind(state, unit); }
+
     void resizeGLObjectBuffers(unsigned maxSize);
     void release(osg::State* state);
 
@@ -65,6 +71,7 @@ private:
         GLuint framebuffer = 0;
         const osg::Texture::TextureObject* texture = nullptr; ///< attached to it.
         osg::ref_ptr<const MapPicture> shown;
+        const MapPicture* inBlocks = nullptr; ///< what its blocks are of: `shown`, or none.
     };
     Target& targetOf(unsigned context);
     bool bindTarget(osg::State& state, Target& target) const;
@@ -73,6 +80,7 @@ private:
                             const std::vector<MapPicture::Tile>& tiles) const;
 
     osg::ref_ptr<osg::Texture2D> _texture;
+    osg::ref_ptr<BlockDepths> _blocks; ///< null until they are asked for.
     OpenThreads::Mutex _mutex;
     std::map<unsigned, Target> _targets; ///< by context.
 };

@@ -2,6 +2,7 @@
 #include <gnomon/CascadeSplits.h>
 #include <gnomon/Convert.h>
 #include <gnomon/LightMaps.h>
+#include <gnomon/MapMark.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/geometric.hpp>
@@ -67,12 +68,14 @@ std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<Sp
 
 /// One direction that a light looks in, and one part of what is seen.
 struct LightMaps::Face {
-    explicit Face(const LightFrame& given) : frame(given), casters(given), needed(given) {}
+    explicit Face(const LightFrame& given) : frame(given), casters(given), reach(given), needed(given), held(given) {}
 
     LightFrame frame;
-    std::size_t part = 0;       ///< see viewPart().
-    MapOutline casters, needed; ///< what they can darken; what of that is seen.
-    std::optional<MapFit> fit;  ///< of the map that is drawn.
+    std::size_t part = 0;      ///< see viewPart().
+    MapOutline casters;        ///< what they can darken, were all edges hard.
+    MapOutline reach, needed;  ///< what they can darken; what of that is seen.
+    MapOutline held;           ///< what a map must hold for that.
+    std::optional<MapFit> fit; ///< of the map that is drawn.
 };
 
 struct LightMaps::LightMap {
@@ -103,10 +106,13 @@ struct LightMaps::LightMap {
     double pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const;
     void findSplits(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene, double width);
     bool findNeeded(const std::vector<Receiver>& receivers, const glm::dmat4& clipFromScene, double width);
+    void findNeeded(Face& face, const std::vector<Receiver>& receivers, std::vector<glm::dvec4> halfSpaces) const;
+    double lightRadius(const LightFrame& frame) const;
+    double softness(const Face& face, double farthest) const;
     /// True if the face's map is not to be drawn again.
     bool holds(const Face& face) const;
     MapFit fitOf(const Face& face) const {
-        return fitMap(face.frame, face.needed, face.casters, reserve, border / wish.size,
+        return fitMap(face.frame, face.held, face.reach, reserve, border / wish.size,
                       glm::length(casters->reach) / 64.0);
     }
 };
@@ -152,6 +158,14 @@ bool isBetween(const MapCasters::Box& flat, const glm::dvec4& light, const std::
     });
 }
 
+template <class Mark>
+osg::ref_ptr<MarkJob> markOf(const MapQuad& quad, const ScreenRect& bounds) {
+    osg::ref_ptr<Mark> mark = new Mark;
+    mark->quad = quad;
+    mark->screenBounds = bounds;
+    return mark;
+}
+
 } // namespace
 
 LightMaps::LightMaps() : _resources(new MapResources) {}
@@ -166,7 +180,7 @@ osg::ref_ptr<ConeMark> LightMaps::around(const ViewFrame& view, const glm::dvec4
     return mark;
 }
 
-osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
+osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
                                       const std::optional<SpotCone>& cone, const CasterMesh& mesh,
                                       const MapWish& wish) {
     const glm::dmat4 clipFromScene = toGlm(view.projection) * eyeFromScene(view, mesh);
@@ -181,18 +195,24 @@ osg::ref_ptr<MapMark> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     const auto bounds = map.screenBounds(clipFromScene);
     if (!bounds) return nullptr;
     if (needsNew(map)) redo(map);
-    osg::ref_ptr<MapMark> mark = new MapMark;
-    mark->screenBounds = *bounds;
-    mark->resources = _resources;
-    mark->map = map.map;
-    mark->picture = map.picture;
-    mark->lookUps = map.lookUps;
-    mark->clipFromScene = clipFromScene;
-    if (cone) mark->coneFromScene = coneFromScene(glm::dvec3(light), *cone);
-    mark->defines = wish.defines + "#define MAPS " + std::to_string(map.lookUps.size()) + "\n";
-    if (map.faces.front().frame.sun && map.lookUps.size() > 1) mark->defines += "#define CASCADES\n";
-    if (cone) mark->defines += "#define CONE\n";
-    return mark;
+    MapQuad quad = quadOf(map, clipFromScene);
+    quad.resources = _resources;
+    if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
+    return wish.soft ? markOf<SoftMapMark>(quad, *bounds) : markOf<MapMark>(quad, *bounds);
+}
+
+MapQuad LightMaps::quadOf(const LightMap& map, const glm::dmat4& clipFromScene) {
+    MapQuad quad;
+    quad.map = map.map;
+    quad.picture = map.picture;
+    quad.lookUps = map.lookUps;
+    quad.clipFromScene = clipFromScene;
+    quad.defines = map.wish.defines;
+    const LightFrame& frame = map.faces.front().frame;
+    if (frame.sun && map.lookUps.size() > 1) quad.defines += "#define CASCADES\n";
+    quad.soft = map.wish.soft.has_value();
+    quad.penumbra = map.lightRadius(frame) > 0.0;
+    return quad;
 }
 
 void LightMaps::LightMap::start(const glm::dvec4& given, const std::optional<SpotCone>& givenCone,
@@ -256,22 +276,56 @@ bool LightMaps::LightMap::findNeeded(const std::vector<Receiver>& receivers, con
     findSplits(receivers, clipFromScene, width);
     bool any = false;
     for (Face& face : faces) {
-        face.needed = MapOutline(face.frame);
+        face.needed = face.held = MapOutline(face.frame);
         if (face.casters.empty() || face.part > splits.size()) continue;
-        std::vector<glm::dvec4> halfSpaces = viewPart(clipFromScene, splits, face.part);
-        if (face.frame.sun) // a lamp's have sides of their own
-            for (const glm::dvec4& side : face.casters.sides()) halfSpaces.push_back(side);
-        for (const Receiver& receiver : receivers)
-            face.needed.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
-        face.needed.cut(face.casters);
-        face.needed.limitNearest();
+        findNeeded(face, receivers, viewPart(clipFromScene, splits, face.part));
         any = any || !face.needed.empty();
     }
     return any;
 }
 
+void LightMaps::LightMap::findNeeded(Face& face, const std::vector<Receiver>& receivers,
+                                     std::vector<glm::dvec4> halfSpaces) const {
+    const auto add = [&](MapOutline& to) {
+        for (const Receiver& receiver : receivers)
+            to.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+    };
+    face.reach = face.casters;
+    if (wish.soft) {
+        MapOutline seen(face.frame);
+        add(seen);
+        if (seen.empty()) return;
+        face.reach.grow(softness(face, seen.farthest));
+    }
+    if (face.frame.sun) // a lamp's have sides of their own
+        for (const glm::dvec4& side : face.reach.sides()) halfSpaces.push_back(side);
+    add(face.needed);
+    face.needed.cut(face.reach);
+    face.needed.limitNearest();
+    face.held = face.needed;
+    if (!wish.soft || face.needed.empty()) return;
+    face.held.grow(softness(face, face.needed.farthest));
+    face.held.cut(face.reach);
+    face.held.nearest = std::min(face.held.nearest, face.casters.nearest); // distances from there count
+    face.held.limitNearest();
+}
+
+/// See softReach().
+double LightMaps::LightMap::lightRadius(const LightFrame& frame) const {
+    if (!wish.soft) return 0.0;
+    if (!frame.sun) return wish.soft->lamp;
+    return light.w == 0.0 ? wish.soft->sun : wish.soft->lamp / glm::length(glm::dvec3(light));
+}
+
+/// How far edges of the casters are spread where it is as far as that from the light.
+double LightMaps::LightMap::softness(const Face& face, double farthest) const {
+    MapOutline standing = face.casters;
+    standing.limitNearest();
+    return softReach(face.frame, standing.nearest, farthest, lightRadius(face.frame), wish.soft->radius);
+}
+
 bool LightMaps::LightMap::holds(const Face& face) const {
-    if (!face.fit || !face.fit->covers(face.needed, (border - 1.0) / wish.size)) return false;
+    if (!face.fit || !face.fit->covers(face.held, (border - 1.0) / wish.size)) return false;
     return face.fit->area() <= mostWaste * fitOf(face).area();
 }
 
@@ -314,8 +368,10 @@ void LightMaps::redo(LightMap& map) const {
     const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
     for (const auto& [face, corner] : tiles) {
         picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene});
+        const double radius = map.wish.soft ? map.wish.soft->radius : 0.0;
         map.lookUps.push_back(
-            {face->fit->mapFromScene, mapErrors(face->frame, *face->fit, map.casters->reach, picture->size)});
+            {face->fit->mapFromScene, mapErrors(face->frame, *face->fit, map.casters->reach, picture->size),
+             mapSpread(face->frame, *face->fit, map.lightRadius(face->frame), radius, picture->size)});
         end = glm::max(end, corner + picture->size);
     }
     if (!map.map || map.map->size != end) map.map = new DepthMap(end, map.wish.compare);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ConeMark.h>
-#include <gnomon/MapMark.h>
+#include <gnomon/MapQuad.h>
 #include <gnomon/ShadowLight.h>
 #include <gnomon/SpotCone.h>
 #include <gnomon/ViewFrame.h>
@@ -15,15 +15,28 @@
 
 namespace gnomon {
 
+/// What makes the edges of a technique's shadows wider than its filter; 0: nothing.
+struct MapSoftness {
+    double sun = 0.0;    ///< tangent of half the angle that suns are seen under.
+    double lamp = 0.0;   ///< half the diameter of lamps, scene's unit.
+    double radius = 0.0; ///< of a disc about each place that is averaged, scene's unit.
+
+    bool operator==(const MapSoftness& other) const {
+        return sun == other.sun && lamp == other.lamp && radius == other.radius;
+    }
+};
+
 /// How a technique wants its maps.
 struct MapWish {
     int size = 1024;  ///< texels on a side of a tile.
     int cascades = 0; ///< of a sun: how many of them at most; 0: see cascadesFor().
     osg::Texture::FilterMode compare = osg::Texture::LINEAR;
-    std::string defines; ///< see MapMark.
+    std::string defines;             ///< see MapQuad.
+    std::optional<MapSoftness> soft; ///< edges; else they are hard.
 
     bool operator==(const MapWish& other) const {
-        return size == other.size && cascades == other.cascades && compare == other.compare && defines == other.defines;
+        return size == other.size && cascades == other.cascades && compare == other.compare &&
+               defines == other.defines && soft == other.soft;
     }
 };
 
@@ -38,7 +51,7 @@ public:
     /// @param light  about the casters' origin, see usableLight().
     /// @param cone   of a lamp that is a spot: nothing outside it is marked.
     /// @return the marks of a light; null if none of its shadow can be seen.
-    osg::ref_ptr<MapMark> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
+    osg::ref_ptr<MarkJob> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
                                const std::optional<SpotCone>& cone, const CasterMesh& mesh, const MapWish& wish);
     /// Marks of all that is seen outside a spot's cone.
     osg::ref_ptr<ConeMark> around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
@@ -55,6 +68,7 @@ private:
 
     LightMap& find(const void* stage, int lightNumber);
     osg::ref_ptr<const MapCasters> castersOf(const CasterMesh& mesh);
+    static MapQuad quadOf(const LightMap& map, const glm::dmat4& clipFromScene);
     bool needsNew(const LightMap& map) const;
     osg::ref_ptr<MapPicture> pictureOf(const LightMap& map) const;
     void redo(LightMap& map) const;

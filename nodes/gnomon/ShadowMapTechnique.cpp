@@ -5,18 +5,24 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/UsableLight.h>
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon {
 namespace {
 
 constexpr int leastSize = 16, mostSize = 16384;
 
-/// The half that decides hard edges is reached with half a texel of slope; see map.frag.
+constexpr double mostAngle = 20.0, mostLength = 1e6;
+
 std::string definesOf(ShadowMapTechnique::Filter filter) {
     constexpr const char* names[] = {"NEAREST", "BILINEAR", "BICUBIC"};
-    return std::string("#define ") + names[filter] + "\n#define KERNEL 0.5\n#define THRESHOLD 0.5\n";
+    return std::string("#define ") + names[filter] + "\n";
 }
+
+double within(double value, double most) { return value > 0.0 ? std::min(value, most) : 0.0; }
 
 } // namespace
 
@@ -27,6 +33,10 @@ ShadowMapTechnique::ShadowMapTechnique(const ShadowMapTechnique& other, const os
       _size(other._size),
       _filter(other._filter),
       _cascades(other._cascades),
+      _edges(other._edges),
+      _sunAngle(other._sunAngle),
+      _lampSize(other._lampSize),
+      _radius(other._radius),
       _maps(std::make_unique<LightMaps>()) {}
 
 ShadowMapTechnique::~ShadowMapTechnique() = default;
@@ -34,6 +44,12 @@ ShadowMapTechnique::~ShadowMapTechnique() = default;
 void ShadowMapTechnique::setSize(int texels) { _size = std::clamp(texels, leastSize, mostSize); }
 
 void ShadowMapTechnique::setCascades(int maps) { _cascades = std::clamp(maps, 0, mostCascades); }
+
+void ShadowMapTechnique::setSunAngle(double degrees) { _sunAngle = within(degrees, mostAngle); }
+
+void ShadowMapTechnique::setLampSize(double diameter) { _lampSize = within(diameter, mostLength); }
+
+void ShadowMapTechnique::setRadius(double radius) { _radius = within(radius, mostLength); }
 
 unsigned ShadowMapTechnique::passes() const { return _maps->resources().passes; }
 
@@ -46,15 +62,20 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
         return {};
     }
     reportUnknownTests(view.frameNumber, mesh);
-    const MapWish wish{_size, _cascades, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
-                       definesOf(_filter)};
     const std::optional<SpotCone> cone = spotOf(light);
     std::vector<osg::ref_ptr<MarkJob>> marks;
     if (cone && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
         marks.emplace_back(_maps->around(view, *usable, *cone, mesh));
-    const osg::ref_ptr<MapMark> mark = _maps->mark(view, light.number, *usable, cone, mesh, wish);
+    const osg::ref_ptr<MarkJob> mark = _maps->mark(view, light.number, *usable, cone, mesh, wish());
     if (mark) marks.emplace_back(mark); // else out of sight: nothing to say
     return marks;
+}
+
+MapWish ShadowMapTechnique::wish() const {
+    MapWish wish{_size, _cascades, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
+                 definesOf(_filter), std::nullopt};
+    if (_edges == SOFT) wish.soft = MapSoftness{std::tan(glm::radians(_sunAngle / 2.0)), _lampSize / 2.0, _radius};
+    return wish;
 }
 
 void ShadowMapTechnique::reportUnknownTests(unsigned frame, const CasterMesh& mesh) const {

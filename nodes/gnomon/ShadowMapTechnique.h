@@ -8,6 +8,7 @@
 namespace gnomon {
 
 class LightMaps;
+struct MapWish;
 
 /// Shadow on everything that is seen, by depth maps: the casters drawn once as each light sees them, and what is seen
 /// compared with that.
@@ -33,12 +34,18 @@ class LightMaps;
 /// Alpha   of casters with an alpha test (osg::AlphaFunc) casts what that leaves of them, by the alpha of the 2D texture on
 ///         unit 0 at coordinates given a vertex; where alpha comes from elsewhere, all of them casts, and diagnose() says
 ///         so.
-/// Edges   hard: what gets less than half of the light, by the filter, gets none.
+/// Edges   hard: what gets less than half of the light, by the filter, gets none. Soft, see setEdges(): as much as the filter
+///         says, or, of a light that is seen under an angle, as much as comes past what stands before it: its penumbra,
+///         where that is wider than two texels.
 ///
 /// Cost    while nothing changes, a copy of the depth buffer and one quad over what the shadows' bounds cover; a draw of
 ///         all casters' positions when a map is made. A spot that relights takes another copy and quad, of all that is seen.
-/// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named.
-/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). Of alpha tests, alpha of vertices and
+///         Of a pixel 1, 1 or 4 comparisons of 2 × 2 texels, by the filter; soft edges take another copy and quad, and in
+///         penumbras 16 texels and 8 to 32 comparisons more.
+/// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named. Soft edges:
+///         alpha bits, see ShadowCasterGroup; penumbras: OpenGL 3.3 or its sampler objects.
+/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). A penumbra is that of one straight edge as far
+///         away as what blocks the light there is on average: where several edges at several distances overlap it is a guess. Of alpha tests, alpha of vertices and
 ///         materials counts as 1, and where the map is coarser than the texture its mipmaps are what is tested; what is
 ///         blended casts as if it were solid. A ShadowQuery takes all casters for solid and knows no cones. What writes no
 ///         depth does not receive; what is drawn with a polygon offset or a depth range of its own receives as if it stood
@@ -63,6 +70,11 @@ public:
         BICUBIC   ///< with 4 × 4, weighted by cubic B-splines: rounded, 0.35 texel off.
     };
 
+    enum Edges : int {
+        HARD, ///< a pixel has all of a light or none of it.
+        SOFT  ///< it has the share that arrives.
+    };
+
     ShadowMapTechnique();
     ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowMapTechnique)
@@ -84,6 +96,24 @@ public:
     void setCascades(int maps);
     int getCascades() const { return _cascades; }
 
+    /// Default HARD, which any value that is none of them stands for too. What follows counts where edges are soft.
+    void setEdges(Edges edges) { _edges = edges == SOFT ? SOFT : HARD; }
+    Edges getEdges() const { return _edges; }
+
+    /// Angle under which suns are seen, degrees, 0 … 20; default 0.533, the sun's own from the earth; 0 is a point, whose edges
+    /// are as wide as the filter. Clamped; what is not a number is 0.
+    void setSunAngle(double degrees);
+    double getSunAngle() const { return _sunAngle; }
+
+    /// Diameter of lamps and spots, scene's unit, 0 … 1e6; default 0, a point. Clamped; what is not a number is 0.
+    void setLampSize(double diameter);
+    double getLampSize() const { return _lampSize; }
+
+    /// Radius of the disc, across the light's way, that is averaged about every place, scene's unit, 0 … 1e6: edges as wide
+    /// as that wherever they fall, for looks; default 0, the filter alone. Clamped; what is not a number is 0.
+    void setRadius(double radius);
+    double getRadius() const { return _radius; }
+
     /// Maps drawn so far, over all lights, views and contexts: rises only where something changed.
     unsigned passes() const;
 
@@ -98,10 +128,14 @@ protected:
 
 private:
     void reportUnknownTests(unsigned frame, const CasterMesh& mesh) const;
+    MapWish wish() const;
 
     int _size = 1024;
     Filter _filter = BICUBIC;
     int _cascades = 0;
+    Edges _edges = HARD;
+    double _sunAngle = 0.533;
+    double _lampSize = 0.0, _radius = 0.0;
     std::unique_ptr<LightMaps> _maps;
 };
 

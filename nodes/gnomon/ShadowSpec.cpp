@@ -94,6 +94,29 @@ bool takeCascades(ShadowSpec& spec, const std::string& value) {
     return spec.cascades.has_value();
 }
 
+bool takeEdges(ShadowSpec& spec, const std::string& value) {
+    if (value == "hard")
+        spec.edges = ShadowMapTechnique::HARD;
+    else if (value == "soft")
+        spec.edges = ShadowMapTechnique::SOFT;
+    return spec.edges.has_value();
+}
+
+bool takeSunAngle(ShadowSpec& spec, const std::string& value) {
+    spec.sunAngle = numberIn(value, 0.0, 20.0);
+    return spec.sunAngle.has_value();
+}
+
+bool takeLampSize(ShadowSpec& spec, const std::string& value) {
+    spec.lampSize = numberIn(value, 0.0, 1e6);
+    return spec.lampSize.has_value();
+}
+
+bool takeRadius(ShadowSpec& spec, const std::string& value) {
+    spec.radius = numberIn(value, 0.0, 1e6);
+    return spec.radius.has_value();
+}
+
 bool takeReceiver(ShadowSpec& spec, const std::string& value) {
     spec.receiver = value;
     return !value.empty();
@@ -123,6 +146,10 @@ osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const NamedNode*) 
     if (spec.size) node->setSize(*spec.size);
     if (spec.filter) node->setFilter(*spec.filter);
     if (spec.cascades) node->setCascades(*spec.cascades);
+    if (spec.edges) node->setEdges(*spec.edges);
+    if (spec.sunAngle) node->setSunAngle(*spec.sunAngle);
+    if (spec.lampSize) node->setLampSize(*spec.lampSize);
+    if (spec.radius) node->setRadius(*spec.radius);
     return node;
 }
 
@@ -152,6 +179,14 @@ const std::vector<Technique>& techniques() {
                                "compare 1, 2 x 2 or 4 x 4 texels of the map", takeFilter};
     static const Key cascades = {"cascades", "auto, 1 to 4", "auto", "maps of a sun, each for a part of a long view",
                                  takeCascades};
+    static const Key edges = {"edges", "hard, soft", "hard",
+                              "all of the light or none of it, or the share that arrives", takeEdges};
+    static const Key sunAngle = {"sun-angle", "0 to 20, degrees", "0.533",
+                                 "with edges=soft: angle that a sun is seen under; 0 is a point", takeSunAngle};
+    static const Key lampSize = {"lamp-size", "0 to 1e6, scene's unit", "0",
+                                 "with edges=soft: diameter of lamps and spots; 0 is a point", takeLampSize};
+    static const Key radius = {"radius", "0 to 1e6, scene's unit", "0",
+                               "with edges=soft: radius that is averaged everywhere", takeRadius};
     static const std::vector<Technique> table = {
         {"none", true, "no shadow", nullptr, true, {}},
         {"planar",
@@ -183,7 +218,7 @@ const std::vector<Technique>& techniques() {
          "depth maps of the casters as the lights see them; on everything that is seen",
          makeMap,
          true,
-         {size, filter, cascades}},
+         {size, filter, cascades, edges, sunAngle, lampSize, radius}},
         {"volume", false, "", nullptr, true, {}},
         {"traced",
          true,

@@ -24,6 +24,10 @@ struct ShadowSpec {
     std::optional<int> size;                          ///< of map: texels on a side; not given: 1024.
     std::optional<ShadowMapTechnique::Filter> filter; ///< of map; not given: BICUBIC.
     std::optional<int> cascades; ///< of map: maps of a sun at most, 0: as many as it takes; not given: 0.
+    std::optional<ShadowMapTechnique::Edges> edges; ///< of map; not given: HARD.
+    std::optional<double> sunAngle;                 ///< of map with soft edges: degrees; not given: 0.533.
+    std::optional<double> lampSize;                 ///< of map with soft edges: diameter, scene's unit; not given: 0.
+    std::optional<double> radius;                   ///< of map with soft edges: scene's unit; not given: 0.
     /// Name of the node that receives; empty: map and traced everything, the others the node named "ground".
     std::string receiver;
 };

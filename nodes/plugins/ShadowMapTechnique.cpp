@@ -14,4 +14,11 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
     ADD_ENUM_VALUE(BICUBIC);
     END_ENUM_SERIALIZER();
     ADD_INT_SERIALIZER(Cascades, fresh->getCascades());
+    BEGIN_ENUM_SERIALIZER(Edges, HARD);
+    ADD_ENUM_VALUE(HARD);
+    ADD_ENUM_VALUE(SOFT);
+    END_ENUM_SERIALIZER();
+    ADD_DOUBLE_SERIALIZER(SunAngle, fresh->getSunAngle());
+    ADD_DOUBLE_SERIALIZER(LampSize, fresh->getLampSize());
+    ADD_DOUBLE_SERIALIZER(Radius, fresh->getRadius());
 }

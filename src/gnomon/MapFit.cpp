@@ -201,6 +201,14 @@ void MapOutline::limitNearest() {
     if (!_frame.sun) nearest = std::max(nearest, 64.0 * farthest);
 }
 
+void MapOutline::grow(double by) {
+    Polygon wider;
+    for (const glm::dvec2& corner : corners)
+        for (const double x : {-by, by})
+            for (const double y : {-by, by}) wider.push_back(corner + glm::dvec2(x, y));
+    corners = hullOf(std::move(wider));
+}
+
 std::vector<glm::dvec4> MapOutline::sides() const {
     Rectangle rectangle = smallestAbout(corners);
     widen(rectangle);
@@ -256,6 +264,20 @@ MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutli
     fit.mapFromLight = unitFromLight(rectangle, fit.nearest, fit.farthest);
     fit.mapFromScene = fit.mapFromLight * frame.lightFromScene;
     return fit;
+}
+
+double softReach(const LightFrame& frame, double nearest, double farthest, double lightRadius, double radius) {
+    const double perUnit = frame.sun ? 1.0 : -nearest;
+    return lightRadius * std::max(0.0, farthest - nearest) + radius * perUnit;
+}
+
+MapSpread mapSpread(const LightFrame& frame, const MapFit& fit, double lightRadius, double radius, int texels) {
+    const glm::dvec2 texelsAUnit = double(texels) / fit.size; // of x/w and y/w
+    MapSpread spread;
+    spread.penumbra = lightRadius * (fit.farthest - fit.nearest) * texelsAUnit;
+    spread.nearest = radius * (frame.sun ? 1.0 : -fit.nearest) * texelsAUnit;
+    spread.farthest = radius * (frame.sun ? 1.0 : -fit.farthest) * texelsAUnit;
+    return spread;
 }
 
 MapErrors mapErrors(const LightFrame& frame, const MapFit& fit, const glm::dvec3& reach, int texels) {

@@ -47,6 +47,8 @@ public:
     /// Of a lamp: what is nearer than a 64th of the farthest counts as if it were there, for depths of a map get coarse by
     /// what is near.
     void limitNearest();
+    /// Grows to all sides, in x/w and y/w.
+    void grow(double by);
 
     std::vector<glm::dvec2> corners; ///< counter-clockwise.
     double nearest = 0.0, farthest = 0.0;
@@ -79,6 +81,24 @@ struct MapFit {
 ///         CACM 18(7), 1975: a side of it lies along an edge of the hull.
 MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, double reserve, double margin,
               double thick);
+
+/// How far from a place of an outline, in x/w and y/w, what softens an edge there can be.
+/// @param nearest, farthest  depths between which shadows are cast, see MapOutline.
+/// @param lightRadius  half the size of the light: of a sun the tangent of half the angle that it is seen under, of a lamp
+///                     half its diameter, scene's unit; 0 is a point.
+/// @param radius       of a disc about each place that is averaged, scene's unit.
+double softReach(const LightFrame& frame, double nearest, double farthest, double lightRadius, double radius);
+
+/// How wide soft edges are in a map, in texels along its sides.
+struct MapSpread {
+    glm::dvec2 penumbra{0.0}; ///< half of it, for each unit of depth between what casts a shadow and where it falls.
+    glm::dvec2 nearest{0.0}, farthest{0.0}; ///< a disc's radius about a place at these depths.
+};
+/// @param lightRadius, radius  see softReach().
+/// @param texels               on a side.
+/// Source: R. Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches: a penumbra by similar triangles; a lamp's
+///         is linear in the map's depth, too, for that is -1/w.
+MapSpread mapSpread(const LightFrame& frame, const MapFit& fit, double lightRadius, double radius, int texels);
 
 /// How far off a map's depths and places may be, and what its comparison must allow for.
 struct MapError {

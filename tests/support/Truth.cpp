@@ -26,16 +26,22 @@ bool counts(const gnomon::TruthImage& truth, int x, int y) {
     return true;
 }
 
+double red(std::uint32_t color) { return color & 0xffu; }
+
 } // namespace
 
-gnomon::TruthImage truthOf(const std::vector<Mesh>& meshes, const osg::Vec4d& light, const View& view) {
+gnomon::TruthImage truthOf(const std::vector<Mesh>& meshes, const osg::Vec4d& light, const View& view,
+                           double sunAngle) {
     const Mesh all = joined(meshes);
     std::vector<glm::vec3> vertices(all.begin(), all.end());
     std::vector<unsigned> indices;
     for (unsigned i = 0; i < all.size(); ++i) indices.push_back(i);
     const gnomon::RayScene scene({vertices.data(), vertices.size(), indices.data(), indices.size(), glm::dvec3(0.0)});
-    return gnomon::shadowTruth(
-        scene, scene, {gnomon::toGlm(view.view * view.projection), view.width, view.height, gnomon::toGlm(light)});
+    const gnomon::TruthView seen{gnomon::toGlm(view.view * view.projection), view.width, view.height,
+                                 gnomon::toGlm(light)};
+    constexpr int strata = 4;
+    return sunAngle > 0.0 ? gnomon::softShadowTruth(scene, scene, seen, sunAngle, strata)
+                          : gnomon::shadowTruth(scene, scene, seen);
 }
 
 std::ostream& operator<<(std::ostream& out, const TruthComparison& r) {
@@ -73,6 +79,20 @@ gnomon::metrics::BoundaryDistance edgesOff(const Picture& actual, const Picture&
             within.at(x, y) = counts(truth, x, y) && lit.at(x, y) != dark.at(x, y);
         }
     return gnomon::metrics::boundaryDistance(drawn, arrives, within).value();
+}
+
+double shareOff(const Picture& actual, const Picture& lit, const Picture& dark, const gnomon::TruthImage& truth) {
+    double sum = 0.0;
+    int pixels = 0;
+    for (int y = 0; y < truth.height; ++y)
+        for (int x = 0; x < truth.width; ++x) {
+            const double most = red(lit.at(x, y)), least = red(dark.at(x, y));
+            if (!counts(truth, x, y) || !(most - least > 50.0)) continue; // of less, a step of colour is too much
+            const double off = (red(actual.at(x, y)) - least) / (most - least) - truth.at(x, y).lit;
+            sum += off * off;
+            ++pixels;
+        }
+    return std::sqrt(sum / pixels);
 }
 
 } // namespace test

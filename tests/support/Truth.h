@@ -12,7 +12,9 @@
 namespace test {
 
 /// The truth image of what `node(mesh)` draws of these, each of which casts and receives.
-gnomon::TruthImage truthOf(const std::vector<Mesh>& meshes, const osg::Vec4d& light, const View& view);
+/// @param sunAngle  degrees; 0: a sun without extent.
+gnomon::TruthImage truthOf(const std::vector<Mesh>& meshes, const osg::Vec4d& light, const View& view,
+                           double sunAngle = 0.0);
 
 /// A picture against the truth, over pixels in which nothing but one plane is seen, in them and beside them, and which
 /// face the light by more than a cosine of 0.05.
@@ -36,5 +38,8 @@ TruthComparison compare(const Picture& actual, const Picture& lit, const Picture
 /// @throws std::bad_optional_access if the picture or the truth has no edge.
 gnomon::metrics::BoundaryDistance edgesOff(const Picture& actual, const Picture& lit, const Picture& dark,
                                            const gnomon::TruthImage& truth);
+
+/// How far the share of the light that arrives is from the true one, root of the mean square over the same pixels.
+double shareOff(const Picture& actual, const Picture& lit, const Picture& dark, const gnomon::TruthImage& truth);
 
 } // namespace test

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/MapQuad.h>
+#include <gnomon/MarkProgram.h>
+#include <gnomon/RawSampler.h>
+#include <gnomon/ScreenPass.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+constexpr unsigned seenUnit = 0, mapUnit = 1, rawUnit = 2, blocksUnit = 3;
+constexpr double border = 2.0; // texels at a tile's sides that a comparison may reach over
+
+struct Span {
+    int from, to;
+};
+
+/// Pixels of a viewport along one axis. One that begins left of the window has no pixels there.
+Span seenSpan(double origin, double size) { return {std::max(int(origin), 0), int(origin + size)}; }
+
+/// Whole quads of pixels, which OpenGL shades together, as far as they are in view.
+Span wholeQuads(int from, int size, const Span& view) {
+    return {std::max(from & ~1, view.from), std::min((from + size + 1) & ~1, view.to)};
+}
+
+PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport) {
+    const Span x = wholeQuads(pixels.x, pixels.width, seenSpan(viewport.x(), viewport.width()));
+    const Span y = wholeQuads(pixels.y, pixels.height, seenSpan(viewport.y(), viewport.height()));
+    return {x.from, y.from, x.to - x.from, y.to - y.from};
+}
+
+bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p.height)) & 1) != 0; }
+
+} // namespace
+
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
+    const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);
+    const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
+    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
+}
+
+std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double threshold, bool blocked) const {
+    osg::State& state = *renderInfo.getState();
+    const osg::Viewport& viewport = *state.getCurrentViewport();
+    const PixelRect marked = pixelsInScissor(viewport);
+    if (marked.empty()) return "";
+    const PixelRect pixels = wholeQuads(marked, viewport);
+    unsigned drawn = 0;
+    const std::string cause = map->show(renderInfo, *picture, drawn);
+    resources->passes += drawn;
+    if (!cause.empty()) return cause;
+    const SeenDepth::Copy copy = resources->seen.copy(state, pixels);
+    if (!copy.cause.empty()) return copy.cause;
+    const std::string lack = penumbra ? map->updateBlocks(state, *resources->blocksProgram) : "";
+    const bool wide = penumbra && lack.empty();
+    state.apply(resources->program(definesOf(pixels, wide)).get());
+    if (!hasProgram(state)) return noProgram;
+    map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
+    resources->seen.bind(state, seenUnit);
+    setUniforms(state);
+    setUniform(state, "depthError", copy.error);
+    setUniform(state, "wanted", glm::dvec2(threshold, blocked ? 1.0 : 0.0));
+    setUniform(state, "seenPixels",
+               glm::dvec4(pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1));
+    wide ? drawWide(state, pass) : pass.drawQuad();
+    state.apply();
+    return lack;
+}
+
+void MapQuad::drawWide(osg::State& state, ScreenPass& pass) const {
+    map->bindBlocks(state, blocksUnit);
+    map->bind(state, rawUnit);
+    const RawSampler raw(state, rawUnit);
+    setUniform(state, "blocks", int(blocksUnit));
+    setUniform(state, "depths", int(rawUnit));
+    pass.drawQuad();
+}
+
+std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
+    std::string text = defines + "#define MAPS " + std::to_string(lookUps.size()) + "\n";
+    if (coneFromScene) text += "#define CONE\n";
+    if (soft) text += "#define SOFT\n";
+    if (wide) text += "#define PENUMBRA\n";
+    if (!soft && isOdd(pixels)) text += "#define ODD\n";
+    return text;
+}
+
+void MapQuad::setUniforms(osg::State& state) const {
+    const glm::dmat4 sceneFromPixel = glm::inverse(clipFromScene) * clipFromPixel(*state.getCurrentViewport());
+    std::vector<glm::dmat4> mapFromPixel;
+    std::vector<glm::dvec4> columns[3], places;
+    for (std::size_t i = 0; i < lookUps.size(); ++i) {
+        const glm::dmat4 matrix = lookUps[i].mapFromScene * sceneFromPixel, back = glm::inverse(matrix);
+        mapFromPixel.push_back(matrix);
+        for (int axis = 0; axis < 3; ++axis) columns[axis].push_back(back[axis]);
+        places.emplace_back(glm::dvec2(picture->tiles[i].corner), picture->size, border / picture->size);
+    }
+    if (coneFromScene) setUniform(state, "coneFromPixel", *coneFromScene * sceneFromPixel);
+    setUniform(state, "seen", int(seenUnit));
+    setUniform(state, "maps", int(mapUnit));
+    setUniform(state, "texel", 1.0 / glm::dvec2(map->size));
+    setUniform(state, "mapFromPixel", mapFromPixel);
+    setUniform(state, "pixelFromMapX", columns[0]);
+    setUniform(state, "pixelFromMapY", columns[1]);
+    setUniform(state, "pixelFromMapZ", columns[2]);
+    setUniform(state, "place", places);
+    setErrors(state);
+    if (soft) setSpreads(state);
+}
+
+void MapQuad::setErrors(osg::State& state) const {
+    std::vector<glm::dvec4> nearest, farthest;
+    const auto add = [](std::vector<glm::dvec4>& to, const MapError& error) {
+        to.emplace_back(error.depth, error.texels, error.steepest, 0.0);
+    };
+    for (const MapLookUp& lookUp : lookUps) {
+        add(nearest, lookUp.errors.nearest);
+        add(farthest, lookUp.errors.farthest);
+    }
+    setUniform(state, "nearestError", nearest);
+    setUniform(state, "farthestError", farthest);
+}
+
+void MapQuad::setSpreads(osg::State& state) const {
+    std::vector<glm::dvec4> discs;
+    std::vector<glm::dvec2> penumbras;
+    for (const MapLookUp& lookUp : lookUps) {
+        discs.emplace_back(lookUp.spread.nearest, lookUp.spread.farthest);
+        penumbras.push_back(lookUp.spread.penumbra);
+    }
+    setUniform(state, "discs", discs);
+    setUniform(state, "penumbra", penumbras);
+}
+
+} // namespace gnomon

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/DepthMap.h>
+#include <gnomon/MapFit.h>
+#include <gnomon/MapResources.h>
+#include <gnomon/ScreenPass.h>
+
+#include <glm/mat4x4.hpp>
+#include <osg/Viewport>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// From window coordinates x and y, and 1 - depth.
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport);
+
+/// One map of a light, as pixels look it up.
+struct MapLookUp {
+    glm::dmat4 mapFromScene{1.0}; ///< see MapFit; the scene is about the casters' origin.
+    MapErrors errors;
+    MapSpread spread;
+};
+
+/// How pixels of one view find what share of one light reaches them: by what the depth buffer says is seen there, and the
+/// light's maps.
+struct MapQuad {
+    osg::ref_ptr<MapResources> resources;
+    osg::ref_ptr<DepthMap> map;
+    osg::ref_ptr<const MapPicture> picture;
+    std::vector<MapLookUp> lookUps;          ///< one a tile of the picture.
+    glm::dmat4 clipFromScene{1.0};           ///< as drawn.
+    std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no fragments.
+    std::string defines;                     ///< of the fragment shader: how it compares.
+    bool soft = false;                       ///< wider than the filter, see MapSpread.
+    bool penumbra = false;                   ///< and as wide as what blocks the light is far away.
+
+    /// Draws a fragment wherever the share of the light is below the threshold, with the share in alpha; draws the map first,
+    /// if that is due. The pass's stencil test, blending and colour mask stand.
+    /// @param blocked  alpha is the share that does not arrive.
+    /// @return why that is not possible, or not as it should be, as a cause for ShadowTechnique::report(); empty if all is
+    ///         well.
+    std::string draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double threshold, bool blocked = false) const;
+
+private:
+    std::string definesOf(const PixelRect& pixels, bool wide) const;
+    void drawWide(osg::State& state, ScreenPass& pass) const;
+    void setUniforms(osg::State& state) const;
+    void setErrors(osg::State& state) const;
+    void setSpreads(osg::State& state) const;
+};
+
+} // namespace gnomon

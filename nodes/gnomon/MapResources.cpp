@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/MapResources.h>
+#include <gnomon/MarkProgram.h>
+
+#include <gnomon_shaders.h>
+
+#include <OpenThreads/ScopedLock>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+} // namespace
+
+MapResources::MapResources()
+    : casterProgram(markProgram()),
+      cutoutProgram(markProgram("#define CUTOUT\n")),
+      blocksProgram(quadProgram("gnomon blocks", "", shaders::blocks_frag)),
+      coneProgram(quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag)) {}
+
+osg::ref_ptr<const osg::StateSet> MapResources::program(const std::string& defines) {
+    Lock lock(_mutex);
+    osg::ref_ptr<osg::StateSet>& set = _programs[defines];
+    if (!set)
+        set = quadProgram("gnomon map", defines + shaders::cone_frag + shaders::map_filter_frag, shaders::map_frag);
+    return set;
+}
+
+std::vector<osg::ref_ptr<osg::StateSet>> MapResources::all() {
+    Lock lock(_mutex);
+    std::vector<osg::ref_ptr<osg::StateSet>> sets{casterProgram, cutoutProgram, blocksProgram, coneProgram};
+    for (const auto& [defines, set] : _programs) sets.push_back(set);
+    return sets;
+}
+
+void MapResources::resizeGLObjectBuffers(unsigned maxSize) {
+    for (const auto& set : all()) set->resizeGLObjectBuffers(maxSize);
+}
+
+void MapResources::release(osg::State* state) {
+    for (const auto& set : all()) set->releaseGLObjects(state);
+    seen.release(state);
+}
+
+} // namespace gnomon

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/SeenDepth.h>
+
+#include <OpenThreads/Mutex>
+#include <osg/StateSet>
+
+#include <atomic>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What a ShadowMapTechnique's marks share: they belong to it, so that they are released with its other OpenGL objects.
+class MapResources : public osg::Referenced {
+public:
+    MapResources();
+
+    const osg::ref_ptr<osg::StateSet> casterProgram, cutoutProgram, blocksProgram, coneProgram;
+    SeenDepth seen;
+    std::atomic<unsigned> passes{0}; ///< maps drawn so far.
+
+    /// The program for these defines, see map.frag; made at its first use.
+    osg::ref_ptr<const osg::StateSet> program(const std::string& defines);
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void release(osg::State* state);
+
+protected:
+    ~MapResources() override = default;
+
+private:
+    std::vector<osg::ref_ptr<osg::StateSet>> all();
+
+    OpenThreads::Mutex _mutex;
+    std::map<std::string, osg::ref_ptr<osg::StateSet>> _programs;
+};
+
+} // namespace gnomon

@@ -1,0 +1,113 @@
+// What share of the light passes a place of a map: see ShadowMapTechnique. FILTER is NEAREST, BILINEAR or BICUBIC; SOFT, if
+// what is wider than the filter counts; PENUMBRA, if that goes by how far away what blocks the light is.
+
+uniform sampler2DShadow maps;
+uniform vec2 texel;           // of the texture, whose sides are 1
+uniform vec4 place[MAPS];     // of a map in it: corner, and texels on a side; share of it that is border
+
+// At p, in texels of the texture; `slope` is the change of depth a texel on the surface that is compared.
+float lit(vec2 p, float depth, vec2 slope) {
+#ifdef BICUBIC
+    // The cubic B-spline over 4 x 4 comparisons as four of 2 x 2. Source: C. Sigg and M. Hadwiger, "Fast Third-Order
+    // Texture Filtering", GPU Gems 2, 2005.
+    vec2 corner = floor(p - 0.5) + 0.5, f = p - corner, g = 1.0 - f;
+    vec2 w0 = g * g * g / 6.0, w3 = f * f * f / 6.0;
+    vec2 w1 = 2.0 / 3.0 - 0.5 * f * f * (2.0 - f);
+    vec2 low = w0 + w1, high = 1.0 - low;
+    vec2 a = corner - 1.0 + w1 / low, b = corner + 1.0 + w3 / high;
+    vec2 atA = slope * (a - p), atB = slope * (b - p);
+    a *= texel;
+    b *= texel;
+    return low.y * (low.x * texture(maps, vec3(a, depth + atA.x + atA.y))
+                    + high.x * texture(maps, vec3(b.x, a.y, depth + atB.x + atA.y)))
+         + high.y * (low.x * texture(maps, vec3(a.x, b.y, depth + atA.x + atB.y))
+                     + high.x * texture(maps, vec3(b, depth + atB.x + atB.y)));
+#else
+    return texture(maps, vec3(p * texel, depth));
+#endif
+}
+
+#ifdef SOFT
+uniform vec4 discs[MAPS];     // radii of the disc that is averaged, texels: at depth 0: x, y; at depth 1: x, y
+
+// Places spread evenly over a disc: the golden angle from one to the next. Source: H. Vogel, "A better way to construct
+// the sunflower head", Mathematical Biosciences 44, 1979.
+const mat2 golden = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
+
+vec2 withinTile(vec2 p, int i) { return clamp(p, place[i].xy + 0.5, place[i].xy + place[i].z - 0.5); }
+
+float litDisc(int i, vec2 p, float depth, vec2 slope, vec2 radius) {
+    const float fewest = 8.0, most = 32.0, aTexel = 4.0; // taps, as many as keep holes between them small
+    float taps = floor(clamp(aTexel * max(radius.x, radius.y), fewest, most));
+    vec2 way = vec2(1.0, 0.0);
+    float sum = 0.0;
+    for (float tap = 0.5; tap < taps; tap += 1.0) {
+        vec2 at = withinTile(p + sqrt(tap / taps) * radius * way, i);
+        sum += texture(maps, vec3(at * texel, depth + dot(slope, at - p)));
+        way = golden * way;
+    }
+    return sum / taps;
+}
+
+#ifdef PENUMBRA
+uniform sampler2D depths;     // of the maps
+uniform sampler2D blocks;     // the least of them: see BlockDepths
+uniform vec2 penumbra[MAPS];  // half of it, texels, for each unit of depth between what blocks the light and the surface
+
+const float finest = 8.0, widest = 128.0; // sides of blocks, texels
+
+// No more than the least depth within a radius, up to `widest`, of p.
+float leastAbout(vec2 p, float radius) {
+    int level = int(clamp(ceil(log2(radius / finest)), 0.0, log2(widest / finest)));
+    ivec2 at = ivec2(p / (finest * exp2(float(level)))), last = textureSize(blocks, level) - 1;
+    float least = 1.0;
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+            least = min(least, texelFetch(blocks, clamp(at + ivec2(x, y), ivec2(0), last), level).r);
+    return least;
+}
+
+// How far off what blocks part of the light can be, in depth; not more than 0 if there is nothing.
+float mostBetween(int i, vec2 p, float depth) {
+    float wider = max(penumbra[i].x, penumbra[i].y), far = min(depth, widest / wider);
+    for (int step = 0; step < 2; ++step) far = min(far, depth - leastAbout(p, wider * far));
+    return far;
+}
+
+// Mean depth between the surface and what blocks part of the light there; 0 if nothing does.
+float between(int i, vec2 p, float depth, vec2 slope) {
+    const float most = 16.0;
+    float far = mostBetween(i, p, depth), taps = far > 0.0 ? most : 0.0;
+    float aTexel = 1.0 / min(penumbra[i].x, penumbra[i].y), sum = 0.0, found = 0.0;
+    vec2 way = vec2(1.0, 0.0);
+    for (float tap = 0.5; tap < taps; tap += 1.0) {
+        float off = far * sqrt(tap / most);
+        vec2 at = withinTile(p + off * penumbra[i] * way, i);
+        float stands = texture(depths, at * texel).r;
+        float here = float(stands < depth + dot(slope, at - p) && off <= depth - stands + aTexel);
+        found += here;
+        sum += here * (depth - stands);
+        way = golden * way;
+    }
+    return sum / max(found, 1.0);
+}
+#endif
+
+// Radius of what is averaged about a place of map i, texels, at most.
+vec2 mostSpread(int i, float depth) {
+    vec2 radius = mix(discs[i].xy, discs[i].zw, depth);
+#ifdef PENUMBRA
+    radius = max(radius, penumbra[i] * depth);
+#endif
+    return radius;
+}
+
+float litSoftly(int i, vec2 p, float depth, vec2 slope) {
+    vec2 radius = mix(discs[i].xy, discs[i].zw, depth);
+#ifdef PENUMBRA
+    radius = max(radius, penumbra[i] * max(between(i, p, depth, slope), 0.0));
+#endif
+    if (max(radius.x, radius.y) <= 1.0) return lit(p, depth, slope); // the filter is as wide
+    return litDisc(i, p, depth, slope, radius);
+}
+#endif

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+// Soft edges of maps: the share of the light that arrives, against closed forms and against rays.
+#include "TracedCases.h"
+
+#include <gnomon/ShadowMapTechnique.h>
+#include <gtest/gtest.h>
+#include <osg/Math>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+using gnomon::ShadowMapTechnique;
+using test::Picture;
+using test::Scene;
+using test::TracedCase;
+
+namespace {
+
+osg::ref_ptr<ShadowMapTechnique> softMap(int size, double sunAngle) {
+    osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    technique->setSize(size);
+    technique->setEdges(ShadowMapTechnique::SOFT);
+    technique->setSunAngle(sunAngle);
+    return technique;
+}
+
+/// Share of a disc of radius 1 that is on the far side of a line, at a distance of -1 … 1 from its middle.
+double discBeyond(double t) {
+    t = std::clamp(t, -1.0, 1.0);
+    return 0.5 + (t * std::sqrt(1.0 - t * t) + std::asin(t)) / osg::PI;
+}
+
+/// A thin plate, seen from above, whose edge along y at x = 0 casts its shadow on the ground beyond x = 0: the light comes
+/// from where x is negative.
+struct Plate {
+    double height, depth = 40.0, ground = 60.0; ///< how far the plate reaches behind the edge, the ground to each side.
+    osg::Vec4d light{-1.0, 0.0, 1.0, 0.0};
+
+    Scene build() const {
+        return test::groundScene({test::box({-depth, -40.0, height}, {0.0, 40.0, height + 0.001})}, ground, light);
+    }
+    /// Sine of the angle between a way and the plane through a place on the ground and the edge; positive beyond.
+    double beyond(double x, const osg::Vec3d& way) const {
+        return (height * way.x() + x * way.z()) / std::hypot(x, height);
+    }
+};
+
+/// Share of the light at the ground's places x > 0 of a picture from above, which shows [-half, half]².
+struct Shares {
+    double rms = 0.0, largest = 0.0;
+    int partly = 0;
+};
+
+template <class Expected>
+Shares compare(const Picture& picture, double half, const Expected& expected) {
+    // All of the light on the ground is 228 where it comes from 45°; what is lit by lamps differs, and is asked of `expected`.
+    Shares result;
+    double sum = 0.0;
+    int pixels = 0;
+    for (int y = picture.height / 4; y < picture.height * 3 / 4; ++y)
+        for (int x = picture.width / 2 + 2; x < picture.width; ++x) {
+            const double at = (x + 0.5) * 2.0 * half / picture.width - half;
+            const double share =
+                (double(picture.at(x, y) & 0xffu) - test::shadowedGround) / (test::litGround - test::shadowedGround);
+            const double off = std::abs(share - expected(at));
+            result.largest = std::max(result.largest, off);
+            if (expected(at) > 0.02 && expected(at) < 0.98) {
+                sum += off * off;
+                ++pixels;
+            }
+        }
+    result.partly = pixels;
+    result.rms = std::sqrt(sum / std::max(pixels, 1));
+    return result;
+}
+
+std::ostream& operator<<(std::ostream& out, const Shares& s) {
+    return out << "rms " << s.rms << ", largest " << s.largest << ", of " << s.partly << " pixels";
+}
+
+Picture from(Scene scene, ShadowMapTechnique* technique, double half) {
+    if (technique) scene.addShadow(technique);
+    return test::render(scene.root, test::fromAbove(half));
+}
+
+constexpr double half = 4.0;
+
+} // namespace
+
+// 32 comparisons of a disc are good to about a 32nd; the mean distance of what blocks the light is that of its nearer part
+// where little of it does.
+TEST(MapSoft, PenumbraOfASunIsAsWideAsItsDiscMakesIt) {
+    for (const double angle : {2.0, 8.0})
+        for (const double height : {1.0, 2.0, 3.0}) {
+            const Plate plate{height};
+            const osg::Vec3d way(-std::sqrt(0.5), 0.0, std::sqrt(0.5));
+            const double radius = std::sin(osg::DegreesToRadians(angle / 2.0));
+            const Shares result = compare(from(plate.build(), softMap(1024, angle), half), half,
+                                          [&](double x) { return discBeyond(plate.beyond(x, way) / radius); });
+            std::cout << angle << " degrees, height " << height << ": " << result << "\n";
+            EXPECT_LE(result.rms, 0.03) << angle << ", " << height;
+            EXPECT_LE(result.largest, 0.1) << angle << ", " << height;
+            EXPECT_GT(result.partly, 200);
+        }
+}
+
+// Its map is about the way down, while the disc is seen from aside: the closed form has it face each place.
+TEST(MapSoft, PenumbraOfALampIsAsWideAsItsSizeMakesIt) {
+    for (const double size : {0.4, 1.2}) {
+        const Plate plate{1.5, 3.0, 6.0, {-1.5, 0.0, 6.0, 1.0}}; // a ground that is lit at its corners
+        const osg::Vec3d lamp(-1.5, 0.0, 6.0);
+        const osg::ref_ptr<ShadowMapTechnique> technique = softMap(1024, 0.0);
+        technique->setLampSize(size);
+        Scene lit = plate.build(), dark = plate.build(), shadowed = plate.build();
+        dark.takeLightAway();
+        shadowed.addShadow(technique);
+        const test::View view = test::fromAbove(half);
+        const Picture of[] = {test::render(lit.root, view), test::render(dark.root, view),
+                              test::render(shadowed.root, view)};
+        double sum = 0.0, largest = 0.0;
+        int pixels = 0;
+        for (int y = view.height * 3 / 8; y < view.height * 5 / 8; ++y)
+            for (int x = view.width / 2 + 2; x < view.width; ++x) {
+                const auto red = [&](int i) { return double(of[i].at(x, y) & 0xffu); };
+                const osg::Vec3d place((x + 0.5) * 2.0 * half / view.width - half,
+                                       (y + 0.5) * 2.0 * half / view.height - half, 0.0);
+                const double expected = discBeyond(plate.beyond(place.x(), lamp - place) / (size / 2.0));
+                if (red(0) - red(1) < 50.0 || expected < 0.02 || expected > 0.98) continue;
+                const double off = std::abs((red(2) - red(1)) / (red(0) - red(1)) - expected);
+                largest = std::max(largest, off);
+                sum += off * off;
+                ++pixels;
+            }
+        const double rms = std::sqrt(sum / std::max(pixels, 1));
+        std::cout << "lamp of " << size << ": rms " << rms << ", largest " << largest << ", of " << pixels << "\n";
+        EXPECT_LE(rms, 0.05) << size;
+        EXPECT_LE(largest, 0.12) << size;
+        EXPECT_GT(pixels, 200);
+    }
+}
+
+TEST(MapSoft, ARadiusIsThatOfADiscAcrossTheLight) {
+    for (const double radius : {0.1, 0.5}) {
+        const Plate plate{2.0};
+        const osg::ref_ptr<ShadowMapTechnique> technique = softMap(1024, 0.0);
+        technique->setRadius(radius);
+        const Shares result = compare(from(plate.build(), technique, half), half, [&](double x) {
+            return discBeyond((x - plate.height) * std::sqrt(0.5) / radius);
+        });
+        std::cout << "radius " << radius << ": " << result << "\n";
+        EXPECT_LE(result.rms, 0.03) << radius;
+        EXPECT_LE(result.largest, 0.1) << radius;
+        EXPECT_GT(result.partly, 500);
+    }
+}
+
+// Its hard edges are those of the same filter, whatever is added to them.
+TEST(MapSoft, WithoutExtentIsTheFilterAndItsHalfIsTheHardEdge) {
+    const TracedCase town = test::townOfHouses();
+    Scene lit = town.build(), dark = town.build(), hardly = town.build(), softly = town.build();
+    dark.takeLightAway();
+    const osg::ref_ptr<ShadowMapTechnique> hard = softMap(1024, 0.0), soft = softMap(1024, 0.0);
+    hard->setEdges(ShadowMapTechnique::HARD);
+    hardly.addShadow(hard);
+    softly.addShadow(soft);
+    const Picture of[] = {test::render(lit.root, town.view), test::render(dark.root, town.view),
+                          test::render(hardly.root, town.view), test::render(softly.root, town.view)};
+    int between = 0, other = 0;
+    for (int y = 0; y < town.view.height; ++y)
+        for (int x = 0; x < town.view.width; ++x) {
+            const auto red = [&](int i) { return int(of[i].at(x, y) & 0xffu); };
+            if (red(0) - red(1) < 20) continue;
+            const double share = double(red(3) - red(1)) / (red(0) - red(1));
+            between += share > 0.05 && share < 0.95;
+            other += std::abs(share - 0.5) > 0.05 && (share > 0.5) != (red(2) == red(0));
+        }
+    EXPECT_GT(between, 5000);
+    EXPECT_LE(other, between / 50); // slopes at silhouettes are found otherwise
+}
+
+TEST(MapSoft, FlatGroundsAreFreeOfAcne) {
+    for (const double elevation : {90.0, 45.0, 20.0, 10.0}) {
+        const TracedCase given = test::flatGround(8.0, 3.0, elevation, 1.0, 100.0, 20);
+        const Picture lit = test::render(given.build().root, given.view);
+        for (const int size : {256, 2048})
+            for (const auto& [angle, radius] : {std::pair(0.533, 0.0), {10.0, 0.0}, {0.0, 0.3}}) {
+                Scene shadowed = given.build();
+                const osg::ref_ptr<ShadowMapTechnique> technique = softMap(size, angle);
+                technique->setRadius(radius);
+                shadowed.addShadow(technique);
+                EXPECT_EQ(test::render(shadowed.root, given.view).different(lit), 0)
+                    << elevation << " degrees, size " << size << ", sun of " << angle << " degrees, radius " << radius;
+            }
+    }
+}
+
+TEST(MapSoft, IsNearerToRaysAtTheSunsDiscThanHardEdgesAre) {
+    for (const TracedCase& given : {test::labEight(), test::townOfHouses()})
+        for (const double angle : {0.533, 4.0}) {
+            const gnomon::TruthImage truth = test::truthOf(given.meshes, given.light, given.view, angle);
+            Scene lit = given.build(), dark = given.build();
+            dark.takeLightAway();
+            const Picture litPicture = test::render(lit.root, given.view),
+                          darkPicture = test::render(dark.root, given.view);
+            const auto off = [&](ShadowMapTechnique* technique) {
+                Scene shadowed = given.build();
+                shadowed.addShadow(technique);
+                return test::shareOff(test::render(shadowed.root, given.view), litPicture, darkPicture, truth);
+            };
+            const osg::ref_ptr<ShadowMapTechnique> hard = new ShadowMapTechnique;
+            hard->setSize(2048);
+            const double atPoint = off(softMap(2048, 0.0)), atDisc = off(softMap(2048, angle)), hardly = off(hard);
+            std::cout << given.name << ", " << angle << " degrees: hard " << hardly << ", filter " << atPoint
+                      << ", penumbra " << atDisc << "\n";
+            EXPECT_LT(atDisc, hardly * 0.7) << given.name << ", " << angle;
+            EXPECT_LE(atDisc, atPoint * 1.02) << given.name << ", " << angle;
+        }
+}
+
+TEST(MapSoft, TakesNumbersOnlyThatItHas) {
+    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    EXPECT_EQ(technique->getEdges(), ShadowMapTechnique::HARD);
+    EXPECT_EQ(technique->getSunAngle(), 0.533);
+    for (const auto& [asked, kept] :
+         {std::pair(-1.0, 0.0), {3.0, 3.0}, {50.0, 20.0}, {std::numeric_limits<double>::quiet_NaN(), 0.0}}) {
+        technique->setSunAngle(asked);
+        EXPECT_EQ(technique->getSunAngle(), kept);
+        technique->setLampSize(asked);
+        EXPECT_EQ(technique->getLampSize(), asked == 50.0 ? 50.0 : kept);
+        technique->setRadius(asked);
+        EXPECT_EQ(technique->getRadius(), asked == 50.0 ? 50.0 : kept);
+    }
+}
