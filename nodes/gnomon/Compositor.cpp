@@ -49,6 +49,15 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     for (const auto& [dark, group] : blended)
         for (const Jobs& view : byView(group)) blendAny(view, dark);
     draw(StageEffect::Turn::Last);
+    drawViews(jobs);
+}
+
+void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
+    int drawn = 0;
+    for (const ShadowJob& job : jobs)
+        if (job.marks->hasView())
+            _draw.pass({{-1.0, -1.0}, {1.0, 1.0}},
+                       [&](ScreenPass& screen) { job.marks->drawView(_draw.renderInfo, screen, drawn++); });
 }
 
 void Compositor::blendAny(const Jobs& jobs, float dark) {

@@ -33,6 +33,7 @@ private:
     bool composeDirectly(const Jobs& jobs);
     void relight(const Jobs& wanted);
     static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended);
+    void drawViews(const std::vector<ShadowJob>& jobs) const;
     void blendAny(const Jobs& jobs, float dark);
     void blend(const Jobs& jobs, float dark);
 

@@ -159,10 +159,11 @@ bool isBetween(const MapCasters::Box& flat, const glm::dvec4& light, const std::
 }
 
 template <class Mark>
-osg::ref_ptr<MarkJob> markOf(const MapQuad& quad, const ScreenRect& bounds) {
+osg::ref_ptr<MarkJob> markOf(const MapQuad& quad, const ScreenRect& bounds, MapView view) {
     osg::ref_ptr<Mark> mark = new Mark;
     mark->quad = quad;
     mark->screenBounds = bounds;
+    mark->view = view;
     return mark;
 }
 
@@ -198,7 +199,7 @@ osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     MapQuad quad = quadOf(map, clipFromScene);
     quad.resources = _resources;
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
-    return wish.soft ? markOf<SoftMapMark>(quad, *bounds) : markOf<MapMark>(quad, *bounds);
+    return wish.soft ? markOf<SoftMapMark>(quad, *bounds, wish.view) : markOf<MapMark>(quad, *bounds, wish.view);
 }
 
 MapQuad LightMaps::quadOf(const LightMap& map, const glm::dmat4& clipFromScene) {

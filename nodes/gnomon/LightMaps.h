@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ConeMark.h>
-#include <gnomon/MapQuad.h>
+#include <gnomon/MapView.h>
 #include <gnomon/ShadowLight.h>
 #include <gnomon/SpotCone.h>
 #include <gnomon/ViewFrame.h>
@@ -33,7 +33,9 @@ struct MapWish {
     osg::Texture::FilterMode compare = osg::Texture::LINEAR;
     std::string defines;             ///< see MapQuad.
     std::optional<MapSoftness> soft; ///< edges; else they are hard.
+    MapView view = MapView::Nothing; ///< no part of the maps.
 
+    /// True if its maps are the same.
     bool operator==(const MapWish& other) const {
         return size == other.size && cascades == other.cascades && compare == other.compare &&
                defines == other.defines && soft == other.soft;

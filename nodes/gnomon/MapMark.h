@@ -1,27 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/MapQuad.h>
+#include <gnomon/MapView.h>
 #include <gnomon/SoftMarkJob.h>
 
 namespace gnomon {
 
 /// Marks of one light in one view: where the light's maps hold something nearer to it than what is seen.
-class MapMark : public MarkJob {
+template <class Job>
+class MapMarkOf : public Job {
 public:
     MapQuad quad;
+    MapView view = MapView::Nothing;
 
-    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override {
+        return markBelow(0.5, renderInfo, pass, bit);
+    }
+    bool hasView() const override { return view != MapView::Nothing; }
+    void drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int before) const override {
+        drawMapView(quad, view, renderInfo, pass, before);
+    }
 
 protected:
-    ~MapMark() override = default;
+    ~MapMarkOf() override = default;
+
+    std::string markBelow(double share, osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+        pass.stencilEqual(bit, 0, bit);
+        return quad.draw(renderInfo, pass, share);
+    }
 };
 
-/// The same with soft edges.
-class SoftMapMark : public SoftMarkJob {
-public:
-    MapQuad quad;
+using MapMark = MapMarkOf<MarkJob>;
 
-    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+/// The same with soft edges.
+class SoftMapMark : public MapMarkOf<SoftMarkJob> {
+public:
     std::string markTouched(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
     std::string drawShare(osg::RenderInfo& renderInfo, ScreenPass& pass, Share share) const override;
 

@@ -49,9 +49,7 @@ std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double 
     const PixelRect marked = pixelsInScissor(viewport);
     if (marked.empty()) return "";
     const PixelRect pixels = wholeQuads(marked, viewport);
-    unsigned drawn = 0;
-    const std::string cause = map->show(renderInfo, *picture, drawn);
-    resources->passes += drawn;
+    const std::string cause = showMap(renderInfo);
     if (!cause.empty()) return cause;
     const SeenDepth::Copy copy = resources->seen.copy(state, pixels);
     if (!copy.cause.empty()) return copy.cause;
@@ -60,15 +58,23 @@ std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double 
     state.apply(resources->program(definesOf(pixels, wide)).get());
     if (!hasProgram(state)) return noProgram;
     map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
-    resources->seen.bind(state, seenUnit);
-    setUniforms(state);
-    setUniform(state, "depthError", copy.error);
+    setPlaces(state, copy);
+    setColumns(state);
+    setErrors(state);
+    if (soft) setSpreads(state);
     setUniform(state, "wanted", glm::dvec2(threshold, blocked ? 1.0 : 0.0));
     setUniform(state, "seenPixels",
                glm::dvec4(pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1));
     wide ? drawWide(state, pass) : pass.drawQuad();
     state.apply();
     return lack;
+}
+
+std::string MapQuad::showMap(osg::RenderInfo& renderInfo) const {
+    unsigned drawn = 0;
+    const std::string cause = map->show(renderInfo, *picture, drawn);
+    resources->passes += drawn;
+    return cause;
 }
 
 void MapQuad::drawWide(osg::State& state, ScreenPass& pass) const {
@@ -81,7 +87,7 @@ void MapQuad::drawWide(osg::State& state, ScreenPass& pass) const {
 }
 
 std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
-    std::string text = defines + "#define MAPS " + std::to_string(lookUps.size()) + "\n";
+    std::string text = mapDefines();
     if (coneFromScene) text += "#define CONE\n";
     if (soft) text += "#define SOFT\n";
     if (wide) text += "#define PENUMBRA\n";
@@ -89,27 +95,36 @@ std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
     return text;
 }
 
-void MapQuad::setUniforms(osg::State& state) const {
-    const glm::dmat4 sceneFromPixel = glm::inverse(clipFromScene) * clipFromPixel(*state.getCurrentViewport());
+glm::dmat4 MapQuad::sceneFromPixel(const osg::State& state) const {
+    return glm::inverse(clipFromScene) * clipFromPixel(*state.getCurrentViewport());
+}
+
+void MapQuad::setPlaces(osg::State& state, const SeenDepth::Copy& copy) const {
     std::vector<glm::dmat4> mapFromPixel;
-    std::vector<glm::dvec4> columns[3], places;
+    std::vector<glm::dvec4> places;
     for (std::size_t i = 0; i < lookUps.size(); ++i) {
-        const glm::dmat4 matrix = lookUps[i].mapFromScene * sceneFromPixel, back = glm::inverse(matrix);
-        mapFromPixel.push_back(matrix);
-        for (int axis = 0; axis < 3; ++axis) columns[axis].push_back(back[axis]);
+        mapFromPixel.push_back(lookUps[i].mapFromScene * sceneFromPixel(state));
         places.emplace_back(glm::dvec2(picture->tiles[i].corner), picture->size, border / picture->size);
     }
-    if (coneFromScene) setUniform(state, "coneFromPixel", *coneFromScene * sceneFromPixel);
+    resources->seen.bind(state, seenUnit);
     setUniform(state, "seen", int(seenUnit));
+    setUniform(state, "depthError", copy.error);
+    setUniform(state, "mapFromPixel", mapFromPixel);
+    setUniform(state, "place", places);
+}
+
+void MapQuad::setColumns(osg::State& state) const {
+    std::vector<glm::dvec4> columns[3];
+    for (const MapLookUp& lookUp : lookUps) {
+        const glm::dmat4 pixelFromMap = glm::inverse(lookUp.mapFromScene * sceneFromPixel(state));
+        for (int axis = 0; axis < 3; ++axis) columns[axis].push_back(pixelFromMap[axis]);
+    }
+    if (coneFromScene) setUniform(state, "coneFromPixel", *coneFromScene * sceneFromPixel(state));
     setUniform(state, "maps", int(mapUnit));
     setUniform(state, "texel", 1.0 / glm::dvec2(map->size));
-    setUniform(state, "mapFromPixel", mapFromPixel);
     setUniform(state, "pixelFromMapX", columns[0]);
     setUniform(state, "pixelFromMapY", columns[1]);
     setUniform(state, "pixelFromMapZ", columns[2]);
-    setUniform(state, "place", places);
-    setErrors(state);
-    if (soft) setSpreads(state);
 }
 
 void MapQuad::setErrors(osg::State& state) const {

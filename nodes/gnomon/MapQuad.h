@@ -43,11 +43,19 @@ struct MapQuad {
     /// @return why that is not possible, or not as it should be, as a cause for ShadowTechnique::report(); empty if all is
     ///         well.
     std::string draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double threshold, bool blocked = false) const;
+    /// Makes the map show its picture, unless it does.
+    /// @return as draw().
+    std::string showMap(osg::RenderInfo& renderInfo) const;
+    /// Of map_place.frag.
+    std::string mapDefines() const { return defines + "#define MAPS " + std::to_string(lookUps.size()) + "\n"; }
+    /// Uniforms of map_place.frag, whose frame's depths are bound, too.
+    void setPlaces(osg::State& state, const SeenDepth::Copy& copy) const;
 
 private:
     std::string definesOf(const PixelRect& pixels, bool wide) const;
     void drawWide(osg::State& state, ScreenPass& pass) const;
-    void setUniforms(osg::State& state) const;
+    glm::dmat4 sceneFromPixel(const osg::State& state) const;
+    void setColumns(osg::State& state) const;
     void setErrors(osg::State& state) const;
     void setSpreads(osg::State& state) const;
 };

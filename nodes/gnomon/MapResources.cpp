@@ -20,17 +20,26 @@ MapResources::MapResources()
       coneProgram(quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag)) {}
 
 osg::ref_ptr<const osg::StateSet> MapResources::program(const std::string& defines) {
+    return of(_programs, defines, std::string(shaders::cone_frag) + shaders::map_filter_frag + shaders::map_frag);
+}
+
+osg::ref_ptr<const osg::StateSet> MapResources::viewProgram(const std::string& defines) {
+    return of(_viewPrograms, defines, shaders::map_view_frag);
+}
+
+osg::ref_ptr<const osg::StateSet> MapResources::of(Programs& programs, const std::string& defines,
+                                                   const std::string& shader) {
     Lock lock(_mutex);
-    osg::ref_ptr<osg::StateSet>& set = _programs[defines];
-    if (!set)
-        set = quadProgram("gnomon map", defines + shaders::cone_frag + shaders::map_filter_frag, shaders::map_frag);
+    osg::ref_ptr<osg::StateSet>& set = programs[defines];
+    if (!set) set = quadProgram("gnomon map", defines + shaders::map_place_frag, shader.c_str());
     return set;
 }
 
 std::vector<osg::ref_ptr<osg::StateSet>> MapResources::all() {
     Lock lock(_mutex);
     std::vector<osg::ref_ptr<osg::StateSet>> sets{casterProgram, cutoutProgram, blocksProgram, coneProgram};
-    for (const auto& [defines, set] : _programs) sets.push_back(set);
+    for (const Programs* programs : {&_programs, &_viewPrograms})
+        for (const auto& [defines, set] : *programs) sets.push_back(set);
     return sets;
 }
 

@@ -21,8 +21,9 @@ public:
     SeenDepth seen;
     std::atomic<unsigned> passes{0}; ///< maps drawn so far.
 
-    /// The program for these defines, see map.frag; made at its first use.
+    /// The programs for these defines, see map.frag and map_view.frag; made at their first use.
     osg::ref_ptr<const osg::StateSet> program(const std::string& defines);
+    osg::ref_ptr<const osg::StateSet> viewProgram(const std::string& defines);
     void resizeGLObjectBuffers(unsigned maxSize);
     void release(osg::State* state);
 
@@ -33,7 +34,10 @@ private:
     std::vector<osg::ref_ptr<osg::StateSet>> all();
 
     OpenThreads::Mutex _mutex;
-    std::map<std::string, osg::ref_ptr<osg::StateSet>> _programs;
+    using Programs = std::map<std::string, osg::ref_ptr<osg::StateSet>>;
+    osg::ref_ptr<const osg::StateSet> of(Programs& programs, const std::string& defines, const std::string& shader);
+
+    Programs _programs, _viewPrograms;
 };
 
 } // namespace gnomon

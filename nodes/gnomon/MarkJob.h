@@ -34,6 +34,12 @@ public:
     /// True of what relighting alone must darken: what OpenGL has drawn without the light, as far as it could.
     virtual bool relightsOnly() const { return false; }
 
+    /// True if drawView() draws anything.
+    virtual bool hasView() const { return false; }
+    /// Draws over the finished picture how its marks come about.
+    /// @param before  how many other jobs of the view have done so.
+    virtual void drawView(osg::RenderInfo&, ScreenPass&, int /*before*/) const {}
+
     /// False if it is known that no mark falls on this leaf, as a cause of diagnose() should be about what receives.
     virtual bool canReach(const osgUtil::RenderLeaf&) const { return true; }
 

@@ -150,9 +150,13 @@ void ScreenPass::writeColor(const osg::Vec4& color) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 
-void ScreenPass::blendColor(const osg::Vec3& color, float opacity) {
+void ScreenPass::beginBlend() {
     openChannels(GL_FALSE);
     addBlended(_state, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void ScreenPass::blendColor(const osg::Vec3& color, float opacity) {
+    beginBlend();
     drawColor({color, opacity});
     glDisable(GL_BLEND);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);

@@ -80,6 +80,8 @@ public:
     void writeColor(const osg::Vec4& color);
     /// opacity · color + (1 - opacity) · what stands; alpha stays.
     void blendColor(const osg::Vec3& color, float opacity);
+    /// What is drawn next is blended in by its own alpha; that of the frame stays.
+    void beginBlend();
     void multiplyColor(float factor);
     /// What is drawn next multiplies what stands by the factor, whatever its own colour.
     void beginMultiply(float factor);

@@ -37,6 +37,7 @@ ShadowMapTechnique::ShadowMapTechnique(const ShadowMapTechnique& other, const os
       _sunAngle(other._sunAngle),
       _lampSize(other._lampSize),
       _radius(other._radius),
+      _view(other._view),
       _maps(std::make_unique<LightMaps>()) {}
 
 ShadowMapTechnique::~ShadowMapTechnique() = default;
@@ -73,7 +74,7 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
 
 MapWish ShadowMapTechnique::wish() const {
     MapWish wish{_size, _cascades, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
-                 definesOf(_filter), std::nullopt};
+                 definesOf(_filter), std::nullopt, MapView(_view)};
     if (_edges == SOFT) wish.soft = MapSoftness{std::tan(glm::radians(_sunAngle / 2.0)), _lampSize / 2.0, _radius};
     return wish;
 }

@@ -75,6 +75,15 @@ public:
         SOFT  ///< it has the share that arrives.
     };
 
+    /// What is drawn over the finished picture, to see how maps lie.
+    enum View : int {
+        NOTHING, ///< which is the default.
+        MAP,     ///< each light's maps in the lower left corner, near things bright; blue where nothing stands.
+        TEXELS,  ///< how wide a texel of the first light is: blue a quarter of a pixel, green one, yellow three, red eight or
+                 ///< more; a chequerboard of texels that are wider than two.
+        CASCADES ///< which map of the first light answers: red, green, blue, yellow, purple, cyan; the finest is red.
+    };
+
     ShadowMapTechnique();
     ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowMapTechnique)
@@ -114,6 +123,11 @@ public:
     void setRadius(double radius);
     double getRadius() const { return _radius; }
 
+    /// Default NOTHING, which any value that is none of them stands for too. MAP needs what penumbras need. What no map
+    /// answers for is left as it is.
+    void setView(View view) { _view = view == MAP || view == TEXELS || view == CASCADES ? view : NOTHING; }
+    View getView() const { return _view; }
+
     /// Maps drawn so far, over all lights, views and contexts: rises only where something changed.
     unsigned passes() const;
 
@@ -136,6 +150,7 @@ private:
     Edges _edges = HARD;
     double _sunAngle = 0.533;
     double _lampSize = 0.0, _radius = 0.0;
+    View _view = NOTHING;
     std::unique_ptr<LightMaps> _maps;
 };
 

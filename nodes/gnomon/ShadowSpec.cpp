@@ -117,6 +117,14 @@ bool takeRadius(ShadowSpec& spec, const std::string& value) {
     return spec.radius.has_value();
 }
 
+bool takeView(ShadowSpec& spec, const std::string& value) {
+    using Map = ShadowMapTechnique;
+    for (const auto& [name, view] : {std::pair("nothing", Map::NOTHING), std::pair("map", Map::MAP),
+                                     std::pair("texels", Map::TEXELS), std::pair("cascades", Map::CASCADES)})
+        if (value == name) spec.view = view;
+    return spec.view.has_value();
+}
+
 bool takeReceiver(ShadowSpec& spec, const std::string& value) {
     spec.receiver = value;
     return !value.empty();
@@ -150,6 +158,7 @@ osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const NamedNode*) 
     if (spec.sunAngle) node->setSunAngle(*spec.sunAngle);
     if (spec.lampSize) node->setLampSize(*spec.lampSize);
     if (spec.radius) node->setRadius(*spec.radius);
+    if (spec.view) node->setView(*spec.view);
     return node;
 }
 
@@ -187,6 +196,8 @@ const std::vector<Technique>& techniques() {
                                  "with edges=soft: diameter of lamps and spots; 0 is a point", takeLampSize};
     static const Key radius = {"radius", "0 to 1e6, scene's unit", "0",
                                "with edges=soft: radius that is averaged everywhere", takeRadius};
+    static const Key view = {"view", "nothing, map, texels, cascades", "nothing",
+                             "what is drawn over the picture to see how the maps lie", takeView};
     static const std::vector<Technique> table = {
         {"none", true, "no shadow", nullptr, true, {}},
         {"planar",
@@ -218,7 +229,7 @@ const std::vector<Technique>& techniques() {
          "depth maps of the casters as the lights see them; on everything that is seen",
          makeMap,
          true,
-         {size, filter, cascades, edges, sunAngle, lampSize, radius}},
+         {size, filter, cascades, edges, sunAngle, lampSize, radius, view}},
         {"volume", false, "", nullptr, true, {}},
         {"traced",
          true,

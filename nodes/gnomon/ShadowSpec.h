@@ -28,6 +28,7 @@ struct ShadowSpec {
     std::optional<double> sunAngle;                 ///< of map with soft edges: degrees; not given: 0.533.
     std::optional<double> lampSize;                 ///< of map with soft edges: diameter, scene's unit; not given: 0.
     std::optional<double> radius;                   ///< of map with soft edges: scene's unit; not given: 0.
+    std::optional<ShadowMapTechnique::View> view;   ///< of map; not given: NOTHING.
     /// Name of the node that receives; empty: map and traced everything, the others the node named "ground".
     std::string receiver;
 };

@@ -49,11 +49,13 @@ void SoftCompositor::relight(const Jobs& wanted) const {
     const Jobs jobs = jobsOf(lights);
     if (jobs.empty()) return;
     const ScreenRect bounds = boundsOf(jobs);
-    mark(lights);
+    const bool weighsAtOnce = lights.size() == 1 && lights.front().isSoftOnly();
+    if (weighsAtOnce) _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
+    mark(lights, weighsAtOnce ? StencilMarks::Soft::Weighed : StencilMarks::Soft::Touched);
     Leaves leaves = leavesToReplay(_draw.leaves, jobs, bounds);
     const Leaves aside = setAside(leaves, jobs);
     if (!aside.empty()) darkenAside(aside, lights, jobs);
-    mix(leaves, lights, jobs);
+    mix(leaves, lights, jobs, weighsAtOnce && aside.empty());
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     _draw.clear(bitsOf(lights), bounds);
 }
@@ -104,12 +106,12 @@ bool SoftCompositor::assignBits(Light& light, std::vector<unsigned>& unused) con
     return true;
 }
 
-void SoftCompositor::mark(const Lights& lights) const {
+void SoftCompositor::mark(const Lights& lights, StencilMarks::Soft soft) const {
     const StencilMarks marks(_draw, _scratch);
     _draw.clearLeftovers(bitsOf(lights) | _scratch | _faded);
     for (const Light& light : lights) {
         for (const ShadowJob* job : light.hard) marks.add(*job, light.hardBit, job == light.hard.front());
-        if (light.soft) marks.add(*light.soft, light.softBit, true, StencilMarks::Soft::Touched);
+        if (light.soft) marks.add(*light.soft, light.softBit, true, soft);
     }
 }
 
@@ -158,7 +160,8 @@ void SoftCompositor::multiplyByFactor(const Lights& lights, float factor, const 
     });
 }
 
-void SoftCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs) const {
+/// @param weighed  alpha is already the share of the one light there is.
+void SoftCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs, bool weighed) const {
     if (lights.size() > 1) {
         weigh(lights, 0, boundsOf(jobs));
         _draw.pass(boundsOf(jobs), [&](ScreenPass& screen) {
@@ -166,15 +169,17 @@ void SoftCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs&
             screen.multiplyColorByAlpha();
         });
     }
-    for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) replay(leaves, lights, lost, jobs);
+    for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) {
+        const ScreenRect bounds = boundsWithout(lights, lost);
+        if (!overlap(bounds, bounds)) continue;
+        if (!weighed) weigh(lights, lights.size() == 1 ? 0 : lost, bounds);
+        replay(leaves, lights, lost, bounds, jobs);
+    }
 }
 
 /// Adds what the leaves look like without the lights of `lost` (bit i: lights[i]); of one light, mixes it in.
-void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned lost, const Jobs& jobs) const {
-    const ScreenRect bounds = boundsWithout(lights, lost);
-    if (!overlap(bounds, bounds)) return;
-    const bool single = lights.size() == 1;
-    weigh(lights, single ? 0 : lost, bounds);
+void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned lost, const ScreenRect& bounds,
+                            const Jobs& jobs) const {
     LeafReplay::Overlay overlay;
     overlay.bounds = bounds;
     for (std::size_t i = 0; i < lights.size(); ++i)
@@ -184,7 +189,7 @@ void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned
     overlay.reference = overlay.test;
     if (!overlay.test) overlay.test = bitsOf(lights);
     overlay.equalDepth = true;
-    overlay.color = single ? LeafReplay::Color::Mix : LeafReplay::Color::Add;
+    overlay.color = lights.size() == 1 ? LeafReplay::Color::Mix : LeafReplay::Color::Add;
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw.renderInfo, overlay);
     unsigned dark = 0;
@@ -234,22 +239,30 @@ void SoftCompositor::multiplyShare(const ShadowJob& job, bool blocked, ScreenPas
     if (!cause.empty()) job.technique->report(job.frameNumber, cause);
 }
 
+/// Multiplies alpha by the job's share.
+void SoftCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
+    const StencilMarks marks(_draw, _scratch);
+    const Leaves others = notOfView(job, _draw.leaves);
+    if (job.softMarks() && !job.receiverNamed && others.empty())
+        return marks.add(job, bit, true, StencilMarks::Soft::Weighed);
+    marks.add(job, bit, true, StencilMarks::Soft::Touched);
+    writeWhereSeen(_draw, others, 0, bit, job.marks->screenBounds);
+    _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
+        screen.stencilAny(bit);
+        if (job.softMarks())
+            multiplyShare(job, false, screen);
+        else
+            screen.setAlpha(0.0f);
+    });
+}
+
 void SoftCompositor::blend(const Jobs& jobs, float dark) const {
     const ScreenRect bounds = boundsOf(jobs);
     const unsigned bit = _lightBits.front();
-    const StencilMarks marks(_draw, _scratch);
     _draw.clearLeftovers(bit | _scratch);
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     for (const ShadowJob* job : jobs) {
-        marks.add(*job, bit, true, StencilMarks::Soft::Touched);
-        writeWhereSeen(_draw, notOfView(*job, _draw.leaves), 0, bit, job->marks->screenBounds);
-        _draw.pass(job->marks->screenBounds, [&](ScreenPass& screen) {
-            screen.stencilAny(bit);
-            if (job->softMarks())
-                multiplyShare(*job, false, screen);
-            else
-                screen.setAlpha(0.0f);
-        });
+        addBlended(*job, bit);
         _draw.clear(bit, job->marks->screenBounds);
     }
     _draw.pass(bounds, [&](ScreenPass& screen) {

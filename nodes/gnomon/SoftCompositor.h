@@ -30,19 +30,22 @@ private:
         unsigned hardBit = 0, softBit = 0;
         unsigned bits() const { return hardBit | softBit; }
         bool isMixed() const { return hardBit && softBit; }
+        bool isSoftOnly() const { return soft && hard.empty(); }
     };
     using Lights = std::vector<Light>;
     using Leaves = std::vector<ReplayedLeaf>;
 
     Lights lightsOf(const Jobs& wanted) const;
     bool assignBits(Light& light, std::vector<unsigned>& unused) const;
-    void mark(const Lights& lights) const;
+    void mark(const Lights& lights, StencilMarks::Soft soft) const;
     Leaves setAside(Leaves& leaves, const Jobs& jobs) const;
     void darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const;
     void multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const;
-    void mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs) const;
-    void replay(const Leaves& leaves, const Lights& lights, unsigned lost, const Jobs& jobs) const;
+    void mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs, bool weighed) const;
+    void replay(const Leaves& leaves, const Lights& lights, unsigned lost, const ScreenRect& bounds,
+                const Jobs& jobs) const;
     ScreenRect boundsWithout(const Lights& lights, unsigned lost) const;
+    void addBlended(const ShadowJob& job, unsigned bit) const;
     void weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const;
     void weighOne(const Light& light, bool lost, ScreenPass& screen) const;
     void multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const;

@@ -8,7 +8,8 @@ namespace gnomon {
 /// half of the light reaches. Pixels at which nothing stands (far depth) get all of the light.
 class GNOMON_EXPORT SoftMarkJob : public MarkJob {
 public:
-    /// As mark(), wherever not all of the light arrives.
+    /// As mark(), wherever not all of the light arrives; with the share that does in the fragments' alpha. The pass's blending
+    /// and colour mask stand.
     virtual std::string markTouched(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const = 0;
 
     /// What drawShare() puts into alpha.

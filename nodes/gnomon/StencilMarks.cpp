@@ -53,7 +53,8 @@ void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Soft soft
 
 void StencilMarks::addUngated(const ShadowJob& job, unsigned bit, Soft soft) const {
     _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
-        const auto* softMarks = soft == Soft::Touched ? job.softMarks() : nullptr;
+        const auto* softMarks = soft == Soft::Half ? nullptr : job.softMarks();
+        if (softMarks && soft == Soft::Weighed) screen.multiplyAlpha();
         const std::string cause = softMarks ? softMarks->markTouched(_draw.renderInfo, screen, bit)
                                             : job.marks->mark(_draw.renderInfo, screen, bit);
         if (!cause.empty()) job.technique->report(job.frameNumber, cause);

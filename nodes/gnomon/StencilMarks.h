@@ -28,8 +28,9 @@ class StencilMarks {
 public:
     /// Which pixels of a soft job are marked.
     enum class Soft {
-        Half,   ///< those that less than half of the light reaches: a hard edge.
-        Touched ///< those that not all of the light reaches.
+        Half,    ///< those that less than half of the light reaches: a hard edge.
+        Touched, ///< those that not all of the light reaches.
+        Weighed  ///< the same, and alpha is multiplied by the share that does.
     };
 
     /// @param scratch  a stencil bit that is 0 before and after; 0 if there is none.

@@ -21,4 +21,10 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
     ADD_DOUBLE_SERIALIZER(SunAngle, fresh->getSunAngle());
     ADD_DOUBLE_SERIALIZER(LampSize, fresh->getLampSize());
     ADD_DOUBLE_SERIALIZER(Radius, fresh->getRadius());
+    BEGIN_ENUM_SERIALIZER(View, NOTHING);
+    ADD_ENUM_VALUE(NOTHING);
+    ADD_ENUM_VALUE(MAP);
+    ADD_ENUM_VALUE(TEXELS);
+    ADD_ENUM_VALUE(CASCADES);
+    END_ENUM_SERIALIZER();
 }

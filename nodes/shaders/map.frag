@@ -1,13 +1,7 @@
 // What share of a light reaches what is seen in a pixel, by its depth and the light's maps: see ShadowMapTechnique.
 //
-// In what follows a pixel's place is (x, y, e, 1), x and y in window coordinates, e = 1 - depth: of what is far, where
-// floats are fine. MAPS is how many there are, beside one another in one texture; CASCADES, if the finer of them hold part
-// of what is seen only.
+// For pixels' places see map_place.frag.
 
-uniform sampler2D seen;       // depths of the frame
-uniform vec4 depthError;      // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
-
-uniform mat4 mapFromPixel[MAPS];
 uniform vec4 pixelFromMapX[MAPS], pixelFromMapY[MAPS], pixelFromMapZ[MAPS]; // columns of its inverse
 uniform vec2 wanted;          // pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0
 uniform vec4 nearestError[MAPS], farthestError[MAPS]; // see MapErrors
@@ -45,13 +39,8 @@ float change(float e, ivec2 here, ivec2 axis) {
 float visibility(vec4 pixel, vec4 plane) {
     float share = 0.0, left = 1.0;
     for (int i = 0; i < MAPS; ++i) {
-        vec4 at = mapFromPixel[i] * pixel;
-        if (!(at.w > 0.0)) continue;
-        at /= at.w;
-        if (any(lessThan(at.xy, place[i].ww)) || any(greaterThan(at.xy, 1.0 - place[i].ww))) continue;
-#ifdef CASCADES
-        if (!(at.z >= 0.0 && at.z <= 1.0)) continue;
-#endif
+        vec3 at;
+        if (!holds(i, pixel, at)) continue;
         vec2 across = vec2(dot(plane, pixelFromMapX[i]), dot(plane, pixelFromMapY[i]));
         vec2 slope = -across / (dot(plane, pixelFromMapZ[i]) * place[i].z);
         float steepness = abs(slope.x) + abs(slope.y);

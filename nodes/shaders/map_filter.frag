@@ -3,7 +3,6 @@
 
 uniform sampler2DShadow maps;
 uniform vec2 texel;           // of the texture, whose sides are 1
-uniform vec4 place[MAPS];     // of a map in it: corner, and texels on a side; share of it that is border
 
 // At p, in texels of the texture; `slope` is the change of depth a texel on the surface that is compared.
 float lit(vec2 p, float depth, vec2 slope) {

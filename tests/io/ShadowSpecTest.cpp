@@ -88,7 +88,24 @@ TEST(ShadowSpec, KeysOfMapAreReadAndSet) {
     EXPECT_EQ(parseShadowSpec("map:cascades=auto").cascades, 0);
     EXPECT_EQ(refusal("map:cascades=0"), "cascades=0 cannot be used; allowed: auto, 1 to 4.");
     EXPECT_EQ(refusal("map:cascades=5"), "cascades=5 cannot be used; allowed: auto, 1 to 4.");
+    EXPECT_EQ(plain.getEdges(), ShadowMapTechnique::HARD);
     EXPECT_EQ(refusal("map:filter=soft"), "filter=soft cannot be used; allowed: nearest, bilinear, bicubic.");
+}
+
+TEST(ShadowSpec, KeysOfSoftMapsAreReadAndSet) {
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
+    const auto added = addShadows(*group, {parseShadowSpec("map:edges=soft,sun-angle=2.5,lamp-size=0.25,radius=3"),
+                                           parseShadowSpec("map:edges=hard")});
+    const auto& soft = dynamic_cast<ShadowMapTechnique&>(*added.at(0));
+    EXPECT_EQ(soft.getEdges(), ShadowMapTechnique::SOFT);
+    EXPECT_EQ(soft.getSunAngle(), 2.5);
+    EXPECT_EQ(soft.getLampSize(), 0.25);
+    EXPECT_EQ(soft.getRadius(), 3.0);
+    EXPECT_EQ(dynamic_cast<ShadowMapTechnique&>(*added.at(1)).getEdges(), ShadowMapTechnique::HARD);
+    EXPECT_EQ(refusal("map:edges=round"), "edges=round cannot be used; allowed: hard, soft.");
+    EXPECT_EQ(refusal("map:sun-angle=21"), "sun-angle=21 cannot be used; allowed: 0 to 20, degrees.");
+    EXPECT_EQ(refusal("map:lamp-size=-1"), "lamp-size=-1 cannot be used; allowed: 0 to 1e6, scene's unit.");
+    EXPECT_EQ(refusal("map:radius=nan"), "radius=nan cannot be used; allowed: 0 to 1e6, scene's unit.");
 }
 
 TEST(ShadowSpec, KeysAreRead) {

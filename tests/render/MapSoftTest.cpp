@@ -5,6 +5,7 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/Math>
+#include <support/Panels.h>
 
 #include <algorithm>
 #include <cmath>
@@ -154,6 +155,42 @@ TEST(MapSoft, ARadiusIsThatOfADiscAcrossTheLight) {
         EXPECT_LE(result.largest, 0.1) << radius;
         EXPECT_GT(result.partly, 500);
     }
+}
+
+// The shadow's edge runs away from the eye, through three maps whose texels are 2 cm, 8 cm and half a metre: in all of them
+// the disc is as large, and where one ends nothing shows.
+TEST(MapSoft, CascadesMeetWithoutASeam) {
+    const double height = 6.0, radius = 1.0;
+    const test::View view = test::perspective({-5.0, height, 3.0}, {300.0, height, 0.0}, 400, 300, 40.0, 1.0, 1000.0);
+    const auto build = [&] {
+        Scene scene = test::scene({0.0, -1.0, 1.0, 0.0});
+        scene.content->addChild(test::node(test::quad({-10.0, -50.0, 0.0}, {310.0, 0.0, 0.0}, {0.0, 100.0, 0.0})));
+        scene.content->addChild(test::node(test::quad({-10.0, -100.0, height}, {310.0, 0.0, 0.0}, {0.0, 100.0, 0.0})));
+        return scene;
+    };
+    const osg::ref_ptr<ShadowMapTechnique> technique = softMap(1024, 0.0);
+    technique->setRadius(radius);
+    technique->setCascades(3);
+    Scene shadowed = build();
+    shadowed.addShadow(technique);
+    const Picture picture = test::render(shadowed.root, view);
+    EXPECT_EQ(technique->passes(), 3u);
+    double largest = 0.0;
+    int partly = 0;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
+            const glm::dvec3 place = sight.from - sight.way * (sight.from.z / sight.way.z);
+            if (!(sight.way.z < 0.0) || !(place.x < 290.0) || !(place.y > 1.0) || place.y > 45.0) continue;
+            const double expected = discBeyond((place.y - height) * std::sqrt(0.5) / radius);
+            const double share =
+                (double(picture.at(x, y) & 0xffu) - test::shadowedGround) / (test::litGround - test::shadowedGround);
+            partly += expected > 0.02 && expected < 0.98;
+            largest = std::max(largest, std::abs(share - expected));
+        }
+    std::cout << "largest " << largest << ", of " << partly << " pixels\n";
+    EXPECT_LE(largest, 0.1);
+    EXPECT_GT(partly, 5000);
 }
 
 // Its hard edges are those of the same filter, whatever is added to them.

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/MapView.h>
+#include <gnomon/MarkProgram.h>
+#include <gnomon/RawSampler.h>
+
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+constexpr unsigned unit = 0;
+
+/// A third as high as the view, one beside the other from the lower left corner on.
+PixelRect frameOf(const MapQuad& quad, const osg::Viewport& viewport, int before) {
+    const int height = static_cast<int>(viewport.height() / 3.0);
+    const int width = static_cast<int>(std::lround(double(height) * quad.map->size.x / quad.map->size.y));
+    return {static_cast<int>(viewport.x()) + before * width, static_cast<int>(viewport.y()), width, height};
+}
+
+void drawPicture(const MapQuad& quad, osg::State& state, ScreenPass& pass, int before) {
+    if (!RawSampler::isSupported(state)) return;
+    const PixelRect frame = frameOf(quad, *state.getCurrentViewport(), before);
+    glScissor(frame.x, frame.y, frame.width, frame.height);
+    quad.map->bind(state, unit);
+    const RawSampler raw(state, unit);
+    setUniform(state, "depths", int(unit));
+    setUniform(state, "frame", glm::dvec4(frame.x, frame.y, frame.width, frame.height));
+    pass.drawQuad();
+}
+
+} // namespace
+
+void drawMapView(const MapQuad& quad, MapView view, osg::RenderInfo& renderInfo, ScreenPass& pass, int before) {
+    constexpr const char* defines[] = {"", "#define PICTURE\n", "#define TEXELS\n", ""};
+    osg::State& state = *renderInfo.getState();
+    if (view == MapView::Nothing || (view != MapView::Map && before > 0)) return;
+    if (!quad.showMap(renderInfo).empty()) return; // which marking has said
+    const SeenDepth::Copy copy = quad.resources->seen.copy(state, pixelsInScissor(*state.getCurrentViewport()));
+    if (!copy.cause.empty()) return;
+    state.apply(quad.resources->viewProgram(defines[int(view)] + quad.mapDefines()).get());
+    if (!hasProgram(state)) return;
+    pass.beginBlend();
+    if (view == MapView::Map) {
+        drawPicture(quad, state, pass, before);
+    } else {
+        quad.setPlaces(state, copy);
+        pass.drawQuad();
+    }
+    state.apply();
+}
+
+} // namespace gnomon
