@@ -73,8 +73,12 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
 }
 
 MapWish ShadowMapTechnique::wish() const {
-    MapWish wish{_size, _cascades, _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
-                 definesOf(_filter), std::nullopt, MapView(_view)};
+    MapWish wish{_size,
+                 _cascades,
+                 _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
+                 definesOf(_filter),
+                 std::nullopt,
+                 MapView(_view)};
     if (_edges == SOFT) wish.soft = MapSoftness{std::tan(glm::radians(_sunAngle / 2.0)), _lampSize / 2.0, _radius};
     return wish;
 }

@@ -79,8 +79,8 @@ public:
     enum View : int {
         NOTHING, ///< which is the default.
         MAP,     ///< each light's maps in the lower left corner, near things bright; blue where nothing stands.
-        TEXELS,  ///< how wide a texel of the first light is: blue a quarter of a pixel, green one, yellow three, red eight or
-                 ///< more; a chequerboard of texels that are wider than two.
+        TEXELS, ///< how wide a texel of the first light is: blue a quarter of a pixel, green one, yellow three, red eight or
+                ///< more; a chequerboard of texels that are wider than two.
         CASCADES ///< which map of the first light answers: red, green, blue, yellow, purple, cyan; the finest is red.
     };
 

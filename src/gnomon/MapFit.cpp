@@ -190,6 +190,14 @@ void MapOutline::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm
     corners = hullOf(std::move(corners));
 }
 
+void MapOutline::merge(const MapOutline& other) {
+    if (other.empty()) return;
+    nearest = empty() ? other.nearest : std::min(nearest, other.nearest);
+    farthest = empty() ? other.farthest : std::max(farthest, other.farthest);
+    corners.insert(corners.end(), other.corners.begin(), other.corners.end());
+    corners = hullOf(std::move(corners));
+}
+
 void MapOutline::cut(const MapOutline& other) {
     const Polygon& edges = other.corners;
     if (edges.empty()) corners.clear();

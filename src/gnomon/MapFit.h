@@ -42,6 +42,8 @@ public:
     std::vector<glm::dvec4> sides() const;
     /// The corners of all between nearest and farthest, homogeneous, in the scene.
     std::vector<glm::dvec4> body() const;
+    /// Becomes the convex outline of both, of the same frame.
+    void merge(const MapOutline& other);
     /// Cuts this outline to the other one, of the same frame; depths stay. One that is all on a line cuts nothing.
     void cut(const MapOutline& other);
     /// Of a lamp: what is nearer than a 64th of the farthest counts as if it were there, for depths of a map get coarse by

@@ -92,6 +92,24 @@ TEST(Map, EachFilterAndEachSizeIsBetterThanTheOneBefore) {
         }
 }
 
+// What is under a ground is in its shadow; but that takes no texels away from what stands on it.
+TEST(Map, AThingThatIsSunkIntoAGroundHasAsSharpAnEdgeAsOneThatStandsOnIt) {
+    const auto edgesOff = [](double height) {
+        TracedCase given = labEight();
+        given.meshes = {test::square(40.0), test::sphere({0.0, 0.0, height}, 1.0, 24)};
+        Scene lit = given.build(), dark = given.build(), shadowed = given.build();
+        dark.takeLightAway();
+        const osg::ref_ptr<ShadowMapTechnique> technique = mapOf(256);
+        shadowed.addShadow(technique);
+        return test::edgesOff(test::render(shadowed.root, given.view), test::render(lit.root, given.view),
+                              test::render(dark.root, given.view), given.truth())
+            .p95;
+    };
+    const double standing = edgesOff(1.001), sunk = edgesOff(0.7);
+    std::cout << "p95 " << standing << " px standing, " << sunk << " px sunk\n";
+    EXPECT_LE(sunk, 1.25 * standing); // not the same edge
+}
+
 TEST(Map, FlatGroundsAreFreeOfAcne) {
     for (const double elevation : {90.0, 45.0, 20.0, 5.0})
         for (const auto& [half, height, near, far, side] :

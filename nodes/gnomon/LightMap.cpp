@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/CascadeSplits.h>
+#include <gnomon/Convert.h>
+#include <gnomon/LightMap.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr double reserve = 1.0 / 16.0; // of a map's sides
+constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
+constexpr double border = 3.0;         // texels: what a comparison reaches over, and one against rounding
+constexpr int largestTexture = 16384;  // texels on a side: what OpenGL has in most places
+constexpr double sameLight = 1e-7;     // of the distance: what OSG's matrices and floats make of a light at rest
+
+bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
+    return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
+}
+
+bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) {
+    if (!a || !b) return a.has_value() == b.has_value();
+    return a->cutoff == b->cutoff && glm::distance(a->axis, b->axis) <= sameLight;
+}
+
+/// Of a sun one; of a lamp that sees all casters to one side one, else those of a cube, a little larger so that what is
+/// on an edge is in both. Of a spot one about its cone, unless that is nearly flat.
+///
+/// A lamp is a sun where that moves no shadow by more than an eighth of a texel: else its depths would be rounded off.
+std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<SpotCone>& cone, const glm::dvec3& reach,
+                                 int texels) {
+    const glm::dvec3 at(light);
+    if (light.w == 0.0 || glm::length(at) > 8.0 * texels * glm::length(reach)) return {sunFrame(glm::normalize(at))};
+    constexpr double onEdges = 1.05, flat = 4.0;
+    if (cone && std::tan(cone->cutoff) < flat) return {lampFrame(at, cone->axis, onEdges * std::tan(cone->cutoff))};
+    std::vector<LightFrame> frames;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {1.0, -1.0}) {
+            glm::dvec3 way(0.0);
+            way[axis] = sign;
+            frames.push_back(lampFrame(at, way, onEdges));
+        }
+    constexpr double wide = 2.0;
+    const LightFrame ahead = lampFrame(at, glm::normalize(-at), wide);
+    const auto corners = boxCorners(-reach, reach, glm::dmat4(1.0));
+    const bool holdsAll = std::all_of(ahead.halfSpaces.begin(), ahead.halfSpaces.end(), [&](const glm::dvec4& half) {
+        return std::all_of(corners.begin(), corners.end(), [&](const auto& p) { return glm::dot(half, p) > 0.0; });
+    });
+    return holdsAll ? std::vector{ahead} : frames;
+}
+
+} // namespace
+
+std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
+    const glm::dmat4 sceneFromEye = glm::inverse(eyeFromScene);
+    std::vector<MapReceiver> result;
+    for (const osgUtil::RenderLeaf* leaf : view.seen) {
+        const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+        if (!box.valid()) continue;
+        MapReceiver receiver{toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)),
+                             sceneFromEye * toGlm(*leaf->_modelview), 0.0};
+        receiver.size = glm::length(glm::dvec3(receiver.sceneFromBox * glm::dvec4(receiver.high - receiver.low, 0.0)));
+        result.push_back(receiver);
+    }
+    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.size > b.size; });
+    return result;
+}
+
+glm::dvec4 beyond(const MapCasters::Box& flat, const glm::dvec4& light, const glm::dvec3& reach) {
+    const glm::dvec3 size = flat.high - flat.low;
+    const int axis = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : 2;
+    const double level = flat.low[axis], side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
+    glm::dvec4 result(0.0, 0.0, 0.0, side * level - 1e-6 * glm::length(reach)); // what eye space makes of a place in it
+    result[axis] = -side;
+    return result;
+}
+
+void LightMap::setCause(const glm::dvec4& light, const std::optional<SpotCone>& cone, const MapCasters& casters,
+                        bool flats, const MapWish& wish) {
+    const bool sameMaps = _wish == wish;
+    if (_casters == &casters && _flats == flats && sameMaps && isSame(cone, _cone) &&
+        isSame(light, _light, glm::length(casters.reach)))
+        return;
+    if (!sameMaps) _map = nullptr;
+    _light = light;
+    _cone = cone;
+    _casters = &casters;
+    _flats = flats;
+    _wish = wish;
+    _picture = nullptr;
+    _faces.clear();
+    _splits.clear();
+    _cascades = wish.cascades;
+    for (const LightFrame& frame : framesOf(_light, _cone, _casters->reach, _wish.size)) addFaces(frame);
+}
+
+void LightMap::addFaces(const LightFrame& frame) {
+    MapFace face(frame);
+    face.blockers = blockersIn(frame);
+    const int most = 2 * _wish.size <= largestTexture ? mostCascades : 1;
+    const std::size_t parts = frame.sun ? std::size_t(_wish.cascades ? _wish.cascades : most) : 1;
+    for (; face.part < parts; ++face.part) _faces.push_back(face);
+}
+
+/// In the face's frame; of those that are empty none.
+std::vector<MapBlocker> LightMap::blockersIn(const LightFrame& frame) const {
+    std::vector<MapBlocker> blockers;
+    const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
+        if (!outline.empty()) blockers.push_back({outline, halfSpaces});
+    };
+    MapOutline bodies(frame);
+    for (const MapCasters::Box& box : _casters->bodyBoxes) bodies.addBox(box.low, box.high, glm::dmat4(1.0));
+    add(bodies, {});
+    if (!_flats) return blockers;
+    for (const MapCasters::Box& box : _casters->flatBoxes) {
+        MapOutline flat(frame);
+        flat.addBox(box.low, box.high, glm::dmat4(1.0));
+        add(flat, {beyond(box, _light, _casters->reach)});
+    }
+    return blockers;
+}
+
+/// On a side of a texel, were there one map, at a distance along the line of sight, of a view that is `width` pixels wide.
+double LightMap::pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const {
+    const auto side = [&](int axis) { return 2.0 * distance / glm::length(glm::dvec3(glm::row(clipFromScene, axis))); };
+    const MapFace& face = _faces.front();
+    MapOutline all(face.frame);
+    for (const MapBlocker& blocker : face.blockers) all.merge(blocker.outline);
+    const glm::dvec2 most = fitMap(face.frame, all, all, 0.0, 0.0, 1.0).size;
+    const double covered = std::min(std::max(most.x, most.y), std::max(side(0), side(1)));
+    return covered / _wish.size / (side(0) / width);
+}
+
+void LightMap::findSplits(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene, double width) {
+    if (!(_faces.size() > 1 && _faces.front().frame.sun)) return;
+    SeenRange seen(clipFromScene);
+    for (const MapBlocker& blocker : _faces.front().blockers) {
+        std::vector<glm::dvec4> halfSpaces = viewPart(clipFromScene, {}, 0);
+        for (const auto& more : {blocker.halfSpaces, blocker.outline.sides()})
+            halfSpaces.insert(halfSpaces.end(), more.begin(), more.end());
+        for (const MapReceiver& receiver : receivers)
+            seen.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+    }
+    if (!_wish.cascades && !seen.empty())
+        _cascades = cascadesFor(seen, pixelsATexel(seen.farthest, clipFromScene, width), _cascades);
+    _splits = cascadeSplits(seen, std::max(_cascades, 1));
+}
+
+std::optional<ScreenRect> LightMap::find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
+                                         double width) {
+    findSplits(receivers, clipFromScene, width);
+    std::vector<glm::dvec4> points;
+    for (MapFace& face : _faces) {
+        face.reach = face.needed = face.held = MapOutline(face.frame);
+        if (face.part > _splits.size()) continue;
+        findNeeded(face, receivers, viewPart(clipFromScene, _splits, face.part));
+        for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);
+    }
+    if (points.empty()) return std::nullopt;
+    return screenBounds(points);
+}
+
+void LightMap::findNeeded(MapFace& face, const std::vector<MapReceiver>& receivers,
+                          const std::vector<glm::dvec4>& part) const {
+    double nearest = std::numeric_limits<double>::infinity(); // of what blocks the light: distances from there count
+    for (const MapBlocker& blocker : face.blockers) {
+        std::vector<glm::dvec4> halfSpaces = part;
+        halfSpaces.insert(halfSpaces.end(), blocker.halfSpaces.begin(), blocker.halfSpaces.end());
+        addNeeded(face, blocker, receivers, std::move(halfSpaces));
+        nearest = std::min(nearest, blocker.outline.nearest);
+    }
+    face.needed.limitNearest();
+    face.held = face.needed;
+    if (!_wish.soft || face.needed.empty()) return;
+    MapOutline all = face.reach;
+    all.nearest = nearest;
+    face.held.grow(softness(face.frame, all, face.needed.farthest));
+    face.held.cut(face.reach);
+    face.held.nearest = std::min(face.held.nearest, nearest);
+    face.held.limitNearest();
+}
+
+/// What of what one of them can darken is seen.
+void LightMap::addNeeded(MapFace& face, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
+                         std::vector<glm::dvec4> halfSpaces) const {
+    const auto add = [&](MapOutline& to) {
+        for (const MapReceiver& receiver : receivers)
+            to.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+    };
+    MapOutline reach = blocker.outline, needed(face.frame);
+    if (_wish.soft) {
+        MapOutline seen(face.frame);
+        add(seen);
+        if (seen.empty()) return;
+        reach.grow(softness(face.frame, blocker.outline, seen.farthest));
+    }
+    if (face.frame.sun) // a lamp's have sides of their own
+        for (const glm::dvec4& side : reach.sides()) halfSpaces.push_back(side);
+    add(needed);
+    needed.cut(reach);
+    if (needed.empty()) return;
+    face.needed.merge(needed);
+    face.reach.merge(reach);
+}
+
+/// See softReach().
+double LightMap::lightRadius() const {
+    if (!_wish.soft) return 0.0;
+    if (!_faces.front().frame.sun) return _wish.soft->lamp;
+    return _light.w == 0.0 ? _wish.soft->sun : _wish.soft->lamp / glm::length(glm::dvec3(_light));
+}
+
+/// How far edges of what blocks the light are spread where it is as far as that from the light.
+double LightMap::softness(const LightFrame& frame, MapOutline blocker, double farthest) const {
+    blocker.limitNearest();
+    return softReach(frame, blocker.nearest, farthest, lightRadius(), _wish.soft->radius);
+}
+
+/// True if the face's map is not to be drawn again.
+bool LightMap::holds(const MapFace& face) const {
+    if (!face.fit || !face.fit->covers(face.held, (border - 1.0) / _wish.size)) return false;
+    return face.fit->area() <= mostWaste * fitOf(face).area();
+}
+
+MapFit LightMap::fitOf(const MapFace& face) const {
+    return fitMap(face.frame, face.held, face.reach, reserve, border / _wish.size, glm::length(_casters->reach) / 64.0);
+}
+
+/// Without its tiles.
+osg::ref_ptr<MapPicture> LightMap::pictureOf(const MapResources& resources) const {
+    osg::ref_ptr<MapPicture> picture = new MapPicture;
+    picture->casters = _flats ? _casters->all : _casters->bodies;
+    for (const MapCasters::Cutout& cutout : _casters->cutouts)
+        if (_flats || !cutout.flat) picture->cutouts.push_back(cutout);
+    picture->program = resources.casterProgram;
+    picture->cutoutProgram = resources.cutoutProgram;
+    picture->size = _wish.size;
+    picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
+    return picture;
+}
+
+MapLookUp LightMap::lookUpOf(const MapFace& face) const {
+    const double radius = _wish.soft ? _wish.soft->radius : 0.0;
+    return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, _casters->reach, _wish.size),
+            mapSpread(face.frame, *face.fit, lightRadius(), radius, _wish.size)};
+}
+
+/// The finest map comes first, for pixels take the first that holds them.
+void LightMap::update(const MapResources& resources) {
+    const auto due = [this](const MapFace& face) { return !face.needed.empty() && !holds(face); };
+    if (_picture && std::none_of(_faces.begin(), _faces.end(), due)) return;
+    const osg::ref_ptr<MapPicture> picture = pictureOf(resources);
+    const int columns = _faces.size() > 4 ? 3 : 2;
+    std::vector<std::pair<const MapFace*, glm::ivec2>> tiles;
+    for (MapFace& face : _faces) {
+        if (face.needed.empty())
+            face.fit = std::nullopt;
+        else if (!holds(face))
+            face.fit = fitOf(face);
+        const int tile = static_cast<int>(tiles.size());
+        if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % columns, tile / columns));
+    }
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const auto& a, const auto& b) { return a.first->fit->area() < b.first->fit->area(); });
+    _lookUps.clear();
+    glm::ivec2 end(0);
+    const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
+    for (const auto& [face, corner] : tiles) {
+        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene});
+        _lookUps.push_back(lookUpOf(*face));
+        end = glm::max(end, corner + picture->size);
+    }
+    if (!_map || _map->size != end) _map = new DepthMap(end, _wish.compare);
+    _picture = picture;
+}
+
+MapQuad LightMap::quad(const glm::dmat4& clipFromScene) const {
+    MapQuad quad;
+    quad.map = _map;
+    quad.picture = _picture;
+    quad.lookUps = _lookUps;
+    quad.clipFromScene = clipFromScene;
+    quad.defines = _wish.defines;
+    if (_faces.front().frame.sun && _lookUps.size() > 1) quad.defines += "#define CASCADES\n";
+    quad.soft = _wish.soft.has_value();
+    quad.penumbra = lightRadius() > 0.0;
+    return quad;
+}
+
+void LightMap::resizeGLObjectBuffers(unsigned maxSize) {
+    if (_map) _map->resizeGLObjectBuffers(maxSize);
+    if (_casters) _casters->resizeGLObjectBuffers(maxSize);
+}
+
+void LightMap::release(osg::State* state) {
+    if (_map) _map->release(state);
+    if (_casters) _casters->releaseGLObjects(state);
+}
+
+} // namespace gnomon
