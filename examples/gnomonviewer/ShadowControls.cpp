@@ -27,6 +27,7 @@ double compass(double degrees) { return degrees - 360.0 * std::floor(degrees / 3
 } // namespace
 
 ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : _setup(setup), _sun(options.sun) {
+    if (!options.shadows.empty()) _view = options.shadows.front().view.value_or(_view);
     const std::string given = options.shadows.empty() ? "none" : options.shadows.front().technique;
     for (const std::string& name : shadowTechniques()) {
         if (name == given) _chosen = _choices.size();
@@ -38,7 +39,7 @@ ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : 
 void ShadowControls::nextTechnique() {
     _chosen = (_chosen + 1) % _choices.size();
     cast();
-    applyCures();
+    applySwitches();
 }
 
 void ShadowControls::cast() {
@@ -75,11 +76,21 @@ void ShadowControls::runSun(double seconds) {
 
 void ShadowControls::toggle(bool PlanarCures::*cure) {
     _cures.*cure = !(_cures.*cure);
-    applyCures();
+    applySwitches();
 }
 
-void ShadowControls::applyCures() {
+void ShadowControls::nextView() {
+    using Map = ShadowMapTechnique;
+    _view = _view == Map::NOTHING  ? Map::MAP
+            : _view == Map::MAP    ? Map::TEXELS
+            : _view == Map::TEXELS ? Map::CASCADES
+                                   : Map::NOTHING;
+    applySwitches();
+}
+
+void ShadowControls::applySwitches() {
     for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
+        if (auto* map = dynamic_cast<ShadowMapTechnique*>(technique.get())) map->setView(_view);
         auto* planar = dynamic_cast<PlanarShadowNode*>(technique.get());
         if (!planar) continue;
         planar->setStencilCure(_cures.stencil);

@@ -24,6 +24,8 @@ public:
     /// Lets time go on over --sun's place; nights of up to a day are passed over. Seconds.
     void runSun(double seconds);
     void toggle(bool PlanarCures::*cure);
+    /// Next of the views of shadow maps.
+    void nextView();
 
     /// How things stand, a line each, and why shadows are missing.
     std::vector<std::string> describe() const;
@@ -32,7 +34,7 @@ private:
     using Specs = std::vector<ShadowSpec>;
 
     void cast();
-    void applyCures();
+    void applySwitches();
     std::string describeLight() const;
     std::string describeCures() const;
 
@@ -43,6 +45,7 @@ private:
     std::string _refusal; ///< why the chosen technique does not suit the scene.
     SceneLights::Direction _moved{0.0, 0.0};
     PlanarCures _cures;
+    ShadowMapTechnique::View _view = ShadowMapTechnique::NOTHING;
 };
 
 } // namespace gnomon::examples

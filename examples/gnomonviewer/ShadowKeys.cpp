@@ -22,6 +22,8 @@ const std::vector<Key<ShadowControls>>& shadowKeys() {
         {'o', "Offset cure off and on: fight with the ground.",
          [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::offset); }},
         {'p', "Clip cure off and on: anti-shadows.", [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::clip); }},
+        {'v', "How maps lie: the maps, the width of their texels, their parts of the view, or nothing.",
+         [](ShadowControls& c, Hud&) { c.nextView(); }},
         {'g', "Hide or show Gnomon's text.", [](ShadowControls&, Hud& hud) { hud.toggle(); }},
     };
     return keys;

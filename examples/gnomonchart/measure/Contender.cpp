@@ -11,29 +11,34 @@ namespace {
 enum class Receives { EVERYTHING, FLAT, TERRAIN }; // of ChartScene: all, receiver, terrain
 
 struct GnomonPoint {
+    const char* technique;
     const char* setting;
     const char* spec; ///< see gnomon::ShadowSpec.
     Receives receives;
 };
 
 constexpr GnomonPoint gnomonPoints[] = {
-    {"relight", "planar", Receives::FLAT},
-    {"blend", "planar:composite=blend", Receives::FLAT},
-    {"relight", "box", Receives::TERRAIN},
-    {"relight", "hull", Receives::TERRAIN},
-    {"blend", "hull:composite=blend", Receives::TERRAIN},
-    {"error 0.5", "drape:error=0.5", Receives::TERRAIN},
-    {"error 0.1", "drape", Receives::TERRAIN},
-    {"exact", "drape:error=0", Receives::TERRAIN},
-    {"size 512", "map:size=512", Receives::EVERYTHING},
-    {"size 1024", "map", Receives::EVERYTHING},
-    {"size 2048", "map:size=2048", Receives::EVERYTHING},
-    {"size 4096", "map:size=4096", Receives::EVERYTHING},
-    {"bilinear, size 1024", "map:filter=bilinear", Receives::EVERYTHING},
-    {"blend, size 1024", "map:composite=blend", Receives::EVERYTHING},
-    {"blend, size 2048", "map:composite=blend,size=2048", Receives::EVERYTHING},
-    {"relight", "traced", Receives::EVERYTHING},
-    {"blend", "traced:composite=blend", Receives::EVERYTHING},
+    {"planar", "relight", "planar", Receives::FLAT},
+    {"planar", "blend", "planar:composite=blend", Receives::FLAT},
+    {"box", "relight", "box", Receives::TERRAIN},
+    {"hull", "relight", "hull", Receives::TERRAIN},
+    {"hull", "blend", "hull:composite=blend", Receives::TERRAIN},
+    {"drape", "error 0.5", "drape:error=0.5", Receives::TERRAIN},
+    {"drape", "error 0.1", "drape", Receives::TERRAIN},
+    {"drape", "exact", "drape:error=0", Receives::TERRAIN},
+    {"map", "size 512", "map:size=512", Receives::EVERYTHING},
+    {"map", "size 1024", "map", Receives::EVERYTHING},
+    {"map", "size 2048", "map:size=2048", Receives::EVERYTHING},
+    {"map", "size 4096", "map:size=4096", Receives::EVERYTHING},
+    {"map", "bilinear, size 1024", "map:filter=bilinear", Receives::EVERYTHING},
+    {"map", "blend, size 1024", "map:composite=blend", Receives::EVERYTHING},
+    {"map", "blend, size 2048", "map:composite=blend,size=2048", Receives::EVERYTHING},
+    {"map, soft", "size 1024", "map:edges=soft", Receives::EVERYTHING},
+    {"map, soft", "size 2048", "map:edges=soft,size=2048", Receives::EVERYTHING},
+    {"map, soft", "blend, size 1024", "map:edges=soft,composite=blend", Receives::EVERYTHING},
+    {"map, soft", "blend, size 2048", "map:edges=soft,composite=blend,size=2048", Receives::EVERYTHING},
+    {"traced", "relight", "traced", Receives::EVERYTHING},
+    {"traced", "blend", "traced:composite=blend", Receives::EVERYTHING},
 };
 
 ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
@@ -48,7 +53,7 @@ ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
 }
 
 Contender gnomonContender(const GnomonPoint& point) {
-    Contender result{"Gnomon", parseShadowSpec(point.spec).technique, point.setting, {{"--shadow", point.spec}}, {}};
+    Contender result{"Gnomon", point.technique, point.setting, {{"--shadow", point.spec}}, {}};
     result.stage = [point](const ChartScene& scene, Look look) {
         return std::make_unique<GnomonStaging>(specFor(point, scene), scene, look);
     };
