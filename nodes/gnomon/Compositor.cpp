@@ -38,7 +38,7 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     Jobs relit;
     std::map<float, Jobs> blended;
     for (const ShadowJob& job : jobs) {
-        if (!canMark(job)) continue;
+        if (job.programMarks() || !canMark(job)) continue;
         if (job.composite == ShadowCasterGroup::RELIGHT)
             relit.push_back(&job);
         else if (job.dark < 1.0f) // a factor of 1 changes nothing

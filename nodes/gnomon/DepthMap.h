@@ -54,6 +54,7 @@ public:
     /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
     std::string show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn);
     void bind(osg::State& state, unsigned unit) const;
+    osg::Texture2D* texture() const { return _texture.get(); }
 
     /// Makes the blocks of this context those of what it shows, unless they are. After show().
     /// @return as BlockDepths::update().

@@ -288,7 +288,7 @@ MapQuad LightMap::quad(const glm::dmat4& clipFromScene) const {
     quad.lookUps = _lookUps;
     quad.clipFromScene = clipFromScene;
     quad.defines = _wish.defines;
-    if (_faces.front().frame.sun && _lookUps.size() > 1) quad.defines += "#define CASCADES\n";
+    quad.cascades = _faces.front().frame.sun && _lookUps.size() > 1;
     quad.soft = _wish.soft.has_value();
     quad.penumbra = lightRadius() > 0.0;
     return quad;

@@ -31,6 +31,7 @@ struct MapWish {
     std::string defines;             ///< see MapQuad.
     std::optional<MapSoftness> soft; ///< edges; else they are hard.
     MapView view = MapView::Nothing; ///< no part of the maps.
+    int unit = -1;                   ///< no part of them either: see ShadowMapTechnique::setProgramUnit().
 
     /// True if its maps are the same.
     bool operator==(const MapWish& other) const {

@@ -2,11 +2,13 @@
 #include <gnomon/Convert.h>
 #include <gnomon/LightMaps.h>
 #include <gnomon/MapMark.h>
+#include <gnomon/MapProgram.h>
 #include <gnomon/ScreenBounds.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 
@@ -68,10 +70,12 @@ osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, co
                                    [&](const auto& flat) { return isBetween(flat, light, receivers, casters->reach); });
     map.setCause(light, cone, *casters, flats, wish);
     const auto bounds = map.find(receivers, clipFromScene, view.pixels.x());
-    if (!bounds) return nullptr;
+    const bool forPrograms = wish.unit >= 0;
+    if (!bounds) return forPrograms ? new MapProgram : nullptr;
     map.update(*_resources);
     MapQuad quad = map.quad(clipFromScene);
     quad.resources = _resources;
+    if (forPrograms) return new MapProgram(quad, glm::inverse(eyeFromScene(view, mesh)), unsigned(wish.unit));
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
     return wish.soft ? markOf<SoftMapMark>(quad, *bounds, wish.view) : markOf<MapMark>(quad, *bounds, wish.view);
 }

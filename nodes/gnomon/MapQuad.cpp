@@ -60,7 +60,8 @@ std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double 
     map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
     setPlaces(state, copy);
     setColumns(state);
-    setErrors(state);
+    setUniform(state, "nearestError", errors(&MapErrors::nearest));
+    setUniform(state, "farthestError", errors(&MapErrors::farthest));
     if (soft) setSpreads(state);
     setUniform(state, "wanted", glm::dvec2(threshold, blocked ? 1.0 : 0.0));
     setUniform(state, "seenPixels",
@@ -101,16 +102,12 @@ glm::dmat4 MapQuad::sceneFromPixel(const osg::State& state) const {
 
 void MapQuad::setPlaces(osg::State& state, const SeenDepth::Copy& copy) const {
     std::vector<glm::dmat4> mapFromPixel;
-    std::vector<glm::dvec4> places;
-    for (std::size_t i = 0; i < lookUps.size(); ++i) {
-        mapFromPixel.push_back(lookUps[i].mapFromScene * sceneFromPixel(state));
-        places.emplace_back(glm::dvec2(picture->tiles[i].corner), picture->size, border / picture->size);
-    }
+    for (const MapLookUp& lookUp : lookUps) mapFromPixel.push_back(lookUp.mapFromScene * sceneFromPixel(state));
     resources->seen.bind(state, seenUnit);
     setUniform(state, "seen", int(seenUnit));
     setUniform(state, "depthError", copy.error);
     setUniform(state, "mapFromPixel", mapFromPixel);
-    setUniform(state, "place", places);
+    setUniform(state, "place", places());
 }
 
 void MapQuad::setColumns(osg::State& state) const {
@@ -127,17 +124,24 @@ void MapQuad::setColumns(osg::State& state) const {
     setUniform(state, "pixelFromMapZ", columns[2]);
 }
 
-void MapQuad::setErrors(osg::State& state) const {
-    std::vector<glm::dvec4> nearest, farthest;
-    const auto add = [](std::vector<glm::dvec4>& to, const MapError& error) {
-        to.emplace_back(error.depth, error.texels, error.steepest, 0.0);
-    };
+std::string MapQuad::mapDefines() const {
+    return defines + (cascades ? "#define CASCADES\n" : "") + "#define MAPS " + std::to_string(lookUps.size()) + "\n";
+}
+
+std::vector<glm::dvec4> MapQuad::places() const {
+    std::vector<glm::dvec4> result;
+    for (const MapPicture::Tile& tile : picture->tiles)
+        result.emplace_back(glm::dvec2(tile.corner), picture->size, border / picture->size);
+    return result;
+}
+
+std::vector<glm::dvec4> MapQuad::errors(MapError MapErrors::*which) const {
+    std::vector<glm::dvec4> result;
     for (const MapLookUp& lookUp : lookUps) {
-        add(nearest, lookUp.errors.nearest);
-        add(farthest, lookUp.errors.farthest);
+        const MapError& error = lookUp.errors.*which;
+        result.emplace_back(error.depth, error.texels, error.steepest, 0.0);
     }
-    setUniform(state, "nearestError", nearest);
-    setUniform(state, "farthestError", farthest);
+    return result;
 }
 
 void MapQuad::setSpreads(osg::State& state) const {

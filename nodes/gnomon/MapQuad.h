@@ -34,6 +34,7 @@ struct MapQuad {
     glm::dmat4 clipFromScene{1.0};           ///< as drawn.
     std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no fragments.
     std::string defines;                     ///< of the fragment shader: how it compares.
+    bool cascades = false;                   ///< the finer of them hold part of what is seen only.
     bool soft = false;                       ///< wider than the filter, see MapSpread.
     bool penumbra = false;                   ///< and as wide as what blocks the light is far away.
 
@@ -47,7 +48,10 @@ struct MapQuad {
     /// @return as draw().
     std::string showMap(osg::RenderInfo& renderInfo) const;
     /// Of map_place.frag.
-    std::string mapDefines() const { return defines + "#define MAPS " + std::to_string(lookUps.size()) + "\n"; }
+    std::string mapDefines() const;
+    std::vector<glm::dvec4> places() const;
+    /// Of those nearest or farthest, as map.frag has them.
+    std::vector<glm::dvec4> errors(MapError MapErrors::*which) const;
     /// Uniforms of map_place.frag, whose frame's depths are bound, too.
     void setPlaces(osg::State& state, const SeenDepth::Copy& copy) const;
 
@@ -56,7 +60,6 @@ private:
     void drawWide(osg::State& state, ScreenPass& pass) const;
     glm::dmat4 sceneFromPixel(const osg::State& state) const;
     void setColumns(osg::State& state) const;
-    void setErrors(osg::State& state) const;
     void setSpreads(osg::State& state) const;
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/AheadBin.h>
 #include <gnomon/Compositor.h>
+#include <gnomon/ProgramJob.h>
 #include <gnomon/ShadowBin.h>
 #include <gnomon/SoftMarkJob.h>
 #include <gnomon/StageLights.h>
@@ -108,6 +110,8 @@ std::size_t ownBits(const std::vector<ShadowJob>& jobs) {
 
 const SoftMarkJob* ShadowJob::softMarks() const { return dynamic_cast<const SoftMarkJob*>(marks.get()); }
 
+const ProgramJob* ShadowJob::programMarks() const { return dynamic_cast<const ProgramJob*>(marks.get()); }
+
 bool ShadowJob::isReceiver(const osgUtil::RenderLeaf& leaf) const {
     return receiverNamed ? receivers.count(&leaf) > 0 : isOfView(leaf);
 }
@@ -161,6 +165,7 @@ void ShadowBin::sortImplementation() {
         for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
         prepare(entry, found.lights, casters, leaves);
     }
+    AheadBin::show(_jobs, *getStage());
     for (const osg::ref_ptr<StageEffect>& effect : _effects) effect->prepare(*getStage(), leaves);
     sortAsAsked();
     osgUtil::RenderBin::sortImplementation();

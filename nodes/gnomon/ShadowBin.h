@@ -17,6 +17,7 @@
 
 namespace gnomon {
 
+class ProgramJob;
 class SoftMarkJob;
 
 /// A technique met in the cull of one stage, and what it needs to know of the view.
@@ -44,6 +45,8 @@ struct ShadowJob {
 
     /// The marks, if their edges are soft; else null.
     const SoftMarkJob* softMarks() const;
+    /// The job, if it is for programs alone; else null.
+    const ProgramJob* programMarks() const;
     /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this view.
     bool isReceiver(const osgUtil::RenderLeaf& leaf) const;
     /// True if the leaf is seen through the technique's lens, unlike what a nested camera lays over the view.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/CascadeSplits.h>
 #include <gnomon/LightMaps.h>
+#include <gnomon/MapProgram.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/UsableLight.h>
@@ -38,6 +39,7 @@ ShadowMapTechnique::ShadowMapTechnique(const ShadowMapTechnique& other, const os
       _lampSize(other._lampSize),
       _radius(other._radius),
       _view(other._view),
+      _programUnit(other._programUnit),
       _maps(std::make_unique<LightMaps>()) {}
 
 ShadowMapTechnique::~ShadowMapTechnique() = default;
@@ -65,20 +67,23 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
     reportUnknownTests(view.frameNumber, mesh);
     const std::optional<SpotCone> cone = spotOf(light);
     std::vector<osg::ref_ptr<MarkJob>> marks;
-    if (cone && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
+    if (cone && _programUnit < 0 && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
         marks.emplace_back(_maps->around(view, *usable, *cone, mesh));
     const osg::ref_ptr<MarkJob> mark = _maps->mark(view, light.number, *usable, cone, mesh, wish());
     if (mark) marks.emplace_back(mark); // else out of sight: nothing to say
     return marks;
 }
 
+std::string ShadowMapTechnique::programFunction() const { return visibilityFunction(definesOf(_filter)); }
+
 MapWish ShadowMapTechnique::wish() const {
-    MapWish wish{_size,
-                 _cascades,
-                 _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR,
-                 definesOf(_filter),
-                 std::nullopt,
-                 MapView(_view)};
+    MapWish wish;
+    wish.size = _size;
+    wish.cascades = _cascades;
+    wish.compare = _filter == NEAREST ? osg::Texture::NEAREST : osg::Texture::LINEAR;
+    wish.defines = definesOf(_filter);
+    wish.view = MapView(_view);
+    wish.unit = _programUnit;
     if (_edges == SOFT) wish.soft = MapSoftness{std::tan(glm::radians(_sunAngle / 2.0)), _lampSize / 2.0, _radius};
     return wish;
 }

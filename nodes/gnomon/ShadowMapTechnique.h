@@ -128,6 +128,18 @@ public:
     void setView(View view) { _view = view == MAP || view == TEXELS || view == CASCADES ? view : NOTHING; }
     View getView() const { return _view; }
 
+    /// Texture unit, 0 … 31, at which the programs of all that this view draws find the maps of the group's first light, for
+    /// shading of their own; default -1: no program does, and shadows are marked as ever. With a unit nothing is marked.
+    /// Values that are none of them are -1. What is drawn by OpenGL's fixed functions is drawn as if there were no shadow; give
+    /// such things a technique of their own.
+    void setProgramUnit(int unit) { _programUnit = unit >= 0 && unit < 32 ? unit : -1; }
+    int getProgramUnit() const { return _programUnit; }
+    /// The function for such programs, GLSL 1.30, to be added to them as a fragment shader of its own, which compares as the
+    /// filter says; edges are as soft as that, penumbras it does not know.
+    ///
+    ///     float gnomon_visibility(vec3 eye); // declare it; eye: in eye coordinates
+    std::string programFunction() const;
+
     /// Maps drawn so far, over all lights, views and contexts: rises only where something changed.
     unsigned passes() const;
 
@@ -151,6 +163,7 @@ private:
     double _sunAngle = 0.533;
     double _lampSize = 0.0, _radius = 0.0;
     View _view = NOTHING;
+    int _programUnit = -1;
     std::unique_ptr<LightMaps> _maps;
 };
 

@@ -21,6 +21,7 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
     ADD_DOUBLE_SERIALIZER(SunAngle, fresh->getSunAngle());
     ADD_DOUBLE_SERIALIZER(LampSize, fresh->getLampSize());
     ADD_DOUBLE_SERIALIZER(Radius, fresh->getRadius());
+    ADD_INT_SERIALIZER(ProgramUnit, fresh->getProgramUnit());
     BEGIN_ENUM_SERIALIZER(View, NOTHING);
     ADD_ENUM_VALUE(NOTHING);
     ADD_ENUM_VALUE(MAP);

@@ -307,17 +307,19 @@ TEST_P(SceneFile, KeepsTheCascadesOfMaps) {
     EXPECT_EQ(loaded->getCascades(), 3);
 }
 
-TEST_P(SceneFile, KeepsTheSoftEdgesOfMaps) {
+TEST_P(SceneFile, KeepsTheSoftEdgesAndTheViewOfMaps) {
     const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
     technique->setEdges(gnomon::ShadowMapTechnique::SOFT);
     technique->setSunAngle(0.1);
     technique->setLampSize(1.0 / 3.0);
     technique->setRadius(2.0 / 3.0);
+    technique->setView(gnomon::ShadowMapTechnique::CASCADES);
     const auto loaded = test::throughFile(*technique, kind());
     EXPECT_EQ(loaded->getEdges(), gnomon::ShadowMapTechnique::SOFT);
     EXPECT_EQ(loaded->getSunAngle(), 0.1);
     EXPECT_EQ(loaded->getLampSize(), 1.0 / 3.0);
     EXPECT_EQ(loaded->getRadius(), 2.0 / 3.0);
+    EXPECT_EQ(loaded->getView(), gnomon::ShadowMapTechnique::CASCADES);
 }
 
 TEST(SceneFileText, SaysNothingOfDefaults) {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowBin.h>
+
+namespace gnomon {
+
+/// The first bin of a stage whose drawables' programs look up shadows: draws what these need.
+class AheadBin : public osgUtil::RenderBin {
+public:
+    AheadBin() = default;
+    AheadBin(const AheadBin& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)
+        : osgUtil::RenderBin(other, copyOp) {}
+    osg::Object* cloneType() const override { return new AheadBin; }
+    osg::Object* clone(const osg::CopyOp& copyOp) const override { return new AheadBin(*this, copyOp); }
+    const char* libraryName() const override { return "gnomon"; }
+    const char* className() const override { return "AheadBin"; }
+
+    /// Lets the programs of a stage find the first of the jobs that are for them; or, if none is and one was, nothing.
+    static void show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& stage);
+
+    void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
+
+protected:
+    ~AheadBin() override = default;
+
+private:
+    ShadowJob _job;
+};
+
+} // namespace gnomon
