@@ -61,10 +61,24 @@ void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
 }
 
 void Compositor::blendAny(const Jobs& jobs, float dark) {
+    if (darkenDirectly(jobs, dark)) return;
     if (areSoft(jobs))
         SoftCompositor(_draw).blend(jobs, dark);
     else if (!composeDirectly(jobs))
         blend(jobs, dark);
+}
+
+/// The shortest way for a single job that can: no marks. Possible unless it has a named receiver or something of another view
+/// lies over it.
+bool Compositor::darkenDirectly(const Jobs& jobs, float dark) const {
+    const ShadowJob& job = *jobs.front();
+    if (jobs.size() > 1 || job.receiverNamed || !job.marks->canDarken() || !notOfView(job, _draw.leaves).empty())
+        return false;
+    _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
+        const std::string cause = job.marks->darken(_draw.renderInfo, screen, dark);
+        if (!cause.empty()) job.technique->report(job.frameNumber, cause);
+    });
+    return true;
 }
 
 /// In the cheapest way that is right.

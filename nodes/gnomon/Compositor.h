@@ -35,6 +35,7 @@ private:
     static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended);
     void drawViews(const std::vector<ShadowJob>& jobs) const;
     void blendAny(const Jobs& jobs, float dark);
+    bool darkenDirectly(const Jobs& jobs, float dark) const;
     void blend(const Jobs& jobs, float dark);
 
     std::map<int, unsigned> assignBits(const Jobs& jobs) const;

@@ -18,6 +18,7 @@ namespace {
 constexpr double reserve = 1.0 / 16.0; // of a map's sides
 constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
 constexpr double border = 3.0;         // texels: what a comparison reaches over, and one against rounding
+constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
 constexpr int largestTexture = 16384;  // texels on a side: what OpenGL has in most places
 constexpr double sameLight = 1e-7;     // of the distance: what OSG's matrices and floats make of a light at rest
 
@@ -153,8 +154,8 @@ void LightMap::findSplits(const std::vector<MapReceiver>& receivers, const glm::
     _splits = cascadeSplits(seen, std::max(_cascades, 1));
 }
 
-std::optional<ScreenRect> LightMap::find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
-                                         double width) {
+std::vector<glm::dvec4> LightMap::find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
+                                       double width) {
     findSplits(receivers, clipFromScene, width);
     std::vector<glm::dvec4> points;
     for (MapFace& face : _faces) {
@@ -163,27 +164,32 @@ std::optional<ScreenRect> LightMap::find(const std::vector<MapReceiver>& receive
         findNeeded(face, receivers, viewPart(clipFromScene, _splits, face.part));
         for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);
     }
-    if (points.empty()) return std::nullopt;
-    return screenBounds(points);
+    return points;
 }
 
 void LightMap::findNeeded(MapFace& face, const std::vector<MapReceiver>& receivers,
                           const std::vector<glm::dvec4>& part) const {
-    double nearest = std::numeric_limits<double>::infinity(); // of what blocks the light: distances from there count
     for (const MapBlocker& blocker : face.blockers) {
         std::vector<glm::dvec4> halfSpaces = part;
         halfSpaces.insert(halfSpaces.end(), blocker.halfSpaces.begin(), blocker.halfSpaces.end());
         addNeeded(face, blocker, receivers, std::move(halfSpaces));
-        nearest = std::min(nearest, blocker.outline.nearest);
     }
     face.needed.limitNearest();
     face.held = face.needed;
-    if (!_wish.soft || face.needed.empty()) return;
-    MapOutline all = face.reach;
-    all.nearest = nearest;
-    face.held.grow(softness(face.frame, all, face.needed.farthest));
+    if (_wish.soft && !face.needed.empty()) findHeld(face);
+}
+
+/// Of soft edges: what is about each place, too, and how far away what blocks the light is; of what is flat that is of no
+/// account, for it ends where what it darkens begins.
+void LightMap::findHeld(MapFace& face) const {
+    const auto body = std::find_if(face.blockers.begin(), face.blockers.end(),
+                                   [](const MapBlocker& blocker) { return !blocker.isFlat(); });
+    if (body == face.blockers.end()) return;
+    const double most =
+        1.5 * widestSpread / _wish.size * face.needed.length(); // a map that is so much larger has wider texels
+    face.held.grow(std::min(softness(face.frame, body->outline, face.needed.farthest), most));
     face.held.cut(face.reach);
-    face.held.nearest = std::min(face.held.nearest, nearest);
+    face.held.nearest = std::min(face.held.nearest, body->outline.nearest);
     face.held.limitNearest();
 }
 
@@ -195,7 +201,7 @@ void LightMap::addNeeded(MapFace& face, const MapBlocker& blocker, const std::ve
             to.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
     };
     MapOutline reach = blocker.outline, needed(face.frame);
-    if (_wish.soft) {
+    if (_wish.soft && !blocker.isFlat()) {
         MapOutline seen(face.frame);
         add(seen);
         if (seen.empty()) return;

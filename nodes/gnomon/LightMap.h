@@ -53,6 +53,7 @@ std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& ey
 struct MapBlocker {
     MapOutline outline;                 ///< of what it can darken, were all edges hard.
     std::vector<glm::dvec4> halfSpaces; ///< that hold what it can darken: what is flat darkens what is beyond it.
+    bool isFlat() const { return !halfSpaces.empty(); }
 };
 
 /// Half-space of what something flat can darken: what is beyond it, seen from the light.
@@ -84,9 +85,9 @@ public:
                   const MapWish& wish);
     /// Finds what is needed now.
     /// @param width  of the view, pixels.
-    /// @return where on the screen shadows can fall; nullopt if nowhere.
-    std::optional<ScreenRect> find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
-                                   double width);
+    /// @return what is needed, corners in clip space: on the screen shadows can fall about them; none if nowhere.
+    std::vector<glm::dvec4> find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
+                                 double width);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
     void update(const MapResources& resources);
     /// Without what a cone adds.
@@ -105,6 +106,7 @@ private:
     void addNeeded(MapFace& face, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
                    std::vector<glm::dvec4> halfSpaces) const;
     double lightRadius() const;
+    void findHeld(MapFace& face) const;
     double softness(const LightFrame& frame, MapOutline blocker, double farthest) const;
     bool holds(const MapFace& face) const;
     MapFit fitOf(const MapFace& face) const;

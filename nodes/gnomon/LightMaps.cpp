@@ -69,12 +69,15 @@ osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     const bool flats = std::any_of(casters->flatBoxes.begin(), casters->flatBoxes.end(),
                                    [&](const auto& flat) { return isBetween(flat, light, receivers, casters->reach); });
     map.setCause(light, cone, *casters, flats, wish);
-    const auto bounds = map.find(receivers, clipFromScene, view.pixels.x());
+    const std::vector<glm::dvec4> corners = map.find(receivers, clipFromScene, view.pixels.x());
+    const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     const bool forPrograms = wish.unit >= 0;
     if (!bounds) return forPrograms ? new MapProgram : nullptr;
     map.update(*_resources);
     MapQuad quad = map.quad(clipFromScene);
     quad.resources = _resources;
+    quad.outline =
+        screenOutline(corners, 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y())); // two pixels more, against rounding
     if (forPrograms) return new MapProgram(quad, glm::inverse(eyeFromScene(view, mesh)), unsigned(wish.unit));
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
     return wish.soft ? markOf<SoftMapMark>(quad, *bounds, wish.view) : markOf<MapMark>(quad, *bounds, wish.view);

@@ -5,6 +5,8 @@
 
 namespace gnomon {
 
+constexpr double allOfIt = 511.0 / 512.0; // of a light: less than that is a step of eight bits
+
 /// Marks of one light in one view: where the light's maps hold something nearer to it than what is seen.
 template <class Job>
 class MapMarkOf : public Job {
@@ -14,6 +16,11 @@ public:
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override {
         return markBelow(0.5, renderInfo, pass, bit);
+    }
+    bool canDarken() const override { return true; }
+    std::string darken(osg::RenderInfo& renderInfo, ScreenPass& pass, float factor) const override {
+        pass.beginMultiplyByColor();
+        return quad.draw(renderInfo, pass, {quad.soft ? allOfIt : 0.5, false, factor});
     }
     bool hasView() const override { return view != MapView::Nothing; }
     void drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int before) const override {
@@ -25,7 +32,7 @@ protected:
 
     std::string markBelow(double share, osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
         pass.stencilEqual(bit, 0, bit);
-        return quad.draw(renderInfo, pass, share);
+        return quad.draw(renderInfo, pass, {share, false, 1.0});
     }
 };
 

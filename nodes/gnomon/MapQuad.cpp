@@ -43,7 +43,7 @@ glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
     return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
 }
 
-std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double threshold, bool blocked) const {
+std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, const Wanted& wanted) const {
     osg::State& state = *renderInfo.getState();
     const osg::Viewport& viewport = *state.getCurrentViewport();
     const PixelRect marked = pixelsInScissor(viewport);
@@ -63,10 +63,10 @@ std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double 
     setUniform(state, "nearestError", errors(&MapErrors::nearest));
     setUniform(state, "farthestError", errors(&MapErrors::farthest));
     if (soft) setSpreads(state);
-    setUniform(state, "wanted", glm::dvec2(threshold, blocked ? 1.0 : 0.0));
+    setUniform(state, "wanted", glm::dvec4(wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, soft ? 1.0 : 0.0));
     setUniform(state, "seenPixels",
                glm::dvec4(pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1));
-    wide ? drawWide(state, pass) : pass.drawQuad();
+    wide ? drawWide(state, pass) : drawFragments(state, pass);
     state.apply();
     return lack;
 }
@@ -78,13 +78,20 @@ std::string MapQuad::showMap(osg::RenderInfo& renderInfo) const {
     return cause;
 }
 
+/// Where something is seen.
+void MapQuad::drawFragments(osg::State& state, ScreenPass& pass) const {
+    pass.testDepth(GL_GREATER);
+    drawPolygon(state, outline, 1.0);
+    glDisable(GL_DEPTH_TEST);
+}
+
 void MapQuad::drawWide(osg::State& state, ScreenPass& pass) const {
     map->bindBlocks(state, blocksUnit);
     map->bind(state, rawUnit);
     const RawSampler raw(state, rawUnit);
     setUniform(state, "blocks", int(blocksUnit));
     setUniform(state, "depths", int(rawUnit));
-    pass.drawQuad();
+    drawFragments(state, pass);
 }
 
 std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {

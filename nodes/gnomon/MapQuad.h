@@ -31,6 +31,7 @@ struct MapQuad {
     osg::ref_ptr<DepthMap> map;
     osg::ref_ptr<const MapPicture> picture;
     std::vector<MapLookUp> lookUps;          ///< one a tile of the picture.
+    std::vector<glm::dvec2> outline;         ///< of where less than all of the light can arrive: see drawPolygon().
     glm::dmat4 clipFromScene{1.0};           ///< as drawn.
     std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no fragments.
     std::string defines;                     ///< of the fragment shader: how it compares.
@@ -38,12 +39,16 @@ struct MapQuad {
     bool soft = false;                       ///< wider than the filter, see MapSpread.
     bool penumbra = false;                   ///< and as wide as what blocks the light is far away.
 
-    /// Draws a fragment wherever the share of the light is below the threshold, with the share in alpha; draws the map first,
-    /// if that is due. The pass's stencil test, blending and colour mask stand.
-    /// @param blocked  alpha is the share that does not arrive.
+    /// Which fragments are drawn, and what they hold.
+    struct Wanted {
+        double below;  ///< those of pixels that less than this share of the light reaches.
+        bool blocked;  ///< alpha is the share that does not arrive, else that which does.
+        double factor; ///< colour of a pixel that none of it reaches; all: 1.
+    };
+    /// Draws them; draws the map first, if that is due. The pass's stencil test, blending and colour mask stand.
     /// @return why that is not possible, or not as it should be, as a cause for ShadowTechnique::report(); empty if all is
     ///         well.
-    std::string draw(osg::RenderInfo& renderInfo, ScreenPass& pass, double threshold, bool blocked = false) const;
+    std::string draw(osg::RenderInfo& renderInfo, ScreenPass& pass, const Wanted& wanted) const;
     /// Makes the map show its picture, unless it does.
     /// @return as draw().
     std::string showMap(osg::RenderInfo& renderInfo) const;
@@ -57,6 +62,7 @@ struct MapQuad {
 
 private:
     std::string definesOf(const PixelRect& pixels, bool wide) const;
+    void drawFragments(osg::State& state, ScreenPass& pass) const;
     void drawWide(osg::State& state, ScreenPass& pass) const;
     glm::dmat4 sceneFromPixel(const osg::State& state) const;
     void setColumns(osg::State& state) const;

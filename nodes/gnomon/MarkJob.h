@@ -28,6 +28,12 @@ public:
     /// @return why nothing could be marked, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const = 0;
 
+    /// True if it can darken().
+    virtual bool canDarken() const { return false; }
+    /// Multiplies what stands by `factor` where the light does not reach, without marks.
+    /// @return as mark().
+    virtual std::string darken(osg::RenderInfo&, ScreenPass&, float /*factor*/) const { return ""; }
+
     /// True if mark() needs ScreenPass::counters().
     virtual bool counts() const { return false; }
 

@@ -173,6 +173,11 @@ void ScreenPass::beginMultiply(float factor) {
     _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
 }
 
+void ScreenPass::beginMultiplyByColor() {
+    openChannels(GL_FALSE);
+    addBlended(_state, GL_ZERO, GL_SRC_COLOR);
+}
+
 void ScreenPass::beginMix(const osg::Vec3& kept) {
     const auto& gl = *_state.get<osg::GLExtensions>();
     openChannels(GL_TRUE);
@@ -235,6 +240,15 @@ void drawQuad(osg::State& state, double atCenter, double slopeX, double slopeY) 
     glBegin(GL_TRIANGLE_STRIP);
     for (const double y : {-1.0, 1.0})
         for (const double x : {-1.0, 1.0}) glVertex3d(x, y, atCenter + x * slopeX + y * slopeY);
+    glEnd();
+}
+
+void drawPolygon(osg::State& state, const std::vector<glm::dvec2>& corners, double depth) {
+    if (corners.empty()) return drawQuad(state, depth);
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
+    glBegin(GL_TRIANGLE_FAN);
+    for (const glm::dvec2& corner : corners) glVertex3d(corner.x, corner.y, depth);
     glEnd();
 }
 

@@ -47,6 +47,9 @@ PixelRect pixelsInScissor(const osg::Viewport& viewport);
 /// Rectangle over the whole viewport; depth in normalised device coordinates, z = atCenter + x·slopeX + y·slopeY.
 void drawQuad(osg::State& state, double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
 
+/// A convex polygon in normalised device coordinates; as drawQuad() if there are no corners.
+void drawPolygon(osg::State& state, const std::vector<glm::dvec2>& corners, double depth);
+
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
 /// Puts everything back at its end.
 class ScreenPass {
@@ -85,6 +88,8 @@ public:
     void multiplyColor(float factor);
     /// What is drawn next multiplies what stands by the factor, whatever its own colour.
     void beginMultiply(float factor);
+    /// What is drawn next multiplies what stands by its own colour; alpha stays.
+    void beginMultiplyByColor();
     /// What is drawn next and what stands are mixed: (1 - kept) of the one, kept of the other, a channel each. Alpha is
     /// that of what is drawn.
     void beginMix(const osg::Vec3& kept);

@@ -3,7 +3,8 @@
 // For pixels' places see map_place.frag.
 
 uniform vec4 pixelFromMapX[MAPS], pixelFromMapY[MAPS], pixelFromMapZ[MAPS]; // columns of its inverse
-uniform vec2 wanted;          // pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0
+uniform vec4 wanted;          // pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0;
+                              // colour of a pixel that nothing reaches; 1, if other pixels are between that and white
 uniform vec4 nearestError[MAPS], farthestError[MAPS]; // see MapErrors
 
 #if defined(ODD) || defined(SOFT)
@@ -86,5 +87,5 @@ void main() {
 #endif
     float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
     if (arrives >= wanted.x) discard;
-    gl_FragColor = vec4(0.0, 0.0, 0.0, mix(arrives, 1.0 - arrives, wanted.y));
+    gl_FragColor = vec4(vec3(mix(wanted.z, 1.0, arrives * wanted.w)), mix(arrives, 1.0 - arrives, wanted.y));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ConvexOutline.h>
 #include <gnomon/MapFit.h>
 #include <gnomon/ScreenBounds.h>
 
@@ -31,26 +32,6 @@ glm::dvec3 anyAcross(const glm::dvec3& axis) {
 }
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
-
-/// Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", IPL 9(5), 1979.
-Polygon hullOf(Polygon points) {
-    std::sort(points.begin(), points.end(),
-              [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (points.size() < 3) return points;
-    Polygon hull;
-    for (const bool back : {false, true}) {
-        const std::size_t start = hull.size();
-        for (const glm::dvec2& point : points) {
-            while (hull.size() >= start + 2 && !(cross(hull.back() - hull[hull.size() - 2], point - hull.back()) > 0.0))
-                hull.pop_back();
-            hull.push_back(point);
-        }
-        hull.pop_back(); // the other half begins with it
-        if (!back) std::reverse(points.begin(), points.end());
-    }
-    return hull;
-}
 
 double areaOf(const Polygon& polygon) {
     double twice = 0.0;
@@ -187,7 +168,7 @@ void MapOutline::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm
         farthest = corners.empty() ? depth : std::max(farthest, depth);
         corners.push_back(glm::dvec2(p) / p.w);
     }
-    corners = hullOf(std::move(corners));
+    corners = convexOutline(std::move(corners));
 }
 
 void MapOutline::merge(const MapOutline& other) {
@@ -195,7 +176,7 @@ void MapOutline::merge(const MapOutline& other) {
     nearest = empty() ? other.nearest : std::min(nearest, other.nearest);
     farthest = empty() ? other.farthest : std::max(farthest, other.farthest);
     corners.insert(corners.end(), other.corners.begin(), other.corners.end());
-    corners = hullOf(std::move(corners));
+    corners = convexOutline(std::move(corners));
 }
 
 void MapOutline::cut(const MapOutline& other) {
@@ -209,12 +190,11 @@ void MapOutline::limitNearest() {
     if (!_frame.sun) nearest = std::max(nearest, 64.0 * farthest);
 }
 
-void MapOutline::grow(double by) {
-    Polygon wider;
-    for (const glm::dvec2& corner : corners)
-        for (const double x : {-by, by})
-            for (const double y : {-by, by}) wider.push_back(corner + glm::dvec2(x, y));
-    corners = hullOf(std::move(wider));
+void MapOutline::grow(double by) { corners = grownOutline(corners, glm::dvec2(by)); }
+
+double MapOutline::length() const {
+    const Rectangle rectangle = smallestAbout(corners);
+    return std::max(rectangle.high.x - rectangle.low.x, rectangle.high.y - rectangle.low.y);
 }
 
 std::vector<glm::dvec4> MapOutline::sides() const {
@@ -254,7 +234,7 @@ bool MapFit::covers(const MapOutline& outline, double margin) const {
 
 MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, double reserve, double margin,
               double thick) {
-    Rectangle rectangle = smallestAbout(hullOf(outline.corners));
+    Rectangle rectangle = smallestAbout(convexOutline(outline.corners));
     const Rectangle limit = rectangleAlong(rectangle.along, most.corners);
     const glm::dvec2 around = reserve * (rectangle.high - rectangle.low);
     rectangle.low = glm::min(rectangle.low, glm::max(rectangle.low - around, limit.low));

@@ -38,6 +38,8 @@ public:
                 const std::vector<glm::dvec4>& halfSpaces = {});
 
     bool empty() const { return corners.empty(); }
+    /// The longer side of the smallest rectangle about it, in x/w and y/w.
+    double length() const;
     /// Half-spaces of the scene, the sides of the smallest rectangle about it: what is outside them has no place in it.
     std::vector<glm::dvec4> sides() const;
     /// The corners of all between nearest and farthest, homogeneous, in the scene.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ConvexOutline.h>
 #include <gnomon/ScreenBounds.h>
 
 #include <algorithm>
@@ -159,6 +160,16 @@ std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints
     const glm::dvec2 low = glm::max(glm::dvec2(x.low, y.low), -1.0), high = glm::min(glm::dvec2(x.high, y.high), 1.0);
     if (!glm::all(glm::lessThanEqual(low, high))) return std::nullopt;
     return ScreenRect{low, high};
+}
+
+std::vector<glm::dvec2> screenOutline(const std::vector<glm::dvec4>& clipPoints, const glm::dvec2& by) {
+    std::vector<glm::dvec2> points;
+    for (const glm::dvec4& point : clipPoints) {
+        points.push_back(glm::dvec2(point) / point.w);
+        const glm::dvec2& last = points.back();
+        if (!(point.w > 0.0 && std::abs(last.x) < 1e6 && std::abs(last.y) < 1e6)) return {};
+    }
+    return grownOutline(points, by);
 }
 
 glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame) {

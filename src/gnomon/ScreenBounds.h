@@ -32,6 +32,10 @@ struct ScreenRect {
 /// nullopt if nothing of it can be seen. Points that are not finite make the whole screen the answer.
 std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints);
 
+/// As screenBounds() the convex outline, in normalised device coordinates, grown by `by` to each side; may reach beyond the
+/// screen. Empty where that is not known: some of it is behind the eye.
+std::vector<glm::dvec2> screenOutline(const std::vector<glm::dvec4>& clipPoints, const glm::dvec2& by);
+
 /// The point all lines of sight go through, homogeneous, w >= 0: the eye, or for an orthographic view the direction
 /// towards it. Not finite if the matrix cannot be inverted.
 glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame);
