@@ -90,6 +90,57 @@ TEST(MapOutline, HasSidesAndABodyAboutWhatIsInIt) {
     }
 }
 
+TEST(MapOutline, MergedWithAnotherIsTheHullOfBothWithAllDepths) {
+    const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
+    MapOutline outline = outlineOf(frame, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+    outline.merge(outlineOf(frame, {4.0, 0.0, 2.0}, {5.0, 1.0, 3.0}));
+    EXPECT_EQ(outline.corners.size(), 4u); // [0, 5] x [0, 1]
+    EXPECT_NEAR(outline.length(), 5.0, 1e-14);
+    EXPECT_EQ(outline.nearest, -3.0);
+    EXPECT_EQ(outline.farthest, 0.0);
+    MapOutline none(frame);
+    outline.merge(none);
+    EXPECT_EQ(outline.nearest, -3.0);
+    none.merge(outline);
+    EXPECT_EQ(none.farthest, 0.0);
+    EXPECT_EQ(none.corners.size(), 4u);
+}
+
+TEST(MapOutline, GrownIsAsMuchLargerOnEachSide) {
+    MapOutline outline = outlineOf(sunFrame({0.0, 0.0, 1.0}), {0.0, 0.0, 0.0}, {5.0, 1.0, 1.0});
+    outline.grow(0.5);
+    EXPECT_EQ(outline.corners.size(), 4u);
+    EXPECT_NEAR(outline.length(), 6.0, 1e-14);
+}
+
+// A ray from the light's rim past an edge: by similar triangles it meets the surface as far aside as this.
+TEST(MapSpread, IsThatOfSimilarTriangles) {
+    const int texels = 1024;
+    const LightFrame sun = sunFrame({0.0, 0.0, 1.0});
+    const MapOutline below = outlineOf(sun, {-4.0, -2.0, 0.0}, {4.0, 2.0, 10.0});
+    const MapFit fit = fitMap(sun, below, below, 0.0, 0.0, 1.0);
+    const double height = 3.0, tangent = 0.02, radius = 0.25;
+    const MapSpread ofSun = mapSpread(sun, fit, tangent, radius, texels);
+    for (int axis = 0; axis < 2; ++axis) {
+        const double texelsAUnit = texels / fit.size[axis];
+        EXPECT_NEAR(ofSun.penumbra[axis] * height / (fit.farthest - fit.nearest), tangent * height * texelsAUnit, 1e-9);
+        EXPECT_NEAR(ofSun.nearest[axis], radius * texelsAUnit, 1e-9);
+        EXPECT_NEAR(ofSun.farthest[axis], radius * texelsAUnit, 1e-9);
+    }
+    const LightFrame lamp = lampFrame({0.0, 0.0, 12.0}, {0.0, 0.0, -1.0}, 1.0);
+    const MapOutline seen = outlineOf(lamp, {-2.0, -1.0, 0.0}, {2.0, 1.0, 8.0});
+    const MapFit lampFit = fitMap(lamp, seen, seen, 0.0, 0.0, 1.0);
+    const double edge = 5.0, surface = 11.0, half = 0.3; // distances along the axis
+    const MapSpread ofLamp = mapSpread(lamp, lampFit, half, radius, texels);
+    const double between = (1.0 / edge - 1.0 / surface) / (lampFit.farthest - lampFit.nearest); // of the map's depth
+    const double aside = half * (surface - edge) / edge / surface;                              // tangent
+    EXPECT_NEAR(ofLamp.penumbra.x * between, aside * texels / lampFit.size.x, 1e-9);
+    EXPECT_NEAR(ofLamp.farthest.x, radius * -lampFit.farthest * texels / lampFit.size.x, 1e-9);
+    EXPECT_NEAR(softReach(lamp, -1.0 / edge, -1.0 / surface, half, 0.0), aside, 1e-14);
+    EXPECT_NEAR(softReach(lamp, -1.0 / edge, -1.0 / surface, 0.0, radius), radius / edge, 1e-14);
+    EXPECT_NEAR(softReach(sun, -10.0, -4.0, tangent, radius), tangent * 6.0 + radius, 1e-14);
+}
+
 TEST(FitMap, TurnsWithWhatItCovers) {
     const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
     const glm::dmat4 turned = glm::rotate(here, 0.5, glm::dvec3(0.0, 0.0, 1.0));

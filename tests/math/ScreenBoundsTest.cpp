@@ -188,6 +188,30 @@ TEST(CutBox, TheUnitOfLengthDoesNotMatter) {
     }
 }
 
+TEST(ScreenOutline, IsTheHullOfWhatIsSeenAndMore) {
+    const std::vector<dvec4> corners{
+        {-1.0, 0.0, 0.0, 2.0}, {1.0, 0.0, 0.0, 2.0}, {0.0, 0.5, 0.0, 1.0}, {0.0, 0.2, 0.0, 1.0}};
+    const auto outline = gnomon::screenOutline(corners, {0.25, 0.0});
+    ASSERT_EQ(outline.size(), 4u); // (-0.75, 0), (0.75, 0), (0.25, 0.5), (-0.25, 0.5)
+    double left = 0.0, top = 0.0, twice = 0.0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        const dvec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
+        left = std::min(left, a.x);
+        top = std::max(top, a.y);
+        twice += a.x * b.y - b.x * a.y;
+    }
+    EXPECT_DOUBLE_EQ(left, -0.75);
+    EXPECT_DOUBLE_EQ(top, 0.5);
+    EXPECT_DOUBLE_EQ(twice / 2.0, 0.5); // (1.5 + 0.5) / 2 * 0.5, counter-clockwise
+}
+
+TEST(ScreenOutline, IsNotKnownWhereSomethingIsBehindTheEyeOrNotFinite) {
+    const dvec4 before{0.0, 0.0, 0.0, 1.0};
+    for (const dvec4& other : {dvec4(0.0, 0.0, 0.0, -1.0), dvec4(0.0, 0.0, 0.0, 0.0), dvec4(1.0, 0.0, 0.0, 1e-9),
+                               dvec4(notANumber, 0.0, 0.0, 1.0)})
+        EXPECT_TRUE(gnomon::screenOutline({before, other}, {0.1, 0.1}).empty());
+}
+
 TEST(ScreenBounds, DividesByW) {
     const auto rect = gnomon::screenBounds({{-1, 0.5, 0, 2}, {1, 1, 5, 4}});
     ASSERT_TRUE(rect);
