@@ -110,6 +110,17 @@ TEST(MapProgram, FindsAllOfTheLightWhereThereIsNoneToBlock) {
     EXPECT_EQ(dark(camera.frame()), 0) << "the light is off";
 }
 
+TEST(MapProgram, FindsInEachOfTwoViewsWhatIsTrueThere) {
+    Asking asking(test::labEight());
+    TracedCase other = asking.given;
+    other.view = test::perspective({10.0, -6.0, 5.0}, {0.0, 0.0, 1.0}, 640, 480);
+    test::Camera first(asking.scene.root, asking.given.view), second(asking.scene.root, other.view);
+    for (int frame = 0; frame < 2; ++frame) {
+        EXPECT_EQ(against(asking.given.truth(), first.frame()).wrong, 0) << frame;
+        EXPECT_EQ(against(other.truth(), second.frame()).wrong, 0) << frame;
+    }
+}
+
 TEST(MapProgram, HasUnitsFromNoneTo31) {
     const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
     EXPECT_EQ(technique->getProgramUnit(), -1);
