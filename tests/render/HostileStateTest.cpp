@@ -129,7 +129,10 @@ TEST(HostileState, ALightSourceOfANumberThatOpenGLLacksIsNamed) {
     const auto technique = planar();
     scene.addShadow(technique);
     scene.group->addLight(odd);
-    render(scene.root, view);
+    Camera camera(scene.root, view);
+    // OpenSceneGraph itself asks OpenGL for that light, and would tell of the error.
+    camera.context().graphicsContext()->getState()->setCheckForGLErrors(osg::State::NEVER_CHECK_GL_ERRORS);
+    camera.frame();
     ASSERT_EQ(technique->diagnose().size(), 1u);
     EXPECT_NE(technique->diagnose()[0].find("OpenGL's lights are 0 to 7"), std::string::npos);
 }

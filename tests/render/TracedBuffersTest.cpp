@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Traced shadows in framebuffer objects with several samples, whose depth has to be resolved before it can be read.
-#include "IntoTexture.h"
-#include "TracedCases.h"
+#include "DrawnInto.h"
 
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
@@ -14,29 +13,14 @@ using namespace test;
 
 namespace {
 
-constexpr GLenum depth24 = GL_DEPTH24_STENCIL8_EXT, depth32 = 0x8CAD; // GL_DEPTH32F_STENCIL8
-
-Target fourSamples(GLenum format = depth24) { return {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, format, 4}; }
-
-struct Drawn {
-    Drawn(const TracedCase& given, const Target& target, bool traced, bool dark = false) : scene(given.build()) {
-        if (dark) scene.takeLightAway();
-        if (traced) scene.addShadow(technique);
-        into = std::make_unique<IntoTexture>(scene.root, given.view, target);
-    }
-    Picture frame() { return into->camera->frame(); }
-
-    osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
-    Scene scene;
-    std::unique_ptr<IntoTexture> into;
-};
+DrawnInto drawnByRays(const TracedCase& given) { return {given, fourSamples(), new gnomon::TracedShadowTechnique}; }
 
 /// A pixel's shadow is that of one of its samples, wherever in the pixel that lies: so a pixel may be wrong if an edge
 /// runs through it. An edge that runs between the truth's 16 rays and the pixel's border makes 1 in 10,000.
 void expectOneOfTheSamples(const TracedCase& given, const Target& target) {
     SCOPED_TRACE(given.name);
-    Drawn lit(given, target, false), dark(given, target, false, true), traced(given, target, true);
-    const TruthComparison found = compare(traced.frame(), lit.frame(), dark.frame(), given.truth());
+    DrawnInto traced(given, target, new gnomon::TracedShadowTechnique);
+    const TruthComparison found = compareWithRays(traced, given, target);
     std::cout << given.name << ": " << found << "\n";
     EXPECT_EQ(found.neither, 0);
     EXPECT_LE(found.certain, found.pixels / 10000);
@@ -60,7 +44,7 @@ int objectsIn(IntoTexture& into) {
     return count;
 }
 
-void release(Drawn& drawn) {
+void release(DrawnInto& drawn) {
     osg::GraphicsContext& context = *drawn.into->camera->context().graphicsContext();
     context.makeCurrent();
     drawn.scene.root->releaseGLObjects(context.getState());
@@ -78,13 +62,12 @@ TEST(TracedBuffers, ShowFlatGroundsFreeOfAcne) {
         for (const TracedCase& given : {flatGround(8.0, 3.0, elevation, 1.0, 100.0),
                                         flatGround(8.0, 0.1, elevation, 0.1, 100.0), // along the ground
                                         flatGround(8.0, 0.5, elevation, 4.0, 20.0, 200)})
-            EXPECT_EQ(Drawn(given, fourSamples(), true).frame().different(Drawn(given, fourSamples(), false).frame()),
-                      0)
+            EXPECT_EQ(drawnByRays(given).frame().different(DrawnInto(given, fourSamples(), nullptr).frame()), 0)
                 << elevation;
 }
 
 TEST(TracedBuffers, ThatCannotBeResolvedAreDiagnosedAndShowNoShadow) {
-    Drawn traced(labEight(), fourSamples(), true);
+    DrawnInto traced = drawnByRays(labEight());
     auto& extensions = *traced.into->camera->context().graphicsContext()->getState()->get<osg::GLExtensions>();
     const auto blit = extensions.glBlitFramebuffer;
     extensions.glBlitFramebuffer = nullptr; // OSG cannot either: the window stays empty
@@ -97,7 +80,7 @@ TEST(TracedBuffers, ThatCannotBeResolvedAreDiagnosedAndShowNoShadow) {
 
 TEST(TracedBuffers, AreResolvedIntoALargerOneWhenShadowsGrowOnTheScreen) {
     TracedCase given = labEight();
-    Drawn grown(given, fourSamples(), true), large(given, fourSamples(), true);
+    DrawnInto grown = drawnByRays(given), large = drawnByRays(given);
     const osg::Matrixd near = given.view.view;
     grown.into->into->setViewMatrix(near * osg::Matrixd::translate(-25.0, -25.0, -70.0)); // to the corner, and small
     grown.frame();
@@ -108,7 +91,7 @@ TEST(TracedBuffers, AreResolvedIntoALargerOneWhenShadowsGrowOnTheScreen) {
 
 TEST(TracedBuffers, LeaveNothingBehindInOpenGL) {
     const TracedCase given = labEight();
-    Drawn plain(given, fourSamples(), false), traced(given, fourSamples(), true);
+    DrawnInto plain(given, fourSamples(), nullptr), traced = drawnByRays(given);
     plain.frame();
     const Picture first = traced.frame();
     const int without = objectsIn(*plain.into), with = objectsIn(*traced.into);

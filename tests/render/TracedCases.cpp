@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "TracedCases.h"
 
+#include <gnomon/Convert.h>
+
+#include <osg/Math>
+
 #include <cmath>
 
 namespace test {
@@ -25,6 +29,22 @@ Scene TracedCase::build() const {
     for (std::size_t i = 0; i < meshes.size(); ++i)
         result.content->addChild(test::node(meshes[i], i ? "caster" : "ground"));
     return result;
+}
+
+osg::Vec4d sunAt(double azimuth, double elevation) {
+    const double turn = osg::DegreesToRadians(azimuth), rise = osg::DegreesToRadians(elevation);
+    return {std::cos(turn) * std::cos(rise), std::sin(turn) * std::cos(rise), std::sin(rise), 0.0};
+}
+
+TracedCase tilted(TracedCase given) {
+    const osg::Matrixd turn = osg::Matrixd::rotate(0.6, osg::Vec3d(1.0, 2.0, 0.5));
+    const glm::dmat3 matrix(gnomon::toGlm(turn));
+    for (Mesh& mesh : given.meshes)
+        for (glm::dvec3& corner : mesh) corner = matrix * corner;
+    given.name += ", tilted";
+    given.light = given.light * turn;
+    given.view.view = osg::Matrixd::inverse(turn) * given.view.view;
+    return given;
 }
 
 TracedCase labEight() {
@@ -57,21 +77,18 @@ TracedCase longStreet(double azimuth, double elevation) {
     for (int i = 0; i < 4 * 130; ++i) {
         const int variety = (i * 7919) % 97;
         const glm::dvec2 place(15.0 * (i / 4), 12.0 * (i % 4) - 18.0 + (i % 4 < 2 ? -2.0 : 2.0));
-        meshes.push_back(house(
-            place, {5.0 + variety % 5 * 0.8, 5.0 + variety % 7 * 0.5, 3.0 + variety % 11 * 0.6}, variety * 3.7));
+        meshes.push_back(
+            house(place, {5.0 + variety % 5 * 0.8, 5.0 + variety % 7 * 0.5, 3.0 + variety % 11 * 0.6}, variety * 3.7));
     }
-    const double turn = azimuth / 57.29577951308232, rise = elevation / 57.29577951308232;
-    return {"street",
-            meshes,
-            {std::cos(turn), std::sin(turn), std::tan(rise), 0.0},
+    return {"street", meshes, sunAt(azimuth, elevation),
             perspective({-10.0, 0.0, 2.5}, {100.0, 0.0, 0.0}, 640, 480, 40.0, 0.2, 3000.0)};
 }
 
 TracedCase flatGround(double half, double height, double elevation, double near, double far, int side) {
-    const double angle = elevation / 57.29577951308232;
+    constexpr double azimuth = 11.0;
     return {"flat",
             {tiles(half, side)},
-            {std::cos(angle), 0.2, std::sin(angle), 0.0},
+            sunAt(azimuth, elevation),
             perspective({-half / 2.0, -half / 2.0, height}, {0.0, 0.0, 0.0}, 320, 240, 40.0, near, far)};
 }
 

@@ -19,6 +19,12 @@ struct TracedCase {
     gnomon::TruthImage truth() const { return truthOf(meshes, light, view); }
 };
 
+/// A sun. @param azimuth,elevation  degrees: from +x towards +y, and above the level.
+osg::Vec4d sunAt(double azimuth, double elevation);
+/// The same with meshes, light and view turned together, so that nothing is level and nothing flat along an axis: what the
+/// eye sees stays, and grounds are in maps as any caster is.
+TracedCase tilted(TracedCase given);
+
 /// A sphere and a house on a ground.
 TracedCase labEight();
 /// 400 houses.
@@ -28,7 +34,7 @@ TracedCase room();
 /// Four rows of houses along a street of 2 km, as one who stands in it sees it.
 /// @param azimuth  of the sun, degrees from where one looks.
 TracedCase longStreet(double azimuth, double elevation = 15.0);
-/// A level square of `side` × `side` small ones under a sun of `elevation` degrees, seen from `height`.
+/// A level square of `side` × `side` small ones under a sun, see sunAt(), seen from `height`.
 TracedCase flatGround(double half, double height, double elevation, double near, double far, int side = 1);
 
 } // namespace test

@@ -2,6 +2,8 @@
 // The same scene far from the origin, and in other units: the same picture.
 #include "Trial.h"
 
+#include <osg/CoordinateSystemNode>
+#include <osg/Math>
 #include <osg/MatrixTransform>
 
 using namespace test;
@@ -63,13 +65,12 @@ int mostDifferent(const std::vector<Picture>& some, const std::vector<Picture>& 
     return most;
 }
 
-View movedTo(const osg::Vec3d& place, View view) {
-    view.view.preMultTranslate(-place);
-    return view;
-}
+const osg::Matrixd toFarAway = osg::Matrixd::translate(farAway);
 
-osg::ref_ptr<osg::MatrixTransform> placed(const osg::Vec3d& place) {
-    return new osg::MatrixTransform(osg::Matrixd::translate(place));
+/// From where one sees the same of a scene that stands at `place`.
+View at(const osg::Matrixd& place, View view) {
+    view.view.preMult(osg::Matrixd::inverse(place));
+    return view;
 }
 
 /// Runs `check` for sun and lamp, from above and slanting.
@@ -85,6 +86,20 @@ void forEachLightAndView(const Check& check) {
 
 GNOMON_BY_TECHNIQUE(Place);
 GNOMON_BY_TECHNIQUE(Scale);
+GNOMON_BY_TECHNIQUE(Globe);
+GNOMON_BY(GlobeInGroup, By::Planar, By::Traced, By::Map); // the others' ground is level in the group
+
+/// Where a scene stands on the Earth, east, north and up being x, y and z of its own: from Tennessee to New Zealand.
+std::vector<osg::Matrixd> placesOnEarth() {
+    const osg::ref_ptr<osg::EllipsoidModel> earth = new osg::EllipsoidModel;
+    std::vector<osg::Matrixd> places;
+    for (const auto& [latitude, longitude] : {std::pair(36.39, -84.13), {-43.59, 170.14}, {0.0, 0.0}}) {
+        places.emplace_back();
+        earth->computeLocalToWorldTransformFromLatLongHeight(osg::DegreesToRadians(latitude),
+                                                             osg::DegreesToRadians(longitude), 300.0, places.back());
+    }
+    return places;
+}
 
 } // namespace
 
@@ -100,25 +115,27 @@ TEST_P(Place, FarAwayByATransformAboveTheGroupChangesNoBit) {
     forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         const Scene scene = trial.buildWithShadow();
-        const auto transform = placed(farAway);
+        const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(toFarAway);
         transform->addChild(scene.root);
-        EXPECT_EQ(mostDifferent(pictures(scene, transform, movedTo(farAway, trial.view)), pictures(trial)), 0);
+        EXPECT_EQ(mostDifferent(pictures(scene, transform, at(toFarAway, trial.view)), pictures(trial)), 0);
     });
 }
 
 namespace {
 
-/// On the ground where it is far away.
-void addShadow(Scene& scene, By technique) {
+/// On the ground where its place is in the group.
+void addShadow(Scene& scene, By technique, const osg::Matrixd& place) {
+    const osg::Vec3d up = osg::Matrixd::transform3x3(osg::Vec3d(0.0, 0.0, 1.0), place);
     if (technique == By::Planar)
-        scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, -farAway.z())));
+        scene.addShadow(new gnomon::PlanarShadowNode(osg::Vec4d(up, -(up * place.getTrans()))));
     else
         scene.addShadow(castingTechnique(find(*scene.root, "ground")));
 }
 
-/// Puts the content, within the group, and the light each under a transform to `farAway`.
-void moveContentAndLight(Scene& scene) {
-    const auto transform = placed(farAway), ofLight = placed(farAway);
+/// Puts the content, within the group, and the light each under a transform to `place`.
+void moveContentAndLight(Scene& scene, const osg::Matrixd& place) {
+    const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(place),
+                                             ofLight = new osg::MatrixTransform(place);
     scene.group->replaceChild(scene.content, transform);
     transform->addChild(scene.content);
     scene.root->replaceChild(scene.light, ofLight);
@@ -131,9 +148,9 @@ TEST_P(Place, FarAwayByATransformInTheGroupChangesNoBit) {
     forEachLightAndView([this](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         Scene scene = trial.build();
-        addShadow(scene, GetParam());
-        moveContentAndLight(scene);
-        EXPECT_EQ(mostDifferent(pictures(scene, scene.root, movedTo(farAway, trial.view)), pictures(trial)), 0);
+        addShadow(scene, GetParam(), toFarAway);
+        moveContentAndLight(scene, toFarAway);
+        EXPECT_EQ(mostDifferent(pictures(scene, scene.root, at(toFarAway, trial.view)), pictures(trial)), 0);
     });
 }
 
@@ -141,11 +158,51 @@ TEST_P(Place, FarAwayOfALightGivenInDoubleChangesNoBit) {
     forEachLightAndView([this](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         Scene scene = trial.build();
-        addShadow(scene, GetParam());
+        addShadow(scene, GetParam(), toFarAway);
         scene.group->addLight({0, light + osg::Vec4d(farAway, 0.0) * light.w()});
-        moveContentAndLight(scene);
-        EXPECT_EQ(mostDifferent(pictures(scene, scene.root, movedTo(farAway, trial.view)), pictures(trial)), 0);
+        moveContentAndLight(scene, toFarAway);
+        EXPECT_EQ(mostDifferent(pictures(scene, scene.root, at(toFarAway, trial.view)), pictures(trial)), 0);
     });
+}
+
+namespace {
+
+/// Frames of the scene without shadows where it stands, for normals that are turned are rounded anew; and rays at the
+/// origin.
+Truth truthAt(const Trial& trial, const osg::Matrixd& place) {
+    const auto picture = [&](Scene scene) {
+        const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(place);
+        transform->addChild(scene.root);
+        return render(transform, at(place, trial.view));
+    };
+    Scene dark = trial.build();
+    dark.takeLightAway();
+    return {picture(trial.build()), picture(dark), truthOf(trial).mask};
+}
+
+} // namespace
+
+TEST_P(Globe, UnderATransformAboveTheGroupShowsWhatRaysSay) {
+    for (const osg::Matrixd& place : placesOnEarth())
+        forEachLightAndView([&](const osg::Vec4d& light, bool fromTop) {
+            const Trial trial = trialAt(light, fromTop);
+            Scene scene = trial.buildWithShadow();
+            const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(place);
+            transform->addChild(scene.root);
+            scene.root = transform;
+            EXPECT_TRUE(isRight(scene, at(place, trial.view), truthAt(trial, place)));
+        });
+}
+
+TEST_P(GlobeInGroup, UnderATransformInTheGroupShowsWhatRaysSay) {
+    for (const osg::Matrixd& place : placesOnEarth())
+        forEachLightAndView([&](const osg::Vec4d& light, bool fromTop) {
+            const Trial trial = trialAt(light, fromTop);
+            Scene scene = trial.build();
+            addShadow(scene, GetParam(), place);
+            moveContentAndLight(scene, place);
+            EXPECT_TRUE(isRight(scene, at(place, trial.view), truthAt(trial, place)));
+        });
 }
 
 TEST_P(Scale, ByAPowerOfTwoChangesNoBit) {

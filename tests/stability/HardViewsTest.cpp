@@ -57,6 +57,20 @@ TEST_P(HardView, WhoseNearPlaneCutsACasterShowsItsShadow) {
     EXPECT_TRUE(isRight(trial));
 }
 
+TEST_P(HardView, ThatNoShadowReachesIsUnshadowed) {
+    Trial trial;
+    trial.light = {4.0, 0.0, 1.0, 0.0};
+    trial.half = 40.0;
+    const Mesh beside = box({-12.0, -1.0, 0.0}, {-10.0, 1.0, 3.0}); // casts away from what is seen
+    trial.casters = {beside};
+    EXPECT_TRUE(isUnshadowed(trial));
+    // One caster on either side of the light's way to what is seen, and nothing between: the box about both is all that
+    // is known of it at first.
+    trial.casters = {joined({box({9.0, -9.0, 0.0}, {10.0, -6.0, 3.0}), box({9.0, 6.0, 0.0}, {10.0, 9.0, 3.0})})};
+    EXPECT_EQ(truthOf(trial).shadowPixels(), 0);
+    EXPECT_TRUE(isUnshadowed(trial));
+}
+
 TEST_P(HardView, OfNoSizeIsNoHarmToTheNext) {
     Trial trial;
     trial.casters = {box({-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0})};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 using namespace test;
 
@@ -56,6 +57,7 @@ GNOMON_BY_TECHNIQUE(StillScene);
 GNOMON_BY_TECHNIQUE(Frames);
 GNOMON_BY_TECHNIQUE(SecondViewer);
 GNOMON_BY_TECHNIQUE(ReleasedGLObjects);
+GNOMON_BY_TECHNIQUE(LostContext);
 GNOMON_BY_TECHNIQUE(DeepCopy);
 GNOMON_BY_TECHNIQUE(ShallowCopy);
 
@@ -129,6 +131,31 @@ TEST_P(ReleasedGLObjects, AreMadeAnewInTheNextFrame) {
             context.releaseContext();
             EXPECT_TRUE(same(camera.frame(), expected));
         }
+    });
+}
+
+// OSG gives the number of a context that is gone to the next one, of which OpenGL's names mean other things.
+TEST_P(LostContext, IsFollowedByOneThatShowsTheSameBits) {
+    forEachWay([](Scene& scene) {
+        const auto picture = [&scene] {
+            Camera camera(scene.root, standing().view);
+            camera.frame();
+            return camera.frame();
+        };
+        const Picture expected = picture();
+        for (int again = 0; again < 2; ++again) EXPECT_TRUE(same(picture(), expected));
+    });
+}
+
+/// Closes a viewer's context when it can no longer be made current: nothing of it can be deleted.
+TEST_P(LostContext, ThatCannotBeMadeCurrentAnyMoreIsFollowedByOneThatShowsTheSameBits) {
+    forEachWay([](Scene& scene) {
+        auto lost = std::make_unique<Camera>(scene.root, standing().view);
+        const Picture expected = lost->frame();
+        lost->context().graphicsContext()->close(false);
+        lost = nullptr;
+        Camera next(scene.root, standing().view);
+        for (int frame = 0; frame < 2; ++frame) EXPECT_TRUE(same(next.frame(), expected));
     });
 }
 

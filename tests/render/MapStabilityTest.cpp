@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Shadow maps while the camera moves: how far edges crawl. And casters far outside the view.
+#include "TracedCases.h"
+
+#include <gnomon/ShadowMapTechnique.h>
+#include <gtest/gtest.h>
+#include <support/Oracle.h>
+#include <support/Panels.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+using gnomon::ShadowMapTechnique;
+using namespace test;
+
+namespace {
+
+/// A long box on a ground. The shadow of its upper edge ends on the ground in a line: x = shadowEnd.
+constexpr double shadowEnd = -0.5 - 1.0 / 1.2;
+
+TracedCase longBox() {
+    return {"long box",
+            {square(30.0), box({-0.5, -8.0, 0.0}, {0.5, 8.0, 1.0})},
+            {1.0, 0.3, 1.2, 0.0},
+            perspective({-10.0, -11.0, 8.0}, {-1.3, 0.0, 0.0}, 480, 360)};
+}
+
+/// Pixels from the window's lower left corner.
+osg::Vec2d onScreen(const View& view, const osg::Vec3d& place) {
+    const osg::Vec3d clip = place * (view.view * view.projection);
+    return {(clip.x() + 1.0) / 2.0 * view.width, (clip.y() + 1.0) / 2.0 * view.height};
+}
+
+/// How far, in pixels, the shadow reaches beyond its end, on average over 8 m of that: by how many pixels more are dark in
+/// a strip about it than have their centres on the shadow's side of the line. A line that is off by a share of a pixel
+/// takes that share of the centres along it.
+double offset(const Picture& shadowed, const Picture& lit, const View& view) {
+    constexpr double half = 4.0, beside = 0.4; // metres
+    int more = 0;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const Sight seen = sight(view, x + 0.5, y + 0.5);
+            const glm::dvec3 place = seen.from - seen.way * (seen.from.z / seen.way.z);
+            if (std::abs(place.y) > half || std::abs(place.x - shadowEnd) > beside) continue;
+            const bool dark = shadowed.at(x, y) != lit.at(x, y);
+            more += int(dark) - int(place.x > shadowEnd);
+        }
+    return more / (onScreen(view, {shadowEnd, half, 0.0}) - onScreen(view, {shadowEnd, -half, 0.0})).length();
+}
+
+/// What a walk of 32 frames does to a shadow's edge.
+struct Crawl {
+    double mean = 0.0, deviation = 0.0; ///< of the offset, pixels.
+    unsigned maps = 0;                  ///< drawn.
+};
+
+std::ostream& operator<<(std::ostream& out, const Crawl& crawl) {
+    return out << "off by " << crawl.mean << " px, deviation " << crawl.deviation << ", " << crawl.maps << " maps";
+}
+
+/// @param step  what the eye space of a frame is to that of the first, by its number.
+Crawl crawlOf(int size, const std::function<osg::Matrixd(int)>& step) {
+    constexpr int frames = 32;
+    const TracedCase given = longBox();
+    Scene plain = given.build(), scene = given.build();
+    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    technique->setSize(size);
+    scene.addShadow(technique);
+    Camera lit(plain.root, given.view), shadowed(scene.root, given.view);
+    double sum = 0.0, squares = 0.0;
+    for (int frame = 0; frame < frames; ++frame) {
+        View view = given.view;
+        view.view = view.view * step(frame);
+        for (Camera* each : {&lit, &shadowed}) each->setView(view);
+        const double off = offset(shadowed.frame(), lit.frame(), view);
+        sum += off;
+        squares += off * off;
+    }
+    const double mean = sum / frames;
+    return {mean, std::sqrt(std::max(0.0, squares / frames - mean * mean)), technique->passes()};
+}
+
+// Where the shadow ends a pixel is 3 cm, a texel of 1024 about 2: eighths of a pixel.
+osg::Matrixd aside(int frame) { return osg::Matrixd::translate(0.004 * frame, 0.0, 0.0); }
+osg::Matrixd ahead(int frame) { return osg::Matrixd::translate(0.0, 0.0, 0.004 * frame); }
+osg::Matrixd turned(int frame) { return osg::Matrixd::rotate(osg::DegreesToRadians(0.0139 * frame), 0.0, 1.0, 0.0); }
+
+constexpr double mostCrawl = 0.02; // pixels; the goal
+
+TEST(MapStability, EdgesDoNotCrawlWhileTheCameraMovesAndTurnsByPartsOfAPixel) {
+    for (const int size : {256, 1024, 2048})
+        for (const auto& [name, step] : {std::pair("aside", aside), {"ahead", ahead}, {"turned", turned}}) {
+            const Crawl found = crawlOf(size, step);
+            std::cout << size << ", " << name << ": " << found << "\n";
+            EXPECT_LE(found.deviation, mostCrawl) << size << ", " << name;
+        }
+}
+
+// Maps are drawn again on the way, their texels elsewhere each time.
+TEST(MapStability, EdgesDoNotCrawlWhileTheCameraGoesFarther) {
+    for (const int size : {256, 1024, 2048}) {
+        const Crawl found = crawlOf(size, [](int frame) { return osg::Matrixd::translate(0.151 * frame, 0.0, 0.0); });
+        std::cout << size << ", farther: " << found << "\n";
+        EXPECT_LE(found.deviation, mostCrawl) << size;
+        EXPECT_GE(found.maps, 3u) << size;
+    }
+}
+
+/// Half a kilometre up-sun of a square stands a tower of 200 m; its shadow crosses the square.
+TEST(MapStability, ATowerOfTwoHundredMetresHalfAKilometreUpTheSunCastsIntoAViewThatDoesNotHoldIt) {
+    const Mesh ground = square(150.0);
+    const std::vector<Mesh> casters{box({500.0, -10.0, 0.0}, {520.0, 10.0, 200.0})};
+    const osg::Vec4d sun = sunAt(0.0, 15.0); // the shadow is 746 m long
+    for (const osg::Vec3d& eye : {osg::Vec3d(-70.0, -5.0, 20.0), osg::Vec3d(0.0, -70.0, 25.0),
+                                  osg::Vec3d(60.0, 40.0, 30.0), osg::Vec3d(-40.0, 45.0, 15.0)}) {
+        const View view = perspective(eye, {0.0, 0.0, 0.0}, 320, 240, 40.0, 1.0, 400.0);
+        Scene lit = groundScene(casters, 150.0, sun), dark = groundScene(casters, 150.0, sun),
+              shadowed = groundScene(casters, 150.0, sun);
+        dark.takeLightAway();
+        const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+        shadowed.addShadow(technique);
+        const Mask mask = castRays(ground, casters, sun, view);
+        EXPECT_EQ(mask.count(Seen::Caster), 0) << eye.x();
+        EXPECT_GT(mask.count(Seen::ShadowedReceiver), 3000) << eye.x();
+        constexpr int reach = 2; // a texel is less than a pixel
+        const Comparison found =
+            compare(render(shadowed.root, view), render(lit.root, view), render(dark.root, view), mask, reach);
+        EXPECT_EQ(found.wrongInside, 0) << eye.x();
+        EXPECT_EQ(found.wrongAtEdge, 0) << eye.x();
+        EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+    }
+}
+
+} // namespace
