@@ -88,7 +88,9 @@ std::string DepthMap::show(osg::RenderInfo& renderInfo, const MapPicture& pictur
     const auto* texture = _texture->getTextureObject(state.getContextID());
     if (texture && target.shown == &picture && target.texture == texture) return "";
     if (target.texture != texture) target.shown = nullptr;
-    return draw(renderInfo, target, picture, drawn);
+    const std::string cause = draw(renderInfo, target, picture, drawn);
+    state.apply(); // ResolvedDepth draws by what it finds, and finds a program otherwise
+    return cause;
 }
 
 std::string DepthMap::updateBlocks(osg::State& state, const osg::StateSet& program) {

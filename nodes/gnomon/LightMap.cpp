@@ -179,17 +179,14 @@ void LightMap::findNeeded(MapFace& face, const std::vector<MapReceiver>& receive
     if (_wish.soft && !face.needed.empty()) findHeld(face);
 }
 
-/// Of soft edges: what is about each place, too, and how far away what blocks the light is; of what is flat that is of no
-/// account, for it ends where what it darkens begins.
+/// Of soft edges: what is about each place, too, and how far away what blocks the light is.
 void LightMap::findHeld(MapFace& face) const {
-    const auto body = std::find_if(face.blockers.begin(), face.blockers.end(),
-                                   [](const MapBlocker& blocker) { return !blocker.isFlat(); });
-    if (body == face.blockers.end()) return;
-    const double most =
-        1.5 * widestSpread / _wish.size * face.needed.length(); // a map that is so much larger has wider texels
-    face.held.grow(std::min(softness(face.frame, body->outline, face.needed.farthest), most));
+    const double most = 1.5 * widestSpread / _wish.size * face.needed.length(); // a map so much larger has wider texels
+    MapOutline blockers = face.reach;
+    blockers.nearest = face.nearestBlocker;
+    face.held.grow(std::min(softness(face.frame, blockers, face.needed.farthest), most));
     face.held.cut(face.reach);
-    face.held.nearest = std::min(face.held.nearest, body->outline.nearest);
+    face.held.nearest = std::min(face.held.nearest, face.nearestBlocker);
     face.held.limitNearest();
 }
 
@@ -201,7 +198,7 @@ void LightMap::addNeeded(MapFace& face, const MapBlocker& blocker, const std::ve
             to.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
     };
     MapOutline reach = blocker.outline, needed(face.frame);
-    if (_wish.soft && !blocker.isFlat()) {
+    if (_wish.soft) {
         MapOutline seen(face.frame);
         add(seen);
         if (seen.empty()) return;
@@ -212,6 +209,8 @@ void LightMap::addNeeded(MapFace& face, const MapBlocker& blocker, const std::ve
     add(needed);
     needed.cut(reach);
     if (needed.empty()) return;
+    face.nearestBlocker =
+        face.needed.empty() ? blocker.outline.nearest : std::min(face.nearestBlocker, blocker.outline.nearest);
     face.needed.merge(needed);
     face.reach.merge(reach);
 }

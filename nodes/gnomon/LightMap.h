@@ -53,7 +53,6 @@ std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& ey
 struct MapBlocker {
     MapOutline outline;                 ///< of what it can darken, were all edges hard.
     std::vector<glm::dvec4> halfSpaces; ///< that hold what it can darken: what is flat darkens what is beyond it.
-    bool isFlat() const { return !halfSpaces.empty(); }
 };
 
 /// Half-space of what something flat can darken: what is beyond it, seen from the light.
@@ -66,9 +65,10 @@ struct MapFace {
     LightFrame frame;
     std::size_t part = 0; ///< see viewPart().
     std::vector<MapBlocker> blockers;
-    MapOutline reach, needed;  ///< what they can darken; what of that is seen.
-    MapOutline held;           ///< what a map must hold for that.
-    std::optional<MapFit> fit; ///< of the map that is drawn.
+    MapOutline reach, needed;    ///< what they can darken; what of that is seen.
+    MapOutline held;             ///< what a map must hold for that.
+    double nearestBlocker = 0.0; ///< depth of the nearest of what darkens any of it.
+    std::optional<MapFit> fit;   ///< of the map that is drawn.
 };
 
 /// The maps of one light in one view: what they must hold, and those drawn last.

@@ -49,12 +49,7 @@ MapProgram::MapProgram(const MapQuad& quad, const glm::dmat4& sceneFromEye, unsi
     state->addUniform(vectors("gnomon_mapFar", farthest));
 }
 
-std::string MapProgram::drawAhead(osg::RenderInfo& renderInfo) const {
-    if (!_quad) return "";
-    const std::string cause = _quad->showMap(renderInfo);
-    renderInfo.getState()->apply();
-    return cause;
-}
+std::string MapProgram::drawAhead(osg::RenderInfo& renderInfo) const { return _quad ? _quad->showMap(renderInfo) : ""; }
 
 std::string visibilityFunction(const std::string& filter) {
     return "#version 130\n" + filter +

@@ -2,6 +2,14 @@
 //
 // For pixels' places see map_place.frag.
 
+// Texels of slope that a comparison allows for, beside the half of the steeper way's that the map has: of 2 x 2 that are
+// compared at once, which reach a texel, all must pass where edges are soft, half of them where they are hard.
+#ifdef SOFT
+const float kernel = 0.75;
+#else
+const float kernel = 0.5;
+#endif
+
 uniform vec4 pixelFromMapX[MAPS], pixelFromMapY[MAPS], pixelFromMapZ[MAPS]; // columns of its inverse
 uniform vec4 wanted;          // pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0;
                               // colour of a pixel that nothing reaches; 1, if other pixels are between that and white
@@ -50,8 +58,7 @@ float visibility(vec4 pixel, vec4 plane) {
             slope = vec2(0.0);
             steepness = error.z;
         }
-        // Half a texel of slope, with as much in the map, covers the 2 x 2 that are compared at once.
-        float depth = min(at.z, 1.0) - (0.5 + error.y) * steepness - error.x;
+        float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x;
         vec2 p = place[i].xy + at.xy * place[i].z;
 #ifndef SOFT
         return lit(p, depth, slope);

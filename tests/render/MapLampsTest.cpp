@@ -53,7 +53,7 @@ TEST(MapLamps, AmongCastersAndBelowTheirTopsAreWrongInNoMoreThanAHalfPercentAway
             std::cout << place.name << ", size " << size << ": " << found << "\n";
             EXPECT_LE(found.certain, mostWrong * (found.pixels - found.edges)) << place.name << ", size " << size;
             EXPECT_EQ(found.neither, 0) << place.name;
-            EXPECT_GT(found.shadowed, 2000) << place.name;
+            EXPECT_GT(found.shadowed, 300) << place.name; // a lamp near the ground lights little of it
         }
         EXPECT_EQ(technique->diagnose(), std::vector<std::string>()) << place.name;
     }

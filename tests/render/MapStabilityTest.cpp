@@ -101,10 +101,10 @@ TEST(MapStability, EdgesDoNotCrawlWhileTheCameraMovesAndTurnsByPartsOfAPixel) {
 // Maps are drawn again on the way, their texels elsewhere each time.
 TEST(MapStability, EdgesDoNotCrawlWhileTheCameraGoesFarther) {
     for (const int size : {256, 1024, 2048}) {
-        const Crawl found = crawlOf(size, [](int frame) { return osg::Matrixd::translate(0.151 * frame, 0.0, 0.0); });
+        const Crawl found = crawlOf(size, [](int frame) { return osg::Matrixd::translate(0.101 * frame, 0.0, 0.0); });
         std::cout << size << ", farther: " << found << "\n";
         EXPECT_LE(found.deviation, mostCrawl) << size;
-        EXPECT_GE(found.maps, 3u) << size;
+        EXPECT_GE(found.maps, 2u) << size;
     }
 }
 
