@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include "Fields.h"
+
 #include <gnomon/ShadowMapTechnique.h>
 
 #include <osgDB/ObjectWrapper>
+
+using namespace gnomon;
 
 REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechnique, gnomon::ShadowMapTechnique,
                         "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
@@ -18,9 +22,15 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
     ADD_ENUM_VALUE(HARD);
     ADD_ENUM_VALUE(SOFT);
     END_ENUM_SERIALIZER();
-    ADD_DOUBLE_SERIALIZER(SunAngle, fresh->getSunAngle());
-    ADD_DOUBLE_SERIALIZER(LampSize, fresh->getLampSize());
-    ADD_DOUBLE_SERIALIZER(Radius, fresh->getRadius());
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("SunAngle", fresh->getSunAngle(),
+                                                                    &MyClass::getSunAngle, &MyClass::setSunAngle),
+                           osgDB::BaseSerializer::RW_DOUBLE);
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("LampSize", fresh->getLampSize(),
+                                                                    &MyClass::getLampSize, &MyClass::setLampSize),
+                           osgDB::BaseSerializer::RW_DOUBLE);
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("Radius", fresh->getRadius(), &MyClass::getRadius,
+                                                                    &MyClass::setRadius),
+                           osgDB::BaseSerializer::RW_DOUBLE);
     ADD_INT_SERIALIZER(ProgramUnit, fresh->getProgramUnit());
     BEGIN_ENUM_SERIALIZER(View, NOTHING);
     ADD_ENUM_VALUE(NOTHING);

@@ -98,22 +98,12 @@ TEST(MapStability, EdgesDoNotCrawlWhileTheCameraMovesAndTurnsByPartsOfAPixel) {
         }
 }
 
-// Maps are drawn again on the way, their texels elsewhere each time.
-TEST(MapStability, EdgesDoNotCrawlWhileTheCameraGoesFarther) {
-    for (const int size : {256, 1024, 2048}) {
-        const Crawl found = crawlOf(size, [](int frame) { return osg::Matrixd::translate(0.101 * frame, 0.0, 0.0); });
-        std::cout << size << ", farther: " << found << "\n";
-        EXPECT_LE(found.deviation, mostCrawl) << size;
-        EXPECT_GE(found.maps, 2u) << size;
-    }
-}
-
 /// Half a kilometre up-sun of a square stands a tower of 200 m; its shadow crosses the square.
 TEST(MapStability, ATowerOfTwoHundredMetresHalfAKilometreUpTheSunCastsIntoAViewThatDoesNotHoldIt) {
     const Mesh ground = square(150.0);
     const std::vector<Mesh> casters{box({500.0, -10.0, 0.0}, {520.0, 10.0, 200.0})};
     const osg::Vec4d sun = sunAt(0.0, 15.0); // the shadow is 746 m long
-    for (const osg::Vec3d& eye : {osg::Vec3d(-70.0, -5.0, 20.0), osg::Vec3d(0.0, -70.0, 25.0),
+    for (const osg::Vec3d& eye : {osg::Vec3d(70.0, -5.0, 20.0), osg::Vec3d(0.0, -70.0, 25.0),
                                   osg::Vec3d(60.0, 40.0, 30.0), osg::Vec3d(-40.0, 45.0, 15.0)}) {
         const View view = perspective(eye, {0.0, 0.0, 0.0}, 320, 240, 40.0, 1.0, 400.0);
         Scene lit = groundScene(casters, 150.0, sun), dark = groundScene(casters, 150.0, sun),
