@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/AheadBin.h>
 #include <gnomon/ProgramJob.h>
-#include <gnomon/ScreenPass.h>
+#include <gnomon/StageDraw.h>
 
 #include <algorithm>
 #include <limits>
@@ -25,24 +25,32 @@ AheadBin& binOf(osgUtil::RenderStage& stage) {
     }
 }
 
-/// OpenGL's programs keep uniforms: nothing must be said, too.
-osg::ref_ptr<osg::StateSet> nothingToFind() {
+/// OpenGL's programs keep uniforms: that nothing is to be found must be said, too.
+osg::ref_ptr<osg::StateSet> nothingInstead(const osg::StateSet& shown) {
     osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+    state->setName(stateName);
     state->addUniform(new osg::Uniform("gnomon_maps", 0));
+    const osg::Uniform* unit = shown.getUniform("gnomon_map");
+    if (unit) state->addUniform(new osg::Uniform(*unit)); // a sampler of another kind than that of unit 0
     return state;
 }
 
 } // namespace
 
+/// With a stage that is reset or goes; nobody else may say that its techniques are gone.
+AheadBin::~AheadBin() {
+    osgUtil::RenderStage* stage = _job.marks ? getStage() : nullptr;
+    if (!stage || stage->referenceCount() == 0) return;
+    const osg::StateSet* shown = _job.programMarks()->state.get();
+    if (stage->getStateSet() == shown) stage->setStateSet(nothingInstead(*shown));
+}
+
 void AheadBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& stage) {
     const auto isFor = [](const ShadowJob& job) { return job.programMarks() != nullptr; };
     const auto job = std::find_if(jobs.begin(), jobs.end(), isFor);
+    if (job == jobs.end()) return;
     const osg::StateSet* before = stage.getStateSet();
     const bool isFree = !before || before->getName() == stateName;
-    if (job == jobs.end()) {
-        if (before && isFree) stage.setStateSet(nothingToFind());
-        return;
-    }
     if (!isFree)
         return job->technique->report(job->frameNumber,
                                       "cannot show its maps to programs: the stage that is drawn has a "
@@ -58,6 +66,7 @@ void AheadBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& st
 
 void AheadBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (_job.marks) {
+        popLeafState(*renderInfo.getState(), previous);
         const CleanState clean(*renderInfo.getState(), getStage()->getViewport());
         const std::string cause = _job.programMarks()->drawAhead(renderInfo);
         if (!cause.empty()) _job.technique->report(_job.frameNumber, cause);

@@ -15,13 +15,13 @@ public:
     const char* libraryName() const override { return "gnomon"; }
     const char* className() const override { return "AheadBin"; }
 
-    /// Lets the programs of a stage find the first of the jobs that are for them; or, if none is and one was, nothing.
+    /// Lets the programs of a stage find the first of the jobs that are for them, until the stage is reset.
     static void show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& stage);
 
     void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
 
 protected:
-    ~AheadBin() override = default;
+    ~AheadBin() override;
 
 private:
     ShadowJob _job;

@@ -54,6 +54,13 @@ public:
     MapState& operator=(const MapState&) = delete;
 };
 
+/// Parts that no tile is in, too.
+void clearAll() {
+    glDisable(GL_SCISSOR_TEST);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+}
+
 /// What is drawn next goes there.
 void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size) {
     glViewport(tile.corner.x, tile.corner.y, size, size);
@@ -137,9 +144,10 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     for (const MapPicture::Tile& tile : picture.tiles)
         if (!target.shown || !target.shown->shows(tile, picture)) due.push_back(tile);
     drawn += static_cast<unsigned>(due.size());
+    if (!target.shown) clearAll();
     for (const MapPicture::Tile& tile : due) {
         drawInto(state, tile, picture.size);
-        glClear(GL_DEPTH_BUFFER_BIT);
+        if (target.shown) glClear(GL_DEPTH_BUFFER_BIT);
         if (picture.casters) picture.casters->draw(renderInfo);
     }
     const std::string cause = drawCutouts(renderInfo, picture, due);
@@ -173,6 +181,7 @@ DepthMap::Target& DepthMap::targetOf(unsigned context) {
 
 void DepthMap::resizeGLObjectBuffers(unsigned maxSize) {
     _texture->resizeGLObjectBuffers(maxSize);
+    Lock lock(_mutex);
     if (_blocks) _blocks->resizeGLObjectBuffers(maxSize);
 }
 

@@ -72,7 +72,7 @@ osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     const std::vector<glm::dvec4> corners = map.find(receivers, clipFromScene, view.pixels.x());
     const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     const bool forPrograms = wish.unit >= 0;
-    if (!bounds) return forPrograms ? new MapProgram : nullptr;
+    if (!bounds) return forPrograms ? new MapProgram(unsigned(wish.unit)) : nullptr;
     map.update(*_resources);
     MapQuad quad = map.quad(clipFromScene);
     quad.resources = _resources;

@@ -27,8 +27,9 @@ osg::ref_ptr<osg::Uniform> matrices(const char* name, const std::vector<glm::dma
 
 } // namespace
 
-MapProgram::MapProgram() {
+MapProgram::MapProgram(unsigned unit) {
     state = new osg::StateSet;
+    state->addUniform(new osg::Uniform("gnomon_map", int(unit)));
     state->addUniform(new osg::Uniform("gnomon_maps", 0));
 }
 

@@ -8,9 +8,8 @@ namespace gnomon {
 /// A light's maps, as programs of a view's drawables find them: see visibility.glsl.
 class MapProgram : public ProgramJob {
 public:
-    /// Of no maps: all of the light arrives.
-    MapProgram();
-    /// @param unit  of textures.
+    /// Of no maps: all of the light arrives. @param unit  of textures.
+    explicit MapProgram(unsigned unit);
     MapProgram(const MapQuad& quad, const glm::dmat4& sceneFromEye, unsigned unit);
 
     std::string drawAhead(osg::RenderInfo& renderInfo) const override;

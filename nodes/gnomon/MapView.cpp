@@ -35,8 +35,9 @@ void drawMapView(const MapQuad& quad, MapView view, osg::RenderInfo& renderInfo,
     osg::State& state = *renderInfo.getState();
     if (view == MapView::Nothing || (view != MapView::Map && before > 0)) return;
     if (!quad.showMap(renderInfo).empty()) return; // which marking has said
-    const SeenDepth::Copy copy = quad.resources->seen.copy(state, pixelsInScissor(*state.getCurrentViewport()));
-    if (!copy.cause.empty()) return;
+    SeenDepth::Copy copy;
+    if (view != MapView::Map) copy = quad.resources->seen.copy(state, pixelsInScissor(*state.getCurrentViewport()));
+    if (!copy.cause.empty()) return; // the same
     state.apply(quad.resources->viewProgram(defines[int(view)] + quad.mapDefines()).get());
     if (!hasProgram(state)) return;
     pass.beginBlend();

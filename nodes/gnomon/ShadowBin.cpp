@@ -37,15 +37,6 @@ const bool registered = [] {
 std::atomic<unsigned> reservedBits{0};
 std::atomic<bool> filterLeaves{true};
 
-/// Takes the state sets of the leaf drawn last off the stack, as osgUtil does before positional state.
-void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
-    if (!previous) return;
-    osgUtil::StateGraph* pushed = previous->_parent ? previous->_parent->_parent : nullptr;
-    const auto count = static_cast<unsigned>(osgUtil::StateGraph::numToPop(pushed));
-    state.popStateSetStackToSize(static_cast<unsigned>(state.getStateSetStackSize()) - count);
-    previous = nullptr;
-}
-
 /// @param casters  a CasterMesh, or CasterPieces.
 template <typename Casters>
 bool areSome(const EnlistedTechnique& entry, const Casters& casters) {

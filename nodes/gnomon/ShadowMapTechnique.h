@@ -43,9 +43,10 @@ struct MapWish;
 ///         Of a pixel 1, 1 or 4 comparisons of 2 × 2 texels, by the filter; soft edges take another copy and quad, and in
 ///         penumbras 16 texels and 8 to 32 comparisons more.
 /// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named. Soft edges:
-///         alpha bits, see ShadowCasterGroup; penumbras: OpenGL 3.3 or its sampler objects.
+///         alpha bits, but for a single light that blends; penumbras: OpenGL 3.3 or its sampler objects.
 /// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). A penumbra is that of one straight edge as far
-///         away as what blocks the light there is on average: where several edges at several distances overlap it is a guess. Of alpha tests, alpha of vertices and
+///         away as what blocks the light there is on average: where several edges at several distances overlap it is a
+///         guess; it is cut at 128 texels, and at the sides of a lamp's six maps. Of alpha tests, alpha of vertices and
 ///         materials counts as 1, and where the map is coarser than the texture its mipmaps are what is tested; what is
 ///         blended casts as if it were solid. A ShadowQuery takes all casters for solid and knows no cones. What writes no
 ///         depth does not receive; what is drawn with a polygon offset or a depth range of its own receives as if it stood
@@ -124,7 +125,7 @@ public:
     double getRadius() const { return _radius; }
 
     /// Default NOTHING, which any value that is none of them stands for too. MAP needs what penumbras need. What no map
-    /// answers for is left as it is.
+    /// answers for is left as it is; with a program unit nothing is drawn.
     void setView(View view) { _view = view == MAP || view == TEXELS || view == CASCADES ? view : NOTHING; }
     View getView() const { return _view; }
 

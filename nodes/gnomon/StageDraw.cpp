@@ -2,6 +2,8 @@
 #include <gnomon/ShadowBin.h>
 #include <gnomon/StageDraw.h>
 
+#include <osgUtil/StateGraph>
+
 #include <algorithm>
 
 namespace gnomon {
@@ -38,6 +40,14 @@ void StageDraw::clear(unsigned stencil, const ScreenRect& bounds) const {
 
 void StageDraw::clearLeftovers(unsigned stencil) const {
     if (!clean) clear(stencil | counters, {{-1.0, -1.0}, {1.0, 1.0}});
+}
+
+void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
+    if (!previous) return;
+    osgUtil::StateGraph* pushed = previous->_parent ? previous->_parent->_parent : nullptr;
+    const auto count = static_cast<unsigned>(osgUtil::StateGraph::numToPop(pushed));
+    state.popStateSetStackToSize(static_cast<unsigned>(state.getStateSetStackSize()) - count);
+    previous = nullptr;
 }
 
 std::string whyNotComposed(const StageDraw& draw) {

@@ -42,6 +42,9 @@ public:
     unsigned counters = 0;      ///< some of the others, see ScreenPass::counters(); 0 if there are none.
 };
 
+/// Takes the state sets of the leaf drawn last off the stack, as osgUtil does before positional state.
+void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous);
+
 /// Why nothing can be composed in this stage, as a cause for diagnose(); empty if all is well.
 std::string whyNotComposed(const StageDraw& draw);
 

@@ -57,7 +57,7 @@ const float finest = 8.0, widest = 128.0; // sides of blocks, texels
 
 // No more than the least depth within a radius, up to `widest`, of p.
 float leastAbout(vec2 p, float radius) {
-    int level = int(clamp(ceil(log2(radius / finest)), 0.0, log2(widest / finest)));
+    int level = int(clamp(ceil(log2(max(radius, finest) / finest)), 0.0, log2(widest / finest)));
     ivec2 at = ivec2(p / (finest * exp2(float(level)))), last = textureSize(blocks, level) - 1;
     float least = 1.0;
     for (int y = -1; y <= 1; ++y)

@@ -15,16 +15,16 @@ vec3 gnomon_placeIn(int map, vec3 eye, out bool before) {
 float gnomon_visibility(vec3 eye) {
     vec3 right = eye + dFdx(eye), above = eye + dFdy(eye);
     for (int i = 0; i < gnomon_maps; ++i) {
-        bool before, ahead;
+        bool before, rightBefore, aboveBefore;
         vec3 at = gnomon_placeIn(i, eye, before);
         vec4 place = gnomon_mapPlace[i];
         if (!before || any(lessThan(at.xy, place.ww)) || any(greaterThan(at.xy, 1.0 - place.ww))) continue;
         if (gnomon_mapFar[i].w > 0.5 && !(at.z >= 0.0 && at.z <= 1.0)) continue;
-        vec3 dx = gnomon_placeIn(i, right, ahead) - at, dy = gnomon_placeIn(i, above, ahead) - at;
+        vec3 dx = gnomon_placeIn(i, right, rightBefore) - at, dy = gnomon_placeIn(i, above, aboveBefore) - at;
         vec2 slope = vec2(dx.z * dy.y - dy.z * dx.y, dx.x * dy.z - dy.x * dx.z) / ((dx.x * dy.y - dy.x * dx.y) * place.z);
         vec4 error = mix(gnomon_mapNear[i], gnomon_mapFar[i], clamp(at.z, 0.0, 1.0));
         float steepness = abs(slope.x) + abs(slope.y);
-        if (!(steepness <= error.z)) { // edge-on
+        if (!(steepness <= error.z && rightBefore && aboveBefore)) { // edge-on
             slope = vec2(0.0);
             steepness = error.z;
         }

@@ -108,6 +108,13 @@ TEST(MapProgram, FindsAllOfTheLightWhereThereIsNoneToBlock) {
     EXPECT_EQ(asking.technique->passes(), 1u) << "nothing has changed";
     asking.scene.root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::OFF);
     EXPECT_EQ(dark(camera.frame()), 0) << "the light is off";
+    asking.scene.root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
+    EXPECT_EQ(camera.frame().different(before), 0) << "and on again";
+    asking.technique->setNodeMask(0);
+    EXPECT_EQ(dark(camera.frame()), 0) << "the technique is hidden";
+    asking.technique->setNodeMask(~0u);
+    EXPECT_EQ(camera.frame().different(before), 0) << "and shown again";
+    EXPECT_EQ(asking.technique->diagnose(), std::vector<std::string>());
 }
 
 TEST(MapProgram, FindsInEachOfTwoViewsWhatIsTrueThere) {
