@@ -110,11 +110,17 @@ void LightMap::addFaces(const LightFrame& frame) {
     for (; face.part < parts; ++face.part) _faces.push_back(face);
 }
 
+/// True of what the light sees edge-on, and of triangles of no area: hard edges have nothing between them.
+bool isThin(const LightFrame& frame, const MapOutline& outline) {
+    const glm::dvec2 size = fitMap(frame, outline, outline, 0.0, 0.0, 1.0).size;
+    return std::min(size.x, size.y) <= 2e-6 * std::max(size.x, size.y); // fitMap() makes no side less than half of that
+}
+
 /// In the face's frame; of those that are empty none.
 std::vector<MapBlocker> LightMap::blockersIn(const LightFrame& frame) const {
     std::vector<MapBlocker> blockers;
     const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
-        if (!outline.empty()) blockers.push_back({outline, halfSpaces});
+        if (!outline.empty() && (_wish.soft || !isThin(frame, outline))) blockers.push_back({outline, halfSpaces});
     };
     MapOutline bodies(frame);
     for (const MapCasters::Box& box : _casters->bodyBoxes) bodies.addBox(box.low, box.high, glm::dmat4(1.0));
