@@ -120,7 +120,7 @@ bool isThin(const LightFrame& frame, const MapOutline& outline) {
 std::vector<MapBlocker> LightMap::blockersIn(const LightFrame& frame) const {
     std::vector<MapBlocker> blockers;
     const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
-        if (!outline.empty() && (_wish.soft || !isThin(frame, outline))) blockers.push_back({outline, halfSpaces});
+        if (!outline.empty() && (isWide(frame) || !isThin(frame, outline))) blockers.push_back({outline, halfSpaces});
     };
     MapOutline bodies(frame);
     for (const MapCasters::Box& box : _casters->bodyBoxes) bodies.addBox(box.low, box.high, glm::dmat4(1.0));
@@ -182,10 +182,10 @@ void LightMap::findNeeded(MapFace& face, const std::vector<MapReceiver>& receive
     }
     face.needed.limitNearest();
     face.held = face.needed;
-    if (_wish.soft && !face.needed.empty()) findHeld(face);
+    if (isWide(face.frame) && !face.needed.empty()) findHeld(face);
 }
 
-/// Of soft edges: what is about each place, too, and how far away what blocks the light is.
+/// Of edges that are wider than the filter: what is about each place, too, and how far away what blocks the light is.
 void LightMap::findHeld(MapFace& face) const {
     const double most = 1.5 * widestSpread / _wish.size * face.needed.length(); // a map so much larger has wider texels
     MapOutline blockers = face.reach;
@@ -204,7 +204,7 @@ void LightMap::addNeeded(MapFace& face, const MapBlocker& blocker, const std::ve
             to.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
     };
     MapOutline reach = blocker.outline, needed(face.frame);
-    if (_wish.soft) {
+    if (isWide(face.frame)) {
         MapOutline seen(face.frame);
         add(seen);
         if (seen.empty()) return;
@@ -222,16 +222,21 @@ void LightMap::addNeeded(MapFace& face, const MapBlocker& blocker, const std::ve
 }
 
 /// See softReach().
-double LightMap::lightRadius() const {
+double LightMap::lightRadius(const LightFrame& frame) const {
     if (!_wish.soft) return 0.0;
-    if (!_faces.front().frame.sun) return _wish.soft->lamp;
+    if (!frame.sun) return _wish.soft->lamp;
     return _light.w == 0.0 ? _wish.soft->sun : _wish.soft->lamp / glm::length(glm::dvec3(_light));
+}
+
+/// True if edges are wider than the filter makes them.
+bool LightMap::isWide(const LightFrame& frame) const {
+    return lightRadius(frame) > 0.0 || (_wish.soft && _wish.soft->radius > 0.0);
 }
 
 /// How far edges of what blocks the light are spread where it is as far as that from the light.
 double LightMap::softness(const LightFrame& frame, MapOutline blocker, double farthest) const {
     blocker.limitNearest();
-    return softReach(frame, blocker.nearest, farthest, lightRadius(), _wish.soft->radius);
+    return softReach(frame, blocker.nearest, farthest, lightRadius(frame), _wish.soft->radius);
 }
 
 /// True if the face's map is not to be drawn again.
@@ -260,7 +265,7 @@ osg::ref_ptr<MapPicture> LightMap::pictureOf(const MapResources& resources) cons
 MapLookUp LightMap::lookUpOf(const MapFace& face) const {
     const double radius = _wish.soft ? _wish.soft->radius : 0.0;
     return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, _casters->reach, _wish.size),
-            mapSpread(face.frame, *face.fit, lightRadius(), radius, _wish.size)};
+            mapSpread(face.frame, *face.fit, lightRadius(face.frame), radius, _wish.size)};
 }
 
 /// The finest map comes first, for pixels take the first that holds them.
@@ -301,7 +306,7 @@ MapQuad LightMap::quad(const glm::dmat4& clipFromScene) const {
     quad.defines = _wish.defines;
     quad.cascades = _faces.front().frame.sun && _lookUps.size() > 1;
     quad.soft = _wish.soft.has_value();
-    quad.penumbra = lightRadius() > 0.0;
+    quad.penumbra = lightRadius(_faces.front().frame) > 0.0;
     return quad;
 }
 

@@ -102,10 +102,11 @@ private:
     double pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const;
     void findSplits(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene, double width);
     void findNeeded(MapFace& face, const std::vector<MapReceiver>& receivers,
-                    const std::vector<glm::dvec4>& viewPart) const;
+                    const std::vector<glm::dvec4>& part) const;
     void addNeeded(MapFace& face, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
                    std::vector<glm::dvec4> halfSpaces) const;
-    double lightRadius() const;
+    double lightRadius(const LightFrame& frame) const;
+    bool isWide(const LightFrame& frame) const;
     void findHeld(MapFace& face) const;
     double softness(const LightFrame& frame, MapOutline blocker, double farthest) const;
     bool holds(const MapFace& face) const;

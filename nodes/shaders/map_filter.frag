@@ -92,9 +92,12 @@ float between(int i, vec2 p, float depth, vec2 slope) {
 }
 #endif
 
-// Radius of what is averaged about a place of map i, texels, at most.
+// Radius, texels, of the disc that is averaged about a place of map i, whatever blocks the light.
+vec2 discAt(int i, float depth) { return mix(discs[i].xy, discs[i].zw, depth); }
+
+// The same at most, of a disc or a penumbra.
 vec2 mostSpread(int i, float depth) {
-    vec2 radius = mix(discs[i].xy, discs[i].zw, depth);
+    vec2 radius = discAt(i, depth);
 #ifdef PENUMBRA
     radius = max(radius, penumbra[i] * depth);
 #endif
@@ -102,7 +105,7 @@ vec2 mostSpread(int i, float depth) {
 }
 
 float litSoftly(int i, vec2 p, float depth, vec2 slope) {
-    vec2 radius = mix(discs[i].xy, discs[i].zw, depth);
+    vec2 radius = discAt(i, depth);
 #ifdef PENUMBRA
     radius = max(radius, penumbra[i] * max(between(i, p, depth, slope), 0.0));
 #endif

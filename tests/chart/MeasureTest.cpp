@@ -88,8 +88,12 @@ TEST(Race, CountsWhatTheMarksOfGnomonDrawToo) {
     all.insert(all.begin(), plainContender());
     const RaceResults results = race(test::smallScene(), all, 2, shaders(), [](int, int) { return true; });
     const unsigned plain = results.contenders[0].cost->draws;
-    for (std::size_t i = 1; i < all.size(); ++i)
-        EXPECT_GT(results.contenders[i].cost->draws, plain) << all[i].technique << ", " << all[i].setting;
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        const auto begins = [](const std::string& text, const char* with) { return text.rfind(with, 0) == 0; };
+        const bool atOnce = begins(all[i].technique, "map") && begins(all[i].setting, "blend"); // marks by darkening
+        EXPECT_GT(results.contenders[i].cost->draws, plain + (atOnce ? 0 : 1))
+            << all[i].technique << ", " << all[i].setting;
+    }
 }
 
 /// Twice the work costs more: 64 samples a pixel against one. A scene against itself costs nothing beside that.

@@ -48,37 +48,42 @@ struct Plate {
     }
 };
 
-/// Share of the light at the ground's places x > 0 of a picture from above, which shows [-half, half]².
-struct Shares {
-    double rms = 0.0, largest = 0.0;
-    int partly = 0;
+/// How far shares of the light in pixels are from what they should be.
+class Shares {
+public:
+    void add(double share, double expected) {
+        const double off = std::abs(share - expected);
+        largest = std::max(largest, off);
+        if (expected <= 0.02 || expected >= 0.98) return;
+        _sum += off * off;
+        ++partly;
+    }
+    double rms() const { return std::sqrt(_sum / std::max(partly, 1)); }
+
+    double largest = 0.0;
+    int partly = 0; ///< pixels that part of the light reaches.
+
+private:
+    double _sum = 0.0; ///< of squares, over those.
 };
 
-template <class Expected>
-Shares compare(const Picture& picture, double half, const Expected& expected) {
-    // All of the light on the ground is 228 where it comes from 45°; what is lit by lamps differs, and is asked of `expected`.
-    Shares result;
-    double sum = 0.0;
-    int pixels = 0;
-    for (int y = picture.height / 4; y < picture.height * 3 / 4; ++y)
-        for (int x = picture.width / 2 + 2; x < picture.width; ++x) {
-            const double at = (x + 0.5) * 2.0 * half / picture.width - half;
-            const double share =
-                (double(picture.at(x, y) & 0xffu) - test::shadowedGround) / (test::litGround - test::shadowedGround);
-            const double off = std::abs(share - expected(at));
-            result.largest = std::max(result.largest, off);
-            if (expected(at) > 0.02 && expected(at) < 0.98) {
-                sum += off * off;
-                ++pixels;
-            }
-        }
-    result.partly = pixels;
-    result.rms = std::sqrt(sum / std::max(pixels, 1));
-    return result;
+std::ostream& operator<<(std::ostream& out, const Shares& s) {
+    return out << "rms " << s.rms() << ", largest " << s.largest << ", of " << s.partly << " pixels";
 }
 
-std::ostream& operator<<(std::ostream& out, const Shares& s) {
-    return out << "rms " << s.rms << ", largest " << s.largest << ", of " << s.partly << " pixels";
+/// Of the sun's light at 45 degrees on a ground of groundScene().
+double shareOf(std::uint32_t color) {
+    return (double(color & 0xffu) - test::shadowedGround) / (test::litGround - test::shadowedGround);
+}
+
+/// The ground at x > 0 of a picture from above, which shows [-half, half]².
+template <class Expected>
+Shares compare(const Picture& picture, double half, const Expected& expected) {
+    Shares result;
+    for (int y = picture.height / 4; y < picture.height * 3 / 4; ++y)
+        for (int x = picture.width / 2 + 2; x < picture.width; ++x)
+            result.add(shareOf(picture.at(x, y)), expected((x + 0.5) * 2.0 * half / picture.width - half));
+    return result;
 }
 
 Picture from(Scene scene, ShadowMapTechnique* technique, double half) {
@@ -101,7 +106,7 @@ TEST(MapSoft, PenumbraOfASunIsAsWideAsItsDiscMakesIt) {
             const Shares result = compare(from(plate.build(), softMap(1024, angle), half), half,
                                           [&](double x) { return discBeyond(plate.beyond(x, way) / radius); });
             std::cout << angle << " degrees, height " << height << ": " << result << "\n";
-            EXPECT_LE(result.rms, 0.03) << angle << ", " << height;
+            EXPECT_LE(result.rms(), 0.03) << angle << ", " << height;
             EXPECT_LE(result.largest, 0.1) << angle << ", " << height;
             EXPECT_GT(result.partly, 200);
         }
@@ -120,8 +125,7 @@ TEST(MapSoft, PenumbraOfALampIsAsWideAsItsSizeMakesIt) {
         const test::View view = test::fromAbove(half);
         const Picture of[] = {test::render(lit.root, view), test::render(dark.root, view),
                               test::render(shadowed.root, view)};
-        double sum = 0.0, largest = 0.0;
-        int pixels = 0;
+        Shares result;
         for (int y = view.height * 3 / 8; y < view.height * 5 / 8; ++y)
             for (int x = view.width / 2 + 2; x < view.width; ++x) {
                 const auto red = [&](int i) { return double(of[i].at(x, y) & 0xffu); };
@@ -129,16 +133,12 @@ TEST(MapSoft, PenumbraOfALampIsAsWideAsItsSizeMakesIt) {
                                        (y + 0.5) * 2.0 * half / view.height - half, 0.0);
                 const double expected = discBeyond(plate.beyond(place.x(), lamp - place) / (size / 2.0));
                 if (red(0) - red(1) < 50.0 || expected < 0.02 || expected > 0.98) continue;
-                const double off = std::abs((red(2) - red(1)) / (red(0) - red(1)) - expected);
-                largest = std::max(largest, off);
-                sum += off * off;
-                ++pixels;
+                result.add((red(2) - red(1)) / (red(0) - red(1)), expected);
             }
-        const double rms = std::sqrt(sum / std::max(pixels, 1));
-        std::cout << "lamp of " << size << ": rms " << rms << ", largest " << largest << ", of " << pixels << "\n";
-        EXPECT_LE(rms, 0.05) << size;
-        EXPECT_LE(largest, 0.12) << size;
-        EXPECT_GT(pixels, 200);
+        std::cout << "lamp of " << size << ": " << result << "\n";
+        EXPECT_LE(result.rms(), 0.05) << size;
+        EXPECT_LE(result.largest, 0.12) << size;
+        EXPECT_GT(result.partly, 200);
     }
 }
 
@@ -151,7 +151,7 @@ TEST(MapSoft, ARadiusIsThatOfADiscAcrossTheLight) {
             return discBeyond((x - plate.height) * std::sqrt(0.5) / radius);
         });
         std::cout << "radius " << radius << ": " << result << "\n";
-        EXPECT_LE(result.rms, 0.03) << radius;
+        EXPECT_LE(result.rms(), 0.03) << radius;
         EXPECT_LE(result.largest, 0.1) << radius;
         EXPECT_GT(result.partly, 500);
     }
@@ -175,22 +175,18 @@ TEST(MapSoft, CascadesMeetWithoutASeam) {
     shadowed.addShadow(technique);
     const Picture picture = test::render(shadowed.root, view);
     EXPECT_EQ(technique->passes(), 3u);
-    double largest = 0.0;
-    int partly = 0;
+    Shares result;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
             const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
             const glm::dvec3 place = sight.from - sight.way * (sight.from.z / sight.way.z);
             if (!(sight.way.z < 0.0) || !(place.x < 290.0) || !(place.y > 1.0) || place.y > 45.0) continue;
             const double expected = discBeyond((place.y - height) * std::sqrt(0.5) / radius);
-            const double share =
-                (double(picture.at(x, y) & 0xffu) - test::shadowedGround) / (test::litGround - test::shadowedGround);
-            partly += expected > 0.02 && expected < 0.98;
-            largest = std::max(largest, std::abs(share - expected));
+            result.add(shareOf(picture.at(x, y)), expected);
         }
-    std::cout << "largest " << largest << ", of " << partly << " pixels\n";
-    EXPECT_LE(largest, 0.1);
-    EXPECT_GT(partly, 5000);
+    std::cout << result << "\n";
+    EXPECT_LE(result.largest, 0.1);
+    EXPECT_GT(result.partly, 5000);
 }
 
 // Its hard edges are those of the same filter, whatever is added to them.
