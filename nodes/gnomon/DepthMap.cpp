@@ -75,7 +75,7 @@ bool MapPicture::shows(const Tile& tile, const MapPicture& other) const {
         return own.corner == tile.corner && own.clipFromCaster == tile.clipFromCaster;
     };
     const auto alike = [](const auto& a, const auto& b) { return a.geometry == b.geometry; };
-    return casters == other.casters &&
+    return casters == other.casters && outside == other.outside &&
            std::equal(cutouts.begin(), cutouts.end(), other.cutouts.begin(), other.cutouts.end(), alike) &&
            size == other.size && slopeOffset == other.slopeOffset && std::any_of(tiles.begin(), tiles.end(), same);
 }
@@ -148,7 +148,7 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     for (const MapPicture::Tile& tile : due) {
         drawInto(state, tile, picture.size);
         if (target.shown) glClear(GL_DEPTH_BUFFER_BIT);
-        if (picture.casters) picture.casters->draw(renderInfo);
+        if (picture.casters) picture.casters->draw(renderInfo, tile.clipFromCaster, picture.outside);
     }
     const std::string cause = drawCutouts(renderInfo, picture, due);
     target.shown = cause.empty() ? &picture : nullptr;

@@ -24,8 +24,9 @@ struct MapPicture : public osg::Referenced {
         glm::ivec2 corner{0};
         glm::dmat4 clipFromCaster{1.0}; ///< caster: about their mesh's origin.
     };
-    osg::ref_ptr<osg::Geometry> casters;             ///< solid ones; null if there are none.
-    std::vector<MapCasters::Cutout> cutouts;         ///< those that are not.
+    osg::ref_ptr<const CasterFaces> casters;         ///< whole ones; null if there are none.
+    bool outside = true;                             ///< the light is in no solid of them.
+    std::vector<MapCasters::Cutout> cutouts;         ///< those that textures cut out.
     osg::ref_ptr<const osg::StateSet> program;       ///< see markProgram().
     osg::ref_ptr<const osg::StateSet> cutoutProgram; ///< the same with CUTOUT.
     int size = 0;                                    ///< of a tile's side, texels.

@@ -252,7 +252,8 @@ MapFit LightMap::fitOf(const MapFace& face) const {
 /// Without its tiles.
 osg::ref_ptr<MapPicture> LightMap::pictureOf(const MapResources& resources) const {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
-    picture->casters = _flats ? _casters->all : _casters->bodies;
+    picture->casters = _casters->faces(_flats);
+    picture->outside = _casters->areOutside(_light);
     for (const MapCasters::Cutout& cutout : _casters->cutouts)
         if (_flats || !cutout.flat) picture->cutouts.push_back(cutout);
     picture->program = resources.casterProgram;

@@ -4,6 +4,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -33,8 +34,6 @@ void sortBySize(std::vector<MapCasters::Box>& boxes) {
     std::sort(boxes.begin(), boxes.end(),
               [](const auto& a, const auto& b) { return glm::distance(a.low, a.high) > glm::distance(b.low, b.high); });
 }
-
-osg::ref_ptr<osg::DrawElementsUInt> noTriangles() { return new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES); }
 
 /// A drawable's part of the mesh's triangles.
 struct Span {
@@ -77,12 +76,12 @@ private:
 
 /// The triangles by how they are drawn.
 struct MapCasters::Sorted {
-    osg::ref_ptr<osg::DrawElementsUInt> solid = noTriangles(), solidBodies = noTriangles();
+    osg::ref_ptr<osg::DrawElementsUInt> whole = noTriangles(), wholeBodies = noTriangles();
     std::map<std::tuple<osg::Texture2D*, int, float, bool>, CutoutBuilder> builders;
 
     void add(const Span& span, bool flat) {
-        append(*solid, span);
-        if (!flat) append(*solidBodies, span);
+        append(*whole, span);
+        if (!flat) append(*wholeBodies, span);
     }
     void add(const CasterMesh& mesh, const VertexTraverser::Cutout& cutout, const Span& span, bool flat) {
         const AlphaTest& test = cutout.test;
@@ -120,29 +119,38 @@ MapCasters::MapCasters(const CasterMesh& casters)
 }
 
 void MapCasters::take(const Sorted& sorted) {
-    if (sorted.builders.empty())
-        all = casterGeometry(*mesh, mesh->triangles.get());
-    else if (!sorted.solid->empty())
-        all = casterGeometry(*mesh, sorted.solid);
-    if (flatBoxes.empty())
-        bodies = all;
-    else if (!sorted.solidBodies->empty())
-        bodies = casterGeometry(*mesh, sorted.solidBodies);
+    _all.triangles = sorted.builders.empty() ? mesh->triangles : sorted.whole;
+    _bodies.triangles = flatBoxes.empty() ? _all.triangles : sorted.wholeBodies;
     cutouts = sorted.cutouts();
 }
 
-void MapCasters::forEachGeometry(const std::function<void(osg::Geometry&)>& call) const {
-    if (all) call(*all);
-    if (bodies) call(*bodies);
-    for (const Cutout& cutout : cutouts) call(*cutout.geometry);
+osg::ref_ptr<const CasterFaces> MapCasters::faces(bool flats) const {
+    Drawn& drawn = flats && !flatBoxes.empty() ? _all : _bodies;
+    const bool again = drawn.faces != nullptr;
+    if (drawn.knowsSolids || drawn.triangles->empty()) return drawn.faces;
+    drawn.faces = new CasterFaces(*mesh, drawn.triangles, again);
+    drawn.knowsSolids = again;
+    return drawn.faces;
+}
+
+bool MapCasters::areOutside(const glm::dvec4& light) const {
+    if (light.w == 0.0) return true;
+    const glm::dvec3 at(light), rounding(1e-6 * glm::length(reach));
+    return std::none_of(bodyBoxes.begin(), bodyBoxes.end(), [&](const Box& box) {
+        return glm::all(glm::greaterThan(at, box.low - rounding)) && glm::all(glm::lessThan(at, box.high + rounding));
+    });
 }
 
 void MapCasters::resizeGLObjectBuffers(unsigned maxSize) const {
-    forEachGeometry([=](osg::Geometry& geometry) { geometry.resizeGLObjectBuffers(maxSize); });
+    for (const Drawn* drawn : {&_all, &_bodies})
+        if (drawn->faces) drawn->faces->resizeGLObjectBuffers(maxSize);
+    for (const Cutout& cutout : cutouts) cutout.geometry->resizeGLObjectBuffers(maxSize);
 }
 
 void MapCasters::releaseGLObjects(osg::State* state) const {
-    forEachGeometry([=](osg::Geometry& geometry) { geometry.releaseGLObjects(state); });
+    for (const Drawn* drawn : {&_all, &_bodies})
+        if (drawn->faces) drawn->faces->releaseGLObjects(state);
+    for (const Cutout& cutout : cutouts) cutout.geometry->releaseGLObjects(state);
 }
 
 } // namespace gnomon

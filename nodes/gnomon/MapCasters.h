@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/CasterMesh.h>
+#include <gnomon/CasterFaces.h>
 
 #include <glm/vec3.hpp>
 #include <osg/Geometry>
 #include <osg/Texture2D>
 
-#include <functional>
 #include <vector>
 
 namespace gnomon {
@@ -29,12 +28,16 @@ struct MapCasters : public osg::Referenced {
     explicit MapCasters(const CasterMesh& mesh);
 
     const osg::ref_ptr<const CasterMesh> mesh;
-    osg::ref_ptr<osg::Geometry> all;    ///< everything that is solid; null if that is nothing.
-    osg::ref_ptr<osg::Geometry> bodies; ///< of it all but what is flat, as grounds are: null if that is nothing.
-    std::vector<Cutout> cutouts;        ///< everything that is not solid.
-    std::vector<Box> bodyBoxes;         ///< of the drawables, about mesh->origin, the largest first.
-    std::vector<Box> flatBoxes;         ///< of those that are flat along an axis of the group.
-    glm::dvec3 reach{0.0};              ///< half sides of the bounds.
+    std::vector<Cutout> cutouts; ///< what textures cut out.
+    std::vector<Box> bodyBoxes;  ///< of the drawables, about mesh->origin, the largest first.
+    std::vector<Box> flatBoxes;  ///< of those that are flat along an axis of the group.
+    glm::dvec3 reach{0.0};       ///< half sides of the bounds.
+
+    /// All that no texture cuts out, or of it all but what is flat, as grounds are; null if that is nothing. What is asked
+    /// for again is drawn often: from then on its solids are told apart. One thread at a time.
+    osg::ref_ptr<const CasterFaces> faces(bool flats) const;
+    /// False if a lamp may be in a solid. @param light  as usableLight().
+    bool areOutside(const glm::dvec4& light) const;
 
     void resizeGLObjectBuffers(unsigned maxSize) const;
     void releaseGLObjects(osg::State* state) const;
@@ -44,8 +47,14 @@ protected:
 
 private:
     struct Sorted;
+    struct Drawn {
+        osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< may be empty.
+        osg::ref_ptr<const CasterFaces> faces;
+        bool knowsSolids = false;
+    };
     void take(const Sorted& sorted);
-    void forEachGeometry(const std::function<void(osg::Geometry&)>& call) const;
+
+    mutable Drawn _all, _bodies;
 };
 
 } // namespace gnomon

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/ClosedParts.h>
+#include <gnomon/CasterFaces.h>
 #include <gnomon/Convert.h>
 #include <gnomon/PlanarCasters.h>
 #include <gnomon/Plane.h>
@@ -28,13 +28,6 @@ double thicknessOf(const CasterMesh& mesh) {
     return 4.0 * (reach * std::numeric_limits<float>::epsilon() / 2.0 + mesh.rounding);
 }
 
-/// osg::Vec3 and glm::vec3 are three floats each.
-ClosedParts solidsOf(const CasterMesh& mesh) {
-    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
-    return closedParts(reinterpret_cast<const glm::vec3*>(mesh.vertices->getDataPointer()), mesh.vertices->size(),
-                       &mesh.triangles->front(), mesh.triangles->size());
-}
-
 } // namespace
 
 PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under, bool findSolids)
@@ -48,10 +41,10 @@ PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlan
       _knowsSolids(findSolids) {
     const std::vector<double> heights = heightsAbove(mesh, plane);
     const osg::DrawElementsUInt& all = *mesh.triangles;
-    const ClosedParts closed = findSolids ? solidsOf(mesh) : ClosedParts();
+    const ClosedParts closed = findSolids ? closedPartsOf(mesh, all) : ClosedParts();
     osg::ref_ptr<osg::DrawElementsUInt> lists[2][2]; // [crossing][solid]
     for (auto& row : lists)
-        for (auto& list : row) list = new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES);
+        for (auto& list : row) list = noTriangles();
     for (unsigned i = 0; i + 2 < all.size(); i += 3) {
         const auto [lowest, top] = std::minmax({heights[all[i]], heights[all[i + 1]], heights[all[i + 2]]});
         if (!(top > thickness || (under && lowest < -thickness))) continue;

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/CasterFaces.h>
+
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+namespace gnomon {
+
+osg::ref_ptr<osg::DrawElementsUInt> noTriangles() { return new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES); }
+
+/// osg::Vec3 and glm::vec3 are three floats each.
+ClosedParts closedPartsOf(const CasterMesh& mesh, const osg::DrawElementsUInt& triangles) {
+    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
+    return closedParts(reinterpret_cast<const glm::vec3*>(mesh.vertices->getDataPointer()), mesh.vertices->size(),
+                       &triangles.front(), triangles.size());
+}
+
+CasterFaces::CasterFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids) {
+    if (!findSolids) {
+        others = casterGeometry(mesh, triangles);
+        return;
+    }
+    const ClosedParts parts = closedPartsOf(mesh, *triangles);
+    const osg::ref_ptr<osg::DrawElementsUInt> closed = noTriangles(), open = noTriangles();
+    for (std::size_t i = 0; i < triangles->size(); ++i)
+        (parts.closed[i / 3] ? closed : open)->push_back(parts.welded[(*triangles)[i]]); // fewer vertices to transform
+    if (!closed->empty()) solids = casterGeometry(mesh, closed);
+    if (!open->empty()) others = casterGeometry(mesh, open);
+}
+
+void CasterFaces::draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, bool outside) const {
+    if (others) others->draw(renderInfo);
+    if (!solids) return;
+    const bool mirrored = glm::determinant(clipFromMesh) > 0.0; // OpenGL's own projections turn left to right hands
+    if (outside) glEnable(GL_CULL_FACE);
+    glFrontFace(mirrored ? GL_CW : GL_CCW);
+    solids->draw(renderInfo);
+    glFrontFace(GL_CCW);
+    glDisable(GL_CULL_FACE);
+}
+
+void CasterFaces::resizeGLObjectBuffers(unsigned maxSize) const {
+    for (const auto& geometry : {solids, others})
+        if (geometry) geometry->resizeGLObjectBuffers(maxSize);
+}
+
+void CasterFaces::releaseGLObjects(osg::State* state) const {
+    for (const auto& geometry : {solids, others})
+        if (geometry) geometry->releaseGLObjects(state);
+}
+
+} // namespace gnomon

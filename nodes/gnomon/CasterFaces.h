@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/CasterMesh.h>
+#include <gnomon/ClosedParts.h>
+
+#include <glm/mat4x4.hpp>
+#include <osg/Geometry>
+#include <osg/RenderInfo>
+
+namespace gnomon {
+
+osg::ref_ptr<osg::DrawElementsUInt> noTriangles();
+
+/// Of triangles of the mesh's vertices.
+ClosedParts closedPartsOf(const CasterMesh& mesh, const osg::DrawElementsUInt& triangles);
+
+/// Triangles of a caster mesh as a light's map draws them. Never changed once made.
+///
+/// Cost  to find solids takes longer than to make the mesh, see closedParts(), and halves the drawing of what is closed.
+struct CasterFaces : public osg::Referenced {
+    osg::ref_ptr<osg::Geometry>
+        solids; ///< they bound solids: of these the faces turned to a light cast all of the shadow.
+    osg::ref_ptr<osg::Geometry> others; ///< of these both sides cast. Null, as solids, if there are none.
+
+    /// @param triangles   of the mesh's vertices.
+    /// @param findSolids  else all are others.
+    CasterFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids);
+
+    /// Needs back faces to be those that are culled.
+    /// @param clipFromMesh  the light's, mesh: about its origin.
+    /// @param outside       the light is in none of the solids.
+    void draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, bool outside) const;
+
+    void resizeGLObjectBuffers(unsigned maxSize) const;
+    void releaseGLObjects(osg::State* state) const;
+
+protected:
+    ~CasterFaces() override = default;
+};
+
+} // namespace gnomon

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Maps drawn again leave out the faces of solids that are turned away from the light: what they show stays the same.
+#include "TracedCases.h"
+
+#include <gnomon/ShadowMapTechnique.h>
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+
+using gnomon::ShadowMapTechnique;
+using test::Camera;
+using test::Picture;
+using test::Scene;
+
+namespace {
+
+const osg::Vec4d elsewhere(1.0, 2.0, 5.0, 0.0);
+
+Scene build(const std::vector<test::Mesh>& casters, const osg::Vec4d& light, ShadowMapTechnique::View view) {
+    Scene scene = test::groundScene(casters, 8.0, light);
+    osg::ref_ptr<osg::MatrixTransform> mirror = new osg::MatrixTransform(osg::Matrix::scale(-1.0, 1.0, 1.0));
+    mirror->addChild(test::node(test::box({1.0, -5.0, 0.0}, {2.0, -3.0, 1.5}))); // its faces look inwards
+    scene.content->addChild(mirror);
+    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    technique->setView(view);
+    scene.addShadow(technique);
+    return scene;
+}
+
+/// The frame of a light once the map has been drawn for others.
+Picture drawnAgain(Scene scene, const test::View& view) {
+    osg::Light& light = *scene.light->getLight();
+    const osg::Vec4 meant = light.getPosition();
+    Camera camera(scene.root, view);
+    light.setPosition(osg::Vec4(elsewhere));
+    for (int frame = 0; frame < 2; ++frame) {
+        camera.frame();
+        light.setPosition(light.getPosition() + osg::Vec4(0.1f, 0.0f, 0.0f, 0.0f));
+    }
+    light.setPosition(meant);
+    return camera.frame();
+}
+
+const test::View aside = test::perspective({-9.0, -12.0, 9.0}, {0.0, 0.0, 0.0}, 320, 240);
+
+} // namespace
+
+// Solids; one inside out and an open quad, whose backs are turned to the sun; two that stand in one another. In the map itself
+// the nearest face is seen, whichever are drawn.
+TEST(MapSolids, LookTheSameWhenTheirBacksAreLeftOut) {
+    const std::vector<test::Mesh> casters{test::sphere({0.0, 0.0, 1.5}, 1.0),
+                                          test::insideOut(test::box({2.0, 2.0, 0.0}, {3.0, 3.0, 2.0})),
+                                          test::quad({-4.0, 2.0, 0.0}, {2.0, 0.0, 0.0}, {0.0, 1.0, 2.0}),
+                                          test::quad({-4.0, -2.0, 3.0}, {0.0, 1.0, 0.0}, {2.0, 0.0, 0.0}),
+                                          test::box({-3.0, -5.0, 0.0}, {-2.0, -4.0, 2.0}),
+                                          test::box({-2.5, -4.5, -1.0}, {-1.0, -3.5, 1.0})};
+    for (const osg::Vec4d& light :
+         {osg::Vec4d(1.0, 0.5, 1.0, 0.0), osg::Vec4d(-1.0, 0.2, 0.4, 0.0), osg::Vec4d(1.0, 0.0, 5.0, 1.0)})
+        for (const auto view : {ShadowMapTechnique::NOTHING, ShadowMapTechnique::MAP})
+            EXPECT_EQ(drawnAgain(build(casters, light, view), aside)
+                          .different(test::render(build(casters, light, view).root, aside)),
+                      0)
+                << light.x() << ", " << light.y() << ", " << light.z() << ", view " << view;
+}
+
+// A lamp in a closed box sees nothing but backs.
+TEST(MapSolids, HoldTheLightOfALampInside) {
+    const std::vector<test::Mesh> closed{test::box({-1.0, -1.0, 1.0}, {1.0, 1.0, 3.0})};
+    const osg::Vec4d inside(0.0, 0.0, 2.0, 1.0);
+    Scene dark = build(closed, inside, ShadowMapTechnique::NOTHING);
+    dark.takeLightAway();
+    EXPECT_EQ(
+        drawnAgain(build(closed, inside, ShadowMapTechnique::NOTHING), aside).different(test::render(dark.root, aside)),
+        0);
+}
