@@ -97,7 +97,7 @@ void MapQuad::drawWide(osg::State& state, ScreenPass& pass) const {
 std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
     std::string text = mapDefines();
     if (coneFromScene) text += "#define CONE\n";
-    if (soft) text += "#define SOFT\n";
+    text += soft ? "#define SOFT\n" : "#define HALVES\n";
     if (wide) text += "#define PENUMBRA\n";
     if (!soft && isOdd(pixels)) text += "#define ODD\n";
     return text;
