@@ -8,7 +8,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int levels = 5;                               // blocks.frag and map_filter.frag know it, too
+constexpr int levels = 6;                               // blocks.frag and map_filter.frag know it, too
 constexpr int finest = 8, coarsest = 8 << (levels - 1); // texels on a side of a block
 constexpr GLint oneFloat = 0x822E;                      // GL_R32F
 constexpr GLenum red = 0x1903;                          // GL_RED

@@ -10,7 +10,7 @@
 namespace gnomon {
 
 /// The least depth in each block of a depth map: of 8 × 8 texels, and of blocks of twice the side a mipmap level, up to
-/// 128 × 128.
+/// 256 × 256.
 ///
 /// Needs   what RawSampler needs, and textures of floats that can be drawn to.
 /// Threads one a context.

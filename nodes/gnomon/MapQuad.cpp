@@ -99,7 +99,7 @@ std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
     if (coneFromScene) text += "#define CONE\n";
     text += soft ? "#define SOFT\n" : "#define HALVES\n";
     if (wide) text += "#define PENUMBRA\n";
-    if (!soft && isOdd(pixels)) text += "#define ODD\n";
+    if (isOdd(pixels)) text += "#define ODD\n";
     return text;
 }
 

@@ -30,18 +30,29 @@ float changeTo(ivec2 to, float e, ivec2 here) {
     return (1.0 - texelFetch(seen, to, 0).r - e) * float(way.x + way.y);
 }
 
-// Change of e a pixel along an axis. Soft: the smaller of those to both sides, for the other may lead to another surface,
-// and what is averaged reaches far along this one. Else as dFdx() and dFdy() have it: by the other pixel of the quad.
-float change(float e, ivec2 here, ivec2 axis) {
-#ifdef SOFT
-    float ahead = changeTo(known(here, axis), e, here), back = changeTo(known(here, -axis), e, here);
-    return abs(ahead) < abs(back) ? ahead : back;
-#else
+// Change of e a pixel along an axis, to the other pixel of the quad or, `beyond`, to that on its other side.
+float changeIn(float e, ivec2 here, ivec2 axis, bool beyond) {
     ivec2 at = here * axis;
-    return changeTo(known(here, ((at.x + at.y) & 1) == 0 ? axis : -axis), e, here);
-#endif
+    return changeTo(known(here, (((at.x + at.y) & 1) == 0) != beyond ? axis : -axis), e, here);
 }
+
+float smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
 #endif
+
+// Change of e a pixel, as dFdx() and dFdy() have it where quads are whole. Soft: the smaller of those to both sides, for the
+// other may lead to another surface, and what is averaged reaches far along this one.
+vec2 changeOf(float e, ivec2 here) {
+#ifdef ODD
+    vec2 change = vec2(changeIn(e, here, ivec2(1, 0), false), changeIn(e, here, ivec2(0, 1), false));
+#else
+    vec2 change = vec2(dFdx(e), dFdy(e));
+#endif
+#ifdef SOFT
+    change.x = smaller(change.x, changeIn(e, here, ivec2(1, 0), true));
+    change.y = smaller(change.y, changeIn(e, here, ivec2(0, 1), true));
+#endif
+    return change;
+}
 
 // Share of the light; outside all maps it is 1. Soft cascades are blended where one ends: `left` is the weight of those
 // that are still to come.
@@ -61,7 +72,7 @@ float visibility(vec4 pixel, vec4 plane) {
         float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x;
         vec2 p = place[i].xy + at.xy * place[i].z;
 #ifndef SOFT
-        return lit(p, depth, slope);
+        return lit(p, depth, slope, true);
 #else
         const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
         float weight = left;
@@ -80,11 +91,7 @@ float visibility(vec4 pixel, vec4 plane) {
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     float e = 1.0 - texelFetch(seen, here, 0).r;
-#if defined(ODD) || defined(SOFT)
-    vec2 slope = vec2(change(e, here, ivec2(1, 0)), change(e, here, ivec2(0, 1)));
-#else
-    vec2 slope = vec2(dFdx(e), dFdy(e));
-#endif
+    vec2 slope = changeOf(e, here);
     if (e <= 0.0) discard; // nothing is seen
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));

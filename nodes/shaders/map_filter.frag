@@ -5,24 +5,16 @@ uniform sampler2DShadow maps;
 uniform vec2 texel;           // of the texture, whose sides are 1
 
 // At p, in texels of the texture; `slope` is the change of depth a texel on the surface that is compared.
-float lit(vec2 p, float depth, vec2 slope) {
 #ifdef BICUBIC
-    // The cubic B-spline over 4 x 4 comparisons as four of 2 x 2. Source: C. Sigg and M. Hadwiger, "Fast Third-Order
-    // Texture Filtering", GPU Gems 2, 2005.
+// The cubic B-spline over 4 x 4 comparisons as four of 2 x 2. Source: C. Sigg and M. Hadwiger, "Fast Third-Order Texture
+// Filtering", GPU Gems 2, 2005.
+float litBicubic(vec2 p, float depth, vec2 slope, bool asked) {
     vec2 f = fract(p - 0.5), g = 1.0 - f;
     vec2 w0 = g * g * g / 6.0, w3 = f * f * f / 6.0;
     vec2 w1 = 2.0 / 3.0 - 0.5 * f * f * (2.0 - f);
     vec2 low = w0 + w1, high = 1.0 - low;
     vec2 a = w1 / low - 1.0 - f, b = w3 / high + 1.0 - f; // from p
-    float taps = 4.0, share = 0.0;
-#ifdef HALVES
-    // The inner 2 x 2 have more than half of the B-spline's weight everywhere, 0.69 at least: where they agree, they decide.
-    float inner = texture(maps, vec3(p * texel, depth));
-    if (inner <= 0.0 || inner >= 1.0) {
-        share = inner;
-        taps = 0.0; // a loop ends early where no pixel needs it, while both sides of a condition may be run
-    }
-#endif
+    float taps = asked ? 4.0 : 0.0, share = 0.0; // a loop ends early where no pixel asks; of a condition both sides may be run
     for (float tap = 0.0; tap < taps; tap += 1.0) {
         bool right = tap == 1.0 || tap == 3.0, upper = tap > 1.5;
         vec2 to = vec2(right ? b.x : a.x, upper ? b.y : a.y);
@@ -30,6 +22,19 @@ float lit(vec2 p, float depth, vec2 slope) {
         share += weight * texture(maps, vec3((p + to) * texel, depth + dot(slope, to)));
     }
     return share;
+}
+#endif
+
+// Anything where it is not asked for.
+float lit(vec2 p, float depth, vec2 slope, bool asked) {
+#if defined(BICUBIC) && defined(HALVES)
+    // The inner 2 x 2 have more than half of the B-spline's weight everywhere, 0.69 at least: where they agree, they decide.
+    float inner = texture(maps, vec3(p * texel, depth));
+    bool open = inner > 0.0 && inner < 1.0;
+    float share = litBicubic(p, depth, slope, asked && open);
+    return open ? share : inner;
+#elif defined(BICUBIC)
+    return litBicubic(p, depth, slope, asked);
 #else
     return texture(maps, vec3(p * texel, depth));
 #endif
@@ -62,17 +67,17 @@ uniform sampler2D depths;     // of the maps
 uniform sampler2D blocks;     // the least of them: see BlockDepths
 uniform vec2 penumbra[MAPS];  // half of it, texels, for each unit of depth between what blocks the light and the surface
 
-const float finest = 8.0, widest = 128.0; // sides of blocks, texels
+const float finest = 8.0, coarsest = 256.0; // sides of blocks, texels
+const float widest = coarsest / 2.0;        // radius that is averaged
 
 // No more than the least depth within a radius, up to `widest`, of p.
 float leastAbout(vec2 p, float radius) {
-    int level = int(clamp(ceil(log2(max(radius, finest) / finest)), 0.0, log2(widest / finest)));
-    ivec2 at = ivec2(p / (finest * exp2(float(level)))), last = textureSize(blocks, level) - 1;
-    float least = 1.0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            least = min(least, texelFetch(blocks, clamp(at + ivec2(x, y), ivec2(0), last), level).r);
-    return least;
+    float level = clamp(ceil(log2(2.0 * radius / finest)), 0.0, log2(coarsest / finest)); // two blocks hold a diameter
+    ivec2 last = textureSize(blocks, int(level)) - 1, low = ivec2(floor((p - radius) / (finest * exp2(level))));
+    ivec2 high = clamp(low + 1, ivec2(0), last);
+    low = clamp(low, ivec2(0), last);
+    return min(min(texelFetch(blocks, low, int(level)).r, texelFetch(blocks, ivec2(high.x, low.y), int(level)).r),
+               min(texelFetch(blocks, ivec2(low.x, high.y), int(level)).r, texelFetch(blocks, high, int(level)).r));
 }
 
 // How far off what blocks part of the light can be, in depth; not more than 0 if there is nothing.
@@ -82,10 +87,12 @@ float mostBetween(int i, vec2 p, float depth) {
     return far;
 }
 
-// Mean depth between the surface and what blocks part of the light there; 0 if nothing does.
+// Mean depth between the surface and what blocks part of the light there; 0 if nothing does, or nothing that makes edges
+// wider than the filter.
 float between(int i, vec2 p, float depth, vec2 slope) {
     const float most = 16.0;
-    float far = mostBetween(i, p, depth), taps = far > 0.0 ? most : 0.0;
+    float far = mostBetween(i, p, depth), reach = far * max(penumbra[i].x, penumbra[i].y);
+    float taps = reach > 1.0 ? most : 0.0; // else the filter is as wide, whatever there is
     float aTexel = 1.0 / min(penumbra[i].x, penumbra[i].y), sum = 0.0, found = 0.0;
     vec2 way = vec2(1.0, 0.0);
     for (float tap = 0.5; tap < taps; tap += 1.0) {
@@ -118,7 +125,8 @@ float litSoftly(int i, vec2 p, float depth, vec2 slope) {
 #ifdef PENUMBRA
     radius = max(radius, penumbra[i] * max(between(i, p, depth, slope), 0.0));
 #endif
-    if (max(radius.x, radius.y) <= 1.0) return lit(p, depth, slope); // the filter is as wide
-    return litDisc(i, p, depth, slope, radius);
+    bool wide = max(radius.x, radius.y) > 1.0; // than the filter
+    float share = lit(p, depth, slope, !wide);
+    return wide ? litDisc(i, p, depth, slope, radius) : share;
 }
 #endif

@@ -28,7 +28,7 @@ float gnomon_visibility(vec3 eye) {
             slope = vec2(0.0);
             steepness = error.z;
         }
-        return lit(place.xy + at.xy * place.z, min(at.z, 1.0) - (0.5 + error.y) * steepness - error.x, slope);
+        return lit(place.xy + at.xy * place.z, min(at.z, 1.0) - (0.5 + error.y) * steepness - error.x, slope, true);
     }
     return 1.0;
 }
