@@ -3,7 +3,6 @@
 #include <gnomon/MarkProgram.h>
 #include <gnomon/PlanCoverage.h>
 #include <gnomon/ScreenPass.h>
-#include <gnomon/ShadowDecals.h>
 #include <gnomon/ShadowPrisms.h>
 #include <gnomon/StencilRounds.h>
 #include <gnomon/TerrainMark.h>
@@ -51,12 +50,26 @@ void TerrainMesh::set(const ShadowPrisms& prisms) {
 
 void TerrainMesh::set(const ShadowDecals& decals) {
     setFrom(decals, [&](auto add) {
-        if (!decals.triangles.empty()) add(decals.triangles);
+        if (decals.triangles.empty()) return;
+        add(decals.uncut);
+        add(decals.triangles);
     });
+    _fans = decals.fans;
 }
 
 void TerrainMesh::draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const {
-    const unsigned first = firstLayer ? _ends[firstLayer - 1] : 0, end = _ends[firstLayer + count - 1];
+    drawCorners(renderInfo, firstLayer ? _ends[firstLayer - 1] : 0, _ends[firstLayer + count - 1]);
+}
+
+/// Uncut ones that are off least end where cut ones begin, and those follow which are off most.
+void TerrainMesh::drawDecals(osg::RenderInfo& renderInfo, double off) const {
+    const auto isOff = [off](const ShadowDecals::Uncut& fan) { return fan.off > off; };
+    const auto fan = std::partition_point(_fans.begin(), _fans.end(), isOff);
+    const bool isAny = fan != _fans.end();
+    drawCorners(renderInfo, isAny ? fan->first : _ends[0], isAny ? _ends[0] + fan->inside : _ends[1]);
+}
+
+void TerrainMesh::drawCorners(osg::RenderInfo& renderInfo, unsigned first, unsigned end) const {
     if (first == 0 && end == _ends.back())
         _geometry->draw(renderInfo);
     else
@@ -105,7 +118,7 @@ std::string TerrainMark::markDecals(osg::RenderInfo& renderInfo, ScreenPass& pas
     setUniform(state, "clipFromCaster", clipFromDecals());
     pass.testDepth(GL_LEQUAL, false);
     pass.stencilEqual(bit, 0, bit);
-    for (const TerrainMesh* mesh : decals) mesh->draw(renderInfo, 0, 1);
+    for (const SeenDecals& seen : decals) seen.mesh->drawDecals(renderInfo, seen.unseen);
     state.apply();
     return "";
 }

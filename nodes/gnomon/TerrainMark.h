@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/MarkJob.h>
+#include <gnomon/ShadowDecals.h>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -14,7 +15,6 @@ namespace gnomon {
 
 class PlanCoverage;
 struct LayerSlice;
-struct ShadowDecals;
 struct ShadowPrisms;
 struct TileShadows;
 
@@ -28,6 +28,8 @@ public:
 
     unsigned layers() const { return static_cast<unsigned>(_ends.size()); }
     void draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const;
+    /// Each decal once, see ShadowDecals: uncut if it is over the ground by no more than `off`, else cut.
+    void drawDecals(osg::RenderInfo& renderInfo, double off) const;
     void resizeGLObjectBuffers(unsigned maxSize) { _geometry->resizeGLObjectBuffers(maxSize); }
     void releaseGLObjects(osg::State* state) const { _geometry->releaseGLObjects(state); }
 
@@ -40,10 +42,18 @@ protected:
 private:
     template <typename Shadows, typename Append>
     void setFrom(const Shadows& of, Append append);
+    void drawCorners(osg::RenderInfo& renderInfo, unsigned first, unsigned end) const;
     osg::Vec3Array& vertices();
     osg::DrawElementsUInt& corners();
     osg::ref_ptr<osg::Geometry> _geometry;
-    std::vector<unsigned> _ends; ///< of each layer among the corners.
+    std::vector<unsigned> _ends;            ///< of each layer among the corners.
+    std::vector<ShadowDecals::Uncut> _fans; ///< of decals: among the corners uncut ones come first.
+};
+
+/// Decals in one view.
+struct SeenDecals {
+    const TerrainMesh* mesh;
+    double unseen; ///< height over the ground that is not seen there.
 };
 
 /// Marks of one light in one view: all that decals cover, and all that stands in a prism. What of that is ground is for
@@ -51,8 +61,9 @@ private:
 class TerrainMark : public MarkJob {
 public:
     std::vector<osg::ref_ptr<const TileShadows>> tiles; ///< whose meshes these are, so that none is changed:
-    std::vector<const TerrainMesh*> decals, prisms;     ///< each with a layer or more.
-    osg::ref_ptr<const osg::StateSet> program;          ///< see markProgram().
+    std::vector<SeenDecals> decals;
+    std::vector<const TerrainMesh*> prisms;    ///< each with a layer or more, as decals have one.
+    osg::ref_ptr<const osg::StateSet> program; ///< see markProgram().
     glm::dmat4 clipFromPrisms{1.0};
     /// Of the depth in clip space: decals are drawn so much nearer, on the same pixels, for the ground is drawn by other
     /// numbers than they are.

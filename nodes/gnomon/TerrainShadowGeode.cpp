@@ -37,24 +37,24 @@ const char* nameOf(TerrainShadowGeode::Method method) {
 /// Adds those tiles that can be seen. @return where they are.
 std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const TerrainView& view, TerrainMark& mark) {
     std::optional<ScreenRect> all;
-    const auto add = [&](const TileShadows& tile, const TerrainMesh& mesh, std::vector<const TerrainMesh*>& to) {
-        const auto bounds = view.seen(mesh, tile);
-        if (!bounds) return;
-        to.push_back(&mesh);
+    const auto add = [&](const TileShadows& tile, const TerrainMesh& mesh, const auto& take) {
+        const auto seen = view.seen(mesh, tile);
+        if (!seen) return;
+        take(seen->unseen);
         if (mark.tiles.empty() || mark.tiles.back() != &tile) mark.tiles.push_back(&tile);
-        all = all ? united(*all, *bounds) : *bounds;
+        all = all ? united(*all, seen->bounds) : seen->bounds;
     };
     for (const auto& tile : frame.tiles) {
-        add(*tile, *tile->decals, mark.decals);
-        add(*tile, *tile->prisms, mark.prisms);
+        add(*tile, *tile->decals, [&](double unseen) { mark.decals.push_back({tile->decals, unseen}); });
+        add(*tile, *tile->prisms, [&](double) { mark.prisms.push_back(tile->prisms); });
     }
     return all;
 }
 
 std::shared_ptr<const PlanCoverage> coverageOf(const TerrainMark& mark) {
     std::vector<PlanCoverage::Rect> rectangles;
-    std::vector<const TerrainMesh*> meshes = mark.decals;
-    meshes.insert(meshes.end(), mark.prisms.begin(), mark.prisms.end());
+    std::vector<const TerrainMesh*> meshes = mark.prisms;
+    for (const SeenDecals& seen : mark.decals) meshes.push_back(seen.mesh);
     for (const TerrainMesh* mesh : meshes) {
         const glm::dvec2 low(mesh->low), high(mesh->high);
         const glm::dvec2 rounding = 1e-6 * glm::max(glm::abs(low), glm::abs(high)); // of prisms in single precision

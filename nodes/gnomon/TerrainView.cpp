@@ -21,11 +21,16 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double leastPixels = 1.0;
 constexpr double unseenPixels = 0.25; // half of what the edges of a picture are off by themselves
 
-/// How many pixels long what has a length of 1 at the nearest of the corners can be, wherever it is on the screen.
-double pixelsAt(const std::array<glm::dvec4, 8>& corners, const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
-    const auto lengthOf = [&](int row) { return glm::length(glm::dvec3(glm::row(clipFromTiles, row))); };
-    double nearest = infinite, most = 0.0;
+double nearestOf(const std::array<glm::dvec4, 8>& corners) {
+    double nearest = infinite;
     for (const glm::dvec4& corner : corners) nearest = std::min(nearest, corner.w);
+    return nearest;
+}
+
+/// How many pixels long what has a length of 1 can be from where w is `nearest` on, wherever it is on the screen.
+double pixelsAt(double nearest, const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
+    const auto lengthOf = [&](int row) { return glm::length(glm::dvec3(glm::row(clipFromTiles, row))); };
+    double most = 0.0;
     for (int i = 0; i < 2; ++i) most = std::max(most, 0.5 * pixels[i] * (lengthOf(i) + lengthOf(3)));
     return nearest > 0.0 ? most / nearest : infinite;
 }
@@ -56,14 +61,26 @@ TerrainView::Shown TerrainView::shown(const TerrainMesh& mesh, const TileShadows
     const glm::dvec3 margin = marginOf(tile, moved);
     const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromTiles);
     const auto bounds = screenBounds({corners.begin(), corners.end()});
-    const double pixels = pixelsAt(corners, _clipFromTiles, _pixels);
-    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels};
+    const double nearest = nearestOf(corners), pixels = pixelsAt(nearest, _clipFromTiles, _pixels);
+    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), nearest, pixels};
     const bool isTooSmall = (tile.widest + 2.0 * moved) * pixels < leastPixels;
-    return {isTooSmall ? std::nullopt : bounds, pixels};
+    return {isTooSmall ? std::nullopt : bounds, nearest, pixels};
 }
 
-std::optional<ScreenRect> TerrainView::seen(const TerrainMesh& mesh, const TileShadows& tile) const {
-    return shown(mesh, tile, 0.0).bounds;
+std::optional<TerrainView::Seen> TerrainView::seen(const TerrainMesh& mesh, const TileShadows& tile) const {
+    const Shown now = shown(mesh, tile, 0.0);
+    if (!now.bounds) return std::nullopt;
+    const bool isExact = !ShadowBin::getFilter() || !(now.nearest > 0.0);
+    return Seen{*now.bounds, isExact ? 0.0 : unseenPixels / pixelsHigh(*now.bounds, now.nearest)};
+}
+
+/// How many pixels a point moves by at most that rises by 1, within bounds of the screen.
+double TerrainView::pixelsHigh(const ScreenRect& bounds, double nearest) const {
+    glm::dvec2 most(0.0);
+    for (int i = 0; i < 2; ++i)
+        for (const double at : {bounds.low[i], bounds.high[i]})
+            most[i] = std::max(most[i], 0.5 * _pixels[i] * std::abs(_clipFromTiles[2][i] - at * _clipFromTiles[2][3]));
+    return glm::length(most) / nearest;
 }
 
 bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& light, double lowest,

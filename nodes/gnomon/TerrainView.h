@@ -18,9 +18,13 @@ public:
     TerrainView(const ViewFrame& view, const glm::dvec3& origin);
 
     const glm::dmat4& clipFromTiles() const { return _clipFromTiles; }
-    /// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn: it is empty, out of sight, or its
-    /// widest shadow is smaller than a pixel.
-    std::optional<ScreenRect> seen(const TerrainMesh& mesh, const TileShadows& tile) const;
+    /// Where a tile's mesh is on the screen.
+    struct Seen {
+        ScreenRect bounds;
+        double unseen; ///< difference in height that is not seen where it is nearest: a quarter of a pixel.
+    };
+    /// nullopt if nothing of it is to be drawn: it is empty, out of sight, or its widest shadow is smaller than a pixel.
+    std::optional<Seen> seen(const TerrainMesh& mesh, const TileShadows& tile) const;
     /// By how much a tile's shadows may be off without being seen to be: a quarter of a pixel where they are nearest,
     /// infinite out of sight. @param off  by how much they may be off in plan.
     double mayBeOff(const TileShadows& tile, double off) const;
@@ -33,10 +37,12 @@ public:
 private:
     struct Shown {
         std::optional<ScreenRect> bounds; ///< see seen().
+        double nearest = 0.0;             ///< w of its nearest corner.
         double pixels = 0.0;              ///< that a length of 1 can be there.
     };
     /// @param moved  by how much the shadows may be somewhere else, in any direction.
     Shown shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const;
+    double pixelsHigh(const ScreenRect& bounds, double nearest) const;
 
     const osg::Vec2d _pixels;
     const glm::dmat4 _clipFromTiles;

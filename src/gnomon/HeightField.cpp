@@ -28,15 +28,6 @@ HeightField::HeightField(int columns, int rows, const glm::dvec2& origin, const 
         throw std::invalid_argument("a height field needs a step above 0 and a finite origin.");
 }
 
-glm::dvec3 HeightField::post(int x, int y) const {
-    const float height = _heights[std::size_t(y) * std::size_t(_columns) + std::size_t(x)];
-    return {_origin.x + x * _step.x, _origin.y + y * _step.y, _base + double(height)};
-}
-
-CellCut HeightField::cut(int x, int y) const {
-    return _cuts.empty() ? CellCut::rising : _cuts[std::size_t(y) * std::size_t(_columns - 1) + std::size_t(x)];
-}
-
 bool HeightField::isHole(int x, int y) const {
     if (cut(x, y) == CellCut::hole) return true;
     const double sum = post(x, y).z + post(x + 1, y).z + post(x, y + 1).z + post(x + 1, y + 1).z;

@@ -10,7 +10,17 @@ namespace gnomon {
 struct ShadowDecals {
     std::vector<glm::vec3> vertices; ///< about the shadows' origin.
     std::vector<unsigned> triangles; ///< three places in `vertices` each, counter-clockwise from above.
-    glm::dvec3 low{0.0}, high{0.0};  ///< bounds, about the origin.
+    glm::dvec3 low{0.0}, high{0.0};  ///< bounds of `triangles`, about the origin.
+
+    /// Fans that are cut are there uncut as well: over the same places, lifted so far that nothing of them is in the ground.
+    std::vector<unsigned> uncut;
+    /// One of them.
+    struct Uncut {
+        double off;             ///< how far it is over the ground at most.
+        unsigned first, inside; ///< where it begins in `uncut`, and, cut, in `triangles`.
+    };
+    /// In the order of both lists, those that are off most first; in `triangles` all others are before them.
+    std::vector<Uncut> fans;
 };
 
 /// Whether a decal is what shows a shadow best: it is a fan, over few of the ground's cells. For others there are prisms.
