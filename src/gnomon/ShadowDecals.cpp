@@ -87,13 +87,8 @@ public:
         _cuts.clear();
         _pieces.clear();
     }
-    void add(const PackedShadow& fan, const CellBounds& bounds) {
-        _polygon.clear();
-        for (std::size_t i = 0; i < fan.cornerCount; ++i) _polygon.push_back(_origin + glm::dvec3(fan.corners[i]));
-        if (isOnOneTriangle(_ground->field(), _polygon, bounds))
-            addTriangles(addCorners(0.0), _polygon.size(), _into->triangles);
-        else
-            cut(bounds);
+    void add(const PackedShadow& shadow, const CellBounds& bounds) {
+        shadow.isFan() ? addFan(shadow, bounds) : addDrape(shadow);
     }
     /// Puts what is cut into its order, behind the rest.
     void finish() {
@@ -113,11 +108,28 @@ private:
         std::ptrdiff_t piece, end; ///< in `_pieces`.
     };
 
+    glm::dvec3 inGround(const glm::vec3& corner) const { return _origin + glm::dvec3(corner); }
+    void addFan(const PackedShadow& fan, const CellBounds& bounds) {
+        _polygon.clear();
+        for (std::size_t i = 0; i < fan.cornerCount; ++i) _polygon.push_back(inGround(fan.corners[i]));
+        if (isOnOneTriangle(_ground->field(), _polygon, bounds))
+            addTriangles(addCorners(0.0), _polygon.size(), _into->triangles);
+        else
+            cut(bounds);
+    }
+    /// The ground that its triangles stand for may be coarser than what is drawn.
+    void addDrape(const PackedShadow& drape) {
+        const auto at = [&](std::size_t i) { return inGround(drape.corners[drape.indices[i]]); };
+        for (std::size_t i = 0; i < drape.indexCount; i += 3) {
+            _triangle = {at(i), at(i + 1), at(i + 2)};
+            addCut(_triangle, _into->triangles);
+        }
+    }
     void cut(const CellBounds& bounds) {
         const auto piece = std::ptrdiff_t(_pieces.size());
         _gap.begin(_ground->field(), _polygon);
         const auto add = [&](const Polygon& convex) {
-            for (const glm::dvec3& corner : addCut(convex).corners) _gap.take(corner);
+            for (const glm::dvec3& corner : addCut(convex, _pieces).corners) _gap.take(corner);
         };
         if (isConvex(_polygon))
             add(_polygon);
@@ -136,11 +148,11 @@ private:
         _cuts.push_back(cut);
     }
     /// @return its pieces, until the next call.
-    const DrapeMesh& addCut(const Polygon& convex) {
+    const DrapeMesh& addCut(const Polygon& convex, std::vector<unsigned>& triangles) {
         const DrapeMesh& mesh = _cutter.cut(_ground->field(), convex);
         const unsigned first = nextVertex();
         for (const glm::dvec3& corner : mesh.corners) _into->vertices.emplace_back(corner - _origin);
-        for (const unsigned index : mesh.indices) _pieces.push_back(first + index);
+        for (const unsigned index : mesh.indices) triangles.push_back(first + index);
         return mesh;
     }
     /// @return the first of the polygon's. @param lift  height over it.
@@ -165,11 +177,16 @@ private:
     std::vector<unsigned> _pieces; ///< triangles of all that is cut.
 };
 
-/// Of a fan over few cells; else nullopt.
+/// Drapes that were asked for stay prisms, which are right whatever the ground is: what decals are measured against.
+bool isInPlaceOfFan(TerrainOutcome outcome) {
+    return outcome == TerrainOutcome::steep || outcome == TerrainOutcome::rough || outcome == TerrainOutcome::noFan;
+}
+
+/// Of what is over few cells and is to be a decal; else nullopt.
 std::optional<CellBounds> decalBounds(const HeightPyramid& ground, const PackedShadow& shadow,
                                       const glm::dvec3& origin) {
     constexpr double mostCells = 12.0; // a prism has fewer triangles, and no more to clip
-    if (!shadow.isFan() || shadow.cornerCount < 3) return std::nullopt;
+    if (!(shadow.isFan() || isInPlaceOfFan(shadow.outcome)) || shadow.cornerCount < 3) return std::nullopt;
     const CellBounds bounds(ground.field(), shadow, origin);
     return bounds.x.cells() * bounds.y.cells() <= mostCells ? std::optional(bounds) : std::nullopt;
 }

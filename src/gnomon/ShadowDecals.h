@@ -23,13 +23,14 @@ struct ShadowDecals {
     std::vector<Uncut> fans;
 };
 
-/// Whether a decal is what shows a shadow best: it is a fan, over few of the ground's cells. For others there are prisms.
+/// Whether a decal is what shows a shadow best: it is a fan, or a drape where no fan would do, over few of the ground's
+/// cells. For others there are prisms.
 /// @param origin  see PackedShadows.
 bool isDecal(const HeightPyramid& ground, const PackedShadow& shadow, const glm::dvec3& origin);
 
 /// Of those that are to be decals. Memory that `into` has is used again.
 ///
-/// Threads any number, each with its own `into`. Cost  a fan on one triangle of the ground is itself; another is clipped to
+/// Threads any number, each with its own `into`. Cost  a fan on one triangle of the ground is itself; all else is clipped to
 /// the triangles that it lies on.
 void shadowDecals(const HeightPyramid& ground, const PackedShadows& shadows, ShadowDecals& into);
 

@@ -259,3 +259,19 @@ TEST(ShadowDecals, AreNotUncutOverHolesAndBeyondTheGround) {
     }
     EXPECT_NEAR(areaOf(cut(decalsOfOne(fan, inside, {}, true), 0)), 144.0 - 16.0, 1e-4);
 }
+
+/// A drape that was made on a coarser ground, 0.3 m off the one that is drawn, is put on it.
+TEST(ShadowDecals, OfDrapesInPlaceOfFansLieOnTheGround) {
+    const std::vector<glm::vec3> corners = {
+        {2.0f, 2.0f, 0.3f}, {14.0f, 2.0f, 0.3f}, {14.0f, 14.0f, 0.3f}, {2.0f, 14.0f, 0.3f}};
+    const std::vector<unsigned> both = {0, 1, 2, 0, 2, 3};
+    for (const auto outcome :
+         {gnomon::TerrainOutcome::steep, gnomon::TerrainOutcome::rough, gnomon::TerrainOutcome::noFan}) {
+        const ShadowDecals decals = decalsOfOne(outcome, corners, both, false);
+        const auto triangles = trianglesOf(decals, decals.triangles, 0, decals.triangles.size());
+        EXPECT_NEAR(areaOf(triangles), 144.0, 1e-4);
+        for (const auto& t : triangles)
+            for (const glm::dvec3& corner : t) EXPECT_EQ(corner.z, origin.z);
+        EXPECT_TRUE(decals.fans.empty());
+    }
+}
