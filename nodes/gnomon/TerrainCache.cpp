@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/GroundQuery.h>
 #include <gnomon/TerrainCache.h>
 #include <gnomon/TerrainView.h>
 
 #include <OpenThreads/ScopedLock>
+#include <glm/matrix.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gnomon {
 namespace {
@@ -23,6 +26,18 @@ TileGround groundOf(const TerrainDrawn& drawn) {
     const bool isAsFound = !drawn.hasLevels && !drawn.hasQuads;
     const auto* grid = isAsFound ? dynamic_cast<const HeightPyramid*>(drawn.ground.get()) : nullptr;
     return {*drawn.ground, grid, drawn.hasLevels ? marginOfLevels : marginOfGround};
+}
+
+/// The eye is over ground without holes: to see some of it from below, a line of sight would have to go through it first.
+bool isFromAbove(const ViewFrame& view, const TileGround& ground) {
+    if (!ground.drawn || !std::isfinite(ground.drawn->steepest())) return false;
+    const glm::dmat4 clipFromGroup = toGlm(view.eyeFromGroup * view.projection);
+    const glm::dvec4 eye = eyeIn(clipFromGroup);
+    if (!(eye.w > 0.0 && glm::determinant(clipFromGroup) < 0.0))
+        return false; // a mirrored view's determinant is above 0
+    const glm::dvec3 place = glm::dvec3(eye) / eye.w;
+    const auto height = ground.drawn->height(place.x, place.y);
+    return height && place.z > *height;
 }
 
 bool isInside(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::dvec3& p) {
@@ -84,8 +99,9 @@ TerrainFrame TerrainCache::frame(const ViewFrame& view, const CasterPieces& cast
     Town& town = townOf(*view.group, casters, place, settings.method == TerrainShadowGeode::BOX);
     TerrainTiles& tiles = town.lights[number];
     const TerrainView seen(view, town.casters.origin());
-    tiles.update(town.casters, groundOf(*town.drawn), light, settings, seen, secondsAFrame);
-    return {tiles.shadows(), tiles.causes(), town.casters.origin()};
+    const TileGround ground = groundOf(*town.drawn);
+    tiles.update(town.casters, ground, light, settings, seen, secondsAFrame);
+    return {tiles.shadows(), tiles.causes(), town.casters.origin(), isFromAbove(view, ground)};
 }
 
 osg::ref_ptr<const TerrainAnswer> TerrainCache::answer(const ShadowCasterGroup& group, const CasterPieces& casters,

@@ -20,6 +20,7 @@ struct TerrainFrame {
     TerrainTiles::List tiles;
     std::vector<std::string> causes; ///< why some are missing, or not of the method that was asked for.
     glm::dvec3 origin{0.0};          ///< that tiles are about, group frame.
+    bool fromAbove = false;          ///< nothing of the ground that is turned away is seen.
 };
 
 /// All shadows of one light, to be asked for places.

@@ -118,7 +118,9 @@ std::string TerrainMark::markDecals(osg::RenderInfo& renderInfo, ScreenPass& pas
     setUniform(state, "clipFromCaster", clipFromDecals());
     pass.testDepth(GL_LEQUAL, false);
     pass.stencilEqual(bit, 0, bit);
+    if (fromAbove) glEnable(GL_CULL_FACE);
     for (const SeenDecals& seen : decals) seen.mesh->drawDecals(renderInfo, seen.unseen);
+    glDisable(GL_CULL_FACE);
     state.apply();
     return "";
 }

@@ -68,6 +68,7 @@ public:
     /// Of the depth in clip space: decals are drawn so much nearer, on the same pixels, for the ground is drawn by other
     /// numbers than they are.
     double decalsNearer = 0.0;
+    bool fromAbove = false; ///< decals that are turned away are on ground that is not seen.
     osg::Matrixd prismsFromEye;
     std::shared_ptr<const PlanCoverage> coverage; ///< of the tiles; null: not known.
 

@@ -147,6 +147,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     mark->program = _program;
     mark->clipFromPrisms = seen.clipFromTiles();
     mark->decalsNearer = aPixelNearer(view.projection, view.pixels);
+    mark->fromAbove = frame.fromAbove && ShadowBin::getFilter();
     mark->prismsFromEye = osg::Matrixd::inverse(view.eyeFromGroup) *
                           osg::Matrixd::translate(-frame.origin.x, -frame.origin.y, -frame.origin.z);
     const auto bounds = addSeen(frame, seen, *mark);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Decals on hills: uncut ones against cut ones.
+// Decals on hills: uncut ones against cut ones, and from where the ground turns its other side to the eye.
 #include <support/Scene.h>
 
 #include <gnomon/ShadowBin.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gtest/gtest.h>
+#include <osg/MatrixTransform>
 #include <osg/Shape>
 #include <osg/ShapeDrawable>
 #include <support/Picture.h>
@@ -45,6 +46,14 @@ Scene hillyTown(TerrainShadowGeode* shadow) {
 }
 
 Scene withHull() { return hillyTown(new TerrainShadowGeode); }
+
+/// By prisms, whatever the eye sees of the ground.
+Scene withExactDrape() {
+    osg::ref_ptr<TerrainShadowGeode> exact = new TerrainShadowGeode;
+    exact->setMethod(TerrainShadowGeode::DRAPE);
+    exact->setError(0.0);
+    return hillyTown(exact);
+}
 
 std::vector<bool> darkIn(const test::Picture& picture, const test::Picture& plain) {
     std::vector<bool> dark;
@@ -88,5 +97,24 @@ TEST(TerrainDecals, UncutMarkAsCutOnesButForEdges) {
         EXPECT_LT(different, shadow / 20);
         EXPECT_EQ(gaps, 0);
         EXPECT_LE(beyond, 2);
+    }
+}
+
+/// From below, and in a mirror, the ground's upper side is turned away.
+TEST(TerrainDecals, AreSeenOnBothSidesOfTheGround) {
+    const test::View below = test::perspective({180.0, 180.0, -90.0}, {180.0, 230.0, 0.0}, 300, 200, 60.0, 1.0, 800.0),
+                     mirrored =
+                         test::perspective({-180.0, 20.0, 120.0}, {-180.0, 180.0, 0.0}, 300, 200, 60.0, 1.0, 800.0);
+    for (const bool isMirrored : {false, true}) {
+        const auto picture = [&](const Scene& scene) {
+            osg::ref_ptr<osg::MatrixTransform> root = new osg::MatrixTransform;
+            if (isMirrored) root->setMatrix(osg::Matrixd::scale(-1.0, 1.0, 1.0));
+            root->addChild(scene.root);
+            return test::render(root, isMirrored ? mirrored : below);
+        };
+        const test::Picture exact = picture(withExactDrape());
+        const int shadow = exact.different(picture(hillyTown(nullptr)));
+        EXPECT_GT(shadow, 2000);
+        EXPECT_LT(picture(withHull()).different(exact), shadow / 20);
     }
 }
