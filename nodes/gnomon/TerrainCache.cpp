@@ -28,7 +28,8 @@ TileGround groundOf(const TerrainDrawn& drawn) {
     return {*drawn.ground, grid, drawn.hasLevels ? marginOfLevels : marginOfGround};
 }
 
-/// The eye is over ground without holes: to see some of it from below, a line of sight would have to go through it first.
+/// The eye is over ground without holes: to see some of it from below, a line of sight would have to go through it first, or a
+/// clip plane through the ground, near ones included, would have to open it.
 bool isFromAbove(const ViewFrame& view, const TileGround& ground) {
     if (!ground.drawn || !std::isfinite(ground.drawn->steepest())) return false;
     const glm::dmat4 clipFromGroup = toGlm(view.eyeFromGroup * view.projection);

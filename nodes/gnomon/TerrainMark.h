@@ -24,7 +24,8 @@ public:
     TerrainMesh();
     /// In place of those before, in the same buffers. Not while they are drawn.
     void set(const ShadowPrisms& prisms);
-    void set(const ShadowDecals& decals); ///< one layer of them, or none.
+    void
+    set(const ShadowDecals& decals); ///< uncut ones and cut ones as two layers, of which drawDecals() draws each once.
 
     unsigned layers() const { return static_cast<unsigned>(_ends.size()); }
     void draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const;
@@ -62,7 +63,7 @@ class TerrainMark : public MarkJob {
 public:
     std::vector<osg::ref_ptr<const TileShadows>> tiles; ///< whose meshes these are, so that none is changed:
     std::vector<SeenDecals> decals;
-    std::vector<const TerrainMesh*> prisms;    ///< each with a layer or more, as decals have one.
+    std::vector<const TerrainMesh*> prisms;    ///< each with a layer or more.
     osg::ref_ptr<const osg::StateSet> program; ///< see markProgram().
     glm::dmat4 clipFromPrisms{1.0};
     /// Of the depth in clip space: decals are drawn so much nearer, on the same pixels, for the ground is drawn by other

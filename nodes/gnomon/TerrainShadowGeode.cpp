@@ -45,7 +45,10 @@ std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const TerrainView& 
         all = all ? united(*all, seen->bounds) : seen->bounds;
     };
     for (const auto& tile : frame.tiles) {
-        add(*tile, *tile->decals, [&](double unseen) { mark.decals.push_back({tile->decals, unseen}); });
+        add(*tile, *tile->decals, [&](double unseen) { // uncut ones are lifted: for an eye below, into the ground
+            const bool isFromAbove = frame.fromAbove || view.isAbove(*tile->decals);
+            mark.decals.push_back({tile->decals, isFromAbove ? unseen : 0.0});
+        });
         add(*tile, *tile->prisms, [&](double) { mark.prisms.push_back(tile->prisms); });
     }
     return all;

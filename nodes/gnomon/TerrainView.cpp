@@ -71,7 +71,13 @@ std::optional<TerrainView::Seen> TerrainView::seen(const TerrainMesh& mesh, cons
     const Shown now = shown(mesh, tile, 0.0);
     if (!now.bounds) return std::nullopt;
     const bool isExact = !ShadowBin::getFilter() || !(now.nearest > 0.0);
-    return Seen{*now.bounds, isExact ? 0.0 : unseenPixels / pixelsHigh(*now.bounds, now.nearest)};
+    if (isExact) return Seen{*now.bounds, 0.0};
+    return Seen{*now.bounds, std::min(unseenPixels / pixelsHigh(*now.bounds, now.nearest), 1.0 / now.pixels)};
+}
+
+bool TerrainView::isAbove(const TerrainMesh& mesh) const {
+    const glm::dvec4 eye = eyeIn(_clipFromTiles);
+    return eye.w > 0.0 ? eye.z > eye.w * mesh.high.z : eye.z > 0.0;
 }
 
 /// How many pixels a point moves by at most that rises by 1, within bounds of the screen.

@@ -21,10 +21,14 @@ public:
     /// Where a tile's mesh is on the screen.
     struct Seen {
         ScreenRect bounds;
-        double unseen; ///< difference in height that is not seen where it is nearest: a quarter of a pixel.
+        double
+            unseen; ///< difference in height that is not seen where it is nearest, from above: a quarter of a pixel, and no
+                    ///< more than a pixel's length where the line of sight is upright.
     };
     /// nullopt if nothing of it is to be drawn: it is empty, out of sight, or its widest shadow is smaller than a pixel.
     std::optional<Seen> seen(const TerrainMesh& mesh, const TileShadows& tile) const;
+    /// The eye is higher than all of it.
+    bool isAbove(const TerrainMesh& mesh) const;
     /// By how much a tile's shadows may be off without being seen to be: a quarter of a pixel where they are nearest,
     /// infinite out of sight. @param off  by how much they may be off in plan.
     double mayBeOff(const TileShadows& tile, double off) const;

@@ -22,6 +22,10 @@ void FanGap::begin(const HeightField& field, const std::vector<glm::dvec3>& fan)
     }
 }
 
+bool FanGap::isKnown() const {
+    return _fan.size() > 2 && cross(glm::dvec2(_fan[1] - _fan[0]), glm::dvec2(_fan.back() - _fan[0])) > 0.0;
+}
+
 /// Of the first triangle whose last edge is to the left.
 double FanGap::heightAt(const glm::dvec3& place) const {
     const glm::dvec2 at(place - _fan[0]);

@@ -22,6 +22,8 @@ public:
     /// Where the fan's triangles meet. There must be ground.
     void takeInnerEdges();
 
+    /// False of a fan that goes half around its first corner or more: then what is said of it is not right.
+    bool isKnown() const;
     double below() const { return _below; } ///< 0 or more, as is the next.
     double above() const { return _above; }
 

@@ -139,7 +139,7 @@ private:
                 add(_triangle);
             }
         Cut cut{infinite, 0, 0, piece, std::ptrdiff_t(_pieces.size())};
-        if (isOnGround(*_ground, bounds)) {
+        if (isOnGround(*_ground, bounds) && _gap.isKnown()) {
             _gap.takeInnerEdges();
             cut.off = _gap.below() + _gap.above();
             cut.corner = addCorners(_gap.below());

@@ -79,3 +79,13 @@ TEST(FanGap, IsSeenOnDiagonals) {
         EXPECT_NEAR(gap.below(), 1.0, 1e-12);
     }
 }
+
+/// Of an arrowhead whose notch is its first corner all corners are seen from there, more than half around.
+TEST(FanGap, IsNotKnownOfAFanThatGoesHalfAroundItsFirstCorner) {
+    const HeightField ground = fold(0.0f);
+    FanGap gap;
+    gap.begin(ground, {{5.0, 5.0, 0.0}, {2.0, 2.0, 0.0}, {15.0, 5.0, 0.0}, {2.0, 8.0, 0.0}});
+    EXPECT_FALSE(gap.isKnown());
+    gap.begin(ground, {{15.0, 5.0, 0.0}, {2.0, 8.0, 0.0}, {5.0, 5.0, 0.0}, {2.0, 2.0, 0.0}});
+    EXPECT_TRUE(gap.isKnown());
+}
