@@ -10,6 +10,10 @@ namespace {
 
 constexpr FileKind elevation{"an elevation model", "tif.gdal, asc.gdal, hgt.gdal, vrt.gdal, …"};
 
+constexpr ReadMethod fields{[](osgDB::Registry& registry, const std::string& name) {
+    return registry.readHeightField(name, registry.getOptions());
+}};
+
 bool isLevelAtZero(const osg::HeightField& field) {
     const auto& heights = field.getHeightList();
     return std::all_of(heights.begin(), heights.end(), [](float height) { return height == 0.0f; });
@@ -18,9 +22,7 @@ bool isLevelAtZero(const osg::HeightField& field) {
 } // namespace
 
 osg::ref_ptr<osg::HeightField> readElevation(const std::string& file, const std::string& program) {
-    ReadResult result = readFile(file, program, elevation, [](osgDB::Registry& registry, const std::string& name) {
-        return registry.readHeightField(name, registry.getOptions());
-    });
+    ReadResult result = readFile(file, program, elevation, fields);
     osg::ref_ptr<osg::HeightField> field = result.getHeightField();
     if (!field || field->getNumColumns() < 2 || field->getNumRows() < 2)
         throw std::runtime_error(damagedSentence(file, elevation));

@@ -11,6 +11,12 @@ namespace {
 
 constexpr FileKind picture{"an image", "tif, osgb, png, …"};
 
+constexpr ReadMethod images{
+    [](osgDB::Registry& registry, const std::string& name) { return registry.readImage(name, registry.getOptions()); },
+    [](osgDB::ReaderWriter& reader, std::istream& in, const osgDB::Options* options) {
+        return reader.readImage(in, options);
+    }};
+
 template <std::size_t N>
 bool isOneOf(GLenum value, const std::array<GLenum, N>& allowed) {
     for (const GLenum one : allowed)
@@ -28,9 +34,7 @@ bool isUnderstood(const osg::Image& image) {
 } // namespace
 
 osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& program) {
-    ReadResult result = readFile(file, program, picture, [](osgDB::Registry& registry, const std::string& name) {
-        return registry.readImage(name, registry.getOptions());
-    });
+    ReadResult result = readFile(file, program, picture, images);
     osg::ref_ptr<osg::Image> image = result.getImage();
     if (!image || image->s() < 1 || image->t() < 1 || !image->data())
         throw std::runtime_error(damagedSentence(file, picture));

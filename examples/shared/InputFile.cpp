@@ -12,11 +12,27 @@
 namespace gnomon::examples {
 namespace {
 
+/// OpenSceneGraph's reader goes on at the end of a file that is cut off, with whatever number of things it last read: for
+/// hours, or until memory ends. So the end is an exception.
+ReadResult readBinary(osgDB::Registry& registry, const std::string& file, const ReadMethod& read) {
+    const std::string path = osgDB::findDataFile(file);
+    std::ifstream in(path, std::ios::binary);
+    osgDB::ReaderWriter* reader = registry.getReaderWriterForExtension("osgb");
+    if (!in || !reader || !read.fromStream) return read.byName(registry, file);
+    osg::ref_ptr<osgDB::Options> options =
+        registry.getOptions() ? registry.getOptions()->cloneOptions() : new osgDB::Options;
+    options->getDatabasePathList().push_front(osgDB::getFilePath(path));
+    in.exceptions(std::ios::failbit | std::ios::badbit);
+    return read.fromStream(*reader, in, options);
+}
+
 /// With every way of failing turned into a result.
-ReadResult guarded(const std::string& file, const std::string& sentence, ReadMethod read) {
+ReadResult guarded(const std::string& file, const std::string& sentence, const ReadMethod& read) {
     const CrashGuard guard(sentence);
     try {
-        return read(*osgDB::Registry::instance(), file);
+        osgDB::Registry& registry = *osgDB::Registry::instance();
+        return osgDB::getLowerCaseFileExtension(file) == "osgb" ? readBinary(registry, file, read)
+                                                                : read.byName(registry, file);
     } catch (const std::exception&) {
         return ReadResult::ERROR_IN_READING_FILE;
     }
@@ -43,7 +59,7 @@ std::optional<std::string> fileBytes(const std::filesystem::path& file) {
     return std::string(std::istreambuf_iterator<char>(in), {});
 }
 
-ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, ReadMethod read) {
+ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, const ReadMethod& read) {
     if (osgDB::fileType(file) == osgDB::DIRECTORY)
         throw std::runtime_error(quoted(file) + " is a directory; " + kind.article + " file is needed.");
     ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), read);

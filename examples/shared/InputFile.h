@@ -3,6 +3,7 @@
 #include <osgDB/Registry>
 
 #include <filesystem>
+#include <istream>
 #include <optional>
 #include <string>
 
@@ -22,11 +23,15 @@ std::string damagedSentence(const std::string& file, const FileKind& kind);
 std::optional<std::string> fileBytes(const std::filesystem::path& file);
 
 /// Reads by one of osgDB::Registry's methods, -O options included. A reader that crashes on a damaged file ends the
-/// program with the damaged file's sentence and status 1.
+/// program with the damaged file's sentence and status 1; .osgb that ends early is told at its end.
 /// @return an object, of whatever class.
 /// @throws std::runtime_error, one sentence, for a file that is missing, a directory, damaged or of another type.
 using ReadResult = osgDB::ReaderWriter::ReadResult;
-using ReadMethod = ReadResult (*)(osgDB::Registry& registry, const std::string& file);
-ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, ReadMethod read);
+struct ReadMethod {
+    ReadResult (*byName)(osgDB::Registry& registry, const std::string& file);
+    /// Of .osgb; null: that is not a kind such a file can hold.
+    ReadResult (*fromStream)(osgDB::ReaderWriter& reader, std::istream& in, const osgDB::Options* options) = nullptr;
+};
+ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, const ReadMethod& read);
 
 } // namespace gnomon::examples

@@ -12,10 +12,14 @@ namespace {
 
 constexpr FileKind scene{"a scene", "obj, osgt, ive, stl, 3ds, …"};
 
+constexpr ReadMethod nodes{
+    [](osgDB::Registry& registry, const std::string& name) { return registry.readNode(name, registry.getOptions()); },
+    [](osgDB::ReaderWriter& reader, std::istream& in, const osgDB::Options* options) {
+        return reader.readNode(in, options);
+    }};
+
 osg::ref_ptr<osg::Node> readOne(const std::string& file, const std::string& program) {
-    ReadResult result = readFile(file, program, scene, [](osgDB::Registry& registry, const std::string& name) {
-        return registry.readNode(name, registry.getOptions());
-    });
+    ReadResult result = readFile(file, program, scene, nodes);
     const osg::ref_ptr<osg::Node> node = result.getNode();
     if (!node) throw std::runtime_error(damagedSentence(file, scene));
     if (!sceneBounds(*node).valid())

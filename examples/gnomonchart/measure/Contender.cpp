@@ -31,6 +31,7 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"map", "size 2048", "map:size=2048", Receives::EVERYTHING},
     {"map", "size 4096", "map:size=4096", Receives::EVERYTHING},
     {"map", "bilinear, size 1024", "map:filter=bilinear", Receives::EVERYTHING},
+    {"map", "blend, size 512", "map:composite=blend,size=512", Receives::EVERYTHING},
     {"map", "blend, size 1024", "map:composite=blend", Receives::EVERYTHING},
     {"map", "blend, size 2048", "map:composite=blend,size=2048", Receives::EVERYTHING},
     {"map, soft", "size 1024", "map:edges=soft", Receives::EVERYTHING},
