@@ -35,7 +35,7 @@ VertexTraverser::Cutout renumbered(const VertexTraverser::Cutout& found, const s
 
 } // namespace
 
-CasterMesh::CasterMesh(const VertexTraverser& casters)
+CasterMesh::CasterMesh(const VertexTraverser& casters, const std::optional<osg::Vec3d>& about)
     : vertices(new osg::Vec3Array),
       triangles(new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES)),
       bounds(boundsOf(casters)),
@@ -49,7 +49,7 @@ CasterMesh::CasterMesh(const VertexTraverser& casters)
     // Attached here, for the first geometry to use the array would do so, perhaps in one of several threads.
     vertices->setVertexBufferObject(new osg::VertexBufferObject);
     triangles->setElementBufferObject(new osg::ElementBufferObject);
-    if (bounds.valid()) origin = bounds.center();
+    if (about || bounds.valid()) origin = about ? *about : bounds.center();
     std::vector<unsigned> places(casters.getVertices().size(), nowhere);
     triangles->reserve(casters.getTriangles().size());
     for (unsigned index : casters.getTriangles()) {

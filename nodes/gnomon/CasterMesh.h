@@ -10,6 +10,7 @@
 #include <osg/Referenced>
 #include <osg/ref_ptr>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,12 @@ namespace gnomon {
 /// Cost    12 bytes a triangle and 12 for each vertex that a triangle uses.
 class GNOMON_EXPORT CasterMesh : public osg::Referenced {
 public:
-    explicit CasterMesh(const VertexTraverser& casters);
+    /// @param about  the origin; the centre of the bounds if none is given.
+    explicit CasterMesh(const VertexTraverser& casters, const std::optional<osg::Vec3d>& about = {});
 
     bool empty() const { return triangles->empty(); }
 
-    osg::Vec3d origin;                     ///< centre of the bounds, group frame; vertices are relative to it.
+    osg::Vec3d origin;                     ///< group frame; vertices are relative to it.
     osg::ref_ptr<osg::Vec3Array> vertices; ///< floats about `origin`, all finite; only those that triangles use.
     osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< three indices a triangle; see VertexTraverser::getTriangles().
     osg::BoundingBoxd bounds;                      ///< of all triangles, group frame; invalid if there is none.

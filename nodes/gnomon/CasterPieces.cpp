@@ -2,12 +2,40 @@
 #include <gnomon/CasterMesh.h>
 #include <gnomon/CasterPieces.h>
 #include <gnomon/CasterRevision.h>
+#include <gnomon/TriangleDecoder.h>
 #include <gnomon/VertexTraverser.h>
 
+#include <cmath>
 #include <unordered_map>
 
 namespace gnomon {
 namespace {
+
+/// Where a drawable's triangles are, without them.
+class PieceBounds : public TriangleDecoder {
+public:
+    using TriangleDecoder::TriangleDecoder;
+    ~PieceBounds() override = default;
+
+    osg::BoundingBoxd bounds;
+    std::size_t triangles = 0;
+    bool anyInvalid = false; ///< that is left out.
+
+protected:
+    void start(unsigned) override {}
+    void point(unsigned) override {}
+    void triangle(unsigned a, unsigned b, unsigned c) override {
+        osg::BoundingBoxd box = bounds;
+        for (const unsigned index : {a, b, c}) {
+            const osg::Vec3d place = isInArray(index) ? inRoot(local(index)) : osg::Vec3d(NAN, NAN, NAN);
+            anyInvalid = anyInvalid || !isUsable(place);
+            if (!isUsable(place)) return;
+            box.expandBy(place);
+        }
+        bounds = box;
+        ++triangles;
+    }
+};
 
 /// Meets casters, and knows those again that it is told of.
 class PieceVisitor : public CasterVisitor {
@@ -76,20 +104,31 @@ private:
 
     osg::ref_ptr<const CasterPiece> make(osg::Drawable& drawable, std::uint64_t fingerprint,
                                          const std::optional<AlphaTest>& test) const {
-        VertexTraverser found;
-        found.setRootFromVisited(rootFromLocal());
-        for (osg::Node* node : getNodePath()) found.pushOntoNodePath(node); // for the names in it
+        PieceBounds found(rootFromLocal());
         drawable.accept(found);
         osg::ref_ptr<CasterPiece> piece = new CasterPiece;
         piece->fingerprint = fingerprint;
         piece->drawable = &drawable;
         piece->groupFromLocal = rootFromLocal();
-        for (const unsigned index : found.getTriangles()) piece->bounds.expandBy(found.getVertices()[index]);
-        piece->invalidTriangles = found.getInvalidTriangles();
-        piece->invalidNode = found.getInvalidNode();
-        piece->sources = found.getSources();
+        piece->test = test;
+        piece->triangles = found.triangles;
+        piece->bounds = found.bounds;
+        holdSources(drawable, piece->sources);
         if (test) test->hold(drawable, piece->sources);
+        if (test || found.anyInvalid) describe(drawable, *piece);
         return piece;
+    }
+
+    /// What is missing of it.
+    void describe(osg::Drawable& drawable, CasterPiece& piece) const {
+        VertexTraverser found;
+        found.setRootFromVisited(rootFromLocal());
+        for (osg::Node* node : getNodePath()) found.pushOntoNodePath(node); // for the names and states in it
+        drawable.accept(found);
+        piece.invalidTriangles = found.getInvalidTriangles();
+        piece.invalidNode = found.getInvalidNode();
+        piece.unknownTests = found.getUnknownTests();
+        piece.unknownNode = found.getUnknownNode();
     }
 
     const CasterPieces::List _none, &_known;
@@ -100,6 +139,22 @@ private:
     Fingerprint _fingerprint;
 };
 
+/// Reads pieces where they are, without the nodes above them.
+class PieceReader : public VertexTraverser {
+public:
+    void read(const CasterPiece& piece) {
+        _piece = &piece;
+        setRootFromVisited(piece.groupFromLocal);
+        const_cast<osg::Drawable&>(*piece.drawable).accept(*this); // which changes nothing
+    }
+
+protected:
+    std::optional<AlphaTest> alphaTest() const override { return _piece->test; }
+
+private:
+    const CasterPiece* _piece = nullptr;
+};
+
 } // namespace
 
 CasterPieces::CasterPieces(List pieces, std::uint64_t fingerprintOfAll)
@@ -108,6 +163,8 @@ CasterPieces::CasterPieces(List pieces, std::uint64_t fingerprintOfAll)
         bounds.expandBy(piece->bounds);
         if (invalidTriangles == 0) invalidNode = piece->invalidNode;
         invalidTriangles += piece->invalidTriangles;
+        if (unknownTests == 0) unknownNode = piece->unknownNode;
+        unknownTests += piece->unknownTests;
     }
 }
 
@@ -119,13 +176,10 @@ osg::ref_ptr<const CasterPieces> CasterPieces::of(osg::Node& root, const Selecti
     return new CasterPieces(visitor.take(), visitor.fingerprint());
 }
 
-osg::ref_ptr<CasterMesh> meshOf(const CasterPieces::List& pieces) {
-    VertexTraverser all;
-    for (const auto& piece : pieces) {
-        all.setRootFromVisited(piece->groupFromLocal);
-        const_cast<osg::Drawable&>(*piece->drawable).accept(all); // which changes nothing
-    }
-    return new CasterMesh(all);
+osg::ref_ptr<CasterMesh> meshOf(const CasterPieces::List& pieces, const std::optional<osg::Vec3d>& origin) {
+    PieceReader all;
+    for (const auto& piece : pieces) all.read(*piece);
+    return new CasterMesh(all, origin);
 }
 
 } // namespace gnomon

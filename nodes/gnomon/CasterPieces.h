@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/AlphaTest.h>
 #include <gnomon/Export.h>
 #include <gnomon/Selection.h>
 
@@ -11,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +25,13 @@ struct GNOMON_EXPORT CasterPiece : public osg::Referenced {
     std::uint64_t fingerprint = 0; ///< of all that VertexTraverser reads of it; see CasterRevision.
     osg::ref_ptr<const osg::Drawable> drawable;
     osg::Matrixd groupFromLocal;
+    std::optional<AlphaTest> test; ///< that leaves parts of it; nullopt if there is none.
     osg::BoundingBoxd bounds;      ///< of all its triangles, group frame; invalid if there is none.
-    unsigned invalidTriangles = 0; ///< left out; see VertexTraverser::getInvalidTriangles().
-    std::string invalidNode;       ///< where the first of them is.
+    std::size_t triangles = 0;
+    unsigned invalidTriangles = 0;                            ///< left out; see VertexTraverser::getInvalidTriangles().
+    std::string invalidNode;                                  ///< where the first of them is.
+    unsigned unknownTests = 0;                                ///< see VertexTraverser::getUnknownTests().
+    std::string unknownNode;                                  ///< where the first of them is.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().
 
 protected:
@@ -34,7 +40,7 @@ protected:
 
 /// What casts below a group in one revision, drawable by drawable: of a change, all but what changed are the same pieces.
 ///
-/// Cost    400 bytes a drawable. What it looks like is not kept; see meshOf().
+/// Cost    600 bytes a drawable. What it looks like is not kept; see meshOf().
 class GNOMON_EXPORT CasterPieces : public osg::Referenced {
 public:
     using List = std::vector<osg::ref_ptr<const CasterPiece>>;
@@ -47,6 +53,8 @@ public:
     osg::BoundingBoxd bounds;        ///< of all triangles, group frame; invalid if there is none.
     unsigned invalidTriangles = 0;   ///< of all.
     std::string invalidNode;         ///< where the first of them is.
+    unsigned unknownTests = 0;       ///< of all.
+    std::string unknownNode;         ///< where the first of them is.
 
     /// Those below a node now. Reads the graph as a cull traversal does.
     /// @param known  an earlier answer, whose pieces are used again; may be null.
@@ -61,6 +69,8 @@ protected:
 };
 
 /// Pieces as one mesh. Reads the graph as a cull traversal does: call it in the traversal that found them.
-GNOMON_EXPORT osg::ref_ptr<CasterMesh> meshOf(const CasterPieces::List& pieces);
+/// @param origin  of the mesh; see CasterMesh.
+GNOMON_EXPORT osg::ref_ptr<CasterMesh> meshOf(const CasterPieces::List& pieces,
+                                              const std::optional<osg::Vec3d>& origin = {});
 
 } // namespace gnomon

@@ -50,7 +50,7 @@ protected:
     /// From the frame of the drawable being visited to that of the root.
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
     /// Of the drawable being visited: nullopt, at no cost, if no state on the way to it switches one on.
-    std::optional<AlphaTest> alphaTest() const;
+    virtual std::optional<AlphaTest> alphaTest() const;
     /// What OpenSceneGraph's functors take for the vertices of a geometry; null if it has none.
     static const osg::Array* verticesOf(const osg::Geometry& geometry);
     /// Adds the arrays and primitive sets of a drawable that are read; the drawable itself if it is no geometry.

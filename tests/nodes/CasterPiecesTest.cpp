@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "Scene.h"
 
+#include <gnomon/CasterMesh.h>
 #include <gnomon/CasterPieces.h>
 #include <gnomon/CasterRevision.h>
 #include <gnomon/CasterWeld.h>
 #include <gnomon/VertexTraverser.h>
 
+#include <osg/AlphaFunc>
 #include <osg/Switch>
+#include <osg/Texture2D>
 
 #include <gtest/gtest.h>
 
@@ -109,6 +112,26 @@ TEST(CasterPieces, NameWhatIsNotUsable) {
     row.root->removeChildren(0, 1);
     row.root->removeChildren(1, 4);
     EXPECT_TRUE(row.now(nullptr)->empty());
+}
+
+// One pane below two parents, of which the second alone has a test: a mesh of pieces knows them apart without the nodes above.
+TEST(CasterPieces, AreTestedAsTheWayDownToThemSays) {
+    const osg::ref_ptr<osg::Geometry> pane = triangle(0.0f);
+    pane->setTexCoordArray(0, scene::vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (int i = 0; i < 2; ++i) {
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(5.0 * i, 0, 0));
+        place->addChild(pane);
+        root->addChild(place);
+    }
+    osg::StateSet& set = *root->getChild(1)->getOrCreateStateSet();
+    set.setTextureAttributeAndModes(0, new osg::Texture2D);
+    set.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
+    const auto pieces = CasterPieces::of(*root, {}, nullptr);
+    const osg::ref_ptr<gnomon::CasterMesh> mesh = gnomon::meshOf(pieces->list);
+    ASSERT_EQ(mesh->cutouts.size(), 1u);
+    EXPECT_EQ(mesh->cutouts[0].drawn, 1u);
+    EXPECT_EQ(pieces->unknownTests, 0u);
 }
 
 /// Exactly: 10 + 1 is where the next begins.
