@@ -61,23 +61,54 @@ void clearAll() {
     glEnable(GL_SCISSOR_TEST);
 }
 
+PixelRect wholeOf(const MapPicture::Tile& tile, int size) { return {tile.corner.x, tile.corner.y, size, size}; }
+
 /// What is drawn next goes there.
-void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size) {
+void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size, const PixelRect& texels) {
     glViewport(tile.corner.x, tile.corner.y, size, size);
-    glScissor(tile.corner.x, tile.corner.y, size, size);
+    glScissor(texels.x, texels.y, texels.width, texels.height);
     setUniform(state, "clipFromCaster", tile.clipFromCaster);
 }
 
+/// Depths, to the bit, between framebuffers of one size.
+void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::vector<PixelRect>& parts) {
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, from);
+    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, to);
+    glDisable(GL_SCISSOR_TEST);
+    for (const PixelRect& part : parts) {
+        const GLint endX = part.x + part.width, endY = part.y + part.height;
+        gl.glBlitFramebuffer(part.x, part.y, endX, endY, part.x, part.y, endX, endY, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    }
+    glEnable(GL_SCISSOR_TEST);
+}
+
+/// Binds a framebuffer, made where it is 0, with that texture for its depths. @return false if OpenGL cannot draw to it.
+bool bindFramebuffer(const osg::State& state, GLuint& framebuffer, const osg::Texture::TextureObject& texture) {
+    const auto& gl = *state.get<osg::GLExtensions>();
+    if (!framebuffer) gl.glGenFramebuffers(1, &framebuffer);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
+    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, GL_TEXTURE_2D, texture.id(), 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    return gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
+}
+
+constexpr const char* noTarget = "cannot draw into a texture in this context: it needs OpenGL's framebuffer objects.";
+
 } // namespace
 
-bool MapPicture::shows(const Tile& tile, const MapPicture& other) const {
-    const auto same = [&tile](const Tile& own) {
-        return own.corner == tile.corner && own.clipFromCaster == tile.clipFromCaster;
-    };
+bool MapPicture::Layer::operator==(const Layer& other) const {
     const auto alike = [](const auto& a, const auto& b) { return a.geometry == b.geometry; };
     return casters == other.casters && outside == other.outside &&
-           std::equal(cutouts.begin(), cutouts.end(), other.cutouts.begin(), other.cutouts.end(), alike) &&
-           size == other.size && slopeOffset == other.slopeOffset && std::any_of(tiles.begin(), tiles.end(), same);
+           std::equal(cutouts.begin(), cutouts.end(), other.cutouts.begin(), other.cutouts.end(), alike);
+}
+
+const MapPicture::Tile* MapPicture::findStill(const Tile& tile, const MapPicture& other) const {
+    if (!(still == other.still && size == other.size && slopeOffset == other.slopeOffset)) return nullptr;
+    const auto found = std::find_if(tiles.begin(), tiles.end(), [&tile](const Tile& own) {
+        return own.corner == tile.corner && own.clipFromCaster == tile.clipFromCaster;
+    });
+    return found == tiles.end() ? nullptr : &*found;
 }
 
 DepthMap::DepthMap(const glm::ivec2& texels, osg::Texture::FilterMode filter)
@@ -118,60 +149,100 @@ void DepthMap::bind(osg::State& state, unsigned unit) const { state.applyTexture
 /// @return false if OpenGL cannot draw to it.
 bool DepthMap::bindTarget(osg::State& state, Target& target) const {
     bind(state, 0); // which makes it
-    const auto& gl = *state.get<osg::GLExtensions>();
-    if (!target.framebuffer) gl.glGenFramebuffers(1, &target.framebuffer);
-    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, target.framebuffer);
     target.texture = _texture->getTextureObject(state.getContextID());
-    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, GL_TEXTURE_2D, target.texture->id(), 0);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-    return gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
+    return bindFramebuffer(state, target.framebuffer, *target.texture);
 }
 
-std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
-                           unsigned& drawn) const {
-    constexpr const char* noTarget =
-        "cannot draw into a texture in this context: it needs OpenGL's framebuffer objects.";
+std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn) {
     osg::State& state = *renderInfo.getState();
     const auto& gl = *state.get<osg::GLExtensions>();
     if (!gl.isFrameBufferObjectSupported) return noTarget;
-    state.apply(picture.program.get());
-    if (!hasProgram(state)) return noProgram;
     const FramebufferBindings bound(gl);
     if (!bindTarget(state, target)) return noTarget;
     const MapState mapState(picture.slopeOffset);
-    std::vector<MapPicture::Tile> due;
-    for (const MapPicture::Tile& tile : picture.tiles)
-        if (!target.shown || !target.shown->shows(tile, picture)) due.push_back(tile);
-    drawn += static_cast<unsigned>(due.size());
-    if (!target.shown) clearAll();
-    for (const MapPicture::Tile& tile : due) {
-        drawInto(state, tile, picture.size);
-        if (target.shown) glClear(GL_DEPTH_BUFFER_BIT);
-        if (picture.casters) picture.casters->draw(renderInfo, tile.clipFromCaster, picture.outside);
+    const bool sameMoving = target.shown && target.shown->moving == picture.moving;
+    std::vector<Due> due;
+    for (const MapPicture::Tile& tile : picture.tiles) {
+        const MapPicture::Tile* shown = target.shown ? target.shown->findStill(tile, picture) : nullptr;
+        const bool same = shown && (sameMoving || (shown->movers.empty() && tile.movers.empty()));
+        if (!same) due.push_back({&tile, shown});
     }
-    const std::string cause = drawCutouts(renderInfo, picture, due);
+    std::string cause = drawStill(renderInfo, target, picture, due);
+    if (cause.empty()) cause = drawMoving(renderInfo, target, picture, due);
+    drawn += static_cast<unsigned>(due.size());
     target.shown = cause.empty() ? &picture : nullptr;
-    target.inBlocks = nullptr;
+    if (!due.empty()) target.inBlocks = nullptr;
     return cause;
 }
 
-std::string DepthMap::drawCutouts(osg::RenderInfo& renderInfo, const MapPicture& picture,
-                                  const std::vector<MapPicture::Tile>& tiles) const {
-    if (picture.cutouts.empty()) return "";
+std::string DepthMap::drawStill(osg::RenderInfo& renderInfo, const Target& target, const MapPicture& picture,
+                                const std::vector<Due>& due) const {
+    std::vector<Part> parts;
+    for (const Due& each : due)
+        if (!each.shown) parts.push_back({each.tile, wholeOf(*each.tile, picture.size)});
+    if (!target.shown) clearAll();
+    for (const Part& part : parts) {
+        if (!target.shown) break;
+        glScissor(part.texels.x, part.texels.y, part.texels.width, part.texels.height);
+        glClear(GL_DEPTH_BUFFER_BIT);
+    }
+    return drawLayer(renderInfo, picture, picture.still, parts);
+}
+
+std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
+                                 const std::vector<Due>& due) {
+    std::vector<PixelRect> hidden;
+    std::vector<Part> parts;
+    for (const Due& each : due) {
+        if (each.shown && !each.shown->movers.empty()) hidden.push_back(each.shown->movers);
+        if (!each.tile->movers.empty()) parts.push_back({each.tile, each.tile->movers});
+    }
+    if (hidden.empty() && parts.empty()) return "";
     osg::State& state = *renderInfo.getState();
+    const auto& gl = *state.get<osg::GLExtensions>();
+    const osg::ref_ptr<osg::Texture2D> saved = savedTexture();
+    state.applyTextureAttribute(0, saved); // which makes it
+    if (!bindFramebuffer(state, target.saved, *saved->getTextureObject(state.getContextID()))) return noTarget;
+    copyDepths(gl, target.saved, target.framebuffer, hidden);
+    std::vector<PixelRect> toHide;
+    for (const Part& part : parts) toHide.push_back(part.texels);
+    copyDepths(gl, target.framebuffer, target.saved, toHide);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, target.framebuffer);
+    return drawLayer(renderInfo, picture, picture.moving, parts);
+}
+
+std::string DepthMap::drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
+                                const std::vector<Part>& parts) const {
+    if (parts.empty()) return "";
+    osg::State& state = *renderInfo.getState();
+    if (layer.casters) {
+        state.apply(picture.program.get());
+        if (!hasProgram(state)) return noProgram;
+    }
+    for (const Part& part : parts) {
+        if (!layer.casters) break;
+        drawInto(state, *part.tile, picture.size, part.texels);
+        layer.casters->draw(renderInfo, part.tile->clipFromCaster, layer.outside);
+    }
+    if (layer.cutouts.empty()) return "";
     state.apply(picture.cutoutProgram.get());
     if (!hasProgram(state)) return noProgram;
     setUniform(state, "cutout", 0);
-    for (const MapCasters::Cutout& cutout : picture.cutouts) {
+    for (const MapLayer::Cutout& cutout : layer.cutouts) {
         state.applyTextureAttribute(0, cutout.texture);
         setUniform(state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
-        for (const MapPicture::Tile& tile : tiles) {
-            drawInto(state, tile, picture.size);
+        for (const Part& part : parts) {
+            drawInto(state, *part.tile, picture.size, part.texels);
             cutout.geometry->draw(renderInfo);
         }
     }
     return "";
+}
+
+osg::ref_ptr<osg::Texture2D> DepthMap::savedTexture() {
+    Lock lock(_mutex);
+    if (!_saved) _saved = mapTexture(size, osg::Texture::NEAREST);
+    return _saved;
 }
 
 DepthMap::Target& DepthMap::targetOf(unsigned context) {
@@ -182,18 +253,20 @@ DepthMap::Target& DepthMap::targetOf(unsigned context) {
 void DepthMap::resizeGLObjectBuffers(unsigned maxSize) {
     _texture->resizeGLObjectBuffers(maxSize);
     Lock lock(_mutex);
+    if (_saved) _saved->resizeGLObjectBuffers(maxSize);
     if (_blocks) _blocks->resizeGLObjectBuffers(maxSize);
 }
 
 void DepthMap::release(osg::State* state) {
     _texture->releaseGLObjects(state);
     Lock lock(_mutex);
+    if (_saved) _saved->releaseGLObjects(state);
     if (_blocks) _blocks->release(state);
     for (auto entry = _targets.begin(); entry != _targets.end();) {
         const bool meant = !state || state->getContextID() == entry->first;
-        if (meant && entry->second.framebuffer)
-            osg::get<osg::GLFrameBufferObjectManager>(entry->first)
-                ->scheduleGLObjectForDeletion(entry->second.framebuffer);
+        for (const GLuint framebuffer : {entry->second.framebuffer, entry->second.saved})
+            if (meant && framebuffer)
+                osg::get<osg::GLFrameBufferObjectManager>(entry->first)->scheduleGLObjectForDeletion(framebuffer);
         entry = meant ? _targets.erase(entry) : std::next(entry);
     }
 }

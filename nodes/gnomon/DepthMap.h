@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/BlockDepths.h>
-#include <gnomon/MapCasters.h>
+#include <gnomon/MapLayer.h>
+#include <gnomon/ScreenPass.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
@@ -22,25 +23,35 @@ struct MapPicture : public osg::Referenced {
     /// A square part of the texture, and what is drawn there.
     struct Tile {
         glm::ivec2 corner{0};
-        glm::dmat4 clipFromCaster{1.0}; ///< caster: about their mesh's origin.
+        glm::dmat4 clipFromCaster{1.0}; ///< caster: about their origin.
+        PixelRect movers;               ///< texels outside which nothing moves.
     };
-    osg::ref_ptr<const CasterFaces> casters;         ///< whole ones; null if there are none.
-    bool outside = true;                             ///< the light is in no solid of them.
-    std::vector<MapCasters::Cutout> cutouts;         ///< those that textures cut out.
+    /// What is drawn of a layer of the casters.
+    struct Layer {
+        osg::ref_ptr<const CasterFaces> casters; ///< whole ones; null if there are none.
+        bool outside = true;                     ///< the light is in no solid of them.
+        std::vector<MapLayer::Cutout> cutouts;   ///< those that textures cut out.
+
+        bool operator==(const Layer& other) const;
+    };
+    Layer still, moving;
     osg::ref_ptr<const osg::StateSet> program;       ///< see markProgram().
     osg::ref_ptr<const osg::StateSet> cutoutProgram; ///< the same with CUTOUT.
     int size = 0;                                    ///< of a tile's side, texels.
     double slopeOffset = 0.0; ///< how many texels of each surface's own slope it is drawn deeper.
     std::vector<Tile> tiles;
 
-    /// True if a tile of another picture shows the same here, so that it need not be drawn again.
-    bool shows(const Tile& tile, const MapPicture& other) const;
+    /// The tile here that shows, of what stands still, the same as one of another picture; null if there is none.
+    const Tile* findStill(const Tile& tile, const MapPicture& other) const;
 
 protected:
     ~MapPicture() override = default;
 };
 
 /// A depth texture that pictures are drawn into, in every context that asks for them.
+///
+/// Where something moves, the depths of what stands still are saved before it is drawn over them, in a texture of the same
+/// size that is made when first something moves; and put back before it is drawn elsewhere.
 ///
 /// Threads one a context.
 class DepthMap : public osg::Referenced {
@@ -51,7 +62,7 @@ public:
     const glm::ivec2 size; ///< texels.
 
     /// Makes the texture of this context show the picture, unless it does.
-    /// @param drawn  counts tiles drawn.
+    /// @param drawn  counts tiles in which anything is drawn.
     /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
     std::string show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn);
     void bind(osg::State& state, unsigned unit) const;
@@ -70,19 +81,34 @@ protected:
 
 private:
     struct Target {
-        GLuint framebuffer = 0;
+        GLuint framebuffer = 0, saved = 0;                    ///< the latter's texture holds what movers hide.
         const osg::Texture::TextureObject* texture = nullptr; ///< attached to it.
         osg::ref_ptr<const MapPicture> shown;
         const MapPicture* inBlocks = nullptr; ///< what its blocks are of: `shown`, or none.
     };
+    /// A tile that is to be drawn, and the one that is shown there; null if that has something else that stands still.
+    struct Due {
+        const MapPicture::Tile *tile, *shown;
+    };
+    /// A tile, and what of it is drawn.
+    struct Part {
+        const MapPicture::Tile* tile;
+        PixelRect texels;
+    };
     Target& targetOf(unsigned context);
+    osg::ref_ptr<osg::Texture2D> savedTexture();
     bool bindTarget(osg::State& state, Target& target) const;
-    std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn) const;
-    std::string drawCutouts(osg::RenderInfo& renderInfo, const MapPicture& picture,
-                            const std::vector<MapPicture::Tile>& tiles) const;
+    std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn);
+    std::string drawStill(osg::RenderInfo& renderInfo, const Target& target, const MapPicture& picture,
+                          const std::vector<Due>& due) const;
+    std::string drawMoving(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
+                           const std::vector<Due>& due);
+    std::string drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
+                          const std::vector<Part>& parts) const;
 
     osg::ref_ptr<osg::Texture2D> _texture;
-    osg::ref_ptr<BlockDepths> _blocks; ///< null until they are asked for.
+    osg::ref_ptr<osg::Texture2D> _saved; ///< null until something moves.
+    osg::ref_ptr<BlockDepths> _blocks;   ///< null until they are asked for.
     OpenThreads::Mutex _mutex;
     std::map<unsigned, Target> _targets; ///< by context.
 };

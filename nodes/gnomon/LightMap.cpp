@@ -2,7 +2,9 @@
 #include <gnomon/CascadeSplits.h>
 #include <gnomon/Convert.h>
 #include <gnomon/LightMap.h>
+#include <gnomon/ScreenBounds.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -35,10 +37,11 @@ bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) 
 /// on an edge is in both. Of a spot one about its cone, unless that is nearly flat.
 ///
 /// A lamp is a sun where that moves no shadow by more than an eighth of a texel: else its depths would be rounded off.
-std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<SpotCone>& cone, const glm::dvec3& reach,
-                                 int texels) {
+std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<SpotCone>& cone,
+                                 const MapCasters& casters, int texels) {
     const glm::dvec3 at(light);
-    if (light.w == 0.0 || glm::length(at) > 8.0 * texels * glm::length(reach)) return {sunFrame(glm::normalize(at))};
+    if (light.w == 0.0 || glm::length(at) > 8.0 * texels * glm::length(casters.reach))
+        return {sunFrame(glm::normalize(at))};
     constexpr double onEdges = 1.05, flat = 4.0;
     if (cone && std::tan(cone->cutoff) < flat) return {lampFrame(at, cone->axis, onEdges * std::tan(cone->cutoff))};
     std::vector<LightFrame> frames;
@@ -50,11 +53,17 @@ std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<Sp
         }
     constexpr double wide = 2.0;
     const LightFrame ahead = lampFrame(at, glm::normalize(-at), wide);
-    const auto corners = boxCorners(-reach, reach, glm::dmat4(1.0));
+    const auto corners = boxCorners(casters.low, casters.high, glm::dmat4(1.0));
     const bool holdsAll = std::all_of(ahead.halfSpaces.begin(), ahead.halfSpaces.end(), [&](const glm::dvec4& half) {
         return std::all_of(corners.begin(), corners.end(), [&](const auto& p) { return glm::dot(half, p) > 0.0; });
     });
     return holdsAll ? std::vector{ahead} : frames;
+}
+
+bool areSame(const std::vector<LightFrame>& a, const std::vector<LightFrame>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LightFrame& one, const LightFrame& other) {
+        return one.sun == other.sun && one.lightFromScene == other.lightFromScene && one.halfSpaces == other.halfSpaces;
+    });
 }
 
 } // namespace
@@ -74,7 +83,7 @@ std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& ey
     return result;
 }
 
-glm::dvec4 beyond(const MapCasters::Box& flat, const glm::dvec4& light, const glm::dvec3& reach) {
+glm::dvec4 beyond(const MapLayer::Box& flat, const glm::dvec4& light, const glm::dvec3& reach) {
     const glm::dvec3 size = flat.high - flat.low;
     const int axis = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : 2;
     const double level = flat.low[axis], side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
@@ -86,9 +95,10 @@ glm::dvec4 beyond(const MapCasters::Box& flat, const glm::dvec4& light, const gl
 void LightMap::setCause(const glm::dvec4& light, const std::optional<SpotCone>& cone, const MapCasters& casters,
                         bool flats, const MapWish& wish) {
     const bool sameMaps = _wish == wish;
-    if (_casters == &casters && _flats == flats && sameMaps && isSame(cone, _cone) &&
-        isSame(light, _light, glm::length(casters.reach)))
-        return;
+    if (_casters && _casters->origin == casters.origin && _flats == flats && sameMaps && isSame(cone, _cone) &&
+        isSame(light, _light, glm::length(casters.reach)) &&
+        (_casters == &casters || areSame(_frames, framesOf(_light, _cone, casters, _wish.size))))
+        return takeCasters(casters);
     if (!sameMaps) _map = nullptr;
     _light = light;
     _cone = cone;
@@ -99,12 +109,33 @@ void LightMap::setCause(const glm::dvec4& light, const std::optional<SpotCone>& 
     _faces.clear();
     _splits.clear();
     _cascades = wish.cascades;
-    for (const LightFrame& frame : framesOf(_light, _cone, _casters->reach, _wish.size)) addFaces(frame);
+    _frames = framesOf(_light, _cone, casters, _wish.size);
+    for (const LightFrame& frame : _frames) addFaces(frame);
+}
+
+/// As seen from the same light.
+void LightMap::takeCasters(const MapCasters& casters) {
+    if (_casters == &casters) return;
+    const bool sameStill = _casters->still == casters.still;
+    _casters = &casters;
+    _picture = nullptr;
+    const MapFace* before = nullptr; // of the same frame
+    for (MapFace& face : _faces) {
+        if (face.part > 0) {
+            face.still = before->still;
+            face.blockers = before->blockers;
+        } else {
+            if (!sameStill) face.still = outlinesOf(*_casters->still, face.frame);
+            face.blockers = blockersOf(face);
+        }
+        before = &face;
+    }
 }
 
 void LightMap::addFaces(const LightFrame& frame) {
     MapFace face(frame);
-    face.blockers = blockersIn(frame);
+    face.still = outlinesOf(*_casters->still, frame);
+    face.blockers = blockersOf(face);
     const int most = 2 * _wish.size <= largestTexture ? mostCascades : 1;
     const std::size_t parts = frame.sun ? std::size_t(_wish.cascades ? _wish.cascades : most) : 1;
     for (; face.part < parts; ++face.part) _faces.push_back(face);
@@ -116,21 +147,34 @@ bool isThin(const LightFrame& frame, const MapOutline& outline) {
     return std::min(size.x, size.y) <= 2e-6 * std::max(size.x, size.y); // fitMap() makes no side less than half of that
 }
 
+LayerOutlines LightMap::outlinesOf(const MapLayer& layer, const LightFrame& frame) const {
+    LayerOutlines outlines{MapOutline(frame), {}};
+    for (const MapLayer::Box& box : layer.bodyBoxes) outlines.bodies.addBox(box.low, box.high, glm::dmat4(1.0));
+    if (!_flats) return outlines;
+    for (const MapLayer::Box& box : layer.flatBoxes) {
+        outlines.flats.emplace_back(frame);
+        outlines.flats.back().addBox(box.low, box.high, glm::dmat4(1.0));
+    }
+    return outlines;
+}
+
 /// In the face's frame; of those that are empty none.
-std::vector<MapBlocker> LightMap::blockersIn(const LightFrame& frame) const {
+std::vector<MapBlocker> LightMap::blockersOf(const MapFace& face) const {
     std::vector<MapBlocker> blockers;
     const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
-        if (!outline.empty() && (isWide(frame) || !isThin(frame, outline))) blockers.push_back({outline, halfSpaces});
+        if (!outline.empty() && (isWide(face.frame) || !isThin(face.frame, outline)))
+            blockers.push_back({outline, halfSpaces});
     };
-    MapOutline bodies(frame);
-    for (const MapCasters::Box& box : _casters->bodyBoxes) bodies.addBox(box.low, box.high, glm::dmat4(1.0));
+    const auto addFlats = [&](const LayerOutlines& outlines, const MapLayer& layer) {
+        for (std::size_t i = 0; i < outlines.flats.size(); ++i)
+            add(outlines.flats[i], {beyond(layer.flatBoxes[i], _light, _casters->reach)});
+    };
+    const LayerOutlines moving = outlinesOf(*_casters->moving, face.frame);
+    MapOutline bodies = face.still.bodies;
+    bodies.merge(moving.bodies);
     add(bodies, {});
-    if (!_flats) return blockers;
-    for (const MapCasters::Box& box : _casters->flatBoxes) {
-        MapOutline flat(frame);
-        flat.addBox(box.low, box.high, glm::dmat4(1.0));
-        add(flat, {beyond(box, _light, _casters->reach)});
-    }
+    addFlats(face.still, *_casters->still);
+    addFlats(moving, *_casters->moving);
     return blockers;
 }
 
@@ -245,22 +289,58 @@ bool LightMap::holds(const MapFace& face) const {
     return face.fit->area() <= mostWaste * fitOf(face).area();
 }
 
+/// What moves will be beside what casters can darken now.
 MapFit LightMap::fitOf(const MapFace& face) const {
-    return fitMap(face.frame, face.held, face.reach, reserve, border / _wish.size, glm::length(_casters->reach) / 64.0);
+    MapOutline most = face.reach;
+    if (!_casters->moving->pieces.empty()) {
+        most.merge(face.held);
+        most.grow(reserve * face.held.length());
+    }
+    return fitMap(face.frame, face.held, most, reserve, border / _wish.size, glm::length(_casters->reach) / 64.0);
 }
 
-/// Without its tiles.
-osg::ref_ptr<MapPicture> LightMap::pictureOf(const MapResources& resources) const {
+/// Without its tiles. @param due  some are to be drawn from the first.
+osg::ref_ptr<MapPicture> LightMap::pictureOf(const MapResources& resources, bool due) {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
-    picture->casters = _casters->faces(_flats);
-    picture->outside = _casters->areOutside(_light);
-    for (const MapCasters::Cutout& cutout : _casters->cutouts)
-        if (_flats || !cutout.flat) picture->cutouts.push_back(cutout);
+    const bool stillAgain = _drawnStill == _casters->still, movingAgain = _drawnMoving == _casters->moving;
+    if (!stillAgain || due) _still = drawnOf(*_casters->still, stillAgain);
+    picture->still = _still;
+    picture->moving = drawnOf(*_casters->moving, movingAgain);
+    _drawnStill = _casters->still;
+    _drawnMoving = _casters->moving;
     picture->program = resources.casterProgram;
     picture->cutoutProgram = resources.cutoutProgram;
     picture->size = _wish.size;
     picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
     return picture;
+}
+
+MapPicture::Layer LightMap::drawnOf(const MapLayer& layer, bool again) const {
+    MapPicture::Layer drawn{layer.faces(_flats, again), layer.isOutside(_light, _casters->reach), {}};
+    for (const MapLayer::Cutout& cutout : layer.cutouts)
+        if (_flats || !cutout.flat) drawn.cutouts.push_back(cutout);
+    return drawn;
+}
+
+/// Texels of a tile that what moves may cover.
+PixelRect LightMap::moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const {
+    const MapLayer& moving = *_casters->moving;
+    glm::dvec2 low(1.0), high(-1.0);
+    const auto add = [&](const MapLayer::Box& box) {
+        const auto corners = boxCorners(box.low, box.high, tile.clipFromCaster);
+        const auto bounds = screenBounds({corners.begin(), corners.end()});
+        if (!bounds) return;
+        low = glm::min(low, bounds->low);
+        high = glm::max(high, bounds->high);
+    };
+    std::for_each(moving.bodyBoxes.begin(), moving.bodyBoxes.end(), add);
+    if (_flats) std::for_each(moving.flatBoxes.begin(), moving.flatBoxes.end(), add);
+    if (!(low.x <= high.x && low.y <= high.y)) return {};
+    const double more = 1.0 + std::max(errors.nearest.texels, errors.farthest.texels), size = _wish.size;
+    const auto texel = [size](const glm::dvec2& place) { return glm::ivec2(glm::clamp(place, 0.0, size)); };
+    const glm::ivec2 first = texel(glm::floor((low + 1.0) / 2.0 * size - more)),
+                     end = texel(glm::ceil((high + 1.0) / 2.0 * size + more));
+    return {tile.corner.x + first.x, tile.corner.y + first.y, end.x - first.x, end.y - first.y};
 }
 
 MapLookUp LightMap::lookUpOf(const MapFace& face) const {
@@ -272,8 +352,9 @@ MapLookUp LightMap::lookUpOf(const MapFace& face) const {
 /// The finest map comes first, for pixels take the first that holds them.
 void LightMap::update(const MapResources& resources) {
     const auto due = [this](const MapFace& face) { return !face.needed.empty() && !holds(face); };
-    if (_picture && std::none_of(_faces.begin(), _faces.end(), due)) return;
-    const osg::ref_ptr<MapPicture> picture = pictureOf(resources);
+    const bool anyDue = std::any_of(_faces.begin(), _faces.end(), due);
+    if (_picture && !anyDue) return;
+    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, anyDue);
     const int columns = _faces.size() > 4 ? 3 : 2;
     std::vector<std::pair<const MapFace*, glm::ivec2>> tiles;
     for (MapFace& face : _faces) {
@@ -290,8 +371,9 @@ void LightMap::update(const MapResources& resources) {
     glm::ivec2 end(0);
     const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
     for (const auto& [face, corner] : tiles) {
-        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene});
         _lookUps.push_back(lookUpOf(*face));
+        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene, {}});
+        picture->tiles.back().movers = moversIn(picture->tiles.back(), _lookUps.back().errors);
         end = glm::max(end, corner + picture->size);
     }
     if (!_map || _map->size != end) _map = new DepthMap(end, _wish.compare);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/MapCasters.h>
 #include <gnomon/MapView.h>
 #include <gnomon/SpotCone.h>
 #include <gnomon/ViewFrame.h>
@@ -56,14 +57,22 @@ struct MapBlocker {
 };
 
 /// Half-space of what something flat can darken: what is beyond it, seen from the light.
-glm::dvec4 beyond(const MapCasters::Box& flat, const glm::dvec4& light, const glm::dvec3& reach);
+glm::dvec4 beyond(const MapLayer::Box& flat, const glm::dvec4& light, const glm::dvec3& reach);
+
+/// What a layer of the casters can darken.
+struct LayerOutlines {
+    MapOutline bodies;             ///< all together.
+    std::vector<MapOutline> flats; ///< one by one, as in MapLayer::flatBoxes; none where they do not cast.
+};
 
 /// One direction that a light looks in, and one part of what is seen.
 struct MapFace {
-    explicit MapFace(const LightFrame& given) : frame(given), reach(given), needed(given), held(given) {}
+    explicit MapFace(const LightFrame& given)
+        : frame(given), still{MapOutline(given), {}}, reach(given), needed(given), held(given) {}
 
     LightFrame frame;
     std::size_t part = 0; ///< see viewPart().
+    LayerOutlines still;
     std::vector<MapBlocker> blockers;
     MapOutline reach, needed;    ///< what they can darken; what of that is seen.
     MapOutline held;             ///< what a map must hold for that.
@@ -80,7 +89,7 @@ public:
     const int lightNumber;
     unsigned lastCall = 0;
 
-    /// Starts anew if anything differs from what they are of.
+    /// Starts anew if anything but the casters differs from what they are of; maps stay as they lie where those move.
     void setCause(const glm::dvec4& light, const std::optional<SpotCone>& cone, const MapCasters& casters, bool flats,
                   const MapWish& wish);
     /// Finds what is needed now.
@@ -98,7 +107,9 @@ public:
 
 private:
     void addFaces(const LightFrame& frame);
-    std::vector<MapBlocker> blockersIn(const LightFrame& frame) const;
+    void takeCasters(const MapCasters& casters);
+    LayerOutlines outlinesOf(const MapLayer& layer, const LightFrame& frame) const;
+    std::vector<MapBlocker> blockersOf(const MapFace& face) const;
     double pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const;
     void findSplits(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene, double width);
     void findNeeded(MapFace& face, const std::vector<MapReceiver>& receivers,
@@ -111,19 +122,24 @@ private:
     double softness(const LightFrame& frame, MapOutline blocker, double farthest) const;
     bool holds(const MapFace& face) const;
     MapFit fitOf(const MapFace& face) const;
-    osg::ref_ptr<MapPicture> pictureOf(const MapResources& resources) const;
+    osg::ref_ptr<MapPicture> pictureOf(const MapResources& resources, bool due);
+    MapPicture::Layer drawnOf(const MapLayer& layer, bool again) const;
     MapLookUp lookUpOf(const MapFace& face) const;
+    PixelRect moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const;
 
     glm::dvec4 _light{0.0};
     std::optional<SpotCone> _cone;
     MapWish _wish;
     osg::ref_ptr<const MapCasters> _casters;
     bool _flats = false; ///< those that are flat cast, too.
-    std::vector<MapFace> _faces;
+    std::vector<LightFrame> _frames;
+    std::vector<MapFace> _faces; ///< of each frame one a part.
     int _cascades = 0;           ///< maps that a sun is to have; 0 until that is known.
     std::vector<double> _splits; ///< of what is seen: see cascadeSplits().
     osg::ref_ptr<DepthMap> _map;
-    osg::ref_ptr<const MapPicture> _picture; ///< null: to be made.
+    osg::ref_ptr<const MapPicture> _picture;                ///< null: to be made.
+    osg::ref_ptr<const MapLayer> _drawnStill, _drawnMoving; ///< in the last picture.
+    MapPicture::Layer _still;                               ///< of the former, as it was drawn last.
     std::vector<MapLookUp> _lookUps;
 };
 

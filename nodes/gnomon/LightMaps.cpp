@@ -19,13 +19,13 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 constexpr unsigned keptCalls = 256; // maps that nobody asked for since are let go
 
-glm::dmat4 eyeFromScene(const ViewFrame& view, const CasterMesh& mesh) {
-    return glm::translate(toGlm(view.eyeFromGroup), toGlm(mesh.origin));
+glm::dmat4 eyeFromScene(const ViewFrame& view, const MapCasters& casters) {
+    return glm::translate(toGlm(view.eyeFromGroup), toGlm(casters.origin));
 }
 
 /// True if what is flat, a ground for one, may stand between the light and any part of what is seen: not if all of that is
 /// on the light's side of it, or in it.
-bool isBetween(const MapCasters::Box& flat, const glm::dvec4& light, const std::vector<MapReceiver>& receivers,
+bool isBetween(const MapLayer::Box& flat, const glm::dvec4& light, const std::vector<MapReceiver>& receivers,
                const glm::dvec3& reach) {
     const glm::dvec4 half = beyond(flat, light, reach);
     return std::any_of(receivers.begin(), receivers.end(), [&](const MapReceiver& receiver) {
@@ -33,6 +33,12 @@ bool isBetween(const MapCasters::Box& flat, const glm::dvec4& light, const std::
         return std::any_of(corners.begin(), corners.end(),
                            [&](const glm::dvec4& corner) { return !(glm::dot(half, corner) < 0.0); });
     });
+}
+
+bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std::vector<MapReceiver>& receivers) {
+    const auto between = [&](const auto& flat) { return isBetween(flat, light, receivers, casters.reach); };
+    const auto &still = casters.still->flatBoxes, &moving = casters.moving->flatBoxes;
+    return std::any_of(still.begin(), still.end(), between) || std::any_of(moving.begin(), moving.end(), between);
 }
 
 template <class Mark>
@@ -50,25 +56,22 @@ LightMaps::LightMaps() : _resources(new MapResources) {}
 LightMaps::~LightMaps() = default;
 
 osg::ref_ptr<ConeMark> LightMaps::around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
-                                         const CasterMesh& mesh) const {
+                                         const MapCasters& casters) const {
     osg::ref_ptr<ConeMark> mark = new ConeMark;
     mark->resources = _resources;
-    mark->clipFromScene = toGlm(view.projection) * eyeFromScene(view, mesh);
+    mark->clipFromScene = toGlm(view.projection) * eyeFromScene(view, casters);
     mark->coneFromScene = coneFromScene(glm::dvec3(light), cone);
     return mark;
 }
 
 osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
-                                      const std::optional<SpotCone>& cone, const CasterMesh& mesh,
+                                      const std::optional<SpotCone>& cone, const MapCasters& casters,
                                       const MapWish& wish) {
-    const glm::dmat4 clipFromScene = toGlm(view.projection) * eyeFromScene(view, mesh);
+    const glm::dmat4 clipFromScene = toGlm(view.projection) * eyeFromScene(view, casters);
     Lock lock(_mutex);
     LightMap& map = find(view.stage, lightNumber);
-    const osg::ref_ptr<const MapCasters> casters = castersOf(mesh);
-    const std::vector<MapReceiver> receivers = receiversOf(view, eyeFromScene(view, mesh));
-    const bool flats = std::any_of(casters->flatBoxes.begin(), casters->flatBoxes.end(),
-                                   [&](const auto& flat) { return isBetween(flat, light, receivers, casters->reach); });
-    map.setCause(light, cone, *casters, flats, wish);
+    const std::vector<MapReceiver> receivers = receiversOf(view, eyeFromScene(view, casters));
+    map.setCause(light, cone, casters, anyIsBetween(casters, light, receivers), wish);
     const std::vector<glm::dvec4> corners = map.find(receivers, clipFromScene, view.pixels.x());
     const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     const bool forPrograms = wish.unit >= 0;
@@ -78,9 +81,20 @@ osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     quad.resources = _resources;
     quad.outline =
         screenOutline(corners, 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y())); // two pixels more, against rounding
-    if (forPrograms) return new MapProgram(quad, glm::inverse(eyeFromScene(view, mesh)), unsigned(wish.unit));
+    if (forPrograms) return new MapProgram(quad, glm::inverse(eyeFromScene(view, casters)), unsigned(wish.unit));
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
     return wish.soft ? markOf<SoftMapMark>(quad, *bounds, wish.view) : markOf<MapMark>(quad, *bounds, wish.view);
+}
+
+osg::ref_ptr<const MapCasters> LightMaps::castersOf(const ShadowCasterGroup& group, const CasterPieces& pieces) {
+    Lock lock(_mutex);
+    const auto old = [this](const Known& known) { return _calls - known.lastCall > keptCalls; };
+    _casters.erase(std::remove_if(_casters.begin(), _casters.end(), old), _casters.end());
+    auto known = std::find_if(_casters.begin(), _casters.end(), [&](const Known& k) { return k.group == &group; });
+    if (known == _casters.end()) known = _casters.insert(known, {&group, nullptr, 0});
+    known->casters = MapCasters::of(pieces, known->casters);
+    known->lastCall = _calls;
+    return known->casters;
 }
 
 LightMap& LightMaps::find(const void* stage, int lightNumber) {
@@ -96,11 +110,6 @@ LightMap& LightMaps::find(const void* stage, int lightNumber) {
         std::rotate(found, found + 1, _maps.end());
     _maps.back()->lastCall = _calls;
     return *_maps.back();
-}
-
-osg::ref_ptr<const MapCasters> LightMaps::castersOf(const CasterMesh& mesh) {
-    if (!_casters || _casters->mesh != &mesh) _casters = new MapCasters(mesh);
-    return _casters;
 }
 
 void LightMaps::resizeGLObjectBuffers(unsigned maxSize) {

@@ -3,154 +3,101 @@
 #include <gnomon/MapCasters.h>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
-#include <algorithm>
-#include <limits>
-#include <map>
-#include <tuple>
+#include <unordered_set>
 
 namespace gnomon {
 namespace {
 
-MapCasters::Box boxOf(const CasterMesh& mesh, std::size_t first, std::size_t end) {
-    MapCasters::Box box{glm::dvec3(std::numeric_limits<double>::infinity()), {}};
-    box.high = -box.low;
-    for (std::size_t i = first; i < end; ++i) {
-        const glm::dvec3 vertex = toGlm(osg::Vec3d((*mesh.vertices)[(*mesh.triangles)[i]]));
-        box.low = glm::min(box.low, vertex);
-        box.high = glm::max(box.high, vertex);
-    }
-    return box;
+constexpr unsigned restAfter = 60; // changes of others: a second of a scene that moves
+
+osg::ref_ptr<const MapLayer> layerOf(CasterPieces::List pieces, const MapCasters& casters) {
+    return new MapLayer(std::move(pieces), casters.origin);
 }
-
-bool isFlat(const MapCasters::Box& box) {
-    const glm::dvec3 size = box.high - box.low;
-    return std::min({size.x, size.y, size.z}) == 0.0;
-}
-
-void sortBySize(std::vector<MapCasters::Box>& boxes) {
-    std::sort(boxes.begin(), boxes.end(),
-              [](const auto& a, const auto& b) { return glm::distance(a.low, a.high) > glm::distance(b.low, b.high); });
-}
-
-/// A drawable's part of the mesh's triangles.
-struct Span {
-    const GLuint* corners;
-    std::size_t count;
-};
-
-void append(osg::DrawElementsUInt& to, const Span& span) {
-    to.insert(to.end(), span.corners, span.corners + span.count);
-}
-
-/// Drawables that share a texture and a test, one after another.
-class CutoutBuilder {
-public:
-    void add(const CasterMesh& mesh, const VertexTraverser::Cutout& cutout, const Span& span) {
-        const auto own = mesh.vertices->begin() + static_cast<std::ptrdiff_t>(cutout.firstVertex);
-        const auto places = static_cast<GLuint>(_vertices->size());
-        for (std::size_t i = 0; i < span.count; ++i)
-            _triangles->push_back(span.corners[i] - cutout.firstVertex + places);
-        _vertices->insert(_vertices->end(), own, own + static_cast<std::ptrdiff_t>(cutout.coordinates.size()));
-        _coordinates->insert(_coordinates->end(), cutout.coordinates.begin(), cutout.coordinates.end());
-    }
-
-    osg::ref_ptr<osg::Geometry> geometry() const {
-        osg::ref_ptr<osg::Geometry> result = new osg::Geometry;
-        result->setUseDisplayList(false);
-        result->setUseVertexBufferObjects(true);
-        result->setVertexArray(_vertices);
-        result->setTexCoordArray(0, _coordinates, osg::Array::BIND_PER_VERTEX);
-        result->addPrimitiveSet(_triangles);
-        return result;
-    }
-
-private:
-    osg::ref_ptr<osg::Vec3Array> _vertices = new osg::Vec3Array, _coordinates = new osg::Vec3Array;
-    osg::ref_ptr<osg::DrawElementsUInt> _triangles = noTriangles();
-};
 
 } // namespace
 
-/// The triangles by how they are drawn.
-struct MapCasters::Sorted {
-    osg::ref_ptr<osg::DrawElementsUInt> whole = noTriangles(), wholeBodies = noTriangles();
-    std::map<std::tuple<osg::Texture2D*, int, float, bool>, CutoutBuilder> builders;
-
-    void add(const Span& span, bool flat) {
-        append(*whole, span);
-        if (!flat) append(*wholeBodies, span);
-    }
-    void add(const CasterMesh& mesh, const VertexTraverser::Cutout& cutout, const Span& span, bool flat) {
-        const AlphaTest& test = cutout.test;
-        builders[{test.texture.get(), test.passing, test.reference, flat}].add(mesh, cutout, span);
-    }
-    std::vector<Cutout> cutouts() const {
-        std::vector<Cutout> result;
-        for (const auto& [key, builder] : builders) {
-            const auto& [texture, passing, reference, flat] = key;
-            result.push_back({builder.geometry(), texture, passing, reference, flat});
-        }
-        return result;
-    }
-};
-
-MapCasters::MapCasters(const CasterMesh& casters)
-    : mesh(&casters), reach(toGlm(casters.bounds._max - casters.bounds._min) / 2.0) {
-    Sorted sorted;
-    auto cutout = casters.cutouts.begin();
-    for (std::size_t i = 0; i < casters.drawn.size(); ++i) {
-        const std::size_t first = casters.drawn[i].first,
-                          end = i + 1 < casters.drawn.size() ? casters.drawn[i + 1].first : casters.triangles->size();
-        if (first == end) continue;
-        const Box box = boxOf(casters, first, end);
-        (isFlat(box) ? flatBoxes : bodyBoxes).push_back(box);
-        const Span span{&(*casters.triangles)[first], end - first};
-        if (cutout != casters.cutouts.end() && cutout->drawn == i)
-            sorted.add(casters, *cutout++, span, isFlat(box));
-        else
-            sorted.add(span, isFlat(box));
-    }
-    sortBySize(bodyBoxes);
-    sortBySize(flatBoxes);
-    take(sorted);
+osg::ref_ptr<const MapCasters> MapCasters::of(const CasterPieces& pieces,
+                                              const osg::ref_ptr<const MapCasters>& before) {
+    if (before && before->pieces == &pieces) return before;
+    const osg::ref_ptr<MapCasters> now = new MapCasters(pieces);
+    before ? now->follow(*before) : now->begin();
+    now->measure();
+    return now;
 }
 
-void MapCasters::take(const Sorted& sorted) {
-    _all.triangles = sorted.builders.empty() ? mesh->triangles : sorted.whole;
-    _bodies.triangles = flatBoxes.empty() ? _all.triangles : sorted.wholeBodies;
-    cutouts = sorted.cutouts();
+void MapCasters::begin() {
+    origin = pieces->bounds.center();
+    CasterPieces::List all;
+    for (const auto& piece : pieces->list)
+        if (piece->bounds.valid()) all.push_back(piece);
+    still = layerOf(std::move(all), *this);
+    moving = layerOf({}, *this);
 }
 
-osg::ref_ptr<const CasterFaces> MapCasters::faces(bool flats) const {
-    Drawn& drawn = flats && !flatBoxes.empty() ? _all : _bodies;
-    const bool again = drawn.faces != nullptr;
-    if (drawn.knowsSolids || drawn.triangles->empty()) return drawn.faces;
-    drawn.faces = new CasterFaces(*mesh, drawn.triangles, again);
-    drawn.knowsSolids = again;
-    return drawn.faces;
+void MapCasters::follow(const MapCasters& before) {
+    _change = before._change + 1;
+    origin = before.origin;
+    CasterPieces::List others;
+    auto next = before.still->pieces.begin();
+    const auto end = before.still->pieces.end();
+    for (const auto& piece : pieces->list)
+        if (next != end && *next == piece)
+            ++next;
+        else if (piece->bounds.valid())
+            others.push_back(piece);
+    std::size_t atRest = 0;
+    for (const auto& piece : others) {
+        const auto known = before._since.find(piece.get());
+        _since.emplace(piece.get(), known == before._since.end() ? _change : known->second);
+        if (isAtRest(piece.get())) atRest += piece->triangles;
+    }
+    const bool sameMoving = others == before.moving->pieces;
+    _wasted = before._wasted + (sameMoving ? 0 : atRest);
+    if (next != end || !isNear(origin) || _wasted > before.still->triangles + atRest) return divideAnew(before);
+    still = before.still;
+    moving = sameMoving ? before.moving : layerOf(std::move(others), *this);
 }
 
-bool MapCasters::areOutside(const glm::dvec4& light) const {
-    if (light.w == 0.0) return true;
-    const glm::dvec3 at(light), rounding(1e-6 * glm::length(reach));
-    return std::none_of(bodyBoxes.begin(), bodyBoxes.end(), [&](const Box& box) {
-        return glm::all(glm::greaterThan(at, box.low - rounding)) && glm::all(glm::lessThan(at, box.high + rounding));
-    });
+void MapCasters::divideAnew(const MapCasters& before) {
+    std::unordered_set<const CasterPiece*> stood;
+    for (const auto& piece : before.still->pieces) stood.insert(piece.get());
+    CasterPieces::List standing, others;
+    for (const auto& piece : pieces->list) {
+        if (!piece->bounds.valid()) continue;
+        const bool stands = stood.count(piece.get()) > 0 || isAtRest(piece.get());
+        (stands ? standing : others).push_back(piece);
+        if (stands) _since.erase(piece.get());
+    }
+    _wasted = 0;
+    if (!isNear(origin)) origin = pieces->bounds.center();
+    still = layerOf(std::move(standing), *this);
+    moving = layerOf(std::move(others), *this);
+}
+
+/// Whether floats about a place are as fine, but for a bit, as about the middle of all.
+bool MapCasters::isNear(const osg::Vec3d& place) const {
+    return pieces->empty() || (place - pieces->bounds.center()).length() <= pieces->bounds.radius();
+}
+
+bool MapCasters::isAtRest(const CasterPiece* piece) const {
+    const auto since = _since.find(piece);
+    return since != _since.end() && _change - since->second >= restAfter;
+}
+
+void MapCasters::measure() {
+    if (pieces->empty()) return;
+    low = toGlm(pieces->bounds._min - origin);
+    high = toGlm(pieces->bounds._max - origin);
+    reach = glm::max(glm::abs(low), glm::abs(high));
 }
 
 void MapCasters::resizeGLObjectBuffers(unsigned maxSize) const {
-    for (const Drawn* drawn : {&_all, &_bodies})
-        if (drawn->faces) drawn->faces->resizeGLObjectBuffers(maxSize);
-    for (const Cutout& cutout : cutouts) cutout.geometry->resizeGLObjectBuffers(maxSize);
+    for (const auto& layer : {still, moving}) layer->resizeGLObjectBuffers(maxSize);
 }
 
 void MapCasters::releaseGLObjects(osg::State* state) const {
-    for (const Drawn* drawn : {&_all, &_bodies})
-        if (drawn->faces) drawn->faces->releaseGLObjects(state);
-    for (const Cutout& cutout : cutouts) cutout.geometry->releaseGLObjects(state);
+    for (const auto& layer : {still, moving}) layer->releaseGLObjects(state);
 }
 
 } // namespace gnomon

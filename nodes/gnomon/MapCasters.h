@@ -1,43 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/CasterFaces.h>
+#include <gnomon/CasterPieces.h>
+#include <gnomon/MapLayer.h>
 
 #include <glm/vec3.hpp>
-#include <osg/Geometry>
-#include <osg/Texture2D>
 
-#include <vector>
+#include <unordered_map>
 
 namespace gnomon {
 
-/// The casters of one revision as a light's map draws them, all in one call. Never changed once made.
+/// What casts below a group in one revision as maps draw it, in two layers: what stands still, and what moves, so that the
+/// first need be neither made nor drawn again where only the second changes. Never changed once made.
+///
+/// At first all stands still. What changes or comes moves from then on. Where something that stood still has changed or
+/// gone, its layer is made anew, and what has come to rest since is put into it; so it is, too, once all that it would have
+/// saved to do so earlier comes to as much as it costs.
+///
+/// Cost  of a change: a look at the list of pieces, and what moves; all, where the layer of what stands still is made anew.
 struct MapCasters : public osg::Referenced {
-    struct Box {
-        glm::dvec3 low, high;
-    };
+    /// Reads the graph as a cull traversal does: call it in the traversal that found the pieces.
+    /// @param before  the answer before, of the same group; may be null.
+    /// @return `before` itself for the same pieces.
+    static osg::ref_ptr<const MapCasters> of(const CasterPieces& pieces, const osg::ref_ptr<const MapCasters>& before);
 
-    /// Those that one texture cuts out by one test, drawn in one call; see AlphaTest.
-    struct Cutout {
-        osg::ref_ptr<osg::Geometry> geometry; ///< positions, and coordinates of the texture: s, t and q.
-        osg::ref_ptr<osg::Texture2D> texture;
-        int passing = 0;
-        float reference = 0.0f;
-        bool flat = false;
-    };
-
-    explicit MapCasters(const CasterMesh& mesh);
-
-    const osg::ref_ptr<const CasterMesh> mesh;
-    std::vector<Cutout> cutouts; ///< what textures cut out.
-    std::vector<Box> bodyBoxes;  ///< of the drawables, about mesh->origin, the largest first.
-    std::vector<Box> flatBoxes;  ///< of those that are flat along an axis of the group.
-    glm::dvec3 reach{0.0};       ///< half sides of the bounds.
-
-    /// All that no texture cuts out, or of it all but what is flat, as grounds are; null if that is nothing. What is asked
-    /// for again is drawn often: from then on its solids are told apart. One thread at a time.
-    osg::ref_ptr<const CasterFaces> faces(bool flats) const;
-    /// False if a lamp may be in a solid. @param light  as usableLight().
-    bool areOutside(const glm::dvec4& light) const;
+    const osg::ref_ptr<const CasterPieces> pieces;
+    osg::Vec3d origin;              ///< group frame; all positions are about it, and it stays where it is near.
+    glm::dvec3 low{0.0}, high{0.0}; ///< bounds of all, about the origin.
+    glm::dvec3 reach{0.0};          ///< half sides of a box about the origin that holds all.
+    osg::ref_ptr<const MapLayer> still, moving; ///< never null.
 
     void resizeGLObjectBuffers(unsigned maxSize) const;
     void releaseGLObjects(osg::State* state) const;
@@ -46,15 +36,17 @@ protected:
     ~MapCasters() override = default;
 
 private:
-    struct Sorted;
-    struct Drawn {
-        osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< may be empty.
-        osg::ref_ptr<const CasterFaces> faces;
-        bool knowsSolids = false;
-    };
-    void take(const Sorted& sorted);
+    explicit MapCasters(const CasterPieces& given) : pieces(&given) {}
+    void begin();
+    void follow(const MapCasters& before);
+    void divideAnew(const MapCasters& before);
+    void measure();
+    bool isNear(const osg::Vec3d& place) const;
+    bool isAtRest(const CasterPiece* moving) const;
 
-    mutable Drawn _all, _bodies;
+    unsigned _change = 0;                                    ///< which one this is.
+    std::unordered_map<const CasterPiece*, unsigned> _since; ///< of what moves, the change that it came with.
+    std::size_t _wasted = 0; ///< triangles that were made again, though they were at rest.
 };
 
 } // namespace gnomon

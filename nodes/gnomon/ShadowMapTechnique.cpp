@@ -58,18 +58,18 @@ unsigned ShadowMapTechnique::passes() const { return _maps->resources().passes; 
 
 std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                                const GroupCasters& casters) const {
-    const CasterMesh& mesh = casters.mesh();
-    const auto usable = usableLight(light.inGroup, mesh.origin);
+    const osg::ref_ptr<const MapCasters> drawn = _maps->castersOf(*view.group, casters.pieces());
+    const auto usable = usableLight(light.inGroup, drawn->origin);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    reportUnknownTests(view.frameNumber, mesh);
+    reportUnknownTests(view.frameNumber, casters.pieces());
     const std::optional<SpotCone> cone = spotOf(light);
     std::vector<osg::ref_ptr<MarkJob>> marks;
     if (cone && _programUnit < 0 && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
-        marks.emplace_back(_maps->around(view, *usable, *cone, mesh));
-    const osg::ref_ptr<MarkJob> mark = _maps->mark(view, light.number, *usable, cone, mesh, wish());
+        marks.emplace_back(_maps->around(view, *usable, *cone, *drawn));
+    const osg::ref_ptr<MarkJob> mark = _maps->mark(view, light.number, *usable, cone, *drawn, wish());
     if (mark) marks.emplace_back(mark); // else out of sight: nothing to say
     return marks;
 }
@@ -88,10 +88,11 @@ MapWish ShadowMapTechnique::wish() const {
     return wish;
 }
 
-void ShadowMapTechnique::reportUnknownTests(unsigned frame, const CasterMesh& mesh) const {
-    if (mesh.unknownTests == 0) return;
-    report(frame, "casts " + std::to_string(mesh.unknownTests) +
-                      " alpha-tested drawables as if they were solid, the first of " + "them in '" + mesh.unknownNode +
+void ShadowMapTechnique::reportUnknownTests(unsigned frame, const CasterPieces& pieces) const {
+    if (pieces.unknownTests == 0) return;
+    report(frame, "casts " + std::to_string(pieces.unknownTests) +
+                      " alpha-tested drawables as if they were solid, the first of " + "them in '" +
+                      pieces.unknownNode +
                       "': give them a 2D texture on unit 0 with coordinates a vertex, and no shader.");
 }
 

@@ -18,10 +18,13 @@ struct MapWish;
 ///     group->addChild(shadow);
 ///
 /// Maps    A map covers what of the seen receivers the casters can darken, and no more: the smallest rectangle about it, and
-///         a sixteenth more on each side so that it holds for a while. It is drawn again only when the light or a caster has
-///         changed, or when what is seen is no longer in it or would fill less than half of it. Casters between it and the
+///         a sixteenth more on each side so that it holds for a while. It is drawn again only when the light has changed or a
+///         caster in it, or when what is seen is no longer in it or would fill less than half of it. Casters between it and the
 ///         light count wherever they are. What is flat along an axis of the group, as grounds are, is left out while all that
 ///         is seen is on the light's side of it: it darkens nothing.
+/// Moving  Casters are in two layers. What has changed since it was first met, as by a transform above it, is in the one that
+///         moves: it alone is extracted and drawn when it changes again, in those maps that it is or was in, over what stands
+///         still, which stays in the map. What stood still and begins to move, or goes, costs one drawing of all.
 /// Bias    none to set. Both the surface in the map and the one that is seen allow for their own slope within the texels
 ///         that are compared, and for the rounding of depth, here and in the frame. Thin things lose their shadow where
 ///         they are less than about a texel off the surface, measured along the light.
@@ -39,7 +42,9 @@ struct MapWish;
 ///         where that is wider than two texels.
 ///
 /// Cost    while nothing changes, a copy of the depth buffer and one quad over what the shadows' bounds cover; a draw of
-///         all casters' positions when a map is made. A spot that relights takes another copy and quad, of all that is seen.
+///         all casters' positions when a map is made. Where casters move, those alone and two copies of what of the map they
+///         cover, and a second texture of the maps' size. A spot that relights takes another copy and quad, of all that is
+///         seen.
 ///         Of a pixel 1, 1 or 4 comparisons of 2 × 2 texels, by the filter; soft edges take another copy and quad, and in
 ///         penumbras 16 texels and 8 to 32 comparisons more.
 /// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named. Soft edges:
@@ -141,11 +146,14 @@ public:
     ///     float gnomon_visibility(vec3 eye); // declare it; eye: in eye coordinates
     std::string programFunction() const;
 
-    /// Maps drawn so far, over all lights, views and contexts: rises only where something changed.
+    /// Maps drawn so far, over all lights, views and contexts: rises only where something changed. A map counts once in a
+    /// frame in which anything is drawn into it, all casters or those that move; not, if all that moves is beside it.
     unsigned passes() const;
 
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const GroupCasters& casters) const override;
+
+    bool takesPieces() const override { return true; }
 
     void resizeGLObjectBuffers(unsigned maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
@@ -154,7 +162,7 @@ protected:
     ~ShadowMapTechnique() override;
 
 private:
-    void reportUnknownTests(unsigned frame, const CasterMesh& mesh) const;
+    void reportUnknownTests(unsigned frame, const CasterPieces& pieces) const;
     MapWish wish() const;
 
     int _size = 1024;

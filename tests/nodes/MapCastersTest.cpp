@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Casters in two layers: which of them is made anew when.
+#include "Scene.h"
+
+#include <gnomon/CasterMesh.h>
+#include <gnomon/MapCasters.h>
+
+#include <gtest/gtest.h>
+
+using gnomon::CasterPieces;
+using gnomon::MapCasters;
+
+namespace {
+
+/// Boxes would do as well: a row of triangles, any of which can be moved or taken out.
+struct Row {
+    explicit Row(int count, const osg::Vec3d& at = {}) : corner(at) {
+        for (int i = 0; i < count; ++i) add(10.0 * i);
+    }
+    osg::MatrixTransform& add(double x) {
+        osg::ref_ptr<osg::MatrixTransform> place =
+            new osg::MatrixTransform(osg::Matrixd::translate(corner + osg::Vec3d(x, 0, 0)));
+        place->addChild(scene::triangle());
+        root->addChild(place);
+        return *place;
+    }
+    void move(unsigned i, const osg::Vec3d& to) {
+        static_cast<osg::MatrixTransform&>(*root->getChild(i)).setMatrix(osg::Matrixd::translate(corner + to));
+    }
+    /// What maps draw now.
+    osg::ref_ptr<const MapCasters> next() {
+        pieces = CasterPieces::of(*root, {}, pieces);
+        return casters = MapCasters::of(*pieces, casters);
+    }
+
+    osg::Vec3d corner;
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::ref_ptr<const CasterPieces> pieces;
+    osg::ref_ptr<const MapCasters> casters;
+};
+
+std::size_t triangles(const gnomon::MapLayer& layer) { return layer.triangles; }
+
+TEST(MapCasters, AllStandStillAtFirst) {
+    Row row(5);
+    const auto first = row.next();
+    EXPECT_EQ(triangles(*first->still), 5u);
+    EXPECT_EQ(triangles(*first->moving), 0u);
+    EXPECT_EQ(first->origin, osg::Vec3d(20.5, 0.5, 0.0));
+    EXPECT_EQ(first->reach, glm::dvec3(20.5, 0.5, 0.0));
+    EXPECT_EQ(row.next(), first);
+}
+
+TEST(MapCasters, WhatMovesIsTakenFromThoseThatStandOnce) {
+    for (const unsigned which : {0u, 2u, 4u}) {
+        Row row(5);
+        row.next();
+        row.move(which, {21.0, 0.0, 3.0});
+        const auto started = row.next();
+        EXPECT_EQ(triangles(*started->still), 4u) << which;
+        EXPECT_EQ(triangles(*started->moving), 1u) << which;
+        EXPECT_EQ(started->origin, osg::Vec3d(20.5, 0.5, 0.0)) << "which stays";
+        for (int step = 1; step < 200; ++step) {
+            row.move(which, {21.0 + 0.1 * step, 0.0, 3.0});
+            const auto now = row.next();
+            ASSERT_EQ(now->still, started->still) << which << ", " << step;
+            EXPECT_EQ(triangles(*now->moving), 1u);
+        }
+    }
+}
+
+TEST(MapCasters, WhatComesMovesAndWhatGoesIsGone) {
+    Row row(5);
+    const auto first = row.next();
+    row.add(25.0);
+    EXPECT_EQ(row.next()->still, first->still);
+    EXPECT_EQ(triangles(*row.casters->moving), 1u);
+    row.root->removeChild(5);
+    EXPECT_EQ(row.next()->still, first->still);
+    EXPECT_EQ(triangles(*row.casters->moving), 0u);
+    row.root->removeChild(1);
+    EXPECT_EQ(triangles(*row.next()->still), 4u);
+    EXPECT_EQ(triangles(*row.casters->moving), 0u);
+}
+
+// Two have moved; one of them rests while the other makes 60 moves.
+TEST(MapCasters, WhatHasComeToRestStandsStillAgainWhenTheOthersAreMadeAnew) {
+    for (const bool rests : {false, true}) {
+        Row row(200);
+        row.next();
+        for (unsigned i : {3u, 7u}) row.move(i, {5.0, 2.0, 0.0});
+        row.next();
+        EXPECT_EQ(triangles(*row.casters->moving), 2u);
+        for (int step = 0; step < (rests ? 60 : 50); ++step) {
+            row.move(7, {5.0, 2.0, 0.1 * step});
+            row.next();
+        }
+        EXPECT_EQ(triangles(*row.casters->moving), 2u);
+        row.move(9, {5.0, 3.0, 0.0});
+        EXPECT_EQ(triangles(*row.next()->moving), rests ? 2u : 3u);
+        EXPECT_EQ(triangles(*row.casters->still), rests ? 198u : 197u);
+    }
+}
+
+// 20 that came one by one rest among five that stood: to make them again and again would soon cost more than all.
+TEST(MapCasters, WhatHasComeToRestStandsStillAgainOnceItHasCostAsMuchAsAll) {
+    Row row(5);
+    row.next();
+    for (int i = 0; i < 20; ++i) row.add(1.0 * i);
+    row.next();
+    row.move(0, {0.0, 3.0, 0.0});
+    row.next();
+    int moves = 0;
+    for (; moves < 100 && triangles(*row.casters->moving) > 1; ++moves) {
+        row.move(0, {0.0, 3.0, 0.1 * (moves + 1)});
+        row.next();
+    }
+    EXPECT_EQ(moves, 60) << "20 triangles are made again with the 59th, 40 with the 60th; 24 are the cost of all";
+    EXPECT_EQ(triangles(*row.casters->still), 24u);
+}
+
+TEST(MapCasters, ThatAreTheSameInAnotherOrderStandStill) {
+    Row row(5);
+    const auto first = row.next();
+    const CasterPieces::List& list = row.pieces->list;
+    const osg::ref_ptr<const CasterPieces> turned = new CasterPieces({list.rbegin(), list.rend()}, 1);
+    const auto now = MapCasters::of(*turned, first);
+    EXPECT_EQ(triangles(*now->moving), 0u);
+    EXPECT_EQ(triangles(*now->still), 5u);
+}
+
+/// Largest distance of a drawn vertex from where it ought to be: each triangle's corner.
+double worst(const MapCasters& casters, const osg::Vec3d& corner) {
+    const auto& vertices =
+        static_cast<const osg::Vec3Array&>(*casters.moving->faces(true, false)->others->getVertexArray());
+    return (osg::Vec3d(vertices[0]) + casters.origin - corner).length();
+}
+
+// At 6,400 km a float's step is half a metre. Something drives 5 km, alone or out of a scene of 50 m: floats about the middle
+// of all have steps of half a millimetre at 4 km to 8, and of less than a micrometre about the thing itself.
+TEST(MapCasters, ThatMoveFarFromTheCentreOfTheEarthStayWhereTheyAre) {
+    const osg::Vec3d earth(4.2e6, 1.7e6, 4.5e6);
+    for (const auto& [others, off] : {std::pair(0, 1e-6), {5, 0.0005}}) {
+        Row row(others + 1, earth);
+        row.next();
+        for (int step = 0; step <= 100; ++step) {
+            const osg::Vec3d place(50.0 * step, 7.0, 0.3 * step);
+            row.move(0, place);
+            EXPECT_LE(worst(*row.next(), earth + place), off) << others << ", " << step;
+        }
+        EXPECT_EQ(triangles(*row.casters->still), std::size_t(others));
+    }
+}
+
+TEST(MapCasters, WithoutTrianglesAreNeitherStillNorMoving) {
+    Row row(2);
+    const auto first = row.next();
+    row.root->addChild(scene::geometryOf(scene::vec3s({{0, 0, 0}, {1, 0, 0}}), new osg::DrawArrays(GL_LINES, 0, 2)));
+    EXPECT_EQ(row.next()->moving, first->moving);
+    EXPECT_EQ(row.casters->still, first->still);
+}
+
+} // namespace
