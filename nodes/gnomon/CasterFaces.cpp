@@ -28,6 +28,14 @@ CasterFaces::CasterFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangle
     if (!open->empty()) others = casterGeometry(mesh, open);
 }
 
+bool CasterFaces::isOutside(const glm::dvec4& light) const {
+    if (!solids || light.w == 0.0) return true;
+    const osg::BoundingBox& box = solids->getBoundingBox();
+    const osg::Vec3 rounding = osg::Vec3(1.0f, 1.0f, 1.0f) * (1e-6f * box.radius());
+    return !osg::BoundingBox(box._min - rounding, box._max + rounding)
+                .contains(osg::Vec3(osg::Vec3d(light.x, light.y, light.z)));
+}
+
 void CasterFaces::draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, bool outside) const {
     if (others) others->draw(renderInfo);
     if (!solids) return;

@@ -4,6 +4,7 @@
 #include <gnomon/ClosedParts.h>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
 #include <osg/Geometry>
 #include <osg/RenderInfo>
 
@@ -26,6 +27,8 @@ struct CasterFaces : public osg::Referenced {
     /// @param findSolids  else all are others.
     CasterFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids);
 
+    /// False if a lamp may be in a solid, which many drawables may make together. @param light  as usableLight().
+    bool isOutside(const glm::dvec4& light) const;
     /// Needs back faces to be those that are culled.
     /// @param clipFromMesh  the light's, mesh: about its origin.
     /// @param outside       the light is in none of the solids.

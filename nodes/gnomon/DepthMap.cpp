@@ -163,7 +163,8 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     const bool sameMoving = target.shown && target.shown->moving == picture.moving;
     std::vector<Due> due;
     for (const MapPicture::Tile& tile : picture.tiles) {
-        const MapPicture::Tile* shown = target.shown ? target.shown->findStill(tile, picture) : nullptr;
+        const MapPicture::Tile* shown =
+            target.shown && gl.glBlitFramebuffer ? target.shown->findStill(tile, picture) : nullptr;
         const bool same = shown && (sameMoving || (shown->movers.empty() && tile.movers.empty()));
         if (!same) due.push_back({&tile, shown});
     }
@@ -200,6 +201,7 @@ std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, Target& target, co
     if (hidden.empty() && parts.empty()) return "";
     osg::State& state = *renderInfo.getState();
     const auto& gl = *state.get<osg::GLExtensions>();
+    if (!gl.glBlitFramebuffer) return drawLayer(renderInfo, picture, picture.moving, parts); // all is drawn each time
     const osg::ref_ptr<osg::Texture2D> saved = savedTexture();
     state.applyTextureAttribute(0, saved); // which makes it
     if (!bindFramebuffer(state, target.saved, *saved->getTextureObject(state.getContextID()))) return noTarget;

@@ -316,7 +316,8 @@ osg::ref_ptr<MapPicture> LightMap::pictureOf(const MapResources& resources, bool
 }
 
 MapPicture::Layer LightMap::drawnOf(const MapLayer& layer, bool again) const {
-    MapPicture::Layer drawn{layer.faces(_flats, again), layer.isOutside(_light, _casters->reach), {}};
+    MapPicture::Layer drawn{layer.faces(_flats, again), true, {}};
+    drawn.outside = !drawn.casters || drawn.casters->isOutside(_light);
     for (const MapLayer::Cutout& cutout : layer.cutouts)
         if (_flats || !cutout.flat) drawn.cutouts.push_back(cutout);
     return drawn;

@@ -5,7 +5,6 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -136,14 +135,6 @@ osg::ref_ptr<const CasterFaces> MapLayer::faces(bool flats, bool again) const {
     if (!known) drawn.faces = new CasterFaces(*_mesh, drawn.triangles, again);
     drawn.knowsSolids = drawn.knowsSolids || again;
     return drawn.faces;
-}
-
-bool MapLayer::isOutside(const glm::dvec4& light, const glm::dvec3& reach) const {
-    if (light.w == 0.0) return true;
-    const glm::dvec3 at(light), rounding(1e-6 * glm::length(reach));
-    return std::none_of(bodyBoxes.begin(), bodyBoxes.end(), [&](const Box& box) {
-        return glm::all(glm::greaterThan(at, box.low - rounding)) && glm::all(glm::lessThan(at, box.high + rounding));
-    });
 }
 
 void MapLayer::resizeGLObjectBuffers(unsigned maxSize) const {

@@ -40,8 +40,6 @@ struct MapLayer : public osg::Referenced {
     /// time.
     /// @param again  it has been drawn before, and so may be drawn often: its solids are told apart.
     osg::ref_ptr<const CasterFaces> faces(bool flats, bool again) const;
-    /// False if a lamp may be in a solid. @param light  as usableLight(). @param reach  see MapCasters.
-    bool isOutside(const glm::dvec4& light, const glm::dvec3& reach) const;
 
     void resizeGLObjectBuffers(unsigned maxSize) const;
     void releaseGLObjects(osg::State* state) const;

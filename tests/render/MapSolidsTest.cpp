@@ -62,6 +62,22 @@ TEST(MapSolids, LookTheSameWhenTheirBacksAreLeftOut) {
                 << light.x() << ", " << light.y() << ", " << light.z() << ", view " << view;
 }
 
+// The sides of a box as six drawables make one solid together, with the lamp in it.
+TEST(MapSolids, OfManyDrawablesHoldTheLightOfALampInsideToo) {
+    const std::vector<test::Mesh> sides{test::quad({-1.0, -1.0, 1.0}, {0.0, 2.0, 0.0}, {2.0, 0.0, 0.0}),
+                                        test::quad({-1.0, -1.0, 3.0}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}),
+                                        test::quad({-1.0, -1.0, 1.0}, {2.0, 0.0, 0.0}, {0.0, 0.0, 2.0}),
+                                        test::quad({-1.0, 1.0, 1.0}, {0.0, 0.0, 2.0}, {2.0, 0.0, 0.0}),
+                                        test::quad({-1.0, -1.0, 1.0}, {0.0, 0.0, 2.0}, {0.0, 2.0, 0.0}),
+                                        test::quad({1.0, -1.0, 1.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 2.0})};
+    const osg::Vec4d inside(0.2, 0.1, 2.0, 1.0);
+    Scene dark = build(sides, inside, ShadowMapTechnique::NOTHING);
+    dark.takeLightAway();
+    EXPECT_EQ(
+        drawnAgain(build(sides, inside, ShadowMapTechnique::NOTHING), aside).different(test::render(dark.root, aside)),
+        0);
+}
+
 // A lamp in a closed box sees nothing but backs.
 TEST(MapSolids, HoldTheLightOfALampInside) {
     const std::vector<test::Mesh> closed{test::box({-1.0, -1.0, 1.0}, {1.0, 1.0, 3.0})};
