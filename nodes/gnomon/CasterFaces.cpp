@@ -4,6 +4,9 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
+#include <unordered_map>
+
 namespace gnomon {
 
 osg::ref_ptr<osg::DrawElementsUInt> noTriangles() { return new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES); }
@@ -25,15 +28,21 @@ CasterFaces::CasterFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangle
     for (std::size_t i = 0; i < triangles->size(); ++i)
         (parts.closed[i / 3] ? closed : open)->push_back(parts.welded[(*triangles)[i]]); // fewer vertices to transform
     if (!closed->empty()) solids = casterGeometry(mesh, closed);
+    std::unordered_map<unsigned, osg::BoundingBox> boxes; // by part
+    for (std::size_t i = 0; i < triangles->size(); ++i)
+        if (parts.closed[i / 3]) boxes[parts.part[i / 3]].expandBy((*mesh.vertices)[(*triangles)[i]]);
+    for (const auto& entry : boxes) _boxes.push_back(entry.second);
     if (!open->empty()) others = casterGeometry(mesh, open);
 }
 
 bool CasterFaces::isOutside(const glm::dvec4& light) const {
-    if (!solids || light.w == 0.0) return true;
-    const osg::BoundingBox& box = solids->getBoundingBox();
-    const osg::Vec3 rounding = osg::Vec3(1.0f, 1.0f, 1.0f) * (1e-6f * box.radius());
-    return !osg::BoundingBox(box._min - rounding, box._max + rounding)
-                .contains(osg::Vec3(osg::Vec3d(light.x, light.y, light.z)));
+    if (light.w == 0.0) return true;
+    const osg::Vec3 lamp(osg::Vec3d(light.x, light.y, light.z));
+    return std::none_of(_boxes.begin(), _boxes.end(), [&](const osg::BoundingBox& box) {
+        const float rounding = 1e-6f * (lamp.length() + box.radius());
+        const osg::Vec3 more(rounding, rounding, rounding);
+        return osg::BoundingBox(box._min - more, box._max + more).contains(lamp);
+    });
 }
 
 void CasterFaces::draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, bool outside) const {

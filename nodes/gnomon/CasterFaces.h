@@ -5,8 +5,11 @@
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
+#include <osg/BoundingBox>
 #include <osg/Geometry>
 #include <osg/RenderInfo>
+
+#include <vector>
 
 namespace gnomon {
 
@@ -39,6 +42,9 @@ struct CasterFaces : public osg::Referenced {
 
 protected:
     ~CasterFaces() override = default;
+
+private:
+    std::vector<osg::BoundingBox> _boxes; ///< of the solids.
 };
 
 } // namespace gnomon

@@ -37,6 +37,22 @@ protected:
     }
 };
 
+/// Reads pieces where they are, without the nodes above them.
+class PieceReader : public VertexTraverser {
+public:
+    void read(const CasterPiece& piece) {
+        _piece = &piece;
+        setRootFromVisited(piece.groupFromLocal);
+        const_cast<osg::Drawable&>(*piece.drawable).accept(*this); // which changes nothing
+    }
+
+protected:
+    std::optional<AlphaTest> alphaTest() const override { return _piece->test; }
+
+private:
+    const CasterPiece* _piece = nullptr;
+};
+
 /// Meets casters, and knows those again that it is told of.
 class PieceVisitor : public CasterVisitor {
 public:
@@ -81,7 +97,7 @@ private:
     /// In the old order as a rule. One that differs has changed in place, unless the one after it is met: then it is gone. If
     /// two differ, any may be anywhere.
     const CasterPiece* find(std::uint64_t value) {
-        if (isAt(_next + 1, value)) ++_next;
+        if (!isAt(_next, value) && isAt(_next + 1, value)) ++_next;
         if (!isAt(_next, value)) {
             const std::size_t place = _missed ? placeOf(value) : _known.size();
             if (place == _known.size()) {
@@ -115,16 +131,15 @@ private:
         piece->bounds = found.bounds;
         holdSources(drawable, piece->sources);
         if (test) test->hold(drawable, piece->sources);
-        if (test || found.anyInvalid) describe(drawable, *piece);
+        if (test || found.anyInvalid) describe(*piece);
         return piece;
     }
 
     /// What is missing of it.
-    void describe(osg::Drawable& drawable, CasterPiece& piece) const {
-        VertexTraverser found;
-        found.setRootFromVisited(rootFromLocal());
-        for (osg::Node* node : getNodePath()) found.pushOntoNodePath(node); // for the names and states in it
-        drawable.accept(found);
+    void describe(CasterPiece& piece) const {
+        PieceReader found;
+        for (osg::Node* node : getNodePath()) found.pushOntoNodePath(node); // for the names in it
+        found.read(piece);
         piece.invalidTriangles = found.getInvalidTriangles();
         piece.invalidNode = found.getInvalidNode();
         piece.unknownTests = found.getUnknownTests();
@@ -137,22 +152,6 @@ private:
     std::size_t _same = 0, _next = 0;
     bool _changed = false, _missed = false;
     Fingerprint _fingerprint;
-};
-
-/// Reads pieces where they are, without the nodes above them.
-class PieceReader : public VertexTraverser {
-public:
-    void read(const CasterPiece& piece) {
-        _piece = &piece;
-        setRootFromVisited(piece.groupFromLocal);
-        const_cast<osg::Drawable&>(*piece.drawable).accept(*this); // which changes nothing
-    }
-
-protected:
-    std::optional<AlphaTest> alphaTest() const override { return _piece->test; }
-
-private:
-    const CasterPiece* _piece = nullptr;
 };
 
 } // namespace

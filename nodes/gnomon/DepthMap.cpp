@@ -140,7 +140,7 @@ std::string DepthMap::updateBlocks(osg::State& state, const osg::StateSet& progr
         if (!_blocks) _blocks = new BlockDepths(size);
     }
     const std::string cause = _blocks->update(state, program, *_texture);
-    if (cause.empty()) target.inBlocks = target.shown;
+    target.inBlocks = cause.empty();
     return cause;
 }
 
@@ -172,7 +172,7 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     if (cause.empty()) cause = drawMoving(renderInfo, target, picture, due);
     drawn += static_cast<unsigned>(due.size());
     target.shown = cause.empty() ? &picture : nullptr;
-    if (!due.empty()) target.inBlocks = nullptr;
+    if (!due.empty()) target.inBlocks = false;
     return cause;
 }
 

@@ -84,7 +84,7 @@ private:
         GLuint framebuffer = 0, saved = 0;                    ///< the latter's texture holds what movers hide.
         const osg::Texture::TextureObject* texture = nullptr; ///< attached to it.
         osg::ref_ptr<const MapPicture> shown;
-        const MapPicture* inBlocks = nullptr; ///< what its blocks are of: `shown`, or none.
+        bool inBlocks = false; ///< its blocks are those of what it shows.
     };
     /// A tile that is to be drawn, and the one that is shown there; null if that has something else that stands still.
     struct Due {

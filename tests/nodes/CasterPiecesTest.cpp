@@ -132,6 +132,26 @@ TEST(CasterPieces, AreTestedAsTheWayDownToThemSays) {
     ASSERT_EQ(mesh->cutouts.size(), 1u);
     EXPECT_EQ(mesh->cutouts[0].drawn, 1u);
     EXPECT_EQ(pieces->unknownTests, 0u);
+    pane->setTexCoordArray(0, nullptr);
+    EXPECT_EQ(CasterPieces::of(*root, {}, pieces)->unknownTests, 1u) << "by the state of what is above it";
+}
+
+// Two that are alike in one place, behind one that moves.
+TEST(CasterPieces, OfEqualOnesStayTheSame) {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+    mover->addChild(triangle(0.0f));
+    const osg::ref_ptr<osg::Geometry> twice = triangle(3.0f);
+    root->addChild(mover);
+    root->addChild(twice);
+    root->addChild(twice);
+    const auto before = CasterPieces::of(*root, {}, nullptr);
+    mover->setMatrix(osg::Matrixd::translate(0.0, 0.0, 1.0));
+    const auto after = CasterPieces::of(*root, {}, before);
+    ASSERT_EQ(after->list.size(), 3u);
+    EXPECT_NE(after->list[0], before->list[0]);
+    EXPECT_EQ(after->list[1], before->list[1]);
+    EXPECT_EQ(after->list[2], before->list[2]);
 }
 
 /// Exactly: 10 + 1 is where the next begins.
