@@ -204,6 +204,37 @@ TEST(MapSoft, CascadesMeetWithoutASeam) {
     EXPECT_GT(result.partly, 5000);
 }
 
+// As wide as the filter of each map, in which a texel is several times as wide as in the one before: seen along lines beside the
+// edge, a third of a metre and less, the share changes little from one row of pixels to the next, where one map ends, too.
+TEST(MapSoft, CascadesOfTheFilterAloneFadeIntoOneAnother) {
+    const double height = 6.0;
+    const test::View view = test::perspective({-5.0, height, 1.0}, {300.0, height, 0.0}, 1200, 300, 10.0, 1.0, 1000.0);
+    Scene scene = test::scene({0.0, -1.0, 1.0, 0.0});
+    scene.content->addChild(test::node(test::quad({-10.0, -50.0, 0.0}, {310.0, 0.0, 0.0}, {0.0, 100.0, 0.0})));
+    scene.content->addChild(test::node(test::quad({-10.0, -100.0, height}, {310.0, 0.0, 0.0}, {0.0, 100.0, 0.0})));
+    const osg::ref_ptr<ShadowMapTechnique> technique = softMap(128, 0.0);
+    technique->setCascades(3);
+    scene.addShadow(technique);
+    const Picture picture = test::render(scene.root, view);
+    const auto placeOf = [&](int x, int y) {
+        const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
+        return sight.from - sight.way * (sight.from.z / sight.way.z);
+    };
+    /// Between the two pixels of a row that a line along x passes between.
+    const auto shareAt = [&](int row, double line) {
+        int x = 0; // left is where y is more
+        while (x + 2 < view.width && placeOf(x + 1, row).y > line) ++x;
+        const double left = placeOf(x, row).y, right = placeOf(x + 1, row).y, t = (left - line) / (left - right);
+        return (1.0 - t) * shareOf(picture.at(x, row)) + t * shareOf(picture.at(x + 1, row));
+    };
+    double most = 0.0;
+    for (const double beside : {-0.3, -0.15, 0.15, 0.3})
+        for (int row = 0; placeOf(view.width / 2, row + 1).x < 100.0 && placeOf(view.width / 2, row + 1).x > 0.0; ++row)
+            most = std::max(most, std::abs(shareAt(row + 1, height + beside) - shareAt(row, height + beside)));
+    std::cout << "from row to row at most " << most << "\n";
+    EXPECT_LT(most, 0.12); // what rows differ by anyway, and a fifth; 0.18 where a map ends at once
+}
+
 // Its hard edges are those of the same filter, whatever is added to them.
 TEST(MapSoft, WithoutExtentIsTheFilterAndItsHalfIsTheHardEdge) {
     const TracedCase town = test::townOfHouses();
