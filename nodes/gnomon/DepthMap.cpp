@@ -170,7 +170,7 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     }
     std::string cause = drawStill(renderInfo, target, picture, due);
     if (cause.empty()) cause = drawMoving(renderInfo, target, picture, due);
-    drawn += static_cast<unsigned>(due.size());
+    if (cause.empty()) drawn += static_cast<unsigned>(due.size());
     target.shown = cause.empty() ? &picture : nullptr;
     if (!due.empty()) target.inBlocks = false;
     return cause;
