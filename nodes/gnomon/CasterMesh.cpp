@@ -41,8 +41,6 @@ CasterMesh::CasterMesh(const VertexTraverser& casters, const std::optional<osg::
       bounds(boundsOf(casters)),
       rounding(casters.getRounding()),
       drawn(casters.getDrawn()),
-      unknownTests(casters.getUnknownTests()),
-      unknownNode(casters.getUnknownNode()),
       invalidTriangles(casters.getInvalidTriangles()),
       invalidNode(casters.getInvalidNode()),
       sources(casters.getSources()) {

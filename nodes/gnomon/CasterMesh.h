@@ -34,8 +34,6 @@ public:
     double rounding = 0.0;                         ///< how far off its float source may put a vertex, group's unit.
     std::vector<VertexTraverser::Drawn> drawn;     ///< whose triangles they are; `first` as in `triangles`.
     std::vector<VertexTraverser::Cutout> cutouts;  ///< of those; `firstVertex` as in `vertices`.
-    unsigned unknownTests = 0;                     ///< see VertexTraverser::getUnknownTests().
-    std::string unknownNode;                       ///< where the first of them is.
     unsigned invalidTriangles = 0;                 ///< left out; see VertexTraverser::getInvalidTriangles().
     std::string invalidNode;                       ///< where the first of them is.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().

@@ -181,12 +181,13 @@ std::string DepthMap::drawStill(osg::RenderInfo& renderInfo, const Target& targe
     std::vector<Part> parts;
     for (const Due& each : due)
         if (!each.shown) parts.push_back({each.tile, wholeOf(*each.tile, picture.size)});
-    if (!target.shown) clearAll();
-    for (const Part& part : parts) {
-        if (!target.shown) break;
-        glScissor(part.texels.x, part.texels.y, part.texels.width, part.texels.height);
-        glClear(GL_DEPTH_BUFFER_BIT);
-    }
+    if (target.shown)
+        for (const Part& part : parts) {
+            glScissor(part.texels.x, part.texels.y, part.texels.width, part.texels.height);
+            glClear(GL_DEPTH_BUFFER_BIT);
+        }
+    else
+        clearAll();
     return drawLayer(renderInfo, picture, picture.still, parts);
 }
 
@@ -220,11 +221,10 @@ std::string DepthMap::drawLayer(osg::RenderInfo& renderInfo, const MapPicture& p
     if (layer.casters) {
         state.apply(picture.program.get());
         if (!hasProgram(state)) return noProgram;
-    }
-    for (const Part& part : parts) {
-        if (!layer.casters) break;
-        drawInto(state, *part.tile, picture.size, part.texels);
-        layer.casters->draw(renderInfo, part.tile->clipFromCaster, layer.outside);
+        for (const Part& part : parts) {
+            drawInto(state, *part.tile, picture.size, part.texels);
+            layer.casters->draw(renderInfo, part.tile->clipFromCaster, layer.outside);
+        }
     }
     if (layer.cutouts.empty()) return "";
     state.apply(picture.cutoutProgram.get());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/CascadeSplits.h>
 #include <gnomon/Convert.h>
+#include <gnomon/LightFrames.h>
 #include <gnomon/LightMap.h>
 #include <gnomon/ScreenBounds.h>
 
@@ -31,39 +32,6 @@ bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
 bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) {
     if (!a || !b) return a.has_value() == b.has_value();
     return a->cutoff == b->cutoff && glm::distance(a->axis, b->axis) <= sameLight;
-}
-
-/// Of a sun one; of a lamp that sees all casters to one side one, else those of a cube, a little larger so that what is
-/// on an edge is in both. Of a spot one about its cone, unless that is nearly flat.
-///
-/// A lamp is a sun where that moves no shadow by more than an eighth of a texel: else its depths would be rounded off.
-std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<SpotCone>& cone,
-                                 const MapCasters& casters, int texels) {
-    const glm::dvec3 at(light);
-    if (light.w == 0.0 || glm::length(at) > 8.0 * texels * glm::length(casters.reach))
-        return {sunFrame(glm::normalize(at))};
-    constexpr double onEdges = 1.05, flat = 4.0;
-    if (cone && std::tan(cone->cutoff) < flat) return {lampFrame(at, cone->axis, onEdges * std::tan(cone->cutoff))};
-    std::vector<LightFrame> frames;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double sign : {1.0, -1.0}) {
-            glm::dvec3 way(0.0);
-            way[axis] = sign;
-            frames.push_back(lampFrame(at, way, onEdges));
-        }
-    constexpr double wide = 2.0;
-    const LightFrame ahead = lampFrame(at, glm::normalize(-at), wide);
-    const auto corners = boxCorners(casters.low, casters.high, glm::dmat4(1.0));
-    const bool holdsAll = std::all_of(ahead.halfSpaces.begin(), ahead.halfSpaces.end(), [&](const glm::dvec4& half) {
-        return std::all_of(corners.begin(), corners.end(), [&](const auto& p) { return glm::dot(half, p) > 0.0; });
-    });
-    return holdsAll ? std::vector{ahead} : frames;
-}
-
-bool areSame(const std::vector<LightFrame>& a, const std::vector<LightFrame>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LightFrame& one, const LightFrame& other) {
-        return one.sun == other.sun && one.lightFromScene == other.lightFromScene && one.halfSpaces == other.halfSpaces;
-    });
 }
 
 } // namespace

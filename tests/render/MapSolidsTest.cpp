@@ -42,6 +42,14 @@ Picture drawnAgain(Scene scene, const test::View& view) {
 
 const test::View aside = test::perspective({-9.0, -12.0, 9.0}, {0.0, 0.0, 0.0}, 320, 240);
 
+/// Pixels that the lamp's light reaches once the map is drawn again.
+int differentFromDark(const std::vector<test::Mesh>& casters, const osg::Vec4d& lamp) {
+    Scene dark = build(casters, lamp, ShadowMapTechnique::NOTHING);
+    dark.takeLightAway();
+    return drawnAgain(build(casters, lamp, ShadowMapTechnique::NOTHING), aside)
+        .different(test::render(dark.root, aside));
+}
+
 } // namespace
 
 // Solids; one inside out and an open quad, whose backs are turned to the sun; two that stand in one another. In the map itself
@@ -70,21 +78,11 @@ TEST(MapSolids, OfManyDrawablesHoldTheLightOfALampInsideToo) {
                                         test::quad({-1.0, 1.0, 1.0}, {0.0, 0.0, 2.0}, {2.0, 0.0, 0.0}),
                                         test::quad({-1.0, -1.0, 1.0}, {0.0, 0.0, 2.0}, {0.0, 2.0, 0.0}),
                                         test::quad({1.0, -1.0, 1.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 2.0})};
-    const osg::Vec4d inside(0.2, 0.1, 2.0, 1.0);
-    Scene dark = build(sides, inside, ShadowMapTechnique::NOTHING);
-    dark.takeLightAway();
-    EXPECT_EQ(
-        drawnAgain(build(sides, inside, ShadowMapTechnique::NOTHING), aside).different(test::render(dark.root, aside)),
-        0);
+    EXPECT_EQ(differentFromDark(sides, {0.2, 0.1, 2.0, 1.0}), 0);
 }
 
 // A lamp in a closed box sees nothing but backs.
 TEST(MapSolids, HoldTheLightOfALampInside) {
     const std::vector<test::Mesh> closed{test::box({-1.0, -1.0, 1.0}, {1.0, 1.0, 3.0})};
-    const osg::Vec4d inside(0.0, 0.0, 2.0, 1.0);
-    Scene dark = build(closed, inside, ShadowMapTechnique::NOTHING);
-    dark.takeLightAway();
-    EXPECT_EQ(
-        drawnAgain(build(closed, inside, ShadowMapTechnique::NOTHING), aside).different(test::render(dark.root, aside)),
-        0);
+    EXPECT_EQ(differentFromDark(closed, {0.0, 0.0, 2.0, 1.0}), 0);
 }
