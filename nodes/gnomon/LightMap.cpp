@@ -18,12 +18,14 @@
 namespace gnomon {
 namespace {
 
-constexpr double reserve = 1.0 / 16.0; // of a map's sides
-constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
-constexpr double border = 3.0;         // texels: what a comparison reaches over, and one against rounding
-constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
-constexpr int largestTexture = 16384;  // texels on a side: what OpenGL has in most places
-constexpr double sameLight = 1e-7;     // of the distance: what OSG's matrices and floats make of a light at rest
+constexpr double reserve = 1.0 / 16.0;  // of a map's sides
+constexpr double mostWaste = 2.0;       // area of a map to the smallest that would do: edges may be a half coarser
+constexpr double mostPixels = 1.5;      // on a side of a texel, where it is widest
+constexpr double mostSoftPixels = 0.33; // the same of soft edges: penumbras of a pixel or two are wider than the filter
+constexpr double border = 3.0;          // texels: what a comparison reaches over, and one against rounding
+constexpr double widestSpread = 128.0;  // texels: as map_filter.frag has it
+constexpr int largestTexture = 16384;   // texels on a side: what OpenGL has in most places
+constexpr double sameLight = 1e-7;      // of the distance: what OSG's matrices and floats make of a light at rest
 
 bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
     return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
@@ -77,6 +79,7 @@ void LightMap::setCause(const glm::dvec4& light, const std::optional<SpotCone>& 
     _faces.clear();
     _splits.clear();
     _cascades = wish.cascades;
+    if (!_map) _texels = wish.size;
     _frames = framesOf(_light, _cone, casters, _wish.size);
     for (const LightFrame& frame : _frames) addFaces(frame);
 }
@@ -179,27 +182,30 @@ std::vector<glm::dvec4> LightMap::find(const std::vector<MapReceiver>& receivers
     for (MapFace& face : _faces) {
         face.reach = face.needed = face.held = MapOutline(face.frame);
         if (face.part > _splits.size()) continue;
-        findNeeded(face, receivers, viewPart(clipFromScene, _splits, face.part));
+        findNeeded(face, receivers, viewPart(clipFromScene, _splits, face.part),
+                   SeenPixels(face.frame, clipFromScene, width));
         for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);
     }
     return points;
 }
 
-void LightMap::findNeeded(MapFace& face, const std::vector<MapReceiver>& receivers,
-                          const std::vector<glm::dvec4>& part) const {
+void LightMap::findNeeded(MapFace& face, const std::vector<MapReceiver>& receivers, const std::vector<glm::dvec4>& part,
+                          SeenPixels pixels) const {
     for (const MapBlocker& blocker : face.blockers) {
         std::vector<glm::dvec4> halfSpaces = part;
         halfSpaces.insert(halfSpaces.end(), blocker.halfSpaces.begin(), blocker.halfSpaces.end());
-        addNeeded(face, blocker, receivers, std::move(halfSpaces));
+        addNeeded(face, blocker, receivers, std::move(halfSpaces), pixels);
     }
+    face.texel = pixels.side;
     face.needed.limitNearest();
-    face.held = face.needed;
-    if (isWide(face.frame) && !face.needed.empty()) findHeld(face);
+    findHeld(face);
 }
 
 /// Of edges that are wider than the filter: what is about each place, too, and how far away what blocks the light is.
 void LightMap::findHeld(MapFace& face) const {
-    const double most = 1.5 * widestSpread / _wish.size * face.needed.length(); // a map so much larger has wider texels
+    face.held = face.needed;
+    if (!isWide(face.frame) || face.needed.empty()) return;
+    const double most = 1.5 * widestSpread / _texels * face.needed.length(); // a map so much larger has wider texels
     MapOutline blockers = face.reach;
     blockers.nearest = face.nearestBlocker;
     face.held.grow(std::min(softness(face.frame, blockers, face.needed.farthest), most));
@@ -210,7 +216,7 @@ void LightMap::findHeld(MapFace& face) const {
 
 /// What of what one of them can darken is seen.
 void LightMap::addNeeded(MapFace& face, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
-                         std::vector<glm::dvec4> halfSpaces) const {
+                         std::vector<glm::dvec4> halfSpaces, SeenPixels& pixels) const {
     const auto add = [&](MapOutline& to) {
         for (const MapReceiver& receiver : receivers)
             to.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
@@ -227,6 +233,8 @@ void LightMap::addNeeded(MapFace& face, const MapBlocker& blocker, const std::ve
     add(needed);
     needed.cut(reach);
     if (needed.empty()) return;
+    for (const MapReceiver& receiver : receivers)
+        pixels.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
     face.nearestBlocker =
         face.needed.empty() ? blocker.outline.nearest : std::min(face.nearestBlocker, blocker.outline.nearest);
     face.needed.merge(needed);
@@ -251,9 +259,36 @@ double LightMap::softness(const LightFrame& frame, MapOutline blocker, double fa
     return softReach(frame, blocker.nearest, farthest, lightRadius(frame), _wish.soft->radius);
 }
 
+/// On a side of the map that needs most.
+double LightMap::texelsWanted() const {
+    const double pixels = _wish.soft ? mostSoftPixels : mostPixels;
+    double wanted = 0.0;
+    for (const MapFace& face : _faces) {
+        if (face.needed.empty()) continue;
+        const glm::dvec2 size = holds(face) ? face.fit->size : fitOf(face).size;
+        wanted = std::max(wanted, std::max(size.x, size.y) / (pixels * face.texel));
+    }
+    return wanted;
+}
+
+/// Takes other texels than before if need be: no map holds what it must then.
+void LightMap::resize() {
+    constexpr int rounds = 8; // what soft edges reach depends on how wide texels are
+    int before = _map ? _texels : 0;
+    for (int round = 0; round < rounds; ++round) {
+        const int texels = texelsFor(texelsWanted(), _wish.size, before);
+        if (texels == before) return;
+        before = _texels = texels;
+        for (MapFace& face : _faces) {
+            face.fit = std::nullopt;
+            findHeld(face);
+        }
+    }
+}
+
 /// True if the face's map is not to be drawn again.
 bool LightMap::holds(const MapFace& face) const {
-    if (!face.fit || !face.fit->covers(face.held, (border - 1.0) / _wish.size)) return false;
+    if (!face.fit || !face.fit->covers(face.held, (border - 1.0) / _texels)) return false;
     return face.fit->area() <= mostWaste * fitOf(face).area();
 }
 
@@ -264,7 +299,7 @@ MapFit LightMap::fitOf(const MapFace& face) const {
         most.merge(face.held);
         most.grow(reserve * face.held.length());
     }
-    return fitMap(face.frame, face.held, most, reserve, border / _wish.size, glm::length(_casters->reach) / 64.0);
+    return fitMap(face.frame, face.held, most, reserve, border / _texels, glm::length(_casters->reach) / 64.0);
 }
 
 /// Without its tiles. @param due  some are to be drawn from the first.
@@ -278,7 +313,7 @@ osg::ref_ptr<MapPicture> LightMap::pictureOf(const MapResources& resources, bool
     _drawnMoving = _casters->moving;
     picture->program = resources.casterProgram;
     picture->cutoutProgram = resources.cutoutProgram;
-    picture->size = _wish.size;
+    picture->size = _texels;
     picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
     return picture;
 }
@@ -305,7 +340,7 @@ PixelRect LightMap::moversIn(const MapPicture::Tile& tile, const MapErrors& erro
     std::for_each(moving.bodyBoxes.begin(), moving.bodyBoxes.end(), add);
     if (_flats) std::for_each(moving.flatBoxes.begin(), moving.flatBoxes.end(), add);
     if (!(low.x <= high.x && low.y <= high.y)) return {};
-    const double more = 1.0 + std::max(errors.nearest.texels, errors.farthest.texels), size = _wish.size;
+    const double more = 1.0 + std::max(errors.nearest.texels, errors.farthest.texels), size = _texels;
     const auto texel = [size](const glm::dvec2& place) { return glm::ivec2(glm::clamp(place, 0.0, size)); };
     const glm::ivec2 first = texel(glm::floor((low + 1.0) / 2.0 * size - more)),
                      end = texel(glm::ceil((high + 1.0) / 2.0 * size + more));
@@ -314,12 +349,13 @@ PixelRect LightMap::moversIn(const MapPicture::Tile& tile, const MapErrors& erro
 
 MapLookUp LightMap::lookUpOf(const MapFace& face) const {
     const double radius = _wish.soft ? _wish.soft->radius : 0.0;
-    return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, _casters->reach, _wish.size),
-            mapSpread(face.frame, *face.fit, lightRadius(face.frame), radius, _wish.size)};
+    return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, _casters->reach, _texels),
+            mapSpread(face.frame, *face.fit, lightRadius(face.frame), radius, _texels)};
 }
 
 /// The finest map comes first, for pixels take the first that holds them.
 void LightMap::update(const MapResources& resources) {
+    resize();
     const auto due = [this](const MapFace& face) { return !face.needed.empty() && !holds(face); };
     const bool anyDue = std::any_of(_faces.begin(), _faces.end(), due);
     if (_picture && !anyDue) return;
@@ -357,6 +393,7 @@ MapQuad LightMap::quad(const glm::dmat4& clipFromScene) const {
     quad.clipFromScene = clipFromScene;
     quad.defines = _wish.defines;
     quad.cascades = _faces.front().frame.sun && _lookUps.size() > 1;
+    quad.smooth = _wish.smooth;
     quad.soft = _wish.soft.has_value();
     quad.penumbra = lightRadius(_faces.front().frame) > 0.0;
     return quad;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/MapCasters.h>
+#include <gnomon/MapTexels.h>
 #include <gnomon/MapView.h>
 #include <gnomon/SpotCone.h>
 #include <gnomon/ViewFrame.h>
@@ -26,18 +27,19 @@ struct MapSoftness {
 
 /// How a technique wants its maps.
 struct MapWish {
-    int size = 1024;  ///< texels on a side of a tile.
+    int size = 1024;  ///< texels on a side of a tile, at most.
     int cascades = 0; ///< of a sun: how many of them at most; 0: see cascadesFor().
     osg::Texture::FilterMode compare = osg::Texture::LINEAR;
     std::string defines;             ///< see MapQuad.
-    std::optional<MapSoftness> soft; ///< edges; else they are hard.
+    bool smooth = false;             ///< edges, where they are not soft; else they are hard.
+    std::optional<MapSoftness> soft; ///< edges.
     MapView view = MapView::Nothing; ///< no part of the maps.
     int unit = -1;                   ///< no part of them either: see ShadowMapTechnique::setProgramUnit().
 
     /// True if its maps are the same.
     bool operator==(const MapWish& other) const {
         return size == other.size && cascades == other.cascades && compare == other.compare &&
-               defines == other.defines && soft == other.soft;
+               defines == other.defines && smooth == other.smooth && soft == other.soft;
     }
 };
 
@@ -77,6 +79,7 @@ struct MapFace {
     MapOutline reach, needed;    ///< what they can darken; what of that is seen.
     MapOutline held;             ///< what a map must hold for that.
     double nearestBlocker = 0.0; ///< depth of the nearest of what darkens any of it.
+    double texel = 0.0;          ///< side of the largest that is no larger than any pixel of it, see SeenPixels.
     std::optional<MapFit> fit;   ///< of the map that is drawn.
 };
 
@@ -112,14 +115,16 @@ private:
     std::vector<MapBlocker> blockersOf(const MapFace& face) const;
     double pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const;
     void findSplits(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene, double width);
-    void findNeeded(MapFace& face, const std::vector<MapReceiver>& receivers,
-                    const std::vector<glm::dvec4>& part) const;
+    void findNeeded(MapFace& face, const std::vector<MapReceiver>& receivers, const std::vector<glm::dvec4>& part,
+                    SeenPixels pixels) const;
     void addNeeded(MapFace& face, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
-                   std::vector<glm::dvec4> halfSpaces) const;
+                   std::vector<glm::dvec4> halfSpaces, SeenPixels& pixels) const;
     double lightRadius(const LightFrame& frame) const;
     bool isWide(const LightFrame& frame) const;
     void findHeld(MapFace& face) const;
     double softness(const LightFrame& frame, MapOutline blocker, double farthest) const;
+    double texelsWanted() const;
+    void resize();
     bool holds(const MapFace& face) const;
     MapFit fitOf(const MapFace& face) const;
     osg::ref_ptr<MapPicture> pictureOf(const MapResources& resources, bool due);
@@ -136,6 +141,7 @@ private:
     std::vector<MapFace> _faces; ///< of each frame one a part.
     int _cascades = 0;           ///< maps that a sun is to have; 0 until that is known.
     std::vector<double> _splits; ///< of what is seen: see cascadeSplits().
+    int _texels = 0;             ///< on a side of a tile, of those drawn last.
     osg::ref_ptr<DepthMap> _map;
     osg::ref_ptr<const MapPicture> _picture;                ///< null: to be made.
     osg::ref_ptr<const MapLayer> _drawnStill, _drawnMoving; ///< in the last picture.

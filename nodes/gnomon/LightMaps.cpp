@@ -83,7 +83,7 @@ osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, co
         screenOutline(corners, 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y())); // two pixels more, against rounding
     if (forPrograms) return new MapProgram(quad, glm::inverse(eyeFromScene(view, casters)), unsigned(wish.unit));
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
-    return wish.soft ? markOf<SoftMapMark>(quad, *bounds, wish.view) : markOf<MapMark>(quad, *bounds, wish.view);
+    return quad.fades() ? markOf<SoftMapMark>(quad, *bounds, wish.view) : markOf<MapMark>(quad, *bounds, wish.view);
 }
 
 osg::ref_ptr<const MapCasters> LightMaps::castersOf(const ShadowCasterGroup& group, const CasterPieces& pieces) {

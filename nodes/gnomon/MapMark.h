@@ -20,7 +20,7 @@ public:
     bool canDarken() const override { return true; }
     std::string darken(osg::RenderInfo& renderInfo, ScreenPass& pass, float factor) const override {
         pass.beginMultiplyByColor();
-        return quad.draw(renderInfo, pass, {quad.soft ? allOfIt : 0.5, false, factor});
+        return quad.draw(renderInfo, pass, {quad.fades() ? allOfIt : 0.5, false, factor});
     }
     bool hasView() const override { return view != MapView::Nothing; }
     void drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int before) const override {
@@ -38,7 +38,7 @@ protected:
 
 using MapMark = MapMarkOf<MarkJob>;
 
-/// The same with soft edges.
+/// The same with edges that fade.
 class SoftMapMark : public MapMarkOf<SoftMarkJob> {
 public:
     std::string markTouched(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;

@@ -63,7 +63,8 @@ std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, const W
     setUniform(state, "nearestError", errors(&MapErrors::nearest));
     setUniform(state, "farthestError", errors(&MapErrors::farthest));
     if (soft) setSpreads(state);
-    setUniform(state, "wanted", glm::dvec4(wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, soft ? 1.0 : 0.0));
+    setUniform(state, "wanted",
+               glm::dvec4(wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, fades() ? 1.0 : 0.0));
     setUniform(state, "seenPixels",
                glm::dvec4(pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1));
     wide ? drawWide(state, pass) : drawFragments(state, pass);
@@ -98,6 +99,7 @@ std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
     std::string text = mapDefines();
     if (coneFromScene) text += "#define CONE\n";
     text += soft ? "#define SOFT\n" : "#define HALVES\n";
+    if (smooth) text += "#define SMOOTH\n";
     if (wide) text += "#define PENUMBRA\n";
     if (isOdd(pixels)) text += "#define ODD\n";
     return text;

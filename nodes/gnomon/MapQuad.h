@@ -36,8 +36,12 @@ struct MapQuad {
     std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no fragments.
     std::string defines;                     ///< of the fragment shader: how it compares.
     bool cascades = false;                   ///< the finer of them hold part of what is seen only.
+    bool smooth = false;                     ///< edges are a pixel wide.
     bool soft = false;                       ///< wider than the filter, see MapSpread.
     bool penumbra = false;                   ///< and as wide as what blocks the light is far away.
+
+    /// True if pixels may have a part of the light.
+    bool fades() const { return smooth || soft; }
 
     /// Which fragments are drawn, and what they hold.
     struct Wanted {

@@ -22,6 +22,9 @@ struct MapWish;
 ///         caster in it, or when what is seen is no longer in it or would fill less than half of it. Casters between it and the
 ///         light count wherever they are. What is flat along an axis of the group, as grounds are, is left out while all that
 ///         is seen is on the light's side of it: it darkens nothing.
+/// Texels  as many as the view can show, and no more than setSize() allows: 1.5 pixels are as wide as the widest, on what of
+///         the seen receivers is nearest, or, for soft edges, a third of one. A map is drawn again with other texels when that
+///         needs an eighth more of them or half of them would do.
 /// Moving  Casters are in two layers. What has changed since it was first met, as by a transform above it, is in the one that
 ///         moves: it alone is extracted and drawn when it changes again, in those maps that it is or was in, over what stands
 ///         still, which stays in the map. What stood still and begins to move, or goes, costs one drawing of all.
@@ -37,7 +40,7 @@ struct MapWish;
 /// Alpha   of casters with an alpha test (osg::AlphaFunc) casts what that leaves of them, by the alpha of the 2D texture on
 ///         unit 0 at coordinates given a vertex; where alpha comes from elsewhere, all of them casts, and diagnose() says
 ///         so.
-/// Edges   hard: what gets less than half of the light, by the filter, gets none. Soft, see setEdges(): as much as the filter
+/// Edges   hard: what gets less than half of the light, by the filter, gets none. Smooth: the same edge, a pixel wide. Soft, see setEdges(): as much as the filter
 ///         says, or, of a light that is seen under an angle, as much as comes past what stands before it: its penumbra,
 ///         where that is wider than two texels.
 ///
@@ -47,8 +50,8 @@ struct MapWish;
 ///         seen.
 ///         Of a pixel 1, 1 or 4 comparisons of 2 × 2 texels, by the filter; soft edges take another copy and quad, and in
 ///         penumbras 16 texels and 8 to 32 comparisons more.
-/// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named. Soft edges:
-///         alpha bits, but for a single light that blends; penumbras: OpenGL 3.3 or its sampler objects.
+/// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named. Smooth
+///         and soft edges: alpha bits, but for a single light that blends; penumbras: OpenGL 3.3 or its sampler objects.
 /// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). A penumbra is that of one straight edge as far
 ///         away as what blocks the light there is on average: where several edges at several distances overlap it is a
 ///         guess; it is cut at 128 texels, and at the sides of a lamp's six maps. Of alpha tests, alpha of vertices and
@@ -77,8 +80,9 @@ public:
     };
 
     enum Edges : int {
-        HARD, ///< a pixel has all of a light or none of it.
-        SOFT  ///< it has the share that arrives.
+        HARD,   ///< a pixel has all of a light or none of it.
+        SMOOTH, ///< where an edge passes through it, it has what of the light is on its lit side.
+        SOFT    ///< it has the share that arrives.
     };
 
     /// What is drawn over the finished picture, to see how maps lie.
@@ -94,8 +98,8 @@ public:
     ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowMapTechnique)
 
-        /// Texels on a side of each map, 16 … 16384; default 1024. Clamped; beyond what OpenGL has there is no shadow, and
-        /// diagnose() says so.
+        /// Texels on a side of each map, at most, 16 … 16384; default 1024. Clamped; beyond what OpenGL has there is no shadow,
+        /// and diagnose() says so. Fewer are used where the view can show no more, see Texels.
         void setSize(int texels);
     int getSize() const { return _size; }
 
@@ -112,7 +116,7 @@ public:
     int getCascades() const { return _cascades; }
 
     /// Default HARD, which any value that is none of them stands for too. What follows counts where edges are soft.
-    void setEdges(Edges edges) { _edges = edges == SOFT ? SOFT : HARD; }
+    void setEdges(Edges edges) { _edges = edges == SMOOTH || edges == SOFT ? edges : HARD; }
     Edges getEdges() const { return _edges; }
 
     /// Angle under which suns are seen, degrees, 0 … 20; default 0.533, the sun's own from the earth; 0 is a point, whose edges

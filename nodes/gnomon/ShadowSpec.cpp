@@ -97,6 +97,8 @@ bool takeCascades(ShadowSpec& spec, const std::string& value) {
 bool takeEdges(ShadowSpec& spec, const std::string& value) {
     if (value == "hard")
         spec.edges = ShadowMapTechnique::HARD;
+    else if (value == "smooth")
+        spec.edges = ShadowMapTechnique::SMOOTH;
     else if (value == "soft")
         spec.edges = ShadowMapTechnique::SOFT;
     return spec.edges.has_value();
@@ -188,8 +190,9 @@ const std::vector<Technique>& techniques() {
                                "compare 1, 2 x 2 or 4 x 4 texels of the map", takeFilter};
     static const Key cascades = {"cascades", "auto, 1 to 4", "auto", "maps of a sun, each for a part of a long view",
                                  takeCascades};
-    static const Key edges = {"edges", "hard, soft", "hard",
-                              "all of the light or none of it, or the share that arrives", takeEdges};
+    static const Key edges = {"edges", "hard, smooth, soft", "hard",
+                              "all of the light or none of it, the same a pixel wide, or the share that arrives",
+                              takeEdges};
     static const Key sunAngle = {"sun-angle", "0 to 20, degrees", "0.533",
                                  "with edges=soft: angle that a sun is seen under; 0 is a point", takeSunAngle};
     static const Key lampSize = {"lamp-size", "0 to 1e6, scene's unit", "0",

@@ -20,6 +20,7 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
     ADD_INT_SERIALIZER(Cascades, fresh->getCascades());
     BEGIN_ENUM_SERIALIZER(Edges, HARD);
     ADD_ENUM_VALUE(HARD);
+    ADD_ENUM_VALUE(SMOOTH);
     ADD_ENUM_VALUE(SOFT);
     END_ENUM_SERIALIZER();
     wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("SunAngle", fresh->getSunAngle(),

@@ -88,18 +88,31 @@ float visibility(vec4 pixel, vec4 plane) {
     return left < 1.0 ? share / (1.0 - left) : 1.0;
 }
 
+#ifdef SMOOTH
+// Share of a pixel that is on the lit side of an edge, which is where half of the light arrives, by the filter.
+float ofPixel(float arrives) {
+    const float least = 1.0 / 1024.0; // change a pixel: of what is wider than that no edge is seen
+    float off = arrives - 0.5;
+    off += 2.2 * off * off * off; // about linear in the distance from the edge: what the filter makes of a straight one, undone
+    float change = max(abs(dFdx(off)), abs(dFdy(off))); // of a slanting edge, too, the share changes so in a pixel's middle
+    return clamp(0.5 + off / max(change, least), 0.0, 1.0);
+}
+#endif
+
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     float e = 1.0 - texelFetch(seen, here, 0).r;
     vec2 slope = changeOf(e, here);
-    if (e <= 0.0) discard; // nothing is seen
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));
     vec2 at = gl_FragCoord.xy + depthError.zw;
+    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
+#ifdef SMOOTH
+    arrives = ofPixel(arrives);
+#endif
+    if (e <= 0.0 || arrives >= wanted.x) discard; // e is 0 where nothing is seen
 #ifdef CONE
     if (!isInCone(vec4(at, e, 1.0))) discard; // a ConeMark's, or nobody's
 #endif
-    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
-    if (arrives >= wanted.x) discard;
     gl_FragColor = vec4(vec3(mix(wanted.z, 1.0, arrives * wanted.w)), mix(arrives, 1.0 - arrives, wanted.y));
 }

@@ -96,7 +96,7 @@ TEST(ShadowSpec, KeysOfSoftMapsAreReadAndSet) {
     osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
     const auto added =
         addShadows(*group, {parseShadowSpec("map:edges=soft,sun-angle=2.5,lamp-size=0.25,radius=3,view=map"),
-                            parseShadowSpec("map:edges=hard")});
+                            parseShadowSpec("map:edges=hard"), parseShadowSpec("map:edges=smooth")});
     const auto& soft = dynamic_cast<ShadowMapTechnique&>(*added.at(0));
     EXPECT_EQ(soft.getEdges(), ShadowMapTechnique::SOFT);
     EXPECT_EQ(soft.getSunAngle(), 2.5);
@@ -104,9 +104,10 @@ TEST(ShadowSpec, KeysOfSoftMapsAreReadAndSet) {
     EXPECT_EQ(soft.getRadius(), 3.0);
     EXPECT_EQ(soft.getView(), ShadowMapTechnique::MAP);
     EXPECT_EQ(dynamic_cast<ShadowMapTechnique&>(*added.at(1)).getEdges(), ShadowMapTechnique::HARD);
+    EXPECT_EQ(dynamic_cast<ShadowMapTechnique&>(*added.at(2)).getEdges(), ShadowMapTechnique::SMOOTH);
     EXPECT_EQ(parseShadowSpec("map:view=texels").view, ShadowMapTechnique::TEXELS);
     EXPECT_EQ(refusal("map:view=x"), "view=x cannot be used; allowed: nothing, map, texels, cascades.");
-    EXPECT_EQ(refusal("map:edges=round"), "edges=round cannot be used; allowed: hard, soft.");
+    EXPECT_EQ(refusal("map:edges=round"), "edges=round cannot be used; allowed: hard, smooth, soft.");
     EXPECT_EQ(refusal("map:sun-angle=21"), "sun-angle=21 cannot be used; allowed: 0 to 20, degrees.");
     EXPECT_EQ(refusal("map:lamp-size=-1"), "lamp-size=-1 cannot be used; allowed: 0 to 1e6, scene's unit.");
     EXPECT_EQ(refusal("map:radius=nan"), "radius=nan cannot be used; allowed: 0 to 1e6, scene's unit.");

@@ -21,6 +21,7 @@ Scene build(const std::vector<test::Mesh>& casters, const osg::Vec4d& light, Sha
     mirror->addChild(test::node(test::box({1.0, -5.0, 0.0}, {2.0, -3.0, 1.5}))); // its faces look inwards
     scene.content->addChild(mirror);
     const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    technique->setSize(256); // fewer than are of use for any of the lights: all maps have as many
     technique->setView(view);
     scene.addShadow(technique);
     return scene;
@@ -53,7 +54,7 @@ int differentFromDark(const std::vector<test::Mesh>& casters, const osg::Vec4d& 
 } // namespace
 
 // Solids; one inside out and an open quad, whose backs are turned to the sun; two that stand in one another. In the map itself
-// the nearest face is seen, whichever are drawn.
+// the nearest face is seen, whichever are drawn; where faces meet a texel may show either.
 TEST(MapSolids, LookTheSameWhenTheirBacksAreLeftOut) {
     const std::vector<test::Mesh> casters{test::sphere({0.0, 0.0, 1.5}, 1.0),
                                           test::insideOut(test::box({2.0, 2.0, 0.0}, {3.0, 3.0, 2.0})),
@@ -64,13 +65,13 @@ TEST(MapSolids, LookTheSameWhenTheirBacksAreLeftOut) {
     for (const osg::Vec4d& light :
          {osg::Vec4d(1.0, 0.5, 1.0, 0.0), osg::Vec4d(-1.0, 0.2, 0.4, 0.0), osg::Vec4d(1.0, 0.0, 5.0, 1.0)})
         for (const auto view : {ShadowMapTechnique::NOTHING, ShadowMapTechnique::MAP})
-            EXPECT_EQ(drawnAgain(build(casters, light, view), aside)
+            EXPECT_LE(drawnAgain(build(casters, light, view), aside)
                           .different(test::render(build(casters, light, view).root, aside)),
-                      0)
+                      view == ShadowMapTechnique::MAP ? 5 : 0)
                 << light.x() << ", " << light.y() << ", " << light.z() << ", view " << view;
 }
 
-// The sides of a box as six drawables make one solid together, with the lamp in it.
+// The sides of a box as six drawables make one solid together, with the lamp in it. Corners of texels reach past its own.
 TEST(MapSolids, OfManyDrawablesHoldTheLightOfALampInsideToo) {
     const std::vector<test::Mesh> sides{test::quad({-1.0, -1.0, 1.0}, {0.0, 2.0, 0.0}, {2.0, 0.0, 0.0}),
                                         test::quad({-1.0, -1.0, 3.0}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0}),
@@ -78,7 +79,7 @@ TEST(MapSolids, OfManyDrawablesHoldTheLightOfALampInsideToo) {
                                         test::quad({-1.0, 1.0, 1.0}, {0.0, 0.0, 2.0}, {2.0, 0.0, 0.0}),
                                         test::quad({-1.0, -1.0, 1.0}, {0.0, 0.0, 2.0}, {0.0, 2.0, 0.0}),
                                         test::quad({1.0, -1.0, 1.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 2.0})};
-    EXPECT_EQ(differentFromDark(sides, {0.2, 0.1, 2.0, 1.0}), 0);
+    EXPECT_LE(differentFromDark(sides, {0.2, 0.1, 2.0, 1.0}), 20);
 }
 
 // A lamp in a closed box sees nothing but backs.

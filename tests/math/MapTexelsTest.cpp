@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/MapTexels.h>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace gnomon;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const glm::dmat4 here(1.0);
+const glm::dvec3 down(0.0, 0.0, -1.0), north(0.0, 1.0, 0.0);
+
+/// A pixel is a 100th wide wherever it is.
+glm::dmat4 map() {
+    return glm::ortho(-1.0, 1.0, -1.0, 1.0, 0.0, 100.0) * glm::lookAt(glm::dvec3(0, 0, 50), glm::dvec3(0.0), north);
+}
+
+/// From above; a pixel is a 100th as wide as it is far away.
+glm::dmat4 flying(double height) {
+    return glm::perspective(std::acos(0.0), 1.0, 0.01, 1000.0) *
+           glm::lookAt(glm::dvec3(0, 0, height), glm::dvec3(0.0), north);
+}
+constexpr double width = 200.0;
+
+glm::dvec3 sunAt(double degrees) { return {std::cos(glm::radians(degrees)), 0.0, std::sin(glm::radians(degrees))}; }
+
+double sideOn(const glm::dvec3& low, const glm::dvec3& high, const LightFrame& light, const glm::dmat4& view,
+              const glm::dmat4& sceneFromBox = here, const std::vector<glm::dvec4>& halfSpaces = {}) {
+    SeenPixels pixels(light, view, width);
+    pixels.addBox(low, high, sceneFromBox, halfSpaces);
+    return pixels.side;
+}
+
+double onGround(double elevation) { return sideOn({-5, -5, 0}, {5, 5, 0}, sunFrame(sunAt(elevation)), map()); }
+
+} // namespace
+
+TEST(SeenPixels, AreStretchedByTheSlopeOfFlatGroundsUpToEightTimes) {
+    EXPECT_NEAR(onGround(90.0), 0.01, 1e-12);
+    EXPECT_NEAR(onGround(30.0), 0.01 * 0.5, 1e-12);
+    EXPECT_NEAR(onGround(1.0), 0.01 / 8.0, 1e-12);
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 1}, sunFrame(sunAt(30.0)), map()), 0.01 * 0.5, 1e-12); // a landscape
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 5}, sunFrame(sunAt(90.0)), map()), 0.01 * 0.5, 1e-12); // a body
+    // A wall that was built lying, ten times as large, is as steep to a sun at 60 degrees as a ground to one at 30.
+    const glm::dmat4 standing = glm::scale(glm::rotate(here, glm::radians(90.0), north), glm::dvec3(10.0));
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, sunFrame(sunAt(60.0)), map(), standing), 0.01 * 0.5, 1e-12);
+}
+
+TEST(SeenPixels, AreSmallestWhereWhatIsSeenIsNearest) {
+    const LightFrame sun = sunFrame(sunAt(90.0));
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 0}, sun, flying(20.0)), 0.2, 1e-12);
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 10}, sun, flying(20.0)), 0.1 / 2.0, 1e-12);
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 10}, sun, flying(20.0), here, {{0, 0, -1, 4}}), 0.16 / 2.0, 1e-12);
+    EXPECT_EQ(sideOn({-5, -5, 0}, {5, 5, 30}, sun, flying(20.0)), 0.0); // around the eye
+    EXPECT_EQ(sideOn({-5, -5, 0}, {5, 5, 0}, sun, flying(20.0), here, {{0, 0, 1, -1}}), infinity);
+
+    SeenPixels both(sun, flying(20.0), width);
+    both.addBox({-5, -5, 0}, {5, 5, 0}, here, {});
+    both.addBox({-5, -5, 12}, {5, 5, 12}, here, {});
+    both.addBox({-5, -5, 4}, {5, 5, 4}, here, {});
+    EXPECT_NEAR(both.side, 0.08, 1e-12);
+}
+
+// As a share of the distance from the lamp: in its map that is what a texel is.
+TEST(SeenPixels, AreSeenFromWhereALampIs) {
+    const LightFrame lamp = lampFrame({0, 0, 4}, down, 1.0);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lamp, map()), 0.01 / 4.0, 1e-12);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lampFrame({0, 0, 8}, down, 1.0), map()), 0.01 / 8.0, 1e-12);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lamp, flying(20.0)), 0.2 / 4.0, 1e-12);
+    // About a place three beside it and four below it the ground is seen at 4 / 5.
+    EXPECT_NEAR(sideOn({2.9, -0.1, 0}, {3.1, 0.1, 0}, lamp, map()), 0.01 / 4.0 * 0.8, 1e-12);
+}
+
+TEST(TexelsFor, AreAsManyAsWantedInSteps) {
+    EXPECT_EQ(texelsFor(512.0, 1024, 0), 512);
+    EXPECT_EQ(texelsFor(513.0, 1024, 0), 544);
+    EXPECT_EQ(texelsFor(0.0, 1024, 0), 64);
+    EXPECT_EQ(texelsFor(2000.0, 1024, 0), 1024);
+    EXPECT_EQ(texelsFor(infinity, 1024, 0), 1024);
+    EXPECT_EQ(texelsFor(1000.0, 1000, 0), 1000);
+    EXPECT_EQ(texelsFor(0.0, 16, 0), 16);
+}
+
+TEST(TexelsFor, StayUntilThereAreTooFewOrTwiceTooMany) {
+    for (const int before : {450, 512, 1000}) EXPECT_EQ(texelsFor(512.0, 1024, before), before);
+    EXPECT_EQ(texelsFor(512.0, 1024, 440), 512);
+    EXPECT_EQ(texelsFor(512.0, 2048, 1056), 512);
+    EXPECT_EQ(texelsFor(512.0, 600, 1000), 512); // fewer are allowed than before
+    EXPECT_EQ(texelsFor(0.0, 1024, 64), 64);
+    EXPECT_EQ(texelsFor(infinity, 1024, 1024), 1024);
+}

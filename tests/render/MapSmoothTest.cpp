@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+// Edges of maps that are a pixel wide: the share of a pixel on their lit side, against closed forms and against rays.
+#include "TracedCases.h"
+
+#include <glm/geometric.hpp>
+#include <gnomon/ShadowMapTechnique.h>
+#include <gtest/gtest.h>
+#include <osg/Math>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+using gnomon::ShadowCasterGroup;
+using gnomon::ShadowMapTechnique;
+using test::Picture;
+using test::Scene;
+using test::TracedCase;
+
+namespace {
+
+osg::ref_ptr<ShadowMapTechnique> mapWith(ShadowMapTechnique::Edges edges, int size = 1024) {
+    osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+    technique->setSize(size);
+    technique->setEdges(edges);
+    return technique;
+}
+
+/// Of the light, by how far a colour is from the dark one.
+double shareOf(std::uint32_t color, std::uint32_t dark, std::uint32_t lit) {
+    const auto red = [](std::uint32_t c) { return double(c & 0xffu); };
+    return (red(color) - red(dark)) / (red(lit) - red(dark));
+}
+
+/// Share of a pixel beyond a line. @param across  unit. @param middle  how far its middle is beyond, pixels.
+double coverage(const glm::dvec3& across, double middle) {
+    constexpr int samples = 32; // each way
+    int beyond = 0;
+    for (int i = 0; i < samples * samples; ++i) {
+        const glm::dvec3 off((i % samples + 0.5) / samples - 0.5, (i / samples + 0.5) / samples - 0.5, 0.0);
+        beyond += middle + glm::dot(off, across) > 0.0;
+    }
+    return double(beyond) / (samples * samples);
+}
+
+/// Pictures of a case in which a pixel's share of the light can be told.
+struct Shares {
+    explicit Shares(const TracedCase& of) : given(of) {
+        Scene in = given.build(), out = given.build();
+        out.takeLightAway();
+        lit = test::render(in.root, given.view);
+        dark = test::render(out.root, given.view);
+    }
+    Picture with(ShadowMapTechnique* technique) const {
+        Scene shadowed = given.build();
+        shadowed.addShadow(technique);
+        return test::render(shadowed.root, given.view);
+    }
+    bool tells(int x, int y) const { return int(lit.at(x, y) & 0xffu) - int(dark.at(x, y) & 0xffu) >= 20; }
+    double at(const Picture& picture, int x, int y) const {
+        return shareOf(picture.at(x, y), dark.at(x, y), lit.at(x, y));
+    }
+
+    TracedCase given;
+    Picture lit, dark;
+};
+
+} // namespace
+
+// A plate over one half of the ground, cut off at a slant, under a sun at 45 degrees: its shadow is cut off as the plate is, its
+// height further on. How far a pixel is from there says how much of it is on the lit side. Of hard edges the root of the mean
+// square would be 0.29, that of numbers spread evenly over a pixel.
+TEST(MapSmooth, PixelsHaveTheShareThatIsOnTheLitSide) {
+    const double half = 4.0, pixel = 2.0 * half / 256.0, height = 1.0;
+    for (const auto composite : {ShadowCasterGroup::RELIGHT, ShadowCasterGroup::BLEND})
+        for (const auto& [slant, most] : {std::pair(10.0, 0.205), {25.0, 0.14}, {40.0, 0.161}, {65.0, 0.14}}) {
+            const double dark =
+                composite == ShadowCasterGroup::BLEND ? 0.5 : double(test::shadowedGround) / test::litGround;
+            const double angle = osg::DegreesToRadians(slant);
+            const glm::dvec3 along(-std::sin(angle), std::cos(angle), 0.0), across(along.y, -along.x, 0.0);
+            Scene scene = test::groundScene(
+                {test::quad(glm::dvec3(0.0, 0.0, height) - 40.0 * along, 80.0 * along, -40.0 * across)}, 60.0,
+                {-1.0, 0.0, 1.0, 0.0});
+            scene.addShadow(mapWith(ShadowMapTechnique::SMOOTH));
+            scene.group->setComposite(composite);
+            scene.group->setDark(float(dark));
+            const Picture picture = test::render(scene.root, test::fromAbove(half));
+            double squares = 0.0, sum = 0.0, count = 0.0, farOff = 0.0;
+            for (int y = 8; y < 248; ++y)
+                for (int x = 8; x < 248; ++x) {
+                    const glm::dvec3 place((x + 0.5) * pixel - half - height, (y + 0.5) * pixel - half, 0.0);
+                    const double beyond = glm::dot(place, across) / pixel;
+                    const double share = (double(picture.at(x, y) & 0xffu) / test::litGround - dark) / (1.0 - dark);
+                    const double off = share - coverage(across, beyond);
+                    if (glm::dot(place, across) < -height * across.x) continue; // the plate itself
+                    if (std::abs(beyond) > 2.0) farOff = std::max(farOff, std::abs(off));
+                    if (std::abs(beyond) > 0.5 * (std::abs(across.x) + std::abs(across.y))) continue;
+                    squares += off * off;
+                    sum += off;
+                    count += 1.0;
+                }
+            std::cout << slant << " degrees: rms " << std::sqrt(squares / count) << ", mean " << sum / count
+                      << ", elsewhere " << farOff << "\n";
+            EXPECT_GT(count, 100.0);
+            EXPECT_LE(std::sqrt(squares / count), most)
+                << slant; // steps of texels of 1.5 pixels, rounded by the filter
+            EXPECT_LE(std::abs(sum / count), 0.03) << slant;
+            EXPECT_LE(farOff, 0.01) << slant; // rounding of colours
+        }
+}
+
+TEST(MapSmooth, AreNearerToRaysThanHardEdges) {
+    for (const TracedCase& given : {test::labEight(), test::townOfHouses()}) {
+        const Shares shares(given);
+        const auto truth = given.truth();
+        const auto off = [&](ShadowMapTechnique::Edges edges) {
+            return test::shareOff(shares.with(mapWith(edges, 2048)), shares.lit, shares.dark, truth);
+        };
+        const double hard = off(ShadowMapTechnique::HARD), smooth = off(ShadowMapTechnique::SMOOTH);
+        std::cout << given.name << ": hard " << hard << ", smooth " << smooth << "\n";
+        EXPECT_LT(smooth, 0.75 * hard) << given.name;
+    }
+}
+
+TEST(MapSmooth, HalvesAreTheHardEdgesOfTheSameFilter) {
+    for (const auto filter : {ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC}) {
+        const Shares shares(test::townOfHouses());
+        const osg::ref_ptr<ShadowMapTechnique> hard = mapWith(ShadowMapTechnique::HARD),
+                                               smooth = mapWith(ShadowMapTechnique::SMOOTH);
+        hard->setFilter(filter);
+        smooth->setFilter(filter);
+        const Picture hardly = shares.with(hard), smoothly = shares.with(smooth);
+        int between = 0, other = 0;
+        for (int y = 0; y < smoothly.height; ++y)
+            for (int x = 0; x < smoothly.width; ++x) {
+                if (!shares.tells(x, y)) continue;
+                const double share = shares.at(smoothly, x, y);
+                between += share > 0.05 && share < 0.95;
+                other += std::abs(share - 0.5) > 0.05 && (share > 0.5) != (hardly.at(x, y) == shares.lit.at(x, y));
+            }
+        EXPECT_GT(between, 3000) << filter;
+        EXPECT_EQ(other, 0) << filter;
+    }
+}
+
+TEST(MapSmooth, FlatGroundsAreFreeOfAcne) {
+    for (const double elevation : {90.0, 45.0, 20.0, 10.0, 5.0}) {
+        const Shares shares(test::tilted(test::flatGround(8.0, 3.0, elevation, 1.0, 100.0, 20))); // not left out
+        for (const int size : {64, 256, 2048})
+            EXPECT_EQ(shares.with(mapWith(ShadowMapTechnique::SMOOTH, size)).different(shares.lit), 0)
+                << elevation << " degrees, size " << size;
+    }
+}
+
+// Of a view in which 600 texels are of use.
+TEST(MapTexels, AreNoMoreThanTheViewNeeds) {
+    const Shares shares(test::labEight());
+    const auto with = [&](int size) { return shares.with(mapWith(ShadowMapTechnique::SMOOTH, size)); };
+    const Picture needed = with(1024);
+    EXPECT_EQ(with(8192).different(needed), 0);
+    EXPECT_GT(with(128).different(needed), 200);
+}
+
+TEST(MapTexels, FollowACameraThatComesNear) {
+    const TracedCase given = test::labEight();
+    const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(ShadowMapTechnique::HARD, 2048);
+    Scene scene = given.build();
+    scene.addShadow(technique);
+    test::Camera camera(scene.root, given.view);
+    for (const double zoom : {1.0, 0.95, 4.0, 1.0}) {
+        TracedCase nearer = given;
+        nearer.view.projection = given.view.projection * osg::Matrixd::scale(zoom, zoom, 1.0);
+        camera.setView(nearer.view);
+        const unsigned before = technique->passes();
+        const Picture picture = camera.frame();
+        EXPECT_EQ(technique->passes() - before, zoom == 0.95 ? 0u : 1u) << zoom;
+        const Shares shares(nearer);
+        EXPECT_EQ(test::compare(picture, shares.lit, shares.dark, nearer.truth()).certain, 0) << zoom;
+    }
+}
+
+// What a disc of 128 texels reaches is more where there are fewer of them: it is held from the first frame on.
+TEST(MapTexels, AreKnownBeforeWhatSoftEdgesReach) {
+    TracedCase given = test::labEight();
+    given.view.projection *= osg::Matrixd::scale(4.0, 4.0, 1.0); // a part of it is seen, by few pixels
+    given.view.width = 40;
+    given.view.height = 30;
+    const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(ShadowMapTechnique::SOFT, 8192);
+    technique->setRadius(2.0);
+    Scene scene = given.build();
+    scene.addShadow(technique);
+    test::Camera camera(scene.root, given.view);
+    const Picture first = camera.frame();
+    EXPECT_EQ(camera.frame().different(first), 0);
+    EXPECT_EQ(technique->passes(), 1u);
+}
