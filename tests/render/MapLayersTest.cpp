@@ -248,7 +248,7 @@ TEST(MapLayers, AreMadeAnewWhereOpenGLLostThem) {
 }
 
 // Maps are laid with some room about what moves, so that their texels are not those of maps laid anew: edges may be off by a
-// part of a texel, which is less than a pixel here.
+// part of a texel, which is 1.5 pixels wide where it is widest.
 TEST(MapLayers, FollowWhatLeavesAllOthersBehind) {
     for (Play play : {Play{"sun", inSun(), {aBox(), aBall()}}, Play{"lamp", byLamp(), {aBox(), aBall()}},
                       Play{"board", inSun(), {aBoard(), aBall()}}}) {
@@ -265,7 +265,7 @@ TEST(MapLayers, FollowWhatLeavesAllOthersBehind) {
             if (step % 5 > 0) continue;
             const Picture fresh = freshPicture(play, moment, play.given.view);
             EXPECT_EQ(differingBlocks(picture, fresh), 0) << play.name << ", " << step;
-            EXPECT_LE(picture.different(fresh), 150) << play.name << ", " << step;
+            EXPECT_LE(picture.different(fresh), 400) << play.name << ", " << step;
         }
         EXPECT_EQ(stage.technique->diagnose(), std::vector<std::string>()) << play.name;
     }
