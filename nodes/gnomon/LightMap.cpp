@@ -22,10 +22,11 @@ constexpr double reserve = 1.0 / 16.0;  // of a map's sides
 constexpr double mostWaste = 2.0;       // area of a map to the smallest that would do: edges may be a half coarser
 constexpr double mostPixels = 1.5;      // on a side of a texel, where it is widest
 constexpr double mostSoftPixels = 0.33; // the same of soft edges: penumbras of a pixel or two are wider than the filter
-constexpr double border = 3.0;          // texels: what a comparison reaches over, and one against rounding
-constexpr double widestSpread = 128.0;  // texels: as map_filter.frag has it
-constexpr int largestTexture = 16384;   // texels on a side: what OpenGL has in most places
-constexpr double sameLight = 1e-7;      // of the distance: what OSG's matrices and floats make of a light at rest
+constexpr double fewestSoft = 256.0; // texels of soft edges: with fewer, what 128 of them reach would be most of a map
+constexpr double border = 3.0;       // texels: what a comparison reaches over, and one against rounding
+constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
+constexpr int largestTexture = 16384;  // texels on a side: what OpenGL has in most places
+constexpr double sameLight = 1e-7;     // of the distance: what OSG's matrices and floats make of a light at rest
 
 bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
     return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
@@ -176,14 +177,14 @@ void LightMap::findSplits(const std::vector<MapReceiver>& receivers, const glm::
 }
 
 std::vector<glm::dvec4> LightMap::find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
-                                       double width) {
-    findSplits(receivers, clipFromScene, width);
+                                       const glm::dvec2& pixels) {
+    findSplits(receivers, clipFromScene, pixels.x);
     std::vector<glm::dvec4> points;
     for (MapFace& face : _faces) {
         face.reach = face.needed = face.held = MapOutline(face.frame);
         if (face.part > _splits.size()) continue;
         findNeeded(face, receivers, viewPart(clipFromScene, _splits, face.part),
-                   SeenPixels(face.frame, clipFromScene, width));
+                   SeenPixels(face.frame, clipFromScene, pixels));
         for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);
     }
     return points;
@@ -265,25 +266,38 @@ double LightMap::texelsWanted() const {
     double wanted = 0.0;
     for (const MapFace& face : _faces) {
         if (face.needed.empty()) continue;
+        if (isWide(face.frame)) wanted = std::max(wanted, fewestSoft);
         const glm::dvec2 size = holds(face) ? face.fit->size : fitOf(face).size;
         wanted = std::max(wanted, std::max(size.x, size.y) / (pixels * face.texel));
     }
     return wanted;
 }
 
-/// Takes other texels than before if need be: no map holds what it must then.
+/// On a side of a map: all that are beside one another are one texture.
+int LightMap::mostTexels() const {
+    const auto needed = [](const MapFace& face) { return !face.needed.empty(); };
+    const auto maps = static_cast<int>(std::count_if(_faces.begin(), _faces.end(), needed));
+    return std::min(_wish.size, largestTexture / std::clamp(maps, 1, columns()));
+}
+
+/// Takes other texels than before if need be, fewer only where a map is to be drawn anyway: none holds what it must then.
 void LightMap::resize() {
     constexpr int rounds = 8; // what soft edges reach depends on how wide texels are
     int before = _map ? _texels : 0;
     for (int round = 0; round < rounds; ++round) {
-        const int texels = texelsFor(texelsWanted(), _wish.size, before);
-        if (texels == before) return;
+        const int texels = texelsFor(texelsWanted(), mostTexels(), before);
+        if (texels == before || (texels < before && !anyDue())) return;
         before = _texels = texels;
         for (MapFace& face : _faces) {
             face.fit = std::nullopt;
             findHeld(face);
         }
     }
+}
+
+bool LightMap::anyDue() const {
+    return std::any_of(_faces.begin(), _faces.end(),
+                       [this](const MapFace& face) { return !face.needed.empty() && !holds(face); });
 }
 
 /// True if the face's map is not to be drawn again.
@@ -356,11 +370,9 @@ MapLookUp LightMap::lookUpOf(const MapFace& face) const {
 /// The finest map comes first, for pixels take the first that holds them.
 void LightMap::update(const MapResources& resources) {
     resize();
-    const auto due = [this](const MapFace& face) { return !face.needed.empty() && !holds(face); };
-    const bool anyDue = std::any_of(_faces.begin(), _faces.end(), due);
-    if (_picture && !anyDue) return;
-    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, anyDue);
-    const int columns = _faces.size() > 4 ? 3 : 2;
+    const bool due = anyDue();
+    if (_picture && !due) return;
+    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due);
     std::vector<std::pair<const MapFace*, glm::ivec2>> tiles;
     for (MapFace& face : _faces) {
         if (face.needed.empty())
@@ -368,7 +380,7 @@ void LightMap::update(const MapResources& resources) {
         else if (!holds(face))
             face.fit = fitOf(face);
         const int tile = static_cast<int>(tiles.size());
-        if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % columns, tile / columns));
+        if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % columns(), tile / columns()));
     }
     std::stable_sort(tiles.begin(), tiles.end(),
                      [](const auto& a, const auto& b) { return a.first->fit->area() < b.first->fit->area(); });

@@ -96,10 +96,10 @@ public:
     void setCause(const glm::dvec4& light, const std::optional<SpotCone>& cone, const MapCasters& casters, bool flats,
                   const MapWish& wish);
     /// Finds what is needed now.
-    /// @param width  of the view, pixels.
+    /// @param pixels  of the view, across and up.
     /// @return what is needed, corners in clip space: on the screen shadows can fall about them; none if nowhere.
     std::vector<glm::dvec4> find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
-                                 double width);
+                                 const glm::dvec2& pixels);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
     void update(const MapResources& resources);
     /// Without what a cone adds.
@@ -123,6 +123,9 @@ private:
     bool isWide(const LightFrame& frame) const;
     void findHeld(MapFace& face) const;
     double softness(const LightFrame& frame, MapOutline blocker, double farthest) const;
+    bool anyDue() const;
+    int columns() const { return _faces.size() > 4 ? 3 : 2; }
+    int mostTexels() const;
     double texelsWanted() const;
     void resize();
     bool holds(const MapFace& face) const;

@@ -23,8 +23,8 @@ struct MapWish;
 ///         light count wherever they are. What is flat along an axis of the group, as grounds are, is left out while all that
 ///         is seen is on the light's side of it: it darkens nothing.
 /// Texels  as many as the view can show, and no more than setSize() allows: 1.5 pixels are as wide as the widest, on what of
-///         the seen receivers is nearest, or, for soft edges, a third of one. A map is drawn again with other texels when that
-///         needs an eighth more of them or half of them would do.
+///         the seen receivers is nearest, or, for soft edges, a third of one. A map is drawn again with more when they are an
+///         eighth too few, and with fewer when half of them would do and it is to be drawn anyway.
 /// Moving  Casters are in two layers. What has changed since it was first met, as by a transform above it, is in the one that
 ///         moves: it alone is extracted and drawn when it changes again, in those maps that it is or was in, over what stands
 ///         still, which stays in the map. What stood still and begins to move, or goes, costs one drawing of all.
@@ -40,19 +40,20 @@ struct MapWish;
 /// Alpha   of casters with an alpha test (osg::AlphaFunc) casts what that leaves of them, by the alpha of the 2D texture on
 ///         unit 0 at coordinates given a vertex; where alpha comes from elsewhere, all of them casts, and diagnose() says
 ///         so.
-/// Edges   hard: what gets less than half of the light, by the filter, gets none. Smooth: the same edge, a pixel wide. Soft, see setEdges(): as much as the filter
-///         says, or, of a light that is seen under an angle, as much as comes past what stands before it: its penumbra,
-///         where that is wider than two texels.
+/// Edges   hard: what gets less than half of the light, by the filter, gets none. Smooth: the same edge, a pixel wide.
+///         Soft, see setEdges(): as much as the filter says, or, of a light that is seen under an angle, as much as comes
+///         past what stands before it: its penumbra, where that is wider than two texels.
 ///
 /// Cost    while nothing changes, a copy of the depth buffer and one quad over what the shadows' bounds cover; a draw of
 ///         all casters' positions when a map is made. Where casters move, those alone and two copies of what of the map they
 ///         cover, and a second texture of the maps' size. A spot that relights takes another copy and quad, of all that is
 ///         seen.
-///         Of a pixel 1, 1 or 4 comparisons of 2 × 2 texels, by the filter; soft edges take another copy and quad, and in
-///         penumbras 16 texels and 8 to 32 comparisons more.
+///         Of a pixel 1, 1 or 4 comparisons of 2 × 2 texels, by the filter; smooth and soft edges take another copy and
+///         quad unless a single light blends, and in penumbras 16 texels and 8 to 32 comparisons more.
 /// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named. Smooth
 ///         and soft edges: alpha bits, but for a single light that blends; penumbras: OpenGL 3.3 or its sampler objects.
-/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(). A penumbra is that of one straight edge as far
+/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(); through the edges of a closed box with a lamp in
+///         it single pixels may be lit. A penumbra is that of one straight edge as far
 ///         away as what blocks the light there is on average: where several edges at several distances overlap it is a
 ///         guess; it is cut at 128 texels, and at the sides of a lamp's six maps. Of alpha tests, alpha of vertices and
 ///         materials counts as 1, and where the map is coarser than the texture its mipmaps are what is tested; what is
@@ -81,7 +82,7 @@ public:
 
     enum Edges : int {
         HARD,   ///< a pixel has all of a light or none of it.
-        SMOOTH, ///< where an edge passes through it, it has what of the light is on its lit side.
+        SMOOTH, ///< where an edge passes through it, it has what of the light is on its lit side; with NEAREST as HARD.
         SOFT    ///< it has the share that arrives.
     };
 

@@ -106,13 +106,16 @@ void main() {
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));
     vec2 at = gl_FragCoord.xy + depthError.zw;
-    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
-#ifdef SMOOTH
-    arrives = ofPixel(arrives);
-#endif
-    if (e <= 0.0 || arrives >= wanted.x) discard; // e is 0 where nothing is seen
-#ifdef CONE
+#if defined(CONE) && !defined(SMOOTH)
     if (!isInCone(vec4(at, e, 1.0))) discard; // a ConeMark's, or nobody's
 #endif
+    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
+#ifdef SMOOTH
+    arrives = ofPixel(arrives); // before anything is discarded: it needs the quad
+#ifdef CONE
+    if (!isInCone(vec4(at, e, 1.0))) discard;
+#endif
+#endif
+    if (e <= 0.0 || arrives >= wanted.x) discard; // e is 0 where nothing is seen
     gl_FragColor = vec4(vec3(mix(wanted.z, 1.0, arrives * wanted.w)), mix(arrives, 1.0 - arrives, wanted.y));
 }

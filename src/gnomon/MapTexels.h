@@ -10,8 +10,8 @@ namespace gnomon {
 /// more.
 class SeenPixels {
 public:
-    /// @param clipFromScene  of the view. @param width  of the view, pixels.
-    SeenPixels(const LightFrame& frame, const glm::dmat4& clipFromScene, double width);
+    /// @param clipFromScene  of the view. @param pixels  of the view, across and up.
+    SeenPixels(const LightFrame& frame, const glm::dmat4& clipFromScene, const glm::dvec2& pixels);
 
     /// Adds what of a box lies within all half-spaces (of the scene, see cutBox()) and within the light's own. A texel is
     /// stretched on what is turned away from the light: on a box that is flat, as grounds are, by its slope, up to eight
@@ -24,8 +24,9 @@ public:
     double side = std::numeric_limits<double>::infinity();
 
 private:
-    glm::dvec3 lightAt(const glm::dvec4& place) const;
-    double stretch(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox) const;
+    glm::dvec4 inLight(const glm::dvec4& place) const;
+    double unstretched(const glm::dvec4& place) const;
+    double stretch(const glm::dvec3& normal, const glm::dvec4& place) const;
 
     LightFrame _frame;
     glm::dvec4 _pixel; ///< row: side of a pixel at a place.

@@ -26,15 +26,15 @@ glm::dmat4 flying(double height) {
     return glm::perspective(std::acos(0.0), 1.0, 0.01, 1000.0) *
            glm::lookAt(glm::dvec3(0, 0, height), glm::dvec3(0.0), north);
 }
-constexpr double width = 200.0;
+const glm::dvec2 pixels(200.0);
 
 glm::dvec3 sunAt(double degrees) { return {std::cos(glm::radians(degrees)), 0.0, std::sin(glm::radians(degrees))}; }
 
 double sideOn(const glm::dvec3& low, const glm::dvec3& high, const LightFrame& light, const glm::dmat4& view,
               const glm::dmat4& sceneFromBox = here, const std::vector<glm::dvec4>& halfSpaces = {}) {
-    SeenPixels pixels(light, view, width);
-    pixels.addBox(low, high, sceneFromBox, halfSpaces);
-    return pixels.side;
+    SeenPixels seen(light, view, pixels);
+    seen.addBox(low, high, sceneFromBox, halfSpaces);
+    return seen.side;
 }
 
 double onGround(double elevation) { return sideOn({-5, -5, 0}, {5, 5, 0}, sunFrame(sunAt(elevation)), map()); }
@@ -60,21 +60,49 @@ TEST(SeenPixels, AreSmallestWhereWhatIsSeenIsNearest) {
     EXPECT_EQ(sideOn({-5, -5, 0}, {5, 5, 30}, sun, flying(20.0)), 0.0); // around the eye
     EXPECT_EQ(sideOn({-5, -5, 0}, {5, 5, 0}, sun, flying(20.0), here, {{0, 0, 1, -1}}), infinity);
 
-    SeenPixels both(sun, flying(20.0), width);
+    SeenPixels both(sun, flying(20.0), pixels);
     both.addBox({-5, -5, 0}, {5, 5, 0}, here, {});
     both.addBox({-5, -5, 12}, {5, 5, 12}, here, {});
     both.addBox({-5, -5, 4}, {5, 5, 4}, here, {});
     EXPECT_NEAR(both.side, 0.08, 1e-12);
 }
 
-// As a share of the distance from the lamp: in its map that is what a texel is.
+// As a share of the distance from the lamp: in its map that is what a texel is. The farther from below it, the more slanted.
 TEST(SeenPixels, AreSeenFromWhereALampIs) {
     const LightFrame lamp = lampFrame({0, 0, 4}, down, 1.0);
-    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lamp, map()), 0.01 / 4.0, 1e-12);
-    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lampFrame({0, 0, 8}, down, 1.0), map()), 0.01 / 8.0, 1e-12);
-    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lamp, flying(20.0)), 0.2 / 4.0, 1e-12);
-    // About a place three beside it and four below it the ground is seen at 4 / 5.
-    EXPECT_NEAR(sideOn({2.9, -0.1, 0}, {3.1, 0.1, 0}, lamp, map()), 0.01 / 4.0 * 0.8, 1e-12);
+    const auto cosine = [](double beside, double above) { return above / std::hypot(beside, above); };
+    const double corner = std::sqrt(2.0);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lamp, map()), 0.01 / 4.0 * cosine(corner, 4.0), 1e-12);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lampFrame({0, 0, 8}, down, 1.0), map()),
+                0.01 / 8.0 * cosine(corner, 8.0), 1e-12);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lamp, flying(20.0)), 0.2 / 4.0 * cosine(corner, 4.0), 1e-12);
+    EXPECT_NEAR(sideOn({-3, -3, 0}, {3, 3, 0}, lamp, map()), 0.01 / 4.0 * cosine(3.0 * corner, 4.0), 1e-12);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 2}, lamp, map()), 0.01 / 4.0 / 2.0, 1e-12); // a body's farthest
+}
+
+// A lamp a metre behind the eye, over a landscape that reaches behind both.
+TEST(SeenPixels, AreAsSmallWhicheverBoxComesFirst) {
+    const glm::dmat4 view = glm::perspective(std::acos(0.0), 1.0, 0.1, 1000.0) *
+                            glm::lookAt(glm::dvec3(0, 0, 2), glm::dvec3(1, 0, 2), glm::dvec3(0, 0, 1));
+    const LightFrame lamp = lampFrame({-1, 0, 2}, {1, 0, 0}, 1.0);
+    const std::vector<glm::dvec4> ahead{{1, 0, 0, -0.1}};
+    const auto side = [&](bool mountainFirst) {
+        SeenPixels seen(lamp, view, pixels);
+        for (const bool mountain : {mountainFirst, !mountainFirst})
+            mountain ? seen.addBox({60, -10, 0}, {80, 10, 20}, here, ahead)
+                     : seen.addBox({-100, -100, -1}, {100, 100, 3}, here, ahead);
+        return seen.side;
+    };
+    EXPECT_EQ(side(true), side(false));
+    EXPECT_LT(side(true), 0.001 / 1.1); // at the near plane
+}
+
+TEST(SeenPixels, AreAsSmallAsTheirShorterSide) {
+    for (const glm::dvec2& given : {glm::dvec2(200, 100), glm::dvec2(100, 200)}) {
+        SeenPixels seen(sunFrame(sunAt(90.0)), map(), given);
+        seen.addBox({-5, -5, 0}, {5, 5, 0}, here, {});
+        EXPECT_NEAR(seen.side, 0.01, 1e-12);
+    }
 }
 
 TEST(TexelsFor, AreAsManyAsWantedInSteps) {
