@@ -91,7 +91,7 @@ public:
     static unsigned reserved();
 
     /// For tests and comparison: with false, every leaf of the stage is drawn again, whether marks can touch it or not, and
-    /// every tile of a terrain's shadows is marked, exactly cut to its ground.
+    /// every tile of a terrain's shadows is marked, by polygons alone.
     static void setFilter(bool filter);
     static bool getFilter();
 

@@ -102,7 +102,8 @@ TerrainFrame TerrainCache::frame(const ViewFrame& view, const CasterPieces& cast
     const TerrainView seen(view, town.casters.origin());
     const TileGround ground = groundOf(*town.drawn);
     tiles.update(town.casters, ground, light, settings, seen, secondsAFrame);
-    return {tiles.shadows(), tiles.causes(), town.casters.origin(), isFromAbove(view, ground)};
+    return {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
+            isFromAbove(view, ground)};
 }
 
 osg::ref_ptr<const TerrainAnswer> TerrainCache::answer(const ShadowCasterGroup& group, const CasterPieces& casters,

@@ -18,6 +18,7 @@ struct ViewFrame;
 /// What one frame draws of one light.
 struct TerrainFrame {
     TerrainTiles::List tiles;
+    TerrainTiles::Bitmaps bitmaps;   ///< see TerrainTiles::bitmapsIn().
     std::vector<std::string> causes; ///< why some are missing, or not of the method that was asked for.
     glm::dvec3 origin{0.0};          ///< that tiles are about, group frame.
     bool fromAbove = false;          ///< nothing of the ground that is turned away is seen.

@@ -13,6 +13,17 @@
 
 namespace gnomon {
 
+namespace {
+
+/// A bitmap says one thing for all samples of a pixel, where polygons have smooth edges.
+bool onePixelIsOneSample() {
+    GLint samples = 0;
+    glGetIntegerv(GL_SAMPLES, &samples);
+    return samples <= 1;
+}
+
+} // namespace
+
 TerrainMesh::TerrainMesh() : _geometry(new osg::Geometry) {
     _geometry->setUseDisplayList(false);
     _geometry->setUseVertexBufferObjects(true);
@@ -50,26 +61,12 @@ void TerrainMesh::set(const ShadowPrisms& prisms) {
 
 void TerrainMesh::set(const ShadowDecals& decals) {
     setFrom(decals, [&](auto add) {
-        if (decals.triangles.empty()) return;
-        add(decals.uncut);
-        add(decals.triangles);
+        if (!decals.triangles.empty()) add(decals.triangles);
     });
-    _fans = decals.fans;
 }
 
 void TerrainMesh::draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const {
-    drawCorners(renderInfo, firstLayer ? _ends[firstLayer - 1] : 0, _ends[firstLayer + count - 1]);
-}
-
-/// Uncut ones that are off least end where cut ones begin, and those follow which are off most.
-void TerrainMesh::drawDecals(osg::RenderInfo& renderInfo, double off) const {
-    const auto isOff = [off](const ShadowDecals::Uncut& fan) { return fan.off > off; };
-    const auto fan = std::partition_point(_fans.begin(), _fans.end(), isOff);
-    const bool isAny = fan != _fans.end();
-    drawCorners(renderInfo, isAny ? fan->first : _ends[0], isAny ? _ends[0] + fan->inside : _ends[1]);
-}
-
-void TerrainMesh::drawCorners(osg::RenderInfo& renderInfo, unsigned first, unsigned end) const {
+    const unsigned first = firstLayer ? _ends[firstLayer - 1] : 0, end = _ends[firstLayer + count - 1];
     if (first == 0 && end == _ends.back())
         _geometry->draw(renderInfo);
     else
@@ -109,6 +106,20 @@ glm::dmat4 TerrainMark::clipFromDecals() const {
     return result;
 }
 
+/// False without a program.
+bool TerrainMark::drawBitmaps(osg::RenderInfo& renderInfo) const {
+    const auto hasBitmap = [](const SeenDecals& seen) { return seen.bitmap.valid(); };
+    if (std::none_of(decals.begin(), decals.end(), hasBitmap)) return true;
+    osg::State& state = *renderInfo.getState();
+    state.apply(bitmapProgram.get());
+    if (!hasProgram(state)) return false;
+    setUniform(state, "clipFromCaster", clipFromDecals());
+    setUniform(state, "bitmap", 0);
+    for (const SeenDecals& seen : decals)
+        if (seen.bitmap) seen.bitmap->draw(renderInfo);
+    return true;
+}
+
 /// What lies on the ground is as deep as the ground is: so it is seen where the ground is, and hidden where the ground is.
 /// What is cut off with the ground in front of the near plane must not be seen through the hole.
 std::string TerrainMark::markDecals(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
@@ -119,10 +130,13 @@ std::string TerrainMark::markDecals(osg::RenderInfo& renderInfo, ScreenPass& pas
     pass.testDepth(GL_LEQUAL, false);
     pass.stencilEqual(bit, 0, bit);
     if (fromAbove) glEnable(GL_CULL_FACE);
-    for (const SeenDecals& seen : decals) seen.mesh->drawDecals(renderInfo, seen.unseen);
+    const bool byBitmaps = onePixelIsOneSample();
+    for (const SeenDecals& seen : decals)
+        if (!(byBitmaps && seen.bitmap)) seen.mesh->draw(renderInfo, 0, 1);
+    const bool isDrawn = !byBitmaps || drawBitmaps(renderInfo);
     glDisable(GL_CULL_FACE);
     state.apply();
-    return "";
+    return isDrawn ? "" : noProgram;
 }
 
 std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/MarkJob.h>
 #include <gnomon/ShadowDecals.h>
+#include <gnomon/TerrainBitmap.h>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -24,13 +25,11 @@ public:
     TerrainMesh();
     /// In place of those before, in the same buffers. Not while they are drawn.
     void set(const ShadowPrisms& prisms);
-    void
-    set(const ShadowDecals& decals); ///< uncut ones and cut ones as two layers, of which drawDecals() draws each once.
+    void set(const ShadowDecals& decals); ///< as a layer.
 
+    unsigned triangles() const { return _ends.empty() ? 0 : _ends.back() / 3; }
     unsigned layers() const { return static_cast<unsigned>(_ends.size()); }
     void draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const;
-    /// Each decal once, see ShadowDecals: uncut if it is over the ground by no more than `off`, else cut.
-    void drawDecals(osg::RenderInfo& renderInfo, double off) const;
     void resizeGLObjectBuffers(unsigned maxSize) { _geometry->resizeGLObjectBuffers(maxSize); }
     void releaseGLObjects(osg::State* state) const { _geometry->releaseGLObjects(state); }
 
@@ -43,18 +42,16 @@ protected:
 private:
     template <typename Shadows, typename Append>
     void setFrom(const Shadows& of, Append append);
-    void drawCorners(osg::RenderInfo& renderInfo, unsigned first, unsigned end) const;
     osg::Vec3Array& vertices();
     osg::DrawElementsUInt& corners();
     osg::ref_ptr<osg::Geometry> _geometry;
-    std::vector<unsigned> _ends;            ///< of each layer among the corners.
-    std::vector<ShadowDecals::Uncut> _fans; ///< of decals: among the corners uncut ones come first.
+    std::vector<unsigned> _ends; ///< of each layer among the corners.
 };
 
 /// Decals in one view.
 struct SeenDecals {
     const TerrainMesh* mesh;
-    double unseen; ///< height over the ground that is not seen there.
+    osg::ref_ptr<const TerrainBitmap> bitmap; ///< that may be drawn in place of the mesh; or null.
 };
 
 /// Marks of one light in one view: all that decals cover, and all that stands in a prism. What of that is ground is for
@@ -63,8 +60,8 @@ class TerrainMark : public MarkJob {
 public:
     std::vector<osg::ref_ptr<const TileShadows>> tiles; ///< whose meshes these are, so that none is changed:
     std::vector<SeenDecals> decals;
-    std::vector<const TerrainMesh*> prisms;    ///< each with a layer or more.
-    osg::ref_ptr<const osg::StateSet> program; ///< see markProgram().
+    std::vector<const TerrainMesh*> prisms;                   ///< each with a layer or more.
+    osg::ref_ptr<const osg::StateSet> program, bitmapProgram; ///< see markProgram().
     glm::dmat4 clipFromPrisms{1.0};
     /// Of the depth in clip space: decals are drawn so much nearer, on the same pixels, for the ground is drawn by other
     /// numbers than they are.
@@ -84,6 +81,7 @@ private:
     std::vector<std::vector<LayerSlice>> roundsOf(unsigned counters) const;
     glm::dmat4 clipFromDecals() const;
     std::string markDecals(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
+    bool drawBitmaps(osg::RenderInfo& renderInfo) const;
 };
 
 } // namespace gnomon

@@ -40,16 +40,14 @@ std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const TerrainView& 
     const auto add = [&](const TileShadows& tile, const TerrainMesh& mesh, const auto& take) {
         const auto seen = view.seen(mesh, tile);
         if (!seen) return;
-        take(seen->unseen);
+        take();
         if (mark.tiles.empty() || mark.tiles.back() != &tile) mark.tiles.push_back(&tile);
-        all = all ? united(*all, seen->bounds) : seen->bounds;
+        all = all ? united(*all, *seen) : *seen;
     };
-    for (const auto& tile : frame.tiles) {
-        add(*tile, *tile->decals, [&](double unseen) { // uncut ones are lifted: for an eye below, into the ground
-            const bool isFromAbove = frame.fromAbove || view.isAbove(*tile->decals);
-            mark.decals.push_back({tile->decals, isFromAbove ? unseen : 0.0});
-        });
-        add(*tile, *tile->prisms, [&](double) { mark.prisms.push_back(tile->prisms); });
+    for (std::size_t i = 0; i < frame.tiles.size(); ++i) {
+        const TileShadows& tile = *frame.tiles[i];
+        add(tile, *tile.decals, [&] { mark.decals.push_back({tile.decals, frame.bitmaps[i]}); });
+        add(tile, *tile.prisms, [&] { mark.prisms.push_back(tile.prisms); });
     }
     return all;
 }
@@ -106,7 +104,8 @@ struct TerrainShadowGeode::Asked {
     std::uint64_t object = 0; ///< revision of the placed object.
 };
 
-TerrainShadowGeode::TerrainShadowGeode() : _program(markProgram()), _cache(new TerrainCache) {}
+TerrainShadowGeode::TerrainShadowGeode()
+    : _program(markProgram()), _bitmapProgram(markProgram("#define BITMAP\n")), _cache(new TerrainCache) {}
 
 TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp)
     : ShadowTechnique(other, copyOp), // its geometry, too
@@ -118,6 +117,7 @@ TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const os
       _bounds(other._bounds),
       _triangles(other._triangles),
       _program(markProgram()),
+      _bitmapProgram(markProgram("#define BITMAP\n")),
       _cache(new TerrainCache) {}
 
 TerrainShadowGeode::~TerrainShadowGeode() = default;
@@ -148,6 +148,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
     mark->program = _program;
+    mark->bitmapProgram = _bitmapProgram;
     mark->clipFromPrisms = seen.clipFromTiles();
     mark->decalsNearer = aPixelNearer(view.projection, view.pixels);
     mark->fromAbove = frame.fromAbove && ShadowBin::getFilter();
@@ -271,12 +272,14 @@ void TerrainShadowGeode::print(std::ostream& out) const {
 void TerrainShadowGeode::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
     _program->resizeGLObjectBuffers(maxSize);
+    _bitmapProgram->resizeGLObjectBuffers(maxSize);
     _cache->resizeGLObjectBuffers(maxSize);
 }
 
 void TerrainShadowGeode::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
     _program->releaseGLObjects(state);
+    _bitmapProgram->releaseGLObjects(state);
     _cache->releaseGLObjects(state);
 }
 

@@ -35,8 +35,8 @@ struct TerrainShadows;
 ///
 /// Below a ShadowCasterGroup it marks what of the receiver, which must be named, lies under the polygons, whatever level of
 /// detail is drawn: once where they overlap. Where a grid's own triangles are drawn, HULL's polygons are laid on them, a
-/// pixel's length nearer to the eye; all else is marked by prisms that reach through the ground. What belongs to the
-/// receiver casts no such shadow. With no group above, it draws the shadow of one object as plain transparent geometry of
+/// pixel's length nearer to the eye, and, where there are very many, far ones as bitmaps, off by 0.28 pixels at most; all
+/// else is marked by prisms that reach through the ground. What belongs to the receiver casts no such shadow. With no group above, it draws the shadow of one object as plain transparent geometry of
 /// its own, as the published class did:
 ///
 ///     shadow->setObjectGraphic(house);
@@ -159,7 +159,7 @@ private:
     osg::ref_ptr<const TerrainShadows> _shown; ///< by compute().
     std::uint64_t _shownObject = 0;            ///< revision of the placed object then.
     unsigned _foundAlone = 0;                  ///< by compute().
-    osg::ref_ptr<osg::StateSet> _program;
+    osg::ref_ptr<osg::StateSet> _program, _bitmapProgram;
     std::unique_ptr<TerrainCache> _cache;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowDecals.h>
 #include <gnomon/ShadowPrisms.h>
 #include <gnomon/TerrainTiles.h>
@@ -81,6 +82,10 @@ osg::ref_ptr<TileShadows> drawable() {
     return result;
 }
 
+bool isFine(const TerrainBitmap& bitmap, int level) {
+    return bitmap.level() <= level && bitmap.level() >= level - TerrainView::finerLevels;
+}
+
 double lowestOf(const Ground& ground) {
     const auto range = ground.range(glm::dvec2(-infinite), glm::dvec2(infinite));
     return range ? range->low : infinite;
@@ -132,6 +137,7 @@ void TerrainTiles::update(const TerrainTown& town, const TileGround& ground, con
     const std::vector<TerrainTown::Tile>& tiles = town.tiles();
     _shadows.resize(tiles.size(), _none);
     _states.resize(tiles.size(), 0);
+    _bitmaps.resize(tiles.size());
     if (!_lowest) _lowest = lowestOf(ground.found);
     Wanted wanted = wantedIn(view, town, ground, still);
     if (wanted.due.empty() && wanted.late.empty() && !wanted.letGo) return;
@@ -144,6 +150,48 @@ void TerrainTiles::update(const TerrainTown& town, const TileGround& ground, con
         find(town, ground, some);
     }
     countOutcomes(town);
+}
+
+/// A tile that is to be drawn by a bitmap.
+struct TerrainTiles::Far {
+    std::size_t tile;
+    int level; ///< of the bitmap.
+    bool operator<(const Far& other) const { return level > other.level; }
+};
+
+/// The farthest, until few enough triangles are left. What is near would take too many texels.
+std::vector<TerrainTiles::Far> TerrainTiles::farIn(const TerrainView& view) const {
+    std::vector<Far> far;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < _shadows.size(); ++i) {
+        if (!view.seen(*_shadows[i]->decals, *_shadows[i])) continue;
+        left += _shadows[i]->decals->triangles();
+        if (const auto level = view.bitmapLevel(*_shadows[i])) far.push_back({i, *level});
+    }
+    std::stable_sort(far.begin(), far.end());
+    std::size_t count = 0;
+    for (; count < far.size() && left > TerrainBitmap::getMostPolygons(); ++count)
+        left -= _shadows[far[count].tile]->decals->triangles();
+    far.resize(count);
+    return far;
+}
+
+TerrainTiles::Bitmaps TerrainTiles::bitmapsIn(const TerrainView& view, const TileGround& ground) {
+    Bitmaps result(_shadows.size());
+    if (!ground.drawn || !ShadowBin::getFilter()) return result;
+    const std::vector<Far> far = farIn(view);
+    tbb::parallel_for(std::size_t{0}, far.size(), [&](std::size_t i) {
+        const auto [tile, level] = far[i];
+        osg::ref_ptr<TerrainBitmap>& known = _bitmaps[tile];
+        if (known && isFine(*known, level)) return;
+        thread_local ShadowBitmap bitmap; // memory that is used again
+        shadowBitmap(*ground.drawn, _shadows[tile]->found, TerrainView::bitmapTexel(level), bitmap);
+        known = new TerrainBitmap(bitmap, level);
+    });
+    for (const Far& one : far)
+        if (_bitmaps[one.tile]->triangles() < _shadows[one.tile]->decals->triangles())
+            result[one.tile] = _bitmaps[one.tile];
+    return result;
 }
 
 TerrainTiles::Wanted TerrainTiles::wantedIn(const TerrainView& view, const TerrainTown& town, const TileGround& ground,
@@ -167,6 +215,7 @@ TerrainTiles::Wanted TerrainTiles::wantedIn(const TerrainView& view, const Terra
 
 void TerrainTiles::letGo(std::size_t tile) {
     _shadows[tile] = _none;
+    _bitmaps[tile] = nullptr;
     _states[tile] = 0;
 }
 
@@ -211,6 +260,7 @@ void TerrainTiles::find(const TerrainTown& town, const TileGround& ground, const
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const osg::ref_ptr<TileShadows> old = const_cast<TileShadows*>(_shadows[tiles[i]].get());
         _shadows[tiles[i]] = into[i];
+        _bitmaps[tiles[i]] = nullptr;
         _states[tiles[i]] = town.tiles()[tiles[i]].revision;
         if (old != _none.get() && _spare.size() < mostSpare) _spare.push_back(old);
     }
@@ -233,10 +283,14 @@ void TerrainTiles::eachMesh(const Act& act) const {
 
 void TerrainTiles::resizeGLObjectBuffers(unsigned maxSize) {
     eachMesh([&](TerrainMesh& mesh) { mesh.resizeGLObjectBuffers(maxSize); });
+    for (const auto& bitmap : _bitmaps)
+        if (bitmap) bitmap->resizeGLObjectBuffers(maxSize);
 }
 
 void TerrainTiles::releaseGLObjects(osg::State* state) const {
     eachMesh([&](const TerrainMesh& mesh) { mesh.releaseGLObjects(state); });
+    for (const auto& bitmap : _bitmaps)
+        if (bitmap) bitmap->releaseGLObjects(state);
 }
 
 } // namespace gnomon

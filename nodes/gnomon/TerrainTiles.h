@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/HeightPyramid.h>
 #include <gnomon/PackedShadows.h>
+#include <gnomon/TerrainBitmap.h>
 #include <gnomon/TerrainMark.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TerrainTown.h>
@@ -63,6 +64,7 @@ void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const 
 class TerrainTiles {
 public:
     using List = std::vector<osg::ref_ptr<const TileShadows>>;
+    using Bitmaps = std::vector<osg::ref_ptr<const TerrainBitmap>>;
 
     TerrainTiles();
 
@@ -73,6 +75,9 @@ public:
     void groundChanged();
 
     const List& shadows() const { return _shadows; }
+    /// What this view is to draw in place of decals, tile by tile; null: the decals themselves. Made where there is none yet,
+    /// or one too coarse, or far too fine.
+    Bitmaps bitmapsIn(const TerrainView& view, const TileGround& ground);
     const std::vector<std::string>& causes() const { return _causes; } ///< of all that are kept.
     unsigned found() const { return _found; }                          ///< how many tiles' shadows, so far.
 
@@ -81,6 +86,8 @@ public:
 
 private:
     struct Wanted;
+    struct Far;
+    std::vector<Far> farIn(const TerrainView& view) const;
     Wanted wantedIn(const TerrainView& view, const TerrainTown& town, const TileGround& ground, bool still);
     void letGo(std::size_t tile);
     double offBy(std::size_t tile, const TerrainTown& town) const;
@@ -95,8 +102,9 @@ private:
 
     const osg::ref_ptr<const TileShadows> _none; ///< of a tile that was not seen yet.
     List _shadows;
-    std::vector<std::uint64_t> _states; ///< revisions of the tiles that the shadows are of; 0: of none.
-    std::optional<double> _lowest;      ///< of the ground, its frame.
+    std::vector<osg::ref_ptr<TerrainBitmap>> _bitmaps; ///< null: none was wanted yet.
+    std::vector<std::uint64_t> _states;                ///< revisions of the tiles that the shadows are of; 0: of none.
+    std::optional<double> _lowest;                     ///< of the ground, its frame.
     std::vector<osg::ref_ptr<TileShadows>> _spare;
     TerrainSettings _settings{TerrainShadowGeode::HULL, 0.0, {}};
     glm::dvec4 _light{0.0};

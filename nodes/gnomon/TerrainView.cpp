@@ -21,6 +21,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double leastPixels = 1.0;
 constexpr double unseenPixels = 0.25; // half of what the edges of a picture are off by themselves
 
+// Of a texel's side where it is nearest: what is drawn by texels is off by half their diagonal at most.
+constexpr double texelPixels = 0.4;
+constexpr double mostTexels = 1 << 20; // 128 KB of bits
+
 double nearestOf(const std::array<glm::dvec4, 8>& corners) {
     double nearest = infinite;
     for (const glm::dvec4& corner : corners) nearest = std::min(nearest, corner.w);
@@ -61,33 +65,25 @@ TerrainView::Shown TerrainView::shown(const TerrainMesh& mesh, const TileShadows
     const glm::dvec3 margin = marginOf(tile, moved);
     const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromTiles);
     const auto bounds = screenBounds({corners.begin(), corners.end()});
-    const double nearest = nearestOf(corners), pixels = pixelsAt(nearest, _clipFromTiles, _pixels);
-    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), nearest, pixels};
+    const double pixels = pixelsAt(nearestOf(corners), _clipFromTiles, _pixels);
+    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels};
     const bool isTooSmall = (tile.widest + 2.0 * moved) * pixels < leastPixels;
-    return {isTooSmall ? std::nullopt : bounds, nearest, pixels};
+    return {isTooSmall ? std::nullopt : bounds, pixels};
 }
 
-std::optional<TerrainView::Seen> TerrainView::seen(const TerrainMesh& mesh, const TileShadows& tile) const {
-    const Shown now = shown(mesh, tile, 0.0);
-    if (!now.bounds) return std::nullopt;
-    const bool isExact = !ShadowBin::getFilter() || !(now.nearest > 0.0);
-    if (isExact) return Seen{*now.bounds, 0.0};
-    return Seen{*now.bounds, std::min(unseenPixels / pixelsHigh(*now.bounds, now.nearest), 1.0 / now.pixels)};
+std::optional<ScreenRect> TerrainView::seen(const TerrainMesh& mesh, const TileShadows& tile) const {
+    return shown(mesh, tile, 0.0).bounds;
 }
 
-bool TerrainView::isAbove(const TerrainMesh& mesh) const {
-    const glm::dvec4 eye = eyeIn(_clipFromTiles);
-    return eye.w > 0.0 ? eye.z > eye.w * mesh.high.z : eye.z > 0.0;
+std::optional<int> TerrainView::bitmapLevel(const TileShadows& tile) const {
+    const Shown now = shown(*tile.decals, tile, 0.0);
+    if (!now.bounds || !std::isfinite(now.pixels)) return std::nullopt;
+    const double level = std::floor(2.0 * std::log2(texelPixels / now.pixels));
+    const glm::dvec2 texels = glm::dvec2(tile.decals->high - tile.decals->low) / bitmapTexel(int(level));
+    return texels.x * texels.y <= mostTexels ? std::optional(int(level)) : std::nullopt;
 }
 
-/// How many pixels a point moves by at most that rises by 1, within bounds of the screen.
-double TerrainView::pixelsHigh(const ScreenRect& bounds, double nearest) const {
-    glm::dvec2 most(0.0);
-    for (int i = 0; i < 2; ++i)
-        for (const double at : {bounds.low[i], bounds.high[i]})
-            most[i] = std::max(most[i], 0.5 * _pixels[i] * std::abs(_clipFromTiles[2][i] - at * _clipFromTiles[2][3]));
-    return glm::length(most) / nearest;
-}
+double TerrainView::bitmapTexel(int level) { return std::exp2(0.5 * level); }
 
 bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& light, double lowest,
                                   double margin) const {

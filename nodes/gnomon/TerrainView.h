@@ -18,17 +18,15 @@ public:
     TerrainView(const ViewFrame& view, const glm::dvec3& origin);
 
     const glm::dmat4& clipFromTiles() const { return _clipFromTiles; }
-    /// Where a tile's mesh is on the screen.
-    struct Seen {
-        ScreenRect bounds;
-        double
-            unseen; ///< difference in height that is not seen where it is nearest, from above: a quarter of a pixel, and no
-                    ///< more than a pixel's length where the line of sight is upright.
-    };
-    /// nullopt if nothing of it is to be drawn: it is empty, out of sight, or its widest shadow is smaller than a pixel.
-    std::optional<Seen> seen(const TerrainMesh& mesh, const TileShadows& tile) const;
-    /// The eye is higher than all of it.
-    bool isAbove(const TerrainMesh& mesh) const;
+    /// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn: it is empty, out of sight, or its widest
+    /// shadow is smaller than a pixel.
+    std::optional<ScreenRect> seen(const TerrainMesh& mesh, const TileShadows& tile) const;
+    /// How fine a bitmap of a tile's decals is to be: see bitmapTexel(); one that is finer by `finerLevels` will do. nullopt
+    /// where nothing of them is to be drawn, and where there had to be too many texels.
+    std::optional<int> bitmapLevel(const TileShadows& tile) const;
+    static constexpr int finerLevels = 2;
+    /// A texel's side at a level, two levels for each doubling.
+    static double bitmapTexel(int level);
     /// By how much a tile's shadows may be off without being seen to be: a quarter of a pixel where they are nearest,
     /// infinite out of sight. @param off  by how much they may be off in plan.
     double mayBeOff(const TileShadows& tile, double off) const;
@@ -41,12 +39,10 @@ public:
 private:
     struct Shown {
         std::optional<ScreenRect> bounds; ///< see seen().
-        double nearest = 0.0;             ///< w of its nearest corner.
         double pixels = 0.0;              ///< that a length of 1 can be there.
     };
     /// @param moved  by how much the shadows may be somewhere else, in any direction.
     Shown shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const;
-    double pixelsHigh(const ScreenRect& bounds, double nearest) const;
 
     const osg::Vec2d _pixels;
     const glm::dmat4 _clipFromTiles;

@@ -11,10 +11,18 @@ uniform vec4 belowLight;
 out vec3 coordinates;
 #endif
 
+#ifdef BITMAP
+uniform vec4 texels; // where they begin in plan, and how many there are to a length of 1
+out vec2 texel;
+#endif
+
 void main() {
     gl_Position = clipFromCaster * gl_Vertex;
 #ifdef CUTOUT
     coordinates = gl_MultiTexCoord0.xyz;
+#endif
+#ifdef BITMAP
+    texel = (gl_Vertex.xy - texels.xy) * texels.zw;
 #endif
 #ifdef CLIP
     gl_ClipDistance[0] = dot(abovePlane, gl_Vertex);

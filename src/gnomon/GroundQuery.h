@@ -23,6 +23,14 @@ inline double doubleArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dv
     return cross(glm::dvec2(b - a), glm::dvec2(c - a));
 }
 
+/// Whether a polygon turns left, or not at all, at each of its corners in plan.
+template <class Corner>
+bool isConvex(const Corner* corners, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (doubleArea(corners[i], corners[(i + 1) % count], corners[(i + 2) % count]) < 0.0) return false;
+    return true;
+}
+
 /// Where a ray is inside a box.
 RaySpan spanInside(const GroundBox& box, const glm::dvec3& start, const glm::dvec3& along);
 

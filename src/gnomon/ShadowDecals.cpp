@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/FanGap.h>
 #include <gnomon/GridCut.h>
 #include <gnomon/GroundQuery.h>
 #include <gnomon/ShadowDecals.h>
@@ -58,25 +57,6 @@ bool isOnOneTriangle(const HeightField& field, const Polygon& polygon, const Cel
     return across.isIn(0.0, infinite) || across.isIn(-infinite, 0.0);
 }
 
-/// All of a shape is on ground.
-bool isOnGround(const HeightPyramid& ground, const CellBounds& bounds) {
-    const HeightField& field = ground.field();
-    const bool isBeside = !(bounds.x.low >= 0.0 && bounds.y.low >= 0.0 && bounds.x.high < field.columns() - 1.0 &&
-                            bounds.y.high < field.rows() - 1.0);
-    if (isBeside || std::isfinite(ground.steepest())) return !isBeside;
-    for (int y = int(bounds.y.low); y <= int(bounds.y.high); ++y)
-        for (int x = int(bounds.x.low); x <= int(bounds.x.high); ++x)
-            if (field.isHole(x, y)) return false;
-    return true;
-}
-
-bool isConvex(const Polygon& polygon) {
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-        if (doubleArea(polygon[i], polygon[(i + 1) % polygon.size()], polygon[(i + 2) % polygon.size()]) < 0.0)
-            return false;
-    return true;
-}
-
 class Builder {
 public:
     /// Memory is used again.
@@ -84,86 +64,43 @@ public:
         _ground = &ground;
         _origin = origin;
         _into = &into;
-        _cuts.clear();
-        _pieces.clear();
     }
     void add(const PackedShadow& shadow, const CellBounds& bounds) {
         shadow.isFan() ? addFan(shadow, bounds) : addDrape(shadow);
     }
-    /// Puts what is cut into its order, behind the rest.
-    void finish() {
-        std::sort(_cuts.begin(), _cuts.end(), [](const Cut& a, const Cut& b) { return a.off > b.off; });
-        for (const Cut& cut : _cuts) {
-            _into->fans.push_back({cut.off, unsigned(_into->uncut.size()), unsigned(_into->triangles.size())});
-            addTriangles(cut.corner, cut.corners, _into->uncut);
-            _into->triangles.insert(_into->triangles.end(), _pieces.begin() + cut.piece, _pieces.begin() + cut.end);
-        }
-    }
 
 private:
-    struct Cut {
-        double off;
-        unsigned corner;
-        std::size_t corners;       ///< of the fan, lifted, from `corner` on.
-        std::ptrdiff_t piece, end; ///< in `_pieces`.
-    };
-
     glm::dvec3 inGround(const glm::vec3& corner) const { return _origin + glm::dvec3(corner); }
     void addFan(const PackedShadow& fan, const CellBounds& bounds) {
         _polygon.clear();
         for (std::size_t i = 0; i < fan.cornerCount; ++i) _polygon.push_back(inGround(fan.corners[i]));
         if (isOnOneTriangle(_ground->field(), _polygon, bounds))
-            addTriangles(addCorners(0.0), _polygon.size(), _into->triangles);
+            addPolygon();
+        else if (isConvex(_polygon.data(), _polygon.size()))
+            addCut(_polygon);
         else
-            cut(bounds);
+            for (std::size_t i = 2; i < _polygon.size(); ++i) addCut(_polygon[0], _polygon[i - 1], _polygon[i]);
     }
     /// The ground that its triangles stand for may be coarser than what is drawn.
     void addDrape(const PackedShadow& drape) {
         const auto at = [&](std::size_t i) { return inGround(drape.corners[drape.indices[i]]); };
-        for (std::size_t i = 0; i < drape.indexCount; i += 3) {
-            _triangle = {at(i), at(i + 1), at(i + 2)};
-            addCut(_triangle, _into->triangles);
-        }
+        for (std::size_t i = 0; i < drape.indexCount; i += 3) addCut(at(i), at(i + 1), at(i + 2));
     }
-    void cut(const CellBounds& bounds) {
-        const auto piece = std::ptrdiff_t(_pieces.size());
-        _gap.begin(_ground->field(), _polygon);
-        const auto add = [&](const Polygon& convex) {
-            for (const glm::dvec3& corner : addCut(convex, _pieces).corners) _gap.take(corner);
-        };
-        if (isConvex(_polygon))
-            add(_polygon);
-        else
-            for (std::size_t i = 2; i < _polygon.size(); ++i) {
-                _triangle = {_polygon[0], _polygon[i - 1], _polygon[i]};
-                add(_triangle);
-            }
-        Cut cut{infinite, 0, 0, piece, std::ptrdiff_t(_pieces.size())};
-        if (isOnGround(*_ground, bounds) && _gap.isKnown()) {
-            _gap.takeInnerEdges();
-            cut.off = _gap.below() + _gap.above();
-            cut.corner = addCorners(_gap.below());
-            cut.corners = _polygon.size();
-        }
-        _cuts.push_back(cut);
-    }
-    /// @return its pieces, until the next call.
-    const DrapeMesh& addCut(const Polygon& convex, std::vector<unsigned>& triangles) {
+    void addCut(const Polygon& convex) {
         const DrapeMesh& mesh = _cutter.cut(_ground->field(), convex);
         const unsigned first = nextVertex();
         for (const glm::dvec3& corner : mesh.corners) _into->vertices.emplace_back(corner - _origin);
-        for (const unsigned index : mesh.indices) triangles.push_back(first + index);
-        return mesh;
+        for (const unsigned index : mesh.indices) _into->triangles.push_back(first + index);
     }
-    /// @return the first of the polygon's. @param lift  height over it.
-    unsigned addCorners(double lift) {
+    void addCut(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        _triangle = {a, b, c};
+        addCut(_triangle);
+    }
+    void addPolygon() {
         const unsigned first = nextVertex();
-        for (const glm::dvec3& corner : _polygon)
-            _into->vertices.emplace_back(corner + glm::dvec3(0.0, 0.0, lift) - _origin);
-        return first;
-    }
-    static void addTriangles(unsigned first, std::size_t corners, std::vector<unsigned>& to) {
-        for (unsigned i = 2; i < corners; ++i) to.insert(to.end(), {first, first + i - 1, first + i});
+        for (const glm::dvec3& corner : _polygon) _into->vertices.emplace_back(corner - _origin);
+        for (unsigned i = 2; i < _polygon.size(); ++i)
+            _into->triangles.insert(_into->triangles.end(), {first, first + i - 1, first + i});
     }
     unsigned nextVertex() const { return unsigned(_into->vertices.size()); }
 
@@ -172,9 +109,6 @@ private:
     ShadowDecals* _into = nullptr;
     Polygon _polygon, _triangle;
     GridCut _cutter;
-    FanGap _gap;
-    std::vector<Cut> _cuts;
-    std::vector<unsigned> _pieces; ///< triangles of all that is cut.
 };
 
 /// Drapes that were asked for stay prisms, which are right whatever the ground is: what decals are measured against.
@@ -197,16 +131,20 @@ bool isDecal(const HeightPyramid& ground, const PackedShadow& shadow, const glm:
     return decalBounds(ground, shadow, origin).has_value();
 }
 
+std::optional<HeightPyramid::Cells> decalCells(const HeightPyramid& ground, const PackedShadow& shadow,
+                                               const glm::dvec3& origin) {
+    const auto bounds = decalBounds(ground, shadow, origin);
+    if (!bounds) return std::nullopt;
+    return ground.cells({bounds->x.low, bounds->y.low}, {bounds->x.high, bounds->y.high});
+}
+
 void shadowDecals(const HeightPyramid& ground, const PackedShadows& shadows, ShadowDecals& into) {
     into.vertices.clear();
     into.triangles.clear();
-    into.uncut.clear();
-    into.fans.clear();
     thread_local Builder builder;
     builder.begin(ground, shadows.origin, into);
     for (std::size_t i = 0; i < shadows.size(); ++i)
         if (const auto bounds = decalBounds(ground, shadows[i], shadows.origin)) builder.add(shadows[i], *bounds);
-    builder.finish();
     glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
     for (const unsigned corner : into.triangles) {
         low = glm::min(low, into.vertices[corner]);

@@ -3,6 +3,8 @@
 #include <gnomon/HeightPyramid.h>
 #include <gnomon/PackedShadows.h>
 
+#include <optional>
+
 namespace gnomon {
 
 /// Shadows as triangles in the ground's own planes: drawn over that very ground, cut as it is, they cover what of it is in
@@ -11,22 +13,15 @@ struct ShadowDecals {
     std::vector<glm::vec3> vertices; ///< about the shadows' origin.
     std::vector<unsigned> triangles; ///< three places in `vertices` each, counter-clockwise from above.
     glm::dvec3 low{0.0}, high{0.0};  ///< bounds of `triangles`, about the origin.
-
-    /// Fans that are cut are there uncut as well: over the same places, lifted so far that nothing of them is in the ground.
-    std::vector<unsigned> uncut;
-    /// One of them.
-    struct Uncut {
-        double off;             ///< how far it is over the ground at most.
-        unsigned first, inside; ///< where it begins in `uncut`, and, cut, in `triangles`.
-    };
-    /// In the order of both lists, those that are off most first; in `triangles` all others are before them.
-    std::vector<Uncut> fans;
 };
 
 /// Whether a decal is what shows a shadow best: it is a fan, or a drape where no fan would do, over few of the ground's
 /// cells. For others there are prisms.
 /// @param origin  see PackedShadows.
 bool isDecal(const HeightPyramid& ground, const PackedShadow& shadow, const glm::dvec3& origin);
+/// The cells that it is over; nullopt of what is to be no decal, and beside the ground.
+std::optional<HeightPyramid::Cells> decalCells(const HeightPyramid& ground, const PackedShadow& shadow,
+                                               const glm::dvec3& origin);
 
 /// Of those that are to be decals. Memory that `into` has is used again.
 ///

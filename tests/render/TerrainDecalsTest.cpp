@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Decals on hills: uncut ones against cut ones, and from where the ground turns its other side to the eye.
+// Decals on hills: bitmaps against polygons, and from where the ground turns its other side to the eye.
+#include "IntoTexture.h"
+
 #include <support/Scene.h>
 
 #include <gnomon/ShadowBin.h>
+#include <gnomon/TerrainBitmap.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
@@ -47,6 +50,20 @@ Scene hillyTown(TerrainShadowGeode* shadow) {
 
 Scene withHull() { return hillyTown(new TerrainShadowGeode); }
 
+const test::View far = test::perspective({180.0, -820.0, 500.0}, {180.0, 180.0, 0.0}, 400, 300, 20.0, 20.0, 2500.0);
+
+/// For a while.
+struct MostPolygons {
+    explicit MostPolygons(unsigned triangles) { gnomon::TerrainBitmap::setMostPolygons(triangles); }
+    ~MostPolygons() { gnomon::TerrainBitmap::setMostPolygons(before); }
+    const unsigned before = gnomon::TerrainBitmap::getMostPolygons();
+};
+
+test::Picture byPolygons(const test::View& view) {
+    const MostPolygons all(~0u);
+    return test::render(withHull().root, view);
+}
+
 /// By prisms, whatever the eye sees of the ground.
 Scene withExactDrape() {
     osg::ref_ptr<TerrainShadowGeode> exact = new TerrainShadowGeode;
@@ -71,37 +88,57 @@ int darkAbout(const std::vector<bool>& dark, int x, int y, int width) {
 
 } // namespace
 
-/// Uncut ones are off by up to a quarter of a pixel: so pixels differ at edges alone, one in twenty of a shadow at most. No gap, no
-/// fight with the ground. Over a crest a quarter of a pixel of what it hides may be seen, where no edge was.
-TEST(TerrainDecals, UncutMarkAsCutOnesButForEdges) {
-    for (const double away : {260.0, 500.0}) {
+/// Texels are 0.4 pixels wide at most where they are nearest, and edges off by less than that: so pixels differ at edges
+/// alone, one in ten of a shadow at most (a shadow of 8 by 5 pixels has 26 at its edge, a tenth of a pixel off in the mean).
+TEST(TerrainDecals, BitmapsMarkAsPolygonsButForEdges) {
+    const MostPolygons none(0);
+    for (const double away : {1000.0, 1400.0}) {
         const test::View view =
-            test::perspective({180.0, 180.0 - away, 0.5 * away}, {180.0, 180.0, 0.0}, 400, 300, 40.0, 20.0, 1500.0);
+            test::perspective({180.0, 180.0 - away, 0.5 * away}, {180.0, 180.0, 0.0}, 400, 300, 20.0, 20.0, 2500.0);
         const test::Picture plain = test::render(hillyTown(nullptr).root, view);
-        const test::Picture uncut = test::render(withHull().root, view);
-        gnomon::ShadowBin::setFilter(false);
-        const test::Picture cut = test::render(withHull().root, view);
-        gnomon::ShadowBin::setFilter(true);
-        const std::vector<bool> dark = darkIn(cut, plain);
-        int gaps = 0, beyond = 0;
-        for (int y = 1; y + 1 < cut.height; ++y)
-            for (int x = 1; x + 1 < cut.width; ++x) {
-                if (uncut.at(x, y) == cut.at(x, y)) continue;
-                const int about = darkAbout(dark, x, y, cut.width);
-                gaps += about == 9;
+        const test::Picture bitmaps = test::render(withHull().root, view), polygons = byPolygons(view);
+        const std::vector<bool> dark = darkIn(polygons, plain);
+        int inside = 0, beyond = 0;
+        for (int y = 1; y + 1 < view.height; ++y)
+            for (int x = 1; x + 1 < view.width; ++x) {
+                if (bitmaps.at(x, y) == polygons.at(x, y)) continue;
+                const int about = darkAbout(dark, x, y, view.width);
+                inside += about == 9;
                 beyond += about == 0;
             }
-        const int shadow = cut.different(plain), different = uncut.different(cut);
-        EXPECT_GT(shadow, 3000);
-        EXPECT_GT(different, 0) << "or nothing was drawn uncut";
-        EXPECT_LT(different, shadow / 20);
-        EXPECT_EQ(gaps, 0);
-        EXPECT_LE(beyond, 2);
+        const int shadow = polygons.different(plain), different = bitmaps.different(polygons);
+        EXPECT_GT(shadow, 2000);
+        EXPECT_GT(different, 0) << "or nothing was drawn by bitmaps ";
+        EXPECT_LT(different, shadow / 10);
+        EXPECT_EQ(inside, 0);
+        EXPECT_LT(beyond, shadow / 100) << "what is so thin that it falls between pixels";
     }
 }
 
-/// Straight down nothing shows how high a decal is: still those over a hole and beside the ground are cut, and none is lifted out
-/// of the view.
+/// A bitmap says one thing of all samples of a pixel: its edges had no shades between.
+TEST(TerrainDecals, AreNoBitmapsWherePixelsHaveSamples) {
+    const auto picture = [] {
+        test::Target target;
+        target.samples = 4;
+        return test::IntoTexture(withHull().root, far, target).camera->frame();
+    };
+    const test::Picture polygons = picture();
+    const MostPolygons none(0);
+    EXPECT_EQ(polygons.different(picture()), 0);
+}
+
+/// Frame by frame, and after all of OpenGL was released.
+TEST(TerrainDecals, BitmapsStayTheSameWhileNothingMoves) {
+    const MostPolygons none(0);
+    const Scene scene = withHull();
+    test::Camera camera(scene.root, far);
+    const test::Picture first = camera.frame();
+    EXPECT_EQ(camera.frame().different(first), 0);
+    scene.root->releaseGLObjects();
+    EXPECT_EQ(camera.frame().different(first), 0);
+}
+
+/// Those over a hole and beside the ground, too.
 TEST(TerrainDecals, SeenStraightDownAreAsCutOnes) {
     const test::View view{400, 400, osg::Matrixd::translate(-180.0, -180.0, -100.0),
                           osg::Matrixd::ortho(-200.0, 200.0, -200.0, 200.0, 1.0, 200.0)};
