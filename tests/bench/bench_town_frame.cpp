@@ -9,11 +9,14 @@
 
 #include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/TerrainBitmap.h>
 #include <gnomon/TerrainShadowGeode.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
-#include <iostream>
+#include <ctime>
+#include <stdexcept>
 
 namespace {
 
@@ -23,6 +26,46 @@ using gnomon::examples::TownScene;
 
 constexpr int width = 640, height = 480;
 constexpr double pace = 60.0, framesASecond = 60.0; // of the sun, and of a display
+
+/// Times what is done for a frame before anything is drawn: what has changed, what is found anew, what is seen.
+class TimedTerrain : public gnomon::TerrainShadowGeode {
+public:
+    explicit TimedTerrain(const gnomon::TerrainShadowGeode& other) : TerrainShadowGeode(other) {}
+    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+                                                       const gnomon::GroupCasters& casters) const override {
+        const auto start = std::chrono::steady_clock::now();
+        const std::clock_t processor = std::clock();
+        auto jobs = TerrainShadowGeode::prepare(view, light, casters);
+        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+        wall.push_back(taken.count());
+        cpu.push_back(1e3 * double(std::clock() - processor) / CLOCKS_PER_SEC);
+        return jobs;
+    }
+    mutable std::vector<double> wall, cpu; ///< milliseconds a frame; cpu over all threads of the process
+};
+
+/// In the place of the scene's own.
+TimedTerrain& timed(SceneSetup& setup) {
+    for (unsigned i = 0; i < setup.group->getNumChildren(); ++i)
+        if (const auto* terrain = dynamic_cast<const gnomon::TerrainShadowGeode*>(setup.group->getChild(i))) {
+            osg::ref_ptr<TimedTerrain> copy = new TimedTerrain(*terrain);
+            setup.group->setChild(i, copy);
+            return *copy;
+        }
+    throw std::logic_error("no shadow on terrain in the scene");
+}
+
+/// Of the last frames, without those that warmed up.
+void printUpdate(const char* name, const TimedTerrain& terrain, int frames) {
+    std::printf("  update, %-16s", name);
+    for (const auto* all : {&terrain.wall, &terrain.cpu}) {
+        const std::vector<double> taken(all->end() - std::min<std::ptrdiff_t>(frames, std::ptrdiff_t(all->size())),
+                                        all->end());
+        std::printf("%s median %.2f ms, worst %.2f ms", all == &terrain.wall ? "wall" : "; cpu",
+                    quartiles(taken).median, *std::max_element(taken.begin(), taken.end()));
+    }
+    std::printf("\n");
+}
 
 SceneSetup setUp(const TownScene& town, const std::string& shadow) {
     gnomon::examples::ViewOptions view = town.view();
@@ -63,21 +106,26 @@ unsigned foundIn(const SceneSetup& setup) {
 
 double median(const bench::Contender& contender) { return quartiles(contender.wall).median; }
 
-/// Against the ground's own triangles, exactly cut; and with nothing left out, and nothing drawn uncut.
+/// Against the ground's own triangles, exactly cut; without bitmaps, and with nothing left out.
 bool rightPicture(const TownScene& town, const test::View& view) {
     const auto picture = [&](const std::string& shadow) {
         const SceneSetup setup = setUp(town, shadow);
         return test::render(setup.root, view);
     };
     const test::Picture plain = picture("none"), hull = picture("hull"), exact = picture("drape:error=0");
+    const unsigned before = gnomon::TerrainBitmap::getMostPolygons();
+    gnomon::TerrainBitmap::setMostPolygons(~0u);
+    const test::Picture polygons = picture("hull");
+    gnomon::TerrainBitmap::setMostPolygons(before);
     gnomon::ShadowBin::setFilter(false);
-    const int off = picture("hull").different(hull);
+    const int culled = picture("hull").different(polygons);
     gnomon::ShadowBin::setFilter(true);
     const int shadow = exact.different(plain), wrong = hull.different(exact);
-    std::printf(
-        "  picture: %d pixels in shadow; hull and exact drape differ in %d; culling and uncut decals change %d\n",
-        shadow, wrong, off);
-    return shadow > 0 && wrong < shadow / 50 && off < shadow / 50;
+    std::printf("  picture: %d pixels in shadow; hull and exact drape differ in %d, without bitmaps in %d; culling "
+                "changes %d\n",
+                shadow, wrong, polygons.different(exact), culled);
+    // Where a decal is edge-on at a crest its back may cover a pixel that its front does not.
+    return shadow > 0 && wrong < shadow / 50 && culled < shadow / 10000;
 }
 
 bool run(int buildings, int frames) {
@@ -86,22 +134,31 @@ bool run(int buildings, int frames) {
     const test::View view = viewOf(town);
     const double pacePerFrame = 360.0 / 86400.0 * pace / framesASecond;
     std::vector<SceneSetup> setups;
-    for (const char* shadow : {"none", "hull:composite=blend", "hull", "hull:composite=blend", "hull:composite=blend"})
+    for (const char* shadow : {"none", "hull:composite=blend", "hull", "hull:composite=blend", "hull:composite=blend",
+                               "hull:composite=blend"})
         setups.push_back(setUp(town, shadow));
-    const char* const names[] = {"none", "blend", "relight", "60 x real time", "an hour a frame"};
+    const char* const names[] = {"none", "blend", "relight", "60 x real time", "an hour a frame", "polygons"};
+    const TimedTerrain &still = timed(setups[1]), &moving = timed(setups[3]), &jumping = timed(setups[4]);
     std::vector<bench::Contender> contenders;
     for (std::size_t i = 0; i < setups.size(); ++i)
         contenders.push_back(bench::contender(names[i], setups[i].root, view));
     Turning sun(setups[3], *town.view().center, pacePerFrame);
     contenders[3].before = [&] { sun(); };
     contenders[4].before = Turning(setups[4], *town.view().center, 15.0);
+    const unsigned mostPolygons = gnomon::TerrainBitmap::getMostPolygons();
+    contenders[5].before = [] { gnomon::TerrainBitmap::setMostPolygons(~0u); };
+    contenders[0].before = [=] { gnomon::TerrainBitmap::setMostPolygons(mostPolygons); };
     std::printf("%d buildings, %dx%d, 800 m above ground\n", buildings, width, height);
     bench::race(contenders, frames);
-    const double plain = median(contenders[0]), still = median(contenders[1]);
-    std::printf("  sun still: blend adds %.0f %% of the frame (goal 25), relight %.0f %% (goal 60)\n",
-                100.0 * (still / plain - 1.0), 100.0 * (median(contenders[2]) / plain - 1.0));
-    std::printf("  sun at 60 x real time: the update takes %.2f ms a frame (goal 2); after a jump %.1f ms\n",
-                median(contenders[3]) - still, median(contenders[4]) - still);
+    contenders[0].before();
+    const double plain = median(contenders[0]);
+    const auto more = [&](int contender) { return 100.0 * (median(contenders[std::size_t(contender)]) / plain - 1.0); };
+    std::printf("  sun still: blend adds %.0f %% of the frame (goal 25), relight %.0f %% (goal 60), blend by polygons "
+                "%.0f %%\n",
+                more(1), more(2), more(5));
+    printUpdate("sun still", still, frames);
+    printUpdate("60 x real time", moving, frames);
+    printUpdate("an hour a frame", jumping, frames);
     std::printf("  %u tiles may be seen, of which the moving sun has %.1f found a frame\n", foundIn(setups[1]),
                 (foundIn(setups[3]) - foundIn(setups[1])) / double(sun.frames()));
     return rightPicture(town, view);
