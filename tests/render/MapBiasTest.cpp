@@ -23,14 +23,14 @@ using gnomon::ShadowMapTechnique;
 namespace {
 
 constexpr double elevations[] = {90.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0};
-const std::vector<int> sizes{128, 256, 512, 1024, 2048, 4096}; // at most: as many are used as are of use
+const std::vector<int> sizes{256, 512, 1024, 2048, 4096}; // at most: as many are used as are of use
 
 /// How a ground is drawn and its map looked up.
 struct Way {
     std::string name;
     Target target;
     ShadowMapTechnique::Filter filter = ShadowMapTechnique::BICUBIC;
-    std::vector<int> mapSizes = sizes;
+    std::vector<int> mapSizes{64, 128, 256, 512, 1024, 2048, 4096};
 };
 
 /// @return the greatest number of pixels that are not lit, of all elevations and sizes.
