@@ -63,12 +63,23 @@ void measure(TileShadows& shadows) {
 }
 
 /// Decals lie on the ground that is drawn; of the rest, which may stand for it, no more is known than where it is in plan.
+double slopeUnder(const HeightPyramid& ground, const TerrainMesh& decals, const glm::dvec3& origin) {
+    if (decals.triangles() == 0) return 0.0;
+    const auto cellOf = [&](const glm::dvec3& place) {
+        return ground.field().cellOf(origin.x + place.x, origin.y + place.y);
+    };
+    const glm::dvec2 a = cellOf(decals.low), b = cellOf(decals.high);
+    const auto cells = ground.cells(glm::min(a, b), glm::max(a, b));
+    return cells ? ground.steepest(*cells) : 0.0;
+}
+
 void setMeshes(const TileGround& ground, TileShadows& shadows) {
     thread_local ShadowDecals decals; // memory that is used again
     thread_local ShadowPrisms prisms;
     if (ground.drawn) {
         shadowDecals(*ground.drawn, shadows.found, decals);
         shadows.decals->set(decals);
+        shadows.slope = slopeUnder(*ground.drawn, *shadows.decals, shadows.found.origin);
     } else
         shadows.decals->set(ShadowDecals());
     shadowPrisms(ground.found, shadows.found, ground.margin, ground.drawn, prisms);
@@ -138,6 +149,7 @@ void TerrainTiles::update(const TerrainTown& town, const TileGround& ground, con
     _shadows.resize(tiles.size(), _none);
     _states.resize(tiles.size(), 0);
     _bitmaps.resize(tiles.size());
+    _finest.resize(tiles.size());
     if (!_lowest) _lowest = lowestOf(ground.found);
     Wanted wanted = wantedIn(view, town, ground, still);
     if (wanted.due.empty() && wanted.late.empty() && !wanted.letGo) return;
@@ -176,10 +188,20 @@ std::vector<TerrainTiles::Far> TerrainTiles::farIn(const TerrainView& view) cons
     return far;
 }
 
+/// As fine as any view of late wants it: views of one group take turns, and what is finer than need be is right.
+int TerrainTiles::levelFor(const Far& one) {
+    constexpr unsigned lately = 64; // calls
+    FinestWanted& finest = _finest[one.tile];
+    if (one.level <= finest.level || _calls - finest.call > lately) finest = {one.level, _calls};
+    return finest.level;
+}
+
 TerrainTiles::Bitmaps TerrainTiles::bitmapsIn(const TerrainView& view, const TileGround& ground) {
     Bitmaps result(_shadows.size());
     if (!ground.drawn || !ShadowBin::getFilter()) return result;
-    const std::vector<Far> far = farIn(view);
+    std::vector<Far> far = farIn(view);
+    ++_calls;
+    for (Far& one : far) one.level = levelFor(one);
     tbb::parallel_for(std::size_t{0}, far.size(), [&](std::size_t i) {
         const auto [tile, level] = far[i];
         osg::ref_ptr<TerrainBitmap>& known = _bitmaps[tile];

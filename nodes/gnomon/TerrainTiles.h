@@ -8,6 +8,7 @@
 #include <gnomon/TerrainTown.h>
 #include <gnomon/TerrainView.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,7 @@ struct TileShadows : public osg::Referenced {
     osg::ref_ptr<TerrainMesh> decals, prisms; ///< what shows them together; null if nobody draws them.
     glm::dvec2 low{0.0}, high{0.0};           ///< bounds in plan, about the origin; low > high if there is no shadow.
     double widest = 0.0;                      ///< diameter of the largest shadow.
+    double slope = 0.0;                       ///< of the ground under the decals, where it is steepest.
 
 protected:
     ~TileShadows() override = default;
@@ -85,8 +87,14 @@ public:
     void releaseGLObjects(osg::State* state) const;
 
 private:
+    /// Level of a bitmap's texels, and by which call.
+    struct FinestWanted {
+        int level = std::numeric_limits<int>::max();
+        unsigned call = 0;
+    };
     struct Wanted;
     struct Far;
+    int levelFor(const Far& one);
     std::vector<Far> farIn(const TerrainView& view) const;
     Wanted wantedIn(const TerrainView& view, const TerrainTown& town, const TileGround& ground, bool still);
     void letGo(std::size_t tile);
@@ -103,6 +111,8 @@ private:
     const osg::ref_ptr<const TileShadows> _none; ///< of a tile that was not seen yet.
     List _shadows;
     std::vector<osg::ref_ptr<TerrainBitmap>> _bitmaps; ///< null: none was wanted yet.
+    std::vector<FinestWanted> _finest;                 ///< bitmap of each tile.
+    unsigned _calls = 0;                               ///< for bitmaps.
     std::vector<std::uint64_t> _states;                ///< revisions of the tiles that the shadows are of; 0: of none.
     std::optional<double> _lowest;                     ///< of the ground, its frame.
     std::vector<osg::ref_ptr<TileShadows>> _spare;
