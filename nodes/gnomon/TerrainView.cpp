@@ -40,6 +40,23 @@ double pixelsAt(double nearest, const glm::dmat4& clipFromTiles, const osg::Vec2
     return nearest > 0.0 ? most / nearest : infinite;
 }
 
+/// How many pixels long what has a length of 1 can be where w is 1. A short way on the screen is (x - u w, y - v w) / w for
+/// one of (x, y, w) in clip space from a place that is seen at (u, v); its length is convex in u and v, so that the most is
+/// at a corner of the screen. pixelsAt() adds the two parts' lengths, which is a quarter more with an opening of 45 degrees.
+double mostPixelsOf(const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
+    const auto part = [&](int row) { return glm::dvec3(glm::row(clipFromTiles, row)); };
+    double most = 0.0;
+    for (const double u : {-1.0, 1.0})
+        for (const double v : {-1.0, 1.0}) {
+            const glm::dvec3 x = 0.5 * pixels[0] * (part(0) - u * part(3)),
+                             y = 0.5 * pixels[1] * (part(1) - v * part(3));
+            const double half = 0.5 * (glm::dot(x, x) + glm::dot(y, y)), cross = glm::dot(x, y);
+            const double apart = 0.5 * (glm::dot(x, x) - glm::dot(y, y));
+            most = std::max(most, std::sqrt(half + std::hypot(apart, cross))); // the larger singular value of (x, y)
+        }
+    return most;
+}
+
 /// False if all points are beyond one side of the view, or behind the eye: quick, for it is asked of all that is not seen.
 bool mayBeInView(const std::vector<glm::dvec4>& clipPoints) {
     for (const auto& side : {glm::dvec4(1, 0, 0, 1), glm::dvec4(-1, 0, 0, 1), glm::dvec4(0, 1, 0, 1),
@@ -59,17 +76,19 @@ glm::dvec3 marginOf(const TileShadows& tile, double moved) {
 } // namespace
 
 TerrainView::TerrainView(const ViewFrame& view, const glm::dvec3& origin)
-    : _pixels(view.pixels), _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)) {}
+    : _pixels(view.pixels),
+      _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)),
+      _mostPixels(mostPixelsOf(_clipFromTiles, _pixels)) {}
 
 TerrainView::Shown TerrainView::shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const {
     if (mesh.layers() == 0) return {};
     const glm::dvec3 margin = marginOf(tile, moved);
     const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromTiles);
     const auto bounds = screenBounds({corners.begin(), corners.end()});
-    const double pixels = pixelsAt(nearestOf(corners), _clipFromTiles, _pixels);
-    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels};
+    const double nearest = nearestOf(corners), pixels = pixelsAt(nearest, _clipFromTiles, _pixels);
+    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels, nearest};
     const bool isTooSmall = (tile.widest + 2.0 * moved) * pixels < leastPixels;
-    return {isTooSmall ? std::nullopt : bounds, pixels};
+    return {isTooSmall ? std::nullopt : bounds, pixels, nearest};
 }
 
 std::optional<ScreenRect> TerrainView::seen(const TerrainMesh& mesh, const TileShadows& tile) const {
@@ -107,7 +126,7 @@ double TerrainView::mayBeOff(const TileShadows& tile, double off) const {
     double least = infinite;
     for (const TerrainMesh* mesh : {tile.decals.get(), tile.prisms.get()})
         if (const Shown now = shown(*mesh, tile, off); now.bounds)
-            least = std::min(least, unseenPixels / (onSlope * now.pixels));
+            least = std::min(least, unseenPixels * std::max(now.nearest, 0.0) / (onSlope * _mostPixels));
     return least;
 }
 
