@@ -121,7 +121,7 @@ Slopes slopesIn(const HeightField& field, const HeightPyramid::Cells& cells, con
 }
 
 Slopes slopesIn(const HeightPyramid& grid, const PlanBox& box, const glm::dvec2& way) {
-    constexpr int mostCells = 16;
+    constexpr int mostCells = 256; // of a tower on a mountain
     const HeightField& field = grid.field();
     const auto cells = grid.cells(field.cellOf(box.low.x, box.low.y), field.cellOf(box.high.x, box.high.y));
     const bool isFew = cells && (cells->right - cells->left + 1) * (cells->high - cells->low + 1) <= mostCells;

@@ -304,6 +304,22 @@ TEST(PackedShadows, HaveNoBoundBeyondTheGroundThatIsKnown) {
     EXPECT_GT(movedAtMost(shadows, sunOf(7.0), sunOf(6.91)), 1e9);
 }
 
+/// On a slope that is steeper than the sun and faces it, a shadow of some 80 cells moves by less than on level ground.
+TEST(PackedShadows, HaveABoundOnASteepSlopeThatFacesTheSun) {
+    const auto slope = [](double x, double) { return 0.8 * x; };
+    const HeightPyramid ground = groundOf(slope, posts);
+    const double x = 400.0, base = slope(x, 0.0), height = 100.0;
+    const PackedParts packed(test::boxAt({x, 700.0}, {4.0, 4.0}, 0.0, base - 5.0, base + height).parts());
+    const auto sunOf = [](double shift) { return glm::dvec4(-shift, 0.0, 1.0, 0.0); };
+    const PackedShadows shadows = found(ground, packed, sunOf(1.5));
+    const auto tip = [&](double shift) { return x + height * shift / (1.0 + 0.8 * shift); };
+    for (const double turned : {0.0009, 0.009}) {
+        const double bound = movedAtMost(shadows, sunOf(1.5), sunOf(1.5 + turned));
+        EXPECT_GE(bound, tip(1.5 + turned) - tip(1.5));
+        EXPECT_LT(bound, 2.0 * height * turned) << "twice what it moves by on level ground";
+    }
+}
+
 /// A plate that the sun is in, and a tower whose shadow falls beside the ground, among houses that move little.
 TEST(PackedShadows, HaveNoBoundWhereOneMayAppear) {
     const HeightPyramid ground = groundOf([](double, double) { return 0.0; }, posts);
