@@ -32,17 +32,9 @@ double nearestOf(const std::array<glm::dvec4, 8>& corners) {
     return nearest;
 }
 
-/// How many pixels long what has a length of 1 can be from where w is `nearest` on, wherever it is on the screen.
-double pixelsAt(double nearest, const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
-    const auto lengthOf = [&](int row) { return glm::length(glm::dvec3(glm::row(clipFromTiles, row))); };
-    double most = 0.0;
-    for (int i = 0; i < 2; ++i) most = std::max(most, 0.5 * pixels[i] * (lengthOf(i) + lengthOf(3)));
-    return nearest > 0.0 ? most / nearest : infinite;
-}
-
 /// How many pixels long what has a length of 1 can be where w is 1. A short way on the screen is (x - u w, y - v w) / w for
 /// one of (x, y, w) in clip space from a place that is seen at (u, v); its length is convex in u and v, so that the most is
-/// at a corner of the screen. pixelsAt() adds the two parts' lengths, which is a quarter more with an opening of 45 degrees.
+/// at a corner of the screen.
 double mostPixelsOf(const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
     const auto part = [&](int row) { return glm::dvec3(glm::row(clipFromTiles, row)); };
     double most = 0.0;
@@ -76,19 +68,18 @@ glm::dvec3 marginOf(const TileShadows& tile, double moved) {
 } // namespace
 
 TerrainView::TerrainView(const ViewFrame& view, const glm::dvec3& origin)
-    : _pixels(view.pixels),
-      _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)),
-      _mostPixels(mostPixelsOf(_clipFromTiles, _pixels)) {}
+    : _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)),
+      _mostPixels(mostPixelsOf(_clipFromTiles, view.pixels)) {}
 
 TerrainView::Shown TerrainView::shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const {
     if (mesh.layers() == 0) return {};
     const glm::dvec3 margin = marginOf(tile, moved);
     const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromTiles);
     const auto bounds = screenBounds({corners.begin(), corners.end()});
-    const double nearest = nearestOf(corners), pixels = pixelsAt(nearest, _clipFromTiles, _pixels);
-    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels, nearest};
+    const double nearest = nearestOf(corners), pixels = nearest > 0.0 ? _mostPixels / nearest : infinite;
+    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels};
     const bool isTooSmall = (tile.widest + 2.0 * moved) * pixels < leastPixels;
-    return {isTooSmall ? std::nullopt : bounds, pixels, nearest};
+    return {isTooSmall ? std::nullopt : bounds, pixels};
 }
 
 std::optional<ScreenRect> TerrainView::seen(const TerrainMesh& mesh, const TileShadows& tile) const {
@@ -126,7 +117,7 @@ double TerrainView::mayBeOff(const TileShadows& tile, double off) const {
     double least = infinite;
     for (const TerrainMesh* mesh : {tile.decals.get(), tile.prisms.get()})
         if (const Shown now = shown(*mesh, tile, off); now.bounds)
-            least = std::min(least, unseenPixels * std::max(now.nearest, 0.0) / (onSlope * _mostPixels));
+            least = std::min(least, unseenPixels / (onSlope * now.pixels));
     return least;
 }
 

@@ -39,13 +39,11 @@ public:
 private:
     struct Shown {
         std::optional<ScreenRect> bounds; ///< see seen().
-        double pixels = 0.0;              ///< that a length of 1 can be there, or some more.
-        double nearest = 0.0;             ///< w.
+        double pixels = 0.0;              ///< that a length of 1 can be there.
     };
     /// @param moved  by how much the shadows may be somewhere else, in any direction.
     Shown shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const;
 
-    const osg::Vec2d _pixels;
     const glm::dmat4 _clipFromTiles;
     const double _mostPixels; ///< that a length of 1 can be where w is 1, exactly.
 };
