@@ -36,8 +36,8 @@ struct TerrainShadows;
 /// Below a ShadowCasterGroup it marks what of the receiver, which must be named, lies under the polygons, whatever level of
 /// detail is drawn: once where they overlap. Where a grid's own triangles are drawn, HULL's polygons are laid on them, a
 /// pixel's length nearer to the eye, and, where there are very many, far ones as bitmaps, off by 0.28 pixels at most; all
-/// else is marked by prisms that reach through the ground. What belongs to the receiver casts no such shadow. With no group above, it draws the shadow of one object as plain transparent geometry of
-/// its own, as the published class did:
+/// else is marked by prisms that reach through the ground. What belongs to the receiver casts no such shadow. With no
+/// group above, it draws the shadow of one object as plain transparent geometry of its own, as the published class did:
 ///
 ///     shadow->setObjectGraphic(house);
 ///     shadow->setObjectPos({120.0, 80.0, 0.0});

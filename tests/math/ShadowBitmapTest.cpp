@@ -88,11 +88,11 @@ TEST(ShadowBitmap, IsEmptyAtItsBorder) {
     for (int i = 0; i <= top; ++i) EXPECT_FALSE(bitmap.isSet(0, i) || bitmap.isSet(right, i));
 }
 
-/// A fan whose first corner alone sees all others: an L of 3 square metres.
+/// A fan whose first corner alone sees all others: an L of 2.5 square metres, whose hull has 3.
 TEST(ShadowBitmap, FollowsFansThatAreNotConvex) {
     const ShadowBitmap bitmap = bitmapOf(
         slope(), fans({{{21.0f, 21.0f}, {20.0f, 22.0f}, {20.0f, 20.0f}, {22.0f, 20.0f}, {22.0f, 21.0f}}}), 0.01);
-    EXPECT_NEAR(areaOf(bitmap), 2.5, 0.05) << "the L without the triangle that its first corner does not see";
+    EXPECT_NEAR(areaOf(bitmap), 2.5, 0.05) << "the L, not its hull";
 }
 
 /// Cells under the bounds of a shadow, cut as the ground is, and no holes.
