@@ -8,9 +8,6 @@
 namespace gnomon {
 namespace {
 
-constexpr GLint oneWord = 0x8236;     // GL_R32UI
-constexpr GLenum redInteger = 0x8D94; // GL_RED_INTEGER
-
 std::atomic<unsigned> mostPolygons{10000};
 
 osg::ref_ptr<osg::Geometry> geometryOf(const ShadowBitmap& bitmap) {
@@ -27,10 +24,10 @@ osg::ref_ptr<osg::Geometry> geometryOf(const ShadowBitmap& bitmap) {
 
 osg::ref_ptr<osg::Texture2D> textureOf(const ShadowBitmap& bitmap) {
     osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(bitmap.columns, bitmap.rows, 1, redInteger, GL_UNSIGNED_INT);
+    image->allocateImage(bitmap.columns, bitmap.rows, 1, GL_RED_INTEGER_EXT, GL_UNSIGNED_INT);
     std::copy(bitmap.words.begin(), bitmap.words.end(), reinterpret_cast<std::uint32_t*>(image->data()));
     osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
-    texture->setInternalFormat(oneWord);
+    texture->setInternalFormat(GL_R32UI);
     for (const auto use : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
         texture->setFilter(use, osg::Texture::NEAREST);
     texture->setResizeNonPowerOfTwoHint(false);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/FramebufferBindings.h>
 #include <gnomon/IndexClusters.h>
 #include <gnomon/MarkProgram.h>
 #include <gnomon/PlanCoverage.h>
@@ -16,11 +17,7 @@ namespace gnomon {
 namespace {
 
 /// A bitmap says one thing for all samples of a pixel, where polygons have smooth edges.
-bool onePixelIsOneSample() {
-    GLint samples = 0;
-    glGetIntegerv(GL_SAMPLES, &samples);
-    return samples <= 1;
-}
+bool onePixelIsOneSample() { return glInteger(GL_SAMPLES) <= 1; }
 
 } // namespace
 

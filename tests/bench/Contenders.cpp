@@ -37,6 +37,12 @@ double added(const Contender& contender, const Contender& to, Times times) {
 
 } // namespace
 
+test::Scene Setting::scene() const {
+    test::Scene scene = test::scene(sun);
+    for (const test::Mesh& mesh : meshes) scene.content->addChild(test::node(mesh));
+    return scene;
+}
+
 Contender contender(const std::string& name, osg::Group* root, const test::View& view, bool shadowMap) {
     Contender result;
     result.name = name;

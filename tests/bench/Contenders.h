@@ -4,6 +4,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,6 +12,19 @@
 #include <vector>
 
 namespace bench {
+
+inline const osg::Vec4d sun(1.0, 0.3, 0.7, 0.0);
+
+/// A scene of meshes that cast and receive, in the sun.
+struct Setting {
+    std::string name;
+    std::vector<test::Mesh> meshes;
+    test::View view;
+    int everyNthFrame; ///< so many times fewer frames than asked for.
+
+    test::Scene scene() const;
+    int frames(int asked) const { return std::max(3, asked / everyNthFrame); }
+};
 
 /// One way to draw a scene, in a context of its own.
 struct Contender {

@@ -9,20 +9,12 @@
 
 #include <cstdio>
 
+using bench::Setting;
+
 namespace {
 
-const osg::Vec4d sun(1.0, 0.3, 0.7, 0.0);
-
-struct Setting {
-    std::string name;
-    std::vector<test::Mesh> meshes;
-    test::View view;
-    int everyNthFrame; ///< so many times fewer frames than asked for.
-};
-
 struct Stage {
-    explicit Stage(const Setting& setting) : scene(test::scene(sun)) {
-        for (const test::Mesh& mesh : setting.meshes) scene.content->addChild(test::node(mesh));
+    explicit Stage(const Setting& setting) : scene(setting.scene()) {
         mover->addChild(test::node(test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.5})));
         mover->setDataVariance(osg::Object::DYNAMIC);
         scene.content->addChild(mover);
@@ -57,7 +49,7 @@ bool rightPicture(const Setting& setting, const test::Picture& moved, int step) 
 
 bool run(const Setting& setting, int asked) {
     std::printf("%s, 800x600\n", setting.name.c_str());
-    const int frames = std::max(3, asked / setting.everyNthFrame);
+    const int frames = setting.frames(asked);
     std::vector<bench::Contender> contenders;
     contenders.push_back(contender(setting, "none", true));
     contenders.push_back(contender(setting, "still", false));

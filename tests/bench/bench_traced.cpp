@@ -10,28 +10,15 @@
 #include <cstdio>
 #include <iostream>
 
+using bench::Setting;
+
 namespace {
-
-const osg::Vec4d sun(1.0, 0.3, 0.7, 0.0);
-
-struct Setting {
-    std::string name;
-    std::vector<test::Mesh> meshes;
-    test::View view;
-    int everyNthFrame; ///< so many times fewer frames than asked for
-};
 
 /// A town on its ground, two drawables.
 std::vector<test::Mesh> town(int side) { return {test::square(2.75 * side), test::joined(test::town(side))}; }
 
-test::Scene sceneOf(const Setting& setting) {
-    test::Scene scene = test::scene(sun);
-    for (const test::Mesh& mesh : setting.meshes) scene.content->addChild(test::node(mesh));
-    return scene;
-}
-
 bench::Contender contender(const Setting& setting, const std::string& name) {
-    test::Scene scene = sceneOf(setting);
+    test::Scene scene = setting.scene();
     if (name == "relight" || name == "blend") {
         scene.addShadow(new gnomon::TracedShadowTechnique);
         scene.group->setComposite(name == "blend" ? gnomon::ShadowCasterGroup::BLEND
@@ -42,10 +29,10 @@ bench::Contender contender(const Setting& setting, const std::string& name) {
 
 /// @param relight,lit  drawn before.
 bool rightPicture(const Setting& setting, const test::Picture& relight, const test::Picture& lit) {
-    test::Scene dark = sceneOf(setting);
+    test::Scene dark = setting.scene();
     dark.takeLightAway();
     const test::TruthComparison found = test::compare(relight, lit, test::render(dark.root, setting.view),
-                                                      test::truthOf(setting.meshes, sun, setting.view));
+                                                      test::truthOf(setting.meshes, bench::sun, setting.view));
     std::cout << "  picture: " << found << std::endl;
     return found.good();
 }
@@ -54,7 +41,7 @@ bool run(const Setting& setting, int frames) {
     std::printf("%s, 800x600\n", setting.name.c_str());
     std::vector<bench::Contender> contenders;
     for (const char* name : {"none", "relight", "blend", "ShadowMap"}) contenders.push_back(contender(setting, name));
-    bench::race(contenders, std::max(3, frames / setting.everyNthFrame));
+    bench::race(contenders, setting.frames(frames));
     return rightPicture(setting, contenders[1].camera->frame(), contenders[0].camera->frame());
 }
 
