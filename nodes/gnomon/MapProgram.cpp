@@ -54,7 +54,8 @@ std::string MapProgram::drawAhead(osg::RenderInfo& renderInfo) const { return _q
 
 std::string visibilityFunction(const std::string& filter) {
     return "#version 130\n" + filter +
-           "#define maps gnomon_map\n#define texel gnomon_mapTexel\n#define lit gnomon_lit\n" +
+           "uniform vec2 gnomon_mapTexel;\n#define maps gnomon_map\n#define texel gnomon_mapTexel\n"
+           "#define lit gnomon_lit\n" +
            shaders::map_filter_frag + shaders::visibility_glsl;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/FramebufferBindings.h>
 #include <gnomon/MapQuad.h>
 #include <gnomon/MarkProgram.h>
 #include <gnomon/RawSampler.h>
@@ -13,7 +14,8 @@ namespace gnomon {
 namespace {
 
 constexpr unsigned seenUnit = 0, mapUnit = 1, rawUnit = 2, blocksUnit = 3;
-constexpr double border = 2.0; // texels at a tile's sides that a comparison may reach over
+constexpr GLenum maxVaryingComponents = 0x8B4B; // GL_MAX_VARYING_COMPONENTS
+constexpr double border = 2.0;                  // texels at a tile's sides that a comparison may reach over
 
 struct Span {
     int from, to;
@@ -31,6 +33,16 @@ PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport) {
     const Span x = wholeQuads(pixels.x, pixels.width, seenSpan(viewport.x(), viewport.width()));
     const Span y = wholeQuads(pixels.y, pixels.height, seenSpan(viewport.y(), viewport.height()));
     return {x.from, y.from, x.to - x.from, y.to - y.from};
+}
+
+glm::dvec4 placeOf(const MapPicture::Tile& tile, int texels) {
+    return {glm::dvec2(tile.corner), texels, border / texels};
+}
+
+glm::dvec4 errorOf(const MapError& error, double last) { return {error.depth, error.texels, error.steepest, last}; }
+
+void addColumns(const glm::dmat4& matrix, int count, std::vector<glm::dvec4>& columns) {
+    for (int i = 0; i < count; ++i) columns.push_back(matrix[i]);
 }
 
 bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p.height)) & 1) != 0; }
@@ -58,15 +70,8 @@ std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, const W
     state.apply(resources->program(definesOf(pixels, wide)).get());
     if (!hasProgram(state)) return noProgram;
     map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
-    setPlaces(state, copy);
-    setColumns(state);
-    setUniform(state, "nearestError", errors(&MapErrors::nearest));
-    setUniform(state, "farthestError", errors(&MapErrors::farthest));
-    if (soft) setSpreads(state);
-    setUniform(state, "wanted",
-               glm::dvec4(wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, fades() ? 1.0 : 0.0));
-    setUniform(state, "seenPixels",
-               glm::dvec4(pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1));
+    setUniform(state, "maps", int(mapUnit));
+    setConstants(state, copy, wanted, pixels);
     wide ? drawWide(state, pass) : drawFragments(state, pass);
     state.apply();
     return lack;
@@ -79,10 +84,12 @@ std::string MapQuad::showMap(osg::RenderInfo& renderInfo) const {
     return cause;
 }
 
-/// Where something is seen.
+/// Where something is seen, and is wanted.
 void MapQuad::drawFragments(osg::State& state, ScreenPass& pass) const {
     pass.testDepth(GL_GREATER);
+    pass.testAlpha();
     drawPolygon(state, outline, 1.0);
+    glDisable(GL_ALPHA_TEST);
     glDisable(GL_DEPTH_TEST);
 }
 
@@ -97,7 +104,6 @@ void MapQuad::drawWide(osg::State& state, ScreenPass& pass) const {
 
 std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
     std::string text = mapDefines();
-    if (coneFromScene) text += "#define CONE\n";
     text += soft ? "#define SOFT\n" : "#define HALVES\n";
     if (smooth) text += "#define SMOOTH\n";
     if (wide) text += "#define PENUMBRA\n";
@@ -105,63 +111,57 @@ std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
     return text;
 }
 
-glm::dmat4 MapQuad::sceneFromPixel(const osg::State& state) const {
-    return glm::inverse(clipFromScene) * clipFromPixel(*state.getCurrentViewport());
-}
-
-void MapQuad::setPlaces(osg::State& state, const SeenDepth::Copy& copy) const {
-    std::vector<glm::dmat4> mapFromPixel;
-    for (const MapLookUp& lookUp : lookUps) mapFromPixel.push_back(lookUp.mapFromScene * sceneFromPixel(state));
-    resources->seen.bind(state, seenUnit);
-    setUniform(state, "seen", int(seenUnit));
-    setUniform(state, "depthError", copy.error);
-    setUniform(state, "mapFromPixel", mapFromPixel);
-    setUniform(state, "place", places());
-}
-
-void MapQuad::setColumns(osg::State& state) const {
-    std::vector<glm::dvec4> columns[3];
-    for (const MapLookUp& lookUp : lookUps) {
-        const glm::dmat4 pixelFromMap = glm::inverse(lookUp.mapFromScene * sceneFromPixel(state));
-        for (int axis = 0; axis < 3; ++axis) columns[axis].push_back(pixelFromMap[axis]);
-    }
-    if (coneFromScene) setUniform(state, "coneFromPixel", *coneFromScene * sceneFromPixel(state));
-    setUniform(state, "maps", int(mapUnit));
-    setUniform(state, "texel", 1.0 / glm::dvec2(map->size));
-    setUniform(state, "pixelFromMapX", columns[0]);
-    setUniform(state, "pixelFromMapY", columns[1]);
-    setUniform(state, "pixelFromMapZ", columns[2]);
-}
-
 std::string MapQuad::mapDefines() const {
-    return defines + (cascades ? "#define CASCADES\n" : "") + "#define MAPS " + std::to_string(lookUps.size()) + "\n";
+    const std::size_t all = sharedConstants() + constantsOfMap() * lookUps.size();
+    const bool flat = 4 * all <= static_cast<std::size_t>(glInteger(maxVaryingComponents));
+    const auto define = [](const char* name, std::size_t value) {
+        return "#define " + (name + (" " + std::to_string(value))) + "\n";
+    };
+    return defines + (cascades ? "#define CASCADES\n" : "") + (coneFromScene ? "#define CONE\n" : "") +
+           (flat ? "#define FLAT\n" : "") + define("MAPS", lookUps.size()) + define("SHARED", sharedConstants()) +
+           define("EACH", constantsOfMap()) + define("CONSTANTS", all);
 }
 
 std::vector<glm::dvec4> MapQuad::places() const {
     std::vector<glm::dvec4> result;
-    for (const MapPicture::Tile& tile : picture->tiles)
-        result.emplace_back(glm::dvec2(tile.corner), picture->size, border / picture->size);
+    for (const MapPicture::Tile& tile : picture->tiles) result.push_back(placeOf(tile, picture->size));
     return result;
 }
 
 std::vector<glm::dvec4> MapQuad::errors(MapError MapErrors::*which) const {
     std::vector<glm::dvec4> result;
-    for (const MapLookUp& lookUp : lookUps) {
-        const MapError& error = lookUp.errors.*which;
-        result.emplace_back(error.depth, error.texels, error.steepest, 0.0);
-    }
+    for (const MapLookUp& lookUp : lookUps) result.push_back(errorOf(lookUp.errors.*which, 0.0));
     return result;
 }
 
-void MapQuad::setSpreads(osg::State& state) const {
-    std::vector<glm::dvec4> discs;
-    std::vector<glm::dvec2> penumbras;
-    for (const MapLookUp& lookUp : lookUps) {
-        discs.emplace_back(lookUp.spread.nearest, lookUp.spread.farthest);
-        penumbras.push_back(lookUp.spread.penumbra);
-    }
-    setUniform(state, "discs", discs);
-    setUniform(state, "penumbra", penumbras);
+std::size_t MapQuad::sharedConstants() const { return coneFromScene ? 8 : 4; }
+
+std::size_t MapQuad::constantsOfMap() const { return soft ? 11 : 10; }
+
+void MapQuad::setConstants(osg::State& state, const SeenDepth::Copy& copy, const Wanted& wanted,
+                           const PixelRect& pixels) const {
+    const glm::dmat4 sceneFromPixel = glm::inverse(clipFromScene) * clipFromPixel(*state.getCurrentViewport());
+    std::vector<glm::dvec4> constants{copy.error,
+                                      glm::dvec4(1.0 / glm::dvec2(map->size), 0.0, 0.0),
+                                      {wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, fades() ? 1.0 : 0.0},
+                                      {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1}};
+    if (coneFromScene) addColumns(*coneFromScene * sceneFromPixel, 4, constants);
+    for (std::size_t i = 0; i < lookUps.size(); ++i) addMap(i, sceneFromPixel, constants);
+    resources->seen.bind(state, seenUnit);
+    setUniform(state, "seen", int(seenUnit));
+    setUniform(state, "constants", constants);
+}
+
+void MapQuad::addMap(std::size_t i, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const {
+    const MapLookUp& lookUp = lookUps[i];
+    const glm::dmat4 mapFromPixel = lookUp.mapFromScene * sceneFromPixel;
+    addColumns(mapFromPixel, 4, constants);
+    constants.push_back(placeOf(picture->tiles[i], picture->size));
+    addColumns(glm::inverse(mapFromPixel), 3, constants);
+    const MapSpread& spread = lookUp.spread;
+    constants.push_back(errorOf(lookUp.errors.nearest, spread.penumbra.x));
+    constants.push_back(errorOf(lookUp.errors.farthest, spread.penumbra.y));
+    if (soft) constants.emplace_back(spread.nearest, spread.farthest);
 }
 
 } // namespace gnomon

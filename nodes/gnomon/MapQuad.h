@@ -58,19 +58,20 @@ struct MapQuad {
     std::string showMap(osg::RenderInfo& renderInfo) const;
     /// Of map_place.frag.
     std::string mapDefines() const;
+    /// Those and the frame's depths, for map_place.frag.
+    void setConstants(osg::State& state, const SeenDepth::Copy& copy, const Wanted& wanted,
+                      const PixelRect& pixels) const;
     std::vector<glm::dvec4> places() const;
     /// Of those nearest or farthest, as map.frag has them.
     std::vector<glm::dvec4> errors(MapError MapErrors::*which) const;
-    /// Uniforms of map_place.frag, whose frame's depths are bound, too.
-    void setPlaces(osg::State& state, const SeenDepth::Copy& copy) const;
 
 private:
     std::string definesOf(const PixelRect& pixels, bool wide) const;
     void drawFragments(osg::State& state, ScreenPass& pass) const;
     void drawWide(osg::State& state, ScreenPass& pass) const;
-    glm::dmat4 sceneFromPixel(const osg::State& state) const;
-    void setColumns(osg::State& state) const;
-    void setSpreads(osg::State& state) const;
+    std::size_t sharedConstants() const;
+    std::size_t constantsOfMap() const;
+    void addMap(std::size_t map, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const;
 };
 
 } // namespace gnomon

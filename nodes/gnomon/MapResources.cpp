@@ -31,7 +31,7 @@ osg::ref_ptr<const osg::StateSet> MapResources::of(Programs& programs, const std
                                                    const std::string& shader) {
     Lock lock(_mutex);
     osg::ref_ptr<osg::StateSet>& set = programs[defines];
-    if (!set) set = quadProgram("gnomon map", defines + shaders::map_place_frag, shader.c_str());
+    if (!set) set = quadProgram("gnomon map", defines, (shaders::map_place_frag + shader).c_str());
     return set;
 }
 

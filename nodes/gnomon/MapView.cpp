@@ -44,7 +44,7 @@ void drawMapView(const MapQuad& quad, MapView view, osg::RenderInfo& renderInfo,
     if (view == MapView::Map) {
         drawPicture(quad, state, pass, before);
     } else {
-        quad.setPlaces(state, copy);
+        quad.setConstants(state, copy, {0.0, false, 1.0}, {});
         pass.drawQuad();
     }
     state.apply();

@@ -42,7 +42,7 @@ osg::ref_ptr<osg::StateSet> markProgram(const std::string& defines) {
 }
 
 osg::ref_ptr<osg::StateSet> quadProgram(const char* name, const std::string& defines, const char* fragmentShader) {
-    return programState(name, shaders::quad_vert, defines + fragmentShader);
+    return programState(name, defines + shaders::quad_vert, defines + fragmentShader);
 }
 
 bool hasProgram(const osg::State& state) { return state.getLastAppliedProgramObject() != nullptr; }

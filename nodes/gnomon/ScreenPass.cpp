@@ -49,14 +49,15 @@ ScreenPass::~ScreenPass() { leaveDefaults(_state); }
 /// osg::State sets an attribute again only if it ever had one of its type: so OpenGL itself is set, too.
 void leaveDefaults(osg::State& state) {
     using A = osg::StateAttribute;
-    for (GLenum mode :
-         {GLenum(GL_SCISSOR_TEST), GLenum(GL_STENCIL_TEST), GLenum(GL_DEPTH_TEST), GLenum(GL_BLEND), depthClamp}) {
+    for (GLenum mode : {GLenum(GL_SCISSOR_TEST), GLenum(GL_STENCIL_TEST), GLenum(GL_DEPTH_TEST), GLenum(GL_BLEND),
+                        GLenum(GL_ALPHA_TEST), depthClamp}) {
         glDisable(mode);
         state.haveAppliedMode(mode, A::OFF);
     }
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
+    glAlphaFunc(GL_ALWAYS, 0.0f);
     glStencilFunc(GL_ALWAYS, 0, ~0u);
     glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
     glStencilMask(~0u);
@@ -65,7 +66,8 @@ void leaveDefaults(osg::State& state) {
     if (const osg::Viewport* viewport = state.getCurrentViewport()) // as osgUtil::RenderStage leaves it
         glScissor(static_cast<GLint>(viewport->x()), static_cast<GLint>(viewport->y()),
                   static_cast<GLsizei>(viewport->width()), static_cast<GLsizei>(viewport->height()));
-    for (A::Type type : {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::BLENDEQUATION, A::DEPTH, A::COLORMASK})
+    for (A::Type type :
+         {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::BLENDEQUATION, A::DEPTH, A::ALPHAFUNC, A::COLORMASK})
         state.haveAppliedAttribute(type);
 }
 
@@ -232,6 +234,11 @@ void ScreenPass::testDepth(GLenum function, bool clamp) {
     glEnable(GL_DEPTH_TEST);
     clamp ? glEnable(depthClamp) : glDisable(depthClamp);
     glDepthFunc(function);
+}
+
+void ScreenPass::testAlpha() {
+    glEnable(GL_ALPHA_TEST);
+    glAlphaFunc(GL_LESS, 1.0f);
 }
 
 void drawQuad(osg::State& state, double atCenter, double slopeX, double slopeY) {

@@ -103,6 +103,10 @@ public:
     /// Passes where what is drawn next compares so with the depth that stands.
     /// @param clamp  what is nearer than the near plane, or beyond the far one, is taken for as far as that; else it is cut off.
     void testDepth(GLenum function, bool clamp = true);
+    /// Passes where the alpha of what is drawn next is less than 1: what a program may say in place of `discard`, which costs
+    /// where shaders run on the processor (llvmpipe skips blocks of which nothing passes, but no block of a program with
+    /// `discard`).
+    void testAlpha();
 
     /// See gnomon::drawQuad().
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);

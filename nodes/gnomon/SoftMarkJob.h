@@ -14,8 +14,8 @@ public:
 
     /// What drawShare() puts into alpha.
     enum class Share { Arriving, Blocked };
-    /// Draws over the pixels that markTouched() marks, and any others; `share` of the light, 0 … 1, in alpha. The pass's
-    /// stencil test, blending and colour mask stand.
+    /// Draws over the pixels that markTouched() marks, and any others; `share` of the light, 0 … 1, in alpha; pixels whose
+    /// alpha would be 1 may be left out. The pass's stencil test, blending and colour mask stand.
     virtual std::string drawShare(osg::RenderInfo& renderInfo, ScreenPass& pass, Share share) const = 0;
 
 protected:

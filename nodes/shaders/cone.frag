@@ -1,6 +1,8 @@
 // What a spot lights, as map.frag has pixels' places.
 #ifdef CONE
+#ifdef SURROUND
 uniform mat4 coneFromPixel; // see coneFromScene()
+#endif
 
 bool isInCone(vec4 pixel) {
     vec3 at = (coneFromPixel * pixel).xyz;

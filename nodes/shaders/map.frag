@@ -10,14 +10,10 @@ const float kernel = 0.75;
 const float kernel = 0.5;
 #endif
 
-uniform vec4 pixelFromMapX[MAPS], pixelFromMapY[MAPS], pixelFromMapZ[MAPS]; // columns of its inverse
-uniform vec4 wanted;          // pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0;
-                              // colour of a pixel that nothing reaches; 1, if other pixels are between that and white
-uniform vec4 nearestError[MAPS], farthestError[MAPS]; // see MapErrors
+// wanted: pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0; colour of a pixel that
+//         nothing reaches; 1, if other pixels are between that and white. All others get an alpha of 1.
 
 #if defined(ODD) || defined(SOFT)
-uniform vec4 seenPixels;      // first and last pixel that `seen` holds: x, y; x, y
-
 // From `here` to its neighbour in a direction, or, of that nothing is known, to the one on the other side.
 ivec2 known(ivec2 here, ivec2 step) {
     ivec2 to = here + step;
@@ -61,23 +57,23 @@ float visibility(vec4 pixel, vec4 plane) {
     for (int i = 0; i < MAPS; ++i) {
         vec3 at;
         if (!holds(i, pixel, at)) continue;
-        vec2 across = vec2(dot(plane, pixelFromMapX[i]), dot(plane, pixelFromMapY[i]));
-        vec2 slope = -across / (dot(plane, pixelFromMapZ[i]) * place[i].z);
+        vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
+        vec2 slope = -across / (dot(plane, pixelFromMapZ(i)) * place(i).z);
         float steepness = abs(slope.x) + abs(slope.y);
-        vec4 error = mix(nearestError[i], farthestError[i], clamp(at.z, 0.0, 1.0));
+        vec4 error = mix(nearestError(i), farthestError(i), clamp(at.z, 0.0, 1.0));
         if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
             slope = vec2(0.0);
             steepness = error.z;
         }
         float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x;
-        vec2 p = place[i].xy + at.xy * place[i].z;
+        vec2 p = place(i).xy + at.xy * place(i).z;
 #ifndef SOFT
         return lit(p, depth, slope, true);
 #else
         const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
         float weight = left;
 #if MAPS > 1
-        vec2 inside = min(at.xy, 1.0 - at.xy) - place[i].w - mostSpread(i, depth) / place[i].z;
+        vec2 inside = min(at.xy, 1.0 - at.xy) - place(i).w - mostSpread(i, depth) / place(i).z;
         weight *= clamp(min(inside.x, inside.y) / fade, least, 1.0);
 #endif
         share += weight * litSoftly(i, p, depth, slope);
@@ -106,16 +102,13 @@ void main() {
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));
     vec2 at = gl_FragCoord.xy + depthError.zw;
-#if defined(CONE) && !defined(SMOOTH)
-    if (!isInCone(vec4(at, e, 1.0))) discard; // a ConeMark's, or nobody's
-#endif
     float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
 #ifdef SMOOTH
-    arrives = ofPixel(arrives); // before anything is discarded: it needs the quad
+    arrives = ofPixel(arrives);
+#endif
+    bool unwanted = e <= 0.0 || arrives >= wanted.x; // e is 0 where nothing is seen
 #ifdef CONE
-    if (!isInCone(vec4(at, e, 1.0))) discard;
+    unwanted = unwanted || !isInCone(vec4(at, e, 1.0)); // a ConeMark's, or nobody's
 #endif
-#endif
-    if (e <= 0.0 || arrives >= wanted.x) discard; // e is 0 where nothing is seen
-    gl_FragColor = vec4(vec3(mix(wanted.z, 1.0, arrives * wanted.w)), mix(arrives, 1.0 - arrives, wanted.y));
+    gl_FragColor = vec4(vec3(mix(wanted.z, 1.0, arrives * wanted.w)), unwanted ? 1.0 : mix(arrives, 1.0 - arrives, wanted.y));
 }

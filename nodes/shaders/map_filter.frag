@@ -2,7 +2,6 @@
 // it only matters whether that is more than half; SOFT, if what is wider than the filter counts; PENUMBRA, if that goes by how far away what blocks the light is.
 
 uniform sampler2DShadow maps;
-uniform vec2 texel;           // of the texture, whose sides are 1
 
 // At p, in texels of the texture; `slope` is the change of depth a texel on the surface that is compared.
 #ifdef BICUBIC
@@ -41,13 +40,13 @@ float lit(vec2 p, float depth, vec2 slope, bool asked) {
 }
 
 #ifdef SOFT
-uniform vec4 discs[MAPS];     // radii of the disc that is averaged, texels: at depth 0: x, y; at depth 1: x, y
+// discs: radii of the disc that is averaged, texels: at depth 0: x, y; at depth 1: x, y.
 
 // Places spread evenly over a disc: the golden angle from one to the next. Source: H. Vogel, "A better way to construct
 // the sunflower head", Mathematical Biosciences 44, 1979.
 const mat2 golden = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-vec2 withinTile(vec2 p, int i) { return clamp(p, place[i].xy + 0.5, place[i].xy + place[i].z - 0.5); }
+vec2 withinTile(vec2 p, int i) { return clamp(p, place(i).xy + 0.5, place(i).xy + place(i).z - 0.5); }
 
 float litDisc(int i, vec2 p, float depth, vec2 slope, vec2 radius) {
     const float fewest = 8.0, most = 32.0, aTexel = 4.0; // taps, as many as keep holes between them small
@@ -65,7 +64,7 @@ float litDisc(int i, vec2 p, float depth, vec2 slope, vec2 radius) {
 #ifdef PENUMBRA
 uniform sampler2D depths;     // of the maps
 uniform sampler2D blocks;     // the least of them: see BlockDepths
-uniform vec2 penumbra[MAPS];  // half of it, texels, for each unit of depth between what blocks the light and the surface
+// penumbra: half of it, texels, for each unit of depth between what blocks the light and the surface.
 
 const float finest = 8.0, coarsest = 256.0; // sides of blocks, texels
 const float widest = coarsest / 2.0;        // radius that is averaged
@@ -82,7 +81,7 @@ float leastAbout(vec2 p, float radius) {
 
 // How far off what blocks part of the light can be, in depth; not more than 0 if there is nothing.
 float mostBetween(int i, vec2 p, float depth) {
-    float wider = max(penumbra[i].x, penumbra[i].y), far = min(depth, widest / wider);
+    float wider = max(penumbra(i).x, penumbra(i).y), far = min(depth, widest / wider);
     for (int step = 0; step < 2; ++step) far = min(far, depth - leastAbout(p, wider * far));
     return far;
 }
@@ -91,13 +90,13 @@ float mostBetween(int i, vec2 p, float depth) {
 // wider than the filter.
 float between(int i, vec2 p, float depth, vec2 slope) {
     const float most = 16.0;
-    float far = mostBetween(i, p, depth), reach = far * max(penumbra[i].x, penumbra[i].y);
+    float far = mostBetween(i, p, depth), reach = far * max(penumbra(i).x, penumbra(i).y);
     float taps = reach > 1.0 ? most : 0.0; // else the filter is as wide, whatever there is
-    float aTexel = 1.0 / min(penumbra[i].x, penumbra[i].y), sum = 0.0, found = 0.0;
+    float aTexel = 1.0 / min(penumbra(i).x, penumbra(i).y), sum = 0.0, found = 0.0;
     vec2 way = vec2(1.0, 0.0);
     for (float tap = 0.5; tap < taps; tap += 1.0) {
         float off = far * sqrt(tap / most);
-        vec2 at = withinTile(p + off * penumbra[i] * way, i);
+        vec2 at = withinTile(p + off * penumbra(i) * way, i);
         float stands = texture(depths, at * texel).r;
         float here = float(stands < depth + dot(slope, at - p) && off <= depth - stands + aTexel);
         found += here;
@@ -109,13 +108,13 @@ float between(int i, vec2 p, float depth, vec2 slope) {
 #endif
 
 // Radius, texels, of the disc that is averaged about a place of map i, whatever blocks the light.
-vec2 discAt(int i, float depth) { return mix(discs[i].xy, discs[i].zw, depth); }
+vec2 discAt(int i, float depth) { return mix(discs(i).xy, discs(i).zw, depth); }
 
 // The same at most, of a disc or a penumbra.
 vec2 mostSpread(int i, float depth) {
     vec2 radius = discAt(i, depth);
 #ifdef PENUMBRA
-    radius = max(radius, penumbra[i] * depth);
+    radius = max(radius, penumbra(i) * depth);
 #endif
     return radius;
 }
@@ -123,7 +122,7 @@ vec2 mostSpread(int i, float depth) {
 float litSoftly(int i, vec2 p, float depth, vec2 slope) {
     vec2 radius = discAt(i, depth);
 #ifdef PENUMBRA
-    radius = max(radius, penumbra[i] * max(between(i, p, depth, slope), 0.0));
+    radius = max(radius, penumbra(i) * max(between(i, p, depth, slope), 0.0));
 #endif
     bool wide = max(radius.x, radius.y) > 1.0; // than the filter
     float share = lit(p, depth, slope, !wide);

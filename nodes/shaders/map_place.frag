@@ -5,15 +5,36 @@
 // only.
 
 uniform sampler2D seen;       // depths of the frame
-uniform vec4 depthError;      // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
-uniform mat4 mapFromPixel[MAPS];
-uniform vec4 place[MAPS];     // in the texture: corner, and texels on a side; share of it that is border
+
+// What is the same for all pixels: SHARED vectors, then EACH of them for each map; see quad.vert and MapConstants.
+#ifdef FLAT
+flat in vec4 constant[CONSTANTS];
+#else
+uniform vec4 constants[CONSTANTS];
+#define constant constants
+#endif
+mat4 matrixAt(int first) { return mat4(constant[first], constant[first + 1], constant[first + 2], constant[first + 3]); }
+#define depthError constant[0]       // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
+#define texel constant[1].xy         // of the texture, whose sides are 1
+#define wanted constant[2]           // see map.frag
+#define seenPixels constant[3]       // first and last pixel that `seen` holds: x, y; x, y
+#define coneFromPixel matrixAt(4)    // see cone.frag
+#define ofMap(i, k) constant[SHARED + EACH * (i) + k]
+#define mapFromPixel(i) matrixAt(SHARED + EACH * (i))
+#define place(i) ofMap(i, 4)         // in the texture: corner, and texels on a side; share of it that is border
+#define pixelFromMapX(i) ofMap(i, 5) // columns of the inverse of mapFromPixel
+#define pixelFromMapY(i) ofMap(i, 6)
+#define pixelFromMapZ(i) ofMap(i, 7)
+#define nearestError(i) ofMap(i, 8)  // x, y, z: see MapErrors
+#define farthestError(i) ofMap(i, 9)
+#define penumbra(i) vec2(nearestError(i).w, farthestError(i).w) // see map_filter.frag
+#define discs(i) ofMap(i, 10)        // the same
 
 // False if map i does not answer for the pixel. Sides and depths of a map are 0 ... 1.
 bool holds(int i, vec4 pixel, out vec3 inMap) {
-    vec4 at = mapFromPixel[i] * pixel;
+    vec4 at = mapFromPixel(i) * pixel;
     inMap = at.xyz / at.w;
-    bool beside = any(lessThan(inMap.xy, place[i].ww)) || any(greaterThan(inMap.xy, 1.0 - place[i].ww));
+    bool beside = any(lessThan(inMap.xy, place(i).ww)) || any(greaterThan(inMap.xy, 1.0 - place(i).ww));
 #ifdef CASCADES
     beside = beside || !(inMap.z >= 0.0 && inMap.z <= 1.0);
 #endif

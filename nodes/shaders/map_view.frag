@@ -32,7 +32,7 @@ void main() {
         vec3 at;
         if (!holds(i, pixel, at)) continue;
         map = i;
-        texels = at.xy * place[i].z;
+        texels = at.xy * place(i).z;
     }
 #ifdef TEXELS
     float pixels = 1.0 / min(length(dFdx(texels)), length(dFdy(texels)));
