@@ -19,6 +19,7 @@ std::string ConeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsign
     if (!hasProgram(state)) return noProgram;
     resources->seen.bind(state, seenUnit);
     setUniform(state, "seen", int(seenUnit));
+    setUniform(state, "rows", copy.rows);
     setUniform(state, "depthError", copy.error);
     setUniform(state, "coneFromPixel", coneFromScene * glm::inverse(clipFromScene) * clipFromPixel(viewport));
     pass.stencilEqual(bit, 0, bit);

@@ -142,7 +142,7 @@ void MapQuad::setConstants(osg::State& state, const SeenDepth::Copy& copy, const
                            const PixelRect& pixels) const {
     const glm::dmat4 sceneFromPixel = glm::inverse(clipFromScene) * clipFromPixel(*state.getCurrentViewport());
     std::vector<glm::dvec4> constants{copy.error,
-                                      glm::dvec4(1.0 / glm::dvec2(map->size), 0.0, 0.0),
+                                      glm::dvec4(1.0 / glm::dvec2(map->size), copy.rows),
                                       {wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, fades() ? 1.0 : 0.0},
                                       {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1}};
     if (coneFromScene) addColumns(*coneFromScene * sceneFromPixel, 4, constants);

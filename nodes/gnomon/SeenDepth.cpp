@@ -4,6 +4,8 @@
 
 #include <OpenThreads/ScopedLock>
 
+#include <osg/ContextData>
+
 #include <algorithm>
 #include <cmath>
 
@@ -41,6 +43,25 @@ public:
     PlainTransfer& operator=(const PlainTransfer&) = delete;
 };
 
+void attach(const osg::GLExtensions& gl, GLuint& framebuffer, GLuint texture) {
+    if (!framebuffer) gl.glGenFramebuffers(1, &framebuffer);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
+    for (const GLenum part : {GL_DEPTH_ATTACHMENT_EXT, GL_STENCIL_ATTACHMENT_EXT})
+        gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, part, GL_TEXTURE_2D, texture, 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+}
+
+/// From the window to what is bound for drawing, `height` rows high.
+void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint height) {
+    const GLint right = pixels.x + pixels.width, top = pixels.y + pixels.height;
+    const GLboolean cut = glIsEnabled(GL_SCISSOR_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    gl.glBlitFramebuffer(pixels.x, pixels.y, right, top, pixels.x, height - pixels.y, right, height - top,
+                         GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
+    if (cut) glEnable(GL_SCISSOR_TEST);
+}
+
 constexpr double stepsOff = 4.0; // as depthShadow()
 constexpr double snapsOff = 2.0;
 
@@ -54,10 +75,7 @@ SeenDepth::Copy SeenDepth::copy(osg::State& state, const PixelRect& pixels) {
     result.error.y = snapsOff * std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
     const PlainTransfer plain;
     const bool resolves = ResolvedDepth::isNeeded(state), packed = !resolves && isPacked();
-    const auto read = [&] {
-        state.applyTextureAttribute(0, &textureFor(state.getContextID(), pixels, packed));
-        glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
-    };
+    const auto read = [&] { result.rows = transfer(state, pixels, packed); };
     if (resolves) {
         const auto place = _resolved.read(state, pixels.x, pixels.y, pixels.width, pixels.height, read);
         if (!place) return {unresolvedDepth};
@@ -70,14 +88,43 @@ SeenDepth::Copy SeenDepth::copy(osg::State& state, const PixelRect& pixels) {
     return result;
 }
 
-void SeenDepth::bind(osg::State& state, unsigned unit) {
-    Lock lock(_mutex);
-    state.applyTextureAttribute(unit, _textures.at(state.getContextID()));
+/// @return Copy::rows.
+glm::dvec2 SeenDepth::transfer(osg::State& state, const PixelRect& pixels, bool packed) {
+    Target& target = targetFor(state.getContextID(), pixels, packed);
+    state.applyTextureAttribute(0, target.texture);
+    if (packed && target.mirrors && mirror(state, target, pixels)) return {target.texture->getTextureHeight() - 1, -1};
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
+    return {0.0, 1.0};
 }
 
-osg::Texture2D& SeenDepth::textureFor(unsigned context, const PixelRect& pixels, bool packed) {
+/// Mesa has a window's first row at the top, a texture's at the bottom: so mirrored, memory is copied and nothing drawn, which
+/// takes a tenth of the time on llvmpipe.
+/// @return false if that is not a window, or not possible: formats can differ though they have as many bits.
+bool SeenDepth::mirror(osg::State& state, Target& target, const PixelRect& pixels) {
+    const auto& gl = *state.get<osg::GLExtensions>();
+    if (!gl.glBlitFramebuffer || glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT) != 0) return false;
+    const FramebufferBindings bound(gl);
+    const osg::Texture::TextureObject* texture = target.texture->getTextureObject(state.getContextID());
+    const bool first = target.attached != texture;
+    if (first) attach(gl, target.framebuffer, texture->id());
+    target.attached = texture;
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, 0);
+    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, target.framebuffer);
+    if (first) glGetError(); // somebody else's
+    blitMirrored(gl, pixels, target.texture->getTextureHeight());
+    if (first) target.mirrors = glGetError() == GL_NO_ERROR;
+    return target.mirrors;
+}
+
+void SeenDepth::bind(osg::State& state, unsigned unit) {
     Lock lock(_mutex);
-    osg::ref_ptr<osg::Texture2D>& texture = _textures[context];
+    state.applyTextureAttribute(unit, _targets.at(state.getContextID()).texture);
+}
+
+SeenDepth::Target& SeenDepth::targetFor(unsigned context, const PixelRect& pixels, bool packed) {
+    Lock lock(_mutex);
+    Target& target = _targets[context];
+    osg::ref_ptr<osg::Texture2D>& texture = target.texture;
     const GLint format = packed ? GL_DEPTH24_STENCIL8_EXT : GL_DEPTH_COMPONENT24;
     if (!texture || texture->getInternalFormat() != format) texture = depthTexture(packed);
     const int width = std::max(texture->getTextureWidth(), pixels.x + pixels.width);
@@ -86,16 +133,18 @@ osg::Texture2D& SeenDepth::textureFor(unsigned context, const PixelRect& pixels,
         texture->setTextureSize(width, height);
         texture->dirtyTextureObject();
     }
-    return *texture;
+    return target;
 }
 
 void SeenDepth::release(osg::State* state) {
     _resolved.release(state);
     Lock lock(_mutex);
-    for (auto entry = _textures.begin(); entry != _textures.end();) {
+    for (auto entry = _targets.begin(); entry != _targets.end();) {
         const bool meant = !state || state->getContextID() == entry->first;
-        if (meant) entry->second->releaseGLObjects(state);
-        entry = meant ? _textures.erase(entry) : std::next(entry);
+        if (meant) entry->second.texture->releaseGLObjects(state);
+        if (const GLuint framebuffer = entry->second.framebuffer; meant && framebuffer)
+            osg::get<osg::GLFrameBufferObjectManager>(entry->first)->scheduleGLObjectForDeletion(framebuffer);
+        entry = meant ? _targets.erase(entry) : std::next(entry);
     }
 }
 

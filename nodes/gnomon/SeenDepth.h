@@ -4,6 +4,7 @@
 #include <gnomon/ScreenPass.h>
 
 #include <OpenThreads/Mutex>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <osg/Texture2D>
 
@@ -21,8 +22,9 @@ public:
     struct Copy {
         std::string cause;     ///< why nothing was copied, for ShadowTechnique::report(); empty if all is well.
         glm::dvec4 error{0.0}; ///< in depth, in pixels; x and y of where in a pixel depths were taken, from its centre.
+        glm::dvec2 rows{0.0, 1.0}; ///< pixels of row y are in the texture's row rows.x + y rows.y.
     };
-    /// Copies these pixels of the framebuffer that is drawn to, to the same place in the texture.
+    /// Copies these pixels of the framebuffer that is drawn to, to the same columns of the texture.
     Copy copy(osg::State& state, const PixelRect& pixels);
     void bind(osg::State& state, unsigned unit);
 
@@ -30,11 +32,20 @@ public:
     void release(osg::State* state);
 
 private:
-    osg::Texture2D& textureFor(unsigned context, const PixelRect& pixels, bool packed);
+    /// Of one context.
+    struct Target {
+        osg::ref_ptr<osg::Texture2D> texture;
+        GLuint framebuffer = 0; ///< of the texture; 0 until it is asked for.
+        const osg::Texture::TextureObject* attached = nullptr;
+        bool mirrors = true; ///< false once OpenGL has refused to copy so.
+    };
+    Target& targetFor(unsigned context, const PixelRect& pixels, bool packed);
+    glm::dvec2 transfer(osg::State& state, const PixelRect& pixels, bool packed);
+    static bool mirror(osg::State& state, Target& target, const PixelRect& pixels);
 
     ResolvedDepth _resolved;
     OpenThreads::Mutex _mutex;
-    std::map<unsigned, osg::ref_ptr<osg::Texture2D>> _textures; ///< by context.
+    std::map<unsigned, Target> _targets; ///< by context.
 };
 
 } // namespace gnomon

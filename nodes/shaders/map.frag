@@ -23,7 +23,7 @@ ivec2 known(ivec2 here, ivec2 step) {
 
 float changeTo(ivec2 to, float e, ivec2 here) {
     ivec2 way = to - here;
-    return (1.0 - texelFetch(seen, to, 0).r - e) * float(way.x + way.y);
+    return (1.0 - seenDepth(to) - e) * float(way.x + way.y);
 }
 
 // Change of e a pixel along an axis, to the other pixel of the quad or, `beyond`, to that on its other side.
@@ -97,7 +97,7 @@ float ofPixel(float arrives) {
 
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
-    float e = 1.0 - texelFetch(seen, here, 0).r;
+    float e = 1.0 - seenDepth(here);
     vec2 slope = changeOf(e, here);
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));

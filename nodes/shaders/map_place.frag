@@ -16,6 +16,7 @@ uniform vec4 constants[CONSTANTS];
 mat4 matrixAt(int first) { return mat4(constant[first], constant[first + 1], constant[first + 2], constant[first + 3]); }
 #define depthError constant[0]       // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
 #define texel constant[1].xy         // of the texture, whose sides are 1
+#define rows constant[1].zw           // of `seen`: see SeenDepth
 #define wanted constant[2]           // see map.frag
 #define seenPixels constant[3]       // first and last pixel that `seen` holds: x, y; x, y
 #define coneFromPixel matrixAt(4)    // see cone.frag
@@ -29,6 +30,8 @@ mat4 matrixAt(int first) { return mat4(constant[first], constant[first + 1], con
 #define farthestError(i) ofMap(i, 9)
 #define penumbra(i) vec2(nearestError(i).w, farthestError(i).w) // see map_filter.frag
 #define discs(i) ofMap(i, 10)        // the same
+
+float seenDepth(ivec2 here) { return texelFetch(seen, ivec2(here.x, int(rows.x + rows.y * float(here.y))), 0).r; }
 
 // False if map i does not answer for the pixel. Sides and depths of a map are 0 ... 1.
 bool holds(int i, vec4 pixel, out vec3 inMap) {

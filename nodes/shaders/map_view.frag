@@ -24,7 +24,7 @@ vec3 tint(float pixels) {
 #endif
 
 void main() {
-    float e = 1.0 - texelFetch(seen, ivec2(gl_FragCoord.xy), 0).r;
+    float e = 1.0 - seenDepth(ivec2(gl_FragCoord.xy));
     vec4 pixel = vec4(gl_FragCoord.xy + depthError.zw, e, 1.0);
     int map = MAPS;
     vec2 texels = vec2(0.0);
