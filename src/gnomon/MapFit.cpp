@@ -108,20 +108,19 @@ glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double fart
 } // namespace
 
 std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
-                                      std::vector<glm::dvec4> halfSpaces) {
+                                      const std::vector<glm::dvec4>& halfSpaces) {
     const auto all = boxCorners(low, high, sceneFromBox);
     std::vector<glm::dvec4> corners(all.begin(), all.end());
-    bool whole = true;
+    std::vector<glm::dvec4> cutting; // by the others the box is not changed
     for (const glm::dvec4& half : halfSpaces) {
         const auto outside = [&half](const glm::dvec4& corner) { return glm::dot(half, corner) < 0.0; };
         const auto count = std::count_if(corners.begin(), corners.end(), outside);
         if (count == 8) return {};
-        whole = whole && count == 0;
+        if (count > 0) cutting.push_back(half * sceneFromBox);
     }
-    if (whole) return corners;
+    if (cutting.empty()) return corners;
     corners.clear();
-    for (glm::dvec4& half : halfSpaces) half = half * sceneFromBox;
-    for (const glm::dvec3& corner : cutBox(low, high, halfSpaces))
+    for (const glm::dvec3& corner : cutBox(low, high, cutting))
         corners.push_back(sceneFromBox * glm::dvec4(corner, 1.0));
     return corners;
 }
@@ -160,7 +159,7 @@ void MapOutline::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm
     if (std::all_of(all.begin(), all.end(), known)) return;
     std::vector<glm::dvec4> halfSpaces = given;
     halfSpaces.insert(halfSpaces.end(), _frame.halfSpaces.begin(), _frame.halfSpaces.end());
-    for (const glm::dvec4& corner : cornersWithin(low, high, sceneFromBox, std::move(halfSpaces))) {
+    for (const glm::dvec4& corner : cornersWithin(low, high, sceneFromBox, halfSpaces)) {
         const glm::dvec4 p = _frame.lightFromScene * corner;
         if (!(p.w > 0.0)) continue; // the lamp's own place
         const double depth = p.z / p.w;

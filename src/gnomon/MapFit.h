@@ -26,7 +26,7 @@ LightFrame lampFrame(const glm::dvec3& lamp, const glm::dvec3& axis, double spre
 
 /// Corners, in the scene, of what of a box lies within all half-spaces of the scene, see cutBox(); empty if nothing does.
 std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
-                                      std::vector<glm::dvec4> halfSpaces);
+                                      const std::vector<glm::dvec4>& halfSpaces);
 
 /// Where boxes lie as a light sees them: a convex outline and the depths between the nearest and the farthest.
 class MapOutline {

@@ -45,7 +45,7 @@ void SeenPixels::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm
     if (std::all_of(all.begin(), all.end(), [&](const auto& corner) { return unstretched(corner) >= least; })) return;
     std::vector<glm::dvec4> halfSpaces = given;
     halfSpaces.insert(halfSpaces.end(), _frame.halfSpaces.begin(), _frame.halfSpaces.end());
-    for (const glm::dvec4& corner : cornersWithin(low, high, sceneFromBox, std::move(halfSpaces)))
+    for (const glm::dvec4& corner : cornersWithin(low, high, sceneFromBox, halfSpaces))
         if (inLight(corner).w > 0.0) side = std::min(side, unstretched(corner) / stretch(normal, corner));
 }
 
