@@ -170,9 +170,17 @@ void HeightPyramid::cover(const std::vector<glm::dvec4>& planes, double error,
     });
 }
 
-std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm::dvec3& along) const {
+/// In the same order whichever block it begins at, so that what is at a border of cells keeps its bits.
+double HeightPyramid::hitIn(const Cells& among, const glm::dvec3& start, const glm::dvec3& along) const {
     double nearest = std::numeric_limits<double>::infinity();
-    descend([&](const Block& block) {
+    const int most = 1 + std::max(among.right - among.left, among.high - among.low);
+    int level = 0;
+    while (among.left >> level != among.right >> level || among.low >> level != among.high >> level) ++level;
+    descend({level, among.left >> level, among.low >> level}, [&](const Block& block) {
+        const int right = block.column() + block.side() - 1, high = block.row() + block.side() - 1;
+        if (right < among.left || block.column() > among.right || high < among.low || block.row() > among.high)
+            return false;
+        if (block.side() > most) return true; // its bounds are those of far more than is asked for
         const RaySpan span = spanInside(boxOf(block), start, along);
         if (span.from > span.to || span.from >= nearest) return false;
         if (block.level > 0) return true;
@@ -180,6 +188,21 @@ std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm:
             nearest = std::min(nearest, meet(triangle, start, along).value_or(nearest));
         return false;
     });
+    return nearest;
+}
+
+std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm::dvec3& along) const {
+    constexpr double rounding = 1e-6; // of a cell
+    const glm::dvec2 pace = glm::abs(glm::dvec2(along)) / _field.step(), from = _field.cellOf(start.x, start.y);
+    for (const double near : {2.0, 16.0}) { // cells: most of what is asked for is beside its caster
+        const double reach = near / std::max({pace.x, pace.y, 1e-100}); // no way in plan: as far as doubles go
+        const glm::dvec2 to = from + reach * glm::dvec2(along) / _field.step();
+        const auto nearby = cells(glm::min(from, to) - rounding, glm::max(from, to) + rounding);
+        if (!nearby) continue;
+        const double nearest = hitIn(*nearby, start, along);
+        if (nearest <= reach) return start + nearest * along;
+    }
+    const double nearest = hitIn({0, 0, _levels[0].columns - 1, _levels[0].rows - 1}, start, along);
     if (!std::isfinite(nearest)) return std::nullopt;
     return start + nearest * along;
 }

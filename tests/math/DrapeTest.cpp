@@ -107,6 +107,12 @@ TEST(HeightPyramid, FindsTheFirstPlaceThatARayMeets) {
     EXPECT_GT(hits, 100);
     EXPECT_FALSE(ground.hit({600.0, 600.0, 60.0}, {0.0, 0.0, 1.0}));
     EXPECT_NEAR(ground.hit({601.0, 602.0, 99.0}, {0.0, 0.0, -2.0})->z, *ground.height(601.0, 602.0), 1e-9);
+    const HeightPyramid cell({2, 2, {0.0, 0.0}, {9.0, 9.0}, std::vector<float>(4, 5.0f)});
+    for (const glm::dvec3& along : {glm::dvec3(0.0, 0.0, -1.0), {0.5, 0.0, -1.0}, {-0.1, 0.3, -2.0}}) {
+        const auto hit = cell.hit({4.0, 4.0, 7.0}, along);
+        ASSERT_TRUE(hit) << "a single cell";
+        EXPECT_NEAR(hit->z, 5.0, 1e-9);
+    }
 }
 
 TEST(Drape, IsExactOnHillsCliffsAndLevelGround) {
