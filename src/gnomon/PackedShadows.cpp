@@ -72,9 +72,6 @@ void clear(PackedShadows& found) {
     found.steepest = 0.0;
 }
 
-/// The light's way in plan a unit of height.
-glm::dvec2 shiftOf(const glm::dvec4& sun) { return glm::dvec2(sun) / sun.z; }
-
 struct PlanBox {
     glm::dvec2 low{infinite}, high{-infinite};
     void take(const glm::dvec2& place) {
@@ -94,28 +91,37 @@ PlanBox reachOf(const PackedShadows& shadows, const glm::vec3* first, const glm:
 /// Of the ground in some place.
 struct Slopes {
     double steepest = 0.0;
-    double rise = 0.0; ///< along the light's way in plan a unit of height: from 1 on it is as steep as the light.
-    double grazing() const { return rise < 1.0 ? steepest / (1.0 - rise) : infinite; }
+    double grazing = 0.0; ///< see ShadowMotion; infinite where some of it is as steep as the light.
+    /// @param slope  of some ground. @param rise  of it along the light's way in plan a unit of height.
+    void take(double slope, double rise) {
+        steepest = std::max(steepest, slope);
+        grazing = std::max(grazing, rise < 1.0 ? slope / (1.0 - rise) : infinite);
+    }
 };
 
 Slopes slopesIn(const Ground& ground, const PlanBox& box, const glm::dvec2& way) {
     const auto range = ground.range(box.low, box.high);
-    return range ? Slopes{range->steepest, range->steepest * glm::length(way)} : Slopes{infinite, infinite};
+    if (!range) return {infinite, infinite};
+    Slopes slopes;
+    slopes.take(range->steepest, range->steepest * glm::length(way));
+    return slopes;
 }
 
-/// By each cell's own gradients, which tell slopes that face the light from those that turn away.
+/// By each triangle's own gradient, which tells slopes that face the light from those that turn away.
 Slopes slopesIn(const HeightField& field, const HeightPyramid::Cells& cells, const glm::dvec2& way) {
-    Slopes slopes{0.0, -infinite};
+    Slopes slopes;
+    const auto take = [&](double x, double y) {
+        const glm::dvec2 gradient = glm::dvec2(x, y) / field.step();
+        slopes.take(glm::length(gradient), glm::dot(gradient, way));
+    };
     for (int y = cells.low; y <= cells.high; ++y)
         for (int x = cells.left; x <= cells.right; ++x) {
+            if (field.isHole(x, y)) return {infinite, infinite};
             const double a = field.post(x, y).z, b = field.post(x + 1, y).z, c = field.post(x + 1, y + 1).z,
                          d = field.post(x, y + 1).z;
-            const glm::dvec2 one = glm::dvec2(b - a, d - a) / field.step(),
-                             other = glm::dvec2(c - d, c - b) / field.step();
-            slopes.steepest = std::max(slopes.steepest, glm::length(glm::max(glm::abs(one), glm::abs(other))));
-            const glm::dvec2 most = glm::max(one * way, other * way);         // whichever way the cell is cut
-            if (!std::isfinite(most.x + most.y)) return {infinite, infinite}; // a hole
-            slopes.rise = std::max(slopes.rise, most.x + most.y);
+            const bool falls = field.cut(x, y) == CellCut::falling;
+            take(b - a, falls ? d - a : c - b);
+            take(c - d, falls ? c - b : d - a);
         }
     return slopes;
 }
@@ -128,13 +134,15 @@ Slopes slopesIn(const HeightPyramid& grid, const PlanBox& box, const glm::dvec2&
     return isFew ? slopesIn(field, *cells, way) : slopesIn(static_cast<const Ground&>(grid), box, way);
 }
 
-/// A shadow's part in the rates: see movedAtMost().
-void takeRates(PackedShadows& found, double height, double grazing, double way) {
-    for (std::size_t i = 0; i < found.rates.size(); ++i) {
-        const double turned = PackedShadows::turnsKnown[i], left = 1.0 - turned * grazing;
-        const double rate = 1.0 + (way + turned) * grazing / left;
-        found.rates[i] = std::max(found.rates[i], left > 0.0 && turned * rate <= reach ? height * rate : infinite);
-    }
+/// How far it moves at most, a unit that the light's way turns by, for turns up to `turned`.
+double rateOf(const ShadowMotion& motion, double way, double turned) {
+    const double left = 1.0 - turned * motion.grazing, rate = 1.0 + (way + turned) * motion.grazing / left;
+    return left > 0.0 && turned * rate <= reach ? motion.height * rate : infinite;
+}
+
+void takeRates(PackedShadows& found, const ShadowMotion& motion, double way) {
+    for (std::size_t i = 0; i < found.rates.size(); ++i)
+        found.rates[i] = std::max(found.rates[i], rateOf(motion, way, PackedShadows::turnsKnown[i]));
 }
 
 /// Of parts that have no shadow, but may have one as soon as the light turns: where and how large it is not known.
@@ -143,34 +151,40 @@ bool mayAppear(TerrainOutcome outcome) {
 }
 
 /// By the ground under all together; where that tells too little, by what is under each.
-void findRates(const Ground& ground, const std::vector<double>& heights, const glm::dvec4& light,
-               PackedShadows& found) {
+void findMotions(const Ground& ground, const std::vector<double>& heights, const glm::dvec2& way, PackedShadows& found,
+                 std::vector<ShadowMotion>& motions) {
     constexpr double enough = 0.25; // more than what shadows move by on level ground
-    if (light.w != 0.0) return;
-    if (std::any_of(found.outcomes.begin(), found.outcomes.end(), mayAppear)) {
-        found.rates.fill(infinite);
-        return;
-    }
     if (found.corners.empty()) return;
-    const glm::dvec2 way = shiftOf(light);
     const glm::vec3* corners = found.corners.data();
     const double tallest = *std::max_element(heights.begin(), heights.end());
     const Slopes all = slopesIn(ground, reachOf(found, corners, corners + found.corners.size(), tallest), way);
     found.steepest = all.steepest;
     const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
-    const double shift = glm::length(way);
-    const bool isEnough = !grid || all.grazing() * shift <= enough;
+    const bool isEnough = !grid || all.grazing * glm::length(way) <= enough;
     for (std::size_t i = 0; i < found.size(); ++i) {
         const PackedShadow shadow = found[i];
         if (shadow.cornerCount == 0) continue;
         const auto box = [&] {
             return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, heights[i]);
         };
-        takeRates(found, heights[i], isEnough ? all.grazing() : slopesIn(*grid, box(), way).grazing(), shift);
+        motions[i] = {heights[i], isEnough ? all.grazing : slopesIn(*grid, box(), way).grazing};
+    }
+}
+
+void findRates(const Ground& ground, const std::vector<double>& heights, const glm::dvec4& light, PackedShadows& found,
+               std::vector<ShadowMotion>& motions) {
+    motions.assign(found.size(), {});
+    if (light.w != 0.0) return;
+    findMotions(ground, heights, wayOf(light), found, motions);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (mayAppear(found.outcomes[i])) motions[i].height = infinite;
+        takeRates(found, motions[i], glm::length(wayOf(light)));
     }
 }
 
 } // namespace
+
+glm::dvec2 wayOf(const glm::dvec4& sun) { return glm::dvec2(sun) / sun.z; }
 
 PackedShadow PackedShadows::operator[](std::size_t part) const {
     const unsigned corner = part > 0 ? cornerEnds[part - 1] : 0u, index = part > 0 ? indexEnds[part - 1] : 0u;
@@ -202,10 +216,11 @@ std::size_t PackedShadows::bytes() const {
 }
 
 void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
-                   double error, const glm::dvec3& origin, PackedShadows& found) {
+                   double error, const glm::dvec3& origin, PackedShadows& found, std::vector<ShadowMotion>* motions) {
     found.origin = origin;
     clear(found);
     if (isLightBelow(ground, light)) {
+        if (motions) motions->assign(parts.size(), {});
         for (std::size_t i = 0; i < parts.size(); ++i) addEnds(found, TerrainOutcome::lightBelow);
         return;
     }
@@ -223,17 +238,23 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
             addEnds(found, one.outcome);
         }
     }
-    findRates(ground, heights, light, found);
+    thread_local std::vector<ShadowMotion> unwanted;
+    findRates(ground, heights, light, found, motions ? *motions : unwanted);
 }
 
 /// The ground's rise along d is at most |G| |d - d'| more than along d'.
 double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now) {
     if (then == now) return 0.0;
     if (then.w != 0.0 || now.w != 0.0 || !(then.z > 0.0) || !(now.z > 0.0)) return infinite;
-    const double turned = glm::length(shiftOf(now) - shiftOf(then));
+    const double turned = glm::length(wayOf(now) - wayOf(then));
     for (std::size_t i = 0; i < shadows.rates.size(); ++i)
         if (turned <= PackedShadows::turnsKnown[i]) return turned > 0.0 ? turned * shadows.rates[i] : 0.0;
     return infinite;
+}
+
+double movedAtMost(const ShadowMotion& motion, const glm::dvec2& then, const glm::dvec2& now) {
+    const double turned = glm::length(now - then);
+    return turned > 0.0 ? turned * rateOf(motion, glm::length(then), turned) : 0.0;
 }
 
 } // namespace gnomon

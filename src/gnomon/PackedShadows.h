@@ -3,6 +3,8 @@
 #include <gnomon/PackedParts.h>
 #include <gnomon/TerrainShadow.h>
 
+#include <glm/vec2.hpp>
+
 #include <array>
 
 namespace gnomon {
@@ -40,13 +42,24 @@ struct PackedShadows {
     std::size_t bytes() const;         ///< that are kept.
 };
 
+/// What tells how far one part's shadow moves under a sun: see movedAtMost().
+struct ShadowMotion {
+    double height = 0.0;  ///< of the part over its shadow; infinite if there may be a shadow as soon as the sun moves.
+    double grazing = 0.0; ///< slope of the ground there, more the more nearly it falls off as the light does.
+};
+
 /// terrainShadow() of each part, bit for bit. Memory that `found` has is used again.
 ///
-/// @param origin  that the corners are about, near the parts: they are floats.
+/// @param origin   that the corners are about, near the parts: they are floats.
+/// @param motions  may be null: of each part, if the light is a sun over the horizon.
 ///
 /// Threads any number, each with its own `found`.
 void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
-                   double error, const glm::dvec3& origin, PackedShadows& found);
+                   double error, const glm::dvec3& origin, PackedShadows& found,
+                   std::vector<ShadowMotion>* motions = nullptr);
+
+/// The way towards a sun over the horizon in plan, a unit of height.
+glm::dvec2 wayOf(const glm::dvec4& sun);
 
 /// How far in plan any edge of the shadows may have moved at most since they were found.
 ///
@@ -57,5 +70,7 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
 /// height, d' what it was and G the ground's gradient between: so |v| <= h |d - d'| (1 + |d| |G| / (1 - G d)).
 /// Source: the tip's speed h / sin^2 e of a shadow on level ground, e the sun's elevation.
 double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now);
+/// Of one part alone, which is nearer to what it moves by. @param then,now  see wayOf().
+double movedAtMost(const ShadowMotion& motion, const glm::dvec2& then, const glm::dvec2& now);
 
 } // namespace gnomon

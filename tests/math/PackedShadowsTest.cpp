@@ -320,6 +320,18 @@ TEST(PackedShadows, HaveABoundOnASteepSlopeThatFacesTheSun) {
     }
 }
 
+/// Along furrows, level under the light's way, whose sides rise by 0.6: a tip moves along the bottom of one, or its ridge.
+TEST(PackedShadows, HaveABoundAlongFurrowsWhoseSidesAreAsSteepAsTheLight) {
+    const auto furrows = [](double x, double y) { return std::lround((x + y) / pitch) % 2 ? 6.0 : 0.0; };
+    const HeightPyramid ground = groundOf(furrows, posts); // rising cells: their diagonals run along (1, 1)
+    const PackedParts packed(test::boxAt({400.0, 700.0}, {2.0, 2.0}, 0.0, -5.0, 50.0).parts());
+    const auto sunOf = [](double shift) { return glm::dvec4(-shift, -shift, 1.0, 0.0); };
+    const double turned = 0.001, most = 50.0 * std::sqrt(2.0) * turned; // from the roof to the bottom
+    const double bound = movedAtMost(found(ground, packed, sunOf(0.95)), sunOf(0.95), sunOf(0.95 + turned));
+    EXPECT_GE(bound, 44.0 / 50.0 * most) << "on a ridge";
+    EXPECT_LT(bound, 3.0 * most);
+}
+
 /// A plate that the sun is in, and a tower whose shadow falls beside the ground, among houses that move little.
 TEST(PackedShadows, HaveNoBoundWhereOneMayAppear) {
     const HeightPyramid ground = groundOf([](double, double) { return 0.0; }, posts);
