@@ -20,10 +20,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double sameLight = 1e-12; // of its length: what turning a view takes off it in double
 // Of what a tile may be off: so that those which fall due together are spread over frames.
-constexpr double worthFinding = 0.5;
+constexpr double worthFinding = 0.75;
 constexpr std::size_t atOnce = 8;     // tiles, between looks at the clock
 constexpr std::size_t mostSpare = 64; // as many as are found anew in a frame while the sun moves on
 
+bool isSun(const glm::dvec4& light) { return light.w == 0.0 && light.z > 0.0; }
 bool isBelow(const glm::dvec4& light) { return light.w == 0.0 && !(light.z > 0.0); }
 
 void add(PackedShadows& found, const TerrainShadow& shadow) {
@@ -105,12 +106,18 @@ double lowestOf(const Ground& ground) {
 } // namespace
 
 void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
-                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into) {
+                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into,
+                 FollowedShadows* follow) {
+    thread_local std::vector<ShadowMotion> motions; // memory that is used again
     into.light = light;
+    if (follow) follow->clear();
     if (settings.method == TerrainShadowGeode::BOX)
         into.found = boxShadows(ground.found, tile, light, origin);
-    else
-        packedShadows(ground.found, tile.parts, light, methodOf(settings), settings.error, origin, into.found);
+    else {
+        packedShadows(ground.found, tile.parts, light, methodOf(settings), settings.error, origin, into.found,
+                      &motions);
+        if (follow && isSun(light)) follow->begin(motions, light);
+    }
     measure(into);
     if (into.prisms) setMeshes(ground, into);
 }
@@ -149,6 +156,7 @@ void TerrainTiles::update(const TerrainTown& town, const TileGround& ground, con
     _shadows.resize(tiles.size(), _none);
     _states.resize(tiles.size(), 0);
     _bitmaps.resize(tiles.size());
+    _followed.resize(tiles.size());
     _finest.resize(tiles.size());
     if (!_lowest) _lowest = lowestOf(ground.found);
     Wanted wanted = wantedIn(view, town, ground, still);
@@ -219,10 +227,11 @@ TerrainTiles::Bitmaps TerrainTiles::bitmapsIn(const TerrainView& view, const Til
 TerrainTiles::Wanted TerrainTiles::wantedIn(const TerrainView& view, const TerrainTown& town, const TileGround& ground,
                                             bool still) {
     Wanted wanted;
-    for (std::size_t i = 0; i < town.tiles().size(); ++i) {
-        const double off = offBy(i, town);
+    std::vector<Off> offs(town.tiles().size());
+    tbb::parallel_for(std::size_t{0}, offs.size(), [&](std::size_t i) { offs[i] = offIn(view, i, town, ground); });
+    for (std::size_t i = 0; i < offs.size(); ++i) {
+        const auto [off, mayBe] = offs[i];
         if (off == 0.0) continue;
-        const double mayBe = mayBeOff(i, off, town, ground, view);
         if (!(off <= mayBe))
             wanted.due.push_back(i);
         else if (mayBe < infinite && (still || off > worthFinding * mayBe))
@@ -238,6 +247,7 @@ TerrainTiles::Wanted TerrainTiles::wantedIn(const TerrainView& view, const Terra
 void TerrainTiles::letGo(std::size_t tile) {
     _shadows[tile] = _none;
     _bitmaps[tile] = nullptr;
+    _followed[tile].clear();
     _states[tile] = 0;
 }
 
@@ -248,6 +258,27 @@ double TerrainTiles::offBy(std::size_t tile, const TerrainTown& town) const {
     if (shadows.light == _light || (isBelow(shadows.light) && isBelow(_light))) return 0.0;
     if (_settings.method == TerrainShadowGeode::BOX) return infinite;
     return movedAtMost(shadows.found, shadows.light, _light);
+}
+
+/// Where that is too much, by looking at those of its shadows of which too little is known.
+TerrainTiles::Off TerrainTiles::offIn(const TerrainView& view, std::size_t tile, const TerrainTown& town,
+                                      const TileGround& ground) {
+    Off off{offBy(tile, town), infinite};
+    if (off.by == 0.0) return off;
+    off.mayBe = mayBeOff(tile, off.by, town, ground, view);
+    FollowedShadows& followed = _followed[tile];
+    const bool isSame = _states[tile] == town.tiles()[tile].revision;
+    if (off.by <= worthFinding * off.mayBe || !isSame || followed.empty() || !isSun(_light)) return off;
+    const TileShadows& shadows = *_shadows[tile];
+    const double seen = std::max(_settings.error, view.mayBeOff(shadows, 0.0));
+    // Where only what casts them is seen, all that is not known.
+    const double enough = std::min(worthFinding * seen, std::numeric_limits<double>::max());
+    if (!(followed.offBy(_light) <= enough))
+        followed.look(ground.found, town.tiles()[tile].parts, shadows.found, _light, methodOf(_settings),
+                      _settings.error, enough);
+    off.by = std::min(off.by, followed.offBy(_light));
+    off.mayBe = mayBeOff(tile, off.by, town, ground, view);
+    return off;
 }
 
 /// By how much they may be; infinite if nothing of them can be seen.
@@ -277,7 +308,7 @@ void TerrainTiles::find(const TerrainTown& town, const TileGround& ground, const
     std::vector<osg::ref_ptr<TileShadows>> into(tiles.size());
     for (osg::ref_ptr<TileShadows>& shadows : into) shadows = unused();
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-        findShadows(ground, town.tiles()[tiles[i]], _light, _settings, town.origin(), *into[i]);
+        findShadows(ground, town.tiles()[tiles[i]], _light, _settings, town.origin(), *into[i], &_followed[tiles[i]]);
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const osg::ref_ptr<TileShadows> old = const_cast<TileShadows*>(_shadows[tiles[i]].get());

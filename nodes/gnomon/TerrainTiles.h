@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/FollowedShadows.h>
 #include <gnomon/HeightPyramid.h>
 #include <gnomon/PackedShadows.h>
 #include <gnomon/TerrainBitmap.h>
@@ -54,14 +55,16 @@ struct TileGround {
 };
 
 /// Finds the shadows of one tile. @param into  whose memory is used again; its meshes are made anew if it has any.
+/// @param follow  may be null: begins with them, where they can be followed.
 void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
-                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into);
+                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into,
+                 FollowedShadows* follow = nullptr);
 
 /// The shadows of one light on a town's ground, tile by tile, kept while the light moves.
 ///
 /// A tile that may be seen is found anew at once where its casters changed, and where a shadow may be off by more than the
 /// error since it was found, and by so much that it is seen to be: so a jump of the light is right in the frame in which it
-/// happens. What is off by less is brought up to date a few tiles a frame, those that are off most first, and all that is
+/// happens. Of a few shadows whose bound says too little it is found out by how much they are off. What is off by less is brought up to date a few tiles a frame, those that are off most first, and all that is
 /// seen soon after the light stands still.
 class TerrainTiles {
 public:
@@ -99,6 +102,11 @@ private:
     Wanted wantedIn(const TerrainView& view, const TerrainTown& town, const TileGround& ground, bool still);
     void letGo(std::size_t tile);
     double offBy(std::size_t tile, const TerrainTown& town) const;
+    /// How far a tile's shadows may be off in plan, and how far they may be.
+    struct Off {
+        double by = 0.0, mayBe = 0.0;
+    };
+    Off offIn(const TerrainView& view, std::size_t tile, const TerrainTown& town, const TileGround& ground);
     double mayBeOff(std::size_t tile, double off, const TerrainTown& town, const TileGround& ground,
                     const TerrainView& view) const;
     bool isSame(const glm::dvec4& light) const;
@@ -111,10 +119,11 @@ private:
     const osg::ref_ptr<const TileShadows> _none; ///< of a tile that was not seen yet.
     List _shadows;
     std::vector<osg::ref_ptr<TerrainBitmap>> _bitmaps; ///< null: none was wanted yet.
-    std::vector<FinestWanted> _finest;                 ///< bitmap of each tile.
-    unsigned _calls = 0;                               ///< for bitmaps.
-    std::vector<std::uint64_t> _states;                ///< revisions of the tiles that the shadows are of; 0: of none.
-    std::optional<double> _lowest;                     ///< of the ground, its frame.
+    std::vector<FollowedShadows> _followed;
+    std::vector<FinestWanted> _finest;  ///< bitmap of each tile.
+    unsigned _calls = 0;                ///< for bitmaps.
+    std::vector<std::uint64_t> _states; ///< revisions of the tiles that the shadows are of; 0: of none.
+    std::optional<double> _lowest;      ///< of the ground, its frame.
     std::vector<osg::ref_ptr<TileShadows>> _spare;
     TerrainSettings _settings{TerrainShadowGeode::HULL, 0.0, {}};
     glm::dvec4 _light{0.0};

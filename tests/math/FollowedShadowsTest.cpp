@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// How far shadows that are kept are known to be off, against where corners fall by hand.
+#include "Houses.h"
+
+#include <gnomon/FollowedShadows.h>
+#include <gtest/gtest.h>
+
+using gnomon::FollowedShadows;
+using gnomon::HeightPyramid;
+using gnomon::PackedParts;
+using gnomon::PackedShadows;
+using gnomon::TerrainMethod;
+
+namespace {
+
+constexpr double rounding = 1e-3; // floats of up to 1600 m about the origin
+constexpr int posts = 160;
+
+/// Metres in plan a metre of height, towards +x.
+glm::dvec4 sunOf(double shift) { return glm::dvec4(-shift, 0.0, 1.0, 0.0); }
+
+/// A tower of 4 by 4 m about x, and three huts far from it, 1 m high.
+PackedParts towerAt(double x, double base, double height) {
+    std::vector<gnomon::ConvexPart> parts = test::boxAt({x, 700.0}, {2.0, 2.0}, 0.0, base - 5.0, base + height).parts();
+    for (const double y : {300.0, 320.0, 340.0})
+        for (const gnomon::ConvexPart& hut : test::boxAt({200.0, y}, {2.0, 2.0}, 0.0, -5.0, 1.0).parts())
+            parts.push_back(hut);
+    return PackedParts(parts);
+}
+
+/// A town's shadows, followed from `shift` on.
+struct Followed {
+    Followed(const HeightPyramid& on, const PackedParts& of, double shift) : ground(on), parts(of) {
+        std::vector<gnomon::ShadowMotion> motions;
+        gnomon::packedShadows(ground, parts, sunOf(shift), TerrainMethod::hull, 0.1, glm::dvec3(0.0), shown, &motions);
+        followed.begin(motions, sunOf(shift));
+    }
+    double offBy(double shift) const { return followed.offBy(sunOf(shift)); }
+    double seenBy(double shift, double most) {
+        followed.look(ground, parts, shown, sunOf(shift), TerrainMethod::hull, 0.1, most);
+        return offBy(shift);
+    }
+    const HeightPyramid& ground;
+    const PackedParts parts;
+    PackedShadows shown;
+    FollowedShadows followed;
+};
+
+/// Level at 0 as far as x = 500, there 100 m down on two cells, level again.
+double crest(double x, double) { return -std::clamp(5.0 * (x - 500.0), 0.0, 100.0); }
+
+} // namespace
+
+/// A corner h over level ground falls h times the shift away.
+TEST(FollowedShadows, OnLevelGroundAreOffByWhatTheirHeightMakesThem) {
+    const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
+    Followed town(level, towerAt(400.0, 0.0, 40.0), 1.0);
+    EXPECT_EQ(town.offBy(1.0), 0.0);
+    EXPECT_NEAR(town.offBy(1.005), 40.0 * 0.005, rounding);
+    EXPECT_NEAR(town.seenBy(1.005, 0.1), 40.0 * 0.005, rounding);
+    EXPECT_NEAR(town.offBy(1.01), 40.0 * 0.01, rounding) << "what it was off by, and what it moved by since";
+    EXPECT_NEAR(town.offBy(1.0), 40.0 * 0.01, rounding) << "which way it moved nobody knows";
+}
+
+/// Before a crest, from where on the ground falls as steeply as light; the tip stays 5 m before it.
+TEST(FollowedShadows, BesideGroundThatIsAsSteepAsTheLightAreOffByLittleOnceTheyWereLookedAt) {
+    const HeightPyramid ground = test::groundOf(crest, posts);
+    Followed town(ground, towerAt(453.0, 0.0, 40.0), 1.0);
+    EXPECT_GT(town.offBy(1.0001), 1e9);
+    EXPECT_NEAR(town.seenBy(1.0001, 0.1), 40.0 * 0.0001, rounding);
+    EXPECT_NEAR(town.seenBy(1.001, 0.1), 40.0 * 0.001, rounding) << "from where it is shown";
+    EXPECT_GT(town.offBy(1.002), 1e9);
+}
+
+/// Over the crest the tip falls on from there, 100 m down, and at least 80 m on.
+TEST(FollowedShadows, ThatLeapOverACrestAreOffByMoreThanTheLeap) {
+    const HeightPyramid ground = test::groundOf(crest, posts);
+    Followed town(ground, towerAt(458.0, 0.0, 39.95), 1.0);
+    EXPECT_GT(town.seenBy(1.01, 0.1), 80.0);
+}
+
+TEST(FollowedShadows, AreNotLookedAtWhereMostWouldHaveToBe) {
+    const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
+    Followed town(level, towerAt(400.0, 0.0, 40.0), 1.0);
+    EXPECT_GT(town.seenBy(2.0, 0.1), 1e9);
+}
