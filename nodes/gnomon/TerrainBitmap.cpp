@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/MarkProgram.h>
 #include <gnomon/TerrainBitmap.h>
+
+#include <osg/GLExtensions>
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 
 namespace gnomon {
 namespace {
@@ -22,44 +24,79 @@ osg::ref_ptr<osg::Geometry> geometryOf(const ShadowBitmap& bitmap) {
     return geometry;
 }
 
-osg::ref_ptr<osg::Texture2D> textureOf(const ShadowBitmap& bitmap) {
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(bitmap.columns, bitmap.rows, 1, GL_RED_INTEGER_EXT, GL_UNSIGNED_INT);
-    std::copy(bitmap.words.begin(), bitmap.words.end(), reinterpret_cast<std::uint32_t*>(image->data()));
-    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
-    texture->setInternalFormat(GL_R32UI);
-    for (const auto use : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
-        texture->setFilter(use, osg::Texture::NEAREST);
-    texture->setResizeNonPowerOfTwoHint(false);
-    return texture;
+osg::Vec4 placeOf(const ShadowBitmap& bitmap) {
+    return osg::Vec4(osg::Vec4d(bitmap.low.x, bitmap.low.y, 1.0 / bitmap.texel, 0.0));
 }
+
+osg::Vec4 texelsOf(const ShadowBitmap& bitmap, const SheetRows& rows) {
+    return osg::Vec4(osg::Vec4d(bitmap.columns * ShadowBitmap::wide - 1, bitmap.rows * ShadowBitmap::high - 1,
+                                bitmap.columns, rows.first * TerrainSheet::width));
+}
+
+/// Current texture coordinates of a unit: unlike uniforms, they cost next to nothing to set.
+class CurrentCoordinates {
+public:
+    CurrentCoordinates(osg::State& state, GLenum unit) : _gl(*state.get<osg::GLExtensions>()), _unit(unit) {
+        state.setActiveTextureUnit(unit - GL_TEXTURE0);
+        glGetFloatv(GL_CURRENT_TEXTURE_COORDS, _before);
+    }
+    ~CurrentCoordinates() { _gl.glMultiTexCoord4fv(_unit, _before); }
+    CurrentCoordinates(const CurrentCoordinates&) = delete;
+    CurrentCoordinates& operator=(const CurrentCoordinates&) = delete;
+    void set(const osg::Vec4& value) const { _gl.glMultiTexCoord4fv(_unit, value.ptr()); }
+
+private:
+    const osg::GLExtensions& _gl;
+    const GLenum _unit;
+    GLfloat _before[4];
+};
 
 } // namespace
 
-TerrainBitmap::TerrainBitmap(const ShadowBitmap& bitmap, int level)
-    : _place(bitmap.low, glm::dvec2(1.0 / bitmap.texel)),
-      _last(bitmap.columns * ShadowBitmap::wide - 1, bitmap.rows * ShadowBitmap::high - 1),
+TerrainBitmap::TerrainBitmap(const ShadowBitmap& bitmap, int level, TerrainSheets& sheets)
+    : _place(placeOf(bitmap)),
       _level(level),
       _triangles(unsigned(bitmap.triangles.size() / 3)),
-      _geometry(geometryOf(bitmap)),
-      _texture(textureOf(bitmap)) {}
+      _rows(sheets.take(bitmap.words.size())),
+      _texels(texelsOf(bitmap, *_rows)),
+      _words(bitmap.words),
+      _geometry(geometryOf(bitmap)) {
+    _words.resize(std::size_t(_rows->count) * TerrainSheet::width);
+}
 
-void TerrainBitmap::draw(osg::RenderInfo& renderInfo) const {
+/// All are written before any is drawn: what is written to a texture that is being drawn from has to wait.
+void TerrainBitmap::draw(osg::RenderInfo& renderInfo, std::vector<const TerrainBitmap*> bitmaps) {
+    const auto sheetOf = [](const TerrainBitmap* bitmap) { return bitmap->_rows->sheet.get(); };
+    std::stable_sort(bitmaps.begin(), bitmaps.end(),
+                     [&](const auto* a, const auto* b) { return std::less<>()(sheetOf(a), sheetOf(b)); });
     osg::State& state = *renderInfo.getState();
-    state.applyTextureAttribute(0, _texture.get());
-    setUniform(state, "texels", _place);
-    setUniform(state, "lastTexel", _last);
-    _geometry->draw(renderInfo);
+    for (const TerrainBitmap* bitmap : bitmaps) bitmap->upload(state);
+    const CurrentCoordinates texels(state, GL_TEXTURE1), place(state, GL_TEXTURE0);
+    for (const TerrainBitmap* bitmap : bitmaps) {
+        sheetOf(bitmap)->apply(state);
+        place.set(bitmap->_place);
+        texels.set(bitmap->_texels);
+        bitmap->_geometry->draw(renderInfo);
+    }
+}
+
+void TerrainBitmap::upload(osg::State& state) const {
+    const unsigned making = _rows->sheet->apply(state);
+    unsigned& uploaded = _uploaded[state.getContextID()];
+    if (uploaded == making) return;
+    TerrainSheet::write(state, _rows->first, _words);
+    uploaded = making;
 }
 
 void TerrainBitmap::resizeGLObjectBuffers(unsigned maxSize) {
     _geometry->resizeGLObjectBuffers(maxSize);
-    _texture->resizeGLObjectBuffers(maxSize);
+    _rows->sheet->resizeGLObjectBuffers(maxSize);
+    _uploaded.resize(maxSize);
 }
 
 void TerrainBitmap::releaseGLObjects(osg::State* state) const {
     _geometry->releaseGLObjects(state);
-    _texture->releaseGLObjects(state);
+    _rows->sheet->releaseGLObjects(state);
 }
 
 void TerrainBitmap::setMostPolygons(unsigned triangles) { mostPolygons = triangles; }

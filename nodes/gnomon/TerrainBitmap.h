@@ -2,22 +2,27 @@
 #pragma once
 #include <gnomon/Export.h>
 #include <gnomon/ShadowBitmap.h>
+#include <gnomon/TerrainSheet.h>
 
 #include <osg/Geometry>
-#include <osg/Texture2D>
+
+#include <memory>
+#include <vector>
 
 namespace gnomon {
 
 /// A tile's decals as a bitmap on the ground's own triangles, ready to be drawn.
 class GNOMON_EXPORT TerrainBitmap : public osg::Referenced {
 public:
-    /// @param level  of its texels' size, see TerrainView::bitmapLevel().
-    TerrainBitmap(const ShadowBitmap& bitmap, int level);
+    /// @param level   of its texels' size, see TerrainView::bitmapLevel().
+    /// @param sheets  where its texels are to be; must outlive this constructor alone.
+    TerrainBitmap(const ShadowBitmap& bitmap, int level, TerrainSheets& sheets);
 
     int level() const { return _level; }
     unsigned triangles() const { return _triangles; }
-    /// @param renderInfo  the program is markProgram()'s with BITMAP; uses texture unit 0.
-    void draw(osg::RenderInfo& renderInfo) const;
+    /// @param renderInfo  the program is markProgram()'s with BITMAP; uses texture unit 0 and the current texture coordinates
+    ///                    of units 0 and 1.
+    static void draw(osg::RenderInfo& renderInfo, std::vector<const TerrainBitmap*> bitmaps);
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
@@ -30,12 +35,16 @@ protected:
     ~TerrainBitmap() override = default;
 
 private:
-    const glm::dvec4 _place; ///< where its texels begin, and how many there are to a length of 1.
-    const glm::dvec2 _last;  ///< texel.
+    void upload(osg::State& state) const;
+
+    const osg::Vec4 _place; ///< where its texels begin, and how many there are to a length of 1.
     const int _level;
     const unsigned _triangles;
+    const std::unique_ptr<const SheetRows> _rows;
+    const osg::Vec4 _texels;           ///< the last one, words in a row of them, the first word in the sheet.
+    std::vector<std::uint32_t> _words; ///< in whole rows of the sheet.
+    mutable osg::buffered_value<unsigned> _uploaded; ///< into which making of the sheet.
     osg::ref_ptr<osg::Geometry> _geometry;
-    osg::ref_ptr<osg::Texture2D> _texture;
 };
 
 } // namespace gnomon

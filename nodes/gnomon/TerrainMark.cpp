@@ -105,15 +105,16 @@ glm::dmat4 TerrainMark::clipFromDecals() const {
 
 /// False without a program.
 bool TerrainMark::drawBitmaps(osg::RenderInfo& renderInfo) const {
-    const auto hasBitmap = [](const SeenDecals& seen) { return seen.bitmap.valid(); };
-    if (std::none_of(decals.begin(), decals.end(), hasBitmap)) return true;
+    std::vector<const TerrainBitmap*> bitmaps;
+    for (const SeenDecals& seen : decals)
+        if (seen.bitmap) bitmaps.push_back(seen.bitmap.get());
+    if (bitmaps.empty()) return true;
     osg::State& state = *renderInfo.getState();
     state.apply(bitmapProgram.get());
     if (!hasProgram(state)) return false;
     setUniform(state, "clipFromCaster", clipFromDecals());
-    setUniform(state, "bitmap", 0);
-    for (const SeenDecals& seen : decals)
-        if (seen.bitmap) seen.bitmap->draw(renderInfo);
+    setUniform(state, "sheet", 0);
+    TerrainBitmap::draw(renderInfo, std::move(bitmaps));
     return true;
 }
 

@@ -216,7 +216,7 @@ TerrainTiles::Bitmaps TerrainTiles::bitmapsIn(const TerrainView& view, const Til
         if (known && isFine(*known, level)) return;
         thread_local ShadowBitmap bitmap; // memory that is used again
         shadowBitmap(*ground.drawn, _shadows[tile]->found, TerrainView::bitmapTexel(level), bitmap);
-        known = new TerrainBitmap(bitmap, level);
+        known = new TerrainBitmap(bitmap, level, _sheets);
     });
     for (const Far& one : far)
         if (_bitmaps[one.tile]->triangles() < _shadows[one.tile]->decals->triangles())

@@ -118,6 +118,7 @@ private:
 
     const osg::ref_ptr<const TileShadows> _none; ///< of a tile that was not seen yet.
     List _shadows;
+    TerrainSheets _sheets;                             ///< of bitmaps.
     std::vector<osg::ref_ptr<TerrainBitmap>> _bitmaps; ///< null: none was wanted yet.
     std::vector<FollowedShadows> _followed;
     std::vector<FinestWanted> _finest;  ///< bitmap of each tile.

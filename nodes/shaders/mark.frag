@@ -5,15 +5,16 @@ uniform vec2 alphaTest; // which alphas pass, as bits: 1 less than, 2 equal to, 
 in vec3 coordinates;    // s, t and q of unit 0
 #endif
 #ifdef BITMAP
-uniform usampler2D bitmap; // of a texel (x, y) of the 8 by 4 that a word holds bit 8 y + x
-uniform vec2 lastTexel;    // the border is empty
+uniform usampler2D sheet; // of words; of a texel (x, y) of the 8 by 4 that one holds bit 8 y + x
+flat in vec4 texels;      // the last one, for the border is empty; words in a row of them, the first word in the sheet
 in vec2 texel;
 #endif
 
 void main() {
 #ifdef BITMAP
-    ivec2 at = ivec2(clamp(texel, vec2(0.0), lastTexel));
-    uint word = texelFetch(bitmap, ivec2(at.x >> 3, at.y >> 2), 0).r;
+    ivec2 at = ivec2(clamp(texel, vec2(0.0), texels.xy));
+    int place = (at.y >> 2) * int(texels.z) + (at.x >> 3) + int(texels.w);
+    uint word = texelFetch(sheet, ivec2(place & 1023, place >> 10), 0).r; // TerrainSheet::width
     if (((word >> uint((at.y & 3) << 3 | at.x & 7)) & 1u) == 0u) discard;
 #endif
 #ifdef CUTOUT

@@ -12,7 +12,8 @@ out vec3 coordinates;
 #endif
 
 #ifdef BITMAP
-uniform vec4 texels; // where they begin in plan, and how many there are to a length of 1
+// Of the whole bitmap; from unit 0 where its texels begin in plan and how many there are to a length of 1, from unit 1 these:
+flat out vec4 texels; // the last one, words in a row of them, the first word in the sheet
 out vec2 texel;
 #endif
 
@@ -22,7 +23,8 @@ void main() {
     coordinates = gl_MultiTexCoord0.xyz;
 #endif
 #ifdef BITMAP
-    texel = (gl_Vertex.xy - texels.xy) * texels.zw;
+    texel = (gl_Vertex.xy - gl_MultiTexCoord0.xy) * gl_MultiTexCoord0.z;
+    texels = gl_MultiTexCoord1;
 #endif
 #ifdef CLIP
     gl_ClipDistance[0] = dot(abovePlane, gl_Vertex);

@@ -158,6 +158,18 @@ TEST(TerrainDecals, BitmapsFollowTheSunTheirCastersAndTheEye) {
     }
 }
 
+/// As fine as those of a view that was there from the start: bit for bit.
+TEST(TerrainDecals, BitmapsGetFinerWhereTheEyeComesNear) {
+    const MostPolygons none(0);
+    const test::View farther =
+        test::perspective({180.0, -4000.0, 2000.0}, {180.0, 180.0, 0.0}, 400, 300, 20.0, 20.0, 6000.0);
+    const Scene scene = withHull();
+    test::Camera camera(scene.root, farther);
+    camera.frame();
+    camera.setView(far);
+    EXPECT_EQ(camera.frame().different(test::render(withHull().root, far)), 0);
+}
+
 /// A bitmap says one thing of all samples of a pixel: its edges had no shades between.
 TEST(TerrainDecals, AreNoBitmapsWherePixelsHaveSamples) {
     const auto picture = [] {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/TerrainSheet.h>
+
+#include <algorithm>
+
+namespace gnomon {
+
+TerrainSheet::TerrainSheet() : _texture(new osg::Texture2D), _taken(std::size_t(height), false) {
+    _texture->setTextureSize(width, height);
+    _texture->setInternalFormat(GL_R32UI);
+    _texture->setSourceFormat(GL_RED_INTEGER_EXT);
+    _texture->setSourceType(GL_UNSIGNED_INT);
+    for (const auto use : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
+        _texture->setFilter(use, osg::Texture::NEAREST);
+}
+
+int TerrainSheet::take(int rows) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    const auto first = std::search_n(_taken.begin(), _taken.end(), rows, false);
+    if (first == _taken.end()) return -1;
+    std::fill_n(first, rows, true);
+    return int(first - _taken.begin());
+}
+
+void TerrainSheet::give(int first, int rows) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    std::fill_n(_taken.begin() + first, rows, false);
+}
+
+unsigned TerrainSheet::apply(osg::State& state) const {
+    unsigned& makings = _makings[state.getContextID()];
+    if (!_texture->getTextureObject(state.getContextID())) ++makings;
+    state.setActiveTextureUnit(0);
+    state.applyTextureAttribute(0, _texture.get());
+    return makings;
+}
+
+void TerrainSheet::write(osg::State& state, int firstRow, const std::vector<std::uint32_t>& words) {
+    state.unbindPixelBufferObject();
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, firstRow, width, GLsizei(words.size()) / width, GL_RED_INTEGER_EXT,
+                    GL_UNSIGNED_INT, words.data());
+}
+
+void TerrainSheet::resizeGLObjectBuffers(unsigned maxSize) {
+    _texture->resizeGLObjectBuffers(maxSize);
+    _makings.resize(maxSize);
+}
+
+std::unique_ptr<const SheetRows> TerrainSheets::take(std::size_t words) {
+    const int rows = int((words + TerrainSheet::width - 1) / TerrainSheet::width);
+    const std::lock_guard<std::mutex> lock(_mutex);
+    for (const auto& sheet : _sheets)
+        if (const int first = sheet->take(rows); first >= 0) return std::make_unique<SheetRows>(sheet, first, rows);
+    _sheets.push_back(new TerrainSheet);
+    return std::make_unique<SheetRows>(_sheets.back(), _sheets.back()->take(rows), rows);
+}
+
+} // namespace gnomon

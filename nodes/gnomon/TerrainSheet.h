@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/State>
+#include <osg/Texture2D>
+#include <osg/buffered_value>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace gnomon {
+
+/// A texture of words that several bitmaps share, row by row: to bind one for each of them costs more than to draw many.
+class TerrainSheet : public osg::Referenced {
+public:
+    static constexpr int width = 1024, height = 1024; ///< words: a texture that every OpenGL has.
+
+    TerrainSheet();
+    /// The first of so many rows that were nobody's; -1 if there are none. Any thread.
+    int take(int rows);
+    void give(int first, int rows);
+
+    /// Binds it to unit 0. @return of which making the texture is in this context: another one holds no words yet.
+    unsigned apply(osg::State& state) const;
+    /// What is bound takes these words, of whole rows.
+    static void write(osg::State& state, int firstRow, const std::vector<std::uint32_t>& words);
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void releaseGLObjects(osg::State* state) const { _texture->releaseGLObjects(state); }
+
+protected:
+    ~TerrainSheet() override = default;
+
+private:
+    osg::ref_ptr<osg::Texture2D> _texture;
+    mutable osg::buffered_value<unsigned> _makings;
+    std::mutex _mutex;
+    std::vector<bool> _taken; ///< rows.
+};
+
+/// Rows of a sheet, as long as this lives.
+class SheetRows {
+public:
+    SheetRows(TerrainSheet* of, int from, int rows) : sheet(of), first(from), count(rows) {}
+    ~SheetRows() { sheet->give(first, count); }
+    SheetRows(const SheetRows&) = delete;
+    SheetRows& operator=(const SheetRows&) = delete;
+
+    const osg::ref_ptr<TerrainSheet> sheet;
+    const int first, count;
+};
+
+/// As many sheets as are needed.
+class TerrainSheets {
+public:
+    /// Rows for so many words, of a sheet at most. Any thread.
+    std::unique_ptr<const SheetRows> take(std::size_t words);
+
+private:
+    std::mutex _mutex;
+    std::vector<osg::ref_ptr<TerrainSheet>> _sheets;
+};
+
+} // namespace gnomon

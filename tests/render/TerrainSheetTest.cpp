@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Bitmaps that share textures: each is drawn with its own words, whatever sheet they are in and whose they were before.
+#include <gnomon/MarkProgram.h>
+#include <gnomon/TerrainBitmap.h>
+#include <gtest/gtest.h>
+#include <osg/GLExtensions>
+#include <osg/Geode>
+#include <support/Picture.h>
+
+#include <set>
+
+using gnomon::ShadowBitmap;
+using gnomon::TerrainBitmap;
+
+namespace {
+
+constexpr int columns = 30, rows = 1024; // words: 30 rows of a sheet, so that one holds 34 bitmaps
+constexpr int bitmaps = 40, apart = 300; // texels from one to the next
+constexpr int wide = columns * ShadowBitmap::wide, tall = rows * ShadowBitmap::high;
+constexpr int pixelsApart = 10, height = 64;
+
+/// Bands of 64 words, every third of which is set.
+bool isSet(int bitmap, int wordRow) { return (wordRow / 64 + bitmap) % 3 == 0; }
+
+ShadowBitmap banded(int at, int pattern) {
+    ShadowBitmap bitmap{glm::dvec2(apart * at, 0.0), 1.0, columns, rows, {}, {}, {0, 1, 2, 0, 2, 3}};
+    for (int row = 0; row < rows; ++row)
+        bitmap.words.insert(bitmap.words.end(), columns, isSet(pattern, row) ? ~0u : 0u);
+    for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(wide, 0), glm::vec2(wide, tall), glm::vec2(0, tall)})
+        bitmap.vertices.emplace_back(float(apart * at) + corner.x, corner.y, 0.0f);
+    return bitmap;
+}
+
+/// Bitmaps side by side, black.
+class Board : public osg::Drawable {
+public:
+    Board() {
+        setUseDisplayList(false);
+        setCullingActive(false);
+        for (int at = 0; at < bitmaps; ++at) set(at, at);
+    }
+    void set(int at, int pattern) {
+        _patterns[at] = pattern;
+        _bitmaps[at] = nullptr; // first of all: another's rows are what it gets
+        _bitmaps[at] = new TerrainBitmap(banded(at, pattern), 0, _sheets);
+    }
+    int pattern(int at) const { return _patterns[at]; }
+
+    /// From both ends in turns, so that neighbours are in different sheets.
+    void drawImplementation(osg::RenderInfo& renderInfo) const override {
+        std::vector<const TerrainBitmap*> all;
+        for (int i = 0; i < bitmaps; ++i) all.push_back(_bitmaps[i % 2 ? bitmaps - 1 - i / 2 : i / 2].get());
+        osg::State& state = *renderInfo.getState();
+        state.apply(_program);
+        gnomon::setUniform(state, "clipFromCaster",
+                           glm::dmat4(2.0 / (bitmaps * apart), 0, 0, 0, 0, 2.0 / tall, 0, 0, 0, 0, 1, 0, -1, -1, 0, 1));
+        gnomon::setUniform(state, "sheet", 0);
+        setCoordinates(state);
+        TerrainBitmap::draw(renderInfo, all);
+        readCoordinates(state);
+    }
+    mutable std::vector<osg::Vec4> coordinates; ///< that are current after it was drawn, of units 0 and 1.
+
+private:
+    static void setCoordinates(const osg::State& state) {
+        const auto& gl = *state.get<osg::GLExtensions>();
+        gl.glMultiTexCoord4f(GL_TEXTURE0, 0.1f, 0.2f, 0.3f, 0.4f);
+        gl.glMultiTexCoord4f(GL_TEXTURE1, 0.5f, 0.6f, 0.7f, 0.8f);
+    }
+    void readCoordinates(osg::State& state) const {
+        coordinates.clear();
+        for (const unsigned unit : {0u, 1u}) {
+            state.setActiveTextureUnit(unit);
+            coordinates.emplace_back();
+            glGetFloatv(GL_CURRENT_TEXTURE_COORDS, coordinates.back().ptr());
+        }
+    }
+
+    gnomon::TerrainSheets _sheets;
+    osg::ref_ptr<osg::StateSet> _program = gnomon::markProgram("#define BITMAP\n");
+    osg::ref_ptr<TerrainBitmap> _bitmaps[bitmaps];
+    int _patterns[bitmaps];
+};
+
+test::View whole() {
+    test::View view = test::fromAbove(1.0, height);
+    view.width = bitmaps * pixelsApart;
+    return view;
+}
+
+/// By the middles of pixels, none of which is within a twentieth of a pixel of an edge.
+int wrongPixels(const test::Picture& picture, const Board& board) {
+    int wrong = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < bitmaps * pixelsApart; ++x) {
+            const int at = x / pixelsApart;
+            const double right = (x % pixelsApart + 0.5) * apart / pixelsApart;
+            const int wordRow = int((y + 0.5) * rows / height);
+            const bool expected = right < wide && isSet(board.pattern(at), wordRow);
+            wrong += ((picture.at(x, y) & 0xFFFFFFu) == 0) != expected;
+        }
+    return wrong;
+}
+
+} // namespace
+
+TEST(TerrainSheet, ShowsOfEachBitmapItsOwnWords) {
+    const osg::ref_ptr<Board> board = new Board;
+    const osg::ref_ptr<osg::Geode> root = new osg::Geode;
+    root->addDrawable(board);
+    test::Camera camera(root, whole());
+    EXPECT_EQ(wrongPixels(camera.frame(), *board), 0);
+    for (const int at : {3, 4, 39}) board->set(at, at + 1);
+    EXPECT_EQ(wrongPixels(camera.frame(), *board), 0) << "in rows that were another's";
+}
+
+TEST(TerrainSheet, LeavesCurrentTextureCoordinatesAsTheyWere) {
+    const osg::ref_ptr<Board> board = new Board;
+    const osg::ref_ptr<osg::Geode> root = new osg::Geode;
+    root->addDrawable(board);
+    test::render(root, whole());
+    const std::vector<osg::Vec4> expected{{0.1f, 0.2f, 0.3f, 0.4f}, {0.5f, 0.6f, 0.7f, 0.8f}};
+    EXPECT_EQ(board->coordinates, expected);
+}
+
+TEST(TerrainSheet, GivesRowsToOneAtATime) {
+    gnomon::TerrainSheets sheets;
+    std::vector<std::unique_ptr<const gnomon::SheetRows>> taken;
+    std::set<std::pair<const void*, int>> rowsTaken;
+    const auto take = [&](std::size_t words) {
+        taken.push_back(sheets.take(words));
+        for (int i = 0; i < taken.back()->count; ++i)
+            EXPECT_TRUE(rowsTaken.insert({taken.back()->sheet.get(), taken.back()->first + i}).second);
+        EXPECT_GE(std::size_t(taken.back()->count) * gnomon::TerrainSheet::width, words);
+        EXPECT_LE(taken.back()->first + taken.back()->count, gnomon::TerrainSheet::height);
+    };
+    for (std::size_t words = 1; words <= 32768; words += 300) take(words);
+    const auto* sheet = taken[20]->sheet.get();
+    const int first = taken[20]->first;
+    for (int i = 0; i < taken[20]->count; ++i) rowsTaken.erase({sheet, first + i});
+    taken[20] = nullptr;
+    take(6001); // as many rows as it had
+    EXPECT_EQ(taken.back()->sheet.get(), sheet);
+    EXPECT_EQ(taken.back()->first, first);
+}
