@@ -64,8 +64,9 @@ void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const 
 ///
 /// A tile that may be seen is found anew at once where its casters changed, and where a shadow may be off by more than the
 /// error since it was found, and by so much that it is seen to be: so a jump of the light is right in the frame in which it
-/// happens. Of a few shadows whose bound says too little it is found out by how much they are off. What is off by less is brought up to date a few tiles a frame, those that are off most first, and all that is
-/// seen soon after the light stands still.
+/// happens. Of a few shadows whose bound says too little it is found out by how much they are off. What is off by less is
+/// brought up to date a few tiles a frame, those that are off most first, and all that is seen soon after the light stands
+/// still.
 class TerrainTiles {
 public:
     using List = std::vector<osg::ref_ptr<const TileShadows>>;
