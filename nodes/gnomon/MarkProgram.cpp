@@ -66,22 +66,10 @@ void setUniform(const osg::State& state, const char* name, int value) {
     state.get<osg::GLExtensions>()->glUniform1i(placeOf(state, name), value);
 }
 
-void setUniform(const osg::State& state, const char* name, const std::vector<glm::dvec2>& values) {
-    const std::vector<glm::vec2> rounded(values.begin(), values.end());
-    state.get<osg::GLExtensions>()->glUniform2fv(placeOfArray(state, name), static_cast<GLsizei>(rounded.size()),
-                                                 glm::value_ptr(rounded.front()));
-}
-
 void setUniform(const osg::State& state, const char* name, const std::vector<glm::dvec4>& values) {
     const std::vector<glm::vec4> rounded(values.begin(), values.end());
     state.get<osg::GLExtensions>()->glUniform4fv(placeOfArray(state, name), static_cast<GLsizei>(rounded.size()),
                                                  glm::value_ptr(rounded.front()));
-}
-
-void setUniform(const osg::State& state, const char* name, const std::vector<glm::dmat4>& values) {
-    const std::vector<glm::mat4> rounded(values.begin(), values.end());
-    state.get<osg::GLExtensions>()->glUniformMatrix4fv(placeOfArray(state, name), static_cast<GLsizei>(rounded.size()),
-                                                       GL_FALSE, glm::value_ptr(rounded.front()));
 }
 
 } // namespace gnomon

@@ -31,8 +31,6 @@ void setUniform(const osg::State& state, const char* name, const glm::dmat4& val
 void setUniform(const osg::State& state, const char* name, const glm::dvec2& value);
 void setUniform(const osg::State& state, const char* name, int value); ///< a sampler's texture unit.
 /// Of an array.
-void setUniform(const osg::State& state, const char* name, const std::vector<glm::dvec2>& values);
 void setUniform(const osg::State& state, const char* name, const std::vector<glm::dvec4>& values);
-void setUniform(const osg::State& state, const char* name, const std::vector<glm::dmat4>& values);
 
 } // namespace gnomon

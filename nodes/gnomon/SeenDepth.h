@@ -36,7 +36,7 @@ private:
     struct Target {
         osg::ref_ptr<osg::Texture2D> texture;
         GLuint framebuffer = 0; ///< of the texture; 0 until it is asked for.
-        const osg::Texture::TextureObject* attached = nullptr;
+        osg::ref_ptr<const osg::Texture::TextureObject> attached;
         bool mirrors = true; ///< false once OpenGL has refused to copy so.
     };
     Target& targetFor(unsigned context, const PixelRect& pixels, bool packed);

@@ -90,13 +90,11 @@ void TerrainBitmap::upload(osg::State& state) const {
 
 void TerrainBitmap::resizeGLObjectBuffers(unsigned maxSize) {
     _geometry->resizeGLObjectBuffers(maxSize);
-    _rows->sheet->resizeGLObjectBuffers(maxSize);
     _uploaded.resize(maxSize);
 }
 
 void TerrainBitmap::releaseGLObjects(osg::State* state) const {
     _geometry->releaseGLObjects(state);
-    _rows->sheet->releaseGLObjects(state);
 }
 
 void TerrainBitmap::setMostPolygons(unsigned triangles) { mostPolygons = triangles; }

@@ -23,6 +23,7 @@ public:
     /// @param renderInfo  the program is markProgram()'s with BITMAP; uses texture unit 0 and the current texture coordinates
     ///                    of units 0 and 1.
     static void draw(osg::RenderInfo& renderInfo, std::vector<const TerrainBitmap*> bitmaps);
+    /// Of all but the sheets.
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 

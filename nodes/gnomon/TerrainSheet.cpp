@@ -57,4 +57,14 @@ std::unique_ptr<const SheetRows> TerrainSheets::take(std::size_t words) {
     return std::make_unique<SheetRows>(_sheets.back(), _sheets.back()->take(rows), rows);
 }
 
+void TerrainSheets::resizeGLObjectBuffers(unsigned maxSize) {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    for (const auto& sheet : _sheets) sheet->resizeGLObjectBuffers(maxSize);
+}
+
+void TerrainSheets::releaseGLObjects(osg::State* state) const {
+    const std::lock_guard<std::mutex> lock(_mutex);
+    for (const auto& sheet : _sheets) sheet->releaseGLObjects(state);
+}
+
 } // namespace gnomon

@@ -55,9 +55,11 @@ class TerrainSheets {
 public:
     /// Rows for so many words, of a sheet at most. Any thread.
     std::unique_ptr<const SheetRows> take(std::size_t words);
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void releaseGLObjects(osg::State* state) const;
 
 private:
-    std::mutex _mutex;
+    mutable std::mutex _mutex;
     std::vector<osg::ref_ptr<TerrainSheet>> _sheets;
 };
 

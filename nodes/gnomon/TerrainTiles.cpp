@@ -196,11 +196,13 @@ std::vector<TerrainTiles::Far> TerrainTiles::farIn(const TerrainView& view) cons
     return far;
 }
 
-/// As fine as any view of late wants it: views of one group take turns, and what is finer than need be is right.
+/// As fine as any view of late wants it: views of one group take turns, and what is finer than need be is right. But for
+/// shadows that have become too large for that.
 int TerrainTiles::levelFor(const Far& one) {
     constexpr unsigned lately = 64; // calls
     FinestWanted& finest = _finest[one.tile];
-    if (one.level <= finest.level || _calls - finest.call > lately) finest = {one.level, _calls};
+    const bool isPast = _calls - finest.call > lately || !TerrainView::isBitmapSmall(*_shadows[one.tile], finest.level);
+    if (one.level <= finest.level || isPast) finest = {one.level, _calls};
     return finest.level;
 }
 
@@ -338,12 +340,14 @@ void TerrainTiles::resizeGLObjectBuffers(unsigned maxSize) {
     eachMesh([&](TerrainMesh& mesh) { mesh.resizeGLObjectBuffers(maxSize); });
     for (const auto& bitmap : _bitmaps)
         if (bitmap) bitmap->resizeGLObjectBuffers(maxSize);
+    _sheets.resizeGLObjectBuffers(maxSize);
 }
 
 void TerrainTiles::releaseGLObjects(osg::State* state) const {
     eachMesh([&](const TerrainMesh& mesh) { mesh.releaseGLObjects(state); });
     for (const auto& bitmap : _bitmaps)
         if (bitmap) bitmap->releaseGLObjects(state);
+    _sheets.releaseGLObjects(state);
 }
 
 } // namespace gnomon

@@ -24,7 +24,7 @@ constexpr double unseenPixels = 0.25; // half of what the edges of a picture are
 // Of a texel's side where it is nearest: what is drawn by texels is off by half their diagonal at most.
 constexpr double texelPixels = 0.4;
 constexpr double mostTexels = 1 << 20; // 128 KB of bits
-constexpr double mostOnASide = 4096.0; // 1024 words: a texture that every OpenGL has
+constexpr double mostOnASide = 4096.0; // and ground that is not much longer than wide
 
 double nearestOf(const std::array<glm::dvec4, 8>& corners) {
     double nearest = infinite;
@@ -91,9 +91,12 @@ std::optional<int> TerrainView::bitmapLevel(const TileShadows& tile) const {
     if (!now.bounds || !std::isfinite(now.pixels)) return std::nullopt;
     const double onSlope = std::sqrt(1.0 + tile.slope * tile.slope); // of a length of 1 in plan
     const double level = std::floor(2.0 * std::log2(texelPixels / (onSlope * now.pixels)));
-    const glm::dvec2 texels = glm::dvec2(tile.decals->high - tile.decals->low) / bitmapTexel(int(level));
-    const bool tooMany = std::max(texels.x, texels.y) > mostOnASide || texels.x * texels.y > mostTexels;
-    return tooMany ? std::nullopt : std::optional(int(level));
+    return isBitmapSmall(tile, int(level)) ? std::optional(int(level)) : std::nullopt;
+}
+
+bool TerrainView::isBitmapSmall(const TileShadows& tile, int level) {
+    const glm::dvec2 texels = glm::dvec2(tile.decals->high - tile.decals->low) / bitmapTexel(level);
+    return std::max(texels.x, texels.y) <= mostOnASide && texels.x * texels.y <= mostTexels;
 }
 
 double TerrainView::bitmapTexel(int level) { return std::exp2(0.5 * level); }

@@ -25,6 +25,8 @@ public:
     /// where nothing of them is to be drawn, and where there had to be too many texels.
     std::optional<int> bitmapLevel(const TileShadows& tile) const;
     static constexpr int finerLevels = 2;
+    /// Whether a bitmap of a tile's decals has not too many texels at a level.
+    static bool isBitmapSmall(const TileShadows& tile, int level);
     /// A texel's side at a level, two levels for each doubling.
     static double bitmapTexel(int level);
     /// By how much a tile's shadows may be off without being seen to be: a quarter of a pixel where they are nearest,

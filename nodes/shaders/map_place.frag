@@ -6,7 +6,7 @@
 
 uniform sampler2D seen;       // depths of the frame
 
-// What is the same for all pixels: SHARED vectors, then EACH of them for each map; see quad.vert and MapConstants.
+// What is the same for all pixels: SHARED vectors, then EACH of them for each map; see quad.vert and MapQuad::setConstants().
 #ifdef FLAT
 flat in vec4 constant[CONSTANTS];
 #else

@@ -30,8 +30,34 @@ Kept* room(std::vector<Kept>& kept, std::size_t count) {
     return kept.data() + kept.size() - count;
 }
 
-/// @return how high at most a point of the part is over its shadow.
-double addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
+struct PlanBox {
+    glm::dvec2 low{infinite}, high{-infinite};
+    void take(const glm::dvec2& place) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    void take(const PlanBox& box) {
+        low = glm::min(low, box.low);
+        high = glm::max(high, box.high);
+    }
+};
+
+/// A part over its shadow.
+struct Over {
+    double height = 0.0; ///< at most, of a point of the part over that of its shadow.
+    PlanBox plan;        ///< of the part, if it may float: what stands in the ground is in its shadow's.
+};
+
+/// @param lowest  of the shadow, about the anchor.
+Over overOf(const FanBatch::Entry& entry, double lowest) {
+    Over over{entry.high - lowest, {}};
+    if (entry.low <= lowest) return over;
+    over.plan.take(glm::dvec2(entry.anchor) - entry.size);
+    over.plan.take(glm::dvec2(entry.anchor) + entry.size);
+    return over;
+}
+
+Over addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
     const FanBatch::Entry& entry = batch.entry(i);
     glm::vec3* to = room(found.corners, entry.corners);
     const KernelEdge* edges = batch.edges(entry);
@@ -41,11 +67,10 @@ double addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
         low = std::min(low, corner.z);
         to[k] = rounded(found, entry.anchor, corner);
     }
-    return entry.high - low;
+    return overOf(entry, low);
 }
 
-/// @return as addFan().
-double addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeMesh& drape) {
+Over addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeMesh& drape) {
     glm::vec3* to = room(found.corners, drape.corners.size());
     double low = infinite;
     for (const glm::dvec3& corner : drape.corners) {
@@ -53,7 +78,7 @@ double addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeM
         *to++ = rounded(found, entry.anchor, corner);
     }
     std::copy(drape.indices.begin(), drape.indices.end(), room(found.indices, drape.indices.size()));
-    return entry.high - low;
+    return overOf(entry, low);
 }
 
 void addEnds(PackedShadows& found, TerrainOutcome outcome) {
@@ -72,20 +97,14 @@ void clear(PackedShadows& found) {
     found.steepest = 0.0;
 }
 
-struct PlanBox {
-    glm::dvec2 low{infinite}, high{-infinite};
-    void take(const glm::dvec2& place) {
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-    }
-};
-
-/// About shadows, in the ground's frame, with what they may move by before they are found again.
-PlanBox reachOf(const PackedShadows& shadows, const glm::vec3* first, const glm::vec3* end, double height) {
+/// About shadows and the way of their rays, in the ground's frame, with what they may move by before they are found again.
+PlanBox reachOf(const PackedShadows& shadows, const glm::vec3* first, const glm::vec3* end, const Over& over) {
     PlanBox box;
     for (; first != end; ++first) box.take(glm::dvec2(glm::vec2(*first)));
-    const glm::dvec2 origin(shadows.origin), margin(reach * height);
-    return {origin + box.low - margin, origin + box.high + margin};
+    const glm::dvec2 origin(shadows.origin), margin(reach * over.height);
+    box = {origin + box.low, origin + box.high};
+    box.take(over.plan);
+    return {box.low - margin, box.high + margin};
 }
 
 /// Of the ground in some place.
@@ -126,12 +145,15 @@ Slopes slopesIn(const HeightField& field, const HeightPyramid::Cells& cells, con
     return slopes;
 }
 
+bool hasHoles(const HeightPyramid& grid) { return !std::isfinite(grid.steepest()); }
+
 Slopes slopesIn(const HeightPyramid& grid, const PlanBox& box, const glm::dvec2& way) {
     constexpr int mostCells = 256; // of a tower on a mountain
     const HeightField& field = grid.field();
     const auto cells = grid.cells(field.cellOf(box.low.x, box.low.y), field.cellOf(box.high.x, box.high.y));
     const bool isFew = cells && (cells->right - cells->left + 1) * (cells->high - cells->low + 1) <= mostCells;
-    return isFew ? slopesIn(field, *cells, way) : slopesIn(static_cast<const Ground&>(grid), box, way);
+    if (isFew) return slopesIn(field, *cells, way);
+    return hasHoles(grid) ? Slopes{infinite, infinite} : slopesIn(static_cast<const Ground&>(grid), box, way);
 }
 
 /// How far it moves at most, a unit that the light's way turns by, for turns up to `turned`.
@@ -151,31 +173,33 @@ bool mayAppear(TerrainOutcome outcome) {
 }
 
 /// By the ground under all together; where that tells too little, by what is under each.
-void findMotions(const Ground& ground, const std::vector<double>& heights, const glm::dvec2& way, PackedShadows& found,
+void findMotions(const Ground& ground, const std::vector<Over>& overs, const glm::dvec2& way, PackedShadows& found,
                  std::vector<ShadowMotion>& motions) {
     constexpr double enough = 0.25; // more than what shadows move by on level ground
     if (found.corners.empty()) return;
     const glm::vec3* corners = found.corners.data();
-    const double tallest = *std::max_element(heights.begin(), heights.end());
-    const Slopes all = slopesIn(ground, reachOf(found, corners, corners + found.corners.size(), tallest), way);
+    Over highest;
+    for (const Over& over : overs) {
+        highest.height = std::max(highest.height, over.height);
+        highest.plan.take(over.plan);
+    }
+    const Slopes all = slopesIn(ground, reachOf(found, corners, corners + found.corners.size(), highest), way);
     found.steepest = all.steepest;
     const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
-    const bool isEnough = !grid || all.grazing * glm::length(way) <= enough;
+    const bool isEnough = !grid || (all.grazing * glm::length(way) <= enough && !hasHoles(*grid));
     for (std::size_t i = 0; i < found.size(); ++i) {
         const PackedShadow shadow = found[i];
         if (shadow.cornerCount == 0) continue;
-        const auto box = [&] {
-            return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, heights[i]);
-        };
-        motions[i] = {heights[i], isEnough ? all.grazing : slopesIn(*grid, box(), way).grazing};
+        const auto box = [&] { return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, overs[i]); };
+        motions[i] = {overs[i].height, isEnough ? all.grazing : slopesIn(*grid, box(), way).grazing};
     }
 }
 
-void findRates(const Ground& ground, const std::vector<double>& heights, const glm::dvec4& light, PackedShadows& found,
+void findRates(const Ground& ground, const std::vector<Over>& overs, const glm::dvec4& light, PackedShadows& found,
                std::vector<ShadowMotion>& motions) {
     motions.assign(found.size(), {});
     if (light.w != 0.0) return;
-    findMotions(ground, heights, wayOf(light), found, motions);
+    findMotions(ground, overs, wayOf(light), found, motions);
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (mayAppear(found.outcomes[i])) motions[i].height = infinite;
         takeRates(found, motions[i], glm::length(wayOf(light)));
@@ -225,21 +249,21 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
         return;
     }
     const TerrainAsk asked{ground, light, method, error};
-    thread_local std::vector<double> heights; // memory that is used again
-    heights.assign(parts.size(), 0.0);
+    thread_local std::vector<Over> overs; // memory that is used again
+    overs.assign(parts.size(), {});
     FanBatch& batch = threadsBatch();
     batch.begin(ground, light);
     for (std::size_t first = 0; first < parts.size(); first += together) {
         findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
         for (std::size_t i = 0; i < batch.size(); ++i) {
             const Settled one = settled(batch, i, asked, parts, first + i);
-            if (one.outcome == TerrainOutcome::fan) heights[first + i] = addFan(found, batch, i);
-            if (one.drape) heights[first + i] = addDrape(found, batch.entry(i), *one.drape);
+            if (one.outcome == TerrainOutcome::fan) overs[first + i] = addFan(found, batch, i);
+            if (one.drape) overs[first + i] = addDrape(found, batch.entry(i), *one.drape);
             addEnds(found, one.outcome);
         }
     }
     thread_local std::vector<ShadowMotion> unwanted;
-    findRates(ground, heights, light, found, motions ? *motions : unwanted);
+    findRates(ground, overs, light, found, motions ? *motions : unwanted);
 }
 
 /// The ground's rise along d is at most |G| |d - d'| more than along d'.

@@ -67,7 +67,7 @@ glm::dvec2 wayOf(const glm::dvec4& sun);
 /// @return infinite where no bound is known: of lamps that moved, or where the ground is as steep as the light.
 ///
 /// A point at height h over its shadow moves it by v = h (d' - d) + (G v) d, where d is the light's way in plan a unit of
-/// height, d' what it was and G the ground's gradient between: so |v| <= h |d - d'| (1 + |d| |G| / (1 - G d)).
+/// height, d' what it was and G the ground's gradient on the way of its ray, old and new: so |v| <= h |d - d'| (1 + |d| |G| / (1 - G d)).
 /// Source: the tip's speed h / sin^2 e of a shadow on level ground, e the sun's elevation.
 double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now);
 /// Of one part alone, which is nearer to what it moves by. @param then,now  see wayOf().

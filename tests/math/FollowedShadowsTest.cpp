@@ -19,13 +19,18 @@ constexpr int posts = 160;
 /// Metres in plan a metre of height, towards +x.
 glm::dvec4 sunOf(double shift) { return glm::dvec4(-shift, 0.0, 1.0, 0.0); }
 
-/// A tower of 4 by 4 m about x, and three huts far from it, 1 m high.
-PackedParts towerAt(double x, double base, double height) {
-    std::vector<gnomon::ConvexPart> parts = test::boxAt({x, 700.0}, {2.0, 2.0}, 0.0, base - 5.0, base + height).parts();
+/// A house, and three huts far from it, 1 m high.
+PackedParts withHuts(const test::Prism& house) {
+    std::vector<gnomon::ConvexPart> parts = house.parts();
     for (const double y : {300.0, 320.0, 340.0})
         for (const gnomon::ConvexPart& hut : test::boxAt({200.0, y}, {2.0, 2.0}, 0.0, -5.0, 1.0).parts())
             parts.push_back(hut);
     return PackedParts(parts);
+}
+
+/// A tower of 4 by 4 m about x.
+PackedParts towerAt(double x, double base, double height) {
+    return withHuts(test::boxAt({x, 700.0}, {2.0, 2.0}, 0.0, base - 5.0, base + height));
 }
 
 /// A town's shadows, followed from `shift` on.
@@ -45,6 +50,12 @@ struct Followed {
     PackedShadows shown;
     FollowedShadows followed;
 };
+
+/// Level at 0 as far as x = 490, from x = 520 on 109.9 m lower, between them steeper than light at 45 degrees.
+double brink(double x, double) { return x < 495.0 ? 0.0 : x < 505.0 ? -9.9 : x < 515.0 ? -59.9 : -109.9; }
+
+/// Level at 0 as far as x = 500, nothing as far as x = 520, level 100 m lower.
+double gap(double x, double) { return x < 505.0 ? 0.0 : x < 515.0 ? std::nan("") : -100.0; }
 
 /// Level at 0 as far as x = 500, there 100 m down on two cells, level again.
 double crest(double x, double) { return -std::clamp(5.0 * (x - 500.0), 0.0, 100.0); }
@@ -83,4 +94,21 @@ TEST(FollowedShadows, AreNotLookedAtWhereMostWouldHaveToBe) {
     const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
     Followed town(level, towerAt(400.0, 0.0, 40.0), 1.0);
     EXPECT_GT(town.seenBy(2.0, 0.1), 1e9);
+}
+
+/// A plate's ray clears the brink by 1 cm and lands 100 m beyond; soon it meets the brink, of which its shadow tells nothing.
+TEST(FollowedShadows, OfWhatFloatsHaveABoundByAllTheGroundThatItsRaysPass) {
+    const HeightPyramid ground = test::groundOf(brink, posts);
+    const Followed town(ground, withHuts(test::boxAt({445.0, 700.0}, {5.0, 5.0}, 0.0, 50.11, 51.0)), 1.0);
+    ASSERT_GT(town.shown[0].cornerCount, 0u);
+    EXPECT_GT(town.offBy(0.9996), 1e9);
+    EXPECT_GT(gnomon::movedAtMost(town.shown, sunOf(1.0), sunOf(0.9996)), 1e9);
+}
+
+/// The tip is 3 cm before the hole.
+TEST(FollowedShadows, BesideAHoleHaveNoBound) {
+    const HeightPyramid ground = test::groundOf(gap, posts);
+    const Followed town(ground, towerAt(487.97, 0.0, 10.0), 1.0);
+    ASSERT_GT(town.shown[0].cornerCount, 0u);
+    EXPECT_GT(town.offBy(1.005), 1e9);
 }
