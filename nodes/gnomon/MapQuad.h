@@ -69,6 +69,7 @@ private:
     std::string definesOf(const PixelRect& pixels, bool wide) const;
     void drawFragments(osg::State& state, ScreenPass& pass) const;
     void drawWide(osg::State& state, ScreenPass& pass) const;
+    /// How many vectors map_place.frag has there.
     std::size_t sharedConstants() const;
     std::size_t constantsOfMap() const;
     void addMap(std::size_t map, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const;

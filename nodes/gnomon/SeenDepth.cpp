@@ -97,9 +97,9 @@ glm::dvec2 SeenDepth::transfer(osg::State& state, const PixelRect& pixels, bool 
     return {0.0, 1.0};
 }
 
-/// Mesa has a window's first row at the top, a texture's at the bottom: so mirrored, memory is copied and nothing drawn, which
-/// takes a tenth of the time on llvmpipe.
-/// @return false if that is not a window of one sample a pixel, or not possible: formats can differ though they have as many bits.
+/// Mesa has a window's first row at the top, a texture's at the bottom: so mirrored, memory is copied and nothing drawn.
+/// @return false if that is not a window of one sample a pixel, or not possible: formats can differ though they have as many
+///         bits.
 bool SeenDepth::mirror(osg::State& state, Target& target, const PixelRect& pixels) {
     const auto& gl = *state.get<osg::GLExtensions>();
     const bool isWindow = glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT) == 0 && glInteger(GL_SAMPLES) == 0;
