@@ -104,8 +104,7 @@ void MapQuad::drawWide(osg::State& state, ScreenPass& pass) const {
 
 std::string MapQuad::definesOf(const PixelRect& pixels, bool wide) const {
     std::string text = mapDefines();
-    text += soft ? "#define SOFT\n" : "#define HALVES\n";
-    if (smooth) text += "#define SMOOTH\n";
+    text += soft ? "#define SOFT\n" : smooth ? "#define SMOOTH\n" : "#define HALVES\n";
     if (wide) text += "#define PENUMBRA\n";
     if (isOdd(pixels)) text += "#define ODD\n";
     return text;

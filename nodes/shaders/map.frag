@@ -3,11 +3,11 @@
 // For pixels' places see map_place.frag.
 
 // Texels of slope that a comparison allows for, beside the half of the steeper way's that the map has: of 2 x 2 that are
-// compared at once, which reach a texel, all must pass where edges are soft, half of them where they are hard.
-#ifdef SOFT
-const float kernel = 0.75;
-#else
+// compared at once, which reach a texel, all must pass where a part of the light counts, half of them where edges are hard.
+#ifdef HALVES
 const float kernel = 0.5;
+#else
+const float kernel = 0.75;
 #endif
 
 // wanted: pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0; colour of a pixel that
@@ -50,6 +50,22 @@ vec2 changeOf(float e, ivec2 here) {
     return change;
 }
 
+#ifdef SMOOTH
+mat2 sides = mat2(1.0); // of the pixel, in texels of its map
+
+// The same of map i, on a surface on which e changes so; where they are more than four times those on one that faces the eye,
+// no longer than these: there other pixels of the quad are often of another surface.
+mat2 sidesIn(int i, vec4 pixel, vec2 change, vec2 inMap) {
+    mat4 toMap = mapFromPixel(i);
+    vec2 x = toMap[0].xy - inMap * toMap[0].w, y = toMap[1].xy - inMap * toMap[1].w;
+    vec2 deeper = toMap[2].xy - inMap * toMap[2].w;
+    mat2 along = mat2(x + change.x * deeper, y + change.y * deeper);
+    float facing = max(dot(x, x), dot(y, y)), longest = max(dot(along[0], along[0]), dot(along[1], along[1]));
+    float part = longest > 16.0 * facing ? sqrt(facing / longest) : 1.0;
+    return along * (part * place(i).z / (toMap * pixel).w);
+}
+#endif
+
 // Share of the light; outside all maps it is 1. Soft cascades are blended where one ends: `left` is the weight of those
 // that are still to come.
 float visibility(vec4 pixel, vec4 plane) {
@@ -67,7 +83,12 @@ float visibility(vec4 pixel, vec4 plane) {
         }
         float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x;
         vec2 p = place(i).xy + at.xy * place(i).z;
-#ifndef SOFT
+#ifdef SMOOTH
+        sides = sidesIn(i, pixel, -plane.xy, at.xy);
+#endif
+#if defined(SMOOTH) && defined(BICUBIC)
+        return litOverPixel(i, p, depth, slope, sides);
+#elif !defined(SOFT)
         return lit(p, depth, slope, true);
 #else
         const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
@@ -85,13 +106,18 @@ float visibility(vec4 pixel, vec4 plane) {
 }
 
 #ifdef SMOOTH
-// Share of a pixel that is on the lit side of an edge, which is where half of the light arrives, by the filter.
+// Texels from one side of a pixel to the other, across an edge: `change` is that of what arrives, a pixel.
+float texelsAcross(vec2 change) {
+    vec2 inMap = vec2(sides[1].y * change.x - sides[0].y * change.y, sides[0].x * change.y - sides[1].x * change.x);
+    return abs(determinant(sides)) * length(change) / length(inMap);
+}
+
+// Share of a pixel that is on the lit side of an edge, which is where half of the light arrives, by the filter: where that makes
+// it wider than a pixel it is made as wide.
 float ofPixel(float arrives) {
-    const float least = 1.0 / 1024.0; // change a pixel: of what is wider than that no edge is seen
-    float off = arrives - 0.5;
-    off += 2.2 * off * off * off; // about linear in the distance from the edge: what the filter makes of a straight one, undone
-    float change = max(abs(dFdx(off)), abs(dFdy(off))); // of a slanting edge, too, the share changes so in a pixel's middle
-    return clamp(0.5 + off / max(change, least), 0.0, 1.0);
+    vec2 change = vec2(dFdx(arrives), dFdy(arrives));
+    float width = change == vec2(0.0) ? 1.0 : min(texelsAcross(change) / fewest, 1.0);
+    return clamp(0.5 + (arrives - 0.5) / width, 0.0, 1.0);
 }
 #endif
 

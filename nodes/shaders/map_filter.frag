@@ -1,5 +1,6 @@
 // What share of the light passes a place of a map: see ShadowMapTechnique. FILTER is NEAREST, BILINEAR or BICUBIC; HALVES, if
-// it only matters whether that is more than half; SOFT, if what is wider than the filter counts; PENUMBRA, if that goes by how far away what blocks the light is.
+// it only matters whether that is more than half; SMOOTH, if pixels ask for their mean; SOFT, if what is wider than the filter
+// counts; PENUMBRA, if that goes by how far away what blocks the light is.
 
 uniform sampler2DShadow maps;
 
@@ -39,14 +40,35 @@ float lit(vec2 p, float depth, vec2 slope, bool asked) {
 #endif
 }
 
+#if defined(SMOOTH) || defined(SOFT)
+vec2 withinTile(vec2 p, int i) { return clamp(p, place(i).xy + 0.5, place(i).xy + place(i).z - 0.5); }
+#endif
+
+#ifdef SMOOTH
+const float fewest = 4.0 / 3.0; // texels that the mean is of, each way
+vec2 notLess(vec2 side) { return side * max(1.0, fewest * inversesqrt(max(dot(side, side), 1e-12))); }
+
+// Mean over a pixel, whose sides are so many texels long, or over a few texels where that is more: four comparisons of 2 x 2 at
+// the places of a rotated grid.
+float litOverPixel(int i, vec2 p, float depth, vec2 slope, mat2 sides) {
+    mat2 grid = mat2(notLess(sides[0]), notLess(sides[1]));
+    vec2 way = vec2(0.125, 0.375);
+    float sum = 0.0;
+    for (int tap = 0; tap < 4; ++tap) {
+        vec2 at = withinTile(p + grid * way, i);
+        sum += texture(maps, vec3(at * texel, depth + dot(slope, at - p)));
+        way = vec2(-way.y, way.x);
+    }
+    return 0.25 * sum;
+}
+#endif
+
 #ifdef SOFT
 // discs: radii of the disc that is averaged, texels: at depth 0: x, y; at depth 1: x, y.
 
 // Places spread evenly over a disc: the golden angle from one to the next. Source: H. Vogel, "A better way to construct
 // the sunflower head", Mathematical Biosciences 44, 1979.
 const mat2 golden = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
-
-vec2 withinTile(vec2 p, int i) { return clamp(p, place(i).xy + 0.5, place(i).xy + place(i).z - 0.5); }
 
 float litDisc(int i, vec2 p, float depth, vec2 slope, vec2 radius) {
     const float fewest = 8.0, most = 32.0, aTexel = 4.0; // taps, as many as keep holes between them small
