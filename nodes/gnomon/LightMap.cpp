@@ -20,8 +20,6 @@ namespace {
 
 constexpr double reserve = 1.0 / 16.0;  // of a map's sides
 constexpr double mostWaste = 2.0;       // area of a map to the smallest that would do: edges may be a half coarser
-constexpr double mostPixels = 1.5;      // on a side of a texel, where it is widest
-constexpr double mostSoftPixels = 0.33; // the same of soft edges: penumbras of a pixel or two are wider than the filter
 constexpr double fewestSoft = 256.0; // texels of soft edges: with fewer, what 128 of them reach would be most of a map
 constexpr double border = 3.0;       // texels: what a comparison reaches over, and one against rounding
 constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
@@ -262,13 +260,12 @@ double LightMap::softness(const LightFrame& frame, MapOutline blocker, double fa
 
 /// On a side of the map that needs most.
 double LightMap::texelsWanted() const {
-    const double pixels = _wish.soft ? mostSoftPixels : mostPixels;
     double wanted = 0.0;
     for (const MapFace& face : _faces) {
         if (face.needed.empty()) continue;
         if (isWide(face.frame)) wanted = std::max(wanted, fewestSoft);
         const glm::dvec2 size = holds(face) ? face.fit->size : fitOf(face).size;
-        wanted = std::max(wanted, std::max(size.x, size.y) / (pixels * face.texel));
+        wanted = std::max(wanted, std::max(size.x, size.y) / (_wish.pixels * face.texel));
     }
     return wanted;
 }

@@ -27,8 +27,9 @@ struct MapSoftness {
 
 /// How a technique wants its maps.
 struct MapWish {
-    int size = 1024;  ///< texels on a side of a tile, at most.
-    int cascades = 0; ///< of a sun: how many of them at most; 0: see cascadesFor().
+    int size = 1024;     ///< texels on a side of a tile, at most.
+    double pixels = 1.0; ///< on a side of a texel, where it is widest; fewer only with more texels than `size`.
+    int cascades = 0;    ///< of a sun: how many of them at most; 0: see cascadesFor().
     osg::Texture::FilterMode compare = osg::Texture::LINEAR;
     std::string defines;             ///< see MapQuad.
     bool smooth = false;             ///< edges, where they are not soft; else they are hard.
@@ -38,7 +39,7 @@ struct MapWish {
 
     /// True if its maps are the same.
     bool operator==(const MapWish& other) const {
-        return size == other.size && cascades == other.cascades && compare == other.compare &&
+        return size == other.size && pixels == other.pixels && cascades == other.cascades && compare == other.compare &&
                defines == other.defines && smooth == other.smooth && soft == other.soft;
     }
 };

@@ -18,9 +18,14 @@ constexpr int leastSize = 16, mostSize = 16384;
 
 constexpr double mostAngle = 20.0, mostLength = 1e6;
 
+/// On a side of a texel, where it is widest. Soft: penumbras of a pixel or two are wider than the filter.
+constexpr double pixels = 1.5, finePixels = 0.7, softPixels = 0.33;
+
 std::string definesOf(ShadowMapTechnique::Filter filter) {
-    constexpr const char* names[] = {"NEAREST", "BILINEAR", "BICUBIC"};
-    return std::string("#define ") + names[filter] + "\n";
+    constexpr const char* defines[] = {"#define NEAREST\n", "#define BILINEAR\n",
+                                       "#define BICUBIC\n#define SAMPLES 4.0\n",
+                                       "#define BICUBIC\n#define SAMPLES 16.0\n"};
+    return defines[filter];
 }
 
 double within(double value, double most) { return value > 0.0 ? std::min(value, most) : 0.0; }
@@ -85,6 +90,7 @@ MapWish ShadowMapTechnique::wish() const {
     wish.view = MapView(_view);
     wish.unit = _programUnit;
     wish.smooth = _edges == SMOOTH;
+    wish.pixels = _edges == SOFT ? softPixels : _edges == SMOOTH && _filter == FINE ? finePixels : pixels;
     if (_edges == SOFT) wish.soft = MapSoftness{std::tan(glm::radians(_sunAngle / 2.0)), _lampSize / 2.0, _radius};
     return wish;
 }

@@ -86,6 +86,8 @@ bool takeFilter(ShadowSpec& spec, const std::string& value) {
         spec.filter = ShadowMapTechnique::BILINEAR;
     else if (value == "bicubic")
         spec.filter = ShadowMapTechnique::BICUBIC;
+    else if (value == "fine")
+        spec.filter = ShadowMapTechnique::FINE;
     return spec.filter.has_value();
 }
 
@@ -186,8 +188,9 @@ const std::vector<Technique>& techniques() {
     static const Key error = {"error", "0 to 1e6, scene's unit", "0.1",
                               "how far off a draped edge may be in plan; 0 is exact", takeError};
     static const Key size = {"size", "16 to 16384, texels", "1024", "side of a light's map", takeSize};
-    static const Key filter = {"filter", "nearest, bilinear, bicubic", "bicubic",
-                               "compare 1, 2 x 2 or 4 x 4 texels of the map", takeFilter};
+    static const Key filter = {"filter", "nearest, bilinear, bicubic, fine", "bicubic",
+                               "compare 1, 2 x 2 or 4 x 4 texels of the map; fine: 16 times 2 x 2 with edges=smooth",
+                               takeFilter};
     static const Key cascades = {"cascades", "auto, 1 to 4", "auto", "maps of a sun, each for a part of a long view",
                                  takeCascades};
     static const Key edges = {"edges", "hard, smooth, soft", "hard",

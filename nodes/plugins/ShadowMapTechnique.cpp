@@ -16,6 +16,7 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
     ADD_ENUM_VALUE(NEAREST);
     ADD_ENUM_VALUE(BILINEAR);
     ADD_ENUM_VALUE(BICUBIC);
+    ADD_ENUM_VALUE(FINE);
     END_ENUM_SERIALIZER();
     ADD_INT_SERIALIZER(Cascades, fresh->getCascades());
     BEGIN_ENUM_SERIALIZER(Edges, HARD);

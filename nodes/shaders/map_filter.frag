@@ -46,20 +46,24 @@ vec2 withinTile(vec2 p, int i) { return clamp(p, place(i).xy + 0.5, place(i).xy 
 
 #ifdef SMOOTH
 const float fewest = 4.0 / 3.0; // texels that the mean is of, each way
+#endif
+
+#if defined(SMOOTH) && defined(BICUBIC)
 vec2 notLess(vec2 side) { return side * max(1.0, fewest * inversesqrt(max(dot(side, side), 1e-12))); }
 
-// Mean over a pixel, whose sides are so many texels long, or over a few texels where that is more: four comparisons of 2 x 2 at
-// the places of a rotated grid.
+// Mean over a pixel, whose sides are so many texels long, or over a few texels where that is more: SAMPLES comparisons of 2 x 2,
+// 4 or 16, one in each of as many columns and rows. The square of the rows from one column to the next is -1 modulo SAMPLES + 1, so
+// that a quarter turn leaves them where they are.
 float litOverPixel(int i, vec2 p, float depth, vec2 slope, mat2 sides) {
     mat2 grid = mat2(notLess(sides[0]), notLess(sides[1]));
-    vec2 way = vec2(0.125, 0.375);
+    const float up = SAMPLES == 4.0 ? 2.0 : 4.0, middle = (SAMPLES + 1.0) / 2.0;
     float sum = 0.0;
-    for (int tap = 0; tap < 4; ++tap) {
+    for (float column = 1.0; column <= SAMPLES; column += 1.0) {
+        vec2 way = (vec2(column, mod(up * column, SAMPLES + 1.0)) - middle) / SAMPLES;
         vec2 at = withinTile(p + grid * way, i);
         sum += texture(maps, vec3(at * texel, depth + dot(slope, at - p)));
-        way = vec2(-way.y, way.x);
     }
-    return 0.25 * sum;
+    return sum / SAMPLES;
 }
 #endif
 

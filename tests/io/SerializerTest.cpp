@@ -295,7 +295,7 @@ TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
     test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
     const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
     technique->setSize(20); // so that its own size and filter show
-    technique->setFilter(gnomon::ShadowMapTechnique::NEAREST);
+    technique->setFilter(gnomon::ShadowMapTechnique::FINE);
     scene.addShadow(technique);
     expectSamePictureOnceLoaded(scene);
 }

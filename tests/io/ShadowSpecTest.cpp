@@ -89,7 +89,8 @@ TEST(ShadowSpec, KeysOfMapAreReadAndSet) {
     EXPECT_EQ(refusal("map:cascades=0"), "cascades=0 cannot be used; allowed: auto, 1 to 4.");
     EXPECT_EQ(refusal("map:cascades=5"), "cascades=5 cannot be used; allowed: auto, 1 to 4.");
     EXPECT_EQ(plain.getEdges(), ShadowMapTechnique::HARD);
-    EXPECT_EQ(refusal("map:filter=soft"), "filter=soft cannot be used; allowed: nearest, bilinear, bicubic.");
+    EXPECT_EQ(parseShadowSpec("map:filter=fine").filter, ShadowMapTechnique::FINE);
+    EXPECT_EQ(refusal("map:filter=soft"), "filter=soft cannot be used; allowed: nearest, bilinear, bicubic, fine.");
 }
 
 TEST(ShadowSpec, KeysOfSoftMapsAreReadAndSet) {

@@ -113,17 +113,23 @@ TEST(MapSmooth, AreNearerToRaysThanHardEdges) {
     for (const TracedCase& given : {test::labEight(), test::townOfHouses()}) {
         const Shares shares(given);
         const auto truth = given.truth();
-        const auto off = [&](ShadowMapTechnique::Edges edges) {
-            return test::shareOff(shares.with(mapWith(edges, 2048)), shares.lit, shares.dark, truth);
+        const auto off = [&](ShadowMapTechnique::Edges edges, ShadowMapTechnique::Filter filter) {
+            const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(edges, 4096);
+            technique->setFilter(filter);
+            return test::shareOff(shares.with(technique), shares.lit, shares.dark, truth);
         };
-        const double hard = off(ShadowMapTechnique::HARD), smooth = off(ShadowMapTechnique::SMOOTH);
-        std::cout << given.name << ": hard " << hard << ", smooth " << smooth << "\n";
+        const double hard = off(ShadowMapTechnique::HARD, ShadowMapTechnique::BICUBIC),
+                     smooth = off(ShadowMapTechnique::SMOOTH, ShadowMapTechnique::BICUBIC),
+                     fine = off(ShadowMapTechnique::SMOOTH, ShadowMapTechnique::FINE);
+        std::cout << given.name << ": hard " << hard << ", smooth " << smooth << ", fine " << fine << "\n";
+        EXPECT_LT(fine, 0.6 * smooth)
+            << given.name; // a third of them is the aim: sixteen steps and half as wide texels
         EXPECT_LT(smooth, 0.4 * hard) << given.name; // a half more would be that of one comparison a pixel
     }
 }
 
 TEST(MapSmooth, HalvesAreOnTheSideThatRaysSay) {
-    for (const auto filter : {ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC})
+    for (const auto filter : {ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC, ShadowMapTechnique::FINE})
         for (const TracedCase& given : {test::labEight(), test::townOfHouses()}) {
             const Shares shares(given);
             const osg::ref_ptr<ShadowMapTechnique> smooth = mapWith(ShadowMapTechnique::SMOOTH, 2048);
@@ -147,9 +153,13 @@ TEST(MapSmooth, HalvesAreOnTheSideThatRaysSay) {
 TEST(MapSmooth, FlatGroundsAreFreeOfAcne) {
     for (const double elevation : {90.0, 45.0, 20.0, 10.0, 5.0}) {
         const Shares shares(test::tilted(test::flatGround(8.0, 3.0, elevation, 1.0, 100.0, 20))); // not left out
-        for (const int size : {64, 256, 2048})
-            EXPECT_EQ(shares.with(mapWith(ShadowMapTechnique::SMOOTH, size)).different(shares.lit), 0)
-                << elevation << " degrees, size " << size;
+        for (const auto filter : {ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC, ShadowMapTechnique::FINE})
+            for (const int size : {64, 256, 2048}) {
+                const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(ShadowMapTechnique::SMOOTH, size);
+                technique->setFilter(filter);
+                EXPECT_EQ(shares.with(technique).different(shares.lit), 0)
+                    << elevation << " degrees, size " << size << ", filter " << filter;
+            }
     }
 }
 

@@ -37,6 +37,7 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"map, smooth", "blend, size 512", "map:edges=smooth,composite=blend,size=512", Receives::EVERYTHING},
     {"map, smooth", "blend", "map:edges=smooth,composite=blend", Receives::EVERYTHING},
     {"map, smooth", "blend, size 2048", "map:edges=smooth,composite=blend,size=2048", Receives::EVERYTHING},
+    {"map, smooth", "blend, fine", "map:edges=smooth,composite=blend,filter=fine,size=4096", Receives::EVERYTHING},
     {"map, smooth", "blend, bilinear", "map:edges=smooth,composite=blend,filter=bilinear", Receives::EVERYTHING},
     {"map, soft", "size 1024", "map:edges=soft", Receives::EVERYTHING},
     {"map, soft", "size 2048", "map:edges=soft,size=2048", Receives::EVERYTHING},
