@@ -170,39 +170,66 @@ void HeightPyramid::cover(const std::vector<glm::dvec4>& planes, double error,
     });
 }
 
-/// In the same order whichever block it begins at, so that what is at a border of cells keeps its bits.
-double HeightPyramid::hitIn(const Cells& among, const glm::dvec3& start, const glm::dvec3& along) const {
+double HeightPyramid::hitInCell(int x, int y, const glm::dvec3& start, const glm::dvec3& along) const {
     double nearest = std::numeric_limits<double>::infinity();
-    const int most = 1 + std::max(among.right - among.left, among.high - among.low);
-    int level = 0;
-    while (among.left >> level != among.right >> level || among.low >> level != among.high >> level) ++level;
-    descend({level, among.left >> level, among.low >> level}, [&](const Block& block) {
-        const int right = block.column() + block.side() - 1, high = block.row() + block.side() - 1;
-        if (right < among.left || block.column() > among.right || high < among.low || block.row() > among.high)
-            return false;
-        if (block.side() > most) return true; // its bounds are those of far more than is asked for
+    for (const GroundTriangle& triangle : _field.triangles(x, y))
+        nearest = std::min(nearest, meet(triangle, start, along).value_or(nearest));
+    return nearest;
+}
+
+/// @param low,high  heights of the ray over these cells.
+double HeightPyramid::hitAmong(const Cells& cells, double low, double high, const glm::dvec3& start,
+                               const glm::dvec3& along) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int y = cells.low; y <= cells.high; ++y)
+        for (int x = cells.left; x <= cells.right; ++x) {
+            const Node& cell = node({0, x, y});
+            if (cell.isHole() || low > double(cell.high) || high < double(cell.low)) continue;
+            nearest = std::min(nearest, hitInCell(x, y, start, along));
+        }
+    return nearest;
+}
+
+/// Column by column of cells, across the axis along which it goes farther; of each column the few that it passes.
+double HeightPyramid::hitBeside(const glm::dvec3& start, const glm::dvec3& along) const {
+    constexpr int mostColumns = 64;   // of what goes farther blocks of cells are left out at once
+    constexpr double rounding = 1e-6; // of a cell
+    const glm::dvec2 pace = glm::dvec2(along) / _field.step(), from = _field.cellOf(start.x, start.y);
+    const int axis = std::abs(pace.x) >= std::abs(pace.y) ? 0 : 1, way = pace[axis] < 0.0 ? -1 : 1;
+    const bool isUpright = !(std::abs(pace[axis]) > 1e-100); // or as good as that
+    double nearest = std::numeric_limits<double>::infinity(), in = 0.0;
+    if (!cells(from, from)) return nearest;
+    double column = std::floor(from[axis]);
+    for (int i = 0; i < mostColumns && in <= nearest; ++i, column += way) {
+        const double out = isUpright ? 0.0 : std::max(0.0, (column + (way > 0) - from[axis]) / pace[axis]);
+        glm::dvec2 low = glm::min(from + in * pace, from + out * pace) - rounding,
+                   high = glm::max(from + in * pace, from + out * pace) + rounding;
+        low[axis] = high[axis] = column;
+        const auto passed = cells(low, high);
+        if (!passed) break;
+        const double z = start.z + in * along.z,
+                     end = isUpright ? std::copysign(infinite, along.z) : start.z + out * along.z;
+        nearest = std::min(nearest, hitAmong(*passed, std::min(z, end), std::max(z, end), start, along));
+        if (isUpright) break;
+        in = out;
+    }
+    return nearest;
+}
+
+double HeightPyramid::hitAnywhere(const glm::dvec3& start, const glm::dvec3& along) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    descend([&](const Block& block) {
         const RaySpan span = spanInside(boxOf(block), start, along);
         if (span.from > span.to || span.from >= nearest) return false;
-        if (block.level > 0) return true;
-        for (const GroundTriangle& triangle : _field.triangles(block.x, block.y))
-            nearest = std::min(nearest, meet(triangle, start, along).value_or(nearest));
-        return false;
+        if (block.level == 0) nearest = std::min(nearest, hitInCell(block.x, block.y, start, along));
+        return true;
     });
     return nearest;
 }
 
 std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm::dvec3& along) const {
-    constexpr double rounding = 1e-6; // of a cell
-    const glm::dvec2 pace = glm::abs(glm::dvec2(along)) / _field.step(), from = _field.cellOf(start.x, start.y);
-    for (const double near : {2.0, 16.0}) { // cells: most of what is asked for is beside its caster
-        const double reach = near / std::max({pace.x, pace.y, 1e-100}); // no way in plan: as far as doubles go
-        const glm::dvec2 to = from + reach * glm::dvec2(along) / _field.step();
-        const auto nearby = cells(glm::min(from, to) - rounding, glm::max(from, to) + rounding);
-        if (!nearby) continue;
-        const double nearest = hitIn(*nearby, start, along);
-        if (nearest <= reach) return start + nearest * along;
-    }
-    const double nearest = hitIn({0, 0, _levels[0].columns - 1, _levels[0].rows - 1}, start, along);
+    double nearest = hitBeside(start, along);
+    if (!std::isfinite(nearest)) nearest = hitAnywhere(start, along);
     if (!std::isfinite(nearest)) return std::nullopt;
     return start + nearest * along;
 }

@@ -72,8 +72,13 @@ private:
     void descend(const Block& from, const Enter& enter) const;
     template <class Enter>
     void descend(const Enter& enter) const;
-    /// How far a ray goes before it meets one of some cells, in `along`s; infinite: it meets none.
-    double hitIn(const Cells& among, const glm::dvec3& start, const glm::dvec3& along) const;
+    /// How far a ray goes before it meets the ground, in `along`s; infinite: it does not. Beside its start, that is the
+    /// nearest few dozen cells.
+    double hitBeside(const glm::dvec3& start, const glm::dvec3& along) const;
+    double hitAnywhere(const glm::dvec3& start, const glm::dvec3& along) const;
+    double hitAmong(const Cells& cells, double low, double high, const glm::dvec3& start,
+                    const glm::dvec3& along) const;
+    double hitInCell(int x, int y, const glm::dvec3& start, const glm::dvec3& along) const;
     bool isGentle(const Block& from, const glm::ivec2& low, const glm::ivec2& high, double tangent) const;
     GroundBox boxOf(const Block& block) const;
     /// Goes down where a point may be on the inner side of all planes. @param inside  those that are known to hold all.

@@ -91,6 +91,25 @@ TEST(TriangleGround, IsMetByRaysWhereTheHeightFieldIs) {
     EXPECT_GT(hits, 1500);
 }
 
+/// From posts, edges and diagonals, and from beside the grid; along borders of cells, across posts, straight up and down.
+TEST(TriangleGround, IsMetByRaysAlongTheBordersOfCellsWhereTheHeightFieldIs) {
+    const HeightPyramid field = test::groundOf(hills, posts);
+    const TriangleGround ground = cellsOf(field.field());
+    Random random(5);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const glm::dvec2 at = 5.0 * glm::round(glm::dvec2(random.between(-6.0, 144.0), random.between(-6.0, 144.0)));
+        const glm::dvec2 way = glm::round(glm::dvec2(random.between(-1.5, 1.5), random.between(-1.5, 1.5)));
+        const glm::dvec3 start(at, random.between(-60.0, 60.0)), along(way, random.between(-1.0, 1.0));
+        const auto expected = ground.hit(start, along), found = field.hit(start, along);
+        ASSERT_EQ(bool(found), bool(expected)) << i;
+        if (!found) continue;
+        ++hits;
+        EXPECT_TRUE(near(*found, *expected, 1e-9)) << i;
+    }
+    EXPECT_GT(hits, 5000);
+}
+
 TEST(TriangleGround, LetsNoRaySlipBetweenTrianglesThatShareAnEdgeOrAPost) {
     const HeightPyramid field = test::groundOf(hills, posts);
     const TriangleGround ground = cellsOf(field.field());
