@@ -272,13 +272,11 @@ TerrainTiles::Off TerrainTiles::offIn(const TerrainView& view, std::size_t tile,
     const bool isSame = _states[tile] == town.tiles()[tile].revision;
     if (off.by <= worthFinding * off.mayBe || !isSame || followed.empty() || !isSun(_light)) return off;
     const TileShadows& shadows = *_shadows[tile];
-    const double seen = std::max(_settings.error, view.mayBeOff(shadows, 0.0));
     // Where only what casts them is seen, all that is not known.
-    const double enough = std::min(worthFinding * seen, std::numeric_limits<double>::max());
-    if (!(followed.offBy(_light) <= enough))
-        followed.look(ground.found, town.tiles()[tile].parts, shadows.found, _light, methodOf(_settings),
-                      _settings.error, enough);
-    off.by = std::min(off.by, followed.offBy(_light));
+    const double seen =
+        std::min(std::max(_settings.error, view.mayBeOff(shadows, 0.0)), std::numeric_limits<double>::max());
+    off.by = std::min(off.by, followed.look(ground.found, town.tiles()[tile].parts, shadows.found, _light,
+                                            methodOf(_settings), _settings.error, worthFinding * seen, seen));
     off.mayBe = mayBeOff(tile, off.by, town, ground, view);
     return off;
 }

@@ -4,7 +4,10 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -22,34 +25,78 @@ double apart(const PackedShadow& a, const PackedShadow& b) {
     return most;
 }
 
+/// How far it moves for a small turn, whichever way.
+double paceOf(const ShadowMotion& motion, double way) {
+    ShadowRates rates;
+    rates.take(motion, way);
+    return rates.movedAtMost(1e-3);
+}
+
 } // namespace
 
 void FollowedShadows::begin(const std::vector<ShadowMotion>& motions, const glm::dvec4& sun) {
-    _parts.clear();
-    for (const ShadowMotion& motion : motions) _parts.push_back({motion, wayOf(sun), 0.0});
+    constexpr std::size_t oneIn = 2; // of those on one hill or brink the others say more than they do
+    thread_local std::vector<std::pair<double, unsigned>> paces; // memory that is used again
+    _way = wayOf(sun);
+    const double way = glm::length(_way);
+    paces.clear();
+    for (const ShadowMotion& motion : motions) paces.emplace_back(paceOf(motion, way), unsigned(paces.size()));
+    const auto others = paces.begin() + std::ptrdiff_t((paces.size() + oneIn - 1) / oneIn);
+    std::nth_element(paces.begin(), others, paces.end(), std::greater<>());
+    _others = {};
+    for (auto it = others; it != paces.end(); ++it) _others.take(motions[it->second], way);
+    _fastest.clear();
+    _fastest.reserve(std::size_t(others - paces.begin()));
+    for (auto it = paces.begin(); it != others; ++it)
+        _fastest.push_back(partOf(it->second, motions[it->second], _way, 0.0));
+}
+
+/// By how much each may be off. @param take  is told the part's place among the fastest, too.
+template <class Take>
+void FollowedShadows::eachOff(const glm::dvec2& now, const Take& take) const {
+    glm::dvec2 then = _way;
+    SunTurn turn(then, now);
+    for (std::size_t i = 0; i < _fastest.size(); ++i) {
+        const Part& part = _fastest[i];
+        if (part.way != then) turn = SunTurn(then = part.way, now); // many were looked at together
+        take(i, double(part.off) + movedAtMost(part.motion(), turn));
+    }
 }
 
 double FollowedShadows::offBy(const glm::dvec4& sun) const {
-    double most = 0.0;
-    for (const Part& part : _parts) most = std::max(most, part.offBy(wayOf(sun)));
+    double most = _others.movedAtMost(glm::length(wayOf(sun) - _way));
+    eachOff(wayOf(sun), [&](std::size_t, double off) { most = std::max(most, off); });
     return most;
 }
 
-void FollowedShadows::look(const Ground& ground, const PackedParts& parts, const PackedShadows& shown,
-                           const glm::dvec4& sun, TerrainMethod method, double error, double most) {
-    thread_local std::vector<std::size_t> places; // memory that is used again
+double FollowedShadows::look(const Ground& ground, const PackedParts& parts, const PackedShadows& shown,
+                             const glm::dvec4& sun, TerrainMethod method, double error, double late, double most) {
+    thread_local std::vector<double> offs; // memory that is used again
     thread_local PackedShadows found;
     thread_local std::vector<ShadowMotion> motions;
     const glm::dvec2 way = wayOf(sun);
-    places.clear();
-    for (std::size_t i = 0; i < _parts.size(); ++i)
-        if (!(_parts[i].offBy(way) <= most)) places.push_back(i);
-    if (2 * places.size() > _parts.size()) return;
+    const double others = _others.movedAtMost(glm::length(way - _way));
+    const bool isLate =
+        std::any_of(_fastest.begin(), _fastest.end(), [&](const Part& part) { return part.off > late; });
+    const double enough = isLate ? most : late;
+    offs.resize(_fastest.size());
+    eachOff(way, [&](std::size_t i, double off) { offs[i] = off; });
     PackedParts again;
-    for (const std::size_t i : places) again.add(parts, i);
-    packedShadows(ground, again, sun, method, error, shown.origin, found, &motions);
-    for (std::size_t k = 0; k < places.size(); ++k)
-        _parts[places[k]] = {motions[k], way, apart(shown[places[k]], found[k])};
+    for (std::size_t i = 0; i < offs.size() && others <= enough; ++i)
+        if (!(offs[i] <= enough)) again.add(parts, _fastest[i].place);
+    if (again.size() > 0) packedShadows(ground, again, sun, method, error, shown.origin, found, &motions);
+    for (std::size_t i = 0, k = 0; k < again.size(); ++i) {
+        if (offs[i] <= enough) continue;
+        offs[i] = apart(shown[_fastest[i].place], found[k]);
+        _fastest[i] = partOf(_fastest[i].place, motions[k++], way, offs[i]);
+    }
+    return std::accumulate(offs.begin(), offs.end(), others, [](double a, double b) { return std::max(a, b); });
+}
+
+/// In single precision, as the shadows are.
+FollowedShadows::Part FollowedShadows::partOf(unsigned place, const ShadowMotion& motion, const glm::dvec2& way,
+                                              double off) {
+    return {way, float(motion.height), float(motion.along), float(motion.across), float(off), place};
 }
 
 } // namespace gnomon

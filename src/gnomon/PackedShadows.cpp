@@ -45,15 +45,15 @@ struct PlanBox {
 /// A part over its shadow.
 struct Over {
     double height = 0.0; ///< at most, of a point of the part over that of its shadow.
-    PlanBox plan;        ///< of the part, if it may float: what stands in the ground is in its shadow's.
+    PlanBox plan;        ///< of its silhouette, if that may float: of what stands in the ground it is in the shadow's.
 };
 
 /// @param lowest  of the shadow, about the anchor.
-Over overOf(const FanBatch::Entry& entry, double lowest) {
+Over overOf(const FanBatch& batch, const FanBatch::Entry& entry, double lowest) {
     Over over{entry.high - lowest, {}};
-    if (entry.low <= lowest) return over;
-    over.plan.take(glm::dvec2(entry.anchor) - entry.size);
-    over.plan.take(glm::dvec2(entry.anchor) + entry.size);
+    if (entry.low <= lowest || entry.outcome == TerrainOutcome::lightInside) return over;
+    for (std::size_t e = 0; e < batch.silhouetteCount(entry); ++e)
+        over.plan.take(glm::dvec2(entry.anchor + batch.silhouette(entry, e)));
     return over;
 }
 
@@ -67,10 +67,11 @@ Over addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
         low = std::min(low, corner.z);
         to[k] = rounded(found, entry.anchor, corner);
     }
-    return overOf(entry, low);
+    return overOf(batch, entry, low);
 }
 
-Over addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeMesh& drape) {
+Over addDrape(PackedShadows& found, const FanBatch& batch, std::size_t i, const DrapeMesh& drape) {
+    const FanBatch::Entry& entry = batch.entry(i);
     glm::vec3* to = room(found.corners, drape.corners.size());
     double low = infinite;
     for (const glm::dvec3& corner : drape.corners) {
@@ -78,7 +79,7 @@ Over addDrape(PackedShadows& found, const FanBatch::Entry& entry, const DrapeMes
         *to++ = rounded(found, entry.anchor, corner);
     }
     std::copy(drape.indices.begin(), drape.indices.end(), room(found.indices, drape.indices.size()));
-    return overOf(entry, low);
+    return overOf(batch, entry, low);
 }
 
 void addEnds(PackedShadows& found, TerrainOutcome outcome) {
@@ -93,7 +94,7 @@ void clear(PackedShadows& found) {
     found.cornerEnds.clear();
     found.indexEnds.clear();
     found.outcomes.clear();
-    found.rates.fill(0.0);
+    found.rates = {};
     found.steepest = 0.0;
 }
 
@@ -107,64 +108,86 @@ PlanBox reachOf(const PackedShadows& shadows, const glm::vec3* first, const glm:
     return {box.low - margin, box.high + margin};
 }
 
+/// The light's way in plan.
+struct Way {
+    explicit Way(const glm::dvec2& of) : way(of), length(glm::length(of)), along(length > 0.0 ? of / length : axis()) {}
+    double ofAlong(const glm::dvec2& v) const { return glm::dot(v, along); }
+    double ofAcross(const glm::dvec2& v) const { return along.x * v.y - along.y * v.x; }
+
+    glm::dvec2 way; ///< a unit of height.
+    double length;
+    glm::dvec2 along;
+
+private:
+    static glm::dvec2 axis() { return {1.0, 0.0}; } // under a sun overhead one is as good as another
+};
+
 /// Of the ground in some place.
 struct Slopes {
     double steepest = 0.0;
-    double grazing = 0.0; ///< see ShadowMotion; infinite where some of it is as steep as the light.
-    /// @param slope  of some ground. @param rise  of it along the light's way in plan a unit of height.
-    void take(double slope, double rise) {
-        steepest = std::max(steepest, slope);
-        grazing = std::max(grazing, rise < 1.0 ? slope / (1.0 - rise) : infinite);
+    double along = 0.0, across = 0.0; ///< see ShadowMotion; infinite where some of it is as steep as the light.
+    void take(const glm::dvec2& gradient, const Way& way) {
+        const double left = 1.0 - glm::dot(gradient, way.way);
+        steepest = std::max(steepest, glm::length(gradient));
+        along = std::max(along, left > 0.0 ? std::abs(way.ofAlong(gradient)) / left : infinite);
+        across = std::max(across, left > 0.0 ? std::abs(way.ofAcross(gradient)) / left : infinite);
     }
+    double grazing() const { return glm::length(glm::dvec2(along, across)); }
 };
 
-Slopes slopesIn(const Ground& ground, const PlanBox& box, const glm::dvec2& way) {
+constexpr Slopes unknown{infinite, infinite, infinite};
+
+Slopes slopesIn(const Ground& ground, const PlanBox& box, const Way& way) {
     const auto range = ground.range(box.low, box.high);
-    if (!range) return {infinite, infinite};
-    Slopes slopes;
-    slopes.take(range->steepest, range->steepest * glm::length(way));
-    return slopes;
+    if (!range) return unknown;
+    const double left = 1.0 - range->steepest * way.length, grazing = left > 0.0 ? range->steepest / left : infinite;
+    return {range->steepest, grazing, grazing};
 }
 
+/// Which of a cell's triangles a box touches that touches the cell. @param box  in cells, from the cell's own corner.
+struct Touched {
+    Touched(const PlanBox& box, bool falls)
+        : right(falls ? box.high.x + box.high.y >= 1.0 : box.high.x >= box.low.y),
+          left(falls ? box.low.x + box.low.y <= 1.0 : box.low.x <= box.high.y) {}
+    bool right, left; ///< the one that has all of its right side, of its left side.
+};
+
 /// By each triangle's own gradient, which tells slopes that face the light from those that turn away.
-Slopes slopesIn(const HeightField& field, const HeightPyramid::Cells& cells, const glm::dvec2& way) {
+/// @param box  in cells.
+Slopes slopesIn(const HeightField& field, const HeightPyramid::Cells& cells, const PlanBox& box, const Way& way) {
     Slopes slopes;
-    const auto take = [&](double x, double y) {
-        const glm::dvec2 gradient = glm::dvec2(x, y) / field.step();
-        slopes.take(glm::length(gradient), glm::dot(gradient, way));
-    };
+    const auto take = [&](double x, double y) { slopes.take(glm::dvec2(x, y) / field.step(), way); };
     for (int y = cells.low; y <= cells.high; ++y)
         for (int x = cells.left; x <= cells.right; ++x) {
-            if (field.isHole(x, y)) return {infinite, infinite};
+            if (field.isHole(x, y)) return unknown;
             const double a = field.post(x, y).z, b = field.post(x + 1, y).z, c = field.post(x + 1, y + 1).z,
                          d = field.post(x, y + 1).z;
             const bool falls = field.cut(x, y) == CellCut::falling;
-            take(b - a, falls ? d - a : c - b);
-            take(c - d, falls ? c - b : d - a);
+            const glm::dvec2 corner(x, y);
+            const Touched touched({box.low - corner, box.high - corner}, falls);
+            if (touched.left) take(falls ? b - a : c - d, d - a);
+            if (touched.right) take(falls ? c - d : b - a, c - b);
         }
     return slopes;
 }
 
 bool hasHoles(const HeightPyramid& grid) { return !std::isfinite(grid.steepest()); }
 
-Slopes slopesIn(const HeightPyramid& grid, const PlanBox& box, const glm::dvec2& way) {
+Slopes slopesIn(const HeightPyramid& grid, const PlanBox& box, const Way& way) {
     constexpr int mostCells = 256; // of a tower on a mountain
     const HeightField& field = grid.field();
-    const auto cells = grid.cells(field.cellOf(box.low.x, box.low.y), field.cellOf(box.high.x, box.high.y));
+    const PlanBox inCells{field.cellOf(box.low.x, box.low.y), field.cellOf(box.high.x, box.high.y)};
+    const auto cells = grid.cells(inCells.low, inCells.high);
     const bool isFew = cells && (cells->right - cells->left + 1) * (cells->high - cells->low + 1) <= mostCells;
-    if (isFew) return slopesIn(field, *cells, way);
-    return hasHoles(grid) ? Slopes{infinite, infinite} : slopesIn(static_cast<const Ground&>(grid), box, way);
+    if (isFew) return slopesIn(field, *cells, inCells, way);
+    return hasHoles(grid) ? unknown : slopesIn(static_cast<const Ground&>(grid), box, way);
 }
 
-/// How far it moves at most, a unit that the light's way turns by, for turns up to `turned`.
+/// How far it moves at most, a unit that the light's way turns by, for turns up to `turned` whichever way.
 double rateOf(const ShadowMotion& motion, double way, double turned) {
-    const double left = 1.0 - turned * motion.grazing, rate = 1.0 + (way + turned) * motion.grazing / left;
+    const double grazing = glm::length(glm::dvec2(motion.along, motion.across)), left = 1.0 - turned * grazing;
+    const double rate = 1.0 + (way + turned) * grazing / left;
     return left > 0.0 && turned * rate <= reach ? motion.height * rate : infinite;
-}
-
-void takeRates(PackedShadows& found, const ShadowMotion& motion, double way) {
-    for (std::size_t i = 0; i < found.rates.size(); ++i)
-        found.rates[i] = std::max(found.rates[i], rateOf(motion, way, PackedShadows::turnsKnown[i]));
 }
 
 /// Of parts that have no shadow, but may have one as soon as the light turns: where and how large it is not known.
@@ -173,7 +196,7 @@ bool mayAppear(TerrainOutcome outcome) {
 }
 
 /// By the ground under all together; where that tells too little, by what is under each.
-void findMotions(const Ground& ground, const std::vector<Over>& overs, const glm::dvec2& way, PackedShadows& found,
+void findMotions(const Ground& ground, const std::vector<Over>& overs, const Way& way, PackedShadows& found,
                  std::vector<ShadowMotion>& motions) {
     constexpr double enough = 0.25; // more than what shadows move by on level ground
     if (found.corners.empty()) return;
@@ -186,12 +209,13 @@ void findMotions(const Ground& ground, const std::vector<Over>& overs, const glm
     const Slopes all = slopesIn(ground, reachOf(found, corners, corners + found.corners.size(), highest), way);
     found.steepest = all.steepest;
     const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
-    const bool isEnough = !grid || (all.grazing * glm::length(way) <= enough && !hasHoles(*grid));
+    const bool isEnough = !grid || (all.grazing() * way.length <= enough && !hasHoles(*grid));
     for (std::size_t i = 0; i < found.size(); ++i) {
         const PackedShadow shadow = found[i];
         if (shadow.cornerCount == 0) continue;
         const auto box = [&] { return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, overs[i]); };
-        motions[i] = {overs[i].height, isEnough ? all.grazing : slopesIn(*grid, box(), way).grazing};
+        const Slopes slopes = isEnough ? all : slopesIn(*grid, box(), way);
+        motions[i] = {overs[i].height, slopes.along, slopes.across};
     }
 }
 
@@ -199,14 +223,25 @@ void findRates(const Ground& ground, const std::vector<Over>& overs, const glm::
                std::vector<ShadowMotion>& motions) {
     motions.assign(found.size(), {});
     if (light.w != 0.0) return;
-    findMotions(ground, overs, wayOf(light), found, motions);
+    const Way way(wayOf(light));
+    findMotions(ground, overs, way, found, motions);
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (mayAppear(found.outcomes[i])) motions[i].height = infinite;
-        takeRates(found, motions[i], glm::length(wayOf(light)));
+        found.rates.take(motions[i], way.length);
     }
 }
 
 } // namespace
+
+void ShadowRates::take(const ShadowMotion& motion, double way) {
+    for (std::size_t i = 0; i < _rates.size(); ++i) _rates[i] = std::max(_rates[i], rateOf(motion, way, turns[i]));
+}
+
+double ShadowRates::movedAtMost(double turned) const {
+    for (std::size_t i = 0; i < _rates.size(); ++i)
+        if (turned <= turns[i]) return turned > 0.0 ? turned * _rates[i] : 0.0;
+    return infinite;
+}
 
 glm::dvec2 wayOf(const glm::dvec4& sun) { return glm::dvec2(sun) / sun.z; }
 
@@ -258,7 +293,7 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
         for (std::size_t i = 0; i < batch.size(); ++i) {
             const Settled one = settled(batch, i, asked, parts, first + i);
             if (one.outcome == TerrainOutcome::fan) overs[first + i] = addFan(found, batch, i);
-            if (one.drape) overs[first + i] = addDrape(found, batch.entry(i), *one.drape);
+            if (one.drape) overs[first + i] = addDrape(found, batch, i, *one.drape);
             addEnds(found, one.outcome);
         }
     }
@@ -270,15 +305,24 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
 double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now) {
     if (then == now) return 0.0;
     if (then.w != 0.0 || now.w != 0.0 || !(then.z > 0.0) || !(now.z > 0.0)) return infinite;
-    const double turned = glm::length(wayOf(now) - wayOf(then));
-    for (std::size_t i = 0; i < shadows.rates.size(); ++i)
-        if (turned <= PackedShadows::turnsKnown[i]) return turned > 0.0 ? turned * shadows.rates[i] : 0.0;
-    return infinite;
+    return shadows.rates.movedAtMost(glm::length(wayOf(now) - wayOf(then)));
 }
 
-double movedAtMost(const ShadowMotion& motion, const glm::dvec2& then, const glm::dvec2& now) {
-    const double turned = glm::length(now - then);
-    return turned > 0.0 ? turned * rateOf(motion, glm::length(then), turned) : 0.0;
+SunTurn::SunTurn(const glm::dvec2& then, const glm::dvec2& now) : turned(glm::length(now - then)) {
+    const Way of(then);
+    way = of.length;
+    along = std::abs(of.ofAlong(now - then));
+    across = std::abs(of.ofAcross(now - then));
+}
+
+double movedAtMost(const ShadowMotion& motion, const SunTurn& turn) {
+    if (!(turn.turned > 0.0)) return 0.0;
+    const double left = 1.0 - turn.turned * glm::length(glm::dvec2(motion.along, motion.across));
+    if (!(left > 0.0)) return infinite;
+    const double rise =
+        (motion.along * turn.along + motion.across * turn.across) / left; // of the ground, a unit of height
+    const double moved = glm::length(glm::dvec2(turn.along + rise * turn.way, turn.across)) + rise * turn.turned;
+    return moved <= reach ? motion.height * moved : infinite;
 }
 
 } // namespace gnomon

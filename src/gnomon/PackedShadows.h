@@ -21,6 +21,35 @@ struct PackedShadow {
     bool isFan() const { return outcome == TerrainOutcome::fan; }
 };
 
+/// What tells how far one part's shadow moves under a sun: see movedAtMost().
+struct ShadowMotion {
+    double height = 0.0; ///< of the part over its shadow; infinite if there may be a shadow as soon as the sun moves.
+    /// Slope of the ground there along the light's way in plan and across it, more the more nearly it falls off as the light
+    /// does.
+    double along = 0.0, across = 0.0;
+};
+
+/// Of a sun over the horizon. @param then,now  see wayOf().
+struct SunTurn {
+    SunTurn(const glm::dvec2& then, const glm::dvec2& now);
+    double way;           ///< length of its way in plan a unit of height, then.
+    double along, across; ///< by how much that has changed, as ShadowMotion has it.
+    double turned;        ///< in all.
+};
+
+/// What tells how far any of many shadows moves, whichever way the sun does.
+class ShadowRates {
+public:
+    /// @param way  length of the light's way in plan a unit of height.
+    void take(const ShadowMotion& motion, double way);
+    /// @param turned  by how much that way has changed.
+    double movedAtMost(double turned) const;
+
+private:
+    static constexpr std::array<double, 3> turns = {1e-3, 1e-2, 1e-1};
+    std::array<double, 3> _rates{}; ///< a unit of turn, for turns up to each of `turns`.
+};
+
 /// The shadows of PackedParts, part by part.
 struct PackedShadows {
     glm::dvec3 origin{0.0};
@@ -28,10 +57,7 @@ struct PackedShadows {
     std::vector<unsigned> indices;
     std::vector<unsigned> cornerEnds, indexEnds; ///< one past each part's own.
     std::vector<TerrainOutcome> outcomes;
-    /// For movedAtMost(): how far shadows move at most, a unit that the light's way in plan a unit of height turns by, for
-    /// turns up to each of `turnsKnown`.
-    std::array<double, 3> rates{};
-    static constexpr std::array<double, 3> turnsKnown = {1e-3, 1e-2, 1e-1};
+    ShadowRates rates;     ///< of all.
     double steepest = 0.0; ///< slope of the ground wherever they are or may be by then, or more.
 
     std::size_t size() const { return outcomes.size(); }
@@ -40,12 +66,6 @@ struct PackedShadows {
     Drape triangles(std::size_t part) const;
     std::size_t triangleCount() const; ///< of all.
     std::size_t bytes() const;         ///< that are kept.
-};
-
-/// What tells how far one part's shadow moves under a sun: see movedAtMost().
-struct ShadowMotion {
-    double height = 0.0;  ///< of the part over its shadow; infinite if there may be a shadow as soon as the sun moves.
-    double grazing = 0.0; ///< slope of the ground there, more the more nearly it falls off as the light does.
 };
 
 /// terrainShadow() of each part, bit for bit. Memory that `found` has is used again.
@@ -67,10 +87,11 @@ glm::dvec2 wayOf(const glm::dvec4& sun);
 /// @return infinite where no bound is known: of lamps that moved, or where the ground is as steep as the light.
 ///
 /// A point at height h over its shadow moves it by v = h (d' - d) + (G v) d, where d is the light's way in plan a unit of
-/// height, d' what it was and G the ground's gradient on the way of its ray, old and new: so |v| <= h |d - d'| (1 + |d| |G| / (1 - G d)).
+/// height, d' what it was and G the ground's gradient on the way of its ray, old and new: so |v| <= h |d - d'| (1 + |d| |G| / (1 - G d)),
+/// and where the way of the turn is known, G v = h G (d' - d) / (1 - G d).
 /// Source: the tip's speed h / sin^2 e of a shadow on level ground, e the sun's elevation.
 double movedAtMost(const PackedShadows& shadows, const glm::dvec4& then, const glm::dvec4& now);
-/// Of one part alone, which is nearer to what it moves by. @param then,now  see wayOf().
-double movedAtMost(const ShadowMotion& motion, const glm::dvec2& then, const glm::dvec2& now);
+/// Of one part alone, which is nearer to what it moves by.
+double movedAtMost(const ShadowMotion& motion, const SunTurn& turn);
 
 } // namespace gnomon

@@ -28,6 +28,15 @@ PackedParts withHuts(const test::Prism& house) {
     return PackedParts(parts);
 }
 
+/// Of 4 by 4 m on level ground.
+PackedParts towersAt(const std::vector<std::pair<glm::dvec2, double>>& placesAndHeights) {
+    std::vector<gnomon::ConvexPart> parts;
+    for (const auto& [place, height] : placesAndHeights)
+        for (const gnomon::ConvexPart& part : test::boxAt(place, {2.0, 2.0}, 0.0, -5.0, height).parts())
+            parts.push_back(part);
+    return PackedParts(parts);
+}
+
 /// A tower of 4 by 4 m about x.
 PackedParts towerAt(double x, double base, double height) {
     return withHuts(test::boxAt({x, 700.0}, {2.0, 2.0}, 0.0, base - 5.0, base + height));
@@ -41,9 +50,11 @@ struct Followed {
         followed.begin(motions, sunOf(shift));
     }
     double offBy(double shift) const { return followed.offBy(sunOf(shift)); }
-    double seenBy(double shift, double most) {
-        followed.look(ground, parts, shown, sunOf(shift), TerrainMethod::hull, 0.1, most);
-        return offBy(shift);
+    double seenBy(double shift, double most) { return seenBy(shift, most, most); }
+    double seenBy(double shift, double late, double most) {
+        const double off = followed.look(ground, parts, shown, sunOf(shift), TerrainMethod::hull, 0.1, late, most);
+        EXPECT_EQ(off, offBy(shift));
+        return off;
     }
     const HeightPyramid& ground;
     const PackedParts parts;
@@ -71,6 +82,34 @@ TEST(FollowedShadows, OnLevelGroundAreOffByWhatTheirHeightMakesThem) {
     EXPECT_NEAR(town.seenBy(1.005, 0.1), 40.0 * 0.005, rounding);
     EXPECT_NEAR(town.offBy(1.01), 40.0 * 0.01, rounding) << "what it was off by, and what it moved by since";
     EXPECT_NEAR(town.offBy(1.0), 40.0 * 0.01, rounding) << "which way it moved nobody knows";
+}
+
+/// Under the sun that it was found with a shadow is right, as a look would say; without one it is not known which way it went.
+TEST(FollowedShadows, OfWhichOneIsLateAreLookedAtNoMoreUntilThatMayBeTooMuch) {
+    const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
+    Followed town(level, towerAt(400.0, 0.0, 40.0), 1.0);
+    EXPECT_NEAR(town.seenBy(1.005, 0.1, 1.0), 40.0 * 0.005, rounding);
+    EXPECT_NEAR(town.seenBy(1.0, 0.1, 1.0), 2.0 * 40.0 * 0.005, rounding);
+    EXPECT_NEAR(town.seenBy(1.0, 0.1, 0.3), 0.0, rounding) << "which it may be now";
+}
+
+/// Two towers before the crest have no bound, two that are higher have one.
+TEST(FollowedShadows, AreOffByNoLessThanThoseThatAreNotLookedAt) {
+    const HeightPyramid ground = test::groundOf(crest, posts);
+    Followed town(
+        ground,
+        towersAt({{{200.0, 300.0}, 50.0}, {{453.0, 700.0}, 40.0}, {{453.0, 800.0}, 40.0}, {{200.0, 320.0}, 50.0}}),
+        1.0);
+    EXPECT_GT(town.offBy(1.001), 1e9);
+    EXPECT_NEAR(town.seenBy(1.001, 0.1), 50.0 * 0.001, rounding);
+}
+
+/// Had any been looked at, it would not be known which way it went.
+TEST(FollowedShadows, AreNotLookedAtWhereOfTheOthersTooLittleIsKnown) {
+    const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
+    Followed town(level, towersAt({{{400.0, 300.0}, 40.0}, {{400.0, 500.0}, 40.0}, {{400.0, 700.0}, 40.0}}), 1.0);
+    EXPECT_NEAR(town.seenBy(1.005, 0.1), 40.0 * 0.005, rounding);
+    EXPECT_EQ(town.offBy(1.0), 0.0);
 }
 
 /// Before a crest, from where on the ground falls as steeply as light; the tip stays 5 m before it.

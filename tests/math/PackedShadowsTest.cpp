@@ -14,6 +14,7 @@
 #include <set>
 #include <thread>
 
+using gnomon::CellCut;
 using gnomon::Drape;
 using gnomon::Ground;
 using gnomon::HeightPyramid;
@@ -49,6 +50,14 @@ PackedShadows found(const Ground& ground, const PackedParts& parts, const glm::d
     PackedShadows shadows;
     packedShadows(ground, parts, light, method, error, origin, shadows);
     return shadows;
+}
+
+/// How far one part's shadow moves at most.
+double boundOf(const Ground& ground, const gnomon::ConvexPart& part, const glm::dvec4& then, const glm::dvec4& now) {
+    PackedShadows shadows;
+    std::vector<gnomon::ShadowMotion> motions;
+    packedShadows(ground, PackedParts({part}), then, TerrainMethod::hull, 0.1, origin, shadows, &motions);
+    return movedAtMost(motions.at(0), gnomon::SunTurn(gnomon::wayOf(then), gnomon::wayOf(now)));
 }
 
 /// As the parts' one by one, their corners rounded about the origin.
@@ -282,6 +291,61 @@ TEST(PackedShadows, OnHillsNoCornerMovesByMoreThanTheBound) {
         }
     }
     EXPECT_GT(most, 0.7) << "else the bound is of no use";
+}
+
+/// The same of each part alone, for turns along the light's way, across it and between.
+TEST(PackedShadows, OnHillsNoCornerMovesByMoreThanItsPartsBoundWhicheverWayTheSunTurns) {
+    const HeightPyramid ground = groundOf(hills, posts);
+    const glm::dvec4 then = sun(77.0, 40.0);
+    double most = 0.0;
+    for (const auto& part : townOn(ground, 60))
+        for (const glm::dvec4& now :
+             {sun(77.0, 41.0), sun(77.0, 39.0), sun(78.0, 40.0), sun(76.0, 40.0), sun(78.0, 41.0), sun(78.0, 39.0)}) {
+            const double bound = boundOf(ground, part, then, now);
+            for (const glm::dvec3& vertex : part.hull.vertices) {
+                const auto a = ground.hit(vertex, -glm::dvec3(then)), b = ground.hit(vertex, -glm::dvec3(now));
+                if (!a || !b || vertex.z <= *ground.height(vertex.x, vertex.y)) continue;
+                const double moved = glm::length(glm::dvec2(*a - *b));
+                EXPECT_LE(moved, bound);
+                most = std::max(most, moved / bound);
+            }
+        }
+    EXPECT_GT(most, 0.9) << "else the bound is of no use";
+}
+
+/// On a plane that falls away from the sun by 0.4 a tip at height 40 under a sun with 1.5 m of shadow a metre falls on ground
+/// 40 / (1 - 0.6) = 100 m lower. A turn across that way moves it as on level ground, one along it by 1 / (1 - 0.6) of that.
+TEST(PackedShadows, OnASlopeHaveABoundForEachWayThatTheSunMayTurn) {
+    const auto slope = [](double x, double) { return -0.4 * x; };
+    const HeightPyramid ground = groundOf(slope, posts);
+    const auto tower = test::boxAt({400.0, 700.0}, {0.05, 0.05}, 0.0, -165.0, -120.0).parts()[0];
+    const glm::dvec4 then(-1.5, 0.0, 1.0, 0.0);
+    const double turned = 1e-4;
+    EXPECT_NEAR(boundOf(ground, tower, then, {-1.5, turned, 1.0, 0.0}), 100.0 * turned, 0.02 * 100.0 * turned);
+    EXPECT_NEAR(boundOf(ground, tower, then, {-1.5 + turned, 0.0, 1.0, 0.0}), 250.0 * turned, 0.02 * 250.0 * turned);
+}
+
+/// A cell half of which is level, the other half steeper than light that comes over its edge: of a hut 5 m high on the level
+/// half, far from the edge and 10 m from it.
+TEST(PackedShadows, HaveABoundByThoseTrianglesOfACellThatTheyAreNear) {
+    struct Case {
+        CellCut cut;
+        std::vector<float> heights;
+        glm::dvec2 towards, far, near; ///< of the light; places of huts.
+    };
+    const Case cases[] = {{CellCut::rising, {0, 0, -1000, 0}, {1, -1}, {150, 50}, {105, 95}},
+                          {CellCut::rising, {0, -1000, 0, 0}, {-1, 1}, {50, 150}, {95, 105}},
+                          {CellCut::falling, {-1000, 0, 0, 0}, {1, 1}, {150, 150}, {105, 105}},
+                          {CellCut::falling, {0, 0, 0, -1000}, {-1, -1}, {50, 50}, {95, 95}}};
+    for (const Case& one : cases) {
+        const HeightPyramid ground({2, 2, {0.0, 0.0}, {200.0, 200.0}, one.heights, 0.0, {one.cut}});
+        const glm::dvec4 then(one.towards, 1.0, 0.0), now(one.towards * 1.001, 1.0, 0.0);
+        const auto bound = [&](const glm::dvec2& place) {
+            return boundOf(ground, test::boxAt(place, {1.0, 1.0}, 0.0, -1.0, 5.0).parts()[0], then, now);
+        };
+        EXPECT_NEAR(bound(one.far), 5.0 * 0.001 * std::sqrt(2.0), 1e-5);
+        EXPECT_GT(bound(one.near), 1e9);
+    }
 }
 
 /// On a slope of 1 in 10 that falls away from a low sun a tower's shadow moves much; a turn that would take it out of where
