@@ -184,9 +184,9 @@ std::vector<TerrainTiles::Far> TerrainTiles::farIn(const TerrainView& view) cons
     std::vector<Far> far;
     std::size_t left = 0;
     for (std::size_t i = 0; i < _shadows.size(); ++i) {
-        if (!view.seen(*_shadows[i]->decals, *_shadows[i])) continue;
-        left += _shadows[i]->decals->triangles();
-        if (const auto level = view.bitmapLevel(*_shadows[i])) far.push_back({i, *level});
+        const auto level = view.bitmapLevel(*_shadows[i]);
+        if (level) far.push_back({i, *level});
+        if (level || view.seen(*_shadows[i]->decals, *_shadows[i])) left += _shadows[i]->decals->triangles();
     }
     std::stable_sort(far.begin(), far.end());
     std::size_t count = 0;

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace gnomon {
 namespace {
@@ -50,7 +51,7 @@ double mostPixelsOf(const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
 }
 
 /// False if all points are beyond one side of the view, or behind the eye: quick, for it is asked of all that is not seen.
-bool mayBeInView(const std::vector<glm::dvec4>& clipPoints) {
+bool mayBeInView(const std::array<glm::dvec4, 16>& clipPoints) {
     for (const auto& side : {glm::dvec4(1, 0, 0, 1), glm::dvec4(-1, 0, 0, 1), glm::dvec4(0, 1, 0, 1),
                              glm::dvec4(0, -1, 0, 1), glm::dvec4(0, 0, 0, 1)})
         if (std::all_of(clipPoints.begin(), clipPoints.end(),
@@ -75,7 +76,9 @@ TerrainView::Shown TerrainView::shown(const TerrainMesh& mesh, const TileShadows
     if (mesh.layers() == 0) return {};
     const glm::dvec3 margin = marginOf(tile, moved);
     const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromTiles);
-    const auto bounds = screenBounds({corners.begin(), corners.end()});
+    thread_local std::vector<glm::dvec4> points; // memory that is used again
+    points.assign(corners.begin(), corners.end());
+    const auto bounds = screenBounds(points);
     const double nearest = nearestOf(corners), pixels = nearest > 0.0 ? _mostPixels / nearest : infinite;
     if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels};
     const bool isTooSmall = (tile.widest + 2.0 * moved) * pixels < leastPixels;
@@ -107,10 +110,10 @@ bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high,
     const double fall = std::max(0.0, high.z - lowest);
     const glm::dvec3 way = -glm::dvec3(light) / light.z * fall; // of the highest, to the lowest ground
     const glm::dvec3 more(margin * glm::length(high - low - way));
-    std::vector<glm::dvec4> corners;
-    for (const glm::dvec3& moved : {glm::dvec3(0.0), way})
-        for (const glm::dvec4& corner : boxCorners(low - more + moved, high + more + moved, _clipFromTiles))
-            corners.push_back(corner);
+    std::array<glm::dvec4, 16> corners;
+    const auto from = boxCorners(low - more, high + more, _clipFromTiles),
+               to = boxCorners(low - more + way, high + more + way, _clipFromTiles);
+    std::copy(to.begin(), to.end(), std::copy(from.begin(), from.end(), corners.begin()));
     return mayBeInView(corners);
 }
 
