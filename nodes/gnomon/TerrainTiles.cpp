@@ -106,18 +106,12 @@ double lowestOf(const Ground& ground) {
 } // namespace
 
 void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
-                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into,
-                 FollowedShadows* follow) {
-    thread_local std::vector<ShadowMotion> motions; // memory that is used again
+                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into) {
     into.light = light;
-    if (follow) follow->clear();
     if (settings.method == TerrainShadowGeode::BOX)
         into.found = boxShadows(ground.found, tile, light, origin);
-    else {
-        packedShadows(ground.found, tile.parts, light, methodOf(settings), settings.error, origin, into.found,
-                      &motions);
-        if (follow && isSun(light)) follow->begin(motions, light);
-    }
+    else
+        packedShadows(ground.found, tile.parts, light, methodOf(settings), settings.error, origin, into.found);
     measure(into);
     if (into.prisms) setMeshes(ground, into);
 }
@@ -268,15 +262,18 @@ TerrainTiles::Off TerrainTiles::offIn(const TerrainView& view, std::size_t tile,
     Off off{offBy(tile, town), infinite};
     if (off.by == 0.0) return off;
     off.mayBe = mayBeOff(tile, off.by, town, ground, view);
-    FollowedShadows& followed = _followed[tile];
-    const bool isSame = _states[tile] == town.tiles()[tile].revision;
-    if (off.by <= worthFinding * off.mayBe || !isSame || followed.empty() || !isSun(_light)) return off;
     const TileShadows& shadows = *_shadows[tile];
+    const bool canFollow = _settings.method != TerrainShadowGeode::BOX && isSun(shadows.light) && isSun(_light);
+    const bool isSame = _states[tile] == town.tiles()[tile].revision;
+    if (off.by <= worthFinding * off.mayBe || !isSame || !canFollow) return off;
+    const PackedParts& parts = town.tiles()[tile].parts;
+    FollowedShadows& followed = _followed[tile];
+    if (followed.empty()) followed.begin(ground.found, parts, shadows.found, shadows.light);
     // Where only what casts them is seen, all that is not known.
     const double seen =
         std::min(std::max(_settings.error, view.mayBeOff(shadows, 0.0)), std::numeric_limits<double>::max());
-    off.by = std::min(off.by, followed.look(ground.found, town.tiles()[tile].parts, shadows.found, _light,
-                                            methodOf(_settings), _settings.error, worthFinding * seen, seen));
+    off.by = std::min(off.by, followed.look(ground.found, parts, shadows.found, _light, methodOf(_settings),
+                                            _settings.error, worthFinding * seen, seen));
     off.mayBe = mayBeOff(tile, off.by, town, ground, view);
     return off;
 }
@@ -308,7 +305,8 @@ void TerrainTiles::find(const TerrainTown& town, const TileGround& ground, const
     std::vector<osg::ref_ptr<TileShadows>> into(tiles.size());
     for (osg::ref_ptr<TileShadows>& shadows : into) shadows = unused();
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-        findShadows(ground, town.tiles()[tiles[i]], _light, _settings, town.origin(), *into[i], &_followed[tiles[i]]);
+        findShadows(ground, town.tiles()[tiles[i]], _light, _settings, town.origin(), *into[i]);
+        _followed[tiles[i]].clear();
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const osg::ref_ptr<TileShadows> old = const_cast<TileShadows*>(_shadows[tiles[i]].get());

@@ -55,10 +55,8 @@ struct TileGround {
 };
 
 /// Finds the shadows of one tile. @param into  whose memory is used again; its meshes are made anew if it has any.
-/// @param follow  may be null: begins with them, where they can be followed.
 void findShadows(const TileGround& ground, const TerrainTown::Tile& tile, const glm::dvec4& light,
-                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into,
-                 FollowedShadows* follow = nullptr);
+                 const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into);
 
 /// The shadows of one light on a town's ground, tile by tile, kept while the light moves.
 ///
@@ -121,11 +119,11 @@ private:
     List _shadows;
     TerrainSheets _sheets;                             ///< of bitmaps.
     std::vector<osg::ref_ptr<TerrainBitmap>> _bitmaps; ///< null: none was wanted yet.
-    std::vector<FollowedShadows> _followed;
-    std::vector<FinestWanted> _finest;  ///< bitmap of each tile.
-    unsigned _calls = 0;                ///< for bitmaps.
-    std::vector<std::uint64_t> _states; ///< revisions of the tiles that the shadows are of; 0: of none.
-    std::optional<double> _lowest;      ///< of the ground, its frame.
+    std::vector<FollowedShadows> _followed;            ///< empty until their common bound says too little.
+    std::vector<FinestWanted> _finest;                 ///< bitmap of each tile.
+    unsigned _calls = 0;                               ///< for bitmaps.
+    std::vector<std::uint64_t> _states;                ///< revisions of the tiles that the shadows are of; 0: of none.
+    std::optional<double> _lowest;                     ///< of the ground, its frame.
     std::vector<osg::ref_ptr<TileShadows>> _spare;
     TerrainSettings _settings{TerrainShadowGeode::HULL, 0.0, {}};
     glm::dvec4 _light{0.0};

@@ -46,10 +46,7 @@ public:
     /// Corners of a fan that was found, about its anchor, counter-clockwise, from the one that sees all others.
     std::size_t cornerCount(std::size_t i) const { return _entries[i].corners; }
     glm::dvec3 corner(std::size_t i, std::size_t at) const { return endOf(_entries[i], at); }
-    /// Corners of the silhouette that casts it, about its anchor; of those that have one.
-    std::size_t silhouetteCount(const Entry& entry) const { return fanOf(entry).edges; }
-    glm::dvec3 silhouette(const Entry& entry, std::size_t e) const;
-    /// Corners of the fan, in the entry's lane.
+    /// The same corners, in the entry's lane.
     const KernelEdge* edges(const Entry& entry) const { return &edgeOf(entry, 0); }
     /// Whether it has a silhouette, though it may be turned away.
     bool isThere(std::size_t i) const { return _entries[i].fan != none; }
@@ -91,6 +88,7 @@ private:
     void setEnd(const Entry& entry, std::size_t e, const glm::dvec3& end);
     double leastTangent(const Entry& entry) const;
     glm::dvec2 wayOf(const Entry& entry, const glm::dvec3& point) const;
+    glm::dvec3 silhouette(const Entry& entry, std::size_t e) const;
     glm::dvec4 edgePlane(const Entry& entry, std::size_t e) const;
     glm::dvec4 facePlane(const Entry& entry, std::size_t f) const;
     void findFans(std::size_t first, std::size_t end);

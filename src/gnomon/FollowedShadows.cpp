@@ -34,9 +34,12 @@ double paceOf(const ShadowMotion& motion, double way) {
 
 } // namespace
 
-void FollowedShadows::begin(const std::vector<ShadowMotion>& motions, const glm::dvec4& sun) {
-    constexpr std::size_t oneIn = 2; // of those on one hill or brink the others say more than they do
-    thread_local std::vector<std::pair<double, unsigned>> paces; // memory that is used again
+void FollowedShadows::begin(const Ground& ground, const PackedParts& parts, const PackedShadows& shown,
+                            const glm::dvec4& sun) {
+    constexpr std::size_t oneIn = 2;                // of those on one hill or brink the others say more than they do
+    thread_local std::vector<ShadowMotion> motions; // memory that is used again
+    thread_local std::vector<std::pair<double, unsigned>> paces;
+    findMotions(ground, parts, shown, sun, motions);
     _way = wayOf(sun);
     const double way = glm::length(_way);
     paces.clear();
@@ -84,7 +87,10 @@ double FollowedShadows::look(const Ground& ground, const PackedParts& parts, con
     PackedParts again;
     for (std::size_t i = 0; i < offs.size() && others <= enough; ++i)
         if (!(offs[i] <= enough)) again.add(parts, _fastest[i].place);
-    if (again.size() > 0) packedShadows(ground, again, sun, method, error, shown.origin, found, &motions);
+    if (again.size() > 0) {
+        packedShadows(ground, again, sun, method, error, shown.origin, found);
+        findMotions(ground, again, found, sun, motions);
+    }
     for (std::size_t i = 0, k = 0; k < again.size(); ++i) {
         if (offs[i] <= enough) continue;
         offs[i] = apart(shown[_fastest[i].place], found[k]);

@@ -14,8 +14,8 @@ class FollowedShadows {
 public:
     void clear() { _fastest.clear(); }
     bool empty() const { return _fastest.empty(); } ///< nothing is followed.
-    /// @param motions  of shadows that were just found. @param sun  that they were found with.
-    void begin(const std::vector<ShadowMotion>& motions, const glm::dvec4& sun);
+    /// @param shown  of `parts` on this ground. @param sun  over the horizon, that they were found with.
+    void begin(const Ground& ground, const PackedParts& parts, const PackedShadows& shown, const glm::dvec4& sun);
     /// By how much in plan any of them may be off at most, infinite if that is not known. @param sun  over the horizon.
     double offBy(const glm::dvec4& sun) const;
     /// The same, once those that may be off by more than enough are found again: from then on it is known by how much they

@@ -45,41 +45,41 @@ struct PlanBox {
 /// A part over its shadow.
 struct Over {
     double height = 0.0; ///< at most, of a point of the part over that of its shadow.
-    PlanBox plan;        ///< of its silhouette, if that may float: of what stands in the ground it is in the shadow's.
+    PlanBox plan;        ///< of the part, if it may float: what stands in the ground is in its shadow's.
 };
 
-/// @param lowest  of the shadow, about the anchor.
-Over overOf(const FanBatch& batch, const FanBatch::Entry& entry, double lowest) {
-    Over over{entry.high - lowest, {}};
-    if (entry.low <= lowest || entry.outcome == TerrainOutcome::lightInside) return over;
-    for (std::size_t e = 0; e < batch.silhouetteCount(entry); ++e)
-        over.plan.take(glm::dvec2(entry.anchor + batch.silhouette(entry, e)));
-    return over;
+/// Of one that has a shadow.
+Over overOf(const PackedParts& parts, std::size_t part, const PackedShadows& found) {
+    const PackedShadow shadow = found[part];
+    double lowest = infinite, low = infinite, high = -infinite;
+    for (std::size_t k = 0; k < shadow.cornerCount; ++k) lowest = std::min(lowest, double(shadow.corners[k].z));
+    lowest += found.origin.z;
+    PlanBox plan;
+    const auto take = [&](const glm::dvec3& corner) {
+        low = std::min(low, corner.z);
+        high = std::max(high, corner.z);
+        plan.take(glm::dvec2(corner));
+    };
+    take(parts.anchor(part));
+    for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k)
+        take(parts.anchor(part) + glm::dvec3(parts.others(part)[k]));
+    return {high - lowest, low > lowest ? plan : PlanBox()};
 }
 
-Over addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
+void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
     const FanBatch::Entry& entry = batch.entry(i);
     glm::vec3* to = room(found.corners, entry.corners);
     const KernelEdge* edges = batch.edges(entry);
-    double low = infinite;
     for (std::size_t k = 0; k < entry.corners; ++k) {
         const glm::dvec3 corner(edges[k].endX[entry.lane], edges[k].endY[entry.lane], edges[k].endZ[entry.lane]);
-        low = std::min(low, corner.z);
         to[k] = rounded(found, entry.anchor, corner);
     }
-    return overOf(batch, entry, low);
 }
 
-Over addDrape(PackedShadows& found, const FanBatch& batch, std::size_t i, const DrapeMesh& drape) {
-    const FanBatch::Entry& entry = batch.entry(i);
+void addDrape(PackedShadows& found, const glm::dvec3& anchor, const DrapeMesh& drape) {
     glm::vec3* to = room(found.corners, drape.corners.size());
-    double low = infinite;
-    for (const glm::dvec3& corner : drape.corners) {
-        low = std::min(low, corner.z);
-        *to++ = rounded(found, entry.anchor, corner);
-    }
+    for (const glm::dvec3& corner : drape.corners) *to++ = rounded(found, anchor, corner);
     std::copy(drape.indices.begin(), drape.indices.end(), room(found.indices, drape.indices.size()));
-    return overOf(batch, entry, low);
 }
 
 void addEnds(PackedShadows& found, TerrainOutcome outcome) {
@@ -195,40 +195,33 @@ bool mayAppear(TerrainOutcome outcome) {
     return outcome == TerrainOutcome::edgeOn || outcome == TerrainOutcome::noGround;
 }
 
-/// By the ground under all together; where that tells too little, by what is under each.
-void findMotions(const Ground& ground, const std::vector<Over>& overs, const Way& way, PackedShadows& found,
-                 std::vector<ShadowMotion>& motions) {
-    constexpr double enough = 0.25; // more than what shadows move by on level ground
-    if (found.corners.empty()) return;
-    const glm::vec3* corners = found.corners.data();
+/// All together.
+Over highestOf(const PackedParts& parts, const PackedShadows& found) {
     Over highest;
-    for (const Over& over : overs) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i].cornerCount == 0) continue;
+        const Over over = overOf(parts, i, found);
         highest.height = std::max(highest.height, over.height);
         highest.plan.take(over.plan);
     }
-    const Slopes all = slopesIn(ground, reachOf(found, corners, corners + found.corners.size(), highest), way);
-    found.steepest = all.steepest;
-    const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
-    const bool isEnough = !grid || (all.grazing() * way.length <= enough && !hasHoles(*grid));
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const PackedShadow shadow = found[i];
-        if (shadow.cornerCount == 0) continue;
-        const auto box = [&] { return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, overs[i]); };
-        const Slopes slopes = isEnough ? all : slopesIn(*grid, box(), way);
-        motions[i] = {overs[i].height, slopes.along, slopes.across};
-    }
+    return highest;
 }
 
-void findRates(const Ground& ground, const std::vector<Over>& overs, const glm::dvec4& light, PackedShadows& found,
-               std::vector<ShadowMotion>& motions) {
-    motions.assign(found.size(), {});
+Slopes slopesUnderAll(const Ground& ground, const PackedShadows& found, const Over& highest, const Way& way) {
+    if (found.corners.empty()) return {};
+    const glm::vec3* corners = found.corners.data();
+    return slopesIn(ground, reachOf(found, corners, corners + found.corners.size(), highest), way);
+}
+
+/// By the ground under all together.
+void findRates(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, PackedShadows& found) {
     if (light.w != 0.0) return;
     const Way way(wayOf(light));
-    findMotions(ground, overs, way, found, motions);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        if (mayAppear(found.outcomes[i])) motions[i].height = infinite;
-        found.rates.take(motions[i], way.length);
-    }
+    const Over highest = highestOf(parts, found);
+    const bool mayOneAppear = std::any_of(found.outcomes.begin(), found.outcomes.end(), mayAppear);
+    const Slopes slopes = slopesUnderAll(ground, found, highest, way);
+    found.steepest = slopes.steepest;
+    found.rates.take({mayOneAppear ? infinite : highest.height, slopes.along, slopes.across}, way.length);
 }
 
 } // namespace
@@ -275,30 +268,46 @@ std::size_t PackedShadows::bytes() const {
 }
 
 void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
-                   double error, const glm::dvec3& origin, PackedShadows& found, std::vector<ShadowMotion>* motions) {
+                   double error, const glm::dvec3& origin, PackedShadows& found) {
     found.origin = origin;
     clear(found);
     if (isLightBelow(ground, light)) {
-        if (motions) motions->assign(parts.size(), {});
         for (std::size_t i = 0; i < parts.size(); ++i) addEnds(found, TerrainOutcome::lightBelow);
         return;
     }
     const TerrainAsk asked{ground, light, method, error};
-    thread_local std::vector<Over> overs; // memory that is used again
-    overs.assign(parts.size(), {});
     FanBatch& batch = threadsBatch();
     batch.begin(ground, light);
     for (std::size_t first = 0; first < parts.size(); first += together) {
         findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
         for (std::size_t i = 0; i < batch.size(); ++i) {
             const Settled one = settled(batch, i, asked, parts, first + i);
-            if (one.outcome == TerrainOutcome::fan) overs[first + i] = addFan(found, batch, i);
-            if (one.drape) overs[first + i] = addDrape(found, batch, i, *one.drape);
+            if (one.outcome == TerrainOutcome::fan) addFan(found, batch, i);
+            if (one.drape) addDrape(found, batch.entry(i).anchor, *one.drape);
             addEnds(found, one.outcome);
         }
     }
-    thread_local std::vector<ShadowMotion> unwanted;
-    findRates(ground, overs, light, found, motions ? *motions : unwanted);
+    findRates(ground, parts, light, found);
+}
+
+/// By the ground under all together; where that tells too little, by what is under each.
+void findMotions(const Ground& ground, const PackedParts& parts, const PackedShadows& found, const glm::dvec4& sun,
+                 std::vector<ShadowMotion>& motions) {
+    constexpr double enough = 0.25; // more than what shadows move by on level ground
+    const Way way(wayOf(sun));
+    const Slopes all = slopesUnderAll(ground, found, highestOf(parts, found), way);
+    const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
+    const bool isEnough = !grid || (all.grazing() * way.length <= enough && !hasHoles(*grid));
+    motions.assign(found.size(), {});
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const PackedShadow shadow = found[i];
+        if (mayAppear(shadow.outcome)) motions[i].height = infinite;
+        if (shadow.cornerCount == 0) continue;
+        const Over over = overOf(parts, i, found);
+        const PlanBox box = reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, over);
+        const Slopes slopes = isEnough ? all : slopesIn(*grid, box, way);
+        motions[i] = {over.height, slopes.along, slopes.across};
+    }
 }
 
 /// The ground's rise along d is at most |G| |d - d'| more than along d'.

@@ -70,13 +70,15 @@ struct PackedShadows {
 
 /// terrainShadow() of each part, bit for bit. Memory that `found` has is used again.
 ///
-/// @param origin   that the corners are about, near the parts: they are floats.
-/// @param motions  may be null: of each part, if the light is a sun over the horizon.
+/// @param origin  that the corners are about, near the parts: they are floats.
 ///
 /// Threads any number, each with its own `found`.
 void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
-                   double error, const glm::dvec3& origin, PackedShadows& found,
-                   std::vector<ShadowMotion>* motions = nullptr);
+                   double error, const glm::dvec3& origin, PackedShadows& found);
+
+/// Of each part's shadow, by the ground that it may come near. @param sun  over the horizon, that they were found with.
+void findMotions(const Ground& ground, const PackedParts& parts, const PackedShadows& found, const glm::dvec4& sun,
+                 std::vector<ShadowMotion>& motions);
 
 /// The way towards a sun over the horizon in plan, a unit of height.
 glm::dvec2 wayOf(const glm::dvec4& sun);

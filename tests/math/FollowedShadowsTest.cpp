@@ -45,9 +45,8 @@ PackedParts towerAt(double x, double base, double height) {
 /// A town's shadows, followed from `shift` on.
 struct Followed {
     Followed(const HeightPyramid& on, const PackedParts& of, double shift) : ground(on), parts(of) {
-        std::vector<gnomon::ShadowMotion> motions;
-        gnomon::packedShadows(ground, parts, sunOf(shift), TerrainMethod::hull, 0.1, glm::dvec3(0.0), shown, &motions);
-        followed.begin(motions, sunOf(shift));
+        gnomon::packedShadows(ground, parts, sunOf(shift), TerrainMethod::hull, 0.1, glm::dvec3(0.0), shown);
+        followed.begin(ground, parts, shown, sunOf(shift));
     }
     double offBy(double shift) const { return followed.offBy(sunOf(shift)); }
     double seenBy(double shift, double most) { return seenBy(shift, most, most); }
