@@ -30,7 +30,7 @@ osg::Vec4 placeOf(const ShadowBitmap& bitmap) {
 
 osg::Vec4 texelsOf(const ShadowBitmap& bitmap, const SheetRows& rows) {
     return osg::Vec4(osg::Vec4d(bitmap.columns * ShadowBitmap::wide - 1, bitmap.rows * ShadowBitmap::high - 1,
-                                bitmap.columns, rows.first * TerrainSheet::width));
+                                bitmap.columns * ShadowBitmap::high, rows.first * TerrainSheet::width));
 }
 
 /// Current texture coordinates of a unit: unlike uniforms, they cost next to nothing to set.
@@ -57,11 +57,11 @@ TerrainBitmap::TerrainBitmap(const ShadowBitmap& bitmap, int level, TerrainSheet
     : _place(placeOf(bitmap)),
       _level(level),
       _triangles(unsigned(bitmap.triangles.size() / 3)),
-      _rows(sheets.take(bitmap.words.size())),
+      _rows(sheets.take(bitmap.bytes.size())),
       _texels(texelsOf(bitmap, *_rows)),
-      _words(bitmap.words),
+      _bytes(bitmap.bytes),
       _geometry(geometryOf(bitmap)) {
-    _words.resize(std::size_t(_rows->count) * TerrainSheet::width);
+    _bytes.resize(std::size_t(_rows->count) * TerrainSheet::width);
 }
 
 /// All are written before any is drawn: what is written to a texture that is being drawn from has to wait.
@@ -84,7 +84,7 @@ void TerrainBitmap::upload(osg::State& state) const {
     const unsigned making = _rows->sheet->apply(state);
     unsigned& uploaded = _uploaded[state.getContextID()];
     if (uploaded == making) return;
-    TerrainSheet::write(state, _rows->first, _words);
+    TerrainSheet::write(state, _rows->first, _bytes);
     uploaded = making;
 }
 
@@ -93,9 +93,7 @@ void TerrainBitmap::resizeGLObjectBuffers(unsigned maxSize) {
     _uploaded.resize(maxSize);
 }
 
-void TerrainBitmap::releaseGLObjects(osg::State* state) const {
-    _geometry->releaseGLObjects(state);
-}
+void TerrainBitmap::releaseGLObjects(osg::State* state) const { _geometry->releaseGLObjects(state); }
 
 void TerrainBitmap::setMostPolygons(unsigned triangles) { mostPolygons = triangles; }
 unsigned TerrainBitmap::getMostPolygons() { return mostPolygons; }

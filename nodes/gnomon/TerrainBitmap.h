@@ -42,8 +42,8 @@ private:
     const int _level;
     const unsigned _triangles;
     const std::unique_ptr<const SheetRows> _rows;
-    const osg::Vec4 _texels;           ///< the last one, words in a row of them, the first word in the sheet.
-    std::vector<std::uint32_t> _words; ///< in whole rows of the sheet.
+    const osg::Vec4 _texels;          ///< the last one, bytes in a row of blocks, the first byte in the sheet.
+    std::vector<std::uint8_t> _bytes; ///< in whole rows of the sheet.
     mutable osg::buffered_value<unsigned> _uploaded; ///< into which making of the sheet.
     osg::ref_ptr<osg::Geometry> _geometry;
 };

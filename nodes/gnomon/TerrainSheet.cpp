@@ -7,9 +7,9 @@ namespace gnomon {
 
 TerrainSheet::TerrainSheet() : _texture(new osg::Texture2D), _taken(std::size_t(height), false) {
     _texture->setTextureSize(width, height);
-    _texture->setInternalFormat(GL_R32UI);
+    _texture->setInternalFormat(GL_R8UI);
     _texture->setSourceFormat(GL_RED_INTEGER_EXT);
-    _texture->setSourceType(GL_UNSIGNED_INT);
+    _texture->setSourceType(GL_UNSIGNED_BYTE);
     for (const auto use : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
         _texture->setFilter(use, osg::Texture::NEAREST);
 }
@@ -35,12 +35,12 @@ unsigned TerrainSheet::apply(osg::State& state) const {
     return makings;
 }
 
-void TerrainSheet::write(osg::State& state, int firstRow, const std::vector<std::uint32_t>& words) {
+void TerrainSheet::write(osg::State& state, int firstRow, const std::vector<std::uint8_t>& bytes) {
     state.unbindPixelBufferObject();
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, firstRow, width, GLsizei(words.size()) / width, GL_RED_INTEGER_EXT,
-                    GL_UNSIGNED_INT, words.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, firstRow, width, GLsizei(bytes.size()) / width, GL_RED_INTEGER_EXT,
+                    GL_UNSIGNED_BYTE, bytes.data());
 }
 
 void TerrainSheet::resizeGLObjectBuffers(unsigned maxSize) {
@@ -48,8 +48,8 @@ void TerrainSheet::resizeGLObjectBuffers(unsigned maxSize) {
     _makings.resize(maxSize);
 }
 
-std::unique_ptr<const SheetRows> TerrainSheets::take(std::size_t words) {
-    const int rows = int((words + TerrainSheet::width - 1) / TerrainSheet::width);
+std::unique_ptr<const SheetRows> TerrainSheets::take(std::size_t bytes) {
+    const int rows = int((bytes + TerrainSheet::width - 1) / TerrainSheet::width);
     const std::lock_guard<std::mutex> lock(_mutex);
     for (const auto& sheet : _sheets)
         if (const int first = sheet->take(rows); first >= 0) return std::make_unique<SheetRows>(sheet, first, rows);

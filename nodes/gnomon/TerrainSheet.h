@@ -11,20 +11,20 @@
 
 namespace gnomon {
 
-/// A texture of words that several bitmaps share, row by row: to bind one for each of them costs more than to draw many.
+/// A texture of bytes that several bitmaps share, row by row: to bind one for each of them costs more than to draw many.
 class TerrainSheet : public osg::Referenced {
 public:
-    static constexpr int width = 1024, height = 1024; ///< words: a texture that every OpenGL has.
+    static constexpr int width = 2048, height = 2048; ///< bytes; OpenGL 3 promises 1024, drivers have this.
 
     TerrainSheet();
     /// The first of so many rows that were nobody's; -1 if there are none. Any thread.
     int take(int rows);
     void give(int first, int rows);
 
-    /// Binds it to unit 0. @return of which making the texture is in this context: another one holds no words yet.
+    /// Binds it to unit 0. @return of which making the texture is in this context: another one holds no bytes yet.
     unsigned apply(osg::State& state) const;
-    /// What is bound takes these words, of whole rows.
-    static void write(osg::State& state, int firstRow, const std::vector<std::uint32_t>& words);
+    /// What is bound takes these bytes, of whole rows.
+    static void write(osg::State& state, int firstRow, const std::vector<std::uint8_t>& bytes);
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const { _texture->releaseGLObjects(state); }
 
@@ -53,8 +53,8 @@ public:
 /// As many sheets as are needed.
 class TerrainSheets {
 public:
-    /// Rows for so many words, of a sheet at most. Any thread.
-    std::unique_ptr<const SheetRows> take(std::size_t words);
+    /// Rows for so many bytes, of a sheet at most. Any thread.
+    std::unique_ptr<const SheetRows> take(std::size_t bytes);
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 

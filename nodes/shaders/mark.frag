@@ -5,17 +5,17 @@ uniform vec2 alphaTest; // which alphas pass, as bits: 1 less than, 2 equal to, 
 in vec3 coordinates;    // s, t and q of unit 0
 #endif
 #ifdef BITMAP
-uniform usampler2D sheet; // of words; of a texel (x, y) of the 8 by 4 that one holds bit 8 y + x
-flat in vec4 texels;      // the last one, for the border is empty; words in a row of them, the first word in the sheet
+uniform usampler2D sheet; // of bytes, four to a block of 8 by 4 texels; of texel (x, y) of one byte y, bit x
+flat in vec4 texels;      // the last one, for the border is empty; bytes in a row of blocks, the first byte in the sheet
 in vec2 texel;
 #endif
 
 void main() {
 #ifdef BITMAP
     ivec2 at = ivec2(clamp(texel, vec2(0.0), texels.xy));
-    int place = (at.y >> 2) * int(texels.z) + (at.x >> 3) + int(texels.w);
-    uint word = texelFetch(sheet, ivec2(place & 1023, place >> 10), 0).r; // TerrainSheet::width
-    if (((word >> uint((at.y & 3) << 3 | at.x & 7)) & 1u) == 0u) discard;
+    int place = (at.y >> 2) * int(texels.z) + int(texels.w) + (at.x >> 3 << 2 | at.y & 3);
+    uint bits = texelFetch(sheet, ivec2(place & 2047, place >> 11), 0).r; // TerrainSheet::width
+    if (((bits >> uint(at.x & 7)) & 1u) == 0u) discard;
 #endif
 #ifdef CUTOUT
     float alpha = textureProj(cutout, coordinates).a;

@@ -13,7 +13,7 @@ out vec3 coordinates;
 
 #ifdef BITMAP
 // Of the whole bitmap; from unit 0 where its texels begin in plan and how many there are to a length of 1, from unit 1 these:
-flat out vec4 texels; // the last one, words in a row of them, the first word in the sheet
+flat out vec4 texels; // the last one, bytes in a row of blocks, the first byte in the sheet
 out vec2 texel;
 #endif
 

@@ -121,12 +121,11 @@ private:
     }
     void setBits(int from, int to, int y) {
         constexpr int wide = ShadowBitmap::wide;
-        std::uint32_t* row = _into.words.data() + std::ptrdiff_t(y / ShadowBitmap::high) * _into.columns;
-        const int shift = y % ShadowBitmap::high * wide;
-        for (int word = from / wide; word <= to / wide && from <= to; ++word) {
-            const unsigned first = unsigned(std::max(from - word * wide, 0)),
-                           last = unsigned(std::min(to - word * wide, wide - 1));
-            row[word] |= ((0xFFu << first) & (0xFFu >> (unsigned(wide - 1) - last))) << shift;
+        for (int column = from / wide; column <= to / wide && from <= to; ++column) {
+            const unsigned first = unsigned(std::max(from - column * wide, 0)),
+                           last = unsigned(std::min(to - column * wide, wide - 1));
+            std::uint8_t& byte = _into.bytes[_into.place(column * wide, y)];
+            byte = std::uint8_t(byte | ((0xFFu << first) & (0xFFu >> (unsigned(wide - 1) - last))));
         }
     }
 
@@ -160,15 +159,16 @@ void placeTexels(const glm::dvec2& low, const glm::dvec2& high, ShadowBitmap& in
     const glm::dvec2 texels = glm::floor((high - into.low) / into.texel) + 2.0;
     into.columns = int(std::ceil(texels.x / ShadowBitmap::wide));
     into.rows = int(std::ceil(texels.y / ShadowBitmap::high));
-    into.words.assign(std::size_t(into.columns) * std::size_t(into.rows), 0);
+    into.bytes.assign(std::size_t(into.columns) * std::size_t(into.rows) * ShadowBitmap::high, 0);
 }
 
 } // namespace
 
-bool ShadowBitmap::isSet(int x, int y) const {
-    return words[std::size_t(y / high) * std::size_t(columns) + std::size_t(x / wide)] >> (y % high * wide + x % wide) &
-           1u;
+std::size_t ShadowBitmap::place(int x, int y) const {
+    return (std::size_t(y / high) * std::size_t(columns) + std::size_t(x / wide)) * high + std::size_t(y % high);
 }
+
+bool ShadowBitmap::isSet(int x, int y) const { return bytes[place(x, y)] >> x % wide & 1u; }
 
 void shadowBitmap(const HeightPyramid& ground, const PackedShadows& shadows, double texel, ShadowBitmap& into) {
     thread_local std::vector<std::pair<std::size_t, Cells>> decals;
@@ -185,8 +185,8 @@ void shadowBitmap(const HeightPyramid& ground, const PackedShadows& shadows, dou
             high = glm::max(high, glm::vec2(shadows[i].corners[k]));
         }
     }
-    into = {{}, texel, 0, 0, std::move(into.words), std::move(into.vertices), std::move(into.triangles)};
-    into.words.clear();
+    into = {{}, texel, 0, 0, std::move(into.bytes), std::move(into.vertices), std::move(into.triangles)};
+    into.bytes.clear();
     into.vertices.clear();
     into.triangles.clear();
     if (!all) return;

@@ -10,16 +10,17 @@ namespace gnomon {
 /// small shadows on few triangles. A bit is set where the middle of its texel is in a shadow; so an edge is off by half a
 /// texel's diagonal at most.
 struct ShadowBitmap {
-    static constexpr int wide = 8, high = 4; ///< texels of a word: what is near in plan is near in memory.
+    static constexpr int wide = 8, high = 4; ///< texels of a block of bytes: what is near in plan is near in memory.
 
     glm::dvec2 low{0.0};       ///< where the texels begin, about the shadows' origin; those at the border are empty.
     double texel = 1.0;        ///< its side.
-    int columns = 0, rows = 0; ///< of words.
-    std::vector<std::uint32_t> words; ///< row by row; of texel (x, y) of a word bit 8 y + x.
-    std::vector<glm::vec3> vertices;  ///< of the ground, about the shadows' origin.
-    std::vector<unsigned> triangles;  ///< three places in `vertices` each, counter-clockwise from above.
+    int columns = 0, rows = 0; ///< of blocks.
+    std::vector<std::uint8_t> bytes; ///< block by block, row by row; of texel (x, y) of a block byte y, bit x.
+    std::vector<glm::vec3> vertices; ///< of the ground, about the shadows' origin.
+    std::vector<unsigned> triangles; ///< three places in `vertices` each, counter-clockwise from above.
 
-    bool isSet(int x, int y) const; ///< of a texel that is there.
+    std::size_t place(int x, int y) const; ///< of a texel's byte.
+    bool isSet(int x, int y) const;        ///< of a texel that is there.
 };
 
 /// Of those that are to be decals. Memory that `into` has is used again.

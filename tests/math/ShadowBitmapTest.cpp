@@ -126,5 +126,5 @@ TEST(ShadowBitmap, LiesOnTheGroundsOwnTriangles) {
 
 TEST(ShadowBitmap, OfNothingIsEmpty) {
     const ShadowBitmap bitmap = bitmapOf(slope(), fans({}), 0.5);
-    EXPECT_TRUE(bitmap.words.empty() && bitmap.triangles.empty());
+    EXPECT_TRUE(bitmap.bytes.empty() && bitmap.triangles.empty());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bitmaps that share textures: each is drawn with its own words, whatever sheet they are in and whose they were before.
+// Bitmaps that share textures: each is drawn with its own bytes, whatever sheet they are in and whose they were before.
 #include <gnomon/MarkProgram.h>
 #include <gnomon/TerrainBitmap.h>
 #include <gtest/gtest.h>
@@ -14,18 +14,18 @@ using gnomon::TerrainBitmap;
 
 namespace {
 
-constexpr int columns = 30, rows = 1024; // words: 30 rows of a sheet, so that one holds 34 bitmaps
+constexpr int columns = 30, rows = 1024; // blocks: 60 rows of a sheet, so that one holds 34 bitmaps
 constexpr int bitmaps = 40, apart = 300; // texels from one to the next
 constexpr int wide = columns * ShadowBitmap::wide, tall = rows * ShadowBitmap::high;
 constexpr int pixelsApart = 10, height = 64;
 
-/// Bands of 64 words, every third of which is set.
-bool isSet(int bitmap, int wordRow) { return (wordRow / 64 + bitmap) % 3 == 0; }
+/// Bands of 64 blocks, every third of which is set.
+bool isSet(int bitmap, int blockRow) { return (blockRow / 64 + bitmap) % 3 == 0; }
 
 ShadowBitmap banded(int at, int pattern) {
     ShadowBitmap bitmap{glm::dvec2(apart * at, 0.0), 1.0, columns, rows, {}, {}, {0, 1, 2, 0, 2, 3}};
     for (int row = 0; row < rows; ++row)
-        bitmap.words.insert(bitmap.words.end(), columns, isSet(pattern, row) ? ~0u : 0u);
+        bitmap.bytes.insert(bitmap.bytes.end(), columns * ShadowBitmap::high, isSet(pattern, row) ? 255 : 0);
     for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(wide, 0), glm::vec2(wide, tall), glm::vec2(0, tall)})
         bitmap.vertices.emplace_back(float(apart * at) + corner.x, corner.y, 0.0f);
     return bitmap;
@@ -95,8 +95,8 @@ int wrongPixels(const test::Picture& picture, const Board& board) {
         for (int x = 0; x < bitmaps * pixelsApart; ++x) {
             const int at = x / pixelsApart;
             const double right = (x % pixelsApart + 0.5) * apart / pixelsApart;
-            const int wordRow = int((y + 0.5) * rows / height);
-            const bool expected = right < wide && isSet(board.pattern(at), wordRow);
+            const int blockRow = int((y + 0.5) * rows / height);
+            const bool expected = right < wide && isSet(board.pattern(at), blockRow);
             wrong += ((picture.at(x, y) & 0xFFFFFFu) == 0) != expected;
         }
     return wrong;
@@ -104,7 +104,7 @@ int wrongPixels(const test::Picture& picture, const Board& board) {
 
 } // namespace
 
-TEST(TerrainSheet, ShowsOfEachBitmapItsOwnWords) {
+TEST(TerrainSheet, ShowsOfEachBitmapItsOwnBytes) {
     const osg::ref_ptr<Board> board = new Board;
     const osg::ref_ptr<osg::Geode> root = new osg::Geode;
     root->addDrawable(board);
@@ -127,19 +127,19 @@ TEST(TerrainSheet, GivesRowsToOneAtATime) {
     gnomon::TerrainSheets sheets;
     std::vector<std::unique_ptr<const gnomon::SheetRows>> taken;
     std::set<std::pair<const void*, int>> rowsTaken;
-    const auto take = [&](std::size_t words) {
-        taken.push_back(sheets.take(words));
+    const auto take = [&](std::size_t bytes) {
+        taken.push_back(sheets.take(bytes));
         for (int i = 0; i < taken.back()->count; ++i)
             EXPECT_TRUE(rowsTaken.insert({taken.back()->sheet.get(), taken.back()->first + i}).second);
-        EXPECT_GE(std::size_t(taken.back()->count) * gnomon::TerrainSheet::width, words);
+        EXPECT_GE(std::size_t(taken.back()->count) * gnomon::TerrainSheet::width, bytes);
         EXPECT_LE(taken.back()->first + taken.back()->count, gnomon::TerrainSheet::height);
     };
-    for (std::size_t words = 1; words <= 32768; words += 300) take(words);
+    for (std::size_t bytes = 1; bytes <= 131072; bytes += 1200) take(bytes);
     const auto* sheet = taken[20]->sheet.get();
     const int first = taken[20]->first;
     for (int i = 0; i < taken[20]->count; ++i) rowsTaken.erase({sheet, first + i});
     taken[20] = nullptr;
-    take(6001); // as many rows as it had
+    take(24001); // as many rows as it had
     EXPECT_EQ(taken.back()->sheet.get(), sheet);
     EXPECT_EQ(taken.back()->first, first);
 }
