@@ -12,6 +12,8 @@ TerrainSheet::TerrainSheet() : _texture(new osg::Texture2D), _taken(std::size_t(
     _texture->setSourceType(GL_UNSIGNED_BYTE);
     for (const auto use : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
         _texture->setFilter(use, osg::Texture::NEAREST);
+    for (const auto side : {osg::Texture::WRAP_S, osg::Texture::WRAP_T})
+        _texture->setWrap(side, osg::Texture::CLAMP_TO_EDGE);
 }
 
 int TerrainSheet::take(int rows) {

@@ -14,7 +14,8 @@ void main() {
 #ifdef BITMAP
     ivec2 at = ivec2(clamp(texel, vec2(0.0), texels.xy));
     int place = (at.y >> 2) * int(texels.z) + int(texels.w) + (at.x >> 3 << 2 | at.y & 3);
-    uint bits = texelFetch(sheet, ivec2(place & 2047, place >> 11), 0).r; // TerrainSheet::width
+    // By texture(): llvmpipe looks up a level's size for each pixel of texelFetch(). 2048: TerrainSheet::width.
+    uint bits = texture(sheet, (vec2(place & 2047, place >> 11) + 0.5) / 2048.0).r;
     if (((bits >> uint(at.x & 7)) & 1u) == 0u) discard;
 #endif
 #ifdef CUTOUT
