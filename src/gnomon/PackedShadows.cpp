@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,30 +41,34 @@ struct PlanBox {
         low = glm::min(low, box.low);
         high = glm::max(high, box.high);
     }
+    bool holds(const PlanBox& box) const {
+        return glm::all(glm::lessThanEqual(low, box.low)) && glm::all(glm::greaterThanEqual(high, box.high));
+    }
 };
 
 /// A part over its shadow.
 struct Over {
     double height = 0.0; ///< at most, of a point of the part over that of its shadow.
-    PlanBox plan;        ///< of the part, if it may float: what stands in the ground is in its shadow's.
+    PlanBox
+        plan; ///< of the part, unless all of it is over what of it stands in the ground: then it is in its shadow's.
 };
 
 /// Of one that has a shadow.
 Over overOf(const PackedParts& parts, std::size_t part, const PackedShadows& found) {
     const PackedShadow shadow = found[part];
-    double lowest = infinite, low = infinite, high = -infinite;
+    double lowest = infinite, high = -infinite;
     for (std::size_t k = 0; k < shadow.cornerCount; ++k) lowest = std::min(lowest, double(shadow.corners[k].z));
     lowest += found.origin.z;
-    PlanBox plan;
+    PlanBox plan, standing;
     const auto take = [&](const glm::dvec3& corner) {
-        low = std::min(low, corner.z);
         high = std::max(high, corner.z);
         plan.take(glm::dvec2(corner));
+        if (corner.z <= lowest) standing.take(glm::dvec2(corner));
     };
     take(parts.anchor(part));
     for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k)
         take(parts.anchor(part) + glm::dvec3(parts.others(part)[k]));
-    return {high - lowest, low > lowest ? plan : PlanBox()};
+    return {high - lowest, standing.holds(plan) ? PlanBox() : plan};
 }
 
 void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {

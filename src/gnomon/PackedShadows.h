@@ -40,13 +40,14 @@ struct SunTurn {
 /// What tells how far any of many shadows moves, whichever way the sun does.
 class ShadowRates {
 public:
+    static constexpr double mostTurned = 0.1; ///< beyond it nothing is known.
     /// @param way  length of the light's way in plan a unit of height.
     void take(const ShadowMotion& motion, double way);
     /// @param turned  by how much that way has changed.
     double movedAtMost(double turned) const;
 
 private:
-    static constexpr std::array<double, 3> turns = {1e-3, 1e-2, 1e-1};
+    static constexpr std::array<double, 3> turns = {1e-3, 1e-2, mostTurned};
     std::array<double, 3> _rates{}; ///< a unit of turn, for turns up to each of `turns`.
 };
 

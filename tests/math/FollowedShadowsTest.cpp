@@ -5,6 +5,8 @@
 #include <gnomon/FollowedShadows.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 using gnomon::FollowedShadows;
 using gnomon::HeightPyramid;
 using gnomon::PackedParts;
@@ -138,6 +140,19 @@ TEST(FollowedShadows, AreNotLookedAtWhereMostWouldHaveToBe) {
 TEST(FollowedShadows, OfWhatFloatsHaveABoundByAllTheGroundThatItsRaysPass) {
     const HeightPyramid ground = test::groundOf(brink, posts);
     const Followed town(ground, withHuts(test::boxAt({445.0, 700.0}, {5.0, 5.0}, 0.0, 50.11, 51.0)), 1.0);
+    ASSERT_GT(town.shown[0].cornerCount, 0u);
+    EXPECT_GT(town.offBy(0.9996), 1e9);
+    EXPECT_GT(gnomon::movedAtMost(town.shown, sunOf(1.0), sunOf(0.9996)), 1e9);
+}
+
+/// The same plate, held up from where its shadow lies.
+TEST(FollowedShadows, OfWhatLeansHaveABoundByAllTheGroundThatItsRaysPass) {
+    const HeightPyramid ground = test::groundOf(brink, posts);
+    std::vector<glm::dvec3> corners;
+    for (const auto& [x, half, base, top] : {std::array{445.0, 5.0, 50.11, 51.0}, {625.0, 2.0, -115.0, -109.0}})
+        for (int k = 0; k < 8; ++k)
+            corners.emplace_back(k & 1 ? x + half : x - half, k & 2 ? 700.0 + half : 700.0 - half, k & 4 ? top : base);
+    const Followed town(ground, PackedParts({{*gnomon::convexHull(corners), std::nullopt}}), 1.0);
     ASSERT_GT(town.shown[0].cornerCount, 0u);
     EXPECT_GT(town.offBy(0.9996), 1e9);
     EXPECT_GT(gnomon::movedAtMost(town.shown, sunOf(1.0), sunOf(0.9996)), 1e9);
