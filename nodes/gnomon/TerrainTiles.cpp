@@ -263,7 +263,8 @@ TerrainTiles::Off TerrainTiles::offIn(const TerrainView& view, std::size_t tile,
     if (off.by == 0.0) return off;
     off.mayBe = mayBeOff(tile, off.by, town, ground, view);
     const TileShadows& shadows = *_shadows[tile];
-    const bool canFollow = _settings.method != TerrainShadowGeode::BOX && isSun(shadows.light) && isSun(_light);
+    const bool canFollow = _settings.method != TerrainShadowGeode::BOX && isSun(shadows.light) && isSun(_light) &&
+                           glm::length(wayOf(_light) - wayOf(shadows.light)) <= ShadowRates::mostTurned;
     const bool isSame = _states[tile] == town.tiles()[tile].revision;
     if (off.by <= worthFinding * off.mayBe || !isSame || !canFollow) return off;
     const PackedParts& parts = town.tiles()[tile].parts;

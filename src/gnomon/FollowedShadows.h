@@ -9,7 +9,7 @@ namespace gnomon {
 /// Shadows that are kept while the sun moves on, and how far each may be off by then. Where the bound says too little of one
 /// of those that move most, that shadow alone is found again and compared with the one that is kept.
 ///
-/// Cost  40 bytes for one in four parts.
+/// Cost  40 bytes for one in two parts.
 class FollowedShadows {
 public:
     void clear() { _fastest.clear(); }
