@@ -79,7 +79,8 @@ public:
         BILINEAR, ///< with 2 × 2, weighted: 0.41 texel off.
         BICUBIC, ///< with 4 × 4, weighted by cubic B-splines: rounded, 0.35 texel off; smooth edges: with 4 times 2 × 2,
                  ///< spread over the pixel.
-        FINE     ///< smooth edges: with 16 times 2 × 2, of maps with twice as many texels a pixel; others as BICUBIC.
+        FINE ///< smooth edges: with 16 times 2 × 2, of maps with twice as many texels a pixel, as far as setSize() lets
+             ///< them be had; others as BICUBIC.
     };
 
     enum Edges : int {

@@ -4,7 +4,7 @@
 
 // Texels of slope that a comparison allows for, beside the half of the steeper way's that the map has: of 2 x 2 that are
 // compared at once, which reach a texel, all must pass where a part of the light counts, half of them where edges are hard.
-#ifdef HALVES
+#if defined(HALVES) || defined(NEAREST)
 const float kernel = 0.5;
 #else
 const float kernel = 0.75;
@@ -106,17 +106,19 @@ float visibility(vec4 pixel, vec4 plane) {
 }
 
 #ifdef SMOOTH
-// Texels from one side of a pixel to the other, across an edge: `change` is that of what arrives, a pixel.
+// Texels from one side of a pixel to the other, across an edge: `change` is that of what arrives, a pixel. Where nothing
+// changes it is of a square pixel of the same area.
 float texelsAcross(vec2 change) {
     vec2 inMap = vec2(sides[1].y * change.x - sides[0].y * change.y, sides[0].x * change.y - sides[1].x * change.x);
-    return abs(determinant(sides)) * length(change) / length(inMap);
+    float area = abs(sides[0].x * sides[1].y - sides[1].x * sides[0].y), turned = length(inMap);
+    return turned > 0.0 ? area * length(change) / turned : sqrt(area);
 }
 
 // Share of a pixel that is on the lit side of an edge, which is where half of the light arrives, by the filter: where that makes
 // it wider than a pixel it is made as wide.
 float ofPixel(float arrives) {
-    vec2 change = vec2(dFdx(arrives), dFdy(arrives));
-    float width = change == vec2(0.0) ? 1.0 : min(texelsAcross(change) / fewest, 1.0);
+    const float least = 1.0 / 64.0; // of a pixel that is no texels wide, too
+    float width = clamp(texelsAcross(vec2(dFdx(arrives), dFdy(arrives))) / fewest, least, 1.0);
     return clamp(0.5 + (arrives - 0.5) / width, 0.0, 1.0);
 }
 #endif
