@@ -89,7 +89,7 @@ MapWish ShadowMapTechnique::wish() const {
     wish.defines = definesOf(_filter);
     wish.view = MapView(_view);
     wish.unit = _programUnit;
-    wish.smooth = _edges == SMOOTH;
+    wish.smooth = _edges == SMOOTH && _filter != NEAREST;
     wish.pixels = _edges == SOFT ? softPixels : _edges == SMOOTH && _filter == FINE ? finePixels : pixels;
     if (_edges == SOFT) wish.soft = MapSoftness{std::tan(glm::radians(_sunAngle / 2.0)), _lampSize / 2.0, _radius};
     return wish;

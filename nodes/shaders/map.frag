@@ -4,7 +4,7 @@
 
 // Texels of slope that a comparison allows for, beside the half of the steeper way's that the map has: of 2 x 2 that are
 // compared at once, which reach a texel, all must pass where a part of the light counts, half of them where edges are hard.
-#if defined(HALVES) || defined(NEAREST)
+#ifdef HALVES
 const float kernel = 0.5;
 #else
 const float kernel = 0.75;
@@ -13,7 +13,7 @@ const float kernel = 0.75;
 // wanted: pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0; colour of a pixel that
 //         nothing reaches; 1, if other pixels are between that and white. All others get an alpha of 1.
 
-#if defined(ODD) || defined(SOFT)
+#if defined(ODD) || !defined(HALVES)
 // From `here` to its neighbour in a direction, or, of that nothing is known, to the one on the other side.
 ivec2 known(ivec2 here, ivec2 step) {
     ivec2 to = here + step;
@@ -35,17 +35,24 @@ float changeIn(float e, ivec2 here, ivec2 axis, bool beyond) {
 float smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
 #endif
 
-// Change of e a pixel, as dFdx() and dFdy() have it where quads are whole. Soft: the smaller of those to both sides, for the
-// other may lead to another surface, and what is averaged reaches far along this one.
+#ifdef SMOOTH
+bool isAtRim = false; // of a surface: beside the pixel there is another, or this one bends
+#endif
+
+// Change of e a pixel, as dFdx() and dFdy() have it where quads are whole. Where shares are asked for, of which every
+// comparison counts, the smaller of those to both sides: the other may lead to another surface.
 vec2 changeOf(float e, ivec2 here) {
 #ifdef ODD
     vec2 change = vec2(changeIn(e, here, ivec2(1, 0), false), changeIn(e, here, ivec2(0, 1), false));
 #else
     vec2 change = vec2(dFdx(e), dFdy(e));
 #endif
-#ifdef SOFT
-    change.x = smaller(change.x, changeIn(e, here, ivec2(1, 0), true));
-    change.y = smaller(change.y, changeIn(e, here, ivec2(0, 1), true));
+#ifndef HALVES
+    vec2 other = vec2(changeIn(e, here, ivec2(1, 0), true), changeIn(e, here, ivec2(0, 1), true));
+#ifdef SMOOTH
+    isAtRim = any(greaterThan(abs(change - other), 0.75 * max(abs(change), abs(other)) + 4.0 * depthError.x));
+#endif
+    change = vec2(smaller(change.x, other.x), smaller(change.y, other.y));
 #endif
     return change;
 }
@@ -87,7 +94,7 @@ float visibility(vec4 pixel, vec4 plane) {
         sides = sidesIn(i, pixel, -plane.xy, at.xy);
 #endif
 #if defined(SMOOTH) && defined(BICUBIC)
-        return litOverPixel(i, p, depth, slope, sides);
+        return litOverPixel(i, p, depth, slope, isAtRim ? mat2(0.0) : sides);
 #elif !defined(SOFT)
         return lit(p, depth, slope, true);
 #else
