@@ -309,8 +309,8 @@ void findMotions(const Ground& ground, const PackedParts& parts, const PackedSha
         if (mayAppear(shadow.outcome)) motions[i].height = infinite;
         if (shadow.cornerCount == 0) continue;
         const Over over = overOf(parts, i, found);
-        const PlanBox box = reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, over);
-        const Slopes slopes = isEnough ? all : slopesIn(*grid, box, way);
+        const auto box = [&] { return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, over); };
+        const Slopes slopes = isEnough ? all : slopesIn(*grid, box(), way);
         motions[i] = {over.height, slopes.along, slopes.across};
     }
 }
