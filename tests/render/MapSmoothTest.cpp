@@ -19,10 +19,12 @@ using test::TracedCase;
 
 namespace {
 
-osg::ref_ptr<ShadowMapTechnique> mapWith(ShadowMapTechnique::Edges edges, int size = 1024) {
+osg::ref_ptr<ShadowMapTechnique> mapWith(ShadowMapTechnique::Edges edges, int size = 1024,
+                                         ShadowMapTechnique::Filter filter = ShadowMapTechnique::BICUBIC) {
     osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
     technique->setSize(size);
     technique->setEdges(edges);
+    technique->setFilter(filter);
     return technique;
 }
 
@@ -114,9 +116,7 @@ TEST(MapSmooth, AreNearerToRaysThanHardEdges) {
         const Shares shares(given);
         const auto truth = given.truth();
         const auto off = [&](ShadowMapTechnique::Edges edges, ShadowMapTechnique::Filter filter) {
-            const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(edges, 4096);
-            technique->setFilter(filter);
-            return test::shareOff(shares.with(technique), shares.lit, shares.dark, truth);
+            return test::shareOff(shares.with(mapWith(edges, 4096, filter)), shares.lit, shares.dark, truth);
         };
         const double hard = off(ShadowMapTechnique::HARD, ShadowMapTechnique::BICUBIC),
                      smooth = off(ShadowMapTechnique::SMOOTH, ShadowMapTechnique::BICUBIC),
@@ -131,9 +131,7 @@ TEST(MapSmooth, NoPixelThatAllRaysAgreeOnIsOnTheOtherSide) {
     for (const auto filter : {ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC, ShadowMapTechnique::FINE})
         for (const TracedCase& given : {test::labEight(), test::townOfHouses()}) {
             const Shares shares(given);
-            const osg::ref_ptr<ShadowMapTechnique> smooth = mapWith(ShadowMapTechnique::SMOOTH, 2048);
-            smooth->setFilter(filter);
-            Picture picture = shares.with(smooth);
+            Picture picture = shares.with(mapWith(ShadowMapTechnique::SMOOTH, 2048, filter));
             int between = 0;
             for (int y = 0; y < picture.height; ++y)
                 for (int x = 0; x < picture.width; ++x) {
@@ -153,12 +151,9 @@ TEST(MapSmooth, FlatGroundsAreFreeOfAcne) {
     for (const double elevation : {90.0, 45.0, 20.0, 10.0, 5.0}) {
         const Shares shares(test::tilted(test::flatGround(8.0, 3.0, elevation, 1.0, 100.0, 20))); // not left out
         for (const auto filter : {ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC, ShadowMapTechnique::FINE})
-            for (const int size : {64, 256, 2048}) {
-                const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(ShadowMapTechnique::SMOOTH, size);
-                technique->setFilter(filter);
-                EXPECT_EQ(shares.with(technique).different(shares.lit), 0)
+            for (const int size : {64, 256, 2048})
+                EXPECT_EQ(shares.with(mapWith(ShadowMapTechnique::SMOOTH, size, filter)).different(shares.lit), 0)
                     << elevation << " degrees, size " << size << ", filter " << filter;
-            }
     }
 }
 
@@ -174,9 +169,7 @@ TEST(MapSmooth, BlocksHaveLittleAcneAtTheirEdges) {
     const Shares shares(given);
     for (const auto filter : {ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC, ShadowMapTechnique::FINE})
         for (const int size : {64, 128, 256, 1024}) {
-            const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(ShadowMapTechnique::SMOOTH, size);
-            technique->setFilter(filter);
-            const Picture picture = shares.with(technique);
+            const Picture picture = shares.with(mapWith(ShadowMapTechnique::SMOOTH, size, filter));
             int darker = 0, lit = 0;
             for (int y = 0; y < picture.height; ++y)
                 for (int x = 0; x < picture.width; ++x) {
@@ -191,11 +184,10 @@ TEST(MapSmooth, BlocksHaveLittleAcneAtTheirEdges) {
 
 TEST(MapSmooth, WithNearestAreHardEdges) {
     const Shares shares(test::labEight());
-    const osg::ref_ptr<ShadowMapTechnique> smooth = mapWith(ShadowMapTechnique::SMOOTH),
-                                           hard = mapWith(ShadowMapTechnique::HARD);
-    smooth->setFilter(ShadowMapTechnique::NEAREST);
-    hard->setFilter(ShadowMapTechnique::NEAREST);
-    EXPECT_EQ(shares.with(smooth).different(shares.with(hard)), 0);
+    const auto nearest = [&](ShadowMapTechnique::Edges edges) {
+        return shares.with(mapWith(edges, 1024, ShadowMapTechnique::NEAREST));
+    };
+    EXPECT_EQ(nearest(ShadowMapTechnique::SMOOTH).different(nearest(ShadowMapTechnique::HARD)), 0);
 }
 
 // Of a slab over a level ground, eight pixels of it and more to a texel: an edge is narrow all the same.
@@ -203,9 +195,7 @@ TEST(MapSmooth, AreNarrowWhereATexelIsManyPixels) {
     for (const auto filter : {ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC}) {
         Scene scene = test::groundScene({test::quad({-45.0, -40.0, 1.0}, {40.0, 0.0, 0.0}, {8.0, 80.0, 0.0})}, 60.0,
                                         {-1.0, 0.0, 1.0, 0.0});
-        const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(ShadowMapTechnique::SMOOTH, 32);
-        technique->setFilter(filter);
-        scene.addShadow(technique);
+        scene.addShadow(mapWith(ShadowMapTechnique::SMOOTH, 32, filter));
         const Picture picture = test::render(scene.root, test::fromAbove(4.0));
         const double dark = double(test::shadowedGround) / test::litGround;
         int widest = 0, edges = 0;
