@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/CasterMesh.h>
 #include <gnomon/ClosedParts.h>
+#include <gnomon/IndexClusters.h>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -20,11 +21,13 @@ ClosedParts closedPartsOf(const CasterMesh& mesh, const osg::DrawElementsUInt& t
 
 /// Triangles of a caster mesh as a light's map draws them. Never changed once made.
 ///
-/// Cost  to find solids takes longer than to make the mesh, see closedParts(), and halves the drawing of what is closed.
+/// Cost  to find solids takes longer than to make the mesh, see closedParts(), and halves the drawing of what is closed;
+/// where it has holes, those faces turned away are drawn, too, that a hole may show to the light.
 struct CasterFaces : public osg::Referenced {
     osg::ref_ptr<osg::Geometry>
         solids; ///< they bound solids: of these the faces turned to a light cast all of the shadow.
-    osg::ref_ptr<osg::Geometry> others; ///< of these both sides cast. Null, as solids, if there are none.
+    osg::ref_ptr<osg::Geometry> holed;  ///< they would, had they no holes.
+    osg::ref_ptr<osg::Geometry> others; ///< of these both sides cast. Null, as the former, if there are none.
 
     /// @param triangles   of the mesh's vertices.
     /// @param findSolids  else all are others.
@@ -44,7 +47,12 @@ protected:
     ~CasterFaces() override = default;
 
 private:
-    std::vector<osg::BoundingBox> _boxes; ///< of the solids.
+    void findBoxes(const CasterMesh& mesh, const osg::DrawElementsUInt& triangles, const ClosedParts& parts);
+    void drawBehindHoles(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh) const;
+
+    std::vector<osg::BoundingBox> _boxes;        ///< of the solids, with holes or without.
+    std::vector<std::vector<glm::dvec3>> _holes; ///< of each the triangles that fill it.
+    osg::ref_ptr<const IndexClusters> _clusters; ///< of those that have holes.
 };
 
 } // namespace gnomon

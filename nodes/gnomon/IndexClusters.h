@@ -31,6 +31,10 @@ public:
     /// Not for what a program, primitive restart or a vertex array object draws: that the caller asks of the state.
     static osg::ref_ptr<const IndexClusters> of(const osg::Drawable& drawable);
 
+    /// Those of triangles, quads and triangle strips, however small; not kept.
+    /// @param geometry  plain: see of().
+    explicit IndexClusters(const osg::Geometry& geometry);
+
     /// Runs that can touch a part of the screen, neighbours joined.
     /// @param test  of boxes in the drawable's frame; false for one leaves it out. May be empty.
     std::vector<Run> touching(const ScreenRect& bounds, const osg::Matrixd& clipFromLocal,
@@ -47,7 +51,6 @@ private:
         Run run;
         osg::BoundingBox box;
     };
-    explicit IndexClusters(const osg::Geometry& geometry);
     void cut(const osg::PrimitiveSet& primitives, unsigned index, const osg::Vec3Array& vertices);
 
     std::vector<Cluster> _clusters;

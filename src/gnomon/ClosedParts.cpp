@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace gnomon {
 namespace {
@@ -61,15 +65,131 @@ std::vector<Edge> sortedEdges(const std::vector<unsigned>& corners) {
     return edges;
 }
 
-/// Marks the parts that have an edge passed more often one way than the other.
-void markOpen(const std::vector<Edge>& edges, Sets& parts, std::vector<bool>& open) {
+/// An edge that is passed more often from its lower vertex to its higher one than back, by `times`; below 0 less often.
+struct OpenEdge {
+    unsigned low, high;
+    int times;
+};
+
+std::vector<OpenEdge> openEdges(const std::vector<Edge>& edges) {
+    std::vector<OpenEdge> open;
     for (std::size_t i = 0; i < edges.size();) {
         int sum = 0;
         const std::uint64_t ends = edges[i].ends;
         for (; i < edges.size() && edges[i].ends == ends; ++i) sum += edges[i].direction;
-        if (sum != 0) open[parts.find(static_cast<unsigned>(ends & 0xffffffffu))] = true;
+        if (sum != 0)
+            open.push_back({static_cast<unsigned>(ends >> 32), static_cast<unsigned>(ends & 0xffffffffu), sum});
     }
+    return open;
 }
+
+struct Box {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;
+
+    void add(const glm::dvec3& point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    }
+    double length() const { return glm::distance(low, high); }
+};
+
+/// Where open edges connect its rim. It is filled by triangles from one vertex of the rim to each of these edges.
+struct Hole {
+    unsigned part;
+    std::vector<OpenEdge> edges;
+
+    /// Three vertices each; one where the rim is passed `times` in the other direction.
+    std::vector<unsigned> filling() const {
+        std::vector<unsigned> corners;
+        for (const OpenEdge& edge : edges) {
+            const bool rises = edge.times > 0;
+            corners.insert(corners.end(),
+                           {edges.front().low, rises ? edge.high : edge.low, rises ? edge.low : edge.high});
+        }
+        return corners;
+    }
+};
+
+std::vector<Hole> holesOf(const std::vector<OpenEdge>& open, Sets& parts, std::size_t vertexCount) {
+    std::vector<Hole> holes;
+    if (open.empty()) return holes;
+    Sets rims(vertexCount);
+    for (const OpenEdge& edge : open) rims.join(edge.low, edge.high);
+    std::unordered_map<unsigned, std::size_t> holeOf;
+    for (const OpenEdge& edge : open) {
+        const auto [found, isNew] = holeOf.emplace(rims.find(edge.low), holes.size());
+        if (isNew) holes.push_back({parts.find(edge.low), {}});
+        holes[found->second].edges.push_back(edge);
+    }
+    return holes;
+}
+
+constexpr double widest = 0.5; // a hole, of its part: about a wider one are most of the faces
+
+/// The triangles of all parts, over welded vertices.
+class Parts {
+public:
+    Parts(const glm::vec3* positions, std::size_t vertexCount, std::vector<unsigned> corners)
+        : _positions(positions), _corners(std::move(corners)), _sets(vertexCount), _volume(vertexCount, 0.0) {
+        for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) {
+            _sets.join(_corners[i], _corners[i + 1]);
+            _sets.join(_corners[i], _corners[i + 2]);
+        }
+        for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) add(_corners[i], _corners[i + 1], _corners[i + 2], 1);
+        _holes = holesOf(openEdges(sortedEdges(_corners)), _sets, vertexCount);
+        for (const Hole& hole : _holes) {
+            for (const OpenEdge& edge : hole.edges) add(hole.edges.front().low, edge.high, edge.low, edge.times);
+            _open.emplace(hole.part, Box());
+        }
+        measureOpen();
+    }
+
+    void describe(ClosedParts& result) {
+        for (const Hole& hole : _holes)
+            if (isWide(hole)) _wide.insert(hole.part);
+        for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) {
+            const unsigned part = _sets.find(_corners[i]);
+            const bool isOpen = _open.count(part) > 0, isOutward = _volume[part] > 0.0;
+            result.part.push_back(part);
+            result.closed.push_back(isOutward && !isOpen);
+            result.holed.push_back(isOutward && isOpen && _wide.count(part) == 0);
+        }
+        for (const Hole& hole : _holes)
+            if (_volume[hole.part] > 0.0 && _wide.count(hole.part) == 0) result.holes.push_back(hole.filling());
+    }
+
+private:
+    glm::dvec3 at(unsigned vertex) const { return glm::dvec3(_positions[vertex]); }
+
+    /// Six times the volume between the triangle and a vertex of the part: small numbers, whatever the part's place.
+    void add(unsigned a, unsigned b, unsigned c, int times) {
+        const unsigned part = _sets.find(a);
+        const glm::dvec3 from = at(part);
+        _volume[part] += times * glm::dot(at(a) - from, glm::cross(at(b) - from, at(c) - from));
+    }
+
+    void measureOpen() {
+        if (_open.empty()) return;
+        for (const unsigned corner : _corners) {
+            const auto found = _open.find(_sets.find(corner));
+            if (found != _open.end()) found->second.add(at(corner));
+        }
+    }
+
+    bool isWide(const Hole& hole) const {
+        Box box;
+        for (const unsigned vertex : hole.filling()) box.add(at(vertex));
+        return box.length() > widest * _open.at(hole.part).length();
+    }
+
+    const glm::vec3* _positions;
+    const std::vector<unsigned> _corners;
+    Sets _sets;
+    std::vector<double> _volume; ///< of each part, six times that.
+    std::vector<Hole> _holes;
+    std::unordered_map<unsigned, Box> _open;
+    std::unordered_set<unsigned> _wide;
+};
 
 } // namespace
 
@@ -79,25 +199,7 @@ ClosedParts closedParts(const glm::vec3* positions, std::size_t vertexCount, con
     result.welded = weld(positions, vertexCount);
     std::vector<unsigned> corners(indexCount);
     for (std::size_t i = 0; i < indexCount; ++i) corners[i] = result.welded[indices[i]];
-    Sets parts(vertexCount);
-    for (std::size_t i = 0; i + 2 < indexCount; i += 3) {
-        parts.join(corners[i], corners[i + 1]);
-        parts.join(corners[i], corners[i + 2]);
-    }
-    std::vector<bool> open(vertexCount, false);
-    markOpen(sortedEdges(corners), parts, open);
-    std::vector<double> volume(vertexCount, 0.0);
-    for (std::size_t i = 0; i + 2 < indexCount; i += 3) {
-        const unsigned part = parts.find(corners[i]);
-        const glm::dvec3 from(positions[part]); // a vertex of the part: small numbers, whatever the part's place
-        const auto arm = [&](std::size_t corner) { return glm::dvec3(positions[corners[corner]]) - from; };
-        volume[part] += glm::dot(arm(i), glm::cross(arm(i + 1), arm(i + 2)));
-    }
-    for (std::size_t i = 0; i + 2 < indexCount; i += 3) {
-        const unsigned part = parts.find(corners[i]);
-        result.part.push_back(part);
-        result.closed.push_back(!open[part] && volume[part] > 0.0);
-    }
+    Parts(positions, vertexCount, std::move(corners)).describe(result);
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gnomon/ClosedParts.h>
 
+#include <functional>
 #include <utility>
 
 using namespace gnomon;
@@ -123,6 +124,127 @@ TEST(ClosedParts, AreFoundFarFromTheOrigin) { // 2²³ + 1 is a float, the cube 
 
 TEST(ClosedParts, AreFoundInAnyUnit) {
     for (const float size : {1e-12f, 1e-3f, 1e3f, 1e12f}) EXPECT_EQ(tetrahedron(size).closedTriangles(), 4);
+}
+
+namespace {
+
+constexpr int around = 24; // meridians of a globe, and twice its circles of latitude
+
+/// A globe's triangles but those that are left out; they look outwards.
+Soup globe(const std::function<bool(int latitude, int longitude)>& isLeftOut) {
+    constexpr double pi = 3.14159265358979323846;
+    const auto place = [&](int latitude, int longitude) {
+        const double down = pi * latitude / (around / 2), turn = 2.0 * pi * (longitude % around) / around;
+        const double radius = latitude == 0 || 2 * latitude == around ? 0.0 : std::sin(down);
+        return glm::vec3(radius * std::cos(turn), radius * std::sin(turn), std::cos(down));
+    };
+    Soup soup;
+    for (int i = 0; 2 * i < around; ++i)
+        for (int j = 0; j < around; ++j) {
+            if (isLeftOut(i, j)) continue;
+            const glm::vec3 a = place(i, j), b = place(i + 1, j), c = place(i + 1, j + 1), d = place(i, j + 1);
+            if (i > 0) soup.add(a, b, d);
+            if (2 * i + 2 < around) soup.add(b, c, d);
+        }
+    return soup;
+}
+
+/// How often the line through a place along z meets triangles from the front (seen from +z) and from behind.
+struct Crossings {
+    int front = 0, back = 0;
+
+    void add(const glm::dvec2& at, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+        const auto side = [&](const glm::dvec3& p, const glm::dvec3& q) {
+            return (q.x - p.x) * (at.y - p.y) - (q.y - p.y) * (at.x - p.x);
+        };
+        const double ab = side(a, b), bc = side(b, c), ca = side(c, a);
+        front += ab > 0.0 && bc > 0.0 && ca > 0.0;
+        back += ab < 0.0 && bc < 0.0 && ca < 0.0;
+    }
+};
+
+/// What lights that look along z see of a soup, and of what fills its holes.
+struct Looked {
+    int behindNoFront = 0, frontless = 0; ///< places where backs are not in pairs with fronts: off the holes, in all.
+};
+
+Looked look(const Soup& soup) {
+    const ClosedParts found = soup.parts();
+    Looked result;
+    for (int i = 0; i < 97; ++i)
+        for (int j = 0; j < 97; ++j) {
+            const glm::dvec2 at(-1.05 + 0.0217 * i, -1.05 + 0.0219 * j); // on no edge
+            Crossings own, filling;
+            for (std::size_t t = 0; t + 2 < soup.positions.size(); t += 3)
+                own.add(at, soup.positions[t], soup.positions[t + 1], soup.positions[t + 2]);
+            for (const auto& hole : found.holes)
+                for (std::size_t t = 0; t + 2 < hole.size(); t += 3)
+                    filling.add(at, soup.positions[hole[t]], soup.positions[hole[t + 1]], soup.positions[hole[t + 2]]);
+            EXPECT_EQ(own.front + filling.front, own.back + filling.back);
+            result.frontless += own.back > own.front;
+            result.behindNoFront += own.back > own.front && filling.front == 0;
+        }
+    return result;
+}
+
+bool isAll(const std::vector<bool>& values, bool value) {
+    return std::all_of(values.begin(), values.end(), [value](bool each) { return each == value; });
+}
+
+bool isNorth(int latitude, int) { return latitude < 2; }
+
+} // namespace
+
+// A cap and a window are missing: through both backs are seen; where none is seen through a hole it has a front.
+TEST(HoledParts, ShowBacksThroughTheirHolesAlone) {
+    const Soup soup = globe([](int latitude, int longitude) {
+        return isNorth(latitude, longitude) || (latitude >= 4 && latitude < 6 && longitude >= 3 && longitude < 6);
+    });
+    const ClosedParts found = soup.parts();
+    EXPECT_TRUE(isAll(found.closed, false));
+    EXPECT_TRUE(isAll(found.holed, true));
+    EXPECT_EQ(found.holes.size(), 2u);
+    const Looked looked = look(soup);
+    EXPECT_GT(looked.frontless, 100);
+    EXPECT_EQ(looked.behindNoFront, 0);
+}
+
+TEST(HoledParts, AreNotWhatIsTurnedInsideOut) {
+    const ClosedParts found = globe(isNorth).turned().parts();
+    EXPECT_TRUE(isAll(found.holed, false));
+    EXPECT_TRUE(found.holes.empty());
+}
+
+// Seen from its tip all of a spike's volume is beneath what fills its foot, and from the foot none: by the order of its
+// triangles the one or the other is looked from.
+TEST(HoledParts, AreWhatHasAVolumeWithTheirHolesFilled) {
+    const glm::vec3 tip(0.0f, 0.0f, 4.0f);
+    const std::vector<glm::vec3> foot{
+        {-0.5f, -0.5f, 0.0f}, {0.5f, -0.5f, 0.0f}, {0.5f, 0.5f, 0.0f}, {-0.5f, 0.5f, 0.0f}};
+    for (const unsigned turn : {0u, 1u, 2u}) {
+        Soup spike;
+        for (unsigned i = 0; i < 4; ++i) {
+            const glm::vec3 corners[]{foot[i], foot[(i + 1) % 4], tip};
+            spike.add(corners[turn], corners[(turn + 1) % 3], corners[(turn + 2) % 3]);
+        }
+        EXPECT_TRUE(isAll(spike.parts().holed, true)) << turn;
+        EXPECT_TRUE(isAll(spike.turned().parts().holed, false)) << turn;
+    }
+}
+
+TEST(HoledParts, HaveNoWideHole) { // a dome is half a globe
+    const ClosedParts found = globe([](int latitude, int) { return 4 * latitude >= around; }).parts();
+    EXPECT_TRUE(isAll(found.holed, false));
+    EXPECT_TRUE(found.holes.empty());
+}
+
+TEST(HoledParts, AreToldFromWhatIsClosed) {
+    Soup soup = globe(isNorth);
+    const std::size_t holed = soup.positions.size() / 3;
+    soup.add(tetrahedron().moved({3.0f, 0.0f, 0.0f}));
+    const ClosedParts found = soup.parts();
+    EXPECT_EQ(std::count(found.holed.begin(), found.holed.end(), true), std::ptrdiff_t(holed));
+    EXPECT_EQ(std::count(found.closed.begin(), found.closed.end(), true), 4);
 }
 
 TEST(ClosedParts, WithSharedVerticesAreTheSameAsWithout) {
