@@ -128,23 +128,24 @@ LayerOutlines LightMap::outlinesOf(const MapLayer& layer, const LightFrame& fram
     return outlines;
 }
 
-/// In the face's frame; of those that are empty none.
+/// In the face's frame; of those that are empty none, and none of what is flat and darkens nothing that bodies may not.
 std::vector<MapBlocker> LightMap::blockersOf(const MapFace& face) const {
     std::vector<MapBlocker> blockers;
     const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
         if (!outline.empty() && (isWide(face.frame) || !isThin(face.frame, outline)))
             blockers.push_back({outline, halfSpaces});
     };
-    const auto addFlats = [&](const LayerOutlines& outlines, const MapLayer& layer) {
+    const auto addFlats = [&](const LayerOutlines& outlines, const MapLayer& layer, const MapOutline& bodies) {
         for (std::size_t i = 0; i < outlines.flats.size(); ++i)
-            add(outlines.flats[i], {beyond(layer.flatBoxes[i], _light, _casters->reach)});
+            if (!bodies.isBefore(outlines.flats[i]))
+                add(outlines.flats[i], {beyond(layer.flatBoxes[i], _light, _casters->reach)});
     };
     const LayerOutlines moving = outlinesOf(*_casters->moving, face.frame);
     MapOutline bodies = face.still.bodies;
     bodies.merge(moving.bodies);
     add(bodies, {});
-    addFlats(face.still, *_casters->still);
-    addFlats(moving, *_casters->moving);
+    addFlats(face.still, *_casters->still, bodies);
+    addFlats(moving, *_casters->moving, bodies);
     return blockers;
 }
 

@@ -143,13 +143,20 @@ LightFrame lampFrame(const glm::dvec3& lamp, const glm::dvec3& axis, double spre
     return frame;
 }
 
-bool MapOutline::covers(const glm::dvec4& p) const {
-    const glm::dvec2 at = glm::dvec2(p) / p.w;
-    const double depth = p.z / p.w;
-    if (corners.size() < 3 || !(p.w > 0.0 && depth >= nearest && depth <= farthest)) return false;
+bool MapOutline::surrounds(const glm::dvec2& at) const {
     for (std::size_t i = 0; i < corners.size(); ++i)
         if (!(cross(corners[(i + 1) % corners.size()] - corners[i], at - corners[i]) >= 0.0)) return false;
-    return true;
+    return corners.size() >= 3;
+}
+
+bool MapOutline::covers(const glm::dvec4& p) const {
+    const double depth = p.z / p.w;
+    return p.w > 0.0 && depth >= nearest && depth <= farthest && surrounds(glm::dvec2(p) / p.w);
+}
+
+bool MapOutline::isBefore(const MapOutline& other) const {
+    return !empty() && (other.empty() || nearest <= other.nearest) &&
+           std::all_of(other.corners.begin(), other.corners.end(), [this](const auto& at) { return surrounds(at); });
 }
 
 void MapOutline::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,

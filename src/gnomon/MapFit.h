@@ -38,6 +38,8 @@ public:
                 const std::vector<glm::dvec4>& halfSpaces = {});
 
     bool empty() const { return corners.empty(); }
+    /// True if whatever is behind the other outline, of the same frame, is behind this one.
+    bool isBefore(const MapOutline& other) const;
     /// The longer side of the smallest rectangle about it, in x/w and y/w.
     double length() const;
     /// Half-spaces of the scene, the sides of the smallest rectangle about it: what is outside them has no place in it.
@@ -58,6 +60,7 @@ public:
     double nearest = 0.0, farthest = 0.0;
 
 private:
+    bool surrounds(const glm::dvec2& at) const;
     bool covers(const glm::dvec4& inLight) const;
 
     LightFrame _frame;

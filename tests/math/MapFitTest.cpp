@@ -106,6 +106,18 @@ TEST(MapOutline, MergedWithAnotherIsTheHullOfBothWithAllDepths) {
     EXPECT_EQ(none.corners.size(), 4u);
 }
 
+TEST(MapOutline, IsBeforeWhatItHidesFromTheLightAndNothingElse) {
+    const LightFrame frame = sunFrame({0.0, 0.0, 1.0});
+    const MapOutline box = outlineOf(frame, {-1.0, -2.0, 0.0}, {1.0, 2.0, 5.0}), none(frame);
+    EXPECT_TRUE(box.isBefore(outlineOf(frame, {-0.9, -1.9, -3.0}, {0.9, 1.9, -3.0})));
+    EXPECT_TRUE(box.isBefore(outlineOf(frame, {-0.9, -1.9, 4.0}, {0.9, 1.9, 4.0})));
+    EXPECT_FALSE(box.isBefore(outlineOf(frame, {-0.9, -1.9, 5.1}, {0.9, 1.9, 5.1}))); // nearer to the sun
+    EXPECT_FALSE(box.isBefore(outlineOf(frame, {-0.9, -1.9, 0.0}, {1.1, 1.9, 0.0}))); // beside it
+    EXPECT_TRUE(box.isBefore(box));
+    EXPECT_TRUE(box.isBefore(none));
+    EXPECT_FALSE(none.isBefore(box));
+}
+
 TEST(MapOutline, GrownIsAsMuchLargerOnEachSide) {
     MapOutline outline = outlineOf(sunFrame({0.0, 0.0, 1.0}), {0.0, 0.0, 0.0}, {5.0, 1.0, 1.0});
     outline.grow(0.5);

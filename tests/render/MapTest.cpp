@@ -93,6 +93,21 @@ TEST(Map, EachFilterAndEachSizeIsBetterThanTheOneBefore) {
         }
 }
 
+// Level sheets beside a box, over it, larger than it is, and behind it as the sun sees them; the last darkens nothing that
+// the box does not.
+TEST(Map, WhatIsFlatCastsBesideOverAndBehindWhatIsNot) {
+    TracedCase given = labEight();
+    given.light = test::sunAt(30.0, 50.0);
+    given.meshes = {test::square(40.0), test::box({-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5}),
+                    test::quad({-2.5, -0.5, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}),
+                    test::quad({-0.4, -0.4, 2.0}, {1.6, 0.0, 0.0}, {0.0, 1.6, 0.0}),
+                    test::quad({-0.6, -0.3, 0.4}, {0.5, 0.0, 0.0}, {0.0, 0.5, 0.0})};
+    const test::TruthComparison result = judged(given, mapOf(1024));
+    EXPECT_EQ(result.neither, 0);
+    EXPECT_EQ(result.certain, 0) << "a texel is less than a pixel there";
+    EXPECT_GT(result.shadowed, 3000);
+}
+
 // What is under a ground is in its shadow; but that takes no texels away from what stands on it.
 TEST(Map, AThingThatIsSunkIntoAGroundHasAsSharpAnEdgeAsOneThatStandsOnIt) {
     const auto edgesOff = [](double height) {
