@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <limits>
+#include <malloc.h>
 
 namespace gnomon::examples {
 namespace {
@@ -15,6 +17,13 @@ double processorMilliseconds() {
     timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
+}
+
+/// Freed memory stays with the process. To give it back and have it again is a page fault for each 4 KiB: for vertices of
+/// a large mesh milliseconds a frame in llvmpipe, or none, by what happens to lie above them.
+bool keepFreedMemory() {
+    constexpr int most = 32 << 20; // bytes: glibc takes no more
+    return mallopt(M_MMAP_THRESHOLD, most) && mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
 
 /// OSG leaves no context current between frames.
@@ -34,6 +43,7 @@ double quantile(const std::vector<double>& sorted, double part) {
 } // namespace
 
 FrameTime timeFrame(osgViewer::Viewer& viewer, double simulationTime) {
+    [[maybe_unused]] static const bool kept = keepFreedMemory();
     if (!viewer.isRealized()) viewer.realize();
     finish(viewer);
     const double processor = processorMilliseconds();

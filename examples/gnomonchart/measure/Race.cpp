@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <exception>
 #include <fstream>
-#include <limits>
 #include <malloc.h>
 #include <memory>
 #include <numeric>
@@ -32,14 +31,6 @@ struct Times {
         processor.push_back(time.processor);
     }
 };
-
-/// Freed memory stays with the process. To give it back and have it again is a page fault for each 4 KiB: for vertices of
-/// a large mesh milliseconds a frame, or none, by what happens to lie above them.
-void keepFreedMemory() {
-    constexpr int most = 32 << 20; // bytes: glibc takes no more
-    mallopt(M_MMAP_THRESHOLD, most);
-    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
-}
 
 double residentMiB() {
     malloc_trim(0); // what others freed is not this one's
@@ -203,7 +194,6 @@ private:
 
 RaceResults race(const ChartScene& scene, const std::vector<Contender>& contenders, int frames,
                  const ShaderCache& shaders, const std::function<bool(int done, int all)>& progress) {
-    keepFreedMemory();
     Track track(scene, contenders, frames, shaders);
     track.run(progress);
     return track.results();
