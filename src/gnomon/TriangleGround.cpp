@@ -157,19 +157,31 @@ double TriangleGround::steepest(const std::vector<glm::dvec4>& planes) const {
     return most;
 }
 
+/// Goes down to triangles at the rectangle's border alone: a node inside of it counts as a whole, and one that would add
+/// nothing is left out.
 std::optional<GroundRange> TriangleGround::range(const glm::dvec2& low, const glm::dvec2& high) const {
-    std::optional<GroundRange> range;
-    const auto touches = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        return to.x >= low.x && from.x <= high.x && to.y >= low.y && from.y <= high.y;
+    GroundRange range{infinite, -infinite, 0.0};
+    const auto touches = [&](const GroundBox& box) {
+        return box.high.x >= low.x && box.low.x <= high.x && box.high.y >= low.y && box.low.y <= high.y;
     };
-    descend(
-        all(), [&](const Node& node) { return touches(node.box.low, node.box.high); },
-        [&](const GroundTriangle& t) {
-            const glm::dvec3 from = glm::min(t[0], glm::min(t[1], t[2])), to = glm::max(t[0], glm::max(t[1], t[2]));
-            if (!touches(from, to)) return;
-            if (!range) range = {from.z, to.z, 0.0};
-            range = {std::min(range->low, from.z), std::max(range->high, to.z), std::max(range->steepest, slopeOf(t))};
-        });
+    const auto holds = [&](const GroundBox& box) {
+        return box.low.x >= low.x && box.high.x <= high.x && box.low.y >= low.y && box.high.y <= high.y;
+    };
+    const auto take = [&](const GroundBox& box, double slope) {
+        range = {std::min(range.low, box.low.z), std::max(range.high, box.high.z), std::max(range.steepest, slope)};
+    };
+    const auto enter = [&](const Node& node) {
+        const bool adds = node.box.low.z < range.low || node.box.high.z > range.high || node.slope > range.steepest;
+        if (!adds || !touches(node.box)) return false;
+        if (!holds(node.box)) return true;
+        take(node.box, node.slope);
+        return false;
+    };
+    descend(all(), enter, [&](const GroundTriangle& t) {
+        const GroundBox box{glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))};
+        if (touches(box)) take(box, slopeOf(t));
+    });
+    if (range.low > range.high) return std::nullopt;
     return range;
 }
 

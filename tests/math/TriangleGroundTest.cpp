@@ -263,6 +263,46 @@ TEST(Ground, HasNothingLowerHigherOrSteeperThanItsRange) {
     EXPECT_FALSE(field.range({std::nan(""), 301.0}, {402.0, 302.0}));
 }
 
+/// A slope of a wall's steepness is among them, and a field that stands upright altogether: in plan a line.
+std::vector<std::vector<GroundTriangle>> groundsForRanges() {
+    std::vector<GroundTriangle> lying = test::trianglesOf(holed().field()), standing = lying;
+    for (GroundTriangle& t : standing)
+        for (glm::dvec3& corner : t) corner = {corner.x, -corner.z, corner.y};
+    const std::vector<GroundTriangle> cliff = terraces();
+    lying.insert(lying.end(), cliff.begin(), cliff.end());
+    return {lying, standing};
+}
+
+TEST(TriangleGround, HasTheRangeOfThoseOfItsTrianglesWhoseBoundsTouchTheRectangle) {
+    for (const std::vector<GroundTriangle>& all : groundsForRanges()) {
+        const TriangleGround ground = groundOf(all);
+        Random random(12);
+        for (int i = 0; i < 300; ++i) {
+            const glm::dvec2 low(random.between(-50.0, 700.0), random.between(-50.0, i % 2 ? 30.0 : 700.0));
+            const glm::dvec2 high = low + glm::dvec2(random.between(0.0, 300.0), random.between(0.0, 300.0));
+            gnomon::GroundRange expected{HUGE_VAL, -HUGE_VAL, 0.0};
+            for (const GroundTriangle& t : all) {
+                const auto [left, right] = std::minmax({t[0].x, t[1].x, t[2].x});
+                const auto [near, far] = std::minmax({t[0].y, t[1].y, t[2].y});
+                if (right < low.x || left > high.x || far < low.y || near > high.y) continue;
+                const auto [bottom, top] = std::minmax({t[0].z, t[1].z, t[2].z});
+                const glm::dvec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
+                expected = {std::min(expected.low, bottom), std::max(expected.high, top),
+                            std::max(expected.steepest, std::hypot(n.x, n.y) / std::abs(n.z))};
+            }
+            const auto range = ground.range(low, high);
+            ASSERT_EQ(range.has_value(), expected.low <= expected.high);
+            if (!range) continue;
+            EXPECT_EQ(range->low, expected.low);
+            EXPECT_EQ(range->high, expected.high);
+            if (std::isinf(expected.steepest))
+                EXPECT_EQ(range->steepest, expected.steepest);
+            else
+                EXPECT_NEAR(range->steepest, expected.steepest, 1e-9 * expected.steepest) << "turned: other roundings";
+        }
+    }
+}
+
 /// Seconds of processor time for 20 000 heights and rays on a field of posts².
 double seconds(int side) {
     const HeightPyramid field = test::groundOf(hills, side);
