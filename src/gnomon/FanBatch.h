@@ -24,7 +24,7 @@ public:
     struct Entry {
         glm::dvec3 anchor{0.0};
         glm::dvec4 light{0.0};                           ///< about the anchor.
-        double size = 0.0, low = 0.0, high = 0.0;        ///< from the anchor to its farthest corner; its heights.
+        double size = 0.0;                               ///< from the anchor to its farthest corner.
         double tangent = 0.0;                            ///< of the light's least elevation.
         TerrainOutcome outcome = TerrainOutcome::edgeOn; ///< fan, as long as nothing else is known.
         double wrong = 0.0, seen = 0.0;                  ///< twice areas; what is wrong with the fan, of what is seen.

@@ -76,7 +76,7 @@ void FanBatch::askFaces(const PackedParts& parts, std::size_t first) {
     const std::size_t faces = topology.faces.size(), blocks = (_kind.size() + kernelLanes - 1) / kernelLanes;
     makeRoom(_places, 3 * topology.corners * blocks * kernelLanes);
     makeRoom(_lights, 3 * blocks * kernelLanes);
-    makeRoom(_sizes, 3 * blocks * kernelLanes);
+    makeRoom(_sizes, blocks * kernelLanes);
     makeRoom(_facePlanes, 4 * faces * blocks * kernelLanes);
     makeRoom(_lit, (faces / 64 + 1) * blocks * kernelLanes);
     _hulls = {blocks,   topology.corners, faces,    _places.data(),     topology.faces.data(), _lights.data(), _light.x,
@@ -86,12 +86,9 @@ void FanBatch::askFaces(const PackedParts& parts, std::size_t first) {
     if (!_isLight) std::fill(_lit.begin(), _lit.end(), std::uint64_t(0));
     for (std::size_t i = 0; i < _kind.size(); ++i) {
         Entry& entry = _entries[_kind[i]];
-        const double* size = _sizes.data() + 3 * (i / kernelLanes) * kernelLanes + i % kernelLanes;
         entry.anchor = parts.anchor(first + _kind[i]);
         entry.light = glm::dvec4(glm::dvec3(_light) - _light.w * entry.anchor, _light.w);
-        entry.size = size[0];
-        entry.low = size[kernelLanes];
-        entry.high = size[2 * kernelLanes];
+        entry.size = _sizes[i];
     }
 }
 

@@ -29,7 +29,7 @@ double apart(const PackedShadow& a, const PackedShadow& b) {
 double paceOf(const ShadowMotion& motion, double way) {
     ShadowRates rates;
     rates.take(motion, way);
-    return rates.movedAtMost(1e-3);
+    return rates.ofSmallTurns();
 }
 
 } // namespace

@@ -200,14 +200,16 @@ bool mayAppear(TerrainOutcome outcome) {
     return outcome == TerrainOutcome::edgeOn || outcome == TerrainOutcome::noGround;
 }
 
-/// All together.
-Over highestOf(const PackedParts& parts, const PackedShadows& found) {
+/// All together. @param each  is told that of each part with its place.
+template <class Each>
+Over highestOf(const PackedParts& parts, const PackedShadows& found, const Each& each) {
     Over highest;
     for (std::size_t i = 0; i < found.size(); ++i) {
         if (found[i].cornerCount == 0) continue;
         const Over over = overOf(parts, i, found);
         highest.height = std::max(highest.height, over.height);
         highest.plan.take(over.plan);
+        each(i, over);
     }
     return highest;
 }
@@ -222,7 +224,7 @@ Slopes slopesUnderAll(const Ground& ground, const PackedShadows& found, const Ov
 void findRates(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, PackedShadows& found) {
     if (light.w != 0.0) return;
     const Way way(wayOf(light));
-    const Over highest = highestOf(parts, found);
+    const Over highest = highestOf(parts, found, [](std::size_t, const Over&) {});
     const bool mayOneAppear = std::any_of(found.outcomes.begin(), found.outcomes.end(), mayAppear);
     const Slopes slopes = slopesUnderAll(ground, found, highest, way);
     found.steepest = slopes.steepest;
@@ -300,7 +302,10 @@ void findMotions(const Ground& ground, const PackedParts& parts, const PackedSha
                  std::vector<ShadowMotion>& motions) {
     constexpr double enough = 0.25; // more than what shadows move by on level ground
     const Way way(wayOf(sun));
-    const Slopes all = slopesUnderAll(ground, found, highestOf(parts, found), way);
+    thread_local std::vector<Over> overs; // memory that is used again
+    overs.assign(found.size(), {});
+    const Over highest = highestOf(parts, found, [&](std::size_t i, const Over& over) { overs[i] = over; });
+    const Slopes all = slopesUnderAll(ground, found, highest, way);
     const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
     const bool isEnough = !grid || (all.grazing() * way.length <= enough && !hasHoles(*grid));
     motions.assign(found.size(), {});
@@ -308,7 +313,7 @@ void findMotions(const Ground& ground, const PackedParts& parts, const PackedSha
         const PackedShadow shadow = found[i];
         if (mayAppear(shadow.outcome)) motions[i].height = infinite;
         if (shadow.cornerCount == 0) continue;
-        const Over over = overOf(parts, i, found);
+        const Over& over = overs[i];
         const auto box = [&] { return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, over); };
         const Slopes slopes = isEnough ? all : slopesIn(*grid, box(), way);
         motions[i] = {over.height, slopes.along, slopes.across};

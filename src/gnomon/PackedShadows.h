@@ -45,6 +45,7 @@ public:
     void take(const ShadowMotion& motion, double way);
     /// @param turned  by how much that way has changed.
     double movedAtMost(double turned) const;
+    double ofSmallTurns() const { return _rates.front(); } ///< a unit of turn.
 
 private:
     static constexpr std::array<double, 3> turns = {1e-3, 1e-2, mostTurned};

@@ -31,7 +31,7 @@ struct KernelHulls {
     double lightX, lightY, lightZ, lightW;  ///< of suns.
     double* planes;                         ///< inwards: 4 faces.
     std::uint64_t* lit;                     ///< a bit a face that the light meets: faces / 64 + 1.
-    double* sizes;                          ///< 3: the square from its anchor to its farthest corner; its heights.
+    double* sizes;                          ///< from its anchor to its farthest corner: 1.
 };
 
 // Blocks of parts whose shadows are found as polygons; all about their own anchors.

@@ -89,17 +89,12 @@ HWY_INLINE void facesOf(const HullLanes& of) {
 
 HWY_INLINE void sizeOf(const HullLanes& of) {
     const D d;
-    V size = hn::Zero(d), low = size, high = size;
+    V size = hn::Zero(d);
     for (std::size_t c = 1; c < of.all.corners; ++c) {
         const V3 corner = of.corner(c);
         size = hn::Max(size, dot(corner, corner));
-        low = hn::Min(low, corner.z);
-        high = hn::Max(high, corner.z);
     }
-    double* to = of.all.sizes + of.at(3, 0);
-    hn::StoreU(hn::Sqrt(size), d, to);
-    hn::StoreU(low, d, to + kernelLanes);
-    hn::StoreU(high, d, to + 2 * kernelLanes);
+    hn::StoreU(hn::Sqrt(size), d, of.all.sizes + of.at(1, 0));
 }
 
 void face(const KernelHulls& all) {
