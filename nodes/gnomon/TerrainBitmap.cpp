@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/MarkProgram.h>
 #include <gnomon/TerrainBitmap.h>
 
 #include <osg/GLExtensions>
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <string>
 
 namespace gnomon {
 namespace {
@@ -62,6 +64,10 @@ TerrainBitmap::TerrainBitmap(const ShadowBitmap& bitmap, int level, TerrainSheet
       _bytes(bitmap.bytes),
       _geometry(geometryOf(bitmap)) {
     _bytes.resize(std::size_t(_rows->count) * TerrainSheet::width);
+}
+
+osg::ref_ptr<osg::StateSet> TerrainBitmap::program() {
+    return markProgram("#define BITMAP " + std::to_string(TerrainSheet::bits) + "\n");
 }
 
 /// All are written before any is drawn: what is written to a texture that is being drawn from has to wait.

@@ -20,7 +20,9 @@ public:
 
     int level() const { return _level; }
     unsigned triangles() const { return _triangles; }
-    /// @param renderInfo  the program is markProgram()'s with BITMAP; uses texture unit 0 and the current texture coordinates
+    /// markProgram()'s that draws them.
+    static osg::ref_ptr<osg::StateSet> program();
+    /// @param renderInfo  with that program; uses texture unit 0 and the current texture coordinates
     ///                    of units 0 and 1.
     static void draw(osg::RenderInfo& renderInfo, std::vector<const TerrainBitmap*> bitmaps);
     /// Of all but the sheets.

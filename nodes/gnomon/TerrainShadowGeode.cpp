@@ -105,7 +105,7 @@ struct TerrainShadowGeode::Asked {
 };
 
 TerrainShadowGeode::TerrainShadowGeode()
-    : _program(markProgram()), _bitmapProgram(markProgram("#define BITMAP\n")), _cache(new TerrainCache) {}
+    : _program(markProgram()), _bitmapProgram(TerrainBitmap::program()), _cache(new TerrainCache) {}
 
 TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp)
     : ShadowTechnique(other, copyOp), // its geometry, too
@@ -117,7 +117,7 @@ TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const os
       _bounds(other._bounds),
       _triangles(other._triangles),
       _program(markProgram()),
-      _bitmapProgram(markProgram("#define BITMAP\n")),
+      _bitmapProgram(TerrainBitmap::program()),
       _cache(new TerrainCache) {}
 
 TerrainShadowGeode::~TerrainShadowGeode() = default;

@@ -14,7 +14,7 @@ namespace gnomon {
 /// A texture of bytes that several bitmaps share, row by row: to bind one for each of them costs more than to draw many.
 class TerrainSheet : public osg::Referenced {
 public:
-    static constexpr int width = 2048, height = 2048; ///< bytes; OpenGL 3 promises 1024, drivers have this.
+    static constexpr int bits = 10, width = 1 << bits, height = width; ///< bytes; OpenGL 3 promises no larger texture.
 
     TerrainSheet();
     /// The first of so many rows that were nobody's; -1 if there are none. Any thread.

@@ -4,7 +4,7 @@ uniform sampler2D cutout;
 uniform vec2 alphaTest; // which alphas pass, as bits: 1 less than, 2 equal to, 4 greater than the second
 in vec3 coordinates;    // s, t and q of unit 0
 #endif
-#ifdef BITMAP
+#ifdef BITMAP // TerrainSheet::bits
 uniform usampler2D sheet; // of bytes, four to a block of 8 by 4 texels; of texel (x, y) of one byte y, bit x
 flat in vec4 texels;      // the last one, for the border is empty; bytes in a row of blocks, the first byte in the sheet
 in vec2 texel;
@@ -14,8 +14,9 @@ void main() {
 #ifdef BITMAP
     ivec2 at = ivec2(clamp(texel, vec2(0.0), texels.xy));
     int place = (at.y >> 2) * int(texels.z) + int(texels.w) + (at.x >> 3 << 2 | at.y & 3);
-    // By texture(): llvmpipe looks up a level's size for each pixel of texelFetch(). 2048: TerrainSheet::width.
-    uint bits = texture(sheet, (vec2(place & 2047, place >> 11) + 0.5) / 2048.0).r;
+    const int width = 1 << BITMAP;
+    // By texture(): llvmpipe looks up a level's size for each pixel of texelFetch().
+    uint bits = texture(sheet, (vec2(place & width - 1, place >> BITMAP) + 0.5) / float(width)).r;
     if (((bits >> uint(at.x & 7)) & 1u) == 0u) discard;
 #endif
 #ifdef CUTOUT

@@ -14,7 +14,7 @@ using gnomon::TerrainBitmap;
 
 namespace {
 
-constexpr int columns = 30, rows = 1024; // blocks: 60 rows of a sheet, so that one holds 34 bitmaps
+constexpr int columns = 30, rows = 1024; // blocks: 120 rows of a sheet, so that one holds 8 bitmaps
 constexpr int bitmaps = 40, apart = 300; // texels from one to the next
 constexpr int wide = columns * ShadowBitmap::wide, tall = rows * ShadowBitmap::high;
 constexpr int pixelsApart = 10, height = 64;
@@ -45,6 +45,7 @@ public:
         _bitmaps[at] = new TerrainBitmap(banded(at, pattern), 0, _sheets);
     }
     int pattern(int at) const { return _patterns[at]; }
+    void releaseSheets() { _sheets.releaseGLObjects(nullptr); }
 
     /// From both ends in turns, so that neighbours are in different sheets.
     void drawImplementation(osg::RenderInfo& renderInfo) const override {
@@ -57,9 +58,11 @@ public:
         gnomon::setUniform(state, "sheet", 0);
         setCoordinates(state);
         TerrainBitmap::draw(renderInfo, all);
+        making = _last->sheet->apply(state);
         readCoordinates(state);
     }
     mutable std::vector<osg::Vec4> coordinates; ///< that are current after it was drawn, of units 0 and 1.
+    mutable unsigned making = 0;                ///< which making of a texture was drawn last.
 
 private:
     static void setCoordinates(const osg::State& state) {
@@ -77,7 +80,8 @@ private:
     }
 
     gnomon::TerrainSheets _sheets;
-    osg::ref_ptr<osg::StateSet> _program = gnomon::markProgram("#define BITMAP\n");
+    const std::unique_ptr<const gnomon::SheetRows> _last = _sheets.take(1);
+    osg::ref_ptr<osg::StateSet> _program = TerrainBitmap::program();
     osg::ref_ptr<TerrainBitmap> _bitmaps[bitmaps];
     int _patterns[bitmaps];
 };
@@ -112,6 +116,23 @@ TEST(TerrainSheet, ShowsOfEachBitmapItsOwnBytes) {
     EXPECT_EQ(wrongPixels(camera.frame(), *board), 0);
     for (const int at : {3, 4, 39}) board->set(at, at + 1);
     EXPECT_EQ(wrongPixels(camera.frame(), *board), 0) << "in rows that were another's";
+}
+
+TEST(TerrainSheet, IsMadeAnewWithItsBytesOnceItWasReleased) {
+    const osg::ref_ptr<Board> board = new Board;
+    const osg::ref_ptr<osg::Geode> root = new osg::Geode;
+    root->addDrawable(board);
+    test::Camera camera(root, whole());
+    camera.frame();
+    camera.frame();
+    EXPECT_EQ(board->making, 1u);
+    board->releaseSheets();
+    EXPECT_EQ(wrongPixels(camera.frame(), *board), 0);
+    EXPECT_EQ(board->making, 2u);
+}
+
+TEST(TerrainSheet, IsNoLargerThanOpenGl3Promises) {
+    EXPECT_LE(std::max(gnomon::TerrainSheet::width, gnomon::TerrainSheet::height), 1024);
 }
 
 TEST(TerrainSheet, LeavesCurrentTextureCoordinatesAsTheyWere) {
