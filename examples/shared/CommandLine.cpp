@@ -97,7 +97,10 @@ void readOsgOptions(osg::ArgumentParser& arguments) {
     osgDB::Registry::instance()->readCommandLine(arguments);
 }
 
-std::string osgOptionsHelp() { return "  -O TEXT, -e EXT, -l LIBRARY\n      as in other OpenSceneGraph programs\n"; }
+std::string osgOptionsHelp() {
+    return "  -O TEXT, -e EXT, -l LIBRARY\n      as in other OpenSceneGraph programs; OBJ files are turned from y up "
+           "to z up, but with -O noRotation\n";
+}
 
 std::string describeOptions(const Options& table) {
     std::ostringstream out;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Progress.h>
 #include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowDecals.h>
 #include <gnomon/ShadowPrisms.h>
@@ -9,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <limits>
 
@@ -305,9 +307,12 @@ osg::ref_ptr<TileShadows> TerrainTiles::unused() {
 void TerrainTiles::find(const TerrainTown& town, const TileGround& ground, const std::vector<std::size_t>& tiles) {
     std::vector<osg::ref_ptr<TileShadows>> into(tiles.size());
     for (osg::ref_ptr<TileShadows>& shadows : into) shadows = unused();
+    Progress progress("gnomon: finding shadows on terrain");
+    std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
         findShadows(ground, town.tiles()[tiles[i]], _light, _settings, town.origin(), *into[i]);
         _followed[tiles[i]].clear();
+        progress.show(double(++done) / double(tiles.size()));
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const osg::ref_ptr<TileShadows> old = const_cast<TileShadows*>(_shadows[tiles[i]].get());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/CasterWeld.h>
 #include <gnomon/Convert.h>
+#include <gnomon/Progress.h>
 #include <gnomon/TerrainTown.h>
 
 #include <glm/common.hpp>
@@ -9,8 +10,10 @@
 #include <tbb/parallel_for_each.h>
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <map>
+#include <string>
 #include <tuple>
 
 namespace gnomon {
@@ -81,7 +84,12 @@ void TerrainTown::take(const CasterPieces& casters, const std::set<const osg::Dr
     _terrain = terrain;
     std::vector<CasterPieces::List> units = weld(std::move(loose));
     std::vector<Found> found(units.size());
-    tbb::parallel_for(std::size_t{0}, units.size(), [&](std::size_t i) { found[i] = find(std::move(units[i])); });
+    Progress progress("gnomon: finding the parts of " + std::to_string(units.size()) + " casters");
+    std::atomic<std::size_t> done{0};
+    tbb::parallel_for(std::size_t{0}, units.size(), [&](std::size_t i) {
+        found[i] = find(std::move(units[i]));
+        progress.show(double(++done) / double(units.size()));
+    });
     std::size_t size = _size;
     for (const Found& unit : found) size += unit.size();
     if (isOutgrown(size)) {
