@@ -14,7 +14,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t mostHoles = 64; // each is looked for in all that has holes
+constexpr std::size_t mostTests = 1 << 16; // each hole is looked for in all runs of what has holes: a millisecond
 
 /// Of what fills a hole the corners of those triangles that look to the light, in its clip space.
 std::vector<glm::dvec4> turnedToLight(const std::vector<glm::dvec3>& filling, const glm::dmat4& clipFromMesh) {
@@ -28,6 +28,26 @@ std::vector<glm::dvec4> turnedToLight(const std::vector<glm::dvec3>& filling, co
             result.insert(result.end(), std::begin(corners), std::end(corners));
     }
     return result;
+}
+
+/// Of the parts whose triangles are meant.
+std::vector<osg::BoundingBox> boxesOf(const CasterMesh& mesh, const osg::DrawElementsUInt& triangles,
+                                      const ClosedParts& parts, const std::vector<bool>& meant) {
+    std::unordered_map<unsigned, osg::BoundingBox> boxes; // by part
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        if (meant[i / 3]) boxes[parts.part[i / 3]].expandBy((*mesh.vertices)[triangles[i]]);
+    std::vector<osg::BoundingBox> result;
+    for (const auto& entry : boxes) result.push_back(entry.second);
+    return result;
+}
+
+bool isOutside(const glm::dvec4& light, const std::vector<osg::BoundingBox>& boxes) {
+    const osg::Vec3 lamp(osg::Vec3d(light.x, light.y, light.z));
+    return std::none_of(boxes.begin(), boxes.end(), [&](const osg::BoundingBox& box) {
+        const float rounding = 1e-6f * (lamp.length() + box.radius());
+        const osg::Vec3 more(rounding, rounding, rounding);
+        return osg::BoundingBox(box._min - more, box._max + more).contains(lamp);
+    });
 }
 
 } // namespace
@@ -47,59 +67,52 @@ CasterFaces::CasterFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangle
         return;
     }
     const ClosedParts parts = closedPartsOf(mesh, *triangles);
-    const bool fewHoles = parts.holes.size() <= mostHoles;
+    const auto inHoled = static_cast<std::size_t>(std::count(parts.holed.begin(), parts.holed.end(), true));
+    const bool fewHoles = parts.holes.size() * inHoled / IndexClusters::trianglesInRun <= mostTests;
     const osg::ref_ptr<osg::DrawElementsUInt> closed = noTriangles(), open = noTriangles(), withHoles = noTriangles();
     for (std::size_t i = 0; i < triangles->size(); ++i) {
         const auto& list = parts.closed[i / 3] ? closed : fewHoles && parts.holed[i / 3] ? withHoles : open;
         list->push_back(parts.welded[(*triangles)[i]]); // fewer vertices to transform
     }
-    if (!closed->empty()) solids = casterGeometry(mesh, closed);
+    if (!closed->empty()) {
+        solids = casterGeometry(mesh, closed);
+        _solidBoxes = boxesOf(mesh, *triangles, parts, parts.closed);
+    }
     if (!open->empty()) others = casterGeometry(mesh, open);
     if (!withHoles->empty()) {
         holed = casterGeometry(mesh, withHoles);
+        _holedBoxes = boxesOf(mesh, *triangles, parts, parts.holed);
         _clusters = new IndexClusters(*holed);
         for (const auto& filling : parts.holes) {
             _holes.emplace_back();
             for (const unsigned vertex : filling) _holes.back().push_back(toGlm(osg::Vec3d((*mesh.vertices)[vertex])));
         }
     }
-    findBoxes(mesh, *triangles, parts);
 }
 
-void CasterFaces::findBoxes(const CasterMesh& mesh, const osg::DrawElementsUInt& triangles, const ClosedParts& parts) {
-    std::unordered_map<unsigned, osg::BoundingBox> boxes; // by part
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        if (parts.closed[i / 3] || (holed && parts.holed[i / 3]))
-            boxes[parts.part[i / 3]].expandBy((*mesh.vertices)[triangles[i]]);
-    for (const auto& entry : boxes) _boxes.push_back(entry.second);
+CasterFaces::Outside CasterFaces::outside(const glm::dvec4& light) const {
+    return {light.w == 0.0 || isOutside(light, _solidBoxes), light.w == 0.0 || isOutside(light, _holedBoxes)};
 }
 
-bool CasterFaces::isOutside(const glm::dvec4& light) const {
-    if (light.w == 0.0) return true;
-    const osg::Vec3 lamp(osg::Vec3d(light.x, light.y, light.z));
-    return std::none_of(_boxes.begin(), _boxes.end(), [&](const osg::BoundingBox& box) {
-        const float rounding = 1e-6f * (lamp.length() + box.radius());
-        const osg::Vec3 more(rounding, rounding, rounding);
-        return osg::BoundingBox(box._min - more, box._max + more).contains(lamp);
-    });
-}
-
-void CasterFaces::draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, bool outside) const {
+void CasterFaces::draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, const Outside& outside) const {
     if (others) others->draw(renderInfo);
-    if (!solids && !holed) return;
     const bool mirrored = glm::determinant(clipFromMesh) > 0.0; // OpenGL's own projections turn left to right hands
-    if (outside) glEnable(GL_CULL_FACE);
     glFrontFace(mirrored ? GL_CW : GL_CCW);
-    for (const auto& geometry : {solids, holed})
-        if (geometry) geometry->draw(renderInfo);
-    if (outside && holed) drawBehindHoles(renderInfo, clipFromMesh);
+    const auto drawTurned = [&](const osg::Geometry* geometry, bool culled) {
+        if (!geometry) return;
+        (culled ? glEnable : glDisable)(GL_CULL_FACE);
+        geometry->draw(renderInfo);
+    };
+    drawTurned(solids, outside.solids);
+    drawTurned(holed, outside.holed);
+    if (holed && outside.holed) drawBehindHoles(renderInfo, clipFromMesh);
     glFrontFace(GL_CCW);
     glDisable(GL_CULL_FACE);
 }
 
 /// Faces turned away, of what has holes: elsewhere each is behind one that is turned to the light.
 void CasterFaces::drawBehindHoles(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh) const {
-    constexpr double rounding = 1.0 / 1024.0; // of the map: some texels
+    constexpr double rounding = 1.0 / 128.0; // of half the map: some texels
     glCullFace(GL_FRONT);
     for (const auto& filling : _holes) {
         const std::vector<glm::dvec4> opening = turnedToLight(filling, clipFromMesh);

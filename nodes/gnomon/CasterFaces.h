@@ -33,12 +33,17 @@ struct CasterFaces : public osg::Referenced {
     /// @param findSolids  else all are others.
     CasterFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids);
 
-    /// False if a lamp may be in a solid, which many drawables may make together. @param light  as usableLight().
-    bool isOutside(const glm::dvec4& light) const;
+    /// Whether a light is in none of them, so that their faces turned to it cast all of their shadow.
+    struct Outside {
+        bool solids = true, holed = true;
+        bool operator==(const Outside& other) const { return solids == other.solids && holed == other.holed; }
+    };
+
+    /// False where a lamp may be in one, which many drawables may make together. @param light  as usableLight().
+    Outside outside(const glm::dvec4& light) const;
     /// Needs back faces to be those that are culled.
     /// @param clipFromMesh  the light's, mesh: about its origin.
-    /// @param outside       the light is in none of the solids.
-    void draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, bool outside) const;
+    void draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, const Outside& outside) const;
 
     void resizeGLObjectBuffers(unsigned maxSize) const;
     void releaseGLObjects(osg::State* state) const;
@@ -47,10 +52,9 @@ protected:
     ~CasterFaces() override = default;
 
 private:
-    void findBoxes(const CasterMesh& mesh, const osg::DrawElementsUInt& triangles, const ClosedParts& parts);
     void drawBehindHoles(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh) const;
 
-    std::vector<osg::BoundingBox> _boxes;        ///< of the solids, with holes or without.
+    std::vector<osg::BoundingBox> _solidBoxes, _holedBoxes; ///< of their parts.
     std::vector<std::vector<glm::dvec3>> _holes; ///< of each the triangles that fill it.
     osg::ref_ptr<const IndexClusters> _clusters; ///< of those that have holes.
 };

@@ -29,7 +29,7 @@ struct MapPicture : public osg::Referenced {
     /// What is drawn of a layer of the casters.
     struct Layer {
         osg::ref_ptr<const CasterFaces> casters; ///< whole ones; null if there are none.
-        bool outside = true;                     ///< the light is in no solid of them.
+        CasterFaces::Outside outside;            ///< where the light is.
         std::vector<MapLayer::Cutout> cutouts;   ///< those that textures cut out.
 
         bool operator==(const Layer& other) const;

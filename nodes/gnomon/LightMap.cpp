@@ -128,7 +128,8 @@ LayerOutlines LightMap::outlinesOf(const MapLayer& layer, const LightFrame& fram
     return outlines;
 }
 
-/// In the face's frame; of those that are empty none, and none of what is flat and darkens nothing that bodies may not.
+/// In the face's frame; of those that are empty none, and none of what is flat and behind the bodies: it darkens nothing that
+/// they may not, but widens edges where it is far from where they are.
 std::vector<MapBlocker> LightMap::blockersOf(const MapFace& face) const {
     std::vector<MapBlocker> blockers;
     const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
@@ -137,7 +138,7 @@ std::vector<MapBlocker> LightMap::blockersOf(const MapFace& face) const {
     };
     const auto addFlats = [&](const LayerOutlines& outlines, const MapLayer& layer, const MapOutline& bodies) {
         for (std::size_t i = 0; i < outlines.flats.size(); ++i)
-            if (!bodies.isBefore(outlines.flats[i]))
+            if (isWide(face.frame) || !bodies.isBefore(outlines.flats[i]))
                 add(outlines.flats[i], {beyond(layer.flatBoxes[i], _light, _casters->reach)});
     };
     const LayerOutlines moving = outlinesOf(*_casters->moving, face.frame);
@@ -331,8 +332,8 @@ osg::ref_ptr<MapPicture> LightMap::pictureOf(const MapResources& resources, bool
 }
 
 MapPicture::Layer LightMap::drawnOf(const MapLayer& layer, bool again) const {
-    MapPicture::Layer drawn{layer.faces(_flats, again), true, {}};
-    drawn.outside = !drawn.casters || drawn.casters->isOutside(_light);
+    MapPicture::Layer drawn{layer.faces(_flats, again), {}, {}};
+    if (drawn.casters) drawn.outside = drawn.casters->outside(_light);
     for (const MapLayer::Cutout& cutout : layer.cutouts)
         if (_flats || !cutout.flat) drawn.cutouts.push_back(cutout);
     return drawn;

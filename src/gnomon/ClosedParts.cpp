@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <unordered_map>
-#include <unordered_set>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -124,38 +124,36 @@ std::vector<Hole> holesOf(const std::vector<OpenEdge>& open, Sets& parts, std::s
     return holes;
 }
 
-constexpr double widest = 0.5; // a hole, of its part: about a wider one are most of the faces
+constexpr double widest = 0.5;                 // a hole, of its part: about a wider one are most of the faces
+constexpr std::size_t mostOpenEdges = 1 << 14; // of more, as leaves have, no holes are made
 
 /// The triangles of all parts, over welded vertices.
 class Parts {
 public:
     Parts(const glm::vec3* positions, std::size_t vertexCount, std::vector<unsigned> corners)
-        : _positions(positions), _corners(std::move(corners)), _sets(vertexCount), _volume(vertexCount, 0.0) {
+        : _positions(positions),
+          _corners(std::move(corners)),
+          _sets(vertexCount),
+          _volume(vertexCount, 0.0),
+          _open(vertexCount, false) {
         for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) {
             _sets.join(_corners[i], _corners[i + 1]);
             _sets.join(_corners[i], _corners[i + 2]);
         }
         for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) add(_corners[i], _corners[i + 1], _corners[i + 2], 1);
-        _holes = holesOf(openEdges(sortedEdges(_corners)), _sets, vertexCount);
-        for (const Hole& hole : _holes) {
-            for (const OpenEdge& edge : hole.edges) add(hole.edges.front().low, edge.high, edge.low, edge.times);
-            _open.emplace(hole.part, Box());
-        }
-        measureOpen();
+        const std::vector<OpenEdge> edges = openEdges(sortedEdges(_corners));
+        for (const OpenEdge& edge : edges) _open[_sets.find(edge.low)] = true;
+        if (!edges.empty() && edges.size() <= mostOpenEdges) findHoled(holesOf(edges, _sets, vertexCount));
     }
 
     void describe(ClosedParts& result) {
-        for (const Hole& hole : _holes)
-            if (isWide(hole)) _wide.insert(hole.part);
         for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) {
             const unsigned part = _sets.find(_corners[i]);
-            const bool isOpen = _open.count(part) > 0, isOutward = _volume[part] > 0.0;
             result.part.push_back(part);
-            result.closed.push_back(isOutward && !isOpen);
-            result.holed.push_back(isOutward && isOpen && _wide.count(part) == 0);
+            result.closed.push_back(!_open[part] && _volume[part] > 0.0);
+            result.holed.push_back(_holed.count(part) > 0);
         }
-        for (const Hole& hole : _holes)
-            if (_volume[hole.part] > 0.0 && _wide.count(hole.part) == 0) result.holes.push_back(hole.filling());
+        result.holes = std::move(_fillings);
     }
 
 private:
@@ -168,27 +166,68 @@ private:
         _volume[part] += times * glm::dot(at(a) - from, glm::cross(at(b) - from, at(c) - from));
     }
 
-    void measureOpen() {
-        if (_open.empty()) return;
-        for (const unsigned corner : _corners) {
-            const auto found = _open.find(_sets.find(corner));
-            if (found != _open.end()) found->second.add(at(corner));
+    void findHoled(const std::vector<Hole>& holes) {
+        for (const Hole& hole : holes) {
+            for (const OpenEdge& edge : hole.edges) add(hole.edges.front().low, edge.high, edge.low, edge.times);
+            _holed.emplace(hole.part, Box());
         }
+        for (const unsigned corner : _corners) {
+            const auto found = _holed.find(_sets.find(corner));
+            if (found != _holed.end()) found->second.add(at(corner));
+        }
+        for (const Hole& hole : holes)
+            if (!(_volume[hole.part] > 0.0) || isWide(hole)) _holed.erase(hole.part);
+        leaveOutWhatIsNoSheet();
+        for (const Hole& hole : holes)
+            if (_holed.count(hole.part) > 0) _fillings.push_back(hole.filling());
+    }
+
+    static bool isLine(const unsigned* corners) {
+        return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
     }
 
     bool isWide(const Hole& hole) const {
+        const auto part = _holed.find(hole.part);
         Box box;
         for (const unsigned vertex : hole.filling()) box.add(at(vertex));
-        return box.length() > widest * _open.at(hole.part).length();
+        return part == _holed.end() || box.length() > widest * part->second.length();
+    }
+
+    /// In a sheet each triangle is joined to all others over edges that two have: what is joined otherwise, a bowl to a post,
+    /// may be one body inside out and another that is not.
+    void leaveOutWhatIsNoSheet() {
+        struct Side {
+            std::uint64_t ends;
+            unsigned triangle;
+        };
+        std::vector<Side> sides;
+        for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) {
+            if (_holed.count(_sets.find(_corners[i])) == 0 || isLine(&_corners[i])) continue;
+            for (std::size_t side = 0; side < 3; ++side)
+                sides.push_back({edge(_corners[i + side], _corners[i + (side + 1) % 3]).ends, unsigned(i / 3)});
+        }
+        std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.ends < b.ends; });
+        Sets sheets(_corners.size() / 3);
+        const auto partOf = [this](unsigned triangle) { return _sets.find(_corners[3 * std::size_t(triangle)]); };
+        for (std::size_t i = 0, end; i < sides.size(); i = end) {
+            for (end = i + 1; end < sides.size() && sides[end].ends == sides[i].ends;) ++end;
+            if (end - i == 2) sheets.join(sides[i].triangle, sides[i + 1].triangle);
+            if (end - i > 2) _holed.erase(partOf(sides[i].triangle));
+        }
+        std::unordered_map<unsigned, unsigned> sheetOf;
+        for (const Side& side : sides) {
+            const unsigned part = partOf(side.triangle), sheet = sheets.find(side.triangle);
+            if (sheetOf.emplace(part, sheet).first->second != sheet) _holed.erase(part);
+        }
     }
 
     const glm::vec3* _positions;
     const std::vector<unsigned> _corners;
     Sets _sets;
-    std::vector<double> _volume; ///< of each part, six times that.
-    std::vector<Hole> _holes;
-    std::unordered_map<unsigned, Box> _open;
-    std::unordered_set<unsigned> _wide;
+    std::vector<double> _volume; ///< of each part, six times that, with its holes filled.
+    std::vector<bool> _open;
+    std::unordered_map<unsigned, Box> _holed; ///< bounds of those parts that have holes.
+    std::vector<std::vector<unsigned>> _fillings;
 };
 
 } // namespace

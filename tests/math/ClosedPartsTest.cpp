@@ -238,6 +238,23 @@ TEST(HoledParts, HaveNoWideHole) { // a dome is half a globe
     EXPECT_TRUE(found.holes.empty());
 }
 
+// Of a bowl on a post the inside looks up, and its outside is not there: under a low sun its wall's back is before its inside.
+TEST(HoledParts, AreNotWhatIsJoinedInACornerAlone) {
+    Soup soup = globe([](int latitude, int) { return 4 * latitude < around; }).turned();
+    const glm::vec3 lowest = *std::min_element(soup.positions.begin(), soup.positions.end(),
+                                               [](const auto& a, const auto& b) { return a.z < b.z; });
+    soup.add(tetrahedron(6.0f).moved(lowest - glm::vec3(0.0f, 0.0f, 6.0f))); // its tip is there
+    EXPECT_TRUE(isAll(soup.parts().holed, false));
+}
+
+// Were it joined to the rest over two edges of three triangles, a fin would be.
+TEST(HoledParts, AreNotWhatHasAFin) {
+    Soup soup = globe([](int, int) { return false; });
+    const glm::vec3 a = soup.positions[0], b = soup.positions[1];
+    soup.add(a, b, 1.1f * (a + b) / glm::length(a + b));
+    EXPECT_TRUE(isAll(soup.parts().holed, false));
+}
+
 TEST(HoledParts, AreToldFromWhatIsClosed) {
     Soup soup = globe(isNorth);
     const std::size_t holed = soup.positions.size() / 3;
