@@ -46,6 +46,18 @@ Picture drawnAgain(Scene scene, const test::View& view) {
 
 const test::View aside = test::perspective({-9.0, -12.0, 9.0}, {0.0, 0.0, 0.0}, 320, 240);
 
+/// In a map drawn first all faces are. @param texels  that may be others in a picture of the map.
+void expectTheSameDrawnAgain(const std::vector<test::Mesh>& casters, const std::vector<osg::Vec4d>& lights,
+                             int texels) {
+    const int size = 256; // fewer than are of use for any of the lights: all maps have as many
+    for (const osg::Vec4d& light : lights)
+        for (const auto view : {ShadowMapTechnique::NOTHING, ShadowMapTechnique::MAP})
+            EXPECT_LE(drawnAgain(build(casters, light, view, size), aside)
+                          .different(test::render(build(casters, light, view, size).root, aside)),
+                      view == ShadowMapTechnique::MAP ? texels : 0)
+                << light.x() << ", " << light.y() << ", " << light.z() << ", view " << view;
+}
+
 /// Pixels that the lamp's light reaches once the map is drawn again.
 int differentFromDark(const std::vector<test::Mesh>& casters, const osg::Vec4d& lamp) {
     Scene dark = build(casters, lamp, ShadowMapTechnique::NOTHING);
@@ -74,37 +86,23 @@ TEST(MapSolids, LookTheSameWhenTheirBacksAreLeftOut) {
                                           test::quad({-4.0, -2.0, 3.0}, {0.0, 1.0, 0.0}, {2.0, 0.0, 0.0}),
                                           test::box({-3.0, -5.0, 0.0}, {-2.0, -4.0, 2.0}),
                                           test::box({-2.5, -4.5, -1.0}, {-1.0, -3.5, 1.0})};
-    const int size = 256; // fewer than are of use for any of the lights: all maps have as many
-    for (const osg::Vec4d& light :
-         {osg::Vec4d(1.0, 0.5, 1.0, 0.0), osg::Vec4d(-1.0, 0.2, 0.4, 0.0), osg::Vec4d(1.0, 0.0, 5.0, 1.0)})
-        for (const auto view : {ShadowMapTechnique::NOTHING, ShadowMapTechnique::MAP})
-            EXPECT_LE(drawnAgain(build(casters, light, view, size), aside)
-                          .different(test::render(build(casters, light, view, size).root, aside)),
-                      view == ShadowMapTechnique::MAP ? 5 : 0)
-                << light.x() << ", " << light.y() << ", " << light.z() << ", view " << view;
+    const std::vector<osg::Vec4d> lights{{1.0, 0.5, 1.0, 0.0}, {-1.0, 0.2, 0.4, 0.0}, {1.0, 0.0, 5.0, 1.0}};
+    expectTheSameDrawnAgain(casters, lights, 5);
 }
 
 // A chimney without ends, a bottle without its bottom, and both turned inside out: the sun shines through the first, into the
-// second, and from where it sees no hole; and a lamp stands over the chimney, under the bottle, and in
-// the chimney. Drawn first, all their
-// faces are; in the map a row of texels where faces meet may show either.
+// second, and from where it sees no hole; and a lamp stands over the chimney, under the bottle, and in the chimney. Rows of
+// texels where faces meet are longer than above.
 TEST(MapSolids, WithHolesLookTheSameWhenTheirBacksAreLeftOut) {
     const test::Mesh chimney = without(without(test::box({-0.5, -0.5, 0.2}, {0.5, 0.5, 4.2}), 2, 0.2), 2, 4.2),
                      bottle = without(test::box({2.0, -0.5, 1.0}, {5.0, 0.5, 2.0}), 0, 5.0);
     ASSERT_EQ(chimney.size(), 24u);
     ASSERT_EQ(bottle.size(), 30u);
-    const int size = 256;
-    for (const osg::Vec4d& light :
-         {osg::Vec4d(0.0, 0.0, 1.0, 0.0), osg::Vec4d(0.05, 0.02, 1.0, 0.0), osg::Vec4d(1.0, 0.1, 0.4, 0.0),
-          osg::Vec4d(-1.0, 0.3, 0.5, 0.0), osg::Vec4d(0.1, 0.0, 7.0, 1.0), osg::Vec4d(7.0, 0.0, 1.5, 1.0),
-          osg::Vec4d(0.1, 0.0, 2.0, 1.0)})
-        for (const auto& casters : {std::vector<test::Mesh>{chimney, bottle},
-                                    std::vector<test::Mesh>{test::insideOut(chimney), test::insideOut(bottle)}})
-            for (const auto view : {ShadowMapTechnique::NOTHING, ShadowMapTechnique::MAP})
-                EXPECT_LE(drawnAgain(build(casters, light, view, size), aside)
-                              .different(test::render(build(casters, light, view, size).root, aside)),
-                          view == ShadowMapTechnique::MAP ? 20 : 0)
-                    << light.x() << ", " << light.y() << ", " << light.z() << ", view " << view;
+    const std::vector<osg::Vec4d> lights{{0.0, 0.0, 1.0, 0.0},  {0.05, 0.02, 1.0, 0.0}, {1.0, 0.1, 0.4, 0.0},
+                                         {-1.0, 0.3, 0.5, 0.0}, {0.1, 0.0, 7.0, 1.0},   {7.0, 0.0, 1.5, 1.0},
+                                         {0.1, 0.0, 2.0, 1.0}};
+    expectTheSameDrawnAgain({chimney, bottle}, lights, 20);
+    expectTheSameDrawnAgain({test::insideOut(chimney), test::insideOut(bottle)}, lights, 20);
 }
 
 // The sides of a box as six drawables make one solid together, with the lamp in it. Where they
