@@ -62,6 +62,8 @@ void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint he
     if (cut) glEnable(GL_SCISSOR_TEST);
 }
 
+int endOf(double start, double size) { return static_cast<int>(std::ceil(start + size)); }
+
 constexpr double stepsOff = 4.0; // as depthShadow()
 constexpr double snapsOff = 2.0;
 
@@ -90,7 +92,7 @@ SeenDepth::Copy SeenDepth::copy(osg::State& state, const PixelRect& pixels) {
 
 /// @return Copy::rows.
 glm::dvec2 SeenDepth::transfer(osg::State& state, const PixelRect& pixels, bool packed) {
-    Target& target = targetFor(state.getContextID(), pixels, packed);
+    Target& target = targetFor(state, pixels, packed);
     state.applyTextureAttribute(0, target.texture);
     if (packed && target.mirrors && mirror(state, target, pixels)) return {target.texture->getTextureHeight() - 1, -1};
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
@@ -122,14 +124,18 @@ void SeenDepth::bind(osg::State& state, unsigned unit) {
     state.applyTextureAttribute(unit, _targets.at(state.getContextID()).texture);
 }
 
-SeenDepth::Target& SeenDepth::targetFor(unsigned context, const PixelRect& pixels, bool packed) {
+SeenDepth::Target& SeenDepth::targetFor(const osg::State& state, const PixelRect& pixels, bool packed) {
+    const osg::Viewport& viewport = *state.getCurrentViewport();
     Lock lock(_mutex);
-    Target& target = _targets[context];
+    Target& target = _targets[state.getContextID()];
     osg::ref_ptr<osg::Texture2D>& texture = target.texture;
     const GLint format = packed ? GL_DEPTH24_STENCIL8_EXT : GL_DEPTH_COMPONENT24;
     if (!texture || texture->getInternalFormat() != format) texture = depthTexture(packed);
-    const int width = std::max(texture->getTextureWidth(), pixels.x + pixels.width);
-    const int height = std::max(texture->getTextureHeight(), pixels.y + pixels.height);
+    // As the viewport, not as the pixels: these grow with a shadow that moves, and each time another texture would be made.
+    const int width =
+        std::max({texture->getTextureWidth(), pixels.x + pixels.width, endOf(viewport.x(), viewport.width())});
+    const int height =
+        std::max({texture->getTextureHeight(), pixels.y + pixels.height, endOf(viewport.y(), viewport.height())});
     if (width != texture->getTextureWidth() || height != texture->getTextureHeight()) {
         texture->setTextureSize(width, height);
         texture->dirtyTextureObject();

@@ -39,7 +39,7 @@ private:
         osg::ref_ptr<const osg::Texture::TextureObject> attached;
         bool mirrors = true; ///< false once OpenGL has refused to copy so.
     };
-    Target& targetFor(unsigned context, const PixelRect& pixels, bool packed);
+    Target& targetFor(const osg::State& state, const PixelRect& pixels, bool packed);
     glm::dvec2 transfer(osg::State& state, const PixelRect& pixels, bool packed);
     static bool mirror(osg::State& state, Target& target, const PixelRect& pixels);
 

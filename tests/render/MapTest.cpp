@@ -6,6 +6,7 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
+#include <osg/ContextData>
 
 #include <cmath>
 #include <iostream>
@@ -216,6 +217,26 @@ TEST(MapPasses, AreOneAndThenNoneUntilACasterMoves) {
     moving.scene.light->getLight()->setPosition({1.0f, 0.2f, 1.2f, 0.0f});
     EXPECT_EQ(moving.passesInFrame(), 1u);
     EXPECT_EQ(moving.passesInFrame(), 0u);
+}
+
+/// Textures that a viewer's context was ever asked to make.
+unsigned texturesMade(osgViewer::Viewer& viewer) {
+    const unsigned context = viewer.getCamera()->getGraphicsContext()->getState()->getContextID();
+    return osg::get<osg::TextureObjectManager>(context)->getNumberGenerated();
+}
+
+TEST(MapPasses, MakeNoTextureAnewForAShadowThatGrows) {
+    Moving moving;
+    const auto light = [&](float height) { moving.scene.light->getLight()->setPosition({-1.0f, -1.0f, height, 0.0f}); };
+    light(8.0f);
+    moving.passesInFrame();
+    const unsigned before = texturesMade(moving.camera.viewer());
+    for (const float height : {4.0f, 2.0f, 1.0f}) {
+        light(height);
+        EXPECT_EQ(moving.passesInFrame(), 1u) << height;
+    }
+    EXPECT_GT(before, 0u);
+    EXPECT_EQ(texturesMade(moving.camera.viewer()), before);
 }
 
 TEST(MapPasses, AreNoneWhileTheCameraTurnsWithinWhatIsCovered) {
