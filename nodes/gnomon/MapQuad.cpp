@@ -71,6 +71,7 @@ std::string MapQuad::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, const W
     if (!hasProgram(state)) return noProgram;
     map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
     setUniform(state, "maps", int(mapUnit));
+    setUniform(state, "mapCount", int(lookUps.size()));
     setConstants(state, copy, wanted, pixels);
     wide ? drawWide(state, pass) : drawFragments(state, pass);
     state.apply();

@@ -73,11 +73,17 @@ mat2 sidesIn(int i, vec4 pixel, vec2 change, vec2 inMap) {
 }
 #endif
 
+#if MAPS > 2
+uniform int mapCount; // MAPS, which a compiler must not know: llvmpipe unrolls the loop, and looks a pixel up in all of them
+#else
+const int mapCount = MAPS;
+#endif
+
 // Share of the light; outside all maps it is 1. Soft cascades are blended where one ends: `left` is the weight of those
 // that are still to come.
 float visibility(vec4 pixel, vec4 plane) {
     float share = 0.0, left = 1.0;
-    for (int i = 0; i < MAPS; ++i) {
+    for (int i = 0; i < mapCount; ++i) {
         vec3 at;
         if (!holds(i, pixel, at)) continue;
         vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
