@@ -142,6 +142,11 @@ std::vector<Play> plays() {
         technique.setEdges(ShadowMapTechnique::SOFT);
         technique.setSunAngle(4.0);
     };
+    const auto smooth = [](ShadowMapTechnique& technique) { technique.setEdges(ShadowMapTechnique::SMOOTH); };
+    const auto twoSuns = [](Scene& scene) {
+        scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+        scene.group->setLights({{0, {0.9, 0.4, 1.2, 0.0}}, {1, {-0.6, 0.8, 1.0, 0.0}}});
+    };
     const auto blend = [](Scene& scene) { scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND); };
     const auto spot = [](Scene& scene) {
         scene.group->addLight(gnomon::ShadowLight{0, {0.3, 0.2, 2.6, 1.0}, {0.1, -0.5, -1.0}, 55.0});
@@ -156,6 +161,8 @@ std::vector<Play> plays() {
             {"sun, movers first", inSun(), {aBox(), aBall()}, {}, {}, true},
             {"tilted ground", test::tilted(inSun()), {aBox(), aBall()}},
             {"blend", inSun(), {aBox(), aBall()}, {}, blend},
+            {"two suns", inSun(), {aBox(), aBall()}, {}, twoSuns},
+            {"smooth, blend", inSun(), {aBox(), aBall()}, smooth, blend},
             {"soft", inSun(), {aBox(), aBall()}, soft},
             {"soft, blend", inSun(), {aBox(), aBall()}, soft, blend},
             {"fence", inSun(), {aFence(), aBall()}},

@@ -157,6 +157,45 @@ TEST(MapSoft, PenumbraOfALampIsAsWideAsItsSizeMakesIt) {
     }
 }
 
+// Where the room lies about the lamp decides in which of its six maps a penumbra lies, and where their sides cut it off: there
+// it is another, in a pixel of thirty by more than a fifth of the light.
+TEST(MapSoft, PenumbrasOfALampAreTheSameInWhicheverOfItsMapsTheyLie) {
+    const TracedCase given = test::room();
+    const auto picture = [](const TracedCase& of) {
+        Scene scene = of.build();
+        const osg::ref_ptr<ShadowMapTechnique> technique = softMap(1024, 0.0);
+        technique->setLampSize(0.5);
+        scene.addShadow(technique);
+        return test::render(scene.root, of.view);
+    };
+    Scene lit = given.build(), dark = given.build();
+    dark.takeLightAway();
+    const Picture bright = test::render(lit.root, given.view), unlit = test::render(dark.root, given.view),
+                  straight = picture(given);
+    for (const double angle : {20.0, 45.0, 70.0}) {
+        const Picture turned =
+            picture(test::turned(given, osg::Matrixd::rotate(osg::DegreesToRadians(angle), osg::Z_AXIS)));
+        double sum = 0.0, largest = 0.0;
+        int partly = 0, far = 0;
+        for (int y = 0; y < straight.height; ++y)
+            for (int x = 0; x < straight.width; ++x) {
+                const auto red = [&](const Picture& of) { return double(of.at(x, y) & 0xffu); };
+                const double range = red(bright) - red(unlit), share = (red(straight) - red(unlit)) / range;
+                if (range < 50.0 || share < 0.05 || share > 0.95) continue;
+                const double off = std::abs(red(turned) - red(straight)) / range;
+                sum += off * off;
+                largest = std::max(largest, off);
+                far += off > 0.2;
+                ++partly;
+            }
+        std::cout << angle << " degrees: rms " << std::sqrt(sum / partly) << ", largest " << largest << ", " << far
+                  << " of " << partly << " pixels by more than 0.2\n";
+        EXPECT_GT(partly, 1000);
+        EXPECT_LE(std::sqrt(sum / partly), 0.08) << angle;
+        EXPECT_LE(far, partly / 25) << angle;
+    }
+}
+
 TEST(MapSoft, ARadiusIsThatOfADiscAcrossTheLight) {
     for (const double radius : {0.1, 0.5}) {
         const Plate plate{2.0};

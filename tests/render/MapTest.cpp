@@ -7,6 +7,7 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/ContextData>
+#include <osg/GLExtensions>
 
 #include <cmath>
 #include <iostream>
@@ -80,6 +81,22 @@ TEST(Map, IsRightInTheLastColumnAndRowOfAPictureOfOddSize) {
     byRays.addShadow(new gnomon::TracedShadowTechnique);
     const AtTheRim found = differences(test::render(byMap.root, town.view), test::render(byRays.root, town.view));
     EXPECT_LE(found.last, found.before + 10) << "before it: " << found.before;
+}
+
+/// As an OpenGL without framebuffers to copy between does it.
+TEST(Map, IsTheSameWhereDepthsAreNotCopiedMirrored) {
+    const TracedCase given = labEight();
+    Scene scene = given.build();
+    scene.addShadow(mapOf(1024));
+    test::Camera camera(scene.root, given.view);
+    const Picture expected = camera.frame();
+    const unsigned context = camera.viewer().getCamera()->getGraphicsContext()->getState()->getContextID();
+    osg::GLExtensions& gl = *osg::GLExtensions::Get(context, false);
+    const auto blit = gl.glBlitFramebuffer;
+    ASSERT_NE(blit, nullptr);
+    gl.glBlitFramebuffer = nullptr;
+    EXPECT_EQ(camera.frame().different(expected), 0);
+    gl.glBlitFramebuffer = blit;
 }
 
 TEST(Map, EachFilterAndEachSizeIsBetterThanTheOneBefore) {

@@ -36,15 +36,18 @@ osg::Vec4d sunAt(double azimuth, double elevation) {
     return {std::cos(turn) * std::cos(rise), std::sin(turn) * std::cos(rise), std::sin(rise), 0.0};
 }
 
-TracedCase tilted(TracedCase given) {
-    const osg::Matrixd turn = osg::Matrixd::rotate(0.6, osg::Vec3d(1.0, 2.0, 0.5));
+TracedCase turned(TracedCase given, const osg::Matrixd& turn) {
     const glm::dmat3 matrix(gnomon::toGlm(turn));
     for (Mesh& mesh : given.meshes)
         for (glm::dvec3& corner : mesh) corner = matrix * corner;
-    given.name += ", tilted";
     given.light = given.light * turn;
     given.view.view = osg::Matrixd::inverse(turn) * given.view.view;
     return given;
+}
+
+TracedCase tilted(TracedCase given) {
+    given.name += ", tilted";
+    return turned(std::move(given), osg::Matrixd::rotate(0.6, osg::Vec3d(1.0, 2.0, 0.5)));
 }
 
 TracedCase labEight() {

@@ -21,8 +21,9 @@ struct TracedCase {
 
 /// A sun. @param azimuth,elevation  degrees: from +x towards +y, and above the level.
 osg::Vec4d sunAt(double azimuth, double elevation);
-/// The same with meshes, light and view turned together, so that nothing is level and nothing flat along an axis: what the
-/// eye sees stays, and grounds are in maps as any caster is.
+/// The same with meshes, light and view turned together: what the eye sees stays.
+TracedCase turned(TracedCase given, const osg::Matrixd& turn);
+/// So that nothing is level and nothing flat along an axis, and grounds are in maps as any caster is.
 TracedCase tilted(TracedCase given);
 
 /// A sphere and a house on a ground.
