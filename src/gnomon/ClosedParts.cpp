@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ClosedParts.h>
+#include <gnomon/MeshEdges.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -12,21 +13,6 @@
 
 namespace gnomon {
 namespace {
-
-std::vector<unsigned> weld(const glm::vec3* positions, std::size_t count) {
-    std::vector<unsigned> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [positions](unsigned a, unsigned b) {
-        const glm::vec3 &p = positions[a], &q = positions[b];
-        return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z != q.z ? p.z < q.z : a < b;
-    });
-    std::vector<unsigned> welded(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-        welded[order[i]] = same ? welded[order[i - 1]] : order[i];
-    }
-    return welded;
-}
 
 /// Disjoint sets of vertices with path halving.
 class Sets {
@@ -41,47 +27,6 @@ public:
 private:
     std::vector<unsigned> _parent;
 };
-
-/// An edge without its direction, and +1 or -1 for it; (lower vertex, higher vertex) in one word.
-struct Edge {
-    std::uint64_t ends;
-    int direction;
-};
-
-Edge edge(unsigned from, unsigned to) {
-    const std::uint64_t low = std::min(from, to), high = std::max(from, to);
-    return {low << 32 | high, from < to ? 1 : -1};
-}
-
-std::vector<Edge> sortedEdges(const std::vector<unsigned>& corners) {
-    std::vector<Edge> edges;
-    edges.reserve(corners.size());
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-        for (std::size_t side = 0; side < 3; ++side) {
-            const unsigned from = corners[i + side], to = corners[i + (side + 1) % 3];
-            if (from != to) edges.push_back(edge(from, to));
-        }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-    return edges;
-}
-
-/// An edge that is passed more often from its lower vertex to its higher one than back, by `times`; below 0 less often.
-struct OpenEdge {
-    unsigned low, high;
-    int times;
-};
-
-std::vector<OpenEdge> openEdges(const std::vector<Edge>& edges) {
-    std::vector<OpenEdge> open;
-    for (std::size_t i = 0; i < edges.size();) {
-        int sum = 0;
-        const std::uint64_t ends = edges[i].ends;
-        for (; i < edges.size() && edges[i].ends == ends; ++i) sum += edges[i].direction;
-        if (sum != 0)
-            open.push_back({static_cast<unsigned>(ends >> 32), static_cast<unsigned>(ends & 0xffffffffu), sum});
-    }
-    return open;
-}
 
 struct Box {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}, high = -low;
@@ -141,7 +86,7 @@ public:
             _sets.join(_corners[i], _corners[i + 2]);
         }
         for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) add(_corners[i], _corners[i + 1], _corners[i + 2], 1);
-        const std::vector<OpenEdge> edges = openEdges(sortedEdges(_corners));
+        const std::vector<OpenEdge> edges = openEdges(_corners);
         for (const OpenEdge& edge : edges) _open[_sets.find(edge.low)] = true;
         if (!edges.empty() && edges.size() <= mostOpenEdges) findHoled(holesOf(edges, _sets, vertexCount));
     }

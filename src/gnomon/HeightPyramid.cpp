@@ -261,7 +261,7 @@ double HeightPyramid::steepest(const Cells& cells) const {
 
 GroundRange HeightPyramid::range() const {
     const Node& all = _levels.back().nodes.front();
-    return {double(all.low), double(all.high), all.steepest()};
+    return {double(all.low), double(all.high), all.steepest(), all.hasHoles()};
 }
 
 std::optional<GroundRange> HeightPyramid::range(const glm::dvec2& low, const glm::dvec2& high) const {
@@ -271,14 +271,17 @@ std::optional<GroundRange> HeightPyramid::range(const glm::dvec2& low, const glm
     int level = 0;
     while ((end.x >> level) - (first.x >> level) > 3 || (end.y >> level) - (first.y >> level) > 3) ++level;
     std::optional<GroundRange> range;
+    bool holes = false;
     for (int y = first.y >> level; y <= end.y >> level; ++y)
         for (int x = first.x >> level; x <= end.x >> level; ++x) {
             const Node& block = node({level, x, y});
+            holes = holes || block.hasHoles();
             if (block.isHole()) continue;
             if (!range) range = {double(block.low), double(block.high), 0.0};
             range = {std::min(range->low, double(block.low)), std::max(range->high, double(block.high)),
                      std::max(range->steepest, block.steepest())};
         }
+    if (range) range->holes = holes;
     return range;
 }
 

@@ -144,7 +144,7 @@ constexpr Slopes unknown{infinite, infinite, infinite};
 
 Slopes slopesIn(const Ground& ground, const PlanBox& box, const Way& way) {
     const auto range = ground.range(box.low, box.high);
-    if (!range) return unknown;
+    if (!range || range->holes) return unknown;
     const double left = 1.0 - range->steepest * way.length, grazing = left > 0.0 ? range->steepest / left : infinite;
     return {range->steepest, grazing, grazing};
 }
@@ -176,8 +176,6 @@ Slopes slopesIn(const HeightField& field, const HeightPyramid::Cells& cells, con
     return slopes;
 }
 
-bool hasHoles(const HeightPyramid& grid) { return !std::isfinite(grid.steepest()); }
-
 Slopes slopesIn(const HeightPyramid& grid, const PlanBox& box, const Way& way) {
     constexpr int mostCells = 256; // of a tower on a mountain
     const HeightField& field = grid.field();
@@ -185,7 +183,7 @@ Slopes slopesIn(const HeightPyramid& grid, const PlanBox& box, const Way& way) {
     const auto cells = grid.cells(inCells.low, inCells.high);
     const bool isFew = cells && (cells->right - cells->left + 1) * (cells->high - cells->low + 1) <= mostCells;
     if (isFew) return slopesIn(field, *cells, inCells, way);
-    return hasHoles(grid) ? unknown : slopesIn(static_cast<const Ground&>(grid), box, way);
+    return slopesIn(static_cast<const Ground&>(grid), box, way);
 }
 
 /// How far it moves at most, a unit that the light's way turns by, for turns up to `turned` whichever way.
@@ -307,7 +305,10 @@ void findMotions(const Ground& ground, const PackedParts& parts, const PackedSha
     const Over highest = highestOf(parts, found, [&](std::size_t i, const Over& over) { overs[i] = over; });
     const Slopes all = slopesUnderAll(ground, found, highest, way);
     const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
-    const bool isEnough = !grid || (all.grazing() * way.length <= enough && !hasHoles(*grid));
+    const bool isEnough = all.grazing() * way.length <= enough;
+    const auto under = [&](const PlanBox& box) {
+        return grid ? slopesIn(*grid, box, way) : slopesIn(ground, box, way);
+    };
     motions.assign(found.size(), {});
     for (std::size_t i = 0; i < found.size(); ++i) {
         const PackedShadow shadow = found[i];
@@ -315,7 +316,7 @@ void findMotions(const Ground& ground, const PackedParts& parts, const PackedSha
         if (shadow.cornerCount == 0) continue;
         const Over& over = overs[i];
         const auto box = [&] { return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, over); };
-        const Slopes slopes = isEnough ? all : slopesIn(*grid, box(), way);
+        const Slopes slopes = isEnough ? all : under(box());
         motions[i] = {over.height, slopes.along, slopes.across};
     }
 }
