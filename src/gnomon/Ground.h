@@ -21,7 +21,7 @@ struct GroundRange {
     bool holes = false;         ///< rays may pass through holes there, and meet ground behind.
 };
 
-/// What shadows fall on: triangles, z up, of which no two lie over one another in plan. Where there is none is a hole.
+/// What shadows fall on: triangles, z up, mostly one over each place in plan. Where there is none is a hole.
 ///
 /// Threads any number, once built.
 class Ground {
@@ -40,8 +40,8 @@ public:
                        const std::function<void(const GroundTriangle&, PlaneSet)>& take) const = 0;
     /// Tangent of the steepest slope where the ground may be on the inner side of all planes; 0 if it is nowhere.
     virtual double steepest(const std::vector<glm::dvec4>& planes) const = 0;
-    /// No point of the ground over a rectangle in plan is lower, higher or steeper, or a hole that it does not tell; nullopt if there is no ground. Quick: others
-    /// about may be taken for it.
+    /// No point of the ground over a rectangle in plan is lower, higher or steeper, and no hole is there that it does not tell;
+    /// nullopt if there is no ground. Quick: others about may be taken for it.
     virtual std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const = 0;
 };
 

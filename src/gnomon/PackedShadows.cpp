@@ -144,7 +144,8 @@ constexpr Slopes unknown{infinite, infinite, infinite};
 
 Slopes slopesIn(const Ground& ground, const PlanBox& box, const Way& way) {
     const auto range = ground.range(box.low, box.high);
-    if (!range || range->holes) return unknown;
+    if (!range) return unknown;
+    if (range->holes) return {range->steepest, infinite, infinite};
     const double left = 1.0 - range->steepest * way.length, grazing = left > 0.0 ? range->steepest / left : infinite;
     return {range->steepest, grazing, grazing};
 }

@@ -88,7 +88,7 @@ glm::dvec2 wayOf(const glm::dvec4& sun);
 /// How far in plan any edge of the shadows may have moved at most since they were found.
 ///
 /// @param shadows  found with the light `then`.
-/// @return infinite where no bound is known: of lamps that moved, or where the ground is as steep as the light.
+/// @return infinite where no bound is known: of lamps that moved, where the ground is as steep as the light, or near a hole in it.
 ///
 /// A point at height h over its shadow moves it by v = h (d' - d) + (G v) d, where d is the light's way in plan a unit of
 /// height, d' what it was and G the ground's gradient on the way of its ray, old and new: so |v| <= h |d - d'| (1 + |d| |G| / (1 - G d)),

@@ -158,7 +158,7 @@ TEST(MapSoft, PenumbraOfALampIsAsWideAsItsSizeMakesIt) {
 }
 
 // Where the room lies about the lamp decides in which of its six maps a penumbra lies, and where their sides cut it off: there
-// it is another, in a pixel of thirty by more than a fifth of the light.
+// it is another, in up to a pixel of thirty by more than a fifth of the light.
 TEST(MapSoft, PenumbrasOfALampAreTheSameInWhicheverOfItsMapsTheyLie) {
     const TracedCase given = test::room();
     const auto picture = [](const TracedCase& of) {
