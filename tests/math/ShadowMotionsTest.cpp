@@ -245,7 +245,7 @@ TEST(ShadowMotions, HaveNoBoundWhereOneMayFallThroughAHole) {
         const PackedShadows both = found(*ground, PackedParts({inside, atHole}), then);
         EXPECT_GT(movedAtMost(both, then, soon), 1e9) << "all together";
         EXPECT_LT(both.steepest, 1e-9) << "a hole is no slope, and a grid rounds level up";
-        for (const auto& alone : {inside, atEnd})  // in any direction
+        for (const auto& alone : {inside, atEnd}) // in any direction
             EXPECT_NEAR(movedAtMost(found(*ground, PackedParts({alone}), then), then, soon), 0.04, 1e-6);
     }
 }
