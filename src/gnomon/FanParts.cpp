@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FanBatch: from parts to blocks of those whose silhouettes have the same corners.
 #include <gnomon/FanBatch.h>
+#include <gnomon/Grow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +9,6 @@
 
 namespace gnomon {
 namespace {
-
-/// @return the first of `count` more.
-template <class Block>
-std::size_t grow(std::vector<Block>& blocks, std::size_t& used, std::size_t count) {
-    const std::size_t first = used;
-    used += count;
-    if (blocks.size() < used) blocks.resize(2 * used);
-    return first;
-}
 
 template <class Number>
 void makeRoom(std::vector<Number>& numbers, std::size_t count) {

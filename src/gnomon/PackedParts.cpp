@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/PackedParts.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -12,40 +14,27 @@ PackedParts::PackedParts(const std::vector<ConvexPart>& parts) {
     for (const ConvexPart& part : parts) add(part);
 }
 
-void PackedParts::addEmpty() {
-    _anchors.emplace_back();
-    _ends.push_back(static_cast<unsigned>(_others.size()));
-    _kinds.push_back(0);
-}
-
 void PackedParts::add(const ConvexPart& part) {
     const ArrangedHull hull(part.hull, part.front ? &*part.front : nullptr);
-    const std::uint16_t kind = kindOf(hull.topology);
-    addEmpty();
-    put(size() - 1, hull, kind);
+    _kinds.push_back(kindOf(hull.topology));
+    _anchors.push_back(hull.corners.front());
+    for (std::size_t i = 1; i < hull.corners.size(); ++i) takeOther(glm::vec3(hull.corners[i] - _anchors.back()));
+    _ends.push_back(static_cast<unsigned>(_others.size()));
 }
 
 void PackedParts::add(const PackedParts& from, std::size_t part) {
-    const std::uint16_t kind = kindOf(from._topologies[from._kinds[part]]);
     const std::vector<glm::vec3> others(from.others(part), from.others(part) + (from._ends[part] - from.begin(part)));
-    addEmpty();
-    _anchors.back() = from._anchors[part];
-    _others.insert(_others.end(), others.begin(), others.end());
-    _ends.back() = static_cast<unsigned>(_others.size());
-    _kinds.back() = kind;
+    const glm::dvec3 anchor = from._anchors[part];
+    _kinds.push_back(kindOf(from._topologies[from._kinds[part]]));
+    _anchors.push_back(anchor);
+    for (const glm::vec3& corner : others) takeOther(corner);
+    _ends.push_back(static_cast<unsigned>(_others.size()));
 }
 
-void PackedParts::replace(std::size_t at, const ConvexPart& part) {
-    const ArrangedHull hull(part.hull, part.front ? &*part.front : nullptr);
-    put(at, hull, kindOf(hull.topology));
-}
-
-void PackedParts::put(std::size_t at, const ArrangedHull& hull, std::uint16_t kind) {
-    _kinds[at] = kind;
-    _anchors[at] = hull.corners.front();
-    makeRoom(at, hull.corners.size() - 1);
-    for (std::size_t i = 1; i < hull.corners.size(); ++i)
-        _others[begin(at) + i - 1] = glm::vec3(hull.corners[i] - _anchors[at]);
+void PackedParts::takeOther(const glm::vec3& corner) {
+    _others.push_back(corner);
+    _low = glm::min(_low, corner);
+    _high = glm::max(_high, corner);
 }
 
 void PackedParts::makeRoom(std::size_t part, std::size_t corners) {

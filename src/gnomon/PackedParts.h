@@ -24,8 +24,6 @@ public:
     void add(const ConvexPart& part);
     /// One of another's, as it is.
     void add(const PackedParts& from, std::size_t part);
-    /// A part that moved, or another in its place. @param at  below size().
-    void replace(std::size_t at, const ConvexPart& part);
     /// The last part takes its place. @param at  below size().
     void remove(std::size_t at);
     std::size_t bytes() const; ///< that are kept, without the topologies, which all share.
@@ -34,11 +32,13 @@ public:
     const glm::dvec3& anchor(std::size_t part) const { return _anchors[part]; } ///< its first corner.
     /// The other corners, about the anchor.
     const glm::vec3* others(std::size_t part) const { return _others.data() + begin(part); }
+    /// No corner of any is less, or more, than that from its anchor; those of removed ones may count.
+    const glm::vec3& low() const { return _low; }
+    const glm::vec3& high() const { return _high; }
 
 private:
     unsigned begin(std::size_t part) const { return part > 0 ? _ends[part - 1] : 0u; }
-    void addEmpty();
-    void put(std::size_t at, const ArrangedHull& hull, std::uint16_t kind);
+    void takeOther(const glm::vec3& corner);
     void makeRoom(std::size_t part, std::size_t corners);
     std::uint16_t kindOf(std::shared_ptr<const HullTopology> topology);
     void forgetUnused();
@@ -48,6 +48,7 @@ private:
     std::vector<unsigned> _ends; ///< one past each part's own of `_others`.
     std::vector<std::uint16_t> _kinds;
     std::vector<std::shared_ptr<const HullTopology>> _topologies;
+    glm::vec3 _low{0.0f}, _high{0.0f};
 };
 
 } // namespace gnomon

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Grow.h>
 #include <gnomon/PackedShadows.h>
 #include <gnomon/TerrainSteps.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,6 @@ glm::vec3 rounded(const PackedShadows& found, const glm::dvec3& anchor, const gl
     return glm::vec3(anchor + corner - found.origin);
 }
 
-/// Room for more, at the end. @return the first of them.
-template <class Kept>
-Kept* room(std::vector<Kept>& kept, std::size_t count) {
-    if (kept.capacity() < kept.size() + count) kept.reserve(2 * (kept.size() + count));
-    kept.resize(kept.size() + count);
-    return kept.data() + kept.size() - count;
-}
-
 struct PlanBox {
     glm::dvec2 low{infinite}, high{-infinite};
     void take(const glm::dvec2& place) {
@@ -41,74 +33,99 @@ struct PlanBox {
         low = glm::min(low, box.low);
         high = glm::max(high, box.high);
     }
-    bool holds(const PlanBox& box) const {
-        return glm::all(glm::lessThanEqual(low, box.low)) && glm::all(glm::greaterThanEqual(high, box.high));
-    }
 };
 
-/// A part over its shadow.
+/// A part over its shadow, or several.
 struct Over {
-    double height = 0.0; ///< at most, of a point of the part over that of its shadow.
-    PlanBox
-        plan; ///< of the part, unless all of it is over what of it stands in the ground: then it is in its shadow's.
+    double height = 0.0; ///< at most, of a point of a part over that of its shadow.
+    PlanBox plan;        ///< of the parts.
 };
+
+/// Of one that has a shadow, see Over. In single precision as corners are kept: all are looked at whenever the sun moves.
+double heightOver(const PackedParts& parts, std::size_t part, const PackedShadows& found) {
+    const PackedShadow shadow = found[part];
+    float lowest = shadow.corners[0].z, top = 0.0f; // about the anchor, which is a corner, too
+    for (std::size_t k = 1; k < shadow.cornerCount; ++k) lowest = std::min(lowest, shadow.corners[k].z);
+    const glm::vec3* others = parts.others(part);
+    for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k) top = std::max(top, others[k].z);
+    return parts.anchor(part).z + top - (found.origin.z + lowest);
+}
 
 /// Of one that has a shadow.
 Over overOf(const PackedParts& parts, std::size_t part, const PackedShadows& found) {
-    const PackedShadow shadow = found[part];
-    double lowest = infinite, high = -infinite;
-    for (std::size_t k = 0; k < shadow.cornerCount; ++k) lowest = std::min(lowest, double(shadow.corners[k].z));
-    lowest += found.origin.z;
-    PlanBox plan, standing;
-    const auto take = [&](const glm::dvec3& corner) {
-        high = std::max(high, corner.z);
-        plan.take(glm::dvec2(corner));
-        if (corner.z <= lowest) standing.take(glm::dvec2(corner));
-    };
-    take(parts.anchor(part));
+    PlanBox plan;
+    const glm::dvec2 anchor(parts.anchor(part));
+    plan.take(anchor);
     for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k)
-        take(parts.anchor(part) + glm::dvec3(parts.others(part)[k]));
-    return {high - lowest, standing.holds(plan) ? PlanBox() : plan};
+        plan.take(anchor + glm::dvec2(glm::vec2(parts.others(part)[k])));
+    return {heightOver(parts, part, found), plan};
 }
 
-void addFan(PackedShadows& found, const FanBatch& batch, std::size_t i) {
-    const FanBatch::Entry& entry = batch.entry(i);
-    glm::vec3* to = room(found.corners, entry.corners);
-    const KernelEdge* edges = batch.edges(entry);
-    for (std::size_t k = 0; k < entry.corners; ++k) {
-        const glm::dvec3 corner(edges[k].endX[entry.lane], edges[k].endY[entry.lane], edges[k].endZ[entry.lane]);
-        to[k] = rounded(found, entry.anchor, corner);
+/// Of all that have one, or more.
+Over overAll(const PackedParts& parts, const PackedShadows& found) {
+    Over all;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i].cornerCount == 0) continue;
+        all.height = std::max(all.height, heightOver(parts, i, found));
+        all.plan.take(glm::dvec2(parts.anchor(i)));
     }
+    all.plan.low += glm::dvec2(glm::vec2(parts.low()));
+    all.plan.high += glm::dvec2(glm::vec2(parts.high()));
+    return all;
 }
 
-void addDrape(PackedShadows& found, const glm::dvec3& anchor, const DrapeMesh& drape) {
-    glm::vec3* to = room(found.corners, drape.corners.size());
-    for (const glm::dvec3& corner : drape.corners) *to++ = rounded(found, anchor, corner);
-    std::copy(drape.indices.begin(), drape.indices.end(), room(found.indices, drape.indices.size()));
-}
+/// Writes shadows in memory that is there from before.
+class Writer {
+public:
+    Writer(PackedShadows& found, std::size_t parts) : _found(found) {
+        found.cornerEnds.resize(parts);
+        found.indexEnds.resize(parts);
+        found.outcomes.resize(parts);
+    }
+    Writer(const Writer&) = delete;
+    Writer& operator=(const Writer&) = delete;
+    ~Writer() {
+        _found.corners.resize(_corners);
+        _found.indices.resize(_indices);
+    }
 
-void addEnds(PackedShadows& found, TerrainOutcome outcome) {
-    found.cornerEnds.push_back(unsigned(found.corners.size()));
-    found.indexEnds.push_back(unsigned(found.indices.size()));
-    found.outcomes.push_back(outcome);
-}
+    void addFan(const FanBatch& batch, std::size_t i) {
+        const FanBatch::Entry& entry = batch.entry(i);
+        const std::size_t first = grow(_found.corners, _corners, entry.corners);
+        glm::vec3* to = _found.corners.data() + first;
+        const KernelEdge* edges = batch.edges(entry);
+        for (std::size_t k = 0; k < entry.corners; ++k) {
+            const glm::dvec3 corner(edges[k].endX[entry.lane], edges[k].endY[entry.lane], edges[k].endZ[entry.lane]);
+            to[k] = rounded(_found, entry.anchor, corner);
+        }
+    }
+    void addDrape(const glm::dvec3& anchor, const DrapeMesh& drape) {
+        std::size_t to = grow(_found.corners, _corners, drape.corners.size());
+        for (const glm::dvec3& corner : drape.corners) _found.corners[to++] = rounded(_found, anchor, corner);
+        const std::size_t first = grow(_found.indices, _indices, drape.indices.size());
+        std::copy(drape.indices.begin(), drape.indices.end(), _found.indices.begin() + std::ptrdiff_t(first));
+    }
+    /// Of the next part, what was added since the last one.
+    void end(TerrainOutcome outcome) {
+        _found.cornerEnds[_parts] = unsigned(_corners);
+        _found.indexEnds[_parts] = unsigned(_indices);
+        _found.outcomes[_parts++] = outcome;
+    }
 
-void clear(PackedShadows& found) {
-    found.corners.clear();
-    found.indices.clear();
-    found.cornerEnds.clear();
-    found.indexEnds.clear();
-    found.outcomes.clear();
-    found.rates = {};
-    found.steepest = 0.0;
-}
+private:
+    PackedShadows& _found;
+    std::size_t _parts = 0, _corners = 0, _indices = 0; ///< that are written.
+};
 
 /// About shadows and the way of their rays, in the ground's frame, with what they may move by before they are found again.
 PlanBox reachOf(const PackedShadows& shadows, const glm::vec3* first, const glm::vec3* end, const Over& over) {
-    PlanBox box;
-    for (; first != end; ++first) box.take(glm::dvec2(glm::vec2(*first)));
+    glm::vec2 low(infinite), high(-infinite);
+    for (; first != end; ++first) {
+        low = glm::min(low, glm::vec2(*first));
+        high = glm::max(high, glm::vec2(*first));
+    }
     const glm::dvec2 origin(shadows.origin), margin(reach * over.height);
-    box = {origin + box.low, origin + box.high};
+    PlanBox box{origin + glm::dvec2(low), origin + glm::dvec2(high)};
     box.take(over.plan);
     return {box.low - margin, box.high + margin};
 }
@@ -199,20 +216,6 @@ bool mayAppear(TerrainOutcome outcome) {
     return outcome == TerrainOutcome::edgeOn || outcome == TerrainOutcome::noGround;
 }
 
-/// All together. @param each  is told that of each part with its place.
-template <class Each>
-Over highestOf(const PackedParts& parts, const PackedShadows& found, const Each& each) {
-    Over highest;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        if (found[i].cornerCount == 0) continue;
-        const Over over = overOf(parts, i, found);
-        highest.height = std::max(highest.height, over.height);
-        highest.plan.take(over.plan);
-        each(i, over);
-    }
-    return highest;
-}
-
 Slopes slopesUnderAll(const Ground& ground, const PackedShadows& found, const Over& highest, const Way& way) {
     if (found.corners.empty()) return {};
     const glm::vec3* corners = found.corners.data();
@@ -223,11 +226,30 @@ Slopes slopesUnderAll(const Ground& ground, const PackedShadows& found, const Ov
 void findRates(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, PackedShadows& found) {
     if (light.w != 0.0) return;
     const Way way(wayOf(light));
-    const Over highest = highestOf(parts, found, [](std::size_t, const Over&) {});
+    const Over highest = overAll(parts, found);
     const bool mayOneAppear = std::any_of(found.outcomes.begin(), found.outcomes.end(), mayAppear);
     const Slopes slopes = slopesUnderAll(ground, found, highest, way);
     found.steepest = slopes.steepest;
     found.rates.take({mayOneAppear ? infinite : highest.height, slopes.along, slopes.across}, way.length);
+}
+
+void findAll(const TerrainAsk& asked, const PackedParts& parts, PackedShadows& found) {
+    Writer writer(found, parts.size());
+    if (isLightBelow(asked.ground, asked.light)) {
+        for (std::size_t i = 0; i < parts.size(); ++i) writer.end(TerrainOutcome::lightBelow);
+        return;
+    }
+    FanBatch& batch = threadsBatch();
+    batch.begin(asked.ground, asked.light);
+    for (std::size_t first = 0; first < parts.size(); first += together) {
+        findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            const Settled one = settled(batch, i, asked, parts, first + i);
+            if (one.outcome == TerrainOutcome::fan) writer.addFan(batch, i);
+            if (one.drape) writer.addDrape(batch.entry(i).anchor, *one.drape);
+            writer.end(one.outcome);
+        }
+    }
 }
 
 } // namespace
@@ -276,24 +298,10 @@ std::size_t PackedShadows::bytes() const {
 void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
                    double error, const glm::dvec3& origin, PackedShadows& found) {
     found.origin = origin;
-    clear(found);
-    if (isLightBelow(ground, light)) {
-        for (std::size_t i = 0; i < parts.size(); ++i) addEnds(found, TerrainOutcome::lightBelow);
-        return;
-    }
-    const TerrainAsk asked{ground, light, method, error};
-    FanBatch& batch = threadsBatch();
-    batch.begin(ground, light);
-    for (std::size_t first = 0; first < parts.size(); first += together) {
-        findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
-        for (std::size_t i = 0; i < batch.size(); ++i) {
-            const Settled one = settled(batch, i, asked, parts, first + i);
-            if (one.outcome == TerrainOutcome::fan) addFan(found, batch, i);
-            if (one.drape) addDrape(found, batch.entry(i).anchor, *one.drape);
-            addEnds(found, one.outcome);
-        }
-    }
-    findRates(ground, parts, light, found);
+    found.rates = {};
+    found.steepest = 0.0;
+    findAll({ground, light, method, error}, parts, found);
+    if (!isLightBelow(ground, light)) findRates(ground, parts, light, found);
 }
 
 /// By the ground under all together; where that tells too little, by what is under each.
@@ -301,10 +309,7 @@ void findMotions(const Ground& ground, const PackedParts& parts, const PackedSha
                  std::vector<ShadowMotion>& motions) {
     constexpr double enough = 0.25; // more than what shadows move by on level ground
     const Way way(wayOf(sun));
-    thread_local std::vector<Over> overs; // memory that is used again
-    overs.assign(found.size(), {});
-    const Over highest = highestOf(parts, found, [&](std::size_t i, const Over& over) { overs[i] = over; });
-    const Slopes all = slopesUnderAll(ground, found, highest, way);
+    const Slopes all = slopesUnderAll(ground, found, overAll(parts, found), way);
     const auto* grid = dynamic_cast<const HeightPyramid*>(&ground);
     const bool isEnough = all.grazing() * way.length <= enough;
     const auto under = [&](const PlanBox& box) {
@@ -315,7 +320,7 @@ void findMotions(const Ground& ground, const PackedParts& parts, const PackedSha
         const PackedShadow shadow = found[i];
         if (mayAppear(shadow.outcome)) motions[i].height = infinite;
         if (shadow.cornerCount == 0) continue;
-        const Over& over = overs[i];
+        const Over over = overOf(parts, i, found);
         const auto box = [&] { return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, over); };
         const Slopes slopes = isEnough ? all : under(box());
         motions[i] = {over.height, slopes.along, slopes.across};

@@ -2,7 +2,10 @@
 // How far shadows of many parts move at most while the sun turns.
 #include "PackedTown.h"
 
+#include <gnomon/ConvexHull.h>
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 using gnomon::CellCut;
 using gnomon::Ground;
@@ -248,6 +251,31 @@ TEST(ShadowMotions, HaveNoBoundWhereOneMayFallThroughAHole) {
         for (const auto& alone : {inside, atEnd}) // in any direction
             EXPECT_NEAR(movedAtMost(found(*ground, PackedParts({alone}), then), then, soon), 0.04, 1e-6);
     }
+}
+
+/// From a foot of 2 by 2 m in the ground, so far before the hole's middle, to a tip 10 m up and 45 m along `way`.
+gnomon::ConvexPart boomTowardsHole(const glm::dvec2& way, double from) {
+    const glm::dvec2 foot = glm::dvec2(900.0) - from * way;
+    std::vector<glm::dvec3> corners;
+    for (const auto& [middle, half, low, high] :
+         {std::tuple(foot, 1.0, -1.0, 1.0), {foot + 44.5 * way, 0.5, 9.0, 10.0}})
+        for (int k = 0; k < 8; ++k)
+            corners.emplace_back(middle + glm::dvec2(k & 1 ? half : -half, k & 2 ? half : -half), k & 4 ? high : low);
+    return {*gnomon::convexHull(corners), std::nullopt};
+}
+
+/// Whichever way it leans: its shadow lies 12 m back from its tip, before the hole; its rays pass over it.
+TEST(ShadowMotions, OfABoomOverAHoleHaveNoBound) {
+    const HeightPyramid grid = holedDeck();
+    const gnomon::TriangleGround mesh = test::LooseTriangles(test::trianglesOf(grid.field())).ground();
+    for (const Ground* ground : {static_cast<const Ground*>(&mesh), static_cast<const Ground*>(&grid)})
+        for (const glm::dvec2& way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+            const glm::dvec4 then(1.2 * way, 1.0, 0.0), now(1.201 * way, 1.0, 0.0);
+            const gnomon::ConvexPart over = boomTowardsHole(way, 140.0), before = boomTowardsHole(way, 320.0);
+            EXPECT_GT(movedAtMost(found(*ground, PackedParts({over}), then), then, now), 1e9) << way.x << ' ' << way.y;
+            EXPECT_GT(boundOf(*ground, over, then, now), 1e9) << way.x << ' ' << way.y;
+            EXPECT_NEAR(boundOf(*ground, before, then, now), 0.01, 1e-6) << "a tip 10 m up";
+        }
 }
 
 /// By what is under each, as on a grid: what stands on a level part of a mesh is not moved by its cliff.
