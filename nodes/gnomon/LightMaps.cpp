@@ -71,7 +71,7 @@ osg::ref_ptr<MarkJob> LightMaps::mark(const ViewFrame& view, int lightNumber, co
     Lock lock(_mutex);
     LightMap& map = find(view.stage, lightNumber);
     const std::vector<MapReceiver> receivers = receiversOf(view, eyeFromScene(view, casters));
-    map.setCause(light, cone, casters, anyIsBetween(casters, light, receivers), wish);
+    map.setCause({light, cone, &casters, anyIsBetween(casters, light, receivers), wish});
     const std::vector<glm::dvec4> corners = map.find(receivers, clipFromScene, {view.pixels.x(), view.pixels.y()});
     const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     const bool forPrograms = wish.unit >= 0;
