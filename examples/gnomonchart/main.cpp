@@ -3,6 +3,7 @@
 #include "ChartOptions.h"
 #include "ChartReport.h"
 #include "ChartRun.h"
+#include "Findings.h"
 #include "Kept.h"
 #include "OutputFile.h"
 #include "ResultsFile.h"
@@ -89,6 +90,10 @@ void printWinners(const ChartResults& results) {
     }
 }
 
+void printReport(const ChartResults& results, const std::string& folder) {
+    std::cout << findingsSummary(findings(results)) << "\nthe chart is " << folder << "/index.html\n";
+}
+
 int chart(const ChartOptions& options, const std::string& command) {
     ChartPlan plan = planOf(options);
     plan.made.insert(plan.made.begin(), {"command", command});
@@ -102,14 +107,15 @@ int chart(const ChartOptions& options, const std::string& command) {
     printWinners(results);
     for (const auto& [name, value] : results.made)
         if (name.rfind("left out", 0) == 0) std::cout << name << ": " << value << "\n";
-    std::cout << "the chart is " << options.out << "/index.html\n";
+    printReport(results, options.out);
     if (!results.complete) std::cerr << program << ": interrupted; what was measured so far is kept." << std::endl;
     return results.complete ? 0 : interrupted;
 }
 
 int chartAgain(const std::string& folder) {
-    writeReport(loadResults((fs::path(folder) / "results.json").string()), folder);
-    std::cout << "the chart is " << folder << "/index.html\n";
+    const ChartResults results = loadResults((fs::path(folder) / "results.json").string());
+    writeReport(results, folder);
+    printReport(results, folder);
     return 0;
 }
 

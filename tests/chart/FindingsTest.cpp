@@ -69,6 +69,28 @@ TEST(Findings, APeerAsGoodAsOursDoesNotBeatIt) {
         stillOf({chartPoint("osgShadow", "ShadowMap", "", 2, 4), chartPoint("Gnomon", "map", "", 2, 4)}).peerBeatsUs);
 }
 
+/// Ours at 3 ms or 33 ms and 2.2 px.
+TEST(Findings, TellPeersThatAreAheadByMoreThanRunsDifferBy) {
+    struct Case {
+        double ours, theirs, error;
+        bool ahead;
+    };
+    const Case cases[] = {{3, 2.01, 2.01, false},   {3, 1.99, 2.01, true},   {3, 2.01, 1.99, true},
+                          {33, 30.01, 2.01, false}, {33, 29.99, 2.01, true}, {33, 30.01, 1.99, true}};
+    for (const Case& one : cases) {
+        const auto all = findings(resultsOf({chartPoint("Gnomon", "map", "", one.ours, 2.2),
+                                             chartPoint("osgShadow", "ShadowMap", "", one.theirs, one.error)}));
+        EXPECT_TRUE(all[0].peerBeatsUs);
+        EXPECT_EQ(all[0].peerIsAhead, one.ahead) << one.theirs << " ms, " << one.error << " px";
+        EXPECT_EQ(
+            says(all[0],
+                 "By no more than runs differ by: 1 ms or a tenth of the time, and a tenth of the error, suffice."),
+            !one.ahead);
+        const std::string summary = findingsSummary(all);
+        EXPECT_EQ(summary.find("in none.") != std::string::npos, !one.ahead) << summary;
+    }
+}
+
 TEST(Findings, NameOurTechniquesThatAreNeverWorthIt) {
     const SceneFinding finding =
         stillOf({chartPoint("Gnomon", "map", "a", 2, 1), chartPoint("Gnomon", "traced", "", 30, 3),
@@ -110,7 +132,8 @@ TEST(Findings, StillAndMovingLightAreJudgedApart) {
     EXPECT_TRUE(all[1].peerBeatsUs);
     EXPECT_EQ(findingsSummary(all),
               "In 1 of 2 cases (each scene with a still and with a moving light) a peer beats every "
-              "Gnomon technique at some cost: boxes, moving light.");
+              "Gnomon technique at some cost: boxes, moving light. By more than 1 ms and a tenth of its time, "
+              "or a tenth of its error: in 1: boxes, moving light.");
 }
 
 TEST(Findings, AreNoneOfScenesWithoutPoints) {

@@ -39,6 +39,13 @@ bool matches(const CurvePoint& point, const CurvePoint& other) {
     return point.time.median <= other.time.median && point.error <= other.error;
 }
 
+/// The same but for what runs differ by.
+bool nearlyMatches(const CurvePoint& point, const CurvePoint& other) {
+    constexpr double ms = 1.0, share = 0.1;
+    return point.time.median <= other.time.median + std::max(ms, share * other.time.median) &&
+           point.error <= (1.0 + share) * other.error;
+}
+
 /// The most accurate of those that cost no more; null if all cost more.
 const BestPoint* mostAccurateWithin(const std::vector<BestPoint>& points, double ms) {
     const BestPoint* best = nullptr;
@@ -77,6 +84,23 @@ std::vector<std::string> beatenSentences(const std::vector<Curve>& curves) {
         sentences.push_back(beatenSentence(listed(names), nearest, !ours.empty()));
     }
     return sentences;
+}
+
+/// Peers that none of Gnomon's comes near to.
+std::vector<std::string> peersAhead(const std::vector<Curve>& curves) {
+    const std::vector<BestPoint> ours = soundOf(curves, true);
+    std::vector<std::string> names;
+    for (const BestPoint& peer : soundOf(curves, false)) {
+        const auto isNear = [&](const BestPoint& own) { return nearlyMatches(*own.point, *peer.point); };
+        if (std::none_of(ours.begin(), ours.end(), isNear)) names.push_back(described(peer));
+    }
+    return names;
+}
+
+std::string marginSentence(const std::vector<std::string>& ahead) {
+    if (ahead.empty())
+        return "By no more than runs differ by: 1 ms or a tenth of the time, and a tenth of the error, suffice.";
+    return "By more than 1 ms and a tenth of its time, or a tenth of its error: " + listed(ahead) + ".";
 }
 
 std::string bestSentence(const std::vector<Curve>& curves) {
@@ -133,19 +157,31 @@ std::string notJudgedSentence(bool ours, bool peers) {
 SceneFinding findingOf(const ChartResults& results, const ChartSceneResult& scene, LightMotion light) {
     const std::vector<Curve> curves = sceneCurves(results, scene.name, light);
     const bool ours = tried(results, scene.name, true), peers = tried(results, scene.name, false);
-    SceneFinding finding{scene.name, scene.title, light, ours && peers, false, {}};
+    SceneFinding finding{scene.name, scene.title, light, ours && peers, false, false, {}};
     if (!finding.judged) {
         finding.sentences = {notJudgedSentence(ours, peers)};
         if (ours || peers) finding.sentences.push_back(bestSentence(curves));
         return finding;
     }
     const std::vector<std::string> beaten = beatenSentences(curves);
+    const std::vector<std::string> ahead = peersAhead(curves);
     finding.peerBeatsUs = !beaten.empty();
+    finding.peerIsAhead = !ahead.empty();
     finding.sentences = {bestSentence(curves)};
     finding.sentences.insert(finding.sentences.end(), beaten.begin(), beaten.end());
+    if (finding.peerBeatsUs) finding.sentences.push_back(marginSentence(ahead));
     for (const std::string& sentence : {outdoneSentence(curves), catastropheSentence(curves)})
         if (!sentence.empty()) finding.sentences.push_back(sentence);
     return finding;
+}
+
+/// Those of which that holds.
+std::vector<std::string> casesWith(const std::vector<SceneFinding>& findings, bool SceneFinding::*that) {
+    std::vector<std::string> names;
+    for (const SceneFinding& finding : findings)
+        if (finding.*that)
+            names.push_back(finding.scene + (finding.light == LightMotion::Still ? ", still light" : ", moving light"));
+    return names;
 }
 
 } // namespace
@@ -162,12 +198,9 @@ std::vector<SceneFinding> findings(const ChartResults& results) {
 }
 
 std::string findingsSummary(const std::vector<SceneFinding>& findings) {
-    std::vector<std::string> beaten;
-    for (const SceneFinding& finding : findings)
-        if (finding.peerBeatsUs)
-            beaten.push_back(finding.scene +
-                             (finding.light == LightMotion::Still ? ", still light" : ", moving light"));
-    const auto judged = std::count_if(findings.begin(), findings.end(), [](const auto& each) { return each.judged; });
+    const std::vector<std::string> beaten = casesWith(findings, &SceneFinding::peerBeatsUs),
+                                   ahead = casesWith(findings, &SceneFinding::peerIsAhead);
+    const auto judged = casesWith(findings, &SceneFinding::judged).size();
     if (judged == 0) return "No scene is judged: that takes a technique of Gnomon and a peer, both timed.";
     const std::string cases = std::to_string(judged) + " cases (each scene with a still and with a moving light)";
     if (beaten.empty())
@@ -175,7 +208,9 @@ std::string findingsSummary(const std::vector<SceneFinding>& findings) {
                " does a peer beat Gnomon: whatever a peer costs and errs, some technique of "
                "Gnomon costs no more and errs no more.";
     return "In " + std::to_string(beaten.size()) + " of " + cases +
-           " a peer beats every Gnomon technique at some cost: " + listed(beaten) + ".";
+           " a peer beats every Gnomon technique at some cost: " + listed(beaten) +
+           ". By more than 1 ms and a tenth of its time, or a tenth of its error: " +
+           (ahead.empty() ? "in none" : "in " + std::to_string(ahead.size()) + ": " + listed(ahead)) + ".";
 }
 
 } // namespace gnomon::examples

@@ -11,8 +11,9 @@ namespace gnomon::examples {
 struct SceneFinding {
     std::string scene, title;
     LightMotion light;
-    bool judged = false;                ///< both kits were tried: timed, or failed.
-    bool peerBeatsUs = false;           ///< a peer's point for which no sound one of Gnomon costs and errs as little.
+    bool judged = false;      ///< both kits were tried: timed, or failed.
+    bool peerBeatsUs = false; ///< a peer's point for which no sound one of Gnomon costs and errs as little.
+    bool peerIsAhead = false; ///< and by more than runs differ by: 1 ms or a tenth of it, a tenth of what it errs.
     std::vector<std::string> sentences; ///< plain text.
 };
 
