@@ -74,7 +74,6 @@ void LightMap::takeCasters(const MapCasters& casters) {
 
 void LightMap::addFaces(const LightFrame& frame) {
     MapFace face(frame, _cause);
-    face.takeBlockers(_cause);
     const int wanted = _cause.wish.cascades, most = 2 * _cause.wish.size <= largestTexture ? mostCascades : 1;
     const std::size_t parts = frame.sun ? std::size_t(wanted ? wanted : most) : 1;
     for (; face.part < parts; ++face.part) _faces.push_back(face);
@@ -111,8 +110,10 @@ std::vector<glm::dvec4> LightMap::find(const std::vector<MapReceiver>& receivers
     findSplits(receivers, clipFromScene, pixels.x);
     std::vector<glm::dvec4> points;
     for (MapFace& face : _faces) {
-        face.reach = face.needed = face.held = MapOutline(face.frame);
-        if (face.part > _splits.size()) continue;
+        if (face.part > _splits.size()) {
+            face.clear();
+            continue;
+        }
         face.find(_cause, receivers, viewPart(clipFromScene, _splits, face.part),
                   SeenPixels(face.frame, clipFromScene, pixels), _texels);
         for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/DepthMap.h>
 #include <gnomon/MapFace.h>
+#include <gnomon/MapQuad.h>
 
 #include <vector>
 

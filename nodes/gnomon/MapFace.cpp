@@ -72,7 +72,11 @@ glm::dvec4 beyond(const MapLayer::Box& flat, const glm::dvec4& light, const glm:
 }
 
 MapFace::MapFace(const LightFrame& given, const MapCause& cause)
-    : frame(given), still(outlinesOf(cause, *cause.casters->still, given)), reach(given), needed(given), held(given) {}
+    : frame(given), still(outlinesOf(cause, *cause.casters->still, given)), reach(given), needed(given), held(given) {
+    takeBlockers(cause);
+}
+
+void MapFace::clear() { reach = needed = held = MapOutline(frame); }
 
 void MapFace::takeStill(const MapCause& cause) { still = outlinesOf(cause, *cause.casters->still, frame); }
 
@@ -99,6 +103,7 @@ void MapFace::takeBlockers(const MapCause& cause) {
 
 void MapFace::find(const MapCause& cause, const std::vector<MapReceiver>& receivers,
                    const std::vector<glm::dvec4>& halfSpaces, SeenPixels pixels, int texels) {
+    clear();
     for (const MapBlocker& blocker : blockers) {
         std::vector<glm::dvec4> all = halfSpaces;
         all.insert(all.end(), blocker.halfSpaces.begin(), blocker.halfSpaces.end());

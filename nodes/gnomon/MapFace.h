@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/MapCasters.h>
+#include <gnomon/MapFit.h>
 #include <gnomon/MapTexels.h>
 #include <gnomon/MapWish.h>
 #include <gnomon/SpotCone.h>
@@ -53,17 +54,18 @@ struct LayerOutlines {
 
 /// One direction that a light looks in, and one part of what is seen.
 struct MapFace {
-    /// Without blockers.
     MapFace(const LightFrame& given, const MapCause& cause);
 
     /// Of those that stand still: they changed.
     void takeStill(const MapCause& cause);
     /// Of all: some changed.
     void takeBlockers(const MapCause& cause);
+    /// Nothing of it is needed.
+    void clear();
     /// Finds what of its part is needed now. @param texels  on a side of its map.
     void find(const MapCause& cause, const std::vector<MapReceiver>& receivers,
               const std::vector<glm::dvec4>& halfSpaces, SeenPixels pixels, int texels);
-    /// The same where texels changed alone.
+    /// Finds `held` anew, for other texels.
     void findHeld(const MapCause& cause, int texels);
 
     LightFrame frame;

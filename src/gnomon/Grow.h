@@ -9,9 +9,9 @@ namespace gnomon {
 /// @return the first of `count` more than are used.
 template <class Kept>
 std::size_t grow(std::vector<Kept>& kept, std::size_t& used, std::size_t count) {
-    const std::size_t first = used;
-    used += count;
-    if (kept.size() < used) kept.resize(2 * used);
+    const std::size_t first = used, wanted = used + count;
+    if (kept.size() < wanted) kept.resize(wanted + wanted / 2);
+    used = wanted;
     return first;
 }
 

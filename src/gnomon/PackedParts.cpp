@@ -18,7 +18,7 @@ void PackedParts::add(const ConvexPart& part) {
     const ArrangedHull hull(part.hull, part.front ? &*part.front : nullptr);
     _kinds.push_back(kindOf(hull.topology));
     _anchors.push_back(hull.corners.front());
-    for (std::size_t i = 1; i < hull.corners.size(); ++i) takeOther(glm::vec3(hull.corners[i] - _anchors.back()));
+    for (std::size_t i = 1; i < hull.corners.size(); ++i) addOther(glm::vec3(hull.corners[i] - _anchors.back()));
     _ends.push_back(static_cast<unsigned>(_others.size()));
 }
 
@@ -27,12 +27,16 @@ void PackedParts::add(const PackedParts& from, std::size_t part) {
     const glm::dvec3 anchor = from._anchors[part];
     _kinds.push_back(kindOf(from._topologies[from._kinds[part]]));
     _anchors.push_back(anchor);
-    for (const glm::vec3& corner : others) takeOther(corner);
+    for (const glm::vec3& corner : others) addOther(corner);
     _ends.push_back(static_cast<unsigned>(_others.size()));
 }
 
-void PackedParts::takeOther(const glm::vec3& corner) {
+void PackedParts::addOther(const glm::vec3& corner) {
     _others.push_back(corner);
+    bound(corner);
+}
+
+void PackedParts::bound(const glm::vec3& corner) {
     _low = glm::min(_low, corner);
     _high = glm::max(_high, corner);
 }
@@ -58,6 +62,8 @@ void PackedParts::remove(std::size_t at) {
     _anchors.pop_back();
     _ends.pop_back();
     _kinds.pop_back();
+    _low = _high = glm::vec3(0.0f);
+    for (const glm::vec3& corner : _others) bound(corner);
 }
 
 /// A caster that turns may hang together otherwise each time, by rounding.

@@ -32,13 +32,14 @@ public:
     const glm::dvec3& anchor(std::size_t part) const { return _anchors[part]; } ///< its first corner.
     /// The other corners, about the anchor.
     const glm::vec3* others(std::size_t part) const { return _others.data() + begin(part); }
-    /// No corner of any is less, or more, than that from its anchor; those of removed ones may count.
+    /// Bounds of all corners about their anchors, which are corners, too.
     const glm::vec3& low() const { return _low; }
     const glm::vec3& high() const { return _high; }
 
 private:
     unsigned begin(std::size_t part) const { return part > 0 ? _ends[part - 1] : 0u; }
-    void takeOther(const glm::vec3& corner);
+    void addOther(const glm::vec3& corner);
+    void bound(const glm::vec3& corner);
     void makeRoom(std::size_t part, std::size_t corners);
     std::uint16_t kindOf(std::shared_ptr<const HullTopology> topology);
     void forgetUnused();

@@ -44,24 +44,24 @@ struct Over {
 /// Of one that has a shadow, see Over. In single precision as corners are kept: all are looked at whenever the sun moves.
 double heightOver(const PackedParts& parts, std::size_t part, const PackedShadows& found) {
     const PackedShadow shadow = found[part];
-    float lowest = shadow.corners[0].z, top = 0.0f; // about the anchor, which is a corner, too
+    float lowest = shadow.corners[0].z; // about the shadows' origin
+    float top = 0.0f;                   // about the anchor, which is a corner, too
     for (std::size_t k = 1; k < shadow.cornerCount; ++k) lowest = std::min(lowest, shadow.corners[k].z);
     const glm::vec3* others = parts.others(part);
     for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k) top = std::max(top, others[k].z);
     return parts.anchor(part).z + top - (found.origin.z + lowest);
 }
 
-/// Of one that has a shadow.
-Over overOf(const PackedParts& parts, std::size_t part, const PackedShadows& found) {
+PlanBox planOf(const PackedParts& parts, std::size_t part) {
     PlanBox plan;
     const glm::dvec2 anchor(parts.anchor(part));
     plan.take(anchor);
     for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k)
         plan.take(anchor + glm::dvec2(glm::vec2(parts.others(part)[k])));
-    return {heightOver(parts, part, found), plan};
+    return plan;
 }
 
-/// Of all that have one, or more.
+/// Of all that have a shadow; the plan may be larger than theirs.
 Over overAll(const PackedParts& parts, const PackedShadows& found) {
     Over all;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -81,12 +81,6 @@ public:
         found.cornerEnds.resize(parts);
         found.indexEnds.resize(parts);
         found.outcomes.resize(parts);
-    }
-    Writer(const Writer&) = delete;
-    Writer& operator=(const Writer&) = delete;
-    ~Writer() {
-        _found.corners.resize(_corners);
-        _found.indices.resize(_indices);
     }
 
     void addFan(const FanBatch& batch, std::size_t i) {
@@ -110,6 +104,12 @@ public:
         _found.cornerEnds[_parts] = unsigned(_corners);
         _found.indexEnds[_parts] = unsigned(_indices);
         _found.outcomes[_parts++] = outcome;
+    }
+
+    /// After the last part: lets go of what is there from before.
+    void finish() {
+        _found.corners.resize(_corners);
+        _found.indices.resize(_indices);
     }
 
 private:
@@ -233,11 +233,13 @@ void findRates(const Ground& ground, const PackedParts& parts, const glm::dvec4&
     found.rates.take({mayOneAppear ? infinite : highest.height, slopes.along, slopes.across}, way.length);
 }
 
-void findAll(const TerrainAsk& asked, const PackedParts& parts, PackedShadows& found) {
+/// @return false if the light is below the ground: then there are none.
+bool findAll(const TerrainAsk& asked, const PackedParts& parts, PackedShadows& found) {
     Writer writer(found, parts.size());
     if (isLightBelow(asked.ground, asked.light)) {
         for (std::size_t i = 0; i < parts.size(); ++i) writer.end(TerrainOutcome::lightBelow);
-        return;
+        writer.finish();
+        return false;
     }
     FanBatch& batch = threadsBatch();
     batch.begin(asked.ground, asked.light);
@@ -250,6 +252,8 @@ void findAll(const TerrainAsk& asked, const PackedParts& parts, PackedShadows& f
             writer.end(one.outcome);
         }
     }
+    writer.finish();
+    return true;
 }
 
 } // namespace
@@ -300,8 +304,7 @@ void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dv
     found.origin = origin;
     found.rates = {};
     found.steepest = 0.0;
-    findAll({ground, light, method, error}, parts, found);
-    if (!isLightBelow(ground, light)) findRates(ground, parts, light, found);
+    if (findAll({ground, light, method, error}, parts, found)) findRates(ground, parts, light, found);
 }
 
 /// By the ground under all together; where that tells too little, by what is under each.
@@ -320,10 +323,12 @@ void findMotions(const Ground& ground, const PackedParts& parts, const PackedSha
         const PackedShadow shadow = found[i];
         if (mayAppear(shadow.outcome)) motions[i].height = infinite;
         if (shadow.cornerCount == 0) continue;
-        const Over over = overOf(parts, i, found);
-        const auto box = [&] { return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, over); };
+        const double height = heightOver(parts, i, found);
+        const auto box = [&] {
+            return reachOf(found, shadow.corners, shadow.corners + shadow.cornerCount, {height, planOf(parts, i)});
+        };
         const Slopes slopes = isEnough ? all : under(box());
-        motions[i] = {over.height, slopes.along, slopes.across};
+        motions[i] = {height, slopes.along, slopes.across};
     }
 }
 

@@ -278,6 +278,19 @@ TEST(ShadowMotions, OfABoomOverAHoleHaveNoBound) {
         }
 }
 
+/// A boom of 45 m was there; what is left is a post in its foot's place, far from the hole.
+TEST(ShadowMotions, OfWhatIsLeftDoNotReachAsFarAsWhatIsGone) {
+    const HeightPyramid grid = holedDeck();
+    const glm::dvec4 then(1.2, 0.0, 1.0, 0.0), now(1.201, 0.0, 1.0, 0.0);
+    const auto post = test::boxAt({760.0, 900.0}, {1.0, 1.0}, 0.0, -1.0, 10.0).parts()[0];
+    PackedParts parts({boomTowardsHole({1.0, 0.0}, 140.0), post});
+    EXPECT_GT(movedAtMost(found(grid, parts, then), then, now), 1e9);
+    parts.remove(0);
+    EXPECT_EQ(movedAtMost(found(grid, parts, then), then, now),
+              movedAtMost(found(grid, PackedParts({post}), then), then, now));
+    EXPECT_LT(movedAtMost(found(grid, parts, then), then, now), 0.02);
+}
+
 /// By what is under each, as on a grid: what stands on a level part of a mesh is not moved by its cliff.
 TEST(ShadowMotions, OnAMeshHaveABoundByWhatIsUnderEach) {
     const auto steps = [](double x, double) { return x < 800.0 ? 0.0 : 60.0; };
