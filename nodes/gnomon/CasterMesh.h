@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CasterExtraction.h>
 #include <gnomon/Export.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <osg/Array>
 #include <osg/BoundingBox>
@@ -23,20 +23,20 @@ namespace gnomon {
 class GNOMON_EXPORT CasterMesh : public osg::Referenced {
 public:
     /// @param about  the origin; the centre of the bounds if none is given.
-    explicit CasterMesh(const VertexTraverser& casters, const std::optional<osg::Vec3d>& about = {});
+    explicit CasterMesh(const CasterExtraction& casters, const std::optional<osg::Vec3d>& about = {});
 
     bool empty() const { return triangles->empty(); }
 
     osg::Vec3d origin;                     ///< group frame; vertices are relative to it.
     osg::ref_ptr<osg::Vec3Array> vertices; ///< floats about `origin`, all finite; only those that triangles use.
-    osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< three indices a triangle; see VertexTraverser::getTriangles().
+    osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< three indices a triangle; see CasterExtraction::getTriangles().
     osg::BoundingBoxd bounds;                      ///< of all triangles, group frame; invalid if there is none.
     double rounding = 0.0;                         ///< how far off its float source may put a vertex, group's unit.
-    std::vector<VertexTraverser::Drawn> drawn;     ///< whose triangles they are; `first` as in `triangles`.
-    std::vector<VertexTraverser::Cutout> cutouts;  ///< of those; `firstVertex` as in `vertices`.
-    unsigned invalidTriangles = 0;                 ///< left out; see VertexTraverser::getInvalidTriangles().
+    std::vector<CasterExtraction::Drawn> drawn;    ///< whose triangles they are; `first` as in `triangles`.
+    std::vector<CasterExtraction::Cutout> cutouts; ///< of those; `firstVertex` as in `vertices`.
+    unsigned invalidTriangles = 0;                 ///< left out; see CasterExtraction::getInvalidTriangles().
     std::string invalidNode;                       ///< where the first of them is.
-    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().
+    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see CasterExtraction::getSources().
 
 protected:
     ~CasterMesh() override = default;

@@ -22,17 +22,17 @@ class CasterMesh;
 
 /// A drawable that casts, on one way down to it, in one revision. Never changes once made.
 struct GNOMON_EXPORT CasterPiece : public osg::Referenced {
-    std::uint64_t fingerprint = 0; ///< of all that VertexTraverser reads of it; see CasterRevision.
+    std::uint64_t fingerprint = 0; ///< of all that CasterExtraction reads of it; see CasterRevision.
     osg::ref_ptr<const osg::Drawable> drawable;
     osg::Matrixd groupFromLocal;
     std::optional<AlphaTest> test; ///< that leaves parts of it; nullopt if there is none.
     osg::BoundingBoxd bounds;      ///< of all its triangles, group frame; invalid if there is none.
     std::size_t triangles = 0;
-    unsigned invalidTriangles = 0;                            ///< left out; see VertexTraverser::getInvalidTriangles().
-    std::string invalidNode;                                  ///< where the first of them is.
-    unsigned unknownTests = 0;                                ///< see VertexTraverser::getUnknownTests().
-    std::string unknownNode;                                  ///< where the first of them is.
-    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().
+    unsigned invalidTriangles = 0; ///< left out; see CasterExtraction::getInvalidTriangles().
+    std::string invalidNode;       ///< where the first of them is.
+    unsigned unknownTests = 0;     ///< see CasterExtraction::getUnknownTests().
+    std::string unknownNode;       ///< where the first of them is.
+    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see CasterExtraction::getSources().
 
 protected:
     ~CasterPiece() override = default;
@@ -60,7 +60,7 @@ public:
     /// @param known  an earlier answer, whose pieces are used again; may be null.
     /// @return `known` itself if nothing changed.
     ///
-    /// Cost  a visit of the nodes; an extraction (VertexTraverser) of each piece that is new.
+    /// Cost  a visit of the nodes; an extraction (CasterExtraction) of each piece that is new.
     static osg::ref_ptr<const CasterPieces> of(osg::Node& root, const Selection& casters,
                                                const osg::ref_ptr<const CasterPieces>& known);
 

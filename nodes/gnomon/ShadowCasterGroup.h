@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/CasterMesh.h>
-#include <gnomon/CasterPieces.h>
+#include <gnomon/CasterMarkers.h>
+#include <gnomon/CompositorOptions.h>
 #include <gnomon/Export.h>
 #include <gnomon/LightUniform.h>
 #include <gnomon/Selection.h>
@@ -16,6 +16,8 @@
 
 namespace gnomon {
 
+class CasterMesh;
+class CasterPieces;
 class CasterRevision;
 
 /// Group whose subgraph casts shadows. It wraps the scene or any part of it; the scene's own nodes stay as they are.
@@ -37,12 +39,13 @@ class CasterRevision;
 ///       Lights 1 { 0 433000.25 5410000.5 60 1 }
 ///       Spots 1 { 0 0 -1 30 }
 ///       LightUniforms 1 { 0 "sunColor" }
+///       CompositorOptions 15 TRUE 10000
 ///     }
 ///
 /// Cost    a visit of the casters' nodes a frame and view to see that nothing changed; an extraction where something
 /// did. Needs   stencil bits for its techniques. Limits  see VertexTraverser for what is left out. Threads any number
 /// of cull and draw threads; set properties between frames.
-class GNOMON_EXPORT ShadowCasterGroup : public osg::Group {
+class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren {
 public:
     /// How the light is taken away from the pixels it does not reach.
     enum Composite : int {
@@ -86,6 +89,12 @@ public:
     void setLightUniforms(std::vector<LightUniform> uniforms);
     const std::vector<LightUniform>& getLightUniforms() const { return _lightUniforms; }
 
+    /// What the compositor of the view may use; see CompositorOptions for several nodes in one view.
+    void setCompositorOptions(const CompositorOptions& options) { _options = options; }
+    const CompositorOptions& getCompositorOptions() const { return _options; }
+
+    bool showsAllChildren() const override;
+
     /// The casters as they are now; extracted again only if something changed since the last call. Call it where
     /// reading the graph is allowed: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
@@ -108,6 +117,7 @@ private:
     std::vector<osg::ref_ptr<osg::LightSource>> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;
+    CompositorOptions _options;
 
     mutable OpenThreads::Mutex _mutex;
     osg::ref_ptr<CasterRevision> _watch;

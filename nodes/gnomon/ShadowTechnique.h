@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CasterMarkers.h>
 #include <gnomon/Export.h>
-#include <gnomon/FrameCauses.h>
-#include <gnomon/GroupCasters.h>
-#include <gnomon/MarkJob.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
-#include <gnomon/ViewFrame.h>
 
 #include <glm/vec3.hpp>
 #include <osg/Geode>
@@ -20,8 +17,12 @@ class CullVisitor;
 
 namespace gnomon {
 
+class FrameCauses;
+class GroupCasters;
+class MarkJob;
 class ShadowCasterGroup;
 struct LightProbe;
+struct ViewFrame;
 
 /// Base of all shadow techniques: finds the pixels that a light does not reach. The compositor (ShadowBin) takes the
 /// light away from them.
@@ -29,7 +30,7 @@ struct LightProbe;
 /// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. In a cull traversal
 /// it registers itself with the ShadowBin of the stage being filled, and draws nothing else. After the whole cull the
 /// bin calls prepare() once a light, in each view.
-class GNOMON_EXPORT ShadowTechnique : public osg::Geode {
+class GNOMON_EXPORT ShadowTechnique : public osg::Geode, public NeverCasts {
 public:
     ShadowTechnique();
     ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
@@ -68,11 +69,13 @@ public:
     /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
     /// it) has been met in it before, as where nobody counts frames.
     void beginFrame(unsigned frame, const void* view) const;
+    /// What report() adds to; for jobs that outlive their frame's cull.
+    FrameCauses* frameDiagnosis() const;
     /// "PlanarShadowNode 'floor'": what a cause begins with.
     std::string describe() const;
 
 protected:
-    ~ShadowTechnique() override = default;
+    ~ShadowTechnique() override;
 
     /// Registers this with the ShadowBin of the stage that is being filled, or reports why it cannot be.
     void enlist(osgUtil::CullVisitor& cull);
@@ -80,7 +83,7 @@ protected:
 
 private:
     Selection _receiver;
-    mutable FrameCauses _causes;
+    const osg::ref_ptr<FrameCauses> _diagnosis;
 };
 
 } // namespace gnomon
