@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/StageEffectNode.h>
+#include <gnomon/EffectNode.h>
 
 #include <osg/Vec4f>
 
@@ -36,7 +36,7 @@ namespace gnomon {
 ///       Scale 1.2
 ///       Color 0.8 0.8 0 0.3
 ///     }
-class GNOMON_EXPORT HaloNode : public StageEffectNode {
+class GNOMON_EXPORT HaloNode : public EffectNode {
 public:
     /// How the children are made larger.
     enum Shape : int {
@@ -78,7 +78,7 @@ public:
 
 protected:
     ~HaloNode() override = default;
-    osg::ref_ptr<StageEffect> makeEffect(osgUtil::CullVisitor& cull) override;
+    osg::ref_ptr<ViewEffect> makeEffect(osgUtil::CullVisitor& cull) override;
 
 private:
     Shape _shape = WHOLE;

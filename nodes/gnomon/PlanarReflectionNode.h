@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Selection.h>
-#include <gnomon/StageEffectNode.h>
+#include <gnomon/EffectNode.h>
 
 #include <osg/Vec3f>
 #include <osg/Vec4d>
@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-class SavedColors;
+class FrameColorCopy;
 
 /// A flat mirror: the children, drawn as ever, are seen once more behind a surface, mirrored in its plane.
 ///
@@ -46,7 +46,7 @@ class SavedColors;
 ///       Surface { Mask 0xffffffff Node TRUE { osg::Geode { UniqueID 7 } } }
 ///       Reflectance 0.9 0.6 0.4
 ///     }
-class GNOMON_EXPORT PlanarReflectionNode : public StageEffectNode {
+class GNOMON_EXPORT PlanarReflectionNode : public EffectNode {
 public:
     PlanarReflectionNode();
     PlanarReflectionNode(const PlanarReflectionNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
@@ -78,14 +78,14 @@ public:
 
 protected:
     ~PlanarReflectionNode() override;
-    osg::ref_ptr<StageEffect> makeEffect(osgUtil::CullVisitor& cull) override;
+    osg::ref_ptr<ViewEffect> makeEffect(osgUtil::CullVisitor& cull) override;
 
 private:
     osg::Vec4d _plane{0.0, 0.0, 1.0, 0.0};
     Selection _surface;
     osg::Vec3f _reflectance{0.7f, 0.7f, 0.7f};
     bool _stencilCure = true;
-    std::shared_ptr<SavedColors> _saved; ///< a frame that is still drawn keeps it.
+    std::shared_ptr<FrameColorCopy> _saved; ///< a frame that is still drawn keeps it.
 };
 
 } // namespace gnomon

@@ -77,11 +77,11 @@ public:
     bool getClipCure() const { return _cures.clip; }
 
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const GroupCasters& casters) const override;
+                                               const FrameCasters& casters) const override;
 
     /// In shadow is what lies in one of the planes, to 10⁻⁵ of the casters' size, on its lit side, with a caster above
     /// that plane in the way. All else is lit, as it is in the picture.
-    bool isLit(const LightProbe& probe, const glm::dvec3& point) const override;
+    bool isLit(const ShadowProbe& probe, const glm::dvec3& point) const override;
 
     void resizeGLObjectBuffers(unsigned maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;

@@ -17,8 +17,8 @@
 namespace gnomon {
 
 class CasterMesh;
-class CasterPieces;
-class CasterRevision;
+class CasterDrawables;
+class CasterFingerprint;
 
 /// Group whose subgraph casts shadows. It wraps the scene or any part of it; the scene's own nodes stay as they are.
 /// Techniques (PlanarShadowNode, …) are its children, beside the scene:
@@ -99,8 +99,8 @@ public:
     /// reading the graph is allowed: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
     /// The same drawable by drawable: what did not change since the last call is the same piece, and not read again.
-    osg::ref_ptr<const CasterPieces> pieces() const;
-    /// Rises by one with each change that casters() or pieces() finds; 0 before the first call of either.
+    osg::ref_ptr<const CasterDrawables> drawables() const;
+    /// Rises by one with each change that casters() or drawables() finds; 0 before the first call of either.
     unsigned revision() const;
 
 protected:
@@ -120,9 +120,9 @@ private:
     CompositorOptions _options;
 
     mutable OpenThreads::Mutex _mutex;
-    osg::ref_ptr<CasterRevision> _watch;
+    osg::ref_ptr<CasterFingerprint> _watch;
     mutable osg::ref_ptr<const CasterMesh> _mesh;
-    mutable osg::ref_ptr<const CasterPieces> _pieces;
+    mutable osg::ref_ptr<const CasterDrawables> _pieces;
     mutable std::uint64_t _fingerprint = 0, _meshFingerprint = 0;
     mutable unsigned _revision = 0;
 };

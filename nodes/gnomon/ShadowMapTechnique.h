@@ -7,9 +7,9 @@
 
 namespace gnomon {
 
-class CasterPieces;
-class LightMaps;
-struct MapWish;
+class CasterDrawables;
+class ShadowMapCache;
+struct MapSettings;
 
 /// Shadow on everything that is seen, by depth maps: the casters drawn once as each light sees them, and what is seen
 /// compared with that.
@@ -160,9 +160,9 @@ public:
     unsigned passes() const;
 
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const GroupCasters& casters) const override;
+                                               const FrameCasters& casters) const override;
 
-    bool takesPieces() const override { return true; }
+    bool takesDrawables() const override { return true; }
 
     void resizeGLObjectBuffers(unsigned maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
@@ -171,8 +171,8 @@ protected:
     ~ShadowMapTechnique() override;
 
 private:
-    void reportUnknownTests(unsigned frame, const CasterPieces& pieces) const;
-    MapWish wish() const;
+    void reportUnknownTests(unsigned frame, const CasterDrawables& pieces) const;
+    MapSettings wish() const;
 
     int _size = 1024;
     Filter _filter = BICUBIC;
@@ -182,7 +182,7 @@ private:
     double _lampSize = 0.0, _radius = 0.0;
     View _view = NOTHING;
     int _programUnit = -1;
-    std::unique_ptr<LightMaps> _maps;
+    std::unique_ptr<ShadowMapCache> _maps;
 };
 
 } // namespace gnomon

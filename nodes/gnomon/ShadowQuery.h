@@ -19,7 +19,7 @@
 namespace gnomon {
 
 class ShadowCasterGroup;
-struct LightProbe;
+struct ShadowProbe;
 
 /// "Is this point lit?", "is this line blocked?": asked of the technique that is drawn, so that the answer is the
 /// picture's, or by exact() of rays at the casters whatever is drawn.
@@ -58,7 +58,7 @@ public:
     std::vector<std::uint8_t> areBlocked(const osg::Vec3d& from, const std::vector<osg::Vec3d>& to) const;
 
 private:
-    LightProbe probe() const;
+    ShadowProbe probe() const;
 
     osg::ref_ptr<const ShadowTechnique> _technique; ///< null: exact.
     osg::ref_ptr<const ShadowCasterGroup> _group;

@@ -17,11 +17,11 @@ class CullVisitor;
 
 namespace gnomon {
 
-class FrameCauses;
-class GroupCasters;
+class FrameDiagnosis;
+class FrameCasters;
 class MarkJob;
 class ShadowCasterGroup;
-struct LightProbe;
+struct ShadowProbe;
 struct ViewFrame;
 
 /// Base of all shadow techniques: finds the pixels that a light does not reach. The compositor (ShadowBin) takes the
@@ -52,17 +52,17 @@ public:
     /// @return what to draw; nothing if this light casts nothing in this view (report() says why, where a user could
     /// wonder).
     virtual std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                                       const GroupCasters& casters) const = 0;
+                                                       const FrameCasters& casters) const = 0;
     /// True if prepare() asks for the casters' pieces alone, so that nobody need make a mesh of all.
-    virtual bool takesPieces() const { return false; }
+    virtual bool takesDrawables() const { return false; }
 
     /// Whether the light reaches a point as this technique draws it; see ShadowQuery, which asks.
     /// Default: whether a ray from there to the light meets no caster.
     /// @param point  about the probe's origin.
-    virtual bool isLit(const LightProbe& probe, const glm::dvec3& point) const;
+    virtual bool isLit(const ShadowProbe& probe, const glm::dvec3& point) const;
     /// What isLit() needs to have found before, for many points; the ShadowQuery keeps it, and hands it over as
-    /// LightProbe::answers. Default none.
-    virtual osg::ref_ptr<const osg::Referenced> answersFor(const LightProbe& probe) const;
+    /// ShadowProbe::answers. Default none.
+    virtual osg::ref_ptr<const osg::Referenced> answersFor(const ShadowProbe& probe) const;
 
     /// Notes a cause for diagnose(); repeated causes count once. Called in cull or draw.
     void report(unsigned frame, const std::string& cause) const;
@@ -70,7 +70,7 @@ public:
     /// it) has been met in it before, as where nobody counts frames.
     void beginFrame(unsigned frame, const void* view) const;
     /// What report() adds to; for jobs that outlive their frame's cull.
-    FrameCauses* frameDiagnosis() const;
+    FrameDiagnosis* frameDiagnosis() const;
     /// "PlanarShadowNode 'floor'": what a cause begins with.
     std::string describe() const;
 
@@ -83,7 +83,7 @@ protected:
 
 private:
     Selection _receiver;
-    const osg::ref_ptr<FrameCauses> _diagnosis;
+    const osg::ref_ptr<FrameDiagnosis> _diagnosis;
 };
 
 } // namespace gnomon

@@ -15,7 +15,7 @@
 namespace gnomon {
 
 class CasterMesh;
-class TerrainCache;
+class TerrainShadowCache;
 struct TerrainPlace;
 struct TerrainShadows;
 
@@ -127,12 +127,12 @@ public:
     unsigned builds() const;
 
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const GroupCasters& casters) const override;
-    bool takesPieces() const override { return true; }
+                                               const FrameCasters& casters) const override;
+    bool takesDrawables() const override { return true; }
 
     /// In shadow is what lies on the ground, to 10⁻⁵ of the casters' size, under one of the polygons.
-    osg::ref_ptr<const osg::Referenced> answersFor(const LightProbe& probe) const override;
-    bool isLit(const LightProbe& probe, const glm::dvec3& point) const override;
+    osg::ref_ptr<const osg::Referenced> answersFor(const ShadowProbe& probe) const override;
+    bool isLit(const ShadowProbe& probe, const glm::dvec3& point) const override;
 
     void traverse(osg::NodeVisitor& visitor) override;
     void resizeGLObjectBuffers(unsigned maxSize) override;
@@ -161,7 +161,7 @@ private:
     std::uint64_t _shownObject = 0;            ///< revision of the placed object then.
     unsigned _foundAlone = 0;                  ///< by compute().
     osg::ref_ptr<osg::StateSet> _program, _bitmapProgram;
-    std::unique_ptr<TerrainCache> _cache;
+    std::unique_ptr<TerrainShadowCache> _cache;
 };
 
 } // namespace gnomon

@@ -8,13 +8,13 @@
 namespace gnomon {
 
 class ResolvedDepth;
-class TracedCasters;
+class RaySceneCache;
 
 /// Shadow on everything that is seen, by one ray a pixel towards the light: the accurate end of the chart.
 ///
 ///     group->addChild(new gnomon::TracedShadowTechnique);
 ///
-/// Where surfaces are is read from the depth buffer, so that whatever draws, shaders and all, receives; see depthShadow()
+/// Where surfaces are is read from the depth buffer, so that whatever draws, shaders and all, receives; see depthBufferShadow()
 /// for how a depth's own error is kept from showing.
 ///
 /// Cost    0.1 to 0.35 µs of one core a pixel within the casters' and shadows' bounds, on all cores, and reading the depth
@@ -43,7 +43,7 @@ public:
     META_Node(gnomon, TracedShadowTechnique)
 
         std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                                   const GroupCasters& casters) const override;
+                                                   const FrameCasters& casters) const override;
 
     /// How often this built a tree: rises by one with each revision of the casters, whatever the views and lights, unless a
     /// ShadowQuery or another technique has a tree of the same casters, which is then shared.
@@ -55,7 +55,7 @@ protected:
     ~TracedShadowTechnique() override;
 
 private:
-    std::unique_ptr<TracedCasters> _casters;
+    std::unique_ptr<RaySceneCache> _casters;
     std::shared_ptr<ResolvedDepth> _resolved; ///< a frame that is still drawn keeps it.
 };
 

@@ -61,10 +61,10 @@ struct RayHit {
 class RayScene {
 public:
     /// Told how much of the building is done, 0 … 1, now and then, from the threads that build, perhaps several at once.
-    using Progress = std::function<void(double)>;
+    using ProgressLine = std::function<void(double)>;
 
     /// @throws std::runtime_error, one sentence, if Embree cannot start or there is not enough memory.
-    explicit RayScene(const TriangleSoup& triangles, const Progress& progress = {});
+    explicit RayScene(const TriangleSoup& triangles, const ProgressLine& progress = {});
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;

@@ -3,9 +3,9 @@
 // machine could do at most. Each run's result is checked before it is timed.
 #include <support/TerrainTrial.h>
 
-#include <gnomon/HeightPyramid.h>
-#include <gnomon/PackedShadows.h>
-#include <gnomon/ShadowKernel.h>
+#include <gnomon/ground/HeightPyramid.h>
+#include <gnomon/onterrain/PackedShadows.h>
+#include <gnomon/simd/ShadowKernel.h>
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

@@ -7,10 +7,10 @@
 #include <FrameTime.h>
 #include <TownScene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/TerrainBitmap.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/group/ShadowBin.h>
+#include <gnomon/terrain/TileBitmap.h>
 
 #include <algorithm>
 #include <chrono>
@@ -32,7 +32,7 @@ class TimedTerrain : public gnomon::TerrainShadowGeode {
 public:
     explicit TimedTerrain(const gnomon::TerrainShadowGeode& other) : TerrainShadowGeode(other) {}
     std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                       const gnomon::GroupCasters& casters) const override {
+                                                       const gnomon::FrameCasters& casters) const override {
         const auto start = std::chrono::steady_clock::now();
         const std::clock_t processor = std::clock();
         auto jobs = TerrainShadowGeode::prepare(view, light, casters);

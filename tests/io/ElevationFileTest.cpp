@@ -4,8 +4,8 @@
 
 #include <ElevationFile.h>
 
-#include <gnomon/HeightPyramid.h>
 #include <gnomon/TerrainGround.h>
+#include <gnomon/ground/HeightPyramid.h>
 
 #include <gtest/gtest.h>
 

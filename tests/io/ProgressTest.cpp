@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The line of progress, written by a process of its own whose stderr is a terminal or a pipe.
-#include <gnomon/Progress.h>
+#include <gnomon/ProgressLine.h>
 #include <gtest/gtest.h>
 
 #include <pty.h>
@@ -20,7 +20,7 @@ std::string readAll(int from) {
 }
 
 void work(double after) {
-    gnomon::Progress progress("builds", after);
+    gnomon::ProgressLine progress("builds", after);
     for (const double share : {0.0, 0.25, 0.2, 0.25, 0.5}) progress.show(share);
 }
 
@@ -51,13 +51,13 @@ std::string onPipe(double after) {
     return said;
 }
 
-TEST(Progress, GrowsOnATerminalAndIsGoneAtTheEnd) {
+TEST(ProgressLine, GrowsOnATerminalAndIsGoneAtTheEnd) {
     const std::string blanks(std::string("builds").size() + 8, ' ');
     EXPECT_EQ(onTerminal(0.0), "\rbuilds: 0 %\rbuilds: 25 %\rbuilds: 50 %\r" + blanks + "\r");
 }
 
-TEST(Progress, IsNotShownOfWhatIsDoneSooner) { EXPECT_EQ(onTerminal(100.0), ""); }
+TEST(ProgressLine, IsNotShownOfWhatIsDoneSooner) { EXPECT_EQ(onTerminal(100.0), ""); }
 
-TEST(Progress, IsNeverWrittenToAPipe) { EXPECT_EQ(onPipe(0.0), ""); }
+TEST(ProgressLine, IsNeverWrittenToAPipe) { EXPECT_EQ(onPipe(0.0), ""); }
 
 } // namespace

@@ -3,8 +3,8 @@
 #include "GroundTriangles.h"
 #include "Houses.h"
 
-#include <gnomon/ConvexParts.h>
-#include <gnomon/PackedShadows.h>
+#include <gnomon/geometry/ConvexParts.h>
+#include <gnomon/onterrain/PackedShadows.h>
 
 namespace test {
 

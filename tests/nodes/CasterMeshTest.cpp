@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Scene.h"
 
-#include <gnomon/CasterMesh.h>
+#include <gnomon/casters/CasterMesh.h>
 
 #include <osg/ShapeDrawable>
 #include <osg/observer_ptr>

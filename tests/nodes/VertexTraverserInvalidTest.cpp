@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Scene.h"
 
-#include <gnomon/CasterMesh.h>
+#include <gnomon/casters/CasterMesh.h>
 
 #include <gtest/gtest.h>
 

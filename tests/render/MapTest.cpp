@@ -2,9 +2,9 @@
 // Shadow maps against the truth image; acne, lights, passes, limits.
 #include "MovingCase.h"
 
-#include <gnomon/DepthMap.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/map/DepthMap.h>
 #include <gtest/gtest.h>
 #include <osg/ContextData>
 #include <osg/GLExtensions>

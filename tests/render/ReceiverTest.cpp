@@ -4,7 +4,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
+#include <gnomon/group/ShadowBin.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 

@@ -46,7 +46,7 @@ Picture picture(bool named, bool groundLast, bool decal, bool filter) {
 
 } // namespace
 
-TEST(ReplayFilter, FilteredIsUnfilteredBitForBit) {
+TEST(ReplaySelection, FilteredIsUnfilteredBitForBit) {
     for (const bool named : {false, true})
         for (const bool groundLast : {false, true})
             for (const bool decal : {false, true})
@@ -56,7 +56,7 @@ TEST(ReplayFilter, FilteredIsUnfilteredBitForBit) {
 }
 
 // Named, only the ground receives; else the decal does too, and as it is unlit, takes the factor in its own colour.
-TEST(ReplayFilter, UnlitDecalOverTheReceiverStaysOverItsShadow) {
+TEST(ReplaySelection, UnlitDecalOverTheReceiverStaysOverItsShadow) {
     const std::uint32_t red = 0xff0000ffu;
     for (const bool named : {false, true}) {
         Scene scene = build(named, false, true);

@@ -69,7 +69,7 @@ test::Picture fresh(const osg::Vec4d& light, const test::View& view,
 
 /// A plane's shadow is exact; on level ground hull and drape must be. Of some 4000 edges in sight a few go through the middle
 /// of a pixel to within what floats leave of them.
-TEST(TerrainTiles, DrawThePlanarTechniquesPicture) {
+TEST(TileUpdates, DrawThePlanarTechniquesPicture) {
     for (const test::View& view : {all, slanted}) {
         const test::Picture exact = byPlanar(sun, view);
         const int dark = exact.different(plain(view));
@@ -79,14 +79,14 @@ TEST(TerrainTiles, DrawThePlanarTechniquesPicture) {
     }
 }
 
-TEST(TerrainTiles, AreTheSameOfOneDrawableAndOfManyNodes) {
+TEST(TileUpdates, AreTheSameOfOneDrawableAndOfManyNodes) {
     Town town(sun, false);
     town.cast();
     EXPECT_EQ(test::render(town.root, all).different(fresh(sun, all)), 0);
 }
 
 /// A sun at 6 degrees: each shadow lies over several others', and tiles' over one another.
-TEST(TerrainTiles, DarkenOnceWhateverLiesOverWhatAndHoweverFewBitsAreLeft) {
+TEST(TileUpdates, DarkenOnceWhateverLiesOverWhatAndHoweverFewBitsAreLeft) {
     const osg::Vec4d low(1.0, 0.7, 0.13, 0.0);
     const test::Picture exact = byPlanar(low, all), counted = fresh(low, all);
     EXPECT_LE(counted.different(exact), 5) << "see above";
@@ -97,7 +97,7 @@ TEST(TerrainTiles, DarkenOnceWhateverLiesOverWhatAndHoweverFewBitsAreLeft) {
     }
 }
 
-TEST(TerrainTiles, CulledAndAllOfThemGiveTheSameBits) {
+TEST(TileUpdates, CulledAndAllOfThemGiveTheSameBits) {
     for (const test::View& view : {test::fromAbove(20.0, 200), test::fromAbove(60.0, 200), slanted}) {
         const test::Picture culled = fresh(sun, view);
         gnomon::CompositorOptions everything;
@@ -106,7 +106,7 @@ TEST(TerrainTiles, CulledAndAllOfThemGiveTheSameBits) {
     }
 }
 
-TEST(TerrainTiles, LeaveOutWhatIsSmallerThanAPixel) {
+TEST(TileUpdates, LeaveOutWhatIsSmallerThanAPixel) {
     const auto shadowAt = [](double half) {
         Scene scene = test::groundScene({test::box({1.5, -1.0, 0.0}, {3.5, 1.0, 3.0})}, 400.0, {1.0, 0.0, 1.0, 0.0});
         const test::View view =
@@ -124,7 +124,7 @@ TEST(TerrainTiles, LeaveOutWhatIsSmallerThanAPixel) {
     EXPECT_EQ(shadowAt(0.5 * 101 * 5.6), 0);
 }
 
-TEST(TerrainTiles, AreFoundOnceWhileTheSunIsStillWhereverTheCameraLooks) {
+TEST(TileUpdates, AreFoundOnceWhileTheSunIsStillWhereverTheCameraLooks) {
     Town town;
     TerrainShadowGeode& shadow = town.cast();
     test::Camera camera(town.root, all);
@@ -139,7 +139,7 @@ TEST(TerrainTiles, AreFoundOnceWhileTheSunIsStillWhereverTheCameraLooks) {
     EXPECT_EQ(shadow.builds(), found);
 }
 
-TEST(TerrainTiles, OfACasterThatMovesAloneAreFoundAnew) {
+TEST(TileUpdates, OfACasterThatMovesAloneAreFoundAnew) {
     Town town;
     TerrainShadowGeode& shadow = town.cast();
     test::Camera camera(town.root, all);
@@ -159,7 +159,7 @@ TEST(TerrainTiles, OfACasterThatMovesAloneAreFoundAnew) {
     EXPECT_EQ(camera.frame().different(test::render(moved.root, all)), 0);
 }
 
-TEST(TerrainTiles, OfCastersThatComeAndGoAloneAreFoundAnew) {
+TEST(TileUpdates, OfCastersThatComeAndGoAloneAreFoundAnew) {
     Town town;
     TerrainShadowGeode& shadow = town.cast();
     test::Camera camera(town.root, all);
@@ -189,7 +189,7 @@ TEST(TerrainTiles, OfCastersThatComeAndGoAloneAreFoundAnew) {
 }
 
 /// Walls, and a roof apart from them, which moves: a solid as long as they meet.
-TEST(TerrainTiles, TakeDrawablesThatShareCornersForOneSolid) {
+TEST(TileUpdates, TakeDrawablesThatShareCornersForOneSolid) {
     test::Mesh walls, roof;
     for (std::size_t i = 0; i < test::box({0, 0, 0}, {1, 1, 1}).size(); i += 3) {
         const test::Mesh box = test::box({60.0, 60.0, 0.0}, {64.0, 64.0, 5.0});
@@ -218,7 +218,7 @@ TEST(TerrainTiles, TakeDrawablesThatShareCornersForOneSolid) {
     }
 }
 
-TEST(TerrainTiles, JumpWithTheSunInTheFrameInWhichItJumps) {
+TEST(TileUpdates, JumpWithTheSunInTheFrameInWhichItJumps) {
     Town town;
     town.cast();
     test::Camera camera(town.root, all);
@@ -261,7 +261,7 @@ int fartherThan(int reach, const test::Picture& picture, const test::Picture& ot
 
 /// An error of 0.5 is 5 pixels here. The light is white on white: what the sun's height does to colours is left out by a
 /// blend of factor 0, which leaves black shadows on whatever stands.
-TEST(TerrainTiles, FollowASlowSunToWithinTheErrorAndAreExactOnceItStands) {
+TEST(TileUpdates, FollowASlowSunToWithinTheErrorAndAreExactOnceItStands) {
     const test::View near = test::fromAbove(10.0, 200);
     const auto isDark = [](test::Picture picture) {
         for (std::uint32_t& pixel : picture.pixels) pixel = pixel == test::grey(0) ? 1u : 0u;
@@ -317,7 +317,7 @@ struct Moment {
 
 /// Four houses on level ground, all day and night, themselves not drawn, so that all of the shadows is seen. They are exact
 /// to within the error, 1 pixel, and one of the picture's.
-TEST(TerrainTiles, AreRightAllDayAtThreeLatitudesAndMemoryDoesNotGrow) {
+TEST(TileUpdates, AreRightAllDayAtThreeLatitudesAndMemoryDoesNotGrow) {
     const test::View view = test::fromAbove(20.0, 80);
     const auto makeScene = [](gnomon::ShadowTechnique* technique) {
         const std::vector<test::Mesh> houses = {

@@ -2,7 +2,7 @@
 // Every cause that diagnose() can give, provoked, and gone when its remedy is applied.
 #include "Trial.h"
 
-#include <gnomon/ShadowBin.h>
+#include <gnomon/group/ShadowBin.h>
 #include <osg/LightModel>
 
 #include <limits>

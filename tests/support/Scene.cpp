@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <support/Scene.h>
 
-#include <gnomon/StageEffectNode.h>
+#include <gnomon/EffectNode.h>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/NodeVisitor>
@@ -38,7 +38,7 @@ struct OptionsSetter : osg::NodeVisitor {
         : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), options(all) {}
     void apply(osg::Group& node) override {
         if (auto* group = dynamic_cast<gnomon::ShadowCasterGroup*>(&node)) group->setCompositorOptions(options);
-        if (auto* effect = dynamic_cast<gnomon::StageEffectNode*>(&node)) effect->setCompositorOptions(options);
+        if (auto* effect = dynamic_cast<gnomon::EffectNode*>(&node)) effect->setCompositorOptions(options);
         traverse(node);
     }
     gnomon::CompositorOptions options;
