@@ -30,9 +30,10 @@ std::string inlineScript(const std::string& script) {
 
 void append(const char* text, MD_SIZE size, void* html) { static_cast<std::string*>(html)->append(text, size); }
 
-/// docs/metrics.md as HTML.
+/// The last part of docs/measuring.md as HTML: what each number means.
 std::string metricsHtml() {
-    const std::string markdown = page::metrics_md;
+    const std::string measuring = page::measuring_md;
+    const std::string markdown = measuring.substr(std::min(measuring.size(), measuring.find("## What the numbers mean")));
     std::string html;
     md_html(markdown.data(), static_cast<MD_SIZE>(markdown.size()), append, &html, MD_FLAG_TABLES | MD_FLAG_NOHTML, 0);
     return html;
