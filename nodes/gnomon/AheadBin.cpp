@@ -53,10 +53,10 @@ void AheadBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& st
     const bool isFree = !before || before->getName() == stateName;
     if (!isFree)
         return job->technique->report(job->frameNumber,
-                                      "cannot show its maps to programs: the stage that is drawn has a "
-                                      "state of its own, set by osgUtil::RenderBin::setStateSet().");
+                                      "programs cannot read the maps, because the render stage has a state set of its "
+                                      "own. Remove it with osgUtil::RenderBin::setStateSet(nullptr).");
     if (std::any_of(job + 1, jobs.end(), isFor))
-        job->technique->report(job->frameNumber, "shows programs the maps of one light alone: name it with "
+        job->technique->report(job->frameNumber, "programs can read the maps of one light only. Name that light with "
                                                  "ShadowCasterGroup::setLights() or setLightSources().");
     osg::StateSet* state = job->programMarks()->state.get();
     state->setName(stateName);

@@ -20,9 +20,9 @@ public:
     FrameCauses(const FrameCauses&) {} ///< a copy of a node has not been drawn yet.
     FrameCauses& operator=(const FrameCauses&) = delete;
 
-    /// One sentence a cause; empty if all is well.
+    /// One text for each cause: what is wrong, then what to do. Empty if all is well.
     std::vector<std::string> all() const;
-    /// Notes a sentence; repeated ones count once, those of frames before the last none.
+    /// Notes a cause; repeated ones count once, those of frames before the last none.
     void add(unsigned frame, const std::string& sentence);
     /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
     /// it) has been met in it before, as where nobody counts frames.

@@ -17,7 +17,8 @@ public:
           _type(o.floatColor ? GL_FLOAT : GL_UNSIGNED_BYTE),
           _buffer((o.floatColor ? 16u : 4u) * std::size_t(o.width) * std::size_t(o.height)),
           _context(OSMesaCreateContextExt(OSMESA_RGBA, o.depthBits, o.stencilBits, 0, nullptr)) {
-        if (!_context) throw headlessFailure("OSMesa gives no context with these depth and stencil bits.");
+        if (!_context)
+            throw headlessFailure("OSMesa makes no context with these depth and stencil bits; ask for fewer.");
     }
     ~OSMesaOffscreen() override { OSMesaDestroyContext(_context); }
 
@@ -39,7 +40,8 @@ private:
 std::unique_ptr<OffscreenContext> makeOffscreenContext(const HeadlessContext::Options& options) try {
     return std::make_unique<OSMesaOffscreen>(options);
 } catch (const std::bad_alloc&) {
-    throw headlessFailure("there is no memory for " + sizeText(options.width, options.height) + " pixels.");
+    throw headlessFailure("there is not enough memory for a picture of " + sizeText(options.width, options.height) +
+                          " pixels.");
 }
 
 } // namespace gnomon

@@ -39,8 +39,8 @@ void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Soft soft
     if (fresh && !job.receiverNamed) return addUngated(job, bit, soft);
     if (!_scratch) {
         job.technique->report(job.frameNumber,
-                              "needs a second stencil bit for its named receiver or beside another technique of its "
-                              "light: leave two to ShadowBin::reserve().");
+                              "a named receiver, or a second technique for the same light, needs two stencil bits, but "
+                              "only one is left. Leave at least two out of ShadowBin::reserve().");
         return;
     }
     addUngated(job, _scratch, soft);
