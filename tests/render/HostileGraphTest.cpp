@@ -76,7 +76,7 @@ TEST(HostileGraph, ReceiverThatCannotReceiveIsNamedAsTheCause) {
     expectOneCause(*above, "bin above 8");
 
     Scene scene = boxScene();
-    const osg::ref_ptr<osg::Geode> elsewhere = node(square(1.0), "elsewhere");
+    const osg::ref_ptr<osg::Geode> elsewhere = node(square(1.0), "in the wrong place");
     const auto outside = planar(elsewhere);
     scene.addShadow(outside);
     const Picture first = render(scene.root, slanted);
