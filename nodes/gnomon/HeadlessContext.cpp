@@ -18,14 +18,14 @@ void requireSize(const HeadlessContext::Options& o, int limit) {
     const bool fits = o.width >= 1 && o.height >= 1 && o.width <= limit && o.height <= limit;
     if (!fits)
         throw headlessFailure("a picture of " + sizeText(o.width, o.height) +
-                              " pixels cannot be made; allowed: 1x1 to " + sizeText(limit, limit) + ".");
+                              " pixels cannot be made. Allowed: 1x1 to " + sizeText(limit, limit) + ".");
 }
 
 void requireBits(const HeadlessContext::Options& o) {
     if (o.depthBits != 16 && o.depthBits != 24 && o.depthBits != 32)
-        throw headlessFailure(std::to_string(o.depthBits) + " depth bits cannot be had; allowed: 16, 24, 32.");
+        throw headlessFailure(std::to_string(o.depthBits) + " depth bits cannot be had. Allowed: 16, 24, 32.");
     if (o.stencilBits != 0 && o.stencilBits != 8)
-        throw headlessFailure(std::to_string(o.stencilBits) + " stencil bits cannot be had; allowed: 0, 8.");
+        throw headlessFailure(std::to_string(o.stencilBits) + " stencil bits cannot be had. Allowed: 0, 8.");
 }
 
 int integer(GLenum name) {
