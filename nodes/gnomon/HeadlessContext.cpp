@@ -149,12 +149,12 @@ private:
     void requireWorking(const Options& options) {
         const GLubyte* name = glGetString(GL_RENDERER);
         if (!name)
-            throw headlessFailure("OpenGL calls do not reach " + _context->name() + "; " + _context->linkRemedy() +
+            throw headlessFailure("OpenGL calls do not reach " + _context->name() + ". " + _context->linkRemedy() +
                                   ".");
         _renderer = reinterpret_cast<const char*>(name);
         requireSize(options, std::min(largestSide, integer(GL_MAX_VIEWPORT_DIMS)));
         if (integer(GL_DEPTH_BITS) < options.depthBits || integer(GL_STENCIL_BITS) < options.stencilBits)
-            throw headlessFailure(_context->name() + " has fewer depth or stencil bits than asked for; ask for fewer.");
+            throw headlessFailure(_context->name() + " has fewer depth or stencil bits than asked for. Ask for fewer.");
     }
 
     static thread_local Window* _current;
@@ -196,7 +196,7 @@ void HeadlessContext::attach(osg::Camera& camera) const {
 void HeadlessContext::attach(osg::Camera& camera, osg::Viewport* part) const {
     if (!_window->valid())
         throw std::logic_error(
-            "HeadlessContext: the viewer that used this context is gone; make a new context for each viewer.");
+            "HeadlessContext: the viewer that used this context is gone. Make a new context for each viewer.");
     camera.setGraphicsContext(_window.get());
     camera.setViewport(part);
     double fovy, aspect, zNear, zFar;

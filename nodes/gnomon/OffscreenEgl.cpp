@@ -49,7 +49,7 @@ EGLDisplay findDisplay() {
         if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) && configOf(display, 0, 0))
             return display;
     throw headlessFailure(
-        "EGL finds no device that renders without a display; install a GPU driver, or Mesa's (Debian: libegl-mesa0).");
+        "EGL finds no device that renders without a display. Install a GPU driver, or Mesa's (Debian: libegl-mesa0).");
 }
 
 /// One for the process, never closed: closing it would end every context on it.
@@ -66,7 +66,7 @@ public:
     explicit EglOffscreen(const HeadlessContext::Options& options) : _display(sharedDisplay()) {
         const bool plain = !needsFramebuffer(options);
         const EGLConfig config = configOf(_display, plain ? options.depthBits : 0, plain ? options.stencilBits : 0);
-        if (!config) throw headlessFailure("EGL makes no context with these depth and stencil bits; ask for fewer.");
+        if (!config) throw headlessFailure("EGL makes no context with these depth and stencil bits. Ask for fewer.");
         eglBindAPI(EGL_OPENGL_API);
         _context = eglCreateContext(_display, config, EGL_NO_CONTEXT, nullptr);
         _surface = createSurface(config, plain ? options.width : 1, plain ? options.height : 1);
@@ -85,7 +85,7 @@ public:
     }
     unsigned framebuffer() const override { return _framebuffer; }
     std::string name() const override { return "EGL"; }
-    std::string linkRemedy() const override { return "link libGL, and no libOSMesa ahead of it"; }
+    std::string linkRemedy() const override { return "Link libGL, and no libOSMesa ahead of it"; }
 
     void prepare(const HeadlessContext::Options& options) override {
         if (needsFramebuffer(options)) addFramebuffer(options);

@@ -18,7 +18,7 @@ public:
           _buffer((o.floatColor ? 16u : 4u) * std::size_t(o.width) * std::size_t(o.height)),
           _context(OSMesaCreateContextExt(OSMESA_RGBA, o.depthBits, o.stencilBits, 0, nullptr)) {
         if (!_context)
-            throw headlessFailure("OSMesa makes no context with these depth and stencil bits; ask for fewer.");
+            throw headlessFailure("OSMesa makes no context with these depth and stencil bits. Ask for fewer.");
     }
     ~OSMesaOffscreen() override { OSMesaDestroyContext(_context); }
 
@@ -26,7 +26,7 @@ public:
     bool unbind() override { return OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0) != GL_FALSE; }
     const unsigned char* pixels() const override { return _buffer.data(); } // OSMesa's glReadPixels clamps floats
     std::string name() const override { return "OSMesa"; }
-    std::string linkRemedy() const override { return "link libOSMesa ahead of libGL"; }
+    std::string linkRemedy() const override { return "Link libOSMesa ahead of libGL"; }
 
 private:
     int _width, _height;

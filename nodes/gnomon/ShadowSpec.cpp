@@ -257,7 +257,7 @@ const Technique& requireTechnique(const std::string& name) {
         if (!technique.built) refuse("\"" + name + "\" is not built yet. Allowed: " + join(shadowTechniques()) + ".");
         return technique;
     }
-    refuse("\"" + name + "\" is not a shadow technique; allowed: " + join(shadowTechniques()) + ".");
+    refuse("\"" + name + "\" is not a shadow technique. Allowed: " + join(shadowTechniques()) + ".");
 }
 
 std::vector<Key> keysOf(const Technique& technique) {
