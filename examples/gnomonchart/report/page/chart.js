@@ -56,26 +56,20 @@ $(() => {
   });
 
   const table = $("#table").DataTable({
-      data : data.points.map((point, number) => Object.assign(point, {number})),
-      columns,
-      paging : false,
-      order : [],
-      orderClasses : false,
-      autoWidth : false,
-      language : {
-          search : "Search in all columns ",
-          info : "_TOTAL_ points",
-          infoEmpty : "no points",
-          infoFiltered : "of _MAX_",
-          zeroRecords : "No point matches.",
-          emptyTable : "Nothing was measured."
-      },
-      createdRow : (row, point) => {
-          row.tabIndex = 0;
-          row.classList.toggle("gnomon", point.kit === "Gnomon");
-          row.classList.toggle("bad", point.bad !== "");
-          row.dataset.number = point.number;
-      }
+    data: data.points.map((point, number) => Object.assign(point, { number })),
+    columns,
+    paging: false,
+    order: [],
+    orderClasses: false,
+    autoWidth: false,
+    language: { search: "Search in all columns ", info: "_TOTAL_ points", infoEmpty: "no points",
+      infoFiltered: "of _MAX_", zeroRecords: "No point matches.", emptyTable: "Nothing was measured." },
+    createdRow: (row, point) => {
+      row.tabIndex = 0;
+      row.classList.toggle("gnomon", point.kit === "Gnomon");
+      row.classList.toggle("bad", point.bad !== "");
+      row.dataset.number = point.number;
+    }
   });
 
   // Filters -------------------------------------------------------------------------------------------------------
