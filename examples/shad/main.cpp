@@ -154,8 +154,7 @@ void bias(Shad& c, Hud&) {
 }
 
 const std::vector<Key<Shad>> keys = {
-    {'v', "View from the next place: the eye, then each light. Drags in a light's view move the light.",
-     [](Shad& c, Hud&) { c.nextView(); }},
+    {'v', "View from the eye, then from each light, where drags move it.", [](Shad& c, Hud&) { c.nextView(); }},
     {'n', "Shadows by one added pass for each light, or by Gnomon's compositor.", flip<&Switches::compositor>},
     {'a', "Turn the light of the last light view (at first light 1) by 10 degrees.",
      [](Shad& c, Hud&) { c.moveLight(0.0, 10.0, 0.0); }},
@@ -181,8 +180,7 @@ int run(osg::ArgumentParser& arguments) {
     bool count = false;
     const Options own = {
         {"--lights", "N", "number of lights, 1 to 4", "3", [&](const auto& t) { lights = readWhole(t, 1, 4); }},
-        {"--count", "", "print at the end how often each light's map was drawn", "",
-         [&](const auto&) { count = true; }}};
+        {"--count", "", "print at the end how often each map was drawn", "", [&](const auto&) { count = true; }}};
     ExampleOptions usual;
     usual.view.width = width, usual.view.height = height;
     usual.view.eye = Orbit{25.0, 30.0, 2.3}.place(), usual.view.center = osg::Vec3d();
