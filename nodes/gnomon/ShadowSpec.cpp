@@ -201,7 +201,7 @@ const std::vector<Technique>& techniques() {
     static const Key lampSize = {"lamp-size", "0 to 1e6, scene's unit", "0",
                                  "with edges=soft: diameter of lamps and spots; 0 is a point", takeLampSize};
     static const Key radius = {"radius", "0 to 1e6, scene's unit", "0",
-                               "with edges=soft: least radius of the averaging", takeRadius};
+                               "with edges=soft: least radius of the blurred edge; 0 is the filter's own", takeRadius};
     static const Key view = {"view", "nothing, map, texels, cascades", "nothing", "debug view drawn over the picture",
                              takeView};
     static const std::vector<Technique> table = {
