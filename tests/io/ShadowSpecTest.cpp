@@ -251,7 +251,8 @@ TEST(AddShadows, AMissingReceiverIsRefusedWithTheNamesThereAre) {
 TEST(AddShadows, AReceiverWithNothingFlatIsRefused) {
     osg::ref_ptr<osg::Group> empty = new osg::Group;
     empty->setName("ground");
-    EXPECT_EQ(refusal(*groupOf(empty), {"planar"}), "the receiver \"ground\" has no flat part for planar to use.");
+    EXPECT_EQ(refusal(*groupOf(empty), {"planar"}),
+              "the receiver \"ground\" has no flat part, which planar needs. Name another one with receiver=NAME.");
 }
 
 TEST(AddShadows, CompositeBelongsToTheWholeGroup) {
