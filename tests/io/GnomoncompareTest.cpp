@@ -237,17 +237,17 @@ TEST_F(Gnomoncompare, RefusesSizesThatDiffer) {
     saveAll(perfect());
     save(*floats(Picture(64, 96, 1.0)), "small.tif");
     EXPECT_EQ(refusal(run({}, "a.tif", "small.tif")),
-              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px; one size is needed.");
+              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px. Give files of one size.");
     EXPECT_EQ(refusal(run({"--shadowed", "small.tif"})),
-              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px; one size is needed.");
+              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px. Give files of one size.");
     EXPECT_EQ(refusal(run({"--json", "n.json"}, "small.tif", "small.tif")),
-              "\"t.osgb\" is 128 x 96 px and \"small.tif\" 64 x 96 px; one size is needed.");
+              "\"t.osgb\" is 128 x 96 px and \"small.tif\" 64 x 96 px. Give files of one size.");
 }
 
 TEST_F(Gnomoncompare, RefusesATruthThatIsNone) {
     saveAll(perfect());
     EXPECT_EQ(refusal(run({}, "a.tif", "b.tif", "b.tif")),
-              "\"b.tif\" is not a truth file: it is not an image of floats with a named layer for each map.");
+              "\"b.tif\" is not a truth file: it is not an image of floats with one named layer for each map.");
     const auto spoilt = [&](const std::function<void(TruthMaps&)>& spoil) {
         TruthMaps truth = BoxOnGround().truth();
         spoil(truth);
