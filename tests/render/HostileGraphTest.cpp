@@ -76,11 +76,11 @@ TEST(HostileGraph, ReceiverThatCannotReceiveIsNamedAsTheCause) {
     expectOneCause(*above, "bin above 8");
 
     Scene scene = boxScene();
-    const osg::ref_ptr<osg::Geode> elsewhere = node(square(1.0), "in the wrong place");
+    const osg::ref_ptr<osg::Geode> elsewhere = node(square(1.0), "elsewhere");
     const auto outside = planar(elsewhere);
     scene.addShadow(outside);
     const Picture first = render(scene.root, slanted);
-    expectOneCause(*outside, "'elsewhere', which is not in this graph");
+    expectOneCause(*outside, "the receiver 'elsewhere' is not in this scene graph");
     EXPECT_EQ(first.different(render(boxScene().root, slanted)), 0);
 }
 
