@@ -97,7 +97,7 @@ TEST_F(Gnomonchart, AnInterruptedRunKeepsWhatItHas) {
         "timeout", {"--preserve-status", "-s", "INT", "8", GNOMONCHART, lab8, "--size", "64x48", "--out", "o"},
         folder.path());
     EXPECT_EQ(ending.status, 130) << ending.err;
-    EXPECT_EQ(ending.lastLine(), "gnomonchart: interrupted; what was measured so far is kept.");
+    EXPECT_EQ(ending.lastLine(), "gnomonchart: interrupted. The results so far are kept.");
     const ChartResults r = results("o");
     EXPECT_FALSE(r.complete);
     EXPECT_EQ(r.scenes.size(), 1u);
@@ -129,22 +129,23 @@ TEST_F(Gnomonchart, AResumedRunMeasuresOnlyWhatIsLeft) {
     }
     more[10] = "4"; // --frames
     EXPECT_EQ(refusal(more),
-              "--resume: the results there were not made with frames 4; leave --resume out to measure all "
-              "anew.\n");
+              "--resume: the results in the folder were not made with frames 4. Leave --resume out to measure "
+              "everything again.\n");
     more[12] = "elsewhere"; // --out
     EXPECT_NE(refusal(more).find("there is no file"), std::string::npos);
 }
 
 TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
-    EXPECT_NE(refusal({"--scene", "moon"}).find("no scene is named \"moon\"; allowed: lab8-45"), std::string::npos);
-    EXPECT_EQ(refusal({lab8, "--technique", "volumetric"}), "no technique's name holds \"volumetric\".\n");
+    EXPECT_NE(refusal({"--scene", "moon"}).find("no scene is named \"moon\". Allowed: lab8-45"), std::string::npos);
+    EXPECT_EQ(refusal({lab8, "--technique", "volumetric"}),
+              "no technique's name contains \"volumetric\". See --list.\n");
     EXPECT_NE(refusal({"missing.obj"}).find("missing.obj"), std::string::npos);
-    EXPECT_EQ(refusal({lab8, "--scene", "room"}), "--scene and files are given; one of them is allowed.\n");
+    EXPECT_EQ(refusal({lab8, "--scene", "room"}), "--scene and files exclude each other. Give one of them.\n");
     EXPECT_NE(refusal({lab8, "--frames", "1"}).find("2 to 10000"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--size", "16x16"}).find("32x32"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--shadow", "planar"}).find("there is no option --shadow"), std::string::npos);
     folder.write("taken", "");
-    EXPECT_NE(refusal({lab8, "--out", "taken"}).find("\"taken\" cannot be made as a folder"), std::string::npos);
+    EXPECT_NE(refusal({lab8, "--out", "taken"}).find("\"taken\" cannot be created as a folder"), std::string::npos);
 }
 
 TEST_F(Gnomonchart, ListsWhatItKnows) {

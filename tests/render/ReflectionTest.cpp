@@ -290,7 +290,7 @@ TEST(Reflection, NeedsOneStencilBitAndSaysSoWhereThereIsNone) {
     EXPECT_EQ(render(node, view).different(plain), 0);
     test::reserving(node, 0u);
     ASSERT_FALSE(node->diagnose().empty());
-    EXPECT_NE(node->diagnose().back().find("every stencil bit reserved"), std::string::npos);
+    EXPECT_NE(node->diagnose().back().find("every stencil bit is reserved"), std::string::npos);
     gnomon::HeadlessContext::Options none;
     none.stencilBits = 0;
     EXPECT_EQ(Camera(node, view, none).frame().different(plain), 0);

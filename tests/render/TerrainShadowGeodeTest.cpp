@@ -146,10 +146,10 @@ TEST(TerrainShadowGeodeAlone, SaysWhatIsMissingAndDrawsNothing) {
     EXPECT_NE(refusal(*empty, sun).find("setObjectGraphic()"), std::string::npos);
     const auto shadow = alone(TerrainShadowGeode::HULL);
     EXPECT_TRUE(shadow->compute(sun));
-    EXPECT_NE(refusal(*shadow, {nan, 0.0, 1.0, 0.0}).find("nowhere"), std::string::npos);
+    EXPECT_NE(refusal(*shadow, {nan, 0.0, 1.0, 0.0}).find("no finite position or direction"), std::string::npos);
     EXPECT_NE(refusal(*shadow, {1.0, 0.0, -1.0, 0.0}).find("below the horizon"), std::string::npos);
     shadow->setReceiver({new osg::Group});
-    EXPECT_NE(refusal(*shadow, sun).find("no ground"), std::string::npos);
+    EXPECT_NE(refusal(*shadow, sun).find("meets no ground"), std::string::npos);
     shadow->setError(nan);
     shadow->setError(-1.0);
     EXPECT_EQ(shadow->getError(), 0.1);
@@ -206,7 +206,7 @@ TEST(TerrainShadowGeode, TerrainCastsNothingOnItself) {
     scene.addShadow(shadow);
     EXPECT_EQ(darkened(test::render(scene.root, above), plain), 0);
     ASSERT_EQ(shadow->diagnose().size(), 1u);
-    EXPECT_NE(shadow->diagnose().front().find("nothing to cast but its own receiver"), std::string::npos);
+    EXPECT_NE(shadow->diagnose().front().find("every caster is part of the receiver"), std::string::npos);
 }
 
 /// Fifteen shadows over one place, whichever way the bits that are left count them.
@@ -233,7 +233,7 @@ TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAre
     EXPECT_EQ(picture(0x1f, cause).different(all), 0) << "three bits";
     EXPECT_EQ(cause, "");
     EXPECT_EQ(picture(0x3f, cause).different(plain), 0);
-    EXPECT_NE(cause.find("needs another stencil bit"), std::string::npos) << cause;
+    EXPECT_NE(cause.find("need another stencil bit"), std::string::npos) << cause;
 }
 
 namespace {

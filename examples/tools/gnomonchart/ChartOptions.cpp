@@ -17,23 +17,23 @@ constexpr std::array<const char*, 5> notOfUse{"--shadow", "--casters", "--ambien
 using Text = const std::string&;
 
 void addChartOptions(Options& table, ChartOptions& into) {
-    table.push_back({"--scene", "NAME", "a built-in scene; --list names them", "all, if no FILE is given",
+    table.push_back({"--scene", "NAME", "built-in scene, see --list", "all, if no FILE is given",
                      [&into](Text t) { into.scenes.push_back(t); }, true});
-    table.push_back({"--technique", "TEXT", "only techniques whose name holds this; --list names them", "all",
+    table.push_back({"--technique", "TEXT", "measure only techniques whose name contains this, see --list", "all",
                      [&into](Text t) { into.technique = t; }});
-    table.push_back({"--out", "FOLDER", "where results and pictures go; it is made if it is not there", "chart-out",
+    table.push_back({"--out", "FOLDER", "folder for results and pictures; created if missing", "chart-out",
                      [&into](Text t) { into.out = t; }});
     table.push_back({"--quick", "",
-                     "small pictures, few frames, narrow sweeps and, if none is named, three scenes: within five "
+                     "small pictures, few frames, narrow sweeps, and three scenes if none is named: at most five "
                      "minutes on\n      two cores",
                      "", [&into](Text) { into.quick = true; }});
-    table.push_back({"--frames", "N", "frames timed, of each motion, 2 to 10000", "60, with --quick 12",
+    table.push_back({"--frames", "N", "frames to time for each motion, 2 to 10000", "60, with --quick 12",
                      [&into](Text t) { into.frames = readWhole(t, leastFrames, mostFrames); }});
     table.push_back({"--resume", "",
-                     "go on with an interrupted run: scenes that FOLDER holds whole are not measured again", "",
+                     "continue an interrupted run; scenes that are complete in FOLDER are not measured again", "",
                      [&into](Text) { into.resume = true; }});
     table.push_back({"--again", "FOLDER",
-                     "measure nothing: draw the figures and index.html in FOLDER again from its results.json", "",
+                     "measure nothing; write the figures and index.html in FOLDER again from its results.json", "",
                      [&into](Text t) { into.again = t; }});
     table.push_back(
         {"--list", "", "print the names of scenes and techniques", "", [&into](Text) { into.list = true; }});
@@ -61,7 +61,7 @@ void setSize(ChartOptions& options, bool given) {
         options.view.height = options.quick ? 240 : 480;
     }
     if (std::min(options.view.width, options.view.height) < leastSide)
-        throw std::invalid_argument("--size is less than 32 pixels one way; 32x32 and more can be judged.");
+        throw std::invalid_argument("--size is too small to be judged. Allowed: 32x32 pixels or more.");
 }
 
 } // namespace
@@ -74,9 +74,9 @@ ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
     if (options.help || options.list) return options;
     takeFiles(arguments, options.view);
     if (!options.again.empty() && !options.view.files.empty())
-        throw std::invalid_argument("--again and files are given; one of them is allowed.");
+        throw std::invalid_argument("--again and files exclude each other. Give one of them.");
     if (!options.view.files.empty() && !options.scenes.empty())
-        throw std::invalid_argument("--scene and files are given; one of them is allowed.");
+        throw std::invalid_argument("--scene and files exclude each other. Give one of them.");
     requireConsistent(options.view);
     setSize(options, sized);
     return options;
@@ -85,14 +85,15 @@ ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
 std::string chartHelp() {
     ChartOptions defaults;
     return "gnomonchart [FILE...] [OPTION...]\n"
-           "Charts how fast and how wrong every shadow technique is, Gnomon's and osgShadow's in the same run: in "
-           "built-in\n"
-           "scenes, or in a scene of your own. FILES are one scene, in any format that OpenSceneGraph reads.\n\n"
-           "Writes results.json, results.csv, pictures and index.html. Ctrl-C ends it early and keeps what it has.\n"
-           "Lengths are in the scene's unit; everything is z up. Times are milliseconds beyond the scene without "
-           "shadows.\n\n" +
+           "Measures how fast and how wrong every shadow technique is, Gnomon's and osgShadow's in the same run: in\n"
+           "built-in scenes, or in a scene of your own. FILES form one scene, in any format that OpenSceneGraph "
+           "reads.\n\n"
+           "Writes results.json, results.csv, pictures and index.html. Ctrl-C ends the run early and keeps its "
+           "results.\n"
+           "Lengths are in the scene's unit. The z axis points up. Times are the milliseconds that shadows add to a "
+           "frame.\n\n" +
            describeOptions(chartOptions(defaults)) + osgOptionsHelp() +
-           "\nThe options of scene, light and camera are for FILES.\n"
+           "\nThe options for scene, light and camera apply to FILES only.\n"
            "\nExample: gnomonchart bunny.obj --quick --out bunny-chart\n";
 }
 

@@ -108,7 +108,7 @@ int chart(const ChartOptions& options, const std::string& command) {
     for (const auto& [name, value] : results.made)
         if (name.rfind("left out", 0) == 0) std::cout << name << ": " << value << "\n";
     printReport(results, options.out);
-    if (!results.complete) std::cerr << program << ": interrupted; what was measured so far is kept." << std::endl;
+    if (!results.complete) std::cerr << program << ": interrupted. The results so far are kept." << std::endl;
     return results.complete ? 0 : interrupted;
 }
 

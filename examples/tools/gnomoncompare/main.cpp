@@ -26,7 +26,7 @@ void requireSize(const metrics::Picture& first, const CompareOptions& options, c
     if (first.sameSize(other)) return;
     throw std::runtime_error("\"" + file + "\" is " + sizeText(other.width, other.height) + " px and \"" +
                              options.casting + "\" " + sizeText(first.width, first.height) +
-                             " px; one size is needed.");
+                             " px. Give files of one size.");
 }
 
 metrics::Visibility readVisibility(const CompareOptions& options) {
@@ -44,8 +44,8 @@ metrics::ShadowMetrics measure(const metrics::Visibility& visibility, const metr
     requireSize(visibility.value, options, truth.lit, options.truth);
     const metrics::ShadowMetrics result = metrics::shadowMetrics(visibility, truth, options.limits);
     if (result.facing == 0)
-        throw std::runtime_error("no pixel can be judged: none faces the light with its id drawn as it is true and "
-                                 "B brighter than S by 8/255.");
+        throw std::runtime_error("no pixel can be judged. A pixel must face the light, show the object that the truth "
+                                 "has there, and be brighter by 8/255 in B than in S.");
     return result;
 }
 
@@ -58,7 +58,7 @@ void compare(const CompareOptions& options) {
     const metrics::ShadowMetrics result = measure(visibility, truth, options);
     std::cout << reportText(result);
     if (!result.sound)
-        std::cerr << program << ": note: more than 5 % of the surface is dropped; these numbers are not to be trusted."
+        std::cerr << program << ": note: more than 5 % of the surface is dropped. Do not trust these numbers."
                   << std::endl;
     if (overlay) overlay->write(*errorOverlay(visibility.value, truth));
     if (json) json->write(reportJson(result).dump(2) + "\n");

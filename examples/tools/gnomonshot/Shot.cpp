@@ -87,7 +87,8 @@ nlohmann::json Shot::measure() {
 metrics::TruthMaps Shot::truth() {
     const std::vector<osg::Vec4d> lights = _setup.lights->places();
     if (lights.size() != 1)
-        throw std::runtime_error("--truth is that of one light; there are " + std::to_string(lights.size()) + ".");
+        throw std::runtime_error("--truth needs exactly one light, but the scene has " + std::to_string(lights.size()) +
+                                 ".");
     const SceneCamera camera =
         sceneCamera(*_viewer.getCamera(), _options.view.width, _options.view.height, sceneBounds(*_setup.group));
     return SceneTruth(*_setup.group).maps(camera, lights.front());

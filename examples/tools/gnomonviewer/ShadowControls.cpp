@@ -112,7 +112,7 @@ std::vector<std::string> ShadowControls::describe() const {
 
 std::string ShadowControls::describeLight() const {
     const auto given = _setup.lights->given(_setup.bounds.center());
-    if (!given) return "the scene's own, which stays";
+    if (!given) return "the scene's own, which cannot be moved";
     return (_sun ? momentOf(_sun->day) + ", " : "") + "azimuth " + whole(compass(given->azimuth + _moved.azimuth)) +
            ", elevation " + whole(given->elevation + _moved.elevation) + " degrees";
 }

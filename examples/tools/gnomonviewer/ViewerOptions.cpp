@@ -26,15 +26,14 @@ ViewerOptions readViewerOptions(osg::ArgumentParser& arguments) {
     readFiles(arguments, options.view);
     requireConsistent(options.view);
     if (options.sunSpeed > 0.0 && (!options.view.sun || options.view.lights.size() != 1))
-        throw std::invalid_argument("--sun-speed needs --sun, once, and no --light beside it.");
+        throw std::invalid_argument("--sun-speed needs exactly one --sun and no --light.");
     return options;
 }
 
 std::string viewerHelp() {
     ViewerOptions defaults;
-    return "gnomonviewer FILE... [OPTION...]\n"
-           "Shows scene files with shadows in a window.\n\n"
-           "Lengths are in the scene's unit; everything is z up.\n\n" +
+    return "gnomonviewer FILE... [OPTION...]\nShows scene files with shadows in a window.\n\nLengths are in the "
+           "scene's unit. The z axis points up.\n\n" +
            describeOptions(viewerOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp() + "\nKEYS\n" +
            keysHelp(shadowKeys()) + windowKeysHelp("gnomonviewer") +
            "\nExample: gnomonviewer data/lab8.osgt --shadow planar\n";

@@ -16,7 +16,7 @@ namespace gnomon {
 /// Threads any number.
 class GNOMON_EXPORT FrameDiagnosis : public osg::Referenced {
 public:
-    /// One sentence a cause; empty if all is well.
+    /// One text for each cause: what is wrong, then what to do. Empty if all is well.
     std::vector<std::string> all() const;
     /// Notes a cause; repeated ones count once, those of frames before the last none.
     /// @param who  described() of the node.

@@ -100,7 +100,7 @@ bool Compositor::areSoft(const Jobs& jobs) const {
         if (!job->softMarks()) continue;
         soft = true;
         if (!_draw.hasAlpha)
-            job->report("finds no alpha bits in this framebuffer, so that its edges are hard: ask for 8, by "
+            job->report("this framebuffer has no alpha bits, so the shadow's edges are hard. Ask for 8 with "
                         "osg::DisplaySettings::setMinimumNumAlphaBits(8) before the window is made.");
     }
     return soft && _draw.hasAlpha;
@@ -111,8 +111,8 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended) 
     for (const ShadowJob* job : jobs) {
         if (job->marks->relightsOnly()) continue;
         if (job->dark < 1.0f) blended[job->dark].push_back(job);
-        job->report("blends instead of relighting, for something opaque in this view has a stencil test of "
-                    "its own: draw that in a bin above 8, or set BLEND.");
+        job->report("an opaque object in this view has a stencil test of its own, so the shadow blends "
+                    "instead of relighting. Draw that object in a bin above 8, or set BLEND.");
     }
 }
 
@@ -180,8 +180,9 @@ std::map<int, unsigned> Compositor::assignBits(const Jobs& jobs) const {
         if (used < _lightBits.size())
             bitOf[job->light] = _lightBits[used];
         else
-            job->report("leaves light " + std::to_string(job->light) + " unshadowed: at most " + std::to_string(used) +
-                        " lights can be relit here; blend takes any number.");
+            job->report("light " + std::to_string(job->light) + " casts no shadow, because at most " +
+                        std::to_string(used) +
+                        " lights can be relit in this view. Set BLEND, which takes any number of lights.");
     }
     return bitOf;
 }
@@ -219,10 +220,11 @@ void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Ove
     for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
         for (const ShadowJob* job : jobs)
             if (job->isReceiver(*leaf) && job->marks->canReach(*leaf))
-                job->report("cannot take a light from '" + nameOf(*leaf) +
-                            "', which is unlit or whose program reads no gl_LightSource: it is drawn in its "
-                            "own colour times setDark(); light it by OpenGL, name the uniform of its light "
-                            "with ShadowCasterGroup::addLightUniform(), or do not let it receive.");
+                job->report(
+                    "no light can be taken from '" + nameOf(*leaf) +
+                    "', because it is unlit or its program does not read gl_LightSource. Its colour is multiplied "
+                    "by setDark() instead. Light it with OpenGL, name the uniform of its light with "
+                    "ShadowCasterGroup::addLightUniform(), or leave it out of the receiver.");
 }
 
 void Compositor::blend(const Jobs& jobs, float dark) {

@@ -62,13 +62,13 @@ void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
 
 std::string whyNotComposed(const CompositorStage& draw) {
     if (!draw.hasStencil)
-        return "finds no stencil bits in this framebuffer: ask for 8, by "
-               "osg::DisplaySettings::setMinimumNumStencilBits(8) before the window is made or by a stencil attachment "
-               "of the camera.";
+        return "this framebuffer has no stencil bits. Ask for 8 with osg::DisplaySettings::setMinimumNumStencilBits(8) "
+               "before the window is made, or give the camera a stencil attachment.";
     if (draw.stage.getClearDepth() < 1.0)
-        return "does not know this view's depth buffer, which is cleared to less than 1: clear it to 1.";
-    return draw.bits.empty() ? "finds every stencil bit reserved: leave one to CompositorOptions::reservedStencilBits."
-                             : "";
+        return "this view's depth buffer is cleared to less than 1. Set the camera's clear depth to 1.";
+    return draw.bits.empty()
+               ? "every stencil bit is reserved. Leave at least one out of CompositorOptions::reservedStencilBits."
+               : "";
 }
 
 } // namespace gnomon

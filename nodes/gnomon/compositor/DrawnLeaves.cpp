@@ -204,11 +204,11 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
                        osgUtil::RenderStage& stage) {
     const std::vector<DrawnLeaf> all = leavesBelow(stage, INT_MAX);
     if (!receiversAmong(all, selection, *stage.getInitialViewMatrix()).empty())
-        return std::string("names a ") + role +
-               " that is drawn after the shadows, in a bin above 8 as transparent things are: name one that is opaque.";
+        return std::string("the ") + role +
+               " is drawn after the shadows, in a bin above 8, as transparent objects are. Name an opaque one.";
     if (selection.node && &rootOf(*selection.node) != &rootOf(from))
-        return std::string("names the ") + role + " '" + selection.node->getName() +
-               "', which is not in this graph: add it to the scene.";
+        return std::string("the ") + role + " '" + selection.node->getName() +
+               "' is not in this scene graph. Add it to the scene.";
     return "";
 }
 

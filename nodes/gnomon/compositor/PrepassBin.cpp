@@ -52,10 +52,10 @@ void PrepassBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& 
     const osg::StateSet* before = stage.getStateSet();
     const bool isFree = !before || before->getName() == stateName;
     if (!isFree)
-        return job->report("cannot show its maps to programs: the stage that is drawn has a "
-                           "state of its own, set by osgUtil::RenderBin::setStateSet().");
+        return job->report("programs cannot read the maps, because the render stage has a state set of its "
+                           "own. Remove it with osgUtil::RenderBin::setStateSet(nullptr).");
     if (std::any_of(job + 1, jobs.end(), isFor))
-        job->report("shows programs the maps of one light alone: name it with "
+        job->report("programs can read the maps of one light only. Name that light with "
                     "ShadowCasterGroup::setLights() or setLightSources().");
     osg::StateSet* state = job->programMarks()->state.get();
     state->setName(stateName);

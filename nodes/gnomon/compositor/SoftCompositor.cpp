@@ -75,13 +75,14 @@ SoftCompositor::Lights SoftCompositor::lightsOf(const Jobs& wanted) const {
             light->soft = job;
         else {
             light->hard.push_back(job);
-            report({job}, "has hard edges beside another technique with soft ones of the same light.");
+            report({job}, "another technique has soft edges for the same light, so these edges are hard. Use one "
+                          "technique with soft edges for each light.");
         }
     }
     for (; lights.size() > mostRelitLights; lights.pop_back())
-        report(jobsOf(Lights{lights.back()}), "leaves light " + std::to_string(lights.back().number) +
-                                                  " unshadowed: at most three lights can be relit here; blend takes "
-                                                  "any number.");
+        report(jobsOf(Lights{lights.back()}), "light " + std::to_string(lights.back().number) +
+                                                  " casts no shadow, because at most 3 lights can be relit in this "
+                                                  "view. Set BLEND, which takes any number of lights.");
     std::vector<unsigned> unused = _lightBits;
     lights.erase(std::remove_if(lights.begin(), lights.end(), [&](Light& light) { return !assignBits(light, unused); }),
                  lights.end());
@@ -92,8 +93,8 @@ bool SoftCompositor::assignBits(Light& light, std::vector<unsigned>& unused) con
     const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.soft ? 1u : 0u);
     if (unused.size() < needed) {
         report(jobsOf(Lights{light}),
-               "leaves light " + std::to_string(light.number) +
-                   " unshadowed: too few stencil bits are left; take some from "
+               "light " + std::to_string(light.number) +
+                   " casts no shadow, because too few stencil bits are left. Leave more out of "
                    "CompositorOptions::reservedStencilBits, or set BLEND, which takes any number of lights.");
         return false;
     }
@@ -146,9 +147,9 @@ void SoftCompositor::darkenAside(const Leaves& aside, const Lights& lights, cons
     multiplyByFactor(lights, jobs.front()->dark, bounds);
     for (const ReplayedLeaf& leaf : darkened)
         report(jobs,
-               "cannot take a light softly from '" + nameOf(*leaf.entry.leaf) +
-                   "', which is unlit, blends, writes no depth or has a program that reads no gl_LightSource: it is "
-                   "darkened by setDark(); light it by OpenGL, or do not let it receive.");
+               "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +
+                   "', because it is unlit, blends, writes no depth or its program does not read gl_LightSource. Its "
+                   "colour is multiplied by setDark() instead. Light it with OpenGL, or leave it out of the receiver.");
 }
 
 void SoftCompositor::multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const {

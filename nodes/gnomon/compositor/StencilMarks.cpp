@@ -38,8 +38,8 @@ void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>
 void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Soft soft) const {
     if (fresh && !job.receiverNamed) return addUngated(job, bit, soft);
     if (!_scratch) {
-        job.report("needs a second stencil bit for its named receiver or beside another technique of its "
-                   "light: leave two to CompositorOptions::reservedStencilBits.");
+        job.report("a named receiver, or a second technique for the same light, needs two stencil bits, but "
+                   "only one is left. Leave at least two out of CompositorOptions::reservedStencilBits.");
         return;
     }
     addUngated(job, _scratch, soft);

@@ -29,8 +29,8 @@ void EffectNode::enlist(osgUtil::CullVisitor& cull) {
     osgUtil::RenderStage* stage = cull.getCurrentRenderBin()->getStage();
     _diagnosis->begin(frameOf(cull), stage);
     if (cull.getViewport() != stage->getViewport())
-        report(frameOf(cull), "is under a nested camera with a viewport of its own, where it would draw elsewhere: set "
-                              "that camera's render order to PRE_RENDER or POST_RENDER.");
+        report(frameOf(cull), "a nested camera above this node has a viewport of its own, where the effect would be "
+                              "drawn in the wrong place. Set that camera's render order to PRE_RENDER or POST_RENDER.");
     else if (const osg::ref_ptr<ViewEffect> effect = makeEffect(cull))
         ShadowBin::of(stage).enlist(*effect, _options);
 }

@@ -69,7 +69,8 @@ void HaloNode::setShape(Shape shape) {
 
 void HaloNode::setScale(double factor) {
     if (std::isnan(factor)) {
-        OSG_WARN << "gnomon: HaloNode::setScale(NaN) is refused: the factor is 1 (no halo) to 1000." << std::endl;
+        OSG_WARN << "gnomon: HaloNode::setScale(): NaN is refused. Give a factor from 1 (no halo) to 1000."
+                 << std::endl;
         return;
     }
     _scale = std::clamp(factor, 1.0, mostScale);
@@ -80,7 +81,8 @@ void HaloNode::setWidth(int pixels) { _width = std::clamp(pixels, 0, mostPixels)
 
 void HaloNode::setColor(const osg::Vec4f& color) {
     if (color.isNaN()) {
-        OSG_WARN << "gnomon: HaloNode::setColor() refuses NaN: red, green, blue and opacity are 0 to 1." << std::endl;
+        OSG_WARN << "gnomon: HaloNode::setColor(): NaN is refused. Give red, green, blue and opacity from 0 to 1."
+                 << std::endl;
         return;
     }
     for (int i = 0; i < 4; ++i) _color[i] = std::clamp(color[i], 0.0f, 1.0f);

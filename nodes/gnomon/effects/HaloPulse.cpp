@@ -17,7 +17,7 @@ constexpr double mostAmplitude = 999.0;
 
 void HaloPulse::setAmplitude(double amplitude) {
     if (std::isnan(amplitude)) {
-        OSG_WARN << "gnomon: HaloPulse::setAmplitude(NaN) is refused: it is 0 to 999." << std::endl;
+        OSG_WARN << "gnomon: HaloPulse::setAmplitude(): NaN is refused. Give an amplitude from 0 to 999." << std::endl;
         return;
     }
     _amplitude = std::clamp(amplitude, 0.0, mostAmplitude);

@@ -52,7 +52,8 @@ void PlanarReflectionNode::setPlane(const osg::Vec4d& plane) {
 
 void PlanarReflectionNode::setReflectance(const osg::Vec3f& share) {
     if (share.isNaN()) {
-        OSG_WARN << "gnomon: PlanarReflectionNode::setReflectance() refuses NaN: shares are 0 (none) to 1 (all)."
+        OSG_WARN << "gnomon: PlanarReflectionNode::setReflectance(): NaN is refused. Give shares from 0 (no image) to "
+                    "1 (a perfect mirror)."
                  << std::endl;
         return;
     }
@@ -73,11 +74,11 @@ osg::ref_ptr<ViewEffect> PlanarReflectionNode::makeEffect(osgUtil::CullVisitor& 
     const auto plane = normalizedPlane(toGlm(_plane));
     const auto eyePlane = plane ? transformedPlane(toGlm(eyeFromNode), *plane) : plane;
     if (_surface == Selection())
-        report(frameOf(cull), "has no surface: name what the image is seen in with setSurface().");
-    else if (!eyePlane)
         report(frameOf(cull),
-               "cannot mirror in its plane, whose normal is zero or not a number (or the transforms above "
-               "it are not): give (a, b, c, d) of a x + b y + c z + d = 0.");
+               "no surface is named, so there is no image. Name the node that shows the image with setSurface().");
+    else if (!eyePlane)
+        report(frameOf(cull), "the plane's normal, or a transform above the node, is zero or not a number, so there is "
+                              "no image. Give (a, b, c, d) of the plane a x + b y + c z + d = 0.");
     else if (isSeen(*eyePlane, *cull.getProjectionMatrix())) {
         osg::ref_ptr<ReflectionEffect> effect = new ReflectionEffect;
         effect->node = this;

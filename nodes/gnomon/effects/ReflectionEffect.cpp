@@ -70,8 +70,8 @@ void ReflectionEffect::draw(const CompositorStage& draw) const {
         mix(draw, bit);
         drawSurface(draw, bit, false);
     } else
-        node->report(frameNumber, "cannot draw into a framebuffer object of several samples: set the camera's "
-                                  "multisample buffers to 0, or multisample its window.");
+        node->report(frameNumber, "the image cannot be drawn into a multisampled framebuffer object. Set the camera's "
+                                  "multisample buffers to 0, or multisample its window instead.");
     draw.clear(bit, _bounds);
 }
 

@@ -17,9 +17,9 @@ namespace gnomon {
 
 /// Causes for ShadowTechnique::report().
 constexpr const char* noDepth =
-    "finds no depth bits in this framebuffer, from which it takes what is seen: give the camera a depth buffer.";
-constexpr const char* unresolvedDepth =
-    "cannot resolve the depth of this multisampled framebuffer object: attach a renderbuffer for it, not a texture.";
+    "this framebuffer has no depth bits, so visible points are unknown. Give the camera a depth buffer.";
+constexpr const char* unresolvedDepth = "the depth of this multisampled framebuffer object cannot be resolved. Attach "
+                                        "a renderbuffer for depth instead of a texture.";
 
 /// Reads depths of multisampled framebuffer objects, which glReadPixels() refuses to: resolved into a framebuffer without
 /// samples first, one a context, kept from frame to frame. Which of a pixel's samples counts is the driver's choice: where

@@ -23,7 +23,7 @@ osg::ref_ptr<osg::StateSet> quadProgram(const char* name, const std::string& def
 /// False if the program that was applied last could not be built.
 bool hasProgram(const osg::State& state);
 constexpr const char* noProgram =
-    "cannot build its program in this context: it needs OpenGL 3.0 with GLSL 1.30 or later.";
+    "the shader program cannot be built in this context. Use OpenGL 3.0 with GLSL 1.30, or later.";
 
 /// Uniforms of the program that was applied last.
 void setUniform(const osg::State& state, const char* name, const glm::dvec4& value);

@@ -38,7 +38,7 @@ inline std::optional<SpotCone> spotOf(const ShadowLight& light) {
 /// The cause for ShadowTechnique::report() where there is none.
 inline std::string notUsable(const osg::Vec4d& light) {
     std::ostringstream cause;
-    cause << "cannot use the light at (" << light << "), which is nowhere: set the light's position.";
+    cause << "the light at (" << light << ") has no finite position or direction. Set the light's position.";
     return cause.str();
 }
 

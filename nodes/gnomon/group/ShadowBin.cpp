@@ -30,13 +30,13 @@ template <typename Casters>
 bool areSome(const EnlistedTechnique& entry, const Casters& casters) {
     if (casters.invalidTriangles > 0)
         entry.technique->report(entry.frameNumber,
-                                "leaves out " + std::to_string(casters.invalidTriangles) +
-                                    " triangles, the first of them in '" + casters.invalidNode +
-                                    "': give every vertex finite coordinates and every index a vertex.");
+                                "invalid triangles are left out: " + std::to_string(casters.invalidTriangles) +
+                                    ", the first in '" + casters.invalidNode +
+                                    "'. Give every vertex finite coordinates and every index a vertex.");
     if (!casters.empty()) return true;
     entry.technique->report(entry.frameNumber,
-                            "has nothing to cast: its group '" + entry.group->getName() +
-                                "' holds no triangles; add the scene to it, or look at its setCasters().");
+                            "nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
+                                "' holds no triangles. Add the scene to the group, or check its setCasters().");
     return false;
 }
 

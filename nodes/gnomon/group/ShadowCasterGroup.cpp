@@ -22,8 +22,8 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 /// Warns otherwise.
 bool isLightNumber(int number, const char* method) {
     if (number >= 0 && number < 8) return true;
-    OSG_WARN << "gnomon: ShadowCasterGroup::" << method << " refuses light " << number
-             << ": OpenGL's lights are 0 to 7." << std::endl;
+    OSG_WARN << "gnomon: ShadowCasterGroup::" << method << "(): light " << number
+             << " is refused. Give an OpenGL light number from 0 to 7." << std::endl;
     return false;
 }
 
@@ -72,8 +72,9 @@ void ShadowCasterGroup::setCasters(const Selection& casters) {
 
 void ShadowCasterGroup::setDark(float factor) {
     if (std::isnan(factor)) {
-        OSG_WARN << "gnomon: ShadowCasterGroup::setDark(NaN) is refused: the factor is 0 (black) to 1 (nothing)."
-                 << std::endl;
+        OSG_WARN
+            << "gnomon: ShadowCasterGroup::setDark(): NaN is refused. Give a factor from 0 (black) to 1 (no shadow)."
+            << std::endl;
         return;
     }
     _dark = std::clamp(factor, 0.0f, 1.0f);

@@ -36,12 +36,13 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     beginFrame(frame, stage);
     const GroupAbove above = groupAbove(cull.getNodePath());
     if (!above.group) {
-        report(frame, "has no ShadowCasterGroup above it: make it a child of the group that holds the casters.");
+        report(frame,
+               "there is no ShadowCasterGroup above this node. Make it a child of the group that holds the casters.");
         return;
     }
     if (cull.getViewport() != stage->getViewport()) {
-        report(frame, "is under a nested camera with a viewport of its own, whose shadows would fall "
-                      "elsewhere: set that camera's render order to PRE_RENDER or POST_RENDER.");
+        report(frame, "a nested camera above this node has a viewport of its own, where the shadow would be drawn in "
+                      "the wrong place. Set that camera's render order to PRE_RENDER or POST_RENDER.");
         return;
     }
     EnlistedTechnique entry;

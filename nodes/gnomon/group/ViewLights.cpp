@@ -46,7 +46,8 @@ std::map<int, StageLight> lightsIn(osgUtil::RenderStage& stage) {
 }
 
 std::string notOpenGL(int number) {
-    return "leaves out light " + std::to_string(number) + ": OpenGL's lights are 0 to 7; renumber it.";
+    return "light " + std::to_string(number) +
+           " is left out, because OpenGL's lights are 0 to 7. Give it another number.";
 }
 
 void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight>& inStage,
@@ -62,9 +63,9 @@ void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight
         if (found != inStage.end() && found->second.light == light)
             result.lights.push_back(found->second.in(groupFromEye));
         else
-            result.causes.push_back(
-                "waits for the LightSource '" + source->getName() +
-                "', which is not in this view's graph (or another light has its number): add it to the scene.");
+            result.causes.push_back("the LightSource '" + source->getName() +
+                                    "' is not in this view's scene graph, or another light has its number. Add it to "
+                                    "the scene, or give it another number.");
     }
 }
 
@@ -85,9 +86,8 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
         else if (isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(number)))
             result.lights.push_back(light.in(groupFromEye));
     if (result.lights.empty() && (inStage.empty() || !leaves.empty())) // with nothing in sight, nobody can tell
-        result.causes.push_back(
-            "finds no light that is on in this view: add an osg::LightSource and switch its mode on, or set one "
-            "with ShadowCasterGroup::addLight.");
+        result.causes.push_back("no light is on in this view. Add an osg::LightSource and switch its mode on, or set a "
+                                "light with ShadowCasterGroup::addLight().");
     return result;
 }
 

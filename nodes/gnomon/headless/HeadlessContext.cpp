@@ -18,14 +18,14 @@ void requireSize(const HeadlessContext::Options& o, int limit) {
     const bool fits = o.width >= 1 && o.height >= 1 && o.width <= limit && o.height <= limit;
     if (!fits)
         throw headlessFailure("a picture of " + sizeText(o.width, o.height) +
-                              " pixels cannot be made; allowed are 1x1 to " + sizeText(limit, limit) + ".");
+                              " pixels cannot be made. Allowed: 1x1 to " + sizeText(limit, limit) + ".");
 }
 
 void requireBits(const HeadlessContext::Options& o) {
     if (o.depthBits != 16 && o.depthBits != 24 && o.depthBits != 32)
-        throw headlessFailure(std::to_string(o.depthBits) + " depth bits cannot be had; allowed are 16, 24 and 32.");
+        throw headlessFailure(std::to_string(o.depthBits) + " depth bits cannot be had. Allowed: 16, 24, 32.");
     if (o.stencilBits != 0 && o.stencilBits != 8)
-        throw headlessFailure(std::to_string(o.stencilBits) + " stencil bits cannot be had; allowed are 0 and 8.");
+        throw headlessFailure(std::to_string(o.stencilBits) + " stencil bits cannot be had. Allowed: 0, 8.");
 }
 
 int integer(GLenum name) {
@@ -149,12 +149,12 @@ private:
     void requireWorking(const Options& options) {
         const GLubyte* name = glGetString(GL_RENDERER);
         if (!name)
-            throw headlessFailure("OpenGL calls do not reach " + _context->name() + "; " + _context->linkRemedy() +
+            throw headlessFailure("OpenGL calls do not reach " + _context->name() + ". " + _context->linkRemedy() +
                                   ".");
         _renderer = reinterpret_cast<const char*>(name);
         requireSize(options, std::min(largestSide, integer(GL_MAX_VIEWPORT_DIMS)));
         if (integer(GL_DEPTH_BITS) < options.depthBits || integer(GL_STENCIL_BITS) < options.stencilBits)
-            throw headlessFailure(_context->name() + " gives fewer depth or stencil bits than asked for.");
+            throw headlessFailure(_context->name() + " has fewer depth or stencil bits than asked for. Ask for fewer.");
     }
 
     static thread_local Window* _current;
@@ -195,7 +195,8 @@ void HeadlessContext::attach(osg::Camera& camera) const {
 
 void HeadlessContext::attach(osg::Camera& camera, osg::Viewport* part) const {
     if (!_window->valid())
-        throw std::logic_error("HeadlessContext: its viewer has gone; make a new context for each viewer.");
+        throw std::logic_error(
+            "HeadlessContext: the viewer that used this context is gone. Make a new context for each viewer.");
     camera.setGraphicsContext(_window.get());
     camera.setViewport(part);
     double fovy, aspect, zNear, zFar;

@@ -48,8 +48,8 @@ EGLDisplay findDisplay() {
     for (EGLDisplay display : displays())
         if (display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) && configOf(display, 0, 0))
             return display;
-    throw headlessFailure("EGL finds no device that draws OpenGL into memory; install the driver of a GPU, or Mesa's "
-                          "(on Debian libegl-mesa0).");
+    throw headlessFailure(
+        "EGL finds no device that renders without a display. Install a GPU driver, or Mesa's (Debian: libegl-mesa0).");
 }
 
 /// One for the process, never closed: closing it would end every context on it.
@@ -66,13 +66,13 @@ public:
     explicit EglOffscreen(const HeadlessContext::Options& options) : _display(sharedDisplay()) {
         const bool plain = !needsFramebuffer(options);
         const EGLConfig config = configOf(_display, plain ? options.depthBits : 0, plain ? options.stencilBits : 0);
-        if (!config) throw headlessFailure("EGL gives no context with these depth and stencil bits.");
+        if (!config) throw headlessFailure("EGL makes no context with these depth and stencil bits. Ask for fewer.");
         eglBindAPI(EGL_OPENGL_API);
         _context = eglCreateContext(_display, config, EGL_NO_CONTEXT, nullptr);
         _surface = createSurface(config, plain ? options.width : 1, plain ? options.height : 1);
         if (_context != EGL_NO_CONTEXT && _surface != EGL_NO_SURFACE) return;
         destroy();
-        throw headlessFailure("EGL gives no picture of " + sizeText(options.width, options.height) + " pixels.");
+        throw headlessFailure("EGL makes no picture of " + sizeText(options.width, options.height) + " pixels.");
     }
     ~EglOffscreen() override { destroy(); }
 
@@ -85,7 +85,7 @@ public:
     }
     unsigned framebuffer() const override { return _framebuffer; }
     std::string name() const override { return "EGL"; }
-    std::string linkRemedy() const override { return "link libGL, and no libOSMesa ahead of it"; }
+    std::string linkRemedy() const override { return "Link libGL, and no libOSMesa ahead of it"; }
 
     void prepare(const HeadlessContext::Options& options) override {
         if (needsFramebuffer(options)) addFramebuffer(options);
@@ -133,8 +133,8 @@ void EglOffscreen::addFramebuffer(const HeadlessContext::Options& o) {
     attachBuffer(o.stencilBits ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, depthFormat(o), o.width, o.height);
     const auto status = eglFunction<PFNGLCHECKFRAMEBUFFERSTATUSPROC>("glCheckFramebufferStatus")(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw headlessFailure("EGL gives no float colour or 32 depth bits in " + sizeText(o.width, o.height) +
-                              " pixels.");
+        throw headlessFailure("EGL makes no framebuffer with float colour or 32 depth bits of " +
+                              sizeText(o.width, o.height) + " pixels.");
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 

@@ -17,7 +17,8 @@ public:
           _type(o.floatColor ? GL_FLOAT : GL_UNSIGNED_BYTE),
           _buffer((o.floatColor ? 16u : 4u) * std::size_t(o.width) * std::size_t(o.height)),
           _context(OSMesaCreateContextExt(OSMESA_RGBA, o.depthBits, o.stencilBits, 0, nullptr)) {
-        if (!_context) throw headlessFailure("OSMesa gives no context with these depth and stencil bits.");
+        if (!_context)
+            throw headlessFailure("OSMesa makes no context with these depth and stencil bits. Ask for fewer.");
     }
     ~OSMesaOffscreen() override { OSMesaDestroyContext(_context); }
 
@@ -25,7 +26,7 @@ public:
     bool unbind() override { return OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0) != GL_FALSE; }
     const unsigned char* pixels() const override { return _buffer.data(); } // OSMesa's glReadPixels clamps floats
     std::string name() const override { return "OSMesa"; }
-    std::string linkRemedy() const override { return "link libOSMesa ahead of libGL"; }
+    std::string linkRemedy() const override { return "Link libOSMesa ahead of libGL"; }
 
 private:
     int _width, _height;
@@ -39,7 +40,8 @@ private:
 std::unique_ptr<OffscreenContext> makeOffscreenContext(const HeadlessContext::Options& options) try {
     return std::make_unique<OSMesaOffscreen>(options);
 } catch (const std::bad_alloc&) {
-    throw headlessFailure("there is no memory for " + sizeText(options.width, options.height) + " pixels.");
+    throw headlessFailure("there is not enough memory for a picture of " + sizeText(options.width, options.height) +
+                          " pixels.");
 }
 
 } // namespace gnomon

@@ -31,7 +31,7 @@ osg::ref_ptr<osg::Texture2D> mapTexture(const glm::ivec2& size, osg::Texture::Fi
 }
 
 constexpr const char* noSamplers =
-    "draws penumbras no wider than its filter in this context: wider ones need OpenGL 3.3, or its sampler objects.";
+    "the penumbras are no wider than the filter, because this context has no sampler objects. Use OpenGL 3.3 or later.";
 
 /// OpenGL as a map is drawn under; put back at its end.
 class MapState {
@@ -93,7 +93,8 @@ bool bindFramebuffer(const osg::State& state, GLuint& framebuffer, const osg::Te
     return gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
 }
 
-constexpr const char* noTarget = "cannot draw into a texture in this context: it needs OpenGL's framebuffer objects.";
+constexpr const char* noTarget = "this context cannot render into a depth texture, so there is no map. Use OpenGL 3.0 "
+                                 "or later, with framebuffer objects.";
 
 } // namespace
 
@@ -120,8 +121,9 @@ std::string DepthMap::show(osg::RenderInfo& renderInfo, const MapPicture& pictur
     osg::State& state = *renderInfo.getState();
     const GLint most = glInteger(GL_MAX_TEXTURE_SIZE);
     if (std::max(size.x, size.y) > most)
-        return "cannot make a map of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
-               " texels, for this OpenGL's textures end at " + std::to_string(most) + ": set a smaller size.";
+        return "a map of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
+               " texels cannot be made, because this OpenGL allows at most " + std::to_string(most) +
+               " on a side. Set a smaller size.";
     Target& target = targetOf(state.getContextID());
     const auto* texture = _texture->getTextureObject(state.getContextID());
     if (texture && target.shown == &picture && target.texture == texture) return "";

@@ -12,8 +12,8 @@ constexpr int levels = 6;                               // blocks.frag and map_f
 constexpr int finest = 8, coarsest = 8 << (levels - 1); // texels on a side of a block
 constexpr GLint oneFloat = 0x822E;                      // GL_R32F
 constexpr GLenum red = 0x1903;                          // GL_RED
-constexpr const char* noTarget =
-    "draws penumbras no wider than its filter in this context: it cannot draw into a texture of floats.";
+constexpr const char* noTarget = "the penumbras are no wider than the filter, because this context cannot render into "
+                                 "a float texture. Use OpenGL 3.3 or later.";
 
 /// Of a side, for a multiple of the coarsest blocks.
 int blocksOf(int texels) { return (texels + coarsest - 1) / coarsest * (coarsest / finest); }

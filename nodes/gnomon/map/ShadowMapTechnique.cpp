@@ -98,10 +98,9 @@ MapSettings ShadowMapTechnique::wish() const {
 
 void ShadowMapTechnique::reportUnknownTests(unsigned frame, const CasterDrawables& pieces) const {
     if (pieces.unknownTests == 0) return;
-    report(frame, "casts " + std::to_string(pieces.unknownTests) +
-                      " alpha-tested drawables as if they were solid, the first of " + "them in '" +
-                      pieces.unknownNode +
-                      "': give them a 2D texture on unit 0 with coordinates a vertex, and no shader.");
+    report(frame, "alpha-tested drawables cast as if they were solid: " + std::to_string(pieces.unknownTests) +
+                      ", the first in '" + pieces.unknownNode +
+                      "'. Give them a 2D texture on unit 0, texture coordinates for each vertex, and no shader.");
 }
 
 void ShadowMapTechnique::resizeGLObjectBuffers(unsigned maxSize) {

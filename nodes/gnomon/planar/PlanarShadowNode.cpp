@@ -109,13 +109,13 @@ void PlanarShadowNode::setPlanes(const std::vector<osg::Vec4d>& planes) { _plane
 std::vector<osg::ref_ptr<MarkJob>> PlanarShadowNode::prepare(const ViewFrame& view, const ShadowLight& light,
                                                              const FrameCasters& casters) const {
     std::vector<osg::ref_ptr<MarkJob>> jobs;
-    if (_planes.empty()) report(view.frameNumber, "has no plane to cast on: give it one with addPlane().");
+    if (_planes.empty()) report(view.frameNumber, "no plane is set, so there is no shadow. Set one with addPlane().");
     for (unsigned i = 0; i < _planes.size(); ++i) {
         const auto plane = transformedPlane(toGlm(view.groupFromTechnique), toGlm(_planes[i]));
         if (!plane)
             report(view.frameNumber,
-                   sentence("cannot use its plane", _planes[i],
-                            "whose normal is zero or not a number: give (a, b, c, d) of a x + b y + c z + d = 0."));
+                   sentence("the normal of the plane", _planes[i],
+                            "is zero or not a number. Give (a, b, c, d) of the plane a x + b y + c z + d = 0."));
         else if (osg::ref_ptr<MarkJob> job = prepareOne(view, light, casters.mesh(), i, *plane))
             jobs.push_back(job);
     }
@@ -131,22 +131,22 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     };
     const osg::ref_ptr<PlanarCasters> casters = castersAbove(mesh, groupPlane, view.frameNumber);
     if (casters->parts.empty())
-        return refuse("has nothing above its plane", _planes[index],
-                      "to cast on it: look at the plane's place and the side its normal points to.");
+        return refuse("no caster is above the plane", _planes[index],
+                      "on the side of its normal. Check where the plane lies and which way its normal points.");
     if (!isFinite(toGlm(light.inGroup)))
-        return refuse("cannot use the light at", light.inGroup,
-                      "which is not a finite number: set the light's position.");
+        return refuse("the light at", light.inGroup, "has a coordinate that is not finite. Set the light's position.");
     const glm::dvec3 origin = toGlm(mesh.origin);
     const glm::dvec4 lightHere(glm::dvec3(toGlm(light.inGroup)) - light.inGroup.w() * origin, light.inGroup.w());
     const auto flatten = planarShadowMatrix(casters->plane, lightHere);
     if (!flatten)
-        return refuse(
-            "casts no shadow of the light at", light.inGroup,
-            "which is in its plane or behind it: move the light to the side that the plane's normal points to.");
+        return refuse("the light at", light.inGroup,
+                      "lies in the plane or behind it, so there is no shadow. Move the light to the side that the "
+                      "plane's normal points to.");
     const glm::dmat4 clipFromMesh = glm::translate(toGlm(view.eyeFromGroup * view.projection), origin);
     if (!(glm::dot(casters->plane, eyeIn(clipFromMesh)) > 0.0))
-        return refuse("is seen from behind its plane", _planes[index],
-                      "where the light does not reach: if that side is the lit one, turn the plane's normal round.");
+        return refuse("the camera is behind the plane", _planes[index],
+                      "and sees the side that the light does not reach. If that side is the lit one, reverse the "
+                      "plane's normal.");
 
     osg::ref_ptr<PlanarMark> mark = new PlanarMark;
     const PlanarClipPlanes clip = planarClipPlanes(casters->plane, lightHere);

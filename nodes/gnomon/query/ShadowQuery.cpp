@@ -22,9 +22,9 @@ osg::NodePath pathFromGroup(const ShadowTechnique& technique) {
         for (std::size_t i = path.size(); i-- > 0;)
             if (dynamic_cast<const ShadowCasterGroup*>(path[i]))
                 return {path.begin() + static_cast<std::ptrdiff_t>(i), path.end()};
-    throw std::invalid_argument("gnomon::ShadowQuery: " + technique.describe() +
-                                " has no ShadowCasterGroup above it: make it a child of the group that holds the "
-                                "casters.");
+    throw std::invalid_argument(
+        "gnomon::ShadowQuery: " + technique.describe() +
+        " has no ShadowCasterGroup above it. Make it a child of the group that holds the casters.");
 }
 
 template <typename Answer>
@@ -44,7 +44,9 @@ ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& li
     _group = &group;
     _mesh = group.casters();
     const auto usable = localLight(light.inGroup, _mesh->origin);
-    if (!usable) throw std::invalid_argument("gnomon::ShadowQuery: the light is nowhere: set its position.");
+    if (!usable)
+        throw std::invalid_argument(
+            "gnomon::ShadowQuery: the light has no finite position or direction. Set its position.");
     _origin = _mesh->origin;
     _light = *usable;
     _scene = RaySceneCache().of(*_mesh, "ShadowQuery");

@@ -144,7 +144,7 @@ osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec&, const NamedNode* nam
     const std::vector<FlatPart> parts = flatParts(*receiver.node, mostPlanes);
     if (parts.empty())
         throw std::invalid_argument("the receiver \"" + receiver.node->getName() +
-                                    "\" has no flat part for planar to use.");
+                                    "\" has no flat part, which planar needs. Name another one with receiver=NAME.");
     osg::ref_ptr<PlanarShadowNode> node = new PlanarShadowNode;
     for (const FlatPart& part : parts)
         if (part.area >= smallestPart * parts.front().area) node->addPlane(inGroup(part.plane, receiver));
@@ -176,9 +176,10 @@ osg::ref_ptr<ShadowTechnique> makeTerrain(const ShadowSpec& spec, const NamedNod
 
 const std::vector<Key>& sharedKeys() {
     static const std::vector<Key> keys = {
-        {"composite", "relight, blend", "relight", "take exactly the light away, or darken by a factor", takeComposite},
-        {"dark", "0 to 1", "0.5", "with composite=blend: factor of the colour in shadow", takeDark},
-        {"receiver", "a node's name", "map, traced: everything; else: ground", "what the shadow falls on",
+        {"composite", "relight, blend", "relight", "remove exactly the blocked light, or multiply the colour by dark",
+         takeComposite},
+        {"dark", "0 to 1", "0.5", "with composite=blend: factor for the colour in shadow", takeDark},
+        {"receiver", "a node's name", "map, traced: everything; else: ground", "node that receives the shadow",
          takeReceiver},
     };
     return keys;
@@ -186,63 +187,57 @@ const std::vector<Key>& sharedKeys() {
 
 const std::vector<Technique>& techniques() {
     static const Key error = {"error", "0 to 1e6, scene's unit", "0.1",
-                              "how far off a draped edge may be in plan; 0 is exact", takeError};
-    static const Key size = {"size", "16 to 16384, texels", "1024", "side of a light's map", takeSize};
+                              "greatest error of a draped edge in plan; 0 is exact", takeError};
+    static const Key size = {"size", "16 to 16384, texels", "1024", "side of a light's shadow map", takeSize};
     static const Key filter = {"filter", "nearest, bilinear, bicubic, fine", "bicubic",
-                               "compare 1, 2 x 2 or 4 x 4 texels of the map; fine: 16 times 2 x 2 with edges=smooth",
+                               "texels compared: 1, 2 x 2 or 4 x 4; fine: 16 times 2 x 2 with edges=smooth",
                                takeFilter};
-    static const Key cascades = {"cascades", "auto, 1 to 4", "auto", "maps of a sun, each for a part of a long view",
-                                 takeCascades};
+    static const Key cascades = {"cascades", "auto, 1 to 4", "auto",
+                                 "shadow maps of a sun, each for a part of the view", takeCascades};
     static const Key edges = {"edges", "hard, smooth, soft", "hard",
-                              "all of the light or none of it, the same a pixel wide, or the share that arrives",
-                              takeEdges};
+                              "lit or unlit; smooth over one pixel; or penumbras", takeEdges};
     static const Key sunAngle = {"sun-angle", "0 to 20, degrees", "0.533",
-                                 "with edges=soft: angle that a sun is seen under; 0 is a point", takeSunAngle};
+                                 "with edges=soft: angular diameter of a sun; 0 is a point", takeSunAngle};
     static const Key lampSize = {"lamp-size", "0 to 1e6, scene's unit", "0",
                                  "with edges=soft: diameter of lamps and spots; 0 is a point", takeLampSize};
     static const Key radius = {"radius", "0 to 1e6, scene's unit", "0",
-                               "with edges=soft: radius that is averaged everywhere", takeRadius};
-    static const Key view = {"view", "nothing, map, texels, cascades", "nothing",
-                             "what is drawn over the picture to see how the maps lie", takeView};
+                               "with edges=soft: least radius of the blurred edge; 0 is the filter's own", takeRadius};
+    static const Key view = {"view", "nothing, map, texels, cascades", "nothing", "debug view drawn over the picture",
+                             takeView};
     static const std::vector<Technique> table = {
         {"none", true, "no shadow", nullptr, true, {}},
         {"planar",
          true,
-         "the casters flattened onto the receiver's planes; exact on flat receivers",
+         "flattens the casters onto the receiver's planes; exact on flat receivers",
          makePlanar,
          false,
          {}},
         {"box",
          true,
-         "ARL-TN-156's bounding-box method on terrain, as published",
+         "bounding-box method of ARL-TN-156 on terrain, as published",
          makeTerrain<TerrainShadowGeode::BOX>,
          false,
          {}},
         {"hull",
          true,
-         "silhouettes of the casters' convex parts, a ray a corner, as polygons on terrain",
+         "polygons on terrain: silhouettes of the casters' convex parts, one ray for each corner",
          makeTerrain<TerrainShadowGeode::HULL>,
          false,
          {error}},
         {"drape",
          true,
-         "the terrain's triangles cut by the casters' shadows, to within error",
+         "the terrain's triangles, cut by the casters' shadows to within error",
          makeTerrain<TerrainShadowGeode::DRAPE>,
          false,
          {error}},
         {"map",
          true,
-         "depth maps of the casters as the lights see them; on everything that is seen",
+         "shadow maps; on every visible surface",
          makeMap,
          true,
          {size, filter, cascades, edges, sunAngle, lampSize, radius, view}},
         {"volume", false, "", nullptr, true, {}},
-        {"traced",
-         true,
-         "a ray a pixel towards the light, by Embree; exact on everything that is seen",
-         makeTraced,
-         true,
-         {}},
+        {"traced", true, "one ray for each pixel by Embree; exact on every visible surface", makeTraced, true, {}},
         {"auto", false, "", nullptr, true, {}},
     };
     return table;
@@ -259,10 +254,10 @@ std::string join(const std::vector<std::string>& words) {
 const Technique& requireTechnique(const std::string& name) {
     for (const Technique& technique : techniques()) {
         if (name != technique.name) continue;
-        if (!technique.built) refuse("\"" + name + "\" is not built yet; built: " + join(shadowTechniques()) + ".");
+        if (!technique.built) refuse("\"" + name + "\" is not built yet. Allowed: " + join(shadowTechniques()) + ".");
         return technique;
     }
-    refuse("\"" + name + "\" is not a shadow technique; allowed: " + join(shadowTechniques()) + ".");
+    refuse("\"" + name + "\" is not a shadow technique. Allowed: " + join(shadowTechniques()) + ".");
 }
 
 std::vector<Key> keysOf(const Technique& technique) {
@@ -277,7 +272,7 @@ const Key& requireKey(const Technique& technique, const std::vector<Key>& keys, 
         if (name == key.name) return key;
         names.push_back(key.name);
     }
-    refuse(std::string("the technique ") + technique.name + " has no key \"" + name + "\"; allowed: " + join(names) +
+    refuse(std::string("the technique ") + technique.name + " has no key \"" + name + "\". Allowed: " + join(names) +
            ".");
 }
 
@@ -286,9 +281,10 @@ void takePair(ShadowSpec& spec, const Technique& technique, const std::string& p
     const std::string name = pair.substr(0, equals);
     const std::vector<Key> keys = keysOf(technique);
     const Key& key = requireKey(technique, keys, name);
-    if (!seen.insert(name).second) refuse("the key \"" + name + "\" is given twice in \"" + spec.text + "\".");
+    if (!seen.insert(name).second)
+        refuse("the key \"" + name + "\" is given twice. Give it once in \"" + spec.text + "\".");
     const std::string value = equals == std::string::npos ? "" : pair.substr(equals + 1);
-    if (!key.take(spec, value)) refuse(name + "=" + value + " cannot be used; allowed: " + key.range + ".");
+    if (!key.take(spec, value)) refuse(name + "=" + value + " cannot be used. Allowed: " + key.range + ".");
 }
 
 void takePairs(ShadowSpec& spec, const Technique& technique, const std::string& pairs) {
@@ -305,8 +301,9 @@ bool blends(const ShadowSpec& spec) { return spec.composite == ShadowCasterGroup
 void setComposite(ShadowCasterGroup& group, const std::vector<ShadowSpec>& specs) {
     for (const ShadowSpec& spec : specs) {
         if (blends(spec) != blends(specs.front()))
-            refuse("composite=relight and composite=blend cannot be mixed; give every shadow the same.");
-        if (spec.dark && specs.front().dark != spec.dark) refuse("dark= differs; give every shadow the same.");
+            refuse("composite=relight and composite=blend cannot be mixed. Give every shadow the same.");
+        if (spec.dark && specs.front().dark != spec.dark)
+            refuse("dark= differs between the shadows. Give every shadow the same.");
     }
     if (specs.empty()) return;
     group.setComposite(blends(specs.front()) ? ShadowCasterGroup::BLEND : ShadowCasterGroup::RELIGHT);
@@ -317,7 +314,7 @@ NamedNode requireReceiver(osg::Node& root, const std::string& name) {
     if (const std::optional<NamedNode> found = findNamed(root, name)) return *found;
     const std::string names = join(nodeNames(root));
     refuse("no node is named \"" + name +
-           "\" to receive the shadow; names in the scene: " + (names.empty() ? "none" : names) + ".");
+           "\" to receive the shadow. Names in the scene: " + (names.empty() ? "none" : names) + ".");
 }
 
 osg::ref_ptr<ShadowTechnique> makeTechnique(ShadowCasterGroup& group, const ShadowSpec& spec) {
@@ -349,7 +346,7 @@ ShadowSpec parseShadowSpec(const std::string& text) {
     spec.technique = text.substr(0, colon);
     const Technique& technique = requireTechnique(spec.technique);
     if (colon != std::string::npos) takePairs(spec, technique, text.substr(colon + 1));
-    if (spec.dark && !blends(spec)) refuse("dark= is of use only with composite=blend; add it to \"" + text + "\".");
+    if (spec.dark && !blends(spec)) refuse("dark= needs composite=blend. Add it to \"" + text + "\".");
     return spec;
 }
 
@@ -367,7 +364,7 @@ std::string shadowSpecHelp(const std::vector<std::string>& names) {
         out << "  " << technique.name << "  " << technique.says << "\n";
         describeKeys(out, technique.keys, "    ");
     }
-    out << "  with any of them, as NAME:key=value,key=value\n";
+    out << "  keys of every technique, as NAME:key=value,key=value\n";
     describeKeys(out, sharedKeys(), "    ");
     return out.str();
 }

@@ -97,12 +97,14 @@ void OutcomeCounts::add(const OutcomeCounts& other) {
 
 std::vector<std::string> OutcomeCounts::causes() const {
     const std::size_t all = std::accumulate(_counts.begin(), _counts.end(), std::size_t{0});
-    if (all == 0) return {"has nothing to cast but its own receiver: name the terrain alone."};
+    if (all == 0)
+        return {
+            "every caster is part of the receiver, so nothing casts on it. Name the terrain alone with setReceiver()."};
     std::vector<std::string> causes;
     for (std::size_t i = 0; i < _counts.size(); ++i) {
         const auto outcome = static_cast<TerrainOutcome>(i);
         if (_counts[i] > 0 && isNews(outcome))
-            causes.push_back("finds of " + std::to_string(_counts[i]) + " of " + std::to_string(all) +
+            causes.push_back(std::to_string(_counts[i]) + " of " + std::to_string(all) +
                              " casters: " + sentence(outcome));
     }
     return causes;

@@ -127,8 +127,8 @@ void TerrainShadowGeode::setError(double error) {
     if (error >= 0.0 && std::isfinite(error))
         _error = error;
     else
-        OSG_WARN << "gnomon: " << describe() << " cannot take an error of " << error
-                 << ": give a length of 0 or more, in the scene's unit." << std::endl;
+        OSG_WARN << "gnomon: " << describe() << ": an error of " << error
+                 << " is refused. Give a length of 0 or more, in the scene's unit." << std::endl;
 }
 
 unsigned TerrainShadowGeode::builds() const { return _foundAlone + _cache->found(); }
@@ -139,9 +139,9 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
         report(view.frameNumber, cause);
         return std::vector<osg::ref_ptr<MarkJob>>();
     };
-    if (!hasReceiver()) return refuse("has no terrain to fall on: name it with setReceiver().");
+    if (!hasReceiver()) return refuse("no terrain is named, so there is no shadow. Name it with setReceiver().");
     const auto usable = localLight(light.inGroup, osg::Vec3d());
-    if (!usable) return refuse("cannot use its light, which is nowhere: set the light's position.");
+    if (!usable) return refuse("the light has no finite position or direction. Set the light's position.");
     const TerrainFrame frame =
         _cache->frame(view, casters.drawables(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
                       *usable, {_method, _error, {}});
@@ -204,9 +204,9 @@ TerrainPlace TerrainShadowGeode::terrain() const {
 TerrainShadowGeode::Asked TerrainShadowGeode::asked(const osg::Vec4d& light) const {
     Asked result;
     const auto usable = localLight(light, osg::Vec3d());
-    if (!_object) result.refusal = "has nothing to cast: give it an object with setObjectGraphic().";
-    if (!getReceiver().node) result.refusal = "has no terrain to fall on: name it with setReceiver().";
-    if (!usable) result.refusal = "cannot use its light, which is nowhere: give its direction or position.";
+    if (!_object) result.refusal = "no object is set, so there is no shadow. Set one with setObjectGraphic().";
+    if (!getReceiver().node) result.refusal = "no terrain is named, so there is no shadow. Name it with setReceiver().";
+    if (!usable) result.refusal = "the light has no finite position or direction. Give one of them.";
     if (result.refusal) return result;
     osg::BoundingBoxd box = _bounds;
     if (box.valid()) box._min += _position, box._max += _position;
@@ -234,7 +234,8 @@ bool TerrainShadowGeode::compute(const Asked& with) {
     for (const std::string& cause : _shown->causes) report(0, cause);
     show();
     if (_triangles.empty() && _shown->causes.empty())
-        report(0, "finds no shadow: the object is in the ground, or the light meets it edge on.");
+        report(0, "there is no shadow, because the object lies in the ground or the light meets it edge on. Raise the "
+                  "object, or move the light.");
     return !_triangles.empty();
 }
 

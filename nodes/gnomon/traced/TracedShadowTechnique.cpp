@@ -38,7 +38,7 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
     try {
         mark->scene = _casters->of(mesh, describe());
     } catch (const std::exception& failure) {
-        report(view.frameNumber, std::string("casts no shadow: ") + failure.what());
+        report(view.frameNumber, std::string("there is no shadow. ") + failure.what());
         return {};
     }
     return {mark};

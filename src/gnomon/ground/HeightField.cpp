@@ -19,13 +19,13 @@ HeightField::HeightField(int columns, int rows, const glm::dvec2& origin, const 
       _heights(std::move(heights)),
       _base(base),
       _cuts(std::move(cuts)) {
-    if (columns < 2 || rows < 2) throw std::invalid_argument("a height field needs 2 posts at least along each side.");
+    if (columns < 2 || rows < 2) throw std::invalid_argument("a height field needs at least 2 posts along each side.");
     if (_heights.size() != std::size_t(columns) * std::size_t(rows))
-        throw std::invalid_argument("a height field needs a height for each of its posts.");
+        throw std::invalid_argument("a height field needs one height for each post.");
     if (!_cuts.empty() && _cuts.size() != std::size_t(columns - 1) * std::size_t(rows - 1))
-        throw std::invalid_argument("a height field needs a cut for each of its cells, or none.");
+        throw std::invalid_argument("a height field needs one cut for each cell, or none at all.");
     if (!(step.x > 0.0) || !(step.y > 0.0) || !std::isfinite(step.x + step.y + origin.x + origin.y + base))
-        throw std::invalid_argument("a height field needs a step above 0 and a finite origin.");
+        throw std::invalid_argument("a height field needs a finite step above 0 and a finite origin.");
 }
 
 bool HeightField::isHole(int x, int y) const {

@@ -72,7 +72,7 @@ std::uint16_t PackedParts::kindOf(std::shared_ptr<const HullTopology> topology) 
     if (known != _topologies.end()) return std::uint16_t(known - _topologies.begin());
     if (_topologies.size() > 2 * size() + 16) forgetUnused();
     if (_topologies.size() > std::numeric_limits<std::uint16_t>::max())
-        throw std::length_error("packed parts are of 65536 kinds at most.");
+        throw std::length_error("packed parts hold at most 65536 kinds.");
     _topologies.push_back(std::move(topology));
     return std::uint16_t(_topologies.size() - 1);
 }

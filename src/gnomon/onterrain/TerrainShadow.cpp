@@ -57,29 +57,32 @@ bool isBuried(const FanBatch& batch, std::size_t i, const TerrainAsk& asked, con
 const char* sentence(TerrainOutcome outcome) {
     switch (outcome) {
     case TerrainOutcome::fan:
-        return "The shadow is one polygon.";
+        return "its shadow is one polygon.";
     case TerrainOutcome::draped:
-        return "The shadow lies on the ground's triangles.";
+        return "its shadow lies on the ground's triangles.";
     case TerrainOutcome::steep:
-        return "Draped: the ground falls off nearly as steeply as the light.";
+        return "draped instead, because the ground falls off nearly as steeply as the light. The shadow is right, but "
+               "takes longer.";
     case TerrainOutcome::rough:
-        return "Draped: the ground between the corners' rays is off the polygon.";
+        return "draped instead, because the ground between the corners is off the polygon. The shadow is right, but "
+               "takes longer.";
     case TerrainOutcome::noFan:
-        return "Draped: a ray meets no ground, or the polygon would overlap itself.";
+        return "draped instead, because a ray meets no ground or the polygon would overlap itself. The shadow is "
+               "right, but takes longer.";
     case TerrainOutcome::lightBelow:
-        return "No shadow: the light is below the horizon or in the ground.";
+        return "no shadow, because the light is below the horizon or in the ground. Raise the light.";
     case TerrainOutcome::lightInside:
-        return "All the ground is dark: the light is inside the caster.";
+        return "all the ground is dark, because the light is inside the caster. Move the light out of it.";
     case TerrainOutcome::edgeOn:
-        return "No shadow: the light meets the caster edge on, or there is no light.";
+        return "no shadow, because the light meets the caster edge on or there is no light. Move the light.";
     case TerrainOutcome::turnedAway:
-        return "No shadow of its own: the faces turned to the light cast it.";
+        return "no shadow of its own, because the faces turned to the light cast it.";
     case TerrainOutcome::buried:
-        return "No shadow: the caster is in the ground.";
+        return "no shadow, because the caster is in the ground. Raise the caster.";
     case TerrainOutcome::noGround:
         break;
     }
-    return "No shadow: it meets no ground.";
+    return "no shadow, because it meets no ground. Extend the terrain, or raise the light.";
 }
 
 bool isLightBelow(const Ground& ground, const glm::dvec4& light) {

@@ -27,7 +27,7 @@ enum class TerrainOutcome : unsigned char {
     noGround    ///< the shadow meets no ground.
 };
 
-/// One sentence. @return the same for the whole of the program.
+/// What became of the shadow, in one sentence or two. @return the same for the whole of the program.
 const char* sentence(TerrainOutcome outcome);
 
 struct TerrainShadow {

@@ -22,7 +22,7 @@ constexpr int liftSteps = 256;
 [[noreturn]] void fail(const char* what, RTCError error) {
     const std::string why = error == RTC_ERROR_OUT_OF_MEMORY     ? "there is not enough memory"
                             : error == RTC_ERROR_UNSUPPORTED_CPU ? "it does not support this processor"
-                                                                 : "its error is " + std::to_string(int(error));
+                                                                 : "it reports error " + std::to_string(int(error));
     throw std::runtime_error(std::string("Embree cannot ") + what + ": " + why + ".");
 }
 

@@ -71,8 +71,8 @@ std::string momentOf(double julianDay) {
 }
 
 SunClock::SunClock(double latitude, double longitude) : _latitude(latitude), _longitude(longitude) {
-    if (!(std::abs(latitude) <= 90.0)) throw std::invalid_argument("a latitude is from -90 to 90 degrees.");
-    if (!(std::abs(longitude) <= 180.0)) throw std::invalid_argument("a longitude is from -180 to 180 degrees.");
+    if (!(std::abs(latitude) <= 90.0)) throw std::invalid_argument("The latitude must be from -90 to 90 degrees.");
+    if (!(std::abs(longitude) <= 180.0)) throw std::invalid_argument("The longitude must be from -180 to 180 degrees.");
 }
 
 SunPosition SunClock::at(double julianDay) const {

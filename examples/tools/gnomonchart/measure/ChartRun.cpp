@@ -43,7 +43,7 @@ std::vector<Entry> entries(const std::string& part) {
         result.push_back({peerContender(peer, "defaults", {})});
         if (!peer.knobs.empty()) result.push_back({peerContender(peer, "best", {}), &peer});
     }
-    if (result.empty()) throw std::invalid_argument("no technique's name holds \"" + part + "\".");
+    if (result.empty()) throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
     return result;
 }
 

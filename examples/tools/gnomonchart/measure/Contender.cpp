@@ -66,7 +66,7 @@ ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
     spec.receiver = flat ? scene.receiver : scene.terrain;
     if (spec.receiver.empty())
         throw std::invalid_argument(spec.technique + " needs a " + (flat ? "flat receiver" : "terrain") +
-                                    ", and the scene names none.");
+                                    ", but the scene names none.");
     return spec;
 }
 

@@ -16,8 +16,8 @@ bool mayDiffer(const std::string& fact) { return fact == "command" || fact == "d
 void requireSame(const Facts& earlier, const Facts& now) {
     for (const auto& fact : now)
         if (!mayDiffer(fact.first) && std::find(earlier.begin(), earlier.end(), fact) == earlier.end())
-            throw std::invalid_argument("--resume: the results there were not made with " + fact.first + " " +
-                                        fact.second + "; leave --resume out to measure all anew.");
+            throw std::invalid_argument("--resume: the results in the folder were not made with " + fact.first + " " +
+                                        fact.second + ". Leave --resume out to measure everything again.");
 }
 
 } // namespace

@@ -49,7 +49,7 @@ osg::ref_ptr<osg::Group> splitCopy(const osg::Group& content, const std::string&
     SplitMasks split(receiver);
     if (!receiver.empty()) copy->accept(split);
     if (!split.found())
-        throw std::invalid_argument("ShadowTexture needs a receiver that does not cast, and the scene names none.");
+        throw std::invalid_argument("ShadowTexture needs a receiver that does not cast, but the scene names none.");
     return copy;
 }
 

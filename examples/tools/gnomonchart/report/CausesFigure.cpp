@@ -128,11 +128,12 @@ std::string keyCommands(glm::dvec2 at) {
 
 std::string labelCommands(const std::vector<CauseRow>& rows, const std::string& title) {
     const double top = heightOf(rows);
-    std::string commands = textCommand(title, {16.0, top - 16.0}, {14.0, "#111827", true}) +
-                           textCommand("Each technique at the setting at which its boundary is least off. Blue: shadow "
-                                       "where none belongs; red: shadow that is missing.",
-                                       {16.0, top - 35.0}, {9.0}) +
-                           keyCommands({barLeft, top - 58.0});
+    std::string commands =
+        textCommand(title, {16.0, top - 16.0}, {14.0, "#111827", true}) +
+        textCommand(
+            "Each technique at the setting with the smallest boundary error. Blue: false shadow. Red: missed shadow.",
+            {16.0, top - 35.0}, {9.0}) +
+        keyCommands({barLeft, top - 58.0});
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const double y = top - head - rowHeight * (static_cast<double>(i) + 0.5);
         commands += textCommand(rows[i].label, {16.0, y}, {9.5, rows[i].textColour});

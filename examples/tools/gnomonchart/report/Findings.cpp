@@ -66,10 +66,11 @@ std::vector<BestPoint> victors(const std::vector<Curve>& curves, const std::vect
 
 std::string beatenSentence(const std::string& peers, const BestPoint* nearest, bool anyOurs) {
     if (nearest)
-        return "A peer beats every Gnomon technique: at equal or lower cost the most accurate of Gnomon's is " +
-               described(*nearest) + ", but there is " + peers + ".";
-    return "A peer is cheaper than every Gnomon technique" +
-           std::string(anyOurs ? ": " : ", none of which gives a sound shadow here: ") + peers + ".";
+        return "A peer beats every Gnomon technique: " + peers +
+               ". At equal or lower cost, the most accurate of Gnomon's is " + described(*nearest) + ".";
+    return std::string(anyOurs ? "A peer is cheaper than every Gnomon technique: "
+                               : "No Gnomon technique gives a sound shadow here, but a peer does: ") +
+           peers + ".";
 }
 
 /// A sentence for each point of Gnomon that is the most accurate for what some victors cost.
@@ -99,8 +100,9 @@ std::vector<std::string> peersAhead(const std::vector<Curve>& curves) {
 
 std::string marginSentence(const std::vector<std::string>& ahead) {
     if (ahead.empty())
-        return "By no more than runs differ by: 1 ms or a tenth of the time, and a tenth of the error, suffice.";
-    return "By more than 1 ms and a tenth of its time, or a tenth of its error: " + listed(ahead) + ".";
+        return "The lead is within the variation between runs: at most 1 ms or a tenth of the time, and a tenth of the "
+               "error.";
+    return "The lead exceeds 1 ms and a tenth of the time, or a tenth of the error: " + listed(ahead) + ".";
 }
 
 std::string bestSentence(const std::vector<Curve>& curves) {
@@ -125,7 +127,7 @@ std::string outdoneSentence(const std::vector<Curve>& curves) {
         if (any && all) names.push_back(curve.technique);
     }
     if (names.empty()) return "";
-    return "Never worth it here, for at each setting some peer costs no more and errs no more: " + listed(names) + ".";
+    return "Never worth it here, because at each setting a peer costs no more and errs no more: " + listed(names) + ".";
 }
 
 std::string catastropheSentence(const std::vector<Curve>& curves) {
@@ -151,7 +153,7 @@ bool tried(const ChartResults& results, const std::string& scene, bool ours) {
 std::string notJudgedSentence(bool ours, bool peers) {
     if (!ours && !peers) return "Nothing was timed here.";
     return std::string("Only ") + (ours ? "Gnomon's techniques" : "peers") +
-           " were timed here, so that nothing is said of who beats whom.";
+           " were timed here, so there is no comparison.";
 }
 
 SceneFinding findingOf(const ChartResults& results, const ChartSceneResult& scene, LightMotion light) {
@@ -201,15 +203,14 @@ std::string findingsSummary(const std::vector<SceneFinding>& findings) {
     const std::vector<std::string> beaten = casesWith(findings, &SceneFinding::peerBeatsUs),
                                    ahead = casesWith(findings, &SceneFinding::peerIsAhead);
     const auto judged = casesWith(findings, &SceneFinding::judged).size();
-    if (judged == 0) return "No scene is judged: that takes a technique of Gnomon and a peer, both timed.";
+    if (judged == 0) return "No scene is compared, because that needs timings of a Gnomon technique and of a peer.";
     const std::string cases = std::to_string(judged) + " cases (each scene with a still and with a moving light)";
     if (beaten.empty())
         return "In none of " + cases +
-               " does a peer beat Gnomon: whatever a peer costs and errs, some technique of "
-               "Gnomon costs no more and errs no more.";
+               " does a peer beat Gnomon. For every peer, some Gnomon technique costs no more and errs no more.";
     return "In " + std::to_string(beaten.size()) + " of " + cases +
            " a peer beats every Gnomon technique at some cost: " + listed(beaten) +
-           ". By more than 1 ms and a tenth of its time, or a tenth of its error: " +
+           ". The lead exceeds 1 ms and a tenth of the time, or a tenth of the error, " +
            (ahead.empty() ? "in none" : "in " + std::to_string(ahead.size()) + ": " + listed(ahead)) + ".";
 }
 

@@ -26,7 +26,7 @@ public:
         : path(fs::path(folder) / ("." + name + "-" + std::to_string(getpid()))) {
         std::error_code error;
         if (!fs::create_directory(path, error) && !fs::is_directory(path))
-            throw std::runtime_error(quoted(folder) + " takes no new files: " + error.message() + ".");
+            throw std::runtime_error(quoted(folder) + " is not writable: " + error.message() + ".");
     }
     ~DraftFolder() {
         std::error_code ignored;
@@ -57,14 +57,14 @@ std::string complaint(const fs::path& log) {
     std::ifstream in(log);
     std::string line;
     while (line.empty() && std::getline(in, line)) continue;
-    return line.empty() ? "it ended without a word" : line;
+    return line.empty() ? "it printed no message" : line;
 }
 
 void runGnuplot(const fs::path& folder, const std::string& script) {
     pid_t id = 0;
     int status = 0;
     if (start(id, folder, script) != 0)
-        throw std::runtime_error("the figures need gnuplot, which cannot be started: install gnuplot-nox.");
+        throw std::runtime_error("the figures need gnuplot, which cannot be started. Install gnuplot-nox.");
     while (waitpid(id, &status, 0) < 0 && errno == EINTR) continue;
     if (status != 0) throw std::runtime_error("gnuplot cannot draw " + script + ": " + complaint(folder / "log") + ".");
 }

@@ -57,7 +57,7 @@ std::string figuresHtml(const std::vector<DrawnFigure>& figures, const std::stri
 }
 
 std::string sceneOptions(const ChartResults& results) {
-    std::string html = element("option", "all scenes, as medians", "value=\"\"");
+    std::string html = element("option", "all scenes (medians)", "value=\"\"");
     for (const ChartSceneResult& scene : results.scenes)
         html += element("option", escaped(scene.title), "value=\"" + escaped(scene.name) + "\"");
     return html;
@@ -87,7 +87,7 @@ std::string madeHtml(const ChartResults& results) {
 std::string stateOf(const ChartResults& results) {
     if (results.complete) return "";
     return element("p",
-                   "The run was interrupted or is still under way: " + std::to_string(results.points.size()) +
+                   "The run was interrupted or is still running: " + std::to_string(results.points.size()) +
                        " points so far.",
                    "class=\"warning\"");
 }
@@ -95,8 +95,8 @@ std::string stateOf(const ChartResults& results) {
 std::string shrunkText(int times) {
     if (times == 1) return "";
     return element("p",
-                   "So that this page stays small, pictures in it are shown at 1/" + std::to_string(times) +
-                       " of their size each way; the files beside it are whole.",
+                   "Pictures on this page are reduced to 1/" + std::to_string(times) +
+                       " of their width and height. The files beside the page have full size.",
                    "class=\"note\"");
 }
 

@@ -69,28 +69,28 @@ std::string leftOut(const FigurePanel& panel) {
     for (const Curve& curve : panel.curves)
         for (const CurvePoint& point : curve.points)
             if (!point.shown()) names += (names.empty() ? "" : "; ") + curve.technique + ", " + point.setting;
-    return names.empty() ? "" : " Without a place, for want of a time or of a shadow's boundary: " + names + ".";
+    return names.empty() ? "" : " Not drawn, because a time or a boundary is missing: " + names + ".";
 }
 
 std::string captionOf(const Figure& figure, const std::string& scene) {
-    const std::string pooled = "Each marker is one technique at one setting: the median, over the scenes in which it "
-                               "was tried, of time and of "
-                               "error; where it failed or drew no boundary it counts as infinitely far off. ";
+    const std::string pooled = "Each marker is one technique at one setting: its median time and median error over the "
+                               "scenes in which it was tried. A failure or a missing boundary counts as an infinite "
+                               "error. ";
     return (scene.empty() ? pooled : "Each marker is one technique at one setting in this scene. ") +
-           "To the left is faster, down is more accurate. Across: wall time that shadows add to a frame, with its "
-           "quartiles. Up: the distance in pixels below which 95 % of the shadow's boundary lies from the true one. "
-           "Hollow: it failed or is catastrophic in " +
+           "Left is faster, down is more accurate. The horizontal axis shows the wall time that shadows add to a "
+           "frame, "
+           "with its quartiles. The vertical axis shows the distance in pixels within which 95 % of the shadow's "
+           "boundary lies from the true one. A hollow marker failed or is catastrophic in " +
            (scene.empty() ? "some scene. " : "this scene. ") +
-           "The broad line joins the best, those that nothing faster beats; hollow ones are never among them. What is "
-           "less than " +
-           plotNumber(leastShownTime) + " ms or " + plotNumber(leastShownError) + " px is drawn there." +
+           "The broad line joins the best solid markers: those that no faster marker beats. Values below " +
+           plotNumber(leastShownTime) + " ms or " + plotNumber(leastShownError) + " px are drawn there." +
            leftOut(figure.panels.front());
 }
 
 const char* causesCaption =
-    "Why pixels away from edges are wrong: acne and halo are shadow where none belongs, far from a true shadow and "
-    "attached to one; peter-panning, leak and erosion are missing shadow at the foot of what casts it, in a shadow's "
-    "inside and at its edge. To the right how many are wrong at all, of those that are judged.";
+    "Why pixels away from edges are wrong. Acne and halo are false shadow, far from a true shadow or attached to one. "
+    "Peter-panning, leak and erosion are missed shadow, at the foot of the caster, inside a shadow or at its edge. The "
+    "right column shows the share of the judged pixels that are wrong.";
 
 void addScene(std::vector<DrawnFigure>& drawn, const ChartResults& results, const CurveStyles& styles,
               const std::string& scene, const std::string& folder) {

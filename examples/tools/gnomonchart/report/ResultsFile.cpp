@@ -25,10 +25,11 @@ void saveResults(const ChartResults& results, const std::string& folder) {
 ChartResults loadResults(const std::string& file) {
     const std::optional<std::string> bytes = fileBytes(file);
     if (!bytes)
-        throw std::runtime_error("there is no file " + quoted(file) + "; a results.json of gnomonchart is needed.");
+        throw std::runtime_error("there is no file " + quoted(file) +
+                                 ". Give the results.json of a run of gnomonchart.");
     const json parsed = json::parse(*bytes, nullptr, false);
     const std::string begin = quoted(file) + " cannot be read as results of gnomonchart";
-    if (parsed.is_discarded()) throw std::runtime_error(begin + ": it is no whole JSON file.");
+    if (parsed.is_discarded()) throw std::runtime_error(begin + ": it is not a complete JSON file.");
     ChartResults results;
     readInside(begin, [&] { results = chartResultsOf(parsed); });
     return results;

@@ -84,7 +84,7 @@ ordered_json jsonOf(const ChartResults& results) {
 ChartResults chartResultsOf(const json& from) {
     unsigned found = 0;
     readField(from, "gnomonchart", found);
-    if (found != version) throw std::runtime_error("it is of version " + std::to_string(found) + "; 1 is allowed.");
+    if (found != version) throw std::runtime_error("its version is " + std::to_string(found) + ". Allowed: 1.");
     ChartResults results;
     FieldReader way(from);
     fields(way, results);

@@ -122,7 +122,7 @@ ChartScene chartScene(const std::string& name, int width, int height) {
     }
     std::ostringstream allowed;
     for (const std::string& each : chartSceneNames()) allowed << " " << each;
-    throw std::invalid_argument("no scene is named \"" + name + "\"; allowed:" + allowed.str() + ".");
+    throw std::invalid_argument("no scene is named \"" + name + "\". Allowed:" + allowed.str() + ".");
 }
 
 } // namespace gnomon::examples

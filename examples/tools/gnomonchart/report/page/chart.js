@@ -63,7 +63,7 @@ $(() => {
     orderClasses: false,
     autoWidth: false,
     language: { search: "Search in all columns ", info: "_TOTAL_ points", infoEmpty: "no points",
-      infoFiltered: "of _MAX_", zeroRecords: "No point is like that.", emptyTable: "Nothing was measured." },
+      infoFiltered: "of _MAX_", zeroRecords: "No point matches.", emptyTable: "Nothing was measured." },
     createdRow: (row, point) => {
       row.tabIndex = 0;
       row.classList.toggle("gnomon", point.kit === "Gnomon");
