@@ -22,7 +22,7 @@ public:
     ~CasterRevision() override = default;
     META_NodeVisitor(gnomon, CasterRevision)
 
-        void reset() override;
+    void reset() override;
     std::uint64_t value() const { return _fingerprint.value(); }
 
     /// Of what VertexTraverser would read of one drawable.

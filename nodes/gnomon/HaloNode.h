@@ -49,8 +49,8 @@ public:
     HaloNode(const HaloNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, HaloNode)
 
-        /// Default WHOLE, which any value that is none of them stands for too.
-        void setShape(Shape shape);
+    /// Default WHOLE, which any value that is none of them stands for too.
+    void setShape(Shape shape);
     Shape getShape() const { return _shape; }
 
     /// How many times as large, of WHOLE and PARTS; default 1: no halo, as for anything less. Clamped to 1000; NaN is

@@ -21,8 +21,8 @@ public:
         : osg::Object(other, copyOp), osg::Callback(other, copyOp), _amplitude(other._amplitude) {}
     META_Object(gnomon, HaloPulse)
 
-        /// a: how much larger at most, 0 … 999; default 0.2. Clamped; NaN is refused with a warning.
-        void setAmplitude(double amplitude);
+    /// a: how much larger at most, 0 … 999; default 0.2. Clamped; NaN is refused with a warning.
+    void setAmplitude(double amplitude);
     double getAmplitude() const { return _amplitude; }
 
     /// From the next frame on; from its beginning if it is under way.

@@ -52,10 +52,10 @@ public:
     PlanarReflectionNode(const PlanarReflectionNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, PlanarReflectionNode)
 
-        /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the side that is mirrored;
-        /// any length of normal. Default (0, 0, 1, 0). Kept as given; one that is degenerate or not finite mirrors
-        /// nothing, and diagnose() says so.
-        void setPlane(const osg::Vec4d& plane);
+    /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the side that is mirrored;
+    /// any length of normal. Default (0, 0, 1, 0). Kept as given; one that is degenerate or not finite mirrors
+    /// nothing, and diagnose() says so.
+    void setPlane(const osg::Vec4d& plane);
     const osg::Vec4d& getPlane() const { return _plane; }
 
     /// What the mirror image is seen in: it must be named. It is not mirrored itself.

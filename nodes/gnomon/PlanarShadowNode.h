@@ -56,9 +56,9 @@ public:
     PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, PlanarShadowNode)
 
-        /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the lit side; any length of
-        /// normal. Kept as given; one that is degenerate or not finite gets no shadow, and diagnose() says so.
-        void addPlane(const osg::Vec4d& plane);
+    /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the lit side; any length of
+    /// normal. Kept as given; one that is degenerate or not finite gets no shadow, and diagnose() says so.
+    void addPlane(const osg::Vec4d& plane);
     void setPlanes(const std::vector<osg::Vec4d>& planes);
     const std::vector<osg::Vec4d>& getPlanes() const { return _planes; }
 

@@ -54,8 +54,8 @@ public:
     ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowCasterGroup)
 
-        /// What casts, of this group's subgraph. Default: all of it.
-        void setCasters(const Selection& casters);
+    /// What casts, of this group's subgraph. Default: all of it.
+    void setCasters(const Selection& casters);
     const Selection& getCasters() const { return _selection; }
 
     /// Default RELIGHT, which any value that is none of the two stands for too.

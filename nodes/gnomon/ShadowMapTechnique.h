@@ -102,9 +102,9 @@ public:
     ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowMapTechnique)
 
-        /// Texels on a side of each map, at most, 16 … 16384; default 1024. Clamped; beyond what OpenGL has there is no shadow,
-        /// and diagnose() says so. Fewer are used where the view can show no more, see Texels.
-        void setSize(int texels);
+    /// Texels on a side of each map, at most, 16 … 16384; default 1024. Clamped; beyond what OpenGL has there is no shadow,
+    /// and diagnose() says so. Fewer are used where the view can show no more, see Texels.
+    void setSize(int texels);
     int getSize() const { return _size; }
 
     /// Default BICUBIC, which any value that is none of them stands for too.

@@ -85,10 +85,8 @@ public:
     TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, TerrainShadowGeode)
 
-        /// Default HULL, which any value that is none of the three stands for too.
-        void setMethod(Method method) {
-        _method = method == BOX || method == DRAPE ? method : HULL;
-    }
+    /// Default HULL, which any value that is none of the three stands for too.
+    void setMethod(Method method) { _method = method == BOX || method == DRAPE ? method : HULL; }
     Method getMethod() const { return _method; }
 
     /// How far a draped edge may be off in plan, group's unit; default 0.1; 0 is exact. Negative or not a number is refused

@@ -42,8 +42,8 @@ public:
     TracedShadowTechnique(const TracedShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, TracedShadowTechnique)
 
-        std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                                   const GroupCasters& casters) const override;
+    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+                                               const GroupCasters& casters) const override;
 
     /// How often this built a tree: rises by one with each revision of the casters, whatever the views and lights, unless a
     /// ShadowQuery or another technique has a tree of the same casters, which is then shared.
