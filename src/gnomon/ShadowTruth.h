@@ -43,14 +43,14 @@ struct TruthImage {
     const TruthPixel& at(int x, int y) const {
         return pixels[static_cast<std::size_t>(y) * std::size_t(width) + std::size_t(x)];
     }
-    /// Error of a technique with one perfect sample a pixel: share of the pixels whose T_c and T_a >= 1/2 differ.
+    /// Error of a technique with one perfect sample a pixel: the share of pixels whose T_c and T_a >= 1/2 differ.
     /// It counts pixels that show a surface facing the light. 0 if there are none.
     double floor() const;
 };
 
 /// Traces the true hard shadow of a sun or lamp without extent, to measure techniques against.
 ///
-/// Each pixel gets 16 rays in a 4×4 grid and one through its centre, (x + 1/2, y + 1/2). From each hit one more ray goes
+/// Each pixel gets 16 rays in a 4×4 grid and one through its centre, (x + 1/2, y + 1/2). Another ray goes from each hit
 /// to the light. RayScene is the only code that it shares with a technique.
 ///
 /// @param seen     the visible scene, receivers and casters alike.
