@@ -12,6 +12,7 @@ struct LightUniform {
     int number = 0;   ///< OpenGL light number, 0 … 7, as ShadowLight::number.
     std::string name; ///< Name of a float, vec2, vec3 or vec4 that scales all of the light. Not an array element.
 
+    /// True if number and name are equal.
     bool operator==(const LightUniform& other) const { return number == other.number && name == other.name; }
 };
 

@@ -90,7 +90,9 @@ public:
 
     /// Bounds of the children and their mirror images.
     osg::BoundingSphere computeBound() const override;
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:

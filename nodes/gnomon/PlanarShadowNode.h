@@ -98,7 +98,9 @@ public:
     /// A point is in a plane if it is nearer than 10⁻⁵ of the casters' size.
     bool isLit(const LightProbe& probe, const glm::dvec3& point) const override;
 
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:

@@ -14,7 +14,9 @@ struct Selection {
     osg::ref_ptr<osg::Node> node;   ///< Root of the part. Null selects any node.
     osg::Node::NodeMask mask = ~0u; ///< Compared with node masks as a traversal mask is. Default: all bits.
 
+    /// True if node and mask are equal.
     bool operator==(const Selection& other) const { return node == other.node && mask == other.mask; }
+    /// True if node or mask differs.
     bool operator!=(const Selection& other) const { return !(*this == other); }
 };
 

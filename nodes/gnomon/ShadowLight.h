@@ -17,6 +17,7 @@ struct ShadowLight {
     /// Angle from a spot's axis to the side of its cone, degrees, 0 … 90. The default, 180, is a lamp without a cone.
     double cutoff = 180.0;
 
+    /// True if all members are equal.
     bool operator==(const ShadowLight& other) const {
         return number == other.number && inGroup == other.inGroup && direction == other.direction &&
                cutoff == other.cutoff;

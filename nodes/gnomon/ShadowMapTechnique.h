@@ -190,7 +190,9 @@ public:
     /// True: the technique keeps casters by drawable.
     bool takesPieces() const override { return true; }
 
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:

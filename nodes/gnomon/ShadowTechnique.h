@@ -37,7 +37,9 @@ public:
     ShadowTechnique();
     /// Copies the properties.
     ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+    /// "gnomon", as OSG's serializers ask.
     const char* libraryName() const override { return "gnomon"; }
+    /// Name of the class without its namespace.
     const char* className() const override { return "ShadowTechnique"; }
 
     /// The part of the scene that receives the shadow. The shadow ends at its edges. Default: everything opaque.

@@ -161,7 +161,9 @@ public:
 
     /// Registers the technique with the compositor. Without a group, it draws the geometry of compute().
     void traverse(osg::NodeVisitor& visitor) override;
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:

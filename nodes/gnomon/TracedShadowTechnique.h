@@ -61,6 +61,7 @@ public:
     /// A tree that a ShadowQuery or another technique has of the same casters is shared and does not count.
     unsigned builds() const;
 
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
