@@ -39,11 +39,12 @@ class CasterRevision;
 /// Limits
 /// - RELIGHT shadows three lights. BLEND shadows any number, but darkens a pixel only once.
 /// - RELIGHT darkens unlit receivers by setDark(), and receivers whose program reads no light it knows.
-/// - Transparent drawables receive no shadow, nor does anything in render bin 8 or higher.
 /// - RELIGHT falls back to BLEND if an opaque drawable has a stencil test of its own.
 /// - Reversed depth is refused.
-/// - VertexTraverser lists what never casts.
-/// - The techniques' diagnose() reports each of these cases.
+/// - A technique's diagnose() reports each of the four cases above.
+/// - Transparent drawables receive no shadow, nor does anything in render bin 8 or higher.
+/// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
+/// - VertexTraverser lists which drawables never cast.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
 ///

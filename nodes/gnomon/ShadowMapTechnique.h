@@ -33,7 +33,7 @@ struct MapWish;
 /// - SMOOTH and SOFT edges: alpha bits, unless a single light blends.
 /// - Penumbras: OpenGL 3.3 or its sampler objects.
 /// Limits
-/// - An edge is off by a fraction of a texel, see setFilter().
+/// - An edge is off by a fraction of a texel, see Filter.
 /// - An object loses its shadow if it is less than about a texel off the receiver, measured along the light.
 /// - A lamp inside a closed box may light single pixels along the box's edges.
 /// - A penumbra is that of one straight edge at the blockers' mean distance. Overlapping edges at several distances are
@@ -88,7 +88,7 @@ struct MapWish;
 ///     }
 class GNOMON_EXPORT ShadowMapTechnique : public ShadowTechnique {
 public:
-    /// How many texels of the map a pixel is compared with. Each filter gives a smaller edge error than the one before.
+    /// How many texels of the map a pixel is compared with. Later filters are more accurate in general, and slower.
     enum Filter : int {
         NEAREST,  ///< One texel: stepped edges.
         BILINEAR, ///< 2 × 2 texels, weighted.
