@@ -19,7 +19,7 @@ namespace gnomon {
 ///
 /// Cost
 /// - A second cull of the children, two more draws of them (stencil only), and one quad.
-/// - PIXELS: about 3·w² + 3 more draws for a rim of w pixels.
+/// - PIXELS: about 3·w² + 3 draws, and not two, for a rim of w pixels.
 /// Needs
 /// - One stencil bit that is not reserved. It is 0 again afterwards.
 /// Limits
