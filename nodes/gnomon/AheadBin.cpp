@@ -52,12 +52,11 @@ void AheadBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& st
     const osg::StateSet* before = stage.getStateSet();
     const bool isFree = !before || before->getName() == stateName;
     if (!isFree)
-        return job->technique->report(job->frameNumber,
-                                      "cannot show its maps to programs: the stage that is drawn has a "
-                                      "state of its own, set by osgUtil::RenderBin::setStateSet().");
+        return job->report("cannot show its maps to programs: the stage that is drawn has a "
+                           "state of its own, set by osgUtil::RenderBin::setStateSet().");
     if (std::any_of(job + 1, jobs.end(), isFor))
-        job->technique->report(job->frameNumber, "shows programs the maps of one light alone: name it with "
-                                                 "ShadowCasterGroup::setLights() or setLightSources().");
+        job->report("shows programs the maps of one light alone: name it with "
+                    "ShadowCasterGroup::setLights() or setLightSources().");
     osg::StateSet* state = job->programMarks()->state.get();
     state->setName(stateName);
     stage.setStateSet(state);
@@ -69,7 +68,7 @@ void AheadBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLe
         popLeafState(*renderInfo.getState(), previous);
         const CleanState clean(*renderInfo.getState(), getStage()->getViewport());
         const std::string cause = _job.programMarks()->drawAhead(renderInfo);
-        if (!cause.empty()) _job.technique->report(_job.frameNumber, cause);
+        _job.report(cause);
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);
 }

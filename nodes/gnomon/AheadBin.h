@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ShadowBin.h>
+#include <gnomon/ShadowJob.h>
+
+#include <osgUtil/RenderBin>
 
 namespace gnomon {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CasterExtraction.h>
 #include <gnomon/CasterMesh.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <osg/BufferObject>
 
@@ -10,7 +10,7 @@
 namespace gnomon {
 namespace {
 
-osg::BoundingBoxd boundsOf(const VertexTraverser& casters) {
+osg::BoundingBoxd boundsOf(const CasterExtraction& casters) {
     osg::BoundingBoxd bounds;
     for (unsigned index : casters.getTriangles()) bounds.expandBy(casters.getVertices()[index]);
     return bounds;
@@ -19,8 +19,8 @@ osg::BoundingBoxd boundsOf(const VertexTraverser& casters) {
 constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
 
 /// @param places  where each vertex went, if it is used; those of a drawable still follow one another.
-VertexTraverser::Cutout renumbered(const VertexTraverser::Cutout& found, const std::vector<unsigned>& places) {
-    VertexTraverser::Cutout result{found.drawn, found.test, nowhere, {}};
+CasterExtraction::Cutout renumbered(const CasterExtraction::Cutout& found, const std::vector<unsigned>& places) {
+    CasterExtraction::Cutout result{found.drawn, found.test, nowhere, {}};
     const unsigned* own = places.data() + found.firstVertex;
     for (std::size_t i = 0; i < found.coordinates.size(); ++i)
         result.firstVertex = std::min(result.firstVertex, own[i]);
@@ -35,7 +35,7 @@ VertexTraverser::Cutout renumbered(const VertexTraverser::Cutout& found, const s
 
 } // namespace
 
-CasterMesh::CasterMesh(const VertexTraverser& casters, const std::optional<osg::Vec3d>& about)
+CasterMesh::CasterMesh(const CasterExtraction& casters, const std::optional<osg::Vec3d>& about)
     : vertices(new osg::Vec3Array),
       triangles(new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES)),
       bounds(boundsOf(casters)),
@@ -57,7 +57,7 @@ CasterMesh::CasterMesh(const VertexTraverser& casters, const std::optional<osg::
         }
         triangles->push_back(places[index]);
     }
-    for (const VertexTraverser::Cutout& cutout : casters.getCutouts()) {
+    for (const CasterExtraction::Cutout& cutout : casters.getCutouts()) {
         cutouts.push_back(renumbered(cutout, places));
         if (cutouts.back().coordinates.empty()) cutouts.pop_back(); // points and lines
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CasterExtraction.h>
 #include <gnomon/Export.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <osg/Array>
 #include <osg/BoundingBox>
@@ -30,21 +30,21 @@ class GNOMON_EXPORT CasterMesh : public osg::Referenced {
 public:
     /// Copies the extracted triangles.
     /// @param about  the mesh's origin, group frame. Default: the centre of the bounds.
-    explicit CasterMesh(const VertexTraverser& casters, const std::optional<osg::Vec3d>& about = {});
+    explicit CasterMesh(const CasterExtraction& casters, const std::optional<osg::Vec3d>& about = {});
 
     /// True if there is no triangle.
     bool empty() const { return triangles->empty(); }
 
     osg::Vec3d origin;                             ///< Group frame. The vertices are relative to it.
     osg::ref_ptr<osg::Vec3Array> vertices;         ///< Relative to `origin`. All are finite and used by a triangle.
-    osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< Three indices a triangle; see VertexTraverser::getTriangles().
+    osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< Three indices a triangle; see CasterExtraction::getTriangles().
     osg::BoundingBoxd bounds;                      ///< Bounds of the triangles, group frame. Invalid without triangles.
     double rounding = 0.0;                         ///< Largest error of a vertex by its float source, group's unit.
-    std::vector<VertexTraverser::Drawn> drawn;     ///< Drawables of the triangles. `first` indexes `triangles`.
-    std::vector<VertexTraverser::Cutout> cutouts;  ///< Alpha-tested drawables. `firstVertex` indexes `vertices`.
-    unsigned invalidTriangles = 0;                 ///< Triangles left out; see VertexTraverser::getInvalidTriangles().
+    std::vector<CasterExtraction::Drawn> drawn;    ///< Drawables of the triangles. `first` indexes `triangles`.
+    std::vector<CasterExtraction::Cutout> cutouts; ///< Alpha-tested drawables. `firstVertex` indexes `vertices`.
+    unsigned invalidTriangles = 0;                 ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
     std::string invalidNode;                       ///< Name of the first drawable with an invalid triangle.
-    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See VertexTraverser::getSources().
+    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
 
 protected:
     ~CasterMesh() override = default;

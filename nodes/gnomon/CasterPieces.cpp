@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CasterExtraction.h>
 #include <gnomon/CasterMesh.h>
 #include <gnomon/CasterPieces.h>
 #include <gnomon/CasterRevision.h>
 #include <gnomon/TriangleDecoder.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <cmath>
 #include <unordered_map>
@@ -38,7 +38,7 @@ protected:
 };
 
 /// Reads pieces where they are, without the nodes above them.
-class PieceReader : public VertexTraverser {
+class PieceReader : public CasterExtraction {
 public:
     void read(const CasterPiece& piece) {
         _piece = &piece;

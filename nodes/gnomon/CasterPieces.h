@@ -24,17 +24,17 @@ class CasterMesh;
 ///
 /// A drawable with several parents is one piece for each path to it.
 struct GNOMON_EXPORT CasterPiece : public osg::Referenced {
-    std::uint64_t fingerprint = 0;              ///< Changes with everything that VertexTraverser reads of the drawable.
+    std::uint64_t fingerprint = 0;              ///< Changes with all that CasterExtraction reads of it.
     osg::ref_ptr<const osg::Drawable> drawable; ///< The drawable itself.
     osg::Matrixd groupFromLocal;                ///< Transform from the drawable's frame to the group's.
     std::optional<AlphaTest> test;              ///< Its alpha test; nullopt if it has none.
     osg::BoundingBoxd bounds;                   ///< Bounds of its triangles, group frame. Invalid without triangles.
     std::size_t triangles = 0;                  ///< Number of its triangles.
-    unsigned invalidTriangles = 0;              ///< Triangles left out; see VertexTraverser::getInvalidTriangles().
-    std::string invalidNode;                    ///< See VertexTraverser::getInvalidNode().
-    unsigned unknownTests = 0;                  ///< See VertexTraverser::getUnknownTests().
-    std::string unknownNode;                    ///< See VertexTraverser::getUnknownNode().
-    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See VertexTraverser::getSources().
+    unsigned invalidTriangles = 0;              ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
+    std::string invalidNode;                    ///< See CasterExtraction::getInvalidNode().
+    unsigned unknownTests = 0;                  ///< See CasterExtraction::getUnknownTests().
+    std::string unknownNode;                    ///< See CasterExtraction::getUnknownNode().
+    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
 
 protected:
     ~CasterPiece() override = default;

@@ -7,10 +7,10 @@
 
 namespace gnomon {
 
-/// Fingerprint of everything that VertexTraverser would read: which arrays and primitives, where, and their
+/// Fingerprint of everything that CasterExtraction would read: which arrays and primitives, where, and their
 /// modification counts. Two frames with the same value have the same casters, so nothing is extracted again.
 ///
-/// Arrays are told apart by address. Compare a value only with one whose CasterMesh (or VertexTraverser) is still held:
+/// Arrays are told apart by address. Compare a value only with one whose CasterMesh (or CasterExtraction) is still held:
 /// it keeps the arrays it was made of, so that no later array can stand at the same place.
 ///
 /// Cost    a visit of the casters' nodes (not of their vertices); no allocation once warm.
@@ -25,7 +25,7 @@ public:
     void reset() override;
     std::uint64_t value() const { return _fingerprint.value(); }
 
-    /// Of what VertexTraverser would read of one drawable.
+    /// Of what CasterExtraction would read of one drawable.
     static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
                             const std::optional<AlphaTest>& test);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CasterMarkers.h>
 #include <gnomon/CasterVisitor.h>
-#include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/ShadowTechnique.h>
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
@@ -27,8 +26,8 @@ bool isText(const osg::Drawable& drawable) {
 }
 
 /// Nearly every Geode is a plain one: the cast is for the others.
-bool isTechnique(const osg::Geode& geode) {
-    return typeid(geode) != typeid(osg::Geode) && dynamic_cast<const ShadowTechnique*>(&geode);
+bool neverCasts(const osg::Geode& geode) {
+    return typeid(geode) != typeid(osg::Geode) && dynamic_cast<const NeverCasts*>(&geode);
 }
 
 bool followsTheView(const osg::Transform& transform) {
@@ -40,8 +39,11 @@ bool followsTheView(const osg::Transform& transform) {
 /// A group that shows all its children, and does nothing else with them.
 bool showsAll(const osg::Node& node) {
     const std::type_info& type = typeid(node);
-    return type == typeid(osg::Group) || type == typeid(osg::MatrixTransform) ||
-           type == typeid(osg::PositionAttitudeTransform) || type == typeid(ShadowCasterGroup);
+    if (type == typeid(osg::Group) || type == typeid(osg::MatrixTransform) ||
+        type == typeid(osg::PositionAttitudeTransform))
+        return true;
+    const auto* group = dynamic_cast<const ShowsChildren*>(&node);
+    return group && group->showsAllChildren();
 }
 
 unsigned usableChildren(const osg::LOD& lod) { return std::min(lod.getNumChildren(), lod.getNumRanges()); }
@@ -140,7 +142,7 @@ void CasterVisitor::apply(osg::Drawable& drawable) {
 }
 
 void CasterVisitor::apply(osg::Geode& geode) {
-    if (!isTechnique(geode)) apply(static_cast<osg::Node&>(geode));
+    if (!neverCasts(geode)) apply(static_cast<osg::Node&>(geode));
 }
 
 void CasterVisitor::apply(osg::LOD& lod) {

@@ -19,7 +19,7 @@ namespace gnomon {
 
 /// Walks to the drawables that can cast: those of a Selection, without techniques, cameras, projections, text and
 /// whatever turns or scales with the view (billboards, such AutoTransforms) or does not move with its parents (absolute
-/// transforms). Extraction (VertexTraverser) and change detection (CasterRevision) share it, so that they agree on what
+/// transforms). Extraction (CasterExtraction) and change detection (CasterRevision) share it, so that they agree on what
 /// a caster is.
 ///
 /// Cost    a visit of what is above and below the selected node; of all nodes where none is.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CasterExtraction.h>
 #include <gnomon/CasterWeld.h>
 #include <gnomon/Fingerprint.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <algorithm>
 #include <numeric>
@@ -39,7 +39,7 @@ struct Corner {
 
 void addCorners(const CasterPiece& piece, const osg::BoundingBoxd& within, std::size_t index,
                 std::vector<Corner>& corners) {
-    VertexTraverser found;
+    CasterExtraction found;
     found.setRootFromVisited(piece.groupFromLocal);
     const_cast<osg::Drawable&>(*piece.drawable).accept(found); // which changes nothing
     for (const osg::Vec3d& vertex : found.getVertices()) {

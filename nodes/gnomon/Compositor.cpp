@@ -39,7 +39,7 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     std::map<float, Jobs> blended;
     for (const ShadowJob& job : jobs) {
         if (job.programMarks() || !canMark(job)) continue;
-        if (job.composite == ShadowCasterGroup::RELIGHT)
+        if (job.relight)
             relit.push_back(&job);
         else if (job.dark < 1.0f) // a factor of 1 changes nothing
             blended[job.dark].push_back(&job);
@@ -56,7 +56,7 @@ void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
     int drawn = 0;
     for (const ShadowJob& job : jobs)
         if (job.marks->hasView())
-            _draw.pass({{-1.0, -1.0}, {1.0, 1.0}},
+            _draw.pass(wholeScreen,
                        [&](ScreenPass& screen) { job.marks->drawView(_draw.renderInfo, screen, drawn++); });
 }
 
@@ -76,7 +76,7 @@ bool Compositor::darkenDirectly(const Jobs& jobs, float dark) const {
         return false;
     _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
         const std::string cause = job.marks->darken(_draw.renderInfo, screen, dark);
-        if (!cause.empty()) job.technique->report(job.frameNumber, cause);
+        job.report(cause);
     });
     return true;
 }
@@ -100,9 +100,8 @@ bool Compositor::areSoft(const Jobs& jobs) const {
         if (!job->softMarks()) continue;
         soft = true;
         if (!_draw.hasAlpha)
-            job->technique->report(job->frameNumber,
-                                   "finds no alpha bits in this framebuffer, so that its edges are hard: ask for 8, by "
-                                   "osg::DisplaySettings::setMinimumNumAlphaBits(8) before the window is made.");
+            job->report("finds no alpha bits in this framebuffer, so that its edges are hard: ask for 8, by "
+                        "osg::DisplaySettings::setMinimumNumAlphaBits(8) before the window is made.");
     }
     return soft && _draw.hasAlpha;
 }
@@ -112,15 +111,14 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended) 
     for (const ShadowJob* job : jobs) {
         if (job->marks->relightsOnly()) continue;
         if (job->dark < 1.0f) blended[job->dark].push_back(job);
-        job->technique->report(job->frameNumber,
-                               "blends instead of relighting, for something opaque in this view has a stencil test of "
-                               "its own: draw that in a bin above 8, or set BLEND.");
+        job->report("blends instead of relighting, for something opaque in this view has a stencil test of "
+                    "its own: draw that in a bin above 8, or set BLEND.");
     }
 }
 
 bool Compositor::canMark(const ShadowJob& job) const {
     const std::string cause = whyNotComposed(_draw);
-    if (!cause.empty()) job.technique->report(job.frameNumber, cause);
+    job.report(cause);
     return cause.empty();
 }
 
@@ -129,9 +127,9 @@ bool Compositor::canMark(const ShadowJob& job) const {
 bool Compositor::composeDirectly(const Jobs& jobs) {
     const ShadowJob& job = *jobs.front();
     if (jobs.size() > 1 || !job.receiverNamed) return false;
-    const bool relit = job.composite == ShadowCasterGroup::RELIGHT;
+    const bool relit = job.relight;
     const ScreenRect& bounds = job.marks->screenBounds;
-    std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw.leaves, jobs, bounds);
+    std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, jobs, bounds);
     PlainTest plain;
     const auto other = [&job](const ReplayedLeaf& leaf) { return job.receivers.count(leaf.entry.leaf) == 0; };
     const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
@@ -182,16 +180,15 @@ std::map<int, unsigned> Compositor::assignBits(const Jobs& jobs) const {
         if (used < _lightBits.size())
             bitOf[job->light] = _lightBits[used];
         else
-            job->technique->report(job->frameNumber, "leaves light " + std::to_string(job->light) +
-                                                         " unshadowed: at most " + std::to_string(used) +
-                                                         " lights can be relit here; blend takes any number.");
+            job->report("leaves light " + std::to_string(job->light) + " unshadowed: at most " + std::to_string(used) +
+                        " lights can be relit here; blend takes any number.");
     }
     return bitOf;
 }
 
 Compositor::Combination Compositor::combine(const Jobs& jobs, const std::map<int, unsigned>& bitOf,
                                             unsigned subset) const {
-    Combination combination{0, {}, {{-1.0, -1.0}, {1.0, 1.0}}};
+    Combination combination{0, {}, wholeScreen};
     unsigned index = 0;
     for (const auto& [number, bit] : bitOf) {
         if (!(subset & (1u << index++))) continue;
@@ -211,23 +208,21 @@ void Compositor::replay(const Combination& combination, unsigned lightBits) {
     overlay.reference = combination.bits;
     overlay.test = lightBits;
     overlay.bounds = combination.bounds;
-    replay(leavesToReplay(_draw.leaves, combination.jobs, combination.bounds), overlay, combination.jobs);
+    replay(leavesToReplay(_draw, combination.jobs, combination.bounds), overlay, combination.jobs);
 }
 
 void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs) {
     overlay.unlit = jobs.front()->dark;
     overlay.lightUniforms = lightUniformsOf(jobs);
-    LeafReplay replay(_draw.renderInfo, overlay);
+    LeafReplay replay(_draw, overlay);
     for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.dark);
     for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
         for (const ShadowJob* job : jobs)
             if (job->isReceiver(*leaf) && job->marks->canReach(*leaf))
-                job->technique->report(
-                    job->frameNumber,
-                    "cannot take a light from '" + nameOf(*leaf) +
-                        "', which is unlit or whose program reads no gl_LightSource: it is drawn in its "
-                        "own colour times setDark(); light it by OpenGL, name the uniform of its light "
-                        "with ShadowCasterGroup::addLightUniform(), or do not let it receive.");
+                job->report("cannot take a light from '" + nameOf(*leaf) +
+                            "', which is unlit or whose program reads no gl_LightSource: it is drawn in its "
+                            "own colour times setDark(); light it by OpenGL, name the uniform of its light "
+                            "with ShadowCasterGroup::addLightUniform(), or do not let it receive.");
 }
 
 void Compositor::blend(const Jobs& jobs, float dark) {

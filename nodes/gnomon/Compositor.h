@@ -3,6 +3,7 @@
 #include <gnomon/LeafReplay.h>
 #include <gnomon/ReplayFilter.h>
 #include <gnomon/StageDraw.h>
+#include <gnomon/StageEffect.h>
 #include <gnomon/StencilMarks.h>
 
 #include <map>

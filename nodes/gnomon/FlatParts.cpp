@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CasterExtraction.h>
 #include <gnomon/FlatParts.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <osg/Vec3d>
 
@@ -116,7 +116,7 @@ double farthest(const std::vector<osg::Vec3d>& vertices, const osg::Vec3d& from)
 }
 
 /// Those that have a plane: a triangle no higher than a few roundings has none.
-std::vector<Facet> facetsOf(const VertexTraverser& casters, const osg::Vec3d& origin, double rounding) {
+std::vector<Facet> facetsOf(const CasterExtraction& casters, const osg::Vec3d& origin, double rounding) {
     const auto& vertices = casters.getVertices();
     const auto& indices = casters.getTriangles();
     std::vector<Facet> facets;
@@ -139,7 +139,7 @@ FlatPart flatPartOf(const Part& part, const osg::Vec3d& origin) {
 } // namespace
 
 std::vector<FlatPart> flatParts(osg::Node& root, unsigned limit) {
-    VertexTraverser casters;
+    CasterExtraction casters;
     root.accept(casters);
     if (casters.getTriangles().empty()) return {};
 

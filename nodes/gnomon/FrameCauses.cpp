@@ -19,9 +19,10 @@ std::vector<std::string> FrameCauses::all() const {
     return _causes;
 }
 
-void FrameCauses::add(unsigned frame, const std::string& sentence) {
+void FrameCauses::add(unsigned frame, const std::string& who, const std::string& cause) {
     Lock lock(_mutex);
     if (frame != _frame) return;
+    const std::string sentence = who + " " + cause;
     if (std::find(_causes.begin(), _causes.end(), sentence) != _causes.end()) return;
     _causes.push_back(sentence);
     OSG_INFO << "gnomon: " << sentence << std::endl;

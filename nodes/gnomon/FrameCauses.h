@@ -14,19 +14,19 @@ namespace gnomon {
 /// Why a node could not draw what it is for: the causes of the last frame, over all views.
 ///
 /// Threads any number.
-class GNOMON_EXPORT FrameCauses {
+class GNOMON_EXPORT FrameCauses : public osg::Referenced {
 public:
-    FrameCauses() = default;
-    FrameCauses(const FrameCauses&) {} ///< a copy of a node has not been drawn yet.
-    FrameCauses& operator=(const FrameCauses&) = delete;
-
     /// One sentence a cause; empty if all is well.
     std::vector<std::string> all() const;
-    /// Notes a sentence; repeated ones count once, those of frames before the last none.
-    void add(unsigned frame, const std::string& sentence);
+    /// Notes a cause; repeated ones count once, those of frames before the last none.
+    /// @param who  described() of the node.
+    void add(unsigned frame, const std::string& who, const std::string& cause);
     /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
     /// it) has been met in it before, as where nobody counts frames.
     void begin(unsigned frame, const void* view);
+
+protected:
+    ~FrameCauses() override = default;
 
 private:
     mutable OpenThreads::Mutex _mutex;

@@ -9,7 +9,6 @@
 namespace gnomon {
 namespace {
 
-constexpr ScreenRect everywhere{{-1.0, -1.0}, {1.0, 1.0}};
 constexpr unsigned mostCounted = 7;
 
 /// All pixels of a disc.
@@ -51,11 +50,11 @@ void HaloEffect::draw(const StageDraw& draw) const {
     const unsigned bit = draw.bits.front();
     draw.clearLeftovers(bit);
     markRim(draw, bit);
-    draw.pass(everywhere, [&](ScreenPass& screen) {
+    draw.pass(wholeScreen, [&](ScreenPass& screen) {
         screen.takeStencil(bit, bit);
         blend(screen);
     });
-    draw.clear(bit, everywhere);
+    draw.clear(bit, wholeScreen);
 }
 
 /// Where the larger children would be seen, but for what one sees of the children themselves.
@@ -66,13 +65,13 @@ void HaloEffect::markRim(const StageDraw& draw, unsigned bit) const {
     overlay.reference = overlay.write = bit;
     if (node->getShape() == HaloNode::PIXELS) overlay.shifts = disc(node->getWidth());
     {
-        LeafReplay replay(draw.renderInfo, overlay);
+        LeafReplay replay(draw, overlay);
         for (const StageLeaf& entry : larger.empty() ? _leaves : _larger) replay.draw(entry);
     }
     overlay.shifts.clear();
     overlay.reference = 0;
     overlay.equalDepth = true;
-    LeafReplay replay(draw.renderInfo, overlay);
+    LeafReplay replay(draw, overlay);
     for (const StageLeaf& entry : _leaves) replay.draw(entry);
 }
 
@@ -86,7 +85,7 @@ void HaloEffect::blendEachTriangle(const StageDraw& draw) const {
     const unsigned bits = countingBits(draw.bits);
     if (bits == 0)
         return node->report(frameNumber, "cannot count triangles without its stencil cure: leave bit 0 to "
-                                         "ShadowBin::reserve().");
+                                         "CompositorOptions::reservedStencilBits.");
     draw.clearLeftovers(bits);
     LeafReplay::Overlay overlay;
     overlay.color = LeafReplay::Color::None;
@@ -95,15 +94,15 @@ void HaloEffect::blendEachTriangle(const StageDraw& draw) const {
     overlay.stencilPass = GL_INCR;
     if (node->getShape() == HaloNode::PIXELS) overlay.shifts = disc(node->getWidth());
     {
-        LeafReplay replay(draw.renderInfo, overlay);
+        LeafReplay replay(draw, overlay);
         for (const StageLeaf& entry : larger.empty() ? _leaves : _larger) replay.draw(entry);
     }
     for (unsigned times = 1; times <= bits; ++times)
-        draw.pass(everywhere, [&](ScreenPass& screen) {
+        draw.pass(wholeScreen, [&](ScreenPass& screen) {
             screen.stencilAtLeast(times, bits);
             blend(screen);
         });
-    draw.clear(bits, everywhere);
+    draw.clear(bits, wholeScreen);
 }
 
 } // namespace gnomon

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/FrameCauses.h>
 #include <gnomon/HaloEffect.h>
 #include <gnomon/HaloNode.h>
 #include <gnomon/SubgraphCull.h>

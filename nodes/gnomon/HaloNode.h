@@ -21,7 +21,7 @@ namespace gnomon {
 /// - A second cull of the children, two more draws of them (stencil only), and one quad.
 /// - PIXELS: about 3·w² + 3 draws, and not two, for a rim of w pixels.
 /// Needs
-/// - One stencil bit that is not reserved. It is 0 again afterwards.
+/// - One stencil bit that is not reserved, see CompositorOptions. It is 0 again afterwards.
 /// Limits
 /// - The children must write depth.
 /// - Shadows do not darken the rim. Transparent drawables blend over it.

@@ -2,7 +2,6 @@
 #include <gnomon/IndexClusters.h>
 #include <gnomon/LeafReplay.h>
 #include <gnomon/ScreenPass.h>
-#include <gnomon/ShadowBin.h>
 
 #include <osg/ColorMask>
 #include <osg/FrontFace>
@@ -31,9 +30,10 @@ void restoreColors(const osg::State& state, int number) {
 
 } // namespace
 
-LeafReplay::LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay)
-    : _renderInfo(renderInfo),
-      _state(*renderInfo.getState()),
+LeafReplay::LeafReplay(const StageDraw& draw, const Overlay& overlay)
+    : _filter(draw.options.filter),
+      _renderInfo(draw.renderInfo),
+      _state(draw.state),
       _overlay(overlay),
       _lights(_state, _overlay.lightUniforms),
       _stackSize(static_cast<unsigned>(_state.getStateSetStackSize())) {}
@@ -82,7 +82,7 @@ void LeafReplay::apply(const StageLeaf& entry) {
 /// Programs may move vertices to where no cluster's box is; a restarted strip's corners do not alternate from its start.
 bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry) {
     constexpr GLenum vertexProgram = 0x8620, restart = 0x8F9D, restartFixedIndex = 0x8D69;
-    return ShadowBin::getFilter() && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
+    return _filter && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
            !_state.getLastAppliedMode(vertexProgram) && !_state.getLastAppliedMode(restart) &&
            !_state.getLastAppliedMode(restartFixedIndex) &&
            !_state.useVertexArrayObject(geometry.getUseVertexArrayObject());

@@ -3,9 +3,8 @@
 #include <gnomon/MarkJob.h>
 #include <gnomon/ProgramLights.h>
 #include <gnomon/ScreenBounds.h>
-#include <gnomon/StageLeaves.h>
+#include <gnomon/StageDraw.h>
 
-#include <osg/RenderInfo>
 #include <osg/State>
 
 #include <glm/vec2.hpp>
@@ -45,15 +44,15 @@ public:
         float factor = 1.0f;
         float unlit =
             0.5f; ///< Replace: a leaf that should lose a light and cannot is drawn in its own colour times this.
-        ScreenRect bounds{{-1.0, -1.0}, {1.0, 1.0}}; ///< nothing need be drawn outside.
-        const MarkJob* marks = nullptr;              ///< nothing need be drawn where it marks nothing.
-        std::vector<LightUniform> lightUniforms;     ///< by which programs read lights.
+        ScreenRect bounds = wholeScreen;         ///< nothing need be drawn outside.
+        const MarkJob* marks = nullptr;          ///< nothing need be drawn where it marks nothing.
+        std::vector<LightUniform> lightUniforms; ///< by which programs read lights.
     };
 
     /// The last clip plane that every OpenGL has; scenes rarely use it.
     static constexpr GLenum mirrorClipPlane = GL_CLIP_PLANE5;
 
-    LeafReplay(osg::RenderInfo& renderInfo, const Overlay& overlay);
+    LeafReplay(const StageDraw& draw, const Overlay& overlay);
     ~LeafReplay(); ///< puts lights and state back; the stack of state sets is as it was.
     LeafReplay(const LeafReplay&) = delete;
     LeafReplay& operator=(const LeafReplay&) = delete;
@@ -81,6 +80,7 @@ private:
     void drawOnce(const osgUtil::RenderLeaf& leaf);
     void drawFaded(const osgUtil::RenderLeaf& leaf);
 
+    const bool _filter;
     osg::RenderInfo& _renderInfo;
     osg::State& _state;
     const Overlay _overlay;

@@ -49,7 +49,7 @@ void append(osg::DrawElementsUInt& to, const Span& span) {
 /// Drawables that share a texture and a test, one after another.
 class CutoutBuilder {
 public:
-    void add(const CasterMesh& mesh, const VertexTraverser::Cutout& cutout, const Span& span) {
+    void add(const CasterMesh& mesh, const CasterExtraction::Cutout& cutout, const Span& span) {
         const auto own = mesh.vertices->begin() + static_cast<std::ptrdiff_t>(cutout.firstVertex);
         const auto places = static_cast<GLuint>(_vertices->size());
         for (std::size_t i = 0; i < span.count; ++i)
@@ -84,7 +84,7 @@ struct MapLayer::Sorted {
         append(*whole, span);
         if (!flat) append(*wholeBodies, span);
     }
-    void add(const CasterMesh& mesh, const VertexTraverser::Cutout& cutout, const Span& span, bool flat) {
+    void add(const CasterMesh& mesh, const CasterExtraction::Cutout& cutout, const Span& span, bool flat) {
         const AlphaTest& test = cutout.test;
         builders[{test.texture.get(), test.passing, test.reference, flat}].add(mesh, cutout, span);
     }

@@ -20,7 +20,7 @@ class ScreenPass;
 class GNOMON_EXPORT MarkJob : public osg::Referenced {
 public:
     /// Where marks can fall; everything the compositor does is cut to it.
-    ScreenRect screenBounds{{-1.0, -1.0}, {1.0, 1.0}};
+    ScreenRect screenBounds = wholeScreen;
 
     /// Sets `bit` in the stencil buffer where the light does not reach. The bit is zero before, within the bounds;
     /// other bits, colour and depth stay as they are. Called within a CleanState and `pass`, which is cut to the

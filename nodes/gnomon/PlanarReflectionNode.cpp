@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/FrameCauses.h>
 #include <gnomon/Convert.h>
 #include <gnomon/CopiedNodes.h>
 #include <gnomon/PlanarReflectionNode.h>

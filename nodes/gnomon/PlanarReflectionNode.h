@@ -30,7 +30,7 @@ class SavedColors;
 /// - One more draw of the mirrored children in view, and two of the surface.
 /// - A copy of the surface's part of the screen.
 /// Needs
-/// - One stencil bit that is not reserved, for any number of mirrors. It is 0 again afterwards.
+/// - One stencil bit that is not reserved, see CompositorOptions, for any number of mirrors. It is 0 again afterwards.
 /// - OpenGL's sixth clip plane.
 /// - An opaque surface.
 /// Limits

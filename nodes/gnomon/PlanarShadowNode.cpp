@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/GroupCasters.h>
 #include <gnomon/LightProbe.h>
+#include <gnomon/PlanarCasters.h>
 #include <gnomon/PlanarMark.h>
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
 #include <gnomon/ScreenBounds.h>
+#include <gnomon/ViewFrame.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/gtc/matrix_access.hpp>
@@ -78,7 +81,7 @@ double heightLimit(const PlanarClipPlanes& clip, const glm::dvec4& plane) {
 
 /// Where on the screen the flattened casters can lie.
 std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
-    if (!mark.cures.clip) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
+    if (!mark.cures.clip) return wholeScreen;
     std::vector<glm::dvec4> halfSpaces;
     if (mark.casters->crosses) halfSpaces.push_back(mark.abovePlane);
     if (mark.reachesLight) halfSpaces.push_back(mark.belowLight);

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/PlanarCasters.h>
 #include <gnomon/PlanarCures.h>
 #include <gnomon/ShadowTechnique.h>
 
+#include <OpenThreads/Mutex>
 #include <osg/Vec4d>
+
+#include <glm/vec4.hpp>
 
 #include <vector>
 
 namespace gnomon {
 
+class CasterMesh;
+class PlanarCasters;
 struct PlanarPrograms;
 
 /// Casts shadows onto planes: floors, walls, table tops. It flattens the casters along the light's rays.

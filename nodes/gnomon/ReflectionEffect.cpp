@@ -84,7 +84,7 @@ void ReflectionEffect::drawSurface(const StageDraw& draw, unsigned bit, bool sta
     overlay.bounds = _bounds;
     (standing ? overlay.write : overlay.test) = bit;
     if (!standing) overlay.stencilFunction = GL_EQUAL;
-    LeafReplay replay(draw.renderInfo, overlay);
+    LeafReplay replay(draw, overlay);
     for (const StageLeaf& entry : _surface) replay.draw(entry);
 }
 
@@ -95,8 +95,8 @@ void ReflectionEffect::drawImage(const StageDraw& draw, unsigned reference, unsi
     overlay.reference = reference;
     overlay.test = bit;
     overlay.mirrored = true;
-    overlay.bounds = reference ? _bounds : ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
-    LeafReplay replay(draw.renderInfo, overlay);
+    overlay.bounds = reference ? _bounds : wholeScreen;
+    LeafReplay replay(draw, overlay);
     TouchTest touches(overlay.bounds);
     for (const StageLeaf& entry : _leaves)
         if (touches(*entry.leaf)) replay.draw(entry);

@@ -31,7 +31,7 @@ private:
     void mix(const StageDraw& draw, unsigned bit) const;
 
     std::vector<StageLeaf> _surface, _leaves;
-    ScreenRect _bounds{{-1.0, -1.0}, {1.0, 1.0}};
+    ScreenRect _bounds = wholeScreen;
 };
 
 } // namespace gnomon

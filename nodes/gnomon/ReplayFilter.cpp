@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ReplayFilter.h>
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 
 namespace gnomon {
@@ -45,17 +43,10 @@ std::vector<ReplayedLeaf> notOfView(const ShadowJob& job, const std::vector<Stag
     return result;
 }
 
-ScreenRect united(const ScreenRect& a, const ScreenRect& b) {
-    return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-}
-
-ScreenRect common(const ScreenRect& a, const ScreenRect& b) {
-    return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
-}
-
-std::vector<ReplayedLeaf> leavesToReplay(const std::vector<StageLeaf>& leaves,
-                                         const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds) {
-    const bool filter = ShadowBin::getFilter();
+std::vector<ReplayedLeaf> leavesToReplay(const StageDraw& draw, const std::vector<const ShadowJob*>& jobs,
+                                         const ScreenRect& bounds) {
+    const std::vector<StageLeaf>& leaves = draw.leaves;
+    const bool filter = draw.options.filter;
     PlainTest plain;
     TouchTest touches(bounds);
     const std::size_t last = filter ? lastReceiver(leaves, jobs, plain) : leaves.size();

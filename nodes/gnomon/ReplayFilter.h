@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ShadowBin.h>
-#include <gnomon/StageLeaves.h>
+#include <gnomon/ShadowJob.h>
+#include <gnomon/StageDraw.h>
 
 #include <vector>
 
@@ -18,13 +18,10 @@ struct ReplayedLeaf {
 /// Left out: leaves whose screen bounds miss `bounds`. If every job names its receiver, marks lie only where a receiver
 /// is what one sees; then a plain leaf (see PlainTest) drawn after the last receiver cannot show there and is left out
 /// too.
-std::vector<ReplayedLeaf> leavesToReplay(const std::vector<StageLeaf>& leaves,
-                                         const std::vector<const ShadowJob*>& jobs, const ScreenRect& bounds);
+std::vector<ReplayedLeaf> leavesToReplay(const StageDraw& draw, const std::vector<const ShadowJob*>& jobs,
+                                         const ScreenRect& bounds);
 
 /// Leaves that a nested camera lays over the view of a job: no shadow of that view falls on them.
 std::vector<ReplayedLeaf> notOfView(const ShadowJob& job, const std::vector<StageLeaf>& leaves);
-
-ScreenRect united(const ScreenRect& a, const ScreenRect& b);
-ScreenRect common(const ScreenRect& a, const ScreenRect& b);
 
 } // namespace gnomon

@@ -1,63 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Export.h>
+#include <gnomon/GlState.h>
 #include <gnomon/ScreenBounds.h>
-#include <gnomon/StageLeaves.h>
 
-#include <osg/RenderInfo>
-#include <osg/StateSet>
 #include <osg/Vec3>
 #include <osg/Vec4>
 #include <osg/Viewport>
 
+#include <functional>
+
 namespace gnomon {
 
-constexpr GLenum depthClamp = 0x864F; ///< GL_DEPTH_CLAMP: in OpenGL 3.2, not in OSG's headers of 3.6.
-
-/// OpenGL as OSG leaves it after an empty scene, with the depth test off: no program, texture, blending or culling, and
-/// the stage's viewport. Holds from construction to destruction; state sets that lay on the stack must have been popped
-/// before.
-class CleanState {
-public:
-    CleanState(osg::State& state, osg::Viewport* viewport);
-    ~CleanState();
-    CleanState(const CleanState&) = delete;
-    CleanState& operator=(const CleanState&) = delete;
-
-private:
-    osg::State& _state;
-    osg::ref_ptr<osg::StateSet> _set;
+/// Colour channels.
+struct Channels {
+    bool red = false, green = false, blue = false;
 };
-
-/// Puts OpenGL's stencil, depth, blending, scissor and colour mask to their defaults and tells osg::State so.
-void leaveDefaults(osg::State& state);
-
-/// Switches blending on: what is drawn times `source` is added to what stands times `destination`.
-void addBlended(const osg::State& state, GLenum source, GLenum destination);
-
-/// What is neither cut away by the scissor nor by the viewport, in window coordinates.
-struct PixelRect {
-    GLint x = 0, y = 0;
-    GLsizei width = 0, height = 0;
-
-    bool empty() const { return width <= 0 || height <= 0; }
-};
-PixelRect pixelsInScissor(const osg::Viewport& viewport);
-
-/// Rectangle over the whole viewport; depth in normalised device coordinates, z = atCenter + x·slopeX + y·slopeY.
-void drawQuad(osg::State& state, double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
-
-/// A convex polygon in normalised device coordinates; as drawQuad() if there are no corners.
-void drawPolygon(osg::State& state, const std::vector<glm::dvec2>& corners, double depth);
 
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
 /// Puts everything back at its end.
 class ScreenPass {
 public:
-    /// @param leaves    what was drawn: colours are written to their channels only. Must outlive this.
+    /// @param written   asked when colours are written: to these channels only.
     /// @param counters  see counters().
     ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
-               const std::vector<StageLeaf>& leaves, unsigned counters);
+               std::function<Channels()> written, unsigned counters);
     ~ScreenPass();
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;
@@ -116,7 +83,7 @@ private:
     void drawColor(const osg::Vec4& color);
 
     osg::State& _state;
-    const std::vector<StageLeaf>& _leaves;
+    const std::function<Channels()> _written;
     const unsigned _counters;
 };
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/AheadBin.h>
 #include <gnomon/Compositor.h>
-#include <gnomon/ProgramJob.h>
 #include <gnomon/ShadowBin.h>
 #include <gnomon/SoftMarkJob.h>
 #include <gnomon/StageLights.h>
+#include <gnomon/ViewFrame.h>
 
 #include <OpenThreads/ScopedLock>
 #include <osg/Notify>
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 
 namespace gnomon {
@@ -20,22 +19,11 @@ namespace {
 constexpr int highestNumber = 8; // below 9, where osg::OcclusionQueryNode draws, and 10, the transparent bin
 constexpr const char* binName = "gnomon::ShadowBin";
 
-/// The same but for near and far, which a nested camera finds for itself.
-bool sameLens(const osg::Matrixd& a, const osg::Matrixd& b) {
-    for (int row = 0; row < 4; ++row)
-        for (const int column : {0, 1, 3})
-            if (a(row, column) != b(row, column)) return false;
-    return true;
-}
-
 /// Makes the bin known to osgUtil, which creates bins by name.
 const bool registered = [] {
     osgUtil::RenderBin::addRenderBinPrototype(binName, new ShadowBin);
     return true;
 }();
-
-std::atomic<unsigned> reservedBits{0};
-std::atomic<bool> filterLeaves{true};
 
 /// @param casters  a CasterMesh, or CasterPieces.
 template <typename Casters>
@@ -70,15 +58,17 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
     view.projection = *entry.projection;
     view.group = entry.group.get();
     view.dark = entry.group->getDark();
+    view.options = entry.group->getCompositorOptions();
     view.frameNumber = entry.frameNumber;
     return view;
 }
 
 ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     ShadowJob job;
-    job.technique = entry.technique;
+    job.technique = entry.technique->describe();
+    job.diagnosis = entry.technique->frameDiagnosis();
     job.light = light.number;
-    job.composite = entry.group->getComposite();
+    job.relight = entry.group->getComposite() == ShadowCasterGroup::RELIGHT;
     job.dark = entry.group->getDark();
     job.frameNumber = entry.frameNumber;
     job.projection = entry.projection;
@@ -99,16 +89,6 @@ std::size_t ownBits(const std::vector<ShadowJob>& jobs) {
 
 } // namespace
 
-const SoftMarkJob* ShadowJob::softMarks() const { return dynamic_cast<const SoftMarkJob*>(marks.get()); }
-
-const ProgramJob* ShadowJob::programMarks() const { return dynamic_cast<const ProgramJob*>(marks.get()); }
-
-bool ShadowJob::isReceiver(const osgUtil::RenderLeaf& leaf) const {
-    return receiverNamed ? receivers.count(&leaf) > 0 : isOfView(leaf);
-}
-
-bool ShadowJob::isOfView(const osg::Matrixd& lens) const { return sameLens(lens, *projection); }
-
 ShadowBin& ShadowBin::of(osgUtil::RenderStage* stage) {
     for (int number = highestNumber;; --number) {
         auto* bin = dynamic_cast<ShadowBin*>(stage->find_or_insert(number, binName));
@@ -116,25 +96,28 @@ ShadowBin& ShadowBin::of(osgUtil::RenderStage* stage) {
     }
 }
 
-void ShadowBin::reserve(unsigned stencilBits) { reservedBits = stencilBits; }
-unsigned ShadowBin::reserved() { return reservedBits; }
-void ShadowBin::setFilter(bool filter) { filterLeaves = filter; }
-bool ShadowBin::getFilter() { return filterLeaves; }
-
 void ShadowBin::enlist(const EnlistedTechnique& technique) {
     _enlisted.push_back(technique);
-    clearWithStage();
+    suit(technique.group->getCompositorOptions());
 }
 
-void ShadowBin::enlist(StageEffect& effect) {
+void ShadowBin::enlist(StageEffect& effect, const CompositorOptions& options) {
     _effects.push_back(&effect);
+    suit(options);
+}
+
+void ShadowBin::suit(const CompositorOptions& options) {
+    _options = _options.with(options);
     clearWithStage();
 }
 
 void ShadowBin::clearWithStage() {
+    constexpr GLbitfield stencil = GL_STENCIL_BUFFER_BIT;
     osgUtil::RenderStage& stage = *getStage();
-    _stageClears = reserved() == 0 && (stage.getClearMask() & GL_DEPTH_BUFFER_BIT) && stage.getClearStencil() == 0;
-    if (_stageClears) stage.setClearMask(stage.getClearMask() | GL_STENCIL_BUFFER_BIT);
+    const GLbitfield own = _addsClear ? stage.getClearMask() & ~stencil : stage.getClearMask();
+    _stageClears = _options.reservedStencilBits == 0 && (own & GL_DEPTH_BUFFER_BIT) && stage.getClearStencil() == 0;
+    _addsClear = _stageClears && !(own & stencil);
+    stage.setClearMask(_stageClears ? own | stencil : own);
 }
 
 void ShadowBin::reset() {
@@ -143,6 +126,8 @@ void ShadowBin::reset() {
     _enlisted.clear();
     _jobs.clear();
     _effects.clear();
+    _options = {};
+    _stageClears = _addsClear = false;
 }
 
 void ShadowBin::sortImplementation() {
@@ -187,7 +172,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
     }
     view.stage = getStage();
     for (const StageLeaf& leaf : leaves)
-        if (view.receivers ? receivers.count(leaf.leaf) > 0 : sameLens(*leaf.leaf->_projection, *entry.projection))
+        if (view.receivers ? receivers.count(leaf.leaf) > 0 : isSameLens(*leaf.leaf->_projection, *entry.projection))
             view.seen.push_back(leaf.leaf);
     for (const ShadowLight& light : lights) {
         ShadowJob job = jobFor(entry, light);
@@ -204,7 +189,7 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
         popLeafState(*renderInfo.getState(), previous);
         std::vector<StageLeaf> leaves = leavesBelow(*getStage(), getBinNum());
         const bool clean = _stageClears && !isModeOn(leaves, GL_STENCIL_TEST);
-        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), clean, ownBits(_jobs)))
+        Compositor(StageDraw(renderInfo, *getStage(), std::move(leaves), _options, clean, ownBits(_jobs)))
             .compose(_jobs, _effects);
         renderInfo.getState()->decrementDynamicObjectCount();
     }

@@ -2,9 +2,8 @@
 #pragma once
 #include <gnomon/Export.h>
 #include <gnomon/GroupCasters.h>
-#include <gnomon/LightUniform.h>
-#include <gnomon/MarkJob.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowJob.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/StageEffect.h>
 #include <gnomon/StageLeaves.h>
@@ -12,13 +11,9 @@
 #include <osgUtil/RenderBin>
 #include <osgUtil/RenderStage>
 
-#include <set>
 #include <vector>
 
 namespace gnomon {
-
-class ProgramJob;
-class SoftMarkJob;
 
 /// A technique met in the cull of one stage, and what it needs to know of the view.
 struct EnlistedTechnique {
@@ -28,30 +23,6 @@ struct EnlistedTechnique {
     osg::Matrixd groupFromTechnique;
     osg::ref_ptr<osg::RefMatrix> projection; ///< shared with the leaves: near and far are set in it after the cull.
     unsigned frameNumber = 0;
-};
-
-/// A technique's job for one light in one view, and how its marks are to be used.
-struct ShadowJob {
-    osg::ref_ptr<const MarkJob> marks;
-    osg::ref_ptr<const ShadowTechnique> technique;
-    int light = 0; ///< OpenGL light number.
-    ShadowCasterGroup::Composite composite = ShadowCasterGroup::RELIGHT;
-    float dark = 1.0f;
-    unsigned frameNumber = 0;
-    osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
-    bool receiverNamed = false;
-    std::set<const osgUtil::RenderLeaf*> receivers; ///< the leaves of the named receiver.
-    std::vector<LightUniform> lightUniforms;        ///< of the group.
-
-    /// The marks, if their edges are soft; else null.
-    const SoftMarkJob* softMarks() const;
-    /// The job, if it is for programs alone; else null.
-    const ProgramJob* programMarks() const;
-    /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this view.
-    bool isReceiver(const osgUtil::RenderLeaf& leaf) const;
-    /// True if the leaf is seen through the technique's lens, unlike what a nested camera lays over the view.
-    bool isOfView(const osgUtil::RenderLeaf& leaf) const { return isOfView(*leaf._projection); }
-    bool isOfView(const osg::Matrixd& lens) const;
 };
 
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
@@ -86,20 +57,11 @@ public:
     /// The bin of `stage`, made if it has none: number 8, or the next lower one that another kind of bin has not taken.
     static ShadowBin& of(osgUtil::RenderStage* stage);
 
-    /// Stencil bits (of 8) that belong to the application: never touched. Call before the first frame; default none.
-    static void reserve(unsigned stencilBits);
-    static unsigned reserved();
-
-    /// For tests and comparison: with false, every leaf of the stage is drawn again, whether marks can touch it or not, and
-    /// every tile of a terrain's shadows is marked, by polygons alone.
-    static void setFilter(bool filter);
-    static bool getFilter();
-
     /// Also lets the stage clear its stencil buffer, if it clears depth and no bits are reserved: the two together cost
     /// less than a clear of our bits later.
     void enlist(const EnlistedTechnique& technique);
     /// The same for what is no shadow: mirror images and halos.
-    void enlist(StageEffect& effect);
+    void enlist(StageEffect& effect, const CompositorOptions& options);
 
     void reset() override;
     void sortImplementation() override;
@@ -111,6 +73,7 @@ protected:
 
 private:
     bool isIdle() const { return _jobs.empty() && _effects.empty(); }
+    void suit(const CompositorOptions& options);
     void clearWithStage();
     void sortAsAsked();
     void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const GroupCasters& casters,
@@ -119,7 +82,9 @@ private:
     std::vector<EnlistedTechnique> _enlisted;
     std::vector<ShadowJob> _jobs;
     std::vector<osg::ref_ptr<StageEffect>> _effects;
+    CompositorOptions _options; ///< of all that were enlisted.
     bool _stageClears = false;
+    bool _addsClear = false; ///< it is this bin alone that wants the stage to clear stencil.
 };
 
 } // namespace gnomon

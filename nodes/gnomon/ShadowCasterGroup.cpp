@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CasterExtraction.h>
+#include <gnomon/CasterMesh.h>
+#include <gnomon/CasterPieces.h>
 #include <gnomon/CasterRevision.h>
 #include <gnomon/CopiedNodes.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <OpenThreads/ScopedLock>
 #include <osg/Notify>
 
 #include <algorithm>
 #include <cmath>
+#include <typeinfo>
 
 namespace gnomon {
 namespace {
@@ -36,6 +39,7 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _lightSources(other._lightSources),
       _lights(other._lights),
       _lightUniforms(other._lightUniforms),
+      _options(other._options),
       _watch(new CasterRevision(other._selection)) {
     followCopies(other);
 }
@@ -54,6 +58,8 @@ void ShadowCasterGroup::followCopies(const ShadowCasterGroup& original) {
         technique->setReceiver({copied.of(receiver.node.get()), receiver.mask});
     });
 }
+
+bool ShadowCasterGroup::showsAllChildren() const { return typeid(*this) == typeid(ShadowCasterGroup); }
 
 void ShadowCasterGroup::setCasters(const Selection& casters) {
     Lock lock(_mutex);
@@ -112,7 +118,7 @@ osg::ref_ptr<const CasterMesh> ShadowCasterGroup::casters() const {
     self->accept(*_watch);
     noteRevision(_watch->value());
     if (_mesh && _watch->value() == _meshFingerprint) return _mesh;
-    osg::ref_ptr<VertexTraverser> traverser = new VertexTraverser(_selection);
+    osg::ref_ptr<CasterExtraction> traverser = new CasterExtraction(_selection);
     self->accept(*traverser);
     _mesh = new CasterMesh(*traverser);
     _meshFingerprint = _watch->value();

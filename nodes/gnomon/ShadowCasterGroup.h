@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/CasterMesh.h>
-#include <gnomon/CasterPieces.h>
+#include <gnomon/CasterMarkers.h>
+#include <gnomon/CompositorOptions.h>
 #include <gnomon/Export.h>
 #include <gnomon/LightUniform.h>
 #include <gnomon/Selection.h>
@@ -16,6 +16,8 @@
 
 namespace gnomon {
 
+class CasterMesh;
+class CasterPieces;
 class CasterRevision;
 
 /// Group whose subgraph casts shadows. Every scene with Gnomon's shadows has one.
@@ -60,8 +62,9 @@ class CasterRevision;
 ///       Lights 1 { 0 433000.25 5410000.5 60 1 }
 ///       Spots 1 { 0 0 -1 30 }
 ///       LightUniforms 1 { 0 "sunColor" }
+///       CompositorOptions 15 TRUE 10000
 ///     }
-class GNOMON_EXPORT ShadowCasterGroup : public osg::Group {
+class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren {
 public:
     /// How the compositor darkens shadowed pixels.
     enum Composite : int {
@@ -116,6 +119,14 @@ public:
     /// The light uniforms.
     const std::vector<LightUniform>& getLightUniforms() const { return _lightUniforms; }
 
+    /// Limits of the view's compositor. See CompositorOptions for several nodes in one view. Default: none.
+    void setCompositorOptions(const CompositorOptions& options) { _options = options; }
+    /// See setCompositorOptions().
+    const CompositorOptions& getCompositorOptions() const { return _options; }
+
+    /// True for the class itself, whose traversal visits all children.
+    bool showsAllChildren() const override;
+
     /// The casters as one mesh. They are extracted again only if something changed since the last call.
     /// Call it where the graph may be read: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
@@ -138,6 +149,7 @@ private:
     std::vector<osg::ref_ptr<osg::LightSource>> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;
+    CompositorOptions _options;
 
     mutable OpenThreads::Mutex _mutex;
     osg::ref_ptr<CasterRevision> _watch;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/CascadeSplits.h>
+#include <gnomon/GroupCasters.h>
 #include <gnomon/LightMaps.h>
 #include <gnomon/MapProgram.h>
 #include <gnomon/ShadowCasterGroup.h>

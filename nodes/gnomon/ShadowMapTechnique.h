@@ -7,6 +7,7 @@
 
 namespace gnomon {
 
+class CasterPieces;
 class LightMaps;
 struct MapWish;
 

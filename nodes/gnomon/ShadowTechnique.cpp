@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/FrameCauses.h>
 #include <gnomon/LightProbe.h>
 #include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
@@ -57,10 +58,12 @@ bool ShadowTechnique::hasGroupAbove(const osg::NodeVisitor& visitor) {
     return groupAbove(visitor.getNodePath()).group != nullptr;
 }
 
-ShadowTechnique::ShadowTechnique() { setCullingActive(false); }
+ShadowTechnique::ShadowTechnique() : _diagnosis(new FrameCauses) { setCullingActive(false); }
+
+ShadowTechnique::~ShadowTechnique() = default;
 
 ShadowTechnique::ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp& copyOp)
-    : osg::Geode(other, copyOp), _receiver(other._receiver) {
+    : osg::Geode(other, copyOp), _receiver(other._receiver), _diagnosis(new FrameCauses) {
     setCullingActive(false);
 }
 
@@ -73,13 +76,15 @@ bool ShadowTechnique::isLit(const LightProbe& probe, const glm::dvec3& point) co
 
 osg::ref_ptr<const osg::Referenced> ShadowTechnique::answersFor(const LightProbe&) const { return nullptr; }
 
-std::vector<std::string> ShadowTechnique::diagnose() const { return _causes.all(); }
+std::vector<std::string> ShadowTechnique::diagnose() const { return _diagnosis->all(); }
+
+FrameCauses* ShadowTechnique::frameDiagnosis() const { return _diagnosis.get(); }
 
 void ShadowTechnique::report(unsigned frame, const std::string& cause) const {
-    _causes.add(frame, describe() + " " + cause);
+    _diagnosis->add(frame, describe(), cause);
 }
 
-void ShadowTechnique::beginFrame(unsigned frame, const void* view) const { _causes.begin(frame, view); }
+void ShadowTechnique::beginFrame(unsigned frame, const void* view) const { _diagnosis->begin(frame, view); }
 
 std::string ShadowTechnique::describe() const { return described(*this); }
 

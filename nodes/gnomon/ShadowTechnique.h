@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CasterMarkers.h>
 #include <gnomon/Export.h>
-#include <gnomon/FrameCauses.h>
-#include <gnomon/GroupCasters.h>
-#include <gnomon/MarkJob.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
-#include <gnomon/ViewFrame.h>
 
 #include <glm/vec3.hpp>
 #include <osg/Geode>
@@ -20,8 +17,12 @@ class CullVisitor;
 
 namespace gnomon {
 
+class FrameCauses;
+class GroupCasters;
+class MarkJob;
 class ShadowCasterGroup;
 struct LightProbe;
+struct ViewFrame;
 
 /// Base class of all shadow techniques: finds the pixels that a light does not reach.
 ///
@@ -31,7 +32,7 @@ struct LightProbe;
 /// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. The cull traversal
 /// registers the technique with the compositor of its render stage. After the cull, the compositor calls prepare() once
 /// a light in each view. The technique marks pixels; the compositor darkens them.
-class GNOMON_EXPORT ShadowTechnique : public osg::Geode {
+class GNOMON_EXPORT ShadowTechnique : public osg::Geode, public NeverCasts {
 public:
     /// A technique with every opaque drawable as receiver.
     ShadowTechnique();
@@ -78,11 +79,13 @@ public:
     /// Forgets the causes of earlier frames. A frame begins when `frame` changes, or when `view` comes a second time.
     /// @param view  any address that identifies the view.
     void beginFrame(unsigned frame, const void* view) const;
+    /// The diagnosis that report() adds to. For jobs that outlive their frame's cull.
+    FrameCauses* frameDiagnosis() const;
     /// Class and name, for messages: "PlanarShadowNode 'floor'".
     std::string describe() const;
 
 protected:
-    ~ShadowTechnique() override = default;
+    ~ShadowTechnique() override;
 
     /// Registers the technique with the compositor of the current render stage, or reports why it cannot.
     void enlist(osgUtil::CullVisitor& cull);
@@ -91,7 +94,7 @@ protected:
 
 private:
     Selection _receiver;
-    mutable FrameCauses _causes;
+    const osg::ref_ptr<FrameCauses> _diagnosis;
 };
 
 } // namespace gnomon

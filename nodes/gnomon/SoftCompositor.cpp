@@ -26,7 +26,7 @@ Jobs jobsOf(const Lights& lights) {
 }
 
 void report(const Jobs& jobs, const std::string& cause) {
-    for (const ShadowJob* job : jobs) job->technique->report(job->frameNumber, cause);
+    for (const ShadowJob* job : jobs) job->report(cause);
 }
 
 } // namespace
@@ -52,7 +52,7 @@ void SoftCompositor::relight(const Jobs& wanted) const {
     const bool weighsAtOnce = lights.size() == 1 && lights.front().isSoftOnly();
     if (weighsAtOnce) _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     mark(lights, weighsAtOnce ? StencilMarks::Soft::Weighed : StencilMarks::Soft::Touched);
-    Leaves leaves = leavesToReplay(_draw.leaves, jobs, bounds);
+    Leaves leaves = leavesToReplay(_draw, jobs, bounds);
     const Leaves aside = setAside(leaves, jobs);
     if (!aside.empty()) darkenAside(aside, lights, jobs);
     mix(leaves, lights, jobs, weighsAtOnce && aside.empty());
@@ -91,9 +91,10 @@ SoftCompositor::Lights SoftCompositor::lightsOf(const Jobs& wanted) const {
 bool SoftCompositor::assignBits(Light& light, std::vector<unsigned>& unused) const {
     const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.soft ? 1u : 0u);
     if (unused.size() < needed) {
-        report(jobsOf(Lights{light}), "leaves light " + std::to_string(light.number) +
-                                          " unshadowed: too few stencil bits are left; take some from "
-                                          "ShadowBin::reserve(), or set BLEND, which takes any number of lights.");
+        report(jobsOf(Lights{light}),
+               "leaves light " + std::to_string(light.number) +
+                   " unshadowed: too few stencil bits are left; take some from "
+                   "CompositorOptions::reservedStencilBits, or set BLEND, which takes any number of lights.");
         return false;
     }
     const auto take = [&unused] {
@@ -119,7 +120,7 @@ void SoftCompositor::mark(const Lights& lights, StencilMarks::Soft soft) const {
 SoftCompositor::Leaves SoftCompositor::setAside(Leaves& leaves, const Jobs& jobs) const {
     LeafReplay::Overlay overlay;
     overlay.lightUniforms = lightUniformsOf(jobs);
-    LeafReplay judge(_draw.renderInfo, overlay);
+    LeafReplay judge(_draw, overlay);
     OpaqueTest opaque;
     Leaves aside, mixed;
     for (const ReplayedLeaf& leaf : leaves) {
@@ -191,13 +192,13 @@ void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned
     overlay.equalDepth = true;
     overlay.color = lights.size() == 1 ? LeafReplay::Color::Mix : LeafReplay::Color::Add;
     overlay.lightUniforms = lightUniformsOf(jobs);
-    LeafReplay replay(_draw.renderInfo, overlay);
+    LeafReplay replay(_draw, overlay);
     unsigned dark = 0;
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (lost & (1u << i)) dark |= 1u << lights[i].number;
     TouchTest touches(bounds);
     for (const ReplayedLeaf& leaf : leaves)
-        if (!ShadowBin::getFilter() || touches(*leaf.entry.leaf)) replay.draw(leaf.entry, leaf.dark & dark);
+        if (!_draw.options.filter || touches(*leaf.entry.leaf)) replay.draw(leaf.entry, leaf.dark & dark);
 }
 
 /// Where pixels can lose all of these lights; with a light of two bits in use, which one stencil test cannot ask for,
@@ -205,7 +206,7 @@ void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned
 ScreenRect SoftCompositor::boundsWithout(const Lights& lights, unsigned lost) const {
     if (std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.isMixed(); }))
         return boundsOf(jobsOf(lights));
-    ScreenRect bounds{{-1.0, -1.0}, {1.0, 1.0}};
+    ScreenRect bounds = wholeScreen;
     for (std::size_t i = 0; i < lights.size(); ++i)
         if (lost & (1u << i)) bounds = common(bounds, boundsOf(jobsOf(Lights{lights[i]})));
     return bounds;
@@ -236,7 +237,7 @@ void SoftCompositor::multiplyShare(const ShadowJob& job, bool blocked, ScreenPas
     screen.multiplyAlpha();
     const std::string cause = job.softMarks()->drawShare(
         _draw.renderInfo, screen, blocked ? SoftMarkJob::Share::Blocked : SoftMarkJob::Share::Arriving);
-    if (!cause.empty()) job.technique->report(job.frameNumber, cause);
+    job.report(cause);
 }
 
 /// Multiplies alpha by the job's share.

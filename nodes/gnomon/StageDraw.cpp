@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/ShadowBin.h>
 #include <gnomon/StageDraw.h>
 
 #include <osgUtil/StateGraph>
@@ -21,17 +20,28 @@ unsigned countersAmong(const std::vector<unsigned>& bits, std::size_t own) {
 
 } // namespace
 
-StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<StageLeaf> before, bool isClean,
-                     std::size_t ownBits)
-    : renderInfo(info), state(*info.getState()), stage(drawn), leaves(std::move(before)), clean(isClean), own(ownBits) {
+StageDraw::StageDraw(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<StageLeaf> before,
+                     const CompositorOptions& asked, bool isClean, std::size_t ownBits)
+    : renderInfo(info),
+      state(*info.getState()),
+      stage(drawn),
+      leaves(std::move(before)),
+      options(asked),
+      clean(isClean),
+      own(ownBits) {
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
     glGetIntegerv(GL_ALPHA_BITS, &alpha);
     hasStencil = stencil > 0;
     hasAlpha = alpha > 0;
     for (int i = std::min(stencil, 8); i-- > 0;)
-        if (!(ShadowBin::reserved() & (1u << i))) bits.push_back(1u << i);
+        if (!(options.reservedStencilBits & (1u << i))) bits.push_back(1u << i);
     counters = countersAmong(bits, own);
+}
+
+Channels StageDraw::channels() const {
+    if (!_channels) _channels = writtenChannels(leaves);
+    return *_channels;
 }
 
 void StageDraw::clear(unsigned stencil, const ScreenRect& bounds) const {
@@ -39,7 +49,7 @@ void StageDraw::clear(unsigned stencil, const ScreenRect& bounds) const {
 }
 
 void StageDraw::clearLeftovers(unsigned stencil) const {
-    if (!clean) clear(stencil | counters, {{-1.0, -1.0}, {1.0, 1.0}});
+    if (!clean) clear(stencil | counters, wholeScreen);
 }
 
 void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
@@ -57,7 +67,8 @@ std::string whyNotComposed(const StageDraw& draw) {
                "of the camera.";
     if (draw.stage.getClearDepth() < 1.0)
         return "does not know this view's depth buffer, which is cleared to less than 1: clear it to 1.";
-    return draw.bits.empty() ? "finds every stencil bit reserved: leave one to ShadowBin::reserve()." : "";
+    return draw.bits.empty() ? "finds every stencil bit reserved: leave one to CompositorOptions::reservedStencilBits."
+                             : "";
 }
 
 } // namespace gnomon

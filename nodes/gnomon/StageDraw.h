@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CompositorOptions.h>
 #include <gnomon/ScreenPass.h>
 #include <gnomon/StageLeaves.h>
 
 #include <osg/RenderInfo>
 #include <osgUtil/RenderStage>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,29 +19,37 @@ public:
     /// @param leaves  what the stage drew before, in order.
     /// @param clean   the stencil buffer is known to be zero.
     /// @param own     how many stencil bits the compositor takes for itself, 2 to 8; others are counters.
-    StageDraw(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves, bool clean,
-              std::size_t own);
+    StageDraw(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<StageLeaf> leaves,
+              const CompositorOptions& options, bool clean, std::size_t own);
 
     /// One step, cut to `bounds`, from and back to OpenGL's defaults.
     template <typename Step>
     void pass(const ScreenRect& bounds, Step step) const {
         CleanState cleanState(state, stage.getViewport());
-        ScreenPass screen(state, *stage.getViewport(), bounds, leaves, counters);
+        ScreenPass screen(
+            state, *stage.getViewport(), bounds, [this] { return channels(); }, counters);
         step(screen);
     }
     void clear(unsigned stencil, const ScreenRect& bounds) const;
     /// Before marks: what others left in these bits would be taken for marks wherever leaves are drawn again.
     void clearLeftovers(unsigned stencil) const;
 
+    /// Those that the leaves write.
+    Channels channels() const;
+
     osg::RenderInfo& renderInfo;
     osg::State& state;
     osgUtil::RenderStage& stage;
     const std::vector<StageLeaf> leaves;
+    const CompositorOptions options;
     const bool clean;
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.
     const std::size_t own;      ///< how many of them, from the first on, are the compositor's.
     unsigned counters = 0;      ///< some of the others, see ScreenPass::counters(); 0 if there are none.
+
+private:
+    mutable std::optional<Channels> _channels; ///< once asked for.
 };
 
 /// Takes the state sets of the leaf drawn last off the stack, as osgUtil does before positional state.

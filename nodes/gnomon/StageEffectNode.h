@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Export.h>
-#include <gnomon/FrameCauses.h>
+#include <gnomon/CompositorOptions.h>
 
 #include <osg/Group>
 
@@ -14,6 +14,7 @@ class CullVisitor;
 
 namespace gnomon {
 
+class FrameCauses;
 class StageEffect;
 
 /// Base class of groups that draw an effect of their children, as HaloNode and PlanarReflectionNode do.
@@ -22,14 +23,18 @@ class StageEffect;
 class GNOMON_EXPORT StageEffectNode : public osg::Group {
 public:
     /// A group without children.
-    StageEffectNode() = default;
+    StageEffectNode();
     /// Copies the group.
-    StageEffectNode(const StageEffectNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)
-        : osg::Group(other, copyOp) {}
+    StageEffectNode(const StageEffectNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+
+    /// Limits of the view's compositor. See CompositorOptions for several nodes in one view. Default: none.
+    void setCompositorOptions(const CompositorOptions& options) { _options = options; }
+    /// See setCompositorOptions().
+    const CompositorOptions& getCompositorOptions() const { return _options; }
 
     /// Says why the effect was missing in the last frame, in any view.
     /// @return one sentence a cause, with the node and the remedy; empty if all is well.
-    std::vector<std::string> diagnose() const { return _causes.all(); }
+    std::vector<std::string> diagnose() const;
     /// Adds a cause to diagnose(). Repeated causes count once. Call it in cull or draw.
     /// @param cause  the end of a sentence that begins with class and name.
     void report(unsigned frame, const std::string& cause) const;
@@ -38,7 +43,7 @@ public:
     void traverse(osg::NodeVisitor& visitor) override;
 
 protected:
-    ~StageEffectNode() override = default;
+    ~StageEffectNode() override;
 
     /// Makes the effect for one view.
     /// @param cull  the cull traversal at this node, after its children.
@@ -48,7 +53,8 @@ protected:
 private:
     void enlist(osgUtil::CullVisitor& cull);
 
-    mutable FrameCauses _causes;
+    CompositorOptions _options;
+    const osg::ref_ptr<FrameCauses> _diagnosis;
 };
 
 } // namespace gnomon

@@ -264,7 +264,7 @@ bool FilledTest::operator()(const osgUtil::RenderLeaf& leaf) {
 
 std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    if (!box.valid()) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
+    if (!box.valid()) return wholeScreen;
     const glm::dmat4 clipFromLocal = toGlm(*leaf._modelview * *leaf._projection);
     std::vector<glm::dvec4> corners;
     corners.reserve(8);
@@ -277,10 +277,6 @@ bool TouchTest::operator()(const osgUtil::RenderLeaf& leaf) {
     if (!_filled(leaf)) return true;
     const auto place = screenBoundsOf(leaf);
     return place && overlap(*place, _bounds);
-}
-
-bool overlap(const ScreenRect& a, const ScreenRect& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ScreenBounds.h>
+#include <gnomon/ScreenPass.h>
 #include <gnomon/Selection.h>
 
 #include <osg/StateAttribute>
@@ -37,12 +38,7 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
 /// True if any of the leaves is drawn with `mode` on.
 bool isModeOn(const std::vector<StageLeaf>& leaves, osg::StateAttribute::GLMode mode);
 
-/// Colour channels.
-struct Channels {
-    bool red = false, green = false, blue = false;
-};
-
-/// Those that any of the leaves writes: fewer than all in anaglyph stereo, for one.
+/// The colour channels that any of the leaves writes: fewer than all in anaglyph stereo, for one.
 Channels writtenChannels(const std::vector<StageLeaf>& leaves);
 
 /// Tells leaves by how they are drawn; asks each of their state sets once.
@@ -94,7 +90,5 @@ private:
     const ScreenRect _bounds;
     FilledTest _filled;
 };
-
-bool overlap(const ScreenRect& a, const ScreenRect& b);
 
 } // namespace gnomon

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ShadowBin.h>
+#include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowLight.h>
+
+#include <osg/Matrixd>
+#include <osgUtil/RenderStage>
 
 #include <string>
 #include <vector>

@@ -28,7 +28,7 @@ void writeWhereSeen(const StageDraw& draw, const std::vector<ReplayedLeaf>& leav
         overlay.equalDepth = equal;
         overlay.keepDepth = true;
         overlay.bounds = bounds;
-        LeafReplay replay(draw.renderInfo, overlay);
+        LeafReplay replay(draw, overlay);
         for (const ReplayedLeaf& leaf : leaves)
             if (opaque(*leaf.entry.leaf) == equal) replay.draw(leaf.entry);
     }
@@ -38,9 +38,8 @@ void writeWhereSeen(const StageDraw& draw, const std::vector<ReplayedLeaf>& leav
 void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Soft soft) const {
     if (fresh && !job.receiverNamed) return addUngated(job, bit, soft);
     if (!_scratch) {
-        job.technique->report(job.frameNumber,
-                              "needs a second stencil bit for its named receiver or beside another technique of its "
-                              "light: leave two to ShadowBin::reserve().");
+        job.report("needs a second stencil bit for its named receiver or beside another technique of its "
+                   "light: leave two to CompositorOptions::reservedStencilBits.");
         return;
     }
     addUngated(job, _scratch, soft);
@@ -57,7 +56,7 @@ void StencilMarks::addUngated(const ShadowJob& job, unsigned bit, Soft soft) con
         if (softMarks && soft == Soft::Weighed) screen.multiplyAlpha();
         const std::string cause = softMarks ? softMarks->markTouched(_draw.renderInfo, screen, bit)
                                             : job.marks->mark(_draw.renderInfo, screen, bit);
-        if (!cause.empty()) job.technique->report(job.frameNumber, cause);
+        job.report(cause);
     });
 }
 
@@ -72,7 +71,7 @@ void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
     overlay.color = LeafReplay::Color::None;
     overlay.bounds = job.marks->screenBounds;
     overlay.marks = job.marks.get();
-    LeafReplay replay(_draw.renderInfo, overlay);
+    LeafReplay replay(_draw, overlay);
     TouchTest touches(job.marks->screenBounds);
     for (const StageLeaf& entry : _draw.leaves)
         if (job.receivers.count(entry.leaf) && touches(*entry.leaf)) replay.draw(entry);

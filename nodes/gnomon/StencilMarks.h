@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ReplayFilter.h>
-#include <gnomon/ShadowBin.h>
+#include <gnomon/ShadowJob.h>
 #include <gnomon/StageDraw.h>
 
 #include <vector>

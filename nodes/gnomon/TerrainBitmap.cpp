@@ -5,14 +5,11 @@
 #include <osg/GLExtensions>
 
 #include <algorithm>
-#include <atomic>
 #include <functional>
 #include <string>
 
 namespace gnomon {
 namespace {
-
-std::atomic<unsigned> mostPolygons{10000};
 
 osg::ref_ptr<osg::Geometry> geometryOf(const ShadowBitmap& bitmap) {
     static_assert(sizeof(glm::vec3) == sizeof(osg::Vec3));
@@ -100,8 +97,5 @@ void TerrainBitmap::resizeGLObjectBuffers(unsigned maxSize) {
 }
 
 void TerrainBitmap::releaseGLObjects(osg::State* state) const { _geometry->releaseGLObjects(state); }
-
-void TerrainBitmap::setMostPolygons(unsigned triangles) { mostPolygons = triangles; }
-unsigned TerrainBitmap::getMostPolygons() { return mostPolygons; }
 
 } // namespace gnomon

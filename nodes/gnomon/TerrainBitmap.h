@@ -29,11 +29,6 @@ public:
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
-    /// How many triangles of decals a view draws as they are, the nearest, which are exact; farther tiles are drawn by bitmaps.
-    /// Default 10000, some 1.5 ms of processor time where a processor draws them. For tests and comparison.
-    static void setMostPolygons(unsigned triangles);
-    static unsigned getMostPolygons();
-
 protected:
     ~TerrainBitmap() override = default;
 

@@ -17,7 +17,7 @@ namespace gnomon {
 struct TerrainDrawn : public osg::Referenced {
     std::uint64_t revision = 0;
     std::set<const osg::Drawable*> drawables;                 ///< to be told apart from others only.
-    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see VertexTraverser::getSources().
+    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see CasterExtraction::getSources().
     bool hasLevels = false; ///< what is drawn may be coarser than this ground, for there are levels of detail.
     bool hasQuads = false;  ///< which a driver cuts into triangles by its own rule.
     std::shared_ptr<const Ground> ground;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CasterExtraction.h>
 #include <gnomon/Convert.h>
 #include <gnomon/FieldPosts.h>
 #include <gnomon/HeightPyramid.h>
 #include <gnomon/TerrainGround.h>
 #include <gnomon/TriangleGrid.h>
 #include <gnomon/TriangleGround.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <osg/Shape>
 #include <osg/ShapeDrawable>
@@ -27,9 +27,9 @@ const osg::HeightField* fieldOf(const osg::Drawable& drawable) {
 }
 
 /// Takes height fields by their posts and all else by its triangles.
-class TerrainTraverser : public VertexTraverser {
+class TerrainTraverser : public CasterExtraction {
 public:
-    using VertexTraverser::VertexTraverser;
+    using CasterExtraction::CasterExtraction;
     const std::vector<FieldPosts>& fields() const { return _fields; }
 
 protected:
@@ -37,7 +37,7 @@ protected:
         if (const osg::HeightField* field = fieldOf(drawable))
             _fields.emplace_back(*field, rootFromLocal());
         else
-            VertexTraverser::applyCaster(drawable);
+            CasterExtraction::applyCaster(drawable);
     }
 
 private:

@@ -142,7 +142,8 @@ std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, uns
     const unsigned counters = pass.counters();
     const auto rounds = roundsOf(counters);
     if (!counters && rounds.size() > 1)
-        return "needs another stencil bit where shadows lie over one another: take one from ShadowBin::reserve().";
+        return "needs another stencil bit where shadows lie over one another: take one from "
+               "CompositorOptions::reservedStencilBits.";
     for (const std::vector<LayerSlice>& round : rounds) {
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/CasterExtraction.h>
 #include <gnomon/Convert.h>
+#include <gnomon/FrameCauses.h>
+#include <gnomon/GroupCasters.h>
 #include <gnomon/LightProbe.h>
 #include <gnomon/MarkProgram.h>
 #include <gnomon/PlanCoverage.h>
 #include <gnomon/ReplayFilter.h>
-#include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/TerrainCache.h>
 #include <gnomon/TerrainScene.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TerrainView.h>
 #include <gnomon/UsableLight.h>
-#include <gnomon/VertexTraverser.h>
 
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_access.hpp>
@@ -151,13 +152,13 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     mark->bitmapProgram = _bitmapProgram;
     mark->clipFromPrisms = seen.clipFromTiles();
     mark->decalsNearer = aPixelNearer(view.projection, view.pixels);
-    mark->fromAbove = frame.fromAbove && ShadowBin::getFilter();
+    mark->fromAbove = frame.fromAbove && view.options.filter;
     mark->prismsFromEye = osg::Matrixd::inverse(view.eyeFromGroup) *
                           osg::Matrixd::translate(-frame.origin.x, -frame.origin.y, -frame.origin.z);
     const auto bounds = addSeen(frame, seen, *mark);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
-    mark->coverage = ShadowBin::getFilter() ? coverageOf(*mark) : nullptr;
+    mark->coverage = view.options.filter ? coverageOf(*mark) : nullptr;
     return {mark};
 }
 
@@ -240,7 +241,7 @@ bool TerrainShadowGeode::compute(const Asked& with) {
 /// The one it has, while the object is as it was.
 osg::ref_ptr<const CasterMesh> TerrainShadowGeode::meshOf(std::uint64_t object) const {
     if (_shown && _shownObject == object) return _shown->scene->mesh;
-    VertexTraverser traverser;
+    CasterExtraction traverser;
     placedObject()->accept(traverser);
     return new CasterMesh(traverser);
 }

@@ -14,6 +14,7 @@
 
 namespace gnomon {
 
+class CasterMesh;
 class TerrainCache;
 struct TerrainPlace;
 struct TerrainShadows;

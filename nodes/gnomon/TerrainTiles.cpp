@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Progress.h>
-#include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowDecals.h>
 #include <gnomon/ShadowPrisms.h>
 #include <gnomon/TerrainTiles.h>
@@ -186,7 +185,7 @@ std::vector<TerrainTiles::Far> TerrainTiles::farIn(const TerrainView& view) cons
     }
     std::stable_sort(far.begin(), far.end());
     std::size_t count = 0;
-    for (; count < far.size() && left > TerrainBitmap::getMostPolygons(); ++count)
+    for (; count < far.size() && left > view.options().mostDecals; ++count)
         left -= _shadows[far[count].tile]->decals->triangles();
     far.resize(count);
     return far;
@@ -204,7 +203,7 @@ int TerrainTiles::levelFor(const Far& one) {
 
 TerrainTiles::Bitmaps TerrainTiles::bitmapsIn(const TerrainView& view, const TileGround& ground) {
     Bitmaps result(_shadows.size());
-    if (!ground.drawn || !ShadowBin::getFilter()) return result;
+    if (!ground.drawn || !view.options().filter) return result;
     std::vector<Far> far = farIn(view);
     ++_calls;
     for (Far& one : far) one.level = levelFor(one);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/ShadowBin.h>
 #include <gnomon/TerrainTiles.h>
 #include <gnomon/TerrainView.h>
 
@@ -69,7 +68,8 @@ glm::dvec3 marginOf(const TileShadows& tile, double moved) {
 } // namespace
 
 TerrainView::TerrainView(const ViewFrame& view, const glm::dvec3& origin)
-    : _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)),
+    : _options(view.options),
+      _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)),
       _mostPixels(mostPixelsOf(_clipFromTiles, view.pixels)) {}
 
 TerrainView::Shown TerrainView::shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const {
@@ -80,7 +80,7 @@ TerrainView::Shown TerrainView::shown(const TerrainMesh& mesh, const TileShadows
     points.assign(corners.begin(), corners.end());
     const auto bounds = screenBounds(points);
     const double nearest = nearestOf(corners), pixels = nearest > 0.0 ? _mostPixels / nearest : infinite;
-    if (!ShadowBin::getFilter()) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels};
+    if (!_options.filter) return {bounds.value_or(ScreenRect{{1.0, 1.0}, {-1.0, -1.0}}), pixels};
     const bool isTooSmall = (tile.widest + 2.0 * moved) * pixels < leastPixels;
     return {isTooSmall ? std::nullopt : bounds, pixels};
 }
@@ -106,7 +106,7 @@ double TerrainView::bitmapTexel(int level) { return std::exp2(0.5 * level); }
 
 bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& light, double lowest,
                                   double margin) const {
-    if (!ShadowBin::getFilter() || light.w != 0.0 || !(light.z > 0.0)) return true;
+    if (!_options.filter || light.w != 0.0 || !(light.z > 0.0)) return true;
     const double fall = std::max(0.0, high.z - lowest);
     const glm::dvec3 way = -glm::dvec3(light) / light.z * fall; // of the highest, to the lowest ground
     const glm::dvec3 more(margin * glm::length(high - low - way));
@@ -118,7 +118,7 @@ bool TerrainView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high,
 }
 
 double TerrainView::mayBeOff(const TileShadows& tile, double off) const {
-    if (!ShadowBin::getFilter()) return 0.0;
+    if (!_options.filter) return 0.0;
     const double onSlope = std::sqrt(1.0 + tile.found.steepest * tile.found.steepest); // of a length of 1 in plan
     double least = infinite;
     for (const TerrainMesh* mesh : {tile.decals.get(), tile.prisms.get()})

@@ -11,12 +11,13 @@ namespace gnomon {
 class TerrainMesh;
 struct TileShadows;
 
-/// What a view shows of shadows on terrain. With ShadowBin::setFilter(false) all counts as seen, and as seen exactly.
+/// What a view shows of shadows on terrain. With CompositorOptions::filter off all counts as seen, and as seen exactly.
 class TerrainView {
 public:
     /// @param origin  of the tiles, group's frame.
     TerrainView(const ViewFrame& view, const glm::dvec3& origin);
 
+    const CompositorOptions& options() const { return _options; }
     const glm::dmat4& clipFromTiles() const { return _clipFromTiles; }
     /// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn: it is empty, out of sight, or its widest
     /// shadow is smaller than a pixel.
@@ -46,6 +47,7 @@ private:
     /// @param moved  by how much the shadows may be somewhere else, in any direction.
     Shown shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const;
 
+    const CompositorOptions _options;
     const glm::dmat4 _clipFromTiles;
     const double _mostPixels; ///< that a length of 1 can be where w is 1, exactly.
 };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/GroupCasters.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/TracedCasters.h>
 #include <gnomon/TracedMark.h>
 #include <gnomon/TracedShadowTechnique.h>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CompositorOptions.h>
+
 #include <osg/Matrixd>
 #include <osg/Vec2d>
 #include <osgUtil/RenderLeaf>
@@ -18,7 +20,8 @@ struct ViewFrame {
     osg::Matrixd projection;         ///< as drawn, near and far included.
     osg::Vec2d pixels;               ///< of the viewport.
     const ShadowCasterGroup* group = nullptr;
-    float dark = 0.5f; ///< of the ShadowCasterGroup.
+    float dark = 0.5f;         ///< of the ShadowCasterGroup.
+    CompositorOptions options; ///< of the ShadowCasterGroup.
     unsigned frameNumber = 0;
     const void* stage = nullptr; ///< whose view it is: tells views apart.
     const std::set<const osgUtil::RenderLeaf*>* receivers =

@@ -30,8 +30,9 @@ std::optional<glm::dvec3> shadowOf(const glm::dvec3& point, const Ground& ground
 
 } // namespace
 
-void FanBatch::begin(const Ground& ground, const glm::dvec4& light) {
+void FanBatch::begin(const Ground& ground, const glm::dvec4& light, const ShadowKernel& kernel) {
     _entries.clear();
+    _kernel = &kernel;
     _ground = &ground;
     _light = light;
     _isLight = isUsable(light);
@@ -160,9 +161,9 @@ void FanBatch::beginRays(std::size_t first, std::size_t end) {
 
 void FanBatch::cast(std::size_t first, std::size_t end) {
     const KernelFans fans = kernelFans(first, end);
-    shadowKernel().rays(fans);
+    _kernel->rays(fans);
     if (_grid) {
-        shadowKernel().cast(_view, fans);
+        _kernel->cast(_view, fans);
         return;
     }
     for (std::size_t i = 0; i < _rayCount; ++i)
@@ -232,20 +233,20 @@ void FanBatch::findFans(std::size_t first, std::size_t end) {
     beginRays(first, end);
     cast(first, end);
     const KernelFans fans = kernelFans(first, end);
-    shadowKernel().land(fans);
+    _kernel->land(fans);
     eachEntry(first, end, [&](Entry& entry) {
         if (entry.outcome != TerrainOutcome::fan) return;
         if (partOf(entry).isUnknown[entry.lane] == 0.0 && isGentle(entry)) return;
         if (!landExactly(entry)) entry.outcome = TerrainOutcome::noFan;
     });
-    shadowKernel().measure(fans);
+    _kernel->measure(fans);
     eachEntry(first, end, [&](Entry& entry) {
         if (entry.outcome == TerrainOutcome::fan) finish(entry);
         _parts[entry.fan].corners[entry.lane] = double(entry.corners);
     });
-    shadowKernel().places(fans);
+    _kernel->places(fans);
     addHeights(first, end);
-    shadowKernel().judge(fans);
+    _kernel->judge(fans);
     eachEntry(first, end, [&](Entry& entry) {
         if (entry.outcome == TerrainOutcome::fan) entry.wrong += partOf(entry).lit[entry.lane];
     });
@@ -256,7 +257,7 @@ void FanBatch::addHeights(std::size_t first, std::size_t end) {
     for (std::size_t i = first; i < end; ++i) {
         const KernelFan& fan = _fans[i];
         KernelPlace* places = _inside.data() + fan.place;
-        if (_grid) shadowKernel().heights(_view, places, fan.edges - 2, fan.parts);
+        if (_grid) _kernel->heights(_view, places, fan.edges - 2, fan.parts);
         for (KernelPlace* place = places; place < places + fan.edges - 2 && !_grid; ++place)
             for (std::size_t lane = 0; lane < fan.parts; ++lane)
                 place->z[lane] = _ground->height(place->u[lane], place->v[lane]).value_or(nan);

@@ -35,7 +35,7 @@ public:
     };
 
     /// For the parts of one light and ground, which must be there as long as the batch is used.
-    void begin(const Ground& ground, const glm::dvec4& light);
+    void begin(const Ground& ground, const glm::dvec4& light, const ShadowKernel& kernel = bestShadowKernel());
     /// Instead of those that there were. entry().outcome says why there is no shadow, but for what the ground tells.
     void take(const PackedParts& parts, std::size_t first, std::size_t end);
     /// Polygons of all that were taken.
@@ -111,6 +111,7 @@ private:
     const DrapeMesh& meshOf(const Drape& triangles, const glm::dvec3& anchor);
 
     const Ground* _ground = nullptr;
+    const ShadowKernel* _kernel = nullptr;
     const HeightPyramid* _grid = nullptr; ///< the ground, if it is one.
     GridView _view{};
     glm::dvec2 _origin{0.0}, _scale{1.0}; ///< of the kernel's frame.

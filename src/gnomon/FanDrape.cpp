@@ -49,7 +49,8 @@ const DrapeMesh& FanBatch::drape(std::size_t i, double error) {
     glm::dvec2 low, high;
     if (_grid && findReach(i, low, high)) {
         takePlanes(i);
-        if (const DrapeMesh* found = _gridDrape.drape(*_grid, _planes, low, high, error, entry.tangent)) return *found;
+        if (const DrapeMesh* found = _gridDrape.drape(*_grid, _planes, low, high, error, entry.tangent, *_kernel))
+            return *found;
     }
     const ConvexShadow all = shadow(i);
     const double slope = error > 0.0 ? _ground->steepest(all.planes) : 0.0;

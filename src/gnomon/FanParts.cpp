@@ -33,7 +33,7 @@ void FanBatch::take(const PackedParts& parts, std::size_t first, std::size_t end
         }
         takeKind(parts, first);
     }
-    shadowKernel().edges(kernelFans(0, _fans.size()));
+    _kernel->edges(kernelFans(0, _fans.size()));
     for (Entry& entry : _entries) entry.tangent = entry.fan == none || _light.w == 0.0 ? _tangent : leastTangent(entry);
 }
 
@@ -74,7 +74,7 @@ void FanBatch::askFaces(const PackedParts& parts, std::size_t first) {
     _hulls = {blocks,   topology.corners, faces,    _places.data(),     topology.faces.data(), _lights.data(), _light.x,
               _light.y, _light.z,         _light.w, _facePlanes.data(), _lit.data(),           _sizes.data()};
     for (std::size_t block = 0; block < blocks; ++block) packBlock(parts, first, block);
-    shadowKernel().face(_hulls);
+    _kernel->face(_hulls);
     if (!_isLight) std::fill(_lit.begin(), _lit.end(), std::uint64_t(0));
     for (std::size_t i = 0; i < _kind.size(); ++i) {
         Entry& entry = _entries[_kind[i]];
@@ -94,7 +94,7 @@ void FanBatch::packBlock(const PackedParts& parts, std::size_t first, std::size_
         for (int k = 0; k < 3 && _light.w != 0.0; ++k, light += kernelLanes)
             *light = _light[k] - _light.w * parts.anchor(part)[k];
     }
-    shadowKernel().pack(from, 3 * (_hulls.corners - 1), _places.data() + 3 * _hulls.corners * block * kernelLanes);
+    _kernel->pack(from, 3 * (_hulls.corners - 1), _places.data() + 3 * _hulls.corners * block * kernelLanes);
 }
 
 /// Parts of which the light meets the same faces.
@@ -147,7 +147,7 @@ void FanBatch::addFans() {
         if (_parts.size() < _fans.size()) _parts.resize(2 * _fans.size());
         KernelChoice choice{{}, _loop.data(), _litFaces.data()};
         std::copy_n(_alike.begin() + std::ptrdiff_t(first), kernelLanes, choice.parts.begin());
-        shadowKernel().choose(_hulls, choice, kernelFans(0, _fans.size()), _fans.size() - 1);
+        _kernel->choose(_hulls, choice, kernelFans(0, _fans.size()), _fans.size() - 1);
         addParts(_alike.data() + first);
     }
 }

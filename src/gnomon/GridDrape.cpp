@@ -14,7 +14,7 @@ constexpr int mostBlocks = 128; // along a side: beyond, a way down the pyramid 
 } // namespace
 
 const DrapeMesh* GridDrape::drape(const HeightPyramid& ground, const Planes& planes, const glm::dvec2& low,
-                                  const glm::dvec2& high, double error, double tangent) {
+                                  const glm::dvec2& high, double error, double tangent, const ShadowKernel& kernel) {
     _mesh.corners.clear();
     _mesh.indices.clear();
     const HeightField& field = ground.field();
@@ -28,7 +28,7 @@ const DrapeMesh* GridDrape::drape(const HeightPyramid& ground, const Planes& pla
     _planes = &planes;
     _cells = *cells;
     _off = heightError(error, tangent, ground.steepest(*cells));
-    askPlanes();
+    askPlanes(kernel);
     int level = 0;
     while ((cells->right >> level) - (cells->left >> level) > 1 || (cells->high >> level) - (cells->low >> level) > 1)
         ++level;
@@ -61,7 +61,7 @@ void GridDrape::take(int left, int low, int side, bool falls) {
     add(falls ? b : a, c, d);
 }
 
-void GridDrape::askPlanes() {
+void GridDrape::askPlanes(const ShadowKernel& kernel) {
     const HeightField& field = _ground->field();
     const std::size_t count = std::size_t(_cells.right - _cells.left + 2) * std::size_t(_cells.high - _cells.low + 2);
     if (_x.size() < count + kernelPad)
@@ -80,8 +80,8 @@ void GridDrape::askPlanes() {
             _z[at] = base + double(heights[x]);
         }
     }
-    shadowKernel().sides({count, _x.data(), _y.data(), _z.data(), _sides.data()}, &_planes->about.front().x,
-                         _planes->about.size());
+    kernel.sides({count, _x.data(), _y.data(), _z.data(), _sides.data()}, &_planes->about.front().x,
+                 _planes->about.size());
 }
 
 /// A triangle of posts, or what of it is in the shadow.

@@ -7,6 +7,8 @@
 
 namespace gnomon {
 
+struct ShadowKernel;
+
 /// Triangles by the numbers of their corners, three each.
 struct DrapeMesh {
     std::vector<glm::dvec3> corners; ///< what triangles that share a post or an edge have there is one.
@@ -27,10 +29,10 @@ public:
     /// @param tangent   of the light's elevation.
     /// @return nullptr if the rectangle has too many posts for this to be quick; else triangles about the anchor.
     const DrapeMesh* drape(const HeightPyramid& ground, const Planes& planes, const glm::dvec2& low,
-                           const glm::dvec2& high, double error, double tangent);
+                           const glm::dvec2& high, double error, double tangent, const ShadowKernel& kernel);
 
 private:
-    void askPlanes();
+    void askPlanes(const ShadowKernel& kernel);
     void visit(int level, int x, int y);
     void take(int left, int low, int side, bool falls);
     void add(std::size_t a, std::size_t b, std::size_t c);

@@ -242,7 +242,7 @@ bool findAll(const TerrainAsk& asked, const PackedParts& parts, PackedShadows& f
         return false;
     }
     FanBatch& batch = threadsBatch();
-    batch.begin(asked.ground, asked.light);
+    batch.begin(asked.ground, asked.light, asked.kernel);
     for (std::size_t first = 0; first < parts.size(); first += together) {
         findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
         for (std::size_t i = 0; i < batch.size(); ++i) {
@@ -300,11 +300,12 @@ std::size_t PackedShadows::bytes() const {
 }
 
 void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
-                   double error, const glm::dvec3& origin, PackedShadows& found) {
+                   double error, const glm::dvec3& origin, PackedShadows& found, const ShadowKernel* kernel) {
     found.origin = origin;
     found.rates = {};
     found.steepest = 0.0;
-    if (findAll({ground, light, method, error}, parts, found)) findRates(ground, parts, light, found);
+    if (findAll({ground, light, method, error, kernel ? *kernel : bestShadowKernel()}, parts, found))
+        findRates(ground, parts, light, found);
 }
 
 /// By the ground under all together; where that tells too little, by what is under each.

@@ -9,6 +9,8 @@
 
 namespace gnomon {
 
+struct ShadowKernel;
+
 /// The shadow of one of many parts, in their PackedShadows.
 struct PackedShadow {
     const glm::vec3* corners; ///< about PackedShadows::origin.
@@ -73,10 +75,11 @@ struct PackedShadows {
 /// terrainShadow() of each part, bit for bit. Memory that `found` has is used again.
 ///
 /// @param origin  that the corners are about, near the parts: they are floats.
+/// @param kernel  one of shadowKernels(); null for the best. All give the same bits.
 ///
 /// Threads any number, each with its own `found`.
 void packedShadows(const Ground& ground, const PackedParts& parts, const glm::dvec4& light, TerrainMethod method,
-                   double error, const glm::dvec3& origin, PackedShadows& found);
+                   double error, const glm::dvec3& origin, PackedShadows& found, const ShadowKernel* kernel = nullptr);
 
 /// Of each part's shadow, by the ground that it may come near. @param sun  over the horizon, that they were found with.
 void findMotions(const Ground& ground, const PackedParts& parts, const PackedShadows& found, const glm::dvec4& sun,

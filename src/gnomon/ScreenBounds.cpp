@@ -176,4 +176,16 @@ glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame) {
     return glm::inverse(clipFromFrame) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
 }
 
+ScreenRect united(const ScreenRect& a, const ScreenRect& b) {
+    return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
+ScreenRect common(const ScreenRect& a, const ScreenRect& b) {
+    return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
+}
+
+bool overlap(const ScreenRect& a, const ScreenRect& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
 } // namespace gnomon

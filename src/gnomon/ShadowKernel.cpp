@@ -10,16 +10,15 @@
 #include <gnomon/ShadowKernel-inl.h>
 
 #if HWY_ONCE
-#include <atomic>
-
 namespace gnomon {
 
 namespace {
 
 HWY_EXPORT(kernel);
 
-/// Those that this machine can run, worst first.
-const std::vector<ShadowKernel>& kernels() {
+} // namespace
+
+const std::vector<ShadowKernel>& shadowKernels() {
     static const std::vector<ShadowKernel> all = [] {
         std::vector<ShadowKernel> found;
         const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets(); // best first
@@ -32,26 +31,6 @@ const std::vector<ShadowKernel>& kernels() {
         return found;
     }();
     return all;
-}
-
-std::atomic<const ShadowKernel*>& chosen() {
-    static std::atomic<const ShadowKernel*> one{&kernels().back()};
-    return one;
-}
-
-} // namespace
-
-const ShadowKernel& shadowKernel() { return *chosen(); }
-
-std::vector<std::string> shadowKernels() {
-    std::vector<std::string> names;
-    for (const ShadowKernel& kernel : kernels()) names.emplace_back(kernel.instructions);
-    return names;
-}
-
-void chooseShadowKernel(const std::string& instructions) {
-    for (const ShadowKernel& kernel : kernels())
-        if (kernel.instructions == instructions) chosen() = &kernel;
 }
 
 } // namespace gnomon

@@ -132,10 +132,9 @@ struct ShadowKernel {
     void (*sides)(const KernelPoints& points, const double* planes, std::size_t count);
 };
 
-/// For the best instructions that this machine has, or those chosen.
-const ShadowKernel& shadowKernel();
-/// For tests and benchmarks; first those without SIMD, last the best. Not thread-safe.
-std::vector<std::string> shadowKernels();
-void chooseShadowKernel(const std::string& instructions);
+/// All that this machine can run, one a set of instructions: the first without SIMD, the last the best.
+const std::vector<ShadowKernel>& shadowKernels();
+/// The best of them.
+inline const ShadowKernel& bestShadowKernel() { return shadowKernels().back(); }
 
 } // namespace gnomon

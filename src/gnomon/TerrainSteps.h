@@ -10,6 +10,7 @@ struct TerrainAsk {
     glm::dvec4 light;
     TerrainMethod method;
     double error; ///< in plan.
+    const ShadowKernel& kernel = bestShadowKernel();
 };
 
 bool isLightBelow(const Ground& ground, const glm::dvec4& light);

@@ -22,7 +22,7 @@ const std::string publicNames =
     " Convert Export Selection ShadowLight LightUniform NamedNode VertexTraverser FlatParts CasterMesh CasterPieces "
     "ShadowCasterGroup ShadowTechnique PlanarShadowNode ShadowMapTechnique TerrainShadowGeode TerrainGround "
     "TracedShadowTechnique HaloNode HaloPulse PlanarReflectionNode StageEffectNode ShadowQuery ShadowSpec "
-    "HeadlessContext Plane PlanarShadow Reflection RayScene ShadowTruth Ground SunClock ";
+    "HeadlessContext CompositorOptions Plane PlanarShadow Reflection RayScene ShadowTruth Ground SunClock ";
 
 bool isPublic(const std::filesystem::path& file) {
     const bool named = publicNames.find(" " + file.stem().string() + " ") != std::string::npos;

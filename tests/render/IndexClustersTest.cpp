@@ -5,7 +5,6 @@
 #include <support/Scene.h>
 
 #include <gnomon/IndexClusters.h>
-#include <gnomon/ShadowBin.h>
 #include <gtest/gtest.h>
 #include <osg/PrimitiveSetIndirect>
 #include <osg/VertexProgram>
@@ -112,7 +111,6 @@ protected:
         geometry->setUseVertexBufferObjects(GetParam().buffers);
         return geometry;
     }
-    void TearDown() override { gnomon::ShadowBin::setFilter(true); }
 };
 
 Scene sceneOf(osg::Geometry* geometry) {
@@ -160,9 +158,7 @@ TEST_P(IndexClusters, RedrawnInPartGivesThePictureOfAFullRedraw) {
             }
         EXPECT_GT(shaded, 1000);
         EXPECT_EQ(wrong, 0) << "named " << named;
-        gnomon::ShadowBin::setFilter(false);
-        EXPECT_EQ(render(shadowed.root, view).different(c), 0);
-        gnomon::ShadowBin::setFilter(true);
+        EXPECT_EQ(render(test::unfiltered(shadowed.root), view).different(c), 0);
     }
 }
 
@@ -249,9 +245,7 @@ TEST(IndexClusters, WhatAProgramMovesIsDrawnWhole) {
     Scene scene = sceneOf(geometry);
     scene.addShadow(disc(25.0));
     const Picture filtered = render(scene.root, view);
-    gnomon::ShadowBin::setFilter(false);
-    const Picture whole = render(scene.root, view);
-    gnomon::ShadowBin::setFilter(true);
+    const Picture whole = render(test::unfiltered(scene.root), view);
     EXPECT_EQ(filtered.different(whole), 0);
     Scene lit = sceneOf(geometry);
     EXPECT_GT(render(lit.root, view).different(whole), 1000) << "there is no shadow to compare";

@@ -3,7 +3,6 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gtest/gtest.h>
 #include <osg/BlendFunc>
 #include <osg/Depth>
@@ -41,10 +40,8 @@ Scene build(bool named, bool groundLast, bool decal) {
 }
 
 Picture picture(bool named, bool groundLast, bool decal, bool filter) {
-    gnomon::ShadowBin::setFilter(filter);
-    const Picture result = render(build(named, groundLast, decal).root, slanted);
-    gnomon::ShadowBin::setFilter(true);
-    return result;
+    const Scene scene = build(named, groundLast, decal);
+    return render(filter ? scene.root.get() : test::unfiltered(scene.root), slanted);
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 // Box, hull and drape as a node: what is found anew and when, what is drawn with a group above and without.
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gtest/gtest.h>
 #include <osg/Geometry>
@@ -19,7 +18,6 @@
 #include <limits>
 #include <sstream>
 
-using gnomon::ShadowBin;
 using gnomon::TerrainShadowGeode;
 using test::Scene;
 
@@ -216,13 +214,11 @@ TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAre
     std::vector<test::Mesh> houses;
     for (int i = 0; i < 15; ++i) houses.push_back(test::box({3.0, -2.0, 0.4 * i}, {3.5 + 0.1 * i, 2.0, 0.4 * i + 0.3}));
     const auto picture = [&](unsigned reserved, std::string& cause) {
-        ShadowBin::reserve(reserved);
         Scene scene = test::groundScene(houses, 20.0, sun);
         const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::DRAPE); // prisms
         scene.addShadow(shadow);
-        test::Picture result = test::render(scene.root, above);
+        test::Picture result = test::render(test::reserving(scene.root, reserved), above);
         cause = shadow->diagnose().empty() ? "" : shadow->diagnose().front();
-        ShadowBin::reserve(0);
         return result;
     };
     Scene unshadowed = test::groundScene(houses, 20.0, sun);
@@ -346,7 +342,6 @@ TEST(TerrainShadowGeode, FallsOnTheLevelOfDetailThatIsDrawn) {
 /// A bridge and the ground under it: each is in shadow once.
 TEST(TerrainShadowGeode, FallsOnAllStoreys) {
     for (const unsigned reserved : {0x00u, 0x03u}) {
-        ShadowBin::reserve(reserved);
         Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
         osg::ref_ptr<osg::Group> storeys = new osg::Group;
         osg::Node* ground = test::find(*scene.root, "ground");
@@ -355,7 +350,8 @@ TEST(TerrainShadowGeode, FallsOnAllStoreys) {
         scene.content->replaceChild(ground, storeys);
         scene.addShadow(shadowOn(storeys, TerrainShadowGeode::DRAPE));
         Scene plain = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
-        EXPECT_EQ(darkened(test::render(scene.root, above), test::render(plain.root, above)), 30 * 20) << reserved;
-        ShadowBin::reserve(0);
+        EXPECT_EQ(darkened(test::render(test::reserving(scene.root, reserved), above), test::render(plain.root, above)),
+                  30 * 20)
+            << reserved;
     }
 }

@@ -2,7 +2,6 @@
 // Shadows of a town on terrain: the same picture as by another technique, what is found anew and when, the sun's way.
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gnomon/SunClock.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gtest/gtest.h>
@@ -16,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 
-using gnomon::ShadowBin;
 using gnomon::TerrainShadowGeode;
 using test::Scene;
 
@@ -60,21 +58,12 @@ test::Picture byPlanar(const osg::Vec4d& light, const test::View& view) {
 }
 
 test::Picture fresh(const osg::Vec4d& light, const test::View& view,
-                    TerrainShadowGeode::Method method = TerrainShadowGeode::HULL) {
+                    TerrainShadowGeode::Method method = TerrainShadowGeode::HULL,
+                    const gnomon::CompositorOptions& options = {}) {
     Town town(light);
     town.cast(method);
-    return test::render(town.root, view);
+    return test::render(test::withOptions(town.root, options), view);
 }
-
-/// Settings of the whole program, for a while.
-struct Reserve {
-    explicit Reserve(unsigned bits) { ShadowBin::reserve(bits); }
-    ~Reserve() { ShadowBin::reserve(0); }
-};
-struct NoFilter {
-    NoFilter() { ShadowBin::setFilter(false); }
-    ~NoFilter() { ShadowBin::setFilter(true); }
-};
 
 } // namespace
 
@@ -102,16 +91,18 @@ TEST(TerrainTiles, DarkenOnceWhateverLiesOverWhatAndHoweverFewBitsAreLeft) {
     const test::Picture exact = byPlanar(low, all), counted = fresh(low, all);
     EXPECT_LE(counted.different(exact), 5) << "see above";
     for (const unsigned reserved : {0x80u, 0xc0u, 0x03u, 0xf0u, 0xf8u, 0x1fu}) {
-        const Reserve reserve(reserved);
-        EXPECT_EQ(fresh(low, all).different(counted), 0) << reserved;
+        gnomon::CompositorOptions options;
+        options.reservedStencilBits = reserved;
+        EXPECT_EQ(fresh(low, all, TerrainShadowGeode::HULL, options).different(counted), 0) << reserved;
     }
 }
 
 TEST(TerrainTiles, CulledAndAllOfThemGiveTheSameBits) {
     for (const test::View& view : {test::fromAbove(20.0, 200), test::fromAbove(60.0, 200), slanted}) {
         const test::Picture culled = fresh(sun, view);
-        const NoFilter everything;
-        EXPECT_EQ(fresh(sun, view).different(culled), 0);
+        gnomon::CompositorOptions everything;
+        everything.filter = false;
+        EXPECT_EQ(fresh(sun, view, TerrainShadowGeode::HULL, everything).different(culled), 0);
     }
 }
 

@@ -23,6 +23,7 @@ struct Site {
         scene.addShadow(technique);
         technique->setName("floor");
     }
+    void reserve(unsigned stencilBits) { test::reserving(scene.root, stencilBits); }
     /// What the technique says after one more frame.
     Causes causes() {
         if (!camera) camera = std::make_unique<Camera>(scene.root, view, options);
@@ -49,12 +50,6 @@ bool endsWith(const std::string& text, const std::string& end) {
                        endsWith(cause, remedy + ".") && cause.find(". ") == std::string::npos;
     return right ? ::testing::AssertionSuccess() : ::testing::AssertionFailure() << cause;
 }
-
-/// Puts the stencil bits back that a test reserves.
-struct Reservation {
-    explicit Reservation(unsigned bits) { gnomon::ShadowBin::reserve(bits); }
-    ~Reservation() { gnomon::ShadowBin::reserve(0); }
-};
 
 /// Lights 1 to `count` - 1 beside light 0, on, from different sides.
 void addLights(Scene& scene, int count) {
@@ -211,10 +206,10 @@ TEST(Diagnose, TellsOfAFramebufferWithoutStencil) {
 
 TEST(Diagnose, TellsWhenEveryStencilBitIsReserved) {
     Site site;
-    {
-        const Reservation all(0xff);
-        EXPECT_TRUE(says(site.causes(), "finds every stencil bit reserved", "leave one to ShadowBin::reserve()"));
-    }
+    site.reserve(0xff);
+    EXPECT_TRUE(
+        says(site.causes(), "finds every stencil bit reserved", "leave one to CompositorOptions::reservedStencilBits"));
+    site.reserve(0);
     EXPECT_EQ(site.causes(), Causes());
 }
 
@@ -223,11 +218,11 @@ TEST(Diagnose, TellsWhenASecondStencilBitIsWanted) {
     osg::ref_ptr<PlanarShadowNode> beside = planar();
     beside->setName("floor");
     site.scene.group->insertChild(0, beside);
-    {
-        const Reservation butOne(0xfe);
-        EXPECT_TRUE(says(site.causes(), "needs a second stencil bit", "leave two to ShadowBin::reserve()"));
-        EXPECT_EQ(beside->diagnose(), Causes());
-    }
+    site.reserve(0xfe);
+    EXPECT_TRUE(
+        says(site.causes(), "needs a second stencil bit", "leave two to CompositorOptions::reservedStencilBits"));
+    EXPECT_EQ(beside->diagnose(), Causes());
+    site.reserve(0);
     EXPECT_EQ(site.causes(), Causes());
 }
 
