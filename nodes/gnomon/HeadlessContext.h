@@ -58,7 +58,7 @@ public:
     osg::GraphicsContext* graphicsContext() const;
 
     /// Makes `camera` draw into the whole context: sets its graphics context, its viewport and the aspect ratio of a
-    /// perspective projection. The camera's viewer becomes SingleThreaded unless it has another threading model.
+    /// perspective projection. The camera's viewer becomes SingleThreaded unless a threading model is chosen.
     /// @throws std::logic_error if the context's viewer is gone.
     void attach(osg::Camera& camera) const;
     /// Makes `camera` draw into a part of the context, in pixels from the lower left corner.

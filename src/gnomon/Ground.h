@@ -23,7 +23,7 @@ struct GroundRange {
     bool holes = false;         ///< True if rays may pass through holes there and hit ground behind.
 };
 
-/// Terrain for shadows: triangles, z up, in double. groundOf() reads one from a scene graph.
+/// Terrain that shadows fall on: triangles, z up, in double. groundOf() reads one from a scene graph.
 ///
 /// Use it to ask for heights and slopes and to cast rays at terrain. Most places in plan have one triangle. Places
 /// without a triangle are holes.
