@@ -17,28 +17,37 @@ namespace gnomon {
 class FrameDiagnosis;
 class ViewEffect;
 
-/// A group that draws its children as ever and, once more, something made of them, by the ShadowBin of each view.
+/// Base class of groups that draw an effect of their children, as HaloNode and PlanarReflectionNode do.
+///
+/// Derive from it to add an effect. The children are drawn as usual. The compositor of each view draws the effect.
 class GNOMON_EXPORT EffectNode : public osg::Group {
 public:
+    /// A group without children.
     EffectNode();
+    /// Copies the group.
     EffectNode(const EffectNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
 
-    /// What the compositor of the view may use; see CompositorOptions for several nodes in one view.
+    /// Limits of the view's compositor. See CompositorOptions for several nodes in one view. Default: none.
     void setCompositorOptions(const CompositorOptions& options) { _options = options; }
+    /// See setCompositorOptions().
     const CompositorOptions& getCompositorOptions() const { return _options; }
 
-    /// Why what this is for was missing in the last frame, over all its views: one sentence a cause, with the node and
-    /// the remedy. Empty if all is well.
+    /// Says why the effect was missing in the last frame, in any view.
+    /// @return one sentence a cause, with the node and the remedy; empty if all is well.
     std::vector<std::string> diagnose() const;
-    /// Notes a cause for diagnose(); repeated causes count once. Called in cull or draw.
+    /// Adds a cause to diagnose(). Repeated causes count once. Call it in cull or draw.
+    /// @param cause  the end of a sentence that begins with class and name.
     void report(unsigned frame, const std::string& cause) const;
 
+    /// Traverses the children. In a cull traversal it registers the effect with the compositor, too.
     void traverse(osg::NodeVisitor& visitor) override;
 
 protected:
     ~EffectNode() override;
 
-    /// What to draw in this view; null if nothing. @param cull  stands at this node, its children have been culled.
+    /// Makes the effect for one view.
+    /// @param cull  the cull traversal at this node, after its children.
+    /// @return      null if there is nothing to draw.
     virtual osg::ref_ptr<ViewEffect> makeEffect(osgUtil::CullVisitor& cull) = 0;
 
 private:

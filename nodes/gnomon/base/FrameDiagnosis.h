@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 
 #include <OpenThreads/Mutex>
 #include <osg/NodeVisitor>
@@ -14,7 +13,7 @@ namespace gnomon {
 /// Why a node could not draw what it is for: the causes of the last frame, over all views.
 ///
 /// Threads any number.
-class GNOMON_EXPORT FrameDiagnosis : public osg::Referenced {
+class FrameDiagnosis : public osg::Referenced {
 public:
     /// One text for each cause: what is wrong, then what to do. Empty if all is well.
     std::vector<std::string> all() const;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/base/Fingerprint.h>
 
 #include <osg/Drawable>
@@ -14,26 +13,27 @@
 
 namespace gnomon {
 
-/// What of a drawable an alpha test leaves, as leaves and fences are made: by the alpha of a texture.
+/// The alpha test of a drawable, such as leaves or a fence: which texels of its texture are opaque.
 ///
-/// Limits  that of the 2D texture on unit 0, at coordinates given a vertex; alpha of vertices and materials counts as 1.
-struct GNOMON_EXPORT AlphaTest {
-    int passing = 0;        ///< bits: 1 where alpha is less than the reference, 2 equal to, 4 greater than it.
-    float reference = 0.0f; ///< 0 … 1.
-    osg::ref_ptr<osg::Texture2D> texture; ///< null if something decides that is not known here, as a shader.
-    osg::Matrixd matrix;                  ///< of the texture's coordinates.
+/// Limits
+/// - It knows the 2D texture on unit 0 at its coordinates by vertex. Alpha of vertices and materials counts as 1.
+struct AlphaTest {
+    int passing = 0;        ///< Bits: 1 passes alpha below the reference, 2 equal alpha, 4 alpha above it.
+    float reference = 0.0f; ///< Reference, 0 … 1.
+    osg::ref_ptr<osg::Texture2D> texture; ///< Null if alpha comes from elsewhere, for example from a shader.
+    osg::Matrixd matrix;                  ///< Transforms the texture coordinates.
 
-    /// Of the drawable at the end of a path, by the states along it and above it (there by the first parents).
-    /// @return nullopt if there is none, or nothing can be missing.
+    /// Finds the test of the drawable at the end of a path, by the states along it and above it (by first parents).
+    /// @return nullopt if there is no test, or if it passes everything.
     static std::optional<AlphaTest> of(const osg::NodePath& path);
     /// True if a node's own state switches a test on.
     static bool isOn(const osg::Node& node);
 
-    /// The texture's coordinates, s, t and q, of each of a drawable's vertices; empty if it has none.
+    /// Texture coordinates (s, t, q) of each vertex of a drawable. Empty if it has none.
     std::vector<osg::Vec3> coordinatesOf(const osg::Drawable& drawable) const;
-    /// All that coordinatesOf() and a picture of the texture depend on.
+    /// Mixes in everything that decides what the test leaves of a drawable.
     void mix(const osg::Drawable& drawable, Fingerprint& into) const;
-    /// Adds what mix() tells apart by its address.
+    /// Adds the objects that mix() identifies by address.
     void hold(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources) const;
 };
 

@@ -22,43 +22,46 @@ public:
     ~CasterExtraction() override = default;
     META_NodeVisitor(gnomon, CasterExtraction)
 
-        void reset() override;
+    /// Forgets all results, for another traversal.
+    void reset() override;
 
-    /// All of them finite, and within the range of float.
+    /// The vertices. All are finite and within the range of float. Triangles of one drawable share them.
     const std::vector<osg::Vec3d>& getVertices() const { return _vertices; }
-    /// Three indices into getVertices() a triangle, counter-clockwise seen from the side that was the front in the
-    /// drawable's own frame, mirrored or not. Triangles of no area are kept, unless two of their indices are equal.
+    /// The triangles: three indices each into getVertices(), counter-clockwise as seen from the drawable's front side.
+    /// A mirroring transform keeps the front side. Triangles of no area are kept unless two of their indices are equal.
     const std::vector<unsigned>& getTriangles() const { return _triangles; }
 
-    /// A drawable that was met, and where its triangles begin in getTriangles(); they end where the next one's begin.
+    /// A drawable that the traversal read. Its triangles end at the next drawable's first.
     struct Drawn {
-        const osg::Drawable* drawable; ///< to be told apart from others only: it may be gone.
-        std::size_t first;
+        const osg::Drawable* drawable; ///< Identifies the drawable. Do not dereference it: the drawable may be gone.
+        std::size_t first;             ///< Index of its first corner in getTriangles().
     };
+    /// The drawables, in traversal order.
     const std::vector<Drawn>& getDrawn() const { return _drawn; }
 
-    /// One of them that an alpha test leaves parts of.
+    /// A drawable with an alpha test, such as leaves or a fence.
     struct Cutout {
-        std::size_t drawn;                  ///< its place in getDrawn().
-        AlphaTest test;                     ///< which has a texture.
-        unsigned firstVertex;               ///< in getVertices(), where all of its own follow one another.
-        std::vector<osg::Vec3> coordinates; ///< of the texture, of each of its vertices.
+        std::size_t drawn;                  ///< Its index in getDrawn().
+        AlphaTest test;                     ///< The test. It has a texture.
+        unsigned firstVertex;               ///< Index of its first vertex in getVertices(). Its others follow.
+        std::vector<osg::Vec3> coordinates; ///< Texture coordinates (s, t, q), one for each of its vertices.
     };
+    /// The drawables whose alpha test is known, in traversal order.
     const std::vector<Cutout>& getCutouts() const { return _cutouts; }
-    /// Drawables that an alpha test leaves parts of which are not known here.
+    /// Number of drawables whose alpha test is unknown, for example because a shader decides. They count as solid.
     unsigned getUnknownTests() const { return _unknownTests; }
-    /// As getInvalidNode(), of the first of them.
+    /// Name of the first drawable with an unknown alpha test, found as for getInvalidNode().
     const std::string& getUnknownNode() const { return _unknownNode; }
 
-    /// Largest error that storing a vertex as float in its own array can have made, in the root's unit; 0 for doubles.
+    /// Largest error from storing a vertex as float in its own array, in the root's unit. 0 for double arrays.
     double getRounding() const { return _rounding; }
-    /// Triangles left out: a corner is not finite, or beyond the range of float, or its index is out of the array.
+    /// Number of triangles left out because a corner is not finite, beyond the range of float, or not in the array.
     unsigned getInvalidTriangles() const { return _invalidTriangles; }
-    /// The nearest name on the way up from the first drawable that has such a triangle; its class if none has a name.
+    /// Name of the first drawable with an invalid triangle: its own, or that of the nearest named node above it.
+    /// Its class name if none of them has a name.
     const std::string& getInvalidNode() const { return _invalidNode; }
 
-    /// Arrays and primitive sets that were read. While they are held, nothing new can take their addresses: a
-    /// CasterFingerprint compared with an earlier value relies on it.
+    /// The arrays and primitive sets that were read. Hold them to keep their addresses from being used again.
     const std::vector<osg::ref_ptr<const osg::Referenced>>& getSources() const { return _sources; }
 
 protected:

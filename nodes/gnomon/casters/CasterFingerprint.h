@@ -16,13 +16,13 @@ namespace gnomon {
 /// Cost    a visit of the casters' nodes (not of their vertices); no allocation once warm.
 /// Limits  arrays and primitives changed in place must be dirty()'d, as OpenSceneGraph asks; a change of size shows by
 ///         itself. Drawables that are not a Geometry count by address and bounds.
-class GNOMON_EXPORT CasterFingerprint : public CasterVisitor {
+class CasterFingerprint : public CasterVisitor {
 public:
     explicit CasterFingerprint(const Selection& selection = {});
     ~CasterFingerprint() override = default;
     META_NodeVisitor(gnomon, CasterFingerprint)
 
-        void reset() override;
+    void reset() override;
     std::uint64_t value() const { return _fingerprint.value(); }
 
     /// Of what CasterExtraction would read of one drawable.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/casters/CasterExtraction.h>
 
 #include <osg/Array>
@@ -16,33 +15,41 @@
 
 namespace gnomon {
 
-/// What the casters of a group look like in one revision: triangles in the group's frame. Never changes once made, so
-/// any thread may read it and a frame still being drawn keeps its own.
+/// The casters of a group as one triangle mesh, in one revision. ShadowCasterGroup::casters() makes it.
 ///
-/// Cost    12 bytes a triangle and 12 for each vertex that a triangle uses.
-class GNOMON_EXPORT CasterMesh : public osg::Referenced {
+/// Use it in a technique that treats all casters alike. Use CasterDrawables to treat each drawable apart.
+///
+/// Cost
+/// - 12 bytes a triangle, and 12 bytes a vertex that a triangle uses.
+/// Limits
+/// - VertexTraverser lists what is left out.
+/// Threads
+/// - Any number. A mesh never changes, and a frame that is still drawn keeps its own.
+class CasterMesh : public osg::Referenced {
 public:
-    /// @param about  the origin; the centre of the bounds if none is given.
+    /// Copies the extracted triangles.
+    /// @param about  the mesh's origin, group frame. Default: the centre of the bounds.
     explicit CasterMesh(const CasterExtraction& casters, const std::optional<osg::Vec3d>& about = {});
 
+    /// True if there is no triangle.
     bool empty() const { return triangles->empty(); }
 
-    osg::Vec3d origin;                     ///< group frame; vertices are relative to it.
-    osg::ref_ptr<osg::Vec3Array> vertices; ///< floats about `origin`, all finite; only those that triangles use.
-    osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< three indices a triangle; see CasterExtraction::getTriangles().
-    osg::BoundingBoxd bounds;                      ///< of all triangles, group frame; invalid if there is none.
-    double rounding = 0.0;                         ///< how far off its float source may put a vertex, group's unit.
-    std::vector<CasterExtraction::Drawn> drawn;    ///< whose triangles they are; `first` as in `triangles`.
-    std::vector<CasterExtraction::Cutout> cutouts; ///< of those; `firstVertex` as in `vertices`.
-    unsigned invalidTriangles = 0;                 ///< left out; see CasterExtraction::getInvalidTriangles().
-    std::string invalidNode;                       ///< where the first of them is.
-    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see CasterExtraction::getSources().
+    osg::Vec3d origin;                             ///< Group frame. The vertices are relative to it.
+    osg::ref_ptr<osg::Vec3Array> vertices;         ///< Relative to `origin`. All are finite and used by a triangle.
+    osg::ref_ptr<osg::DrawElementsUInt> triangles; ///< Three indices a triangle; see CasterExtraction::getTriangles().
+    osg::BoundingBoxd bounds;                      ///< Bounds of the triangles, group frame. Invalid without triangles.
+    double rounding = 0.0;                         ///< Largest error of a vertex by its float source, group's unit.
+    std::vector<CasterExtraction::Drawn> drawn;    ///< Drawables of the triangles. `first` indexes `triangles`.
+    std::vector<CasterExtraction::Cutout> cutouts; ///< Alpha-tested drawables. `firstVertex` indexes `vertices`.
+    unsigned invalidTriangles = 0;                 ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
+    std::string invalidNode;                       ///< Name of the first drawable with an invalid triangle.
+    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
 
 protected:
     ~CasterMesh() override = default;
 };
 
-/// Triangles of the mesh's vertices as a drawable, positions only, in the mesh's own buffers.
+/// Makes a drawable of some triangles of a mesh. It has positions only, and shares the mesh's buffers.
 osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElementsUInt* triangles);
 
 } // namespace gnomon

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/Selection.h>
 #include <gnomon/casters/AlphaTest.h>
 
@@ -26,7 +25,7 @@ namespace gnomon {
 ///
 /// Of an LOD it takes the children shown at the nearest range that a loaded child has (by pixels: the largest), not
 /// those that one view shows. The first matrix is that of the root: its own transform counts, its parents' do not.
-class GNOMON_EXPORT CasterVisitor : public osg::NodeVisitor {
+class CasterVisitor : public osg::NodeVisitor {
 public:
     void reset() override;
     void apply(osg::Node& node) override;

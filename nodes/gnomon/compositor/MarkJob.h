@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
 #include <osg/BoundingBox>
@@ -17,7 +16,7 @@ namespace gnomon {
 class ScreenPass;
 
 /// One technique's share of one view: marks, in draw, the pixels that one light does not reach.
-class GNOMON_EXPORT MarkJob : public osg::Referenced {
+class MarkJob : public osg::Referenced {
 public:
     /// Where marks can fall; everything the compositor does is cut to it.
     ScreenRect screenBounds = wholeScreen;

@@ -7,7 +7,7 @@
 namespace gnomon {
 
 /// A job that marks nothing, but lets the programs of a view's drawables find out what share of a light arrives.
-class GNOMON_EXPORT ProgramVisibilityJob : public MarkJob {
+class ProgramVisibilityJob : public MarkJob {
 public:
     osg::ref_ptr<osg::StateSet> state; ///< applied under all that the stage draws.
 

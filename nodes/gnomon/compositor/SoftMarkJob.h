@@ -6,7 +6,7 @@ namespace gnomon {
 
 /// A job whose edges are soft: each pixel knows what share of the light reaches it. mark() then marks what less than
 /// half of the light reaches. Pixels at which nothing stands (far depth) get all of the light.
-class GNOMON_EXPORT SoftMarkJob : public MarkJob {
+class SoftMarkJob : public MarkJob {
 public:
     /// As mark(), wherever not all of the light arrives; with the share that does in the fragments' alpha. The pass's blending
     /// and colour mask stand.

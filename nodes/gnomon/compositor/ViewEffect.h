@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 
 #include <osg/Referenced>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 
 #include <glm/vec2.hpp>
 #include <osg/RenderInfo>

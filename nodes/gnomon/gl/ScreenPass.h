@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/GlState.h>
 

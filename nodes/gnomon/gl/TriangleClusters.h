@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
 #include <osg/BoundingBox>
@@ -16,7 +15,7 @@ namespace gnomon {
 
 /// A big geometry in runs of 16 triangles or fewer, in the order in which it draws them, each with its box: so that part
 /// of it can be drawn again from the same arrays.
-class GNOMON_EXPORT TriangleClusters : public osg::Referenced {
+class TriangleClusters : public osg::Referenced {
 public:
     static constexpr unsigned trianglesInRun = 16;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/compositor/DrawnLeaves.h>
@@ -44,7 +43,7 @@ struct EnlistedTechnique {
 ///         What is in bin 8 is drawn after the shadows: transparent things and whatever shall not receive belong there
 ///         or higher.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
-class GNOMON_EXPORT ShadowBin : public osgUtil::RenderBin {
+class ShadowBin : public osgUtil::RenderBin {
 public:
     ShadowBin() = default;
     ShadowBin(const ShadowBin& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/overlay/ShadowBitmap.h>
 #include <gnomon/terrain/BitmapAtlas.h>
 
@@ -12,7 +11,7 @@
 namespace gnomon {
 
 /// A tile's decals as a bitmap on the ground's own triangles, ready to be drawn.
-class GNOMON_EXPORT TileBitmap : public osg::Referenced {
+class TileBitmap : public osg::Referenced {
 public:
     /// @param level   of its texels' size, see TileVisibility::bitmapLevel().
     /// @param sheets  where its texels are to be; must outlive this constructor alone.
