@@ -16,6 +16,7 @@ namespace gnomon {
 
 class FrameDiagnosis;
 class ViewEffect;
+struct FrameReport;
 
 /// Base class of groups that draw an effect of their children, as HaloNode and PlanarReflectionNode do.
 ///
@@ -38,6 +39,9 @@ public:
     /// Adds a cause to diagnose(). Repeated causes count once. Call it in cull or draw.
     /// @param cause  the end of a sentence that begins with class and name.
     void report(unsigned frame, const std::string& cause) const;
+
+    /// What report() does in one frame. For effects, which outlive the frame's cull.
+    FrameReport reportIn(unsigned frame) const;
 
     /// Traverses the children. In a cull traversal it registers the effect with the compositor, too.
     void traverse(osg::NodeVisitor& visitor) override;

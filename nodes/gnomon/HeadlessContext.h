@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/HeadlessOptions.h>
+
 #include <osg/Camera>
 #include <osg/GraphicsContext>
 #include <osg/Image>
@@ -36,13 +38,7 @@ namespace gnomon {
 class HeadlessContext {
 public:
     /// Size and buffers of a context.
-    struct Options {
-        int width = 800;         ///< Pixels, 1 … 16384, or up to the driver's limit if lower.
-        int height = 600;        ///< Pixels, same range.
-        int depthBits = 24;      ///< 16, 24 or 32.
-        int stencilBits = 8;     ///< 0 or 8. Shadows need 8.
-        bool floatColor = false; ///< True: 32-bit float colour. False: 8-bit colour.
-    };
+    using Options = HeadlessOptions;
 
     /// Makes a context of the given size with the other options at their defaults. Throws as the next constructor.
     HeadlessContext(int width, int height);

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/Export.h>
+#include <gnomon/NamesNodes.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 
@@ -18,9 +19,11 @@ class CullVisitor;
 namespace gnomon {
 
 class FrameDiagnosis;
+class CopiedNodes;
 class FrameCasters;
 class MarkJob;
 class ShadowCasterGroup;
+struct FrameReport;
 struct ShadowProbe;
 struct ViewFrame;
 
@@ -32,7 +35,7 @@ struct ViewFrame;
 /// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. The cull traversal
 /// registers the technique with the compositor of its render stage. After the cull, the compositor calls prepare() once
 /// a light in each view. The technique marks pixels; the compositor darkens them.
-class GNOMON_EXPORT ShadowTechnique : public osg::Geode, public NeverCasts {
+class GNOMON_EXPORT ShadowTechnique : public osg::Geode, public NeverCasts, public NamesNodes {
 public:
     /// A technique with every opaque drawable as receiver.
     ShadowTechnique();
@@ -73,14 +76,17 @@ public:
     /// ShadowProbe::answers. Default: null.
     virtual osg::ref_ptr<const osg::Referenced> answersFor(const ShadowProbe& probe) const;
 
+    /// Names the copy of the receiver as receiver.
+    void followCopies(const CopiedNodes& copied) override;
+
     /// Adds a cause to diagnose(). Repeated causes count once. Call it in cull or draw.
     /// @param cause  the end of a sentence that begins with describe().
     void report(unsigned frame, const std::string& cause) const;
     /// Forgets the causes of earlier frames. A frame begins when `frame` changes, or when `view` comes a second time.
     /// @param view  any address that identifies the view.
     void beginFrame(unsigned frame, const void* view) const;
-    /// The diagnosis that report() adds to. For jobs that outlive their frame's cull.
-    FrameDiagnosis* frameDiagnosis() const;
+    /// What report() does in one frame. For jobs that outlive the frame's cull.
+    FrameReport reportIn(unsigned frame) const;
     /// Class and name, for messages: "PlanarShadowNode 'floor'".
     std::string describe() const;
 

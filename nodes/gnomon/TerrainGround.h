@@ -42,10 +42,4 @@ GNOMON_EXPORT std::shared_ptr<const Ground> groundOf(osg::Node& root, const Sele
 /// Reads terrain from a height field, such as an elevation model by osgDB::readRefHeightFieldFile().
 GNOMON_EXPORT std::shared_ptr<const Ground> groundOf(const osg::HeightField& field);
 
-/// True if a post of an elevation model has a height.
-///
-/// The values -9999, -99999, -32767 and -32768 stand for missing data, as do non-finite values and values beyond 10¹⁸.
-/// All are refused, because OpenSceneGraph's readers do not say which of them a file uses.
-GNOMON_EXPORT bool isHeight(float value);
-
 } // namespace gnomon

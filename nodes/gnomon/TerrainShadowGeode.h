@@ -171,9 +171,9 @@ protected:
     ~TerrainShadowGeode() override;
 
 private:
-    struct Asked; // what compute() was asked for
-    Asked asked(const osg::Vec4d& light) const;
-    bool compute(const Asked& with);
+    struct Request; // what compute() was request for
+    Request requestFor(const osg::Vec4d& light) const;
+    bool compute(const Request& with);
     osg::ref_ptr<osg::Node> placedObject() const;
     TerrainPlace terrain() const;
     osg::ref_ptr<const CasterMesh> meshOf(std::uint64_t object) const;

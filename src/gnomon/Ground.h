@@ -54,4 +54,10 @@ public:
     virtual std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const = 0;
 };
 
+/// True if a post of an elevation model has a height.
+///
+/// The values -9999, -99999, -32767 and -32768 stand for missing data, as do non-finite values and values beyond 10¹⁸.
+/// All are refused, because OpenSceneGraph's readers do not say which of them a file uses.
+bool isHeight(float value);
+
 } // namespace gnomon

@@ -119,8 +119,10 @@ private:
         const std::string name = fs::path(header).stem();
         for (const File& file : files)
             if (fs::path(file.path).filename() == name + ".cpp") return file.room;
-        static const std::map<std::string, std::string> headerOnly = {
-            {"Ground", "ground"}, {"CompositorOptions", "compositor"}, {"PlanarCures", "planar"}};
+        static const std::map<std::string, std::string> headerOnly = {{"Ground", "ground"},
+                                                                      {"CompositorOptions", "compositor"},
+                                                                      {"HeadlessOptions", "headless"},
+                                                                      {"PlanarCures", "planar"}};
         const auto found = headerOnly.find(name);
         return found == headerOnly.end() ? "base" : found->second;
     }
@@ -175,7 +177,11 @@ std::vector<std::string> circleIn(const Graph& graph) {
     return {};
 }
 
-std::string unitOf(const std::string& path) { return fs::path(path).stem(); }
+/// A header, its source file, and what that includes in place of code ("-inl.h").
+std::string unitOf(const std::string& path) {
+    const std::string name = fs::path(path).stem();
+    return name.find("-inl") == std::string::npos ? name : "ShadowKernel";
+}
 
 /// Which unit (a header and its source file) includes which.
 Graph units() {

@@ -327,8 +327,8 @@ TEST(TileVisibility, ShowsWhatMayBeOffAsAQuarterOfAPixelAtMost) {
     corners.vertices = {corners.low, corners.high, {30.0f, -20.0f, 0.0f}};
     corners.triangles = {0, 1, 2};
     const osg::ref_ptr<gnomon::TileShadows> tile = new gnomon::TileShadows;
-    tile->decals = new gnomon::TerrainMesh;
-    tile->prisms = new gnomon::TerrainMesh;
+    tile->decals = new gnomon::TileMesh;
+    tile->prisms = new gnomon::TileMesh;
     tile->decals->set(corners);
     tile->found.steepest = 1.0;
     tile->widest = 10.0;

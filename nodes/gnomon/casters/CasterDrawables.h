@@ -39,7 +39,7 @@ protected:
     ~CasterDrawable() override = default;
 };
 
-/// The casters of a group, drawable by drawable, in one revision. ShadowCasterGroup::pieces() makes it.
+/// The casters of a group, drawable by drawable, in one revision. ShadowCasterGroup::drawables() makes it.
 ///
 /// Use it in a technique that keeps something for each drawable. After a change, unchanged drawables keep their pieces.
 /// Use CasterMesh to treat all casters alike.

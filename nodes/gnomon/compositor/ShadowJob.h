@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/LightUniform.h>
-#include <gnomon/base/FrameDiagnosis.h>
+#include <gnomon/base/FrameReport.h>
 #include <gnomon/compositor/MarkJob.h>
 
 #include <osgUtil/RenderLeaf>
@@ -21,21 +21,15 @@ bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b);
 /// A technique's job for one light in one view, and how its marks are to be used.
 struct ShadowJob {
     osg::ref_ptr<const MarkJob> marks;
-    std::string technique;                  ///< described().
-    osg::ref_ptr<FrameDiagnosis> diagnosis; ///< of the technique.
-    int light = 0;                          ///< OpenGL light number.
-    bool relight = true;                    ///< else blended.
+    FrameReport report;  ///< for the technique.
+    int light = 0;       ///< OpenGL light number.
+    bool relight = true; ///< else blended.
     float dark = 1.0f;
-    unsigned frameNumber = 0;
     osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
     bool receiverNamed = false;
     std::set<const osgUtil::RenderLeaf*> receivers; ///< the leaves of the named receiver.
     std::vector<LightUniform> lightUniforms;        ///< of the group.
 
-    /// Notes a cause for the technique's diagnose(), if there is one.
-    void report(const std::string& cause) const {
-        if (!cause.empty()) diagnosis->add(frameNumber, technique, cause);
-    }
     /// The marks, if their edges are soft; else null.
     const SoftMarkJob* softMarks() const;
     /// The job, if it is for programs alone; else null.

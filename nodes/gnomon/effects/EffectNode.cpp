@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/EffectNode.h>
-#include <gnomon/base/FrameDiagnosis.h>
+#include <gnomon/base/FrameReport.h>
 #include <gnomon/effects/SubgraphCull.h>
 #include <gnomon/group/ShadowBin.h>
 
@@ -15,9 +15,9 @@ EffectNode::~EffectNode() = default;
 
 std::vector<std::string> EffectNode::diagnose() const { return _diagnosis->all(); }
 
-void EffectNode::report(unsigned frame, const std::string& cause) const {
-    _diagnosis->add(frame, described(*this), cause);
-}
+void EffectNode::report(unsigned frame, const std::string& cause) const { reportIn(frame)(cause); }
+
+FrameReport EffectNode::reportIn(unsigned frame) const { return {_diagnosis, described(*this), frame}; }
 
 void EffectNode::traverse(osg::NodeVisitor& visitor) {
     osg::Group::traverse(visitor);

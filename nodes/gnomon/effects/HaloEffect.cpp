@@ -45,8 +45,8 @@ void HaloEffect::prepare(osgUtil::RenderStage&, const std::vector<DrawnLeaf>&) {
 
 void HaloEffect::draw(const CompositorStage& draw) const {
     const std::string cause = whyNotComposed(draw);
-    if (!cause.empty()) return node->report(frameNumber, cause);
-    if (!node->getStencilCure()) return blendEachTriangle(draw);
+    if (!cause.empty()) return report(cause);
+    if (!stencilCure) return blendEachTriangle(draw);
     const unsigned bit = draw.bits.front();
     draw.clearLeftovers(bit);
     markRim(draw, bit);
@@ -63,7 +63,7 @@ void HaloEffect::markRim(const CompositorStage& draw, unsigned bit) const {
     overlay.color = LeafReplay::Color::None;
     overlay.keepDepth = true;
     overlay.reference = overlay.write = bit;
-    if (node->getShape() == HaloNode::PIXELS) overlay.shifts = disc(node->getWidth());
+    if (larger.empty()) overlay.shifts = disc(width);
     {
         LeafReplay replay(draw, overlay);
         for (const DrawnLeaf& entry : larger.empty() ? _leaves : _larger) replay.draw(entry);
@@ -76,7 +76,6 @@ void HaloEffect::markRim(const CompositorStage& draw, unsigned bit) const {
 }
 
 void HaloEffect::blend(ScreenPass& screen) const {
-    const osg::Vec4f& color = node->getColor();
     screen.blendColor(osg::Vec3(color.x(), color.y(), color.z()), color.w());
 }
 
@@ -93,7 +92,7 @@ void HaloEffect::blendEachTriangle(const CompositorStage& draw) const {
     overlay.keepDepth = true;
     overlay.write = bits;
     overlay.stencilPass = GL_INCR;
-    if (node->getShape() == HaloNode::PIXELS) overlay.shifts = disc(node->getWidth());
+    if (larger.empty()) overlay.shifts = disc(width);
     {
         LeafReplay replay(draw, overlay);
         for (const DrawnLeaf& entry : larger.empty() ? _leaves : _larger) replay.draw(entry);

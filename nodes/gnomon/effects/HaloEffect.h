@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/HaloNode.h>
+#include <gnomon/base/FrameReport.h>
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/effects/SubgraphCull.h>
+
+#include <osg/Vec4f>
+
+#include <vector>
 
 namespace gnomon {
 
@@ -13,10 +17,13 @@ class HaloEffect : public ViewEffect {
 public:
     HaloEffect() : ViewEffect(Turn::Last) {}
 
-    osg::ref_ptr<const HaloNode> node;
+    FrameReport report;      ///< for the node.
+    int width = 0;           ///< of a rim in pixels; 0 if the children are made larger instead.
+    osg::Vec4f color;        ///< red, green, blue and opacity.
+    bool stencilCure = true; ///< see HaloNode.
     osg::ref_ptr<SubgraphCull> children;
-    std::vector<osg::Matrixd> larger; ///< eye space from drawable, of each of children->leaves(); empty for PIXELS.
-    unsigned frameNumber = 0;
+    std::vector<osg::Matrixd>
+        larger; ///< eye space from drawable, of each of children->leaves(); empty where there is a rim in pixels.
 
     void prepare(osgUtil::RenderStage& stage, const std::vector<DrawnLeaf>& leaves) override;
     void draw(const CompositorStage& draw) const override;

@@ -101,8 +101,10 @@ osg::ref_ptr<ViewEffect> HaloNode::makeEffect(osgUtil::CullVisitor& cull) {
     osg::ref_ptr<HaloEffect> effect = new HaloEffect;
     effect->children =
         new SubgraphCull(cull, *this, eyeFromNode, SubgraphCull::Keep::All); // out of sight, its rim may be in
-    effect->node = this;
-    effect->frameNumber = frameOf(cull);
+    effect->report = reportIn(frameOf(cull));
+    effect->width = _width;
+    effect->color = _color;
+    effect->stencilCure = _stencilCure;
     if (_shape == PIXELS) return effect;
     const std::vector<DrawnLeaf> leaves = effect->children->leaves();
     effect->larger = largerLeaves(*this, leaves, eyeFromNode);

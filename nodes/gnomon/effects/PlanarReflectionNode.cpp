@@ -86,7 +86,10 @@ osg::ref_ptr<ViewEffect> PlanarReflectionNode::makeEffect(osgUtil::CullVisitor& 
         effect->mirrored =
             new SubgraphCull(cull, *this, eyeFromNode * toOsg(reflectionMatrix(*eyePlane)), SubgraphCull::Keep::InView);
         effect->saved = _saved;
-        effect->frameNumber = frameOf(cull);
+        effect->report = reportIn(frameOf(cull));
+        effect->surface = _surface;
+        effect->reflectance = _reflectance;
+        effect->stencilCure = _stencilCure;
         includeImages(cull, *effect->mirrored);
         return effect;
     }

@@ -31,18 +31,17 @@ void applyPositions(osg::State& state, osgUtil::RenderStage& stage, const osg::M
 
 void ReflectionEffect::prepare(osgUtil::RenderStage& stage, const std::vector<DrawnLeaf>& leaves) {
     const osg::Matrixd& eyeFromWorld = *stage.getInitialViewMatrix();
-    const auto surface = receiversAmong(leaves, node->getSurface(), eyeFromWorld);
+    const auto leavesOfSurface = receiversAmong(leaves, surface, eyeFromWorld);
     for (const DrawnLeaf& entry : leaves)
-        if (surface.count(entry.leaf)) _surface.push_back(entry);
+        if (leavesOfSurface.count(entry.leaf)) _surface.push_back(entry);
     if (_surface.empty()) {
-        const std::string cause = whyMissing(node->getSurface(), "surface", *node, stage);
-        if (!cause.empty()) node->report(frameNumber, cause);
+        report(whyMissing(surface, "surface", *node, stage));
     }
     const auto bounds = boundsOf(_surface);
     if (!bounds) return _surface.clear();
     _bounds = *bounds;
     _leaves = mirrored->sortedLeaves();
-    const auto image = receiversAmong(_leaves, node->getSurface(), eyeFromWorld * toOsg(reflectionMatrix(eyePlane)));
+    const auto image = receiversAmong(_leaves, surface, eyeFromWorld * toOsg(reflectionMatrix(eyePlane)));
     const auto isSurface = [&image](const DrawnLeaf& entry) { return image.count(entry.leaf) > 0; };
     _leaves.erase(std::remove_if(_leaves.begin(), _leaves.end(), isSurface), _leaves.end());
 }
@@ -50,7 +49,7 @@ void ReflectionEffect::prepare(osgUtil::RenderStage& stage, const std::vector<Dr
 void ReflectionEffect::draw(const CompositorStage& draw) const {
     if (_surface.empty()) return;
     const std::string cause = whyNotComposed(draw);
-    if (!cause.empty()) return node->report(frameNumber, cause);
+    if (!cause.empty()) return report(cause);
     const unsigned bit = draw.bits.front();
     draw.clearLeftovers(bit);
     drawSurface(draw, bit, true);
@@ -65,13 +64,13 @@ void ReflectionEffect::draw(const CompositorStage& draw) const {
     if (saves) {
         mirrorPositions(draw);
         drawImage(draw, bit, bit);
-        if (!node->getStencilCure()) drawImage(draw, 0, bit);
+        if (!stencilCure) drawImage(draw, 0, bit);
         restorePositions(draw);
         mix(draw, bit);
         drawSurface(draw, bit, false);
     } else
-        node->report(frameNumber, "the image cannot be drawn into a multisampled framebuffer object. Set the camera's "
-                                  "multisample buffers to 0, or multisample its window instead.");
+        report("the image cannot be drawn into a multisampled framebuffer object. Set the camera's "
+               "multisample buffers to 0, or multisample its window instead.");
     draw.clear(bit, _bounds);
 }
 
@@ -118,7 +117,7 @@ void ReflectionEffect::restorePositions(const CompositorStage& draw) const {
 void ReflectionEffect::mix(const CompositorStage& draw, unsigned bit) const {
     draw.pass(_bounds, [&](ScreenPass& screen) {
         screen.stencilAny(bit);
-        screen.beginMix(node->getReflectance());
+        screen.beginMix(reflectance);
         saved->draw(draw.state);
         screen.endMix();
         screen.writeFarDepth();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/PlanarReflectionNode.h>
+#include <gnomon/Selection.h>
+#include <gnomon/base/FrameReport.h>
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/effects/SubgraphCull.h>
 #include <gnomon/gl/FrameColorCopy.h>
@@ -14,11 +15,14 @@ class ReflectionEffect : public ViewEffect {
 public:
     ReflectionEffect() : ViewEffect(Turn::BeforeBlending) {}
 
-    osg::ref_ptr<const PlanarReflectionNode> node;
+    osg::ref_ptr<const osg::Node> node; ///< whose effect it is.
+    FrameReport report;                 ///< for it.
+    Selection surface;
+    osg::Vec3f reflectance;
+    bool stencilCure = true;             ///< see PlanarReflectionNode.
     osg::ref_ptr<SubgraphCull> mirrored; ///< the children, as their leaves stand in the mirror.
     glm::dvec4 eyePlane{0.0};            ///< unit normal, towards the side that is mirrored.
     std::shared_ptr<FrameColorCopy> saved;
-    unsigned frameNumber = 0;
 
     void prepare(osgUtil::RenderStage& stage, const std::vector<DrawnLeaf>& leaves) override;
     void draw(const CompositorStage& draw) const override;

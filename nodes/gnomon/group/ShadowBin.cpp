@@ -65,12 +65,10 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
 
 ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     ShadowJob job;
-    job.technique = entry.technique->describe();
-    job.diagnosis = entry.technique->frameDiagnosis();
+    job.report = entry.technique->reportIn(entry.frameNumber);
     job.light = light.number;
     job.relight = entry.group->getComposite() == ShadowCasterGroup::RELIGHT;
     job.dark = entry.group->getDark();
-    job.frameNumber = entry.frameNumber;
     job.projection = entry.projection;
     job.receiverNamed = entry.technique->hasReceiver();
     job.lightUniforms = entry.group->getLightUniforms();

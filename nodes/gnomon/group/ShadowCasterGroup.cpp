@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/NamesNodes.h>
 #include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/ShadowTechnique.h>
 #include <gnomon/base/CopiedNodes.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterExtraction.h>
@@ -52,10 +52,7 @@ void ShadowCasterGroup::followCopies(const ShadowCasterGroup& original) {
     for (osg::ref_ptr<osg::LightSource>& source : _lightSources)
         if (auto* own = dynamic_cast<osg::LightSource*>(copied.of(source.get()))) source = own;
     copied.forEachCopy([&copied](osg::Node& node) {
-        auto* technique = dynamic_cast<ShadowTechnique*>(&node);
-        if (!technique) return;
-        const Selection& receiver = technique->getReceiver();
-        technique->setReceiver({copied.of(receiver.node.get()), receiver.mask});
+        if (auto* names = dynamic_cast<NamesNodes*>(&node)) names->followCopies(copied);
     });
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/HeadlessContext.h>
+#include <gnomon/HeadlessOptions.h>
 
 #include <memory>
 #include <stdexcept>
@@ -18,7 +18,7 @@ public:
     OffscreenContext& operator=(const OffscreenContext&) = delete;
 
     /// Called once, with the context current. @throws std::runtime_error
-    virtual void prepare(const HeadlessContext::Options&) {}
+    virtual void prepare(const HeadlessOptions&) {}
     /// Makes it this thread's current context.
     virtual bool bind() = 0;
     /// Leaves this thread without a current context.
@@ -34,7 +34,7 @@ public:
 };
 
 /// Not current yet. @throws std::runtime_error with one sentence if it cannot be made.
-std::unique_ptr<OffscreenContext> makeOffscreenContext(const HeadlessContext::Options& options);
+std::unique_ptr<OffscreenContext> makeOffscreenContext(const HeadlessOptions& options);
 
 /// The exception of all that belongs to HeadlessContext.
 inline std::runtime_error headlessFailure(const std::string& sentence) {

@@ -59,11 +59,11 @@ EGLDisplay sharedDisplay() {
 }
 
 /// Colour in float, or more depth bits than a pbuffer has, take a framebuffer object.
-bool needsFramebuffer(const HeadlessContext::Options& o) { return o.floatColor || o.depthBits > 24; }
+bool needsFramebuffer(const HeadlessOptions& o) { return o.floatColor || o.depthBits > 24; }
 
 class EglOffscreen : public OffscreenContext {
 public:
-    explicit EglOffscreen(const HeadlessContext::Options& options) : _display(sharedDisplay()) {
+    explicit EglOffscreen(const HeadlessOptions& options) : _display(sharedDisplay()) {
         const bool plain = !needsFramebuffer(options);
         const EGLConfig config = configOf(_display, plain ? options.depthBits : 0, plain ? options.stencilBits : 0);
         if (!config) throw headlessFailure("EGL makes no context with these depth and stencil bits. Ask for fewer.");
@@ -87,13 +87,13 @@ public:
     std::string name() const override { return "EGL"; }
     std::string linkRemedy() const override { return "Link libGL, and no libOSMesa ahead of it"; }
 
-    void prepare(const HeadlessContext::Options& options) override {
+    void prepare(const HeadlessOptions& options) override {
         if (needsFramebuffer(options)) addFramebuffer(options);
     }
 
 private:
     /// It and its buffers go with the context.
-    void addFramebuffer(const HeadlessContext::Options& options);
+    void addFramebuffer(const HeadlessOptions& options);
 
     EGLSurface createSurface(EGLConfig config, int width, int height) const {
         const EGLint size[] = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};
@@ -111,7 +111,7 @@ private:
     GLuint _framebuffer = 0;
 };
 
-GLenum depthFormat(const HeadlessContext::Options& o) {
+GLenum depthFormat(const HeadlessOptions& o) {
     if (o.depthBits > 24) return o.stencilBits ? GL_DEPTH32F_STENCIL8 : GL_DEPTH_COMPONENT32F;
     return o.stencilBits ? GL_DEPTH24_STENCIL8 : o.depthBits > 16 ? GL_DEPTH_COMPONENT24 : GL_DEPTH_COMPONENT16;
 }
@@ -126,7 +126,7 @@ void attachBuffer(GLenum point, GLenum format, int width, int height) {
                                                                                buffer);
 }
 
-void EglOffscreen::addFramebuffer(const HeadlessContext::Options& o) {
+void EglOffscreen::addFramebuffer(const HeadlessOptions& o) {
     eglFunction<PFNGLGENFRAMEBUFFERSPROC>("glGenFramebuffers")(1, &_framebuffer);
     eglFunction<PFNGLBINDFRAMEBUFFERPROC>("glBindFramebuffer")(GL_FRAMEBUFFER, _framebuffer);
     attachBuffer(GL_COLOR_ATTACHMENT0, o.floatColor ? GL_RGBA32F : GL_RGBA8, o.width, o.height);
@@ -140,7 +140,7 @@ void EglOffscreen::addFramebuffer(const HeadlessContext::Options& o) {
 
 } // namespace
 
-std::unique_ptr<OffscreenContext> makeOffscreenContext(const HeadlessContext::Options& options) {
+std::unique_ptr<OffscreenContext> makeOffscreenContext(const HeadlessOptions& options) {
     return std::make_unique<EglOffscreen>(options);
 }
 

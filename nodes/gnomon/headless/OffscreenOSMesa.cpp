@@ -11,7 +11,7 @@ namespace {
 
 class OSMesaOffscreen : public OffscreenContext {
 public:
-    explicit OSMesaOffscreen(const HeadlessContext::Options& o)
+    explicit OSMesaOffscreen(const HeadlessOptions& o)
         : _width(o.width),
           _height(o.height),
           _type(o.floatColor ? GL_FLOAT : GL_UNSIGNED_BYTE),
@@ -37,7 +37,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<OffscreenContext> makeOffscreenContext(const HeadlessContext::Options& options) try {
+std::unique_ptr<OffscreenContext> makeOffscreenContext(const HeadlessOptions& options) try {
     return std::make_unique<OSMesaOffscreen>(options);
 } catch (const std::bad_alloc&) {
     throw headlessFailure("there is not enough memory for a picture of " + sizeText(options.width, options.height) +

@@ -21,22 +21,22 @@ osg::ref_ptr<const LoneObjectShadow> sceneOf(const CasterMesh& mesh, const Terra
     return scene;
 }
 
-void find(TerrainShadows& asked) {
-    const LoneObjectShadow& scene = *asked.scene;
+void find(TerrainShadows& request) {
+    const LoneObjectShadow& scene = *request.scene;
     const Ground& ground = *scene.drawn->ground;
     std::vector<TerrainShadow> found(scene.asBoxes ? scene.objects.size() : scene.parts.size(),
                                      TerrainShadow{{}, TerrainOutcome::noGround});
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-        found[i] = scene.asBoxes ? boxShadowOf(ground, scene.objects[i], asked.settings.box, asked.light)
-                                 : terrainShadow(ground, scene.parts[i], asked.light, methodOf(asked.settings),
-                                                 asked.settings.error);
+        found[i] = scene.asBoxes ? boxShadowOf(ground, scene.objects[i], request.settings.box, request.light)
+                                 : terrainShadow(ground, scene.parts[i], request.light, request.settings.method,
+                                                 request.settings.error);
     });
     OutcomeCounts outcomes;
     for (TerrainShadow& shadow : found) {
         outcomes.add(shadow.outcome);
-        asked.shadows.push_back(std::move(shadow.triangles));
+        request.shadows.push_back(std::move(shadow.triangles));
     }
-    asked.causes = outcomes.causes();
+    request.causes = outcomes.causes();
 }
 
 } // namespace
@@ -44,7 +44,7 @@ void find(TerrainShadows& asked) {
 osg::ref_ptr<const TerrainShadows> TerrainShadows::of(const CasterMesh& mesh, const TerrainPlace& place,
                                                       const glm::dvec4& light, const TerrainSettings& settings,
                                                       const osg::ref_ptr<const TerrainShadows>& known) {
-    const bool asBoxes = settings.method == TerrainShadowGeode::BOX;
+    const bool asBoxes = settings.asBoxes;
     const osg::ref_ptr<const LoneObjectShadow> scene =
         sceneOf(mesh, place, asBoxes, known ? known->scene.get() : nullptr);
     if (known && known->scene == scene && known->light == light && known->settings == settings) return known;

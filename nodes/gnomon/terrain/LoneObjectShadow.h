@@ -3,7 +3,7 @@
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/terrain/CasterParts.h>
 #include <gnomon/terrain/GroundRevision.h>
-#include <gnomon/terrain/TileUpdates.h>
+#include <gnomon/terrain/TerrainSettings.h>
 
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ struct TerrainShadows : public osg::Referenced {
     TerrainSettings settings;
     glm::dvec4 light{0.0};
     std::vector<Drape> shadows;      ///< of each part, or object; empty where there is none.
-    std::vector<std::string> causes; ///< why some are missing, or not of the method that was asked for.
+    std::vector<std::string> causes; ///< why some are missing, or not of the method that was request for.
 
     /// @param known  may be null. @return `known` itself if it is these.
     static osg::ref_ptr<const TerrainShadows> of(const CasterMesh& mesh, const TerrainPlace& place,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/TerrainGround.h>
+#include <gnomon/Ground.h>
 #include <gnomon/terrain/OsgHeightField.h>
 
 #include <osg/Shape>

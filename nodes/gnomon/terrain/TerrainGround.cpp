@@ -68,11 +68,6 @@ std::shared_ptr<const Ground> groundOf(const std::vector<OsgHeightField>& fields
 
 } // namespace
 
-bool isHeight(float value) {
-    const float none[] = {-9999.0f, -99999.0f, -32767.0f, -32768.0f};
-    return std::abs(value) <= 1e18f && std::find(std::begin(none), std::end(none), value) == std::end(none);
-}
-
 std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain, const osg::Matrixd& groundFromRoot) {
     TerrainTraverser found(terrain);
     found.setRootFromVisited(groundFromRoot);

@@ -2,12 +2,9 @@
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
-#include <gnomon/gl/TriangleClusters.h>
-#include <gnomon/overlay/ShadowPrisms.h>
 #include <gnomon/overlay/StencilBatches.h>
 #include <gnomon/terrain/PlanCoverage.h>
 #include <gnomon/terrain/TerrainMark.h>
-#include <gnomon/terrain/TileUpdates.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,59 +18,10 @@ bool onePixelIsOneSample() { return glInteger(GL_SAMPLES) <= 1; }
 
 } // namespace
 
-TerrainMesh::TerrainMesh() : _geometry(new osg::Geometry) {
-    _geometry->setUseDisplayList(false);
-    _geometry->setUseVertexBufferObjects(true);
-    _geometry->setVertexArray(new osg::Vec3Array);
-    _geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES));
-}
-
-osg::Vec3Array& TerrainMesh::vertices() { return static_cast<osg::Vec3Array&>(*_geometry->getVertexArray()); }
-osg::DrawElementsUInt& TerrainMesh::corners() {
-    return static_cast<osg::DrawElementsUInt&>(*_geometry->getPrimitiveSet(0));
-}
-
-/// @param of  ShadowPrisms or ShadowDecals, whose layers are appended.
-template <typename Shadows, typename Append>
-void TerrainMesh::setFrom(const Shadows& of, Append append) {
-    static_assert(sizeof(glm::vec3) == sizeof(osg::Vec3));
-    const auto* places = reinterpret_cast<const osg::Vec3*>(of.vertices.data());
-    vertices().assign(places, places + of.vertices.size());
-    corners().clear();
-    _ends.clear();
-    append([&](const std::vector<unsigned>& layer) {
-        corners().insert(corners().end(), layer.begin(), layer.end());
-        _ends.push_back(static_cast<unsigned>(corners().size()));
-    });
-    vertices().dirty();
-    corners().dirty();
-    low = of.low;
-    high = of.high;
-}
-
-void TerrainMesh::set(const ShadowPrisms& prisms) {
-    setFrom(prisms, [&](auto add) { std::for_each(prisms.layers.begin(), prisms.layers.end(), add); });
-    mostOver = prisms.mostOver;
-}
-
-void TerrainMesh::set(const ShadowDecals& decals) {
-    setFrom(decals, [&](auto add) {
-        if (!decals.triangles.empty()) add(decals.triangles);
-    });
-}
-
-void TerrainMesh::draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const {
-    const unsigned first = firstLayer ? _ends[firstLayer - 1] : 0, end = _ends[firstLayer + count - 1];
-    if (first == 0 && end == _ends.back())
-        _geometry->draw(renderInfo);
-    else
-        TriangleClusters::draw(renderInfo, *_geometry, {{0, first, end - first}});
-}
-
 /// One bit tells odd from even.
 std::vector<std::vector<LayerSlice>> TerrainMark::roundsOf(unsigned counters) const {
     std::vector<PrismLayers> layers;
-    for (const TerrainMesh* mesh : prisms)
+    for (const TileMesh* mesh : prisms)
         layers.push_back({glm::dvec2(mesh->low), glm::dvec2(mesh->high), mesh->layers(), mesh->mostOver});
     return stencilBatches(layers, counters & 1u ? counters : 1u);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/MarkJob.h>
-#include <gnomon/overlay/ShadowDecals.h>
 #include <gnomon/terrain/TileBitmap.h>
+#include <gnomon/terrain/TileShadows.h>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -16,41 +16,10 @@ namespace gnomon {
 
 class PlanCoverage;
 struct LayerSlice;
-struct ShadowPrisms;
-struct TileShadows;
-
-/// Prisms over shadows on the ground, or decals on it, ready to be drawn.
-class TerrainMesh : public osg::Referenced {
-public:
-    TerrainMesh();
-    /// In place of those before, in the same buffers. Not while they are drawn.
-    void set(const ShadowPrisms& prisms);
-    void set(const ShadowDecals& decals); ///< as a layer.
-
-    unsigned triangles() const { return _ends.empty() ? 0 : _ends.back() / 3; }
-    unsigned layers() const { return static_cast<unsigned>(_ends.size()); }
-    void draw(osg::RenderInfo& renderInfo, unsigned firstLayer, unsigned count) const;
-    void resizeGLObjectBuffers(unsigned maxSize) { _geometry->resizeGLObjectBuffers(maxSize); }
-    void releaseGLObjects(osg::State* state) const { _geometry->releaseGLObjects(state); }
-
-    glm::dvec3 low{0.0}, high{0.0}; ///< bounds, about the casters' origin.
-    unsigned mostOver = 0;          ///< see ShadowPrisms.
-
-protected:
-    ~TerrainMesh() override = default;
-
-private:
-    template <typename Shadows, typename Append>
-    void setFrom(const Shadows& of, Append append);
-    osg::Vec3Array& vertices();
-    osg::DrawElementsUInt& corners();
-    osg::ref_ptr<osg::Geometry> _geometry;
-    std::vector<unsigned> _ends; ///< of each layer among the corners.
-};
 
 /// Decals in one view.
 struct SeenDecals {
-    const TerrainMesh* mesh;
+    const TileMesh* mesh;
     osg::ref_ptr<const TileBitmap> bitmap; ///< that may be drawn in place of the mesh; or null.
 };
 
@@ -60,7 +29,7 @@ class TerrainMark : public MarkJob {
 public:
     std::vector<osg::ref_ptr<const TileShadows>> tiles; ///< whose meshes these are, so that none is changed:
     std::vector<SeenDecals> decals;
-    std::vector<const TerrainMesh*> prisms;                   ///< each with a layer or more.
+    std::vector<const TileMesh*> prisms;                      ///< each with a layer or more.
     osg::ref_ptr<const osg::StateSet> program, bitmapProgram; ///< see shaderProgram().
     glm::dmat4 clipFromPrisms{1.0};
     /// Of the depth in clip space: decals are drawn so much nearer, on the same pixels, for the ground is drawn by other

@@ -97,7 +97,7 @@ TerrainShadowCache::Town& TerrainShadowCache::townOf(const ShadowCasterGroup& gr
 TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawables& casters, const TerrainPlace& place,
                                        int number, const glm::dvec4& light, const TerrainSettings& settings) {
     Lock lock(_mutex);
-    Town& town = townOf(*view.group, casters, place, settings.method == TerrainShadowGeode::BOX);
+    Town& town = townOf(*view.group, casters, place, settings.asBoxes);
     TileUpdates& tiles = town.lights[number];
     const TileVisibility seen(view, town.casters.origin());
     const TileGround ground = groundOf(*town.drawn);
@@ -110,7 +110,7 @@ osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterG
                                                              const CasterDrawables& casters, const TerrainPlace& place,
                                                              const glm::dvec4& light, const TerrainSettings& settings) {
     Lock lock(_mutex);
-    const Town& town = townOf(group, casters, place, settings.method == TerrainShadowGeode::BOX);
+    const Town& town = townOf(group, casters, place, settings.asBoxes);
     osg::ref_ptr<TerrainAnswer> answer = new TerrainAnswer;
     answer->drawn = town.drawn;
     answer->origin = town.casters.origin();

@@ -11,6 +11,7 @@
 #include <gnomon/group/ShadowProbe.h>
 #include <gnomon/terrain/LoneObjectShadow.h>
 #include <gnomon/terrain/PlanCoverage.h>
+#include <gnomon/terrain/TerrainMark.h>
 #include <gnomon/terrain/TerrainShadowCache.h>
 #include <gnomon/terrain/TileVisibility.h>
 
@@ -38,7 +39,7 @@ const char* nameOf(TerrainShadowGeode::Method method) {
 /// Adds those tiles that can be seen. @return where they are.
 std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const TileVisibility& view, TerrainMark& mark) {
     std::optional<ScreenRect> all;
-    const auto add = [&](const TileShadows& tile, const TerrainMesh& mesh, const auto& take) {
+    const auto add = [&](const TileShadows& tile, const TileMesh& mesh, const auto& take) {
         const auto seen = view.seen(mesh, tile);
         if (!seen) return;
         take();
@@ -55,9 +56,9 @@ std::optional<ScreenRect> addSeen(const TerrainFrame& frame, const TileVisibilit
 
 std::shared_ptr<const PlanCoverage> coverageOf(const TerrainMark& mark) {
     std::vector<PlanCoverage::Rect> rectangles;
-    std::vector<const TerrainMesh*> meshes = mark.prisms;
+    std::vector<const TileMesh*> meshes = mark.prisms;
     for (const SeenDecals& seen : mark.decals) meshes.push_back(seen.mesh);
-    for (const TerrainMesh* mesh : meshes) {
+    for (const TileMesh* mesh : meshes) {
         const glm::dvec2 low(mesh->low), high(mesh->high);
         const glm::dvec2 rounding = 1e-6 * glm::max(glm::abs(low), glm::abs(high)); // of prisms in single precision
         rectangles.push_back({low - rounding, high + rounding});
@@ -96,12 +97,17 @@ osg::ref_ptr<osg::Geometry> transparent(const std::vector<osg::Vec3d>& triangles
     return geometry;
 }
 
+TerrainSettings settingsOf(TerrainShadowGeode::Method method, double error, const osg::BoundingBoxd& box = {}) {
+    const bool drapes = method == TerrainShadowGeode::DRAPE;
+    return {method == TerrainShadowGeode::BOX, drapes ? TerrainMethod::drape : TerrainMethod::hull, error, box};
+}
+
 } // namespace
 
-struct TerrainShadowGeode::Asked {
+struct TerrainShadowGeode::Request {
     const char* refusal = nullptr; ///< why there can be no shadow; else the rest holds.
     glm::dvec4 light{0.0};
-    TerrainSettings settings{HULL, 0.0, {}};
+    TerrainSettings settings;
     std::uint64_t object = 0; ///< revision of the placed object.
 };
 
@@ -144,7 +150,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     if (!usable) return refuse("the light has no finite position or direction. Set the light's position.");
     const TerrainFrame frame =
         _cache->frame(view, casters.drawables(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
-                      *usable, {_method, _error, {}});
+                      *usable, settingsOf(_method, _error));
     const TileVisibility seen(view, frame.origin);
     for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
@@ -166,7 +172,7 @@ osg::ref_ptr<const osg::Referenced> TerrainShadowGeode::answersFor(const ShadowP
     if (!hasReceiver()) return nullptr;
     const glm::dvec4 light(glm::dvec3(probe.light) + probe.light.w * toGlm(probe.origin), probe.light.w);
     return _cache->answer(probe.group, *probe.group.drawables(), TerrainPlace::inFrameOf(probe.group, getReceiver()),
-                          light, {_method, _error, {}});
+                          light, settingsOf(_method, _error));
 }
 
 bool TerrainShadowGeode::isLit(const ShadowProbe& probe, const glm::dvec3& point) const {
@@ -201,8 +207,8 @@ TerrainPlace TerrainShadowGeode::terrain() const {
 }
 
 /// What compute() finds its shadow from, or why that cannot be.
-TerrainShadowGeode::Asked TerrainShadowGeode::asked(const osg::Vec4d& light) const {
-    Asked result;
+TerrainShadowGeode::Request TerrainShadowGeode::requestFor(const osg::Vec4d& light) const {
+    Request result;
     const auto usable = localLight(light, osg::Vec3d());
     if (!_object) result.refusal = "no object is set, so there is no shadow. Set one with setObjectGraphic().";
     if (!getReceiver().node) result.refusal = "no terrain is named, so there is no shadow. Name it with setReceiver().";
@@ -212,14 +218,14 @@ TerrainShadowGeode::Asked TerrainShadowGeode::asked(const osg::Vec4d& light) con
     if (box.valid()) box._min += _position, box._max += _position;
     const osg::ref_ptr<osg::Node> object = placedObject();
     result.light = *usable;
-    result.settings = {_method, _error, box};
+    result.settings = settingsOf(_method, _error, box);
     result.object = TerrainPlace{*object, Selection(), osg::Matrixd::identity()}.revision();
     return result;
 }
 
-bool TerrainShadowGeode::compute(const osg::Vec4d& light) { return compute(asked(light)); }
+bool TerrainShadowGeode::compute(const osg::Vec4d& light) { return compute(requestFor(light)); }
 
-bool TerrainShadowGeode::compute(const Asked& with) {
+bool TerrainShadowGeode::compute(const Request& with) {
     beginFrame(0, this);
     _triangles.clear();
     removeDrawables(0, getNumDrawables());
@@ -248,7 +254,7 @@ osg::ref_ptr<const CasterMesh> TerrainShadowGeode::meshOf(std::uint64_t object) 
 }
 
 bool TerrainShadowGeode::update(const osg::Vec4d& light) {
-    const Asked with = asked(light);
+    const Request with = requestFor(light);
     const bool same = !with.refusal && _shown && getNumDrawables() > 0 && _shown->light == with.light &&
                       _shown->settings == with.settings && _shownObject == with.object &&
                       _shown->scene->drawn->revision == terrain().revision();

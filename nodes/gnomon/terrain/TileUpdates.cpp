@@ -65,7 +65,7 @@ void measure(TileShadows& shadows) {
 }
 
 /// Decals lie on the ground that is drawn; of the rest, which may stand for it, no more is known than where it is in plan.
-double slopeUnder(const HeightPyramid& ground, const TerrainMesh& decals, const glm::dvec3& origin) {
+double slopeUnder(const HeightPyramid& ground, const TileMesh& decals, const glm::dvec3& origin) {
     if (decals.triangles() == 0) return 0.0;
     const auto cellOf = [&](const glm::dvec3& place) {
         return ground.field().cellOf(origin.x + place.x, origin.y + place.y);
@@ -90,8 +90,8 @@ void setMeshes(const TileGround& ground, TileShadows& shadows) {
 
 osg::ref_ptr<TileShadows> drawable() {
     osg::ref_ptr<TileShadows> result = new TileShadows;
-    result->decals = new TerrainMesh;
-    result->prisms = new TerrainMesh;
+    result->decals = new TileMesh;
+    result->prisms = new TileMesh;
     return result;
 }
 
@@ -109,16 +109,16 @@ double lowestOf(const Ground& ground) {
 void findShadows(const TileGround& ground, const CasterTiles::Tile& tile, const glm::dvec4& light,
                  const TerrainSettings& settings, const glm::dvec3& origin, TileShadows& into) {
     into.light = light;
-    if (settings.method == TerrainShadowGeode::BOX)
+    if (settings.asBoxes)
         into.found = boxShadows(ground.found, tile, light, origin);
     else
-        packedShadows(ground.found, tile.parts, light, methodOf(settings), settings.error, origin, into.found);
+        packedShadows(ground.found, tile.parts, light, settings.method, settings.error, origin, into.found);
     measure(into);
     if (into.prisms) setMeshes(ground, into);
 }
 
 /// What is to be found anew.
-struct TileUpdates::Wanted {
+struct TileUpdates::Requests {
     struct Late {
         std::size_t tile;
         double off; ///< of what it may be.
@@ -154,7 +154,7 @@ void TileUpdates::update(const CasterTiles& town, const TileGround& ground, cons
     _followed.resize(tiles.size());
     _finest.resize(tiles.size());
     if (!_lowest) _lowest = lowestOf(ground.found);
-    Wanted wanted = wantedIn(view, town, ground, still);
+    Requests wanted = requestsIn(view, town, ground, still);
     if (wanted.due.empty() && wanted.late.empty() && !wanted.letGo) return;
     find(town, ground, wanted.due);
     std::sort(wanted.late.begin(), wanted.late.end());
@@ -195,7 +195,7 @@ std::vector<TileUpdates::Far> TileUpdates::farIn(const TileVisibility& view) con
 /// shadows that have become too large for that.
 int TileUpdates::levelFor(const Far& one) {
     constexpr unsigned lately = 64; // calls
-    FinestWanted& finest = _finest[one.tile];
+    FinestRequest& finest = _finest[one.tile];
     const bool isPast =
         _calls - finest.call > lately || !TileVisibility::isBitmapSmall(*_shadows[one.tile], finest.level);
     if (one.level <= finest.level || isPast) finest = {one.level, _calls};
@@ -222,9 +222,9 @@ TileUpdates::Bitmaps TileUpdates::bitmapsIn(const TileVisibility& view, const Ti
     return result;
 }
 
-TileUpdates::Wanted TileUpdates::wantedIn(const TileVisibility& view, const CasterTiles& town, const TileGround& ground,
-                                          bool still) {
-    Wanted wanted;
+TileUpdates::Requests TileUpdates::requestsIn(const TileVisibility& view, const CasterTiles& town,
+                                              const TileGround& ground, bool still) {
+    Requests wanted;
     std::vector<Off> offs(town.tiles().size());
     tbb::parallel_for(std::size_t{0}, offs.size(), [&](std::size_t i) { offs[i] = offIn(view, i, town, ground); });
     for (std::size_t i = 0; i < offs.size(); ++i) {
@@ -254,7 +254,7 @@ double TileUpdates::offBy(std::size_t tile, const CasterTiles& town) const {
     if (_states[tile] != town.tiles()[tile].revision) return infinite;
     const TileShadows& shadows = *_shadows[tile];
     if (shadows.light == _light || (isBelow(shadows.light) && isBelow(_light))) return 0.0;
-    if (_settings.method == TerrainShadowGeode::BOX) return infinite;
+    if (_settings.asBoxes) return infinite;
     return movedAtMost(shadows.found, shadows.light, _light);
 }
 
@@ -265,7 +265,7 @@ TileUpdates::Off TileUpdates::offIn(const TileVisibility& view, std::size_t tile
     if (off.by == 0.0) return off;
     off.mayBe = mayBeOff(tile, off.by, town, ground, view);
     const TileShadows& shadows = *_shadows[tile];
-    const bool canFollow = _settings.method != TerrainShadowGeode::BOX && isSun(shadows.light) && isSun(_light) &&
+    const bool canFollow = !_settings.asBoxes && isSun(shadows.light) && isSun(_light) &&
                            glm::length(wayOf(_light) - wayOf(shadows.light)) <= ShadowRates::mostTurned;
     const bool isSame = _states[tile] == town.tiles()[tile].revision;
     if (off.by <= worthFinding * off.mayBe || !isSame || !canFollow) return off;
@@ -275,7 +275,7 @@ TileUpdates::Off TileUpdates::offIn(const TileVisibility& view, std::size_t tile
     // Where only what casts them is seen, all that is not known.
     const double seen =
         std::min(std::max(_settings.error, view.mayBeOff(shadows, 0.0)), std::numeric_limits<double>::max());
-    off.by = std::min(off.by, followed.look(ground.found, parts, shadows.found, _light, methodOf(_settings),
+    off.by = std::min(off.by, followed.look(ground.found, parts, shadows.found, _light, _settings.method,
                                             _settings.error, worthFinding * seen, seen));
     off.mayBe = mayBeOff(tile, off.by, town, ground, view);
     return off;
@@ -287,9 +287,8 @@ double TileUpdates::mayBeOff(std::size_t tile, double off, const CasterTiles& to
     if (off < infinite) return std::max(_settings.error, view.mayBeOff(*_shadows[tile], off));
     const CasterTiles::Tile& casters = town.tiles()[tile];
     const glm::dvec3& origin = town.origin();
-    const bool isSeen =
-        _settings.method == TerrainShadowGeode::BOX ||
-        view.maySeeShadowsOf(casters.low - origin, casters.high - origin, _light, *_lowest - origin.z, ground.margin);
+    const bool isSeen = _settings.asBoxes || view.maySeeShadowsOf(casters.low - origin, casters.high - origin, _light,
+                                                                  *_lowest - origin.z, ground.margin);
     return isSeen ? 0.0 : infinite;
 }
 
@@ -339,14 +338,14 @@ void TileUpdates::eachMesh(const Act& act) const {
 }
 
 void TileUpdates::resizeGLObjectBuffers(unsigned maxSize) {
-    eachMesh([&](TerrainMesh& mesh) { mesh.resizeGLObjectBuffers(maxSize); });
+    eachMesh([&](TileMesh& mesh) { mesh.resizeGLObjectBuffers(maxSize); });
     for (const auto& bitmap : _bitmaps)
         if (bitmap) bitmap->resizeGLObjectBuffers(maxSize);
     _sheets.resizeGLObjectBuffers(maxSize);
 }
 
 void TileUpdates::releaseGLObjects(osg::State* state) const {
-    eachMesh([&](const TerrainMesh& mesh) { mesh.releaseGLObjects(state); });
+    eachMesh([&](const TileMesh& mesh) { mesh.releaseGLObjects(state); });
     for (const auto& bitmap : _bitmaps)
         if (bitmap) bitmap->releaseGLObjects(state);
     _sheets.releaseGLObjects(state);

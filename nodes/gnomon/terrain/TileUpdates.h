@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/ground/HeightPyramid.h>
 #include <gnomon/onterrain/PackedShadows.h>
 #include <gnomon/onterrain/ShadowDrift.h>
 #include <gnomon/terrain/CasterTiles.h>
-#include <gnomon/terrain/TerrainMark.h>
+#include <gnomon/terrain/TerrainSettings.h>
 #include <gnomon/terrain/TileBitmap.h>
+#include <gnomon/terrain/TileShadows.h>
 #include <gnomon/terrain/TileVisibility.h>
 
 #include <limits>
@@ -16,36 +16,6 @@
 #include <vector>
 
 namespace gnomon {
-
-/// How shadows are to be found.
-struct TerrainSettings {
-    TerrainShadowGeode::Method method;
-    double error;
-    osg::BoundingBoxd box; ///< BOX alone: of the only object; invalid: found from each.
-    bool operator==(const TerrainSettings& other) const {
-        return method == other.method && error == other.error && box._min == other.box._min &&
-               box._max == other.box._max;
-    }
-};
-
-/// Of HULL and DRAPE.
-inline TerrainMethod methodOf(const TerrainSettings& settings) {
-    return settings.method == TerrainShadowGeode::DRAPE ? TerrainMethod::drape : TerrainMethod::hull;
-}
-
-/// The shadows of a tile of casters. Whoever holds it may read: it is never changed while somebody else does.
-struct TileShadows : public osg::Referenced {
-    PackedShadows found;
-    OutcomeCounts outcomes;
-    glm::dvec4 light{0.0};                    ///< that they were found with.
-    osg::ref_ptr<TerrainMesh> decals, prisms; ///< what shows them together; null if nobody draws them.
-    glm::dvec2 low{0.0}, high{0.0};           ///< bounds in plan, about the origin; low > high if there is no shadow.
-    double widest = 0.0;                      ///< diameter of the largest shadow.
-    double slope = 0.0;                       ///< of the ground under the decals, where it is steepest.
-
-protected:
-    ~TileShadows() override = default;
-};
 
 /// The ground that shadows are found on, and how it is drawn.
 struct TileGround {
@@ -90,15 +60,15 @@ public:
 
 private:
     /// Level of a bitmap's texels, and by which call.
-    struct FinestWanted {
+    struct FinestRequest {
         int level = std::numeric_limits<int>::max();
         unsigned call = 0;
     };
-    struct Wanted;
+    struct Requests;
     struct Far;
     int levelFor(const Far& one);
     std::vector<Far> farIn(const TileVisibility& view) const;
-    Wanted wantedIn(const TileVisibility& view, const CasterTiles& town, const TileGround& ground, bool still);
+    Requests requestsIn(const TileVisibility& view, const CasterTiles& town, const TileGround& ground, bool still);
     void letGo(std::size_t tile);
     double offBy(std::size_t tile, const CasterTiles& town) const;
     /// How far a tile's shadows may be off in plan, and how far they may be.
@@ -120,12 +90,12 @@ private:
     BitmapAtlases _sheets;                          ///< of bitmaps.
     std::vector<osg::ref_ptr<TileBitmap>> _bitmaps; ///< null: none was wanted yet.
     std::vector<ShadowDrift> _followed;             ///< empty until their common bound says too little.
-    std::vector<FinestWanted> _finest;              ///< bitmap of each tile.
+    std::vector<FinestRequest> _finest;             ///< bitmap of each tile.
     unsigned _calls = 0;                            ///< for bitmaps.
     std::vector<std::uint64_t> _states;             ///< revisions of the tiles that the shadows are of; 0: of none.
     std::optional<double> _lowest;                  ///< of the ground, its frame.
     std::vector<osg::ref_ptr<TileShadows>> _spare;
-    TerrainSettings _settings{TerrainShadowGeode::HULL, 0.0, {}};
+    TerrainSettings _settings;
     glm::dvec4 _light{0.0};
     std::vector<std::string> _causes;
     unsigned _found = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/terrain/TileUpdates.h>
+#include <gnomon/terrain/TileShadows.h>
 #include <gnomon/terrain/TileVisibility.h>
 
 #include <glm/geometric.hpp>
@@ -72,7 +72,7 @@ TileVisibility::TileVisibility(const ViewFrame& view, const glm::dvec3& origin)
       _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)),
       _mostPixels(mostPixelsOf(_clipFromTiles, view.pixels)) {}
 
-TileVisibility::Shown TileVisibility::shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const {
+TileVisibility::Shown TileVisibility::shown(const TileMesh& mesh, const TileShadows& tile, double moved) const {
     if (mesh.layers() == 0) return {};
     const glm::dvec3 margin = marginOf(tile, moved);
     const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromTiles);
@@ -85,7 +85,7 @@ TileVisibility::Shown TileVisibility::shown(const TerrainMesh& mesh, const TileS
     return {isTooSmall ? std::nullopt : bounds, pixels};
 }
 
-std::optional<ScreenRect> TileVisibility::seen(const TerrainMesh& mesh, const TileShadows& tile) const {
+std::optional<ScreenRect> TileVisibility::seen(const TileMesh& mesh, const TileShadows& tile) const {
     return shown(mesh, tile, 0.0).bounds;
 }
 
@@ -121,7 +121,7 @@ double TileVisibility::mayBeOff(const TileShadows& tile, double off) const {
     if (!_options.filter) return 0.0;
     const double onSlope = std::sqrt(1.0 + tile.found.steepest * tile.found.steepest); // of a length of 1 in plan
     double least = infinite;
-    for (const TerrainMesh* mesh : {tile.decals.get(), tile.prisms.get()})
+    for (const TileMesh* mesh : {tile.decals.get(), tile.prisms.get()})
         if (const Shown now = shown(*mesh, tile, off); now.bounds)
             least = std::min(least, unseenPixels / (onSlope * now.pixels));
     return least;

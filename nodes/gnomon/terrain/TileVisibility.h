@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-class TerrainMesh;
+class TileMesh;
 struct TileShadows;
 
 /// What a view shows of shadows on terrain. With CompositorOptions::filter off all counts as seen, and as seen exactly.
@@ -21,7 +21,7 @@ public:
     const glm::dmat4& clipFromTiles() const { return _clipFromTiles; }
     /// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn: it is empty, out of sight, or its widest
     /// shadow is smaller than a pixel.
-    std::optional<ScreenRect> seen(const TerrainMesh& mesh, const TileShadows& tile) const;
+    std::optional<ScreenRect> seen(const TileMesh& mesh, const TileShadows& tile) const;
     /// How fine a bitmap of a tile's decals is to be: see bitmapTexel(); one that is finer by `finerLevels` will do. nullopt
     /// where nothing of them is to be drawn, and where there had to be too many texels.
     std::optional<int> bitmapLevel(const TileShadows& tile) const;
@@ -45,7 +45,7 @@ private:
         double pixels = 0.0;              ///< that a length of 1 can be there.
     };
     /// @param moved  by how much the shadows may be somewhere else, in any direction.
-    Shown shown(const TerrainMesh& mesh, const TileShadows& tile, double moved) const;
+    Shown shown(const TileMesh& mesh, const TileShadows& tile, double moved) const;
 
     const CompositorOptions _options;
     const glm::dmat4 _clipFromTiles;

@@ -4,7 +4,7 @@
 #include <gnomon/geometry/ConvexShadow.h>
 #include <gnomon/ground/HeightPyramid.h>
 #include <gnomon/onterrain/PackedParts.h>
-#include <gnomon/onterrain/TerrainShadow.h>
+#include <gnomon/onterrain/TerrainOutcome.h>
 #include <gnomon/simd/ShadowKernel.h>
 
 #include <glm/vec2.hpp>

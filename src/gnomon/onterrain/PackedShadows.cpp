@@ -234,19 +234,19 @@ void findRates(const Ground& ground, const PackedParts& parts, const glm::dvec4&
 }
 
 /// @return false if the light is below the ground: then there are none.
-bool findAll(const TerrainAsk& asked, const PackedParts& parts, PackedShadows& found) {
+bool findAll(const TerrainRequest& request, const PackedParts& parts, PackedShadows& found) {
     Writer writer(found, parts.size());
-    if (isLightBelow(asked.ground, asked.light)) {
+    if (isLightBelow(request.ground, request.light)) {
         for (std::size_t i = 0; i < parts.size(); ++i) writer.end(TerrainOutcome::lightBelow);
         writer.finish();
         return false;
     }
     FanBatch& batch = threadsBatch();
-    batch.begin(asked.ground, asked.light, asked.kernel);
+    batch.begin(request.ground, request.light, request.kernel);
     for (std::size_t first = 0; first < parts.size(); first += together) {
-        findTogether(batch, asked, parts, first, std::min(first + together, parts.size()));
+        findTogether(batch, request, parts, first, std::min(first + together, parts.size()));
         for (std::size_t i = 0; i < batch.size(); ++i) {
-            const Settled one = settled(batch, i, asked, parts, first + i);
+            const PartShadow one = partShadow(batch, i, request, parts, first + i);
             if (one.outcome == TerrainOutcome::fan) writer.addFan(batch, i);
             if (one.drape) writer.addDrape(batch.entry(i).anchor, *one.drape);
             writer.end(one.outcome);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/drape/Drape.h>
 #include <gnomon/onterrain/PackedParts.h>
-#include <gnomon/onterrain/TerrainShadow.h>
+#include <gnomon/onterrain/TerrainOutcome.h>
 
 #include <glm/vec2.hpp>
 

@@ -1,133 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/Plane.h>
 #include <gnomon/onterrain/PartShadow.h>
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <gnomon/onterrain/TerrainShadow.h>
 
 namespace gnomon {
-namespace {
-
-// Of a fan's area. On hills of 8.5 degrees 1 % would drape every fifth shadow in a sun at 10 degrees, and a mean of 17
-// triangles buys 0.2 %; what is missed is in proportion to it.
-constexpr double mostOff = 0.05;
-constexpr double grazing = 0.8; // of the light's tangent: above it a small height moves an edge by five times as much
-
-bool isBelow(const Ground& ground, const glm::dvec3& point, double margin = 0.0) {
-    const auto height = ground.height(point.x, point.y);
-    return height && point.z <= *height + margin;
-}
-
-/// Whether a triangle of the ground is under the part's upper side by more than `margin` somewhere.
-bool reachesUnder(const glm::dvec3* triangle, const ConvexShadow& beneath, double margin) {
-    const glm::dvec3 middle = (triangle[0] + triangle[1] + triangle[2]) / 3.0;
-    return std::all_of(beneath.planes.begin(), beneath.planes.end(),
-                       [&](const glm::dvec4& plane) { return distance(plane, middle) > margin; });
-}
-
-/// What lies straight below a part.
-ConvexShadow beneath(const Ground& ground, const PackedParts& parts, std::size_t part) {
-    FanBatch batch;
-    batch.begin(ground, {0.0, 0.0, 1.0, 0.0});
-    batch.take(parts, part, part + 1);
-    return batch.isThere(0) ? batch.shadow(0) : ConvexShadow();
-}
-
-/// Whether the ground is over all of the part, or in it as a rug is. @param i  of the part in the batch.
-bool isBuried(const FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts,
-              std::size_t part) {
-    const FanBatch::Entry& entry = batch.entry(i);
-    const double margin = FanBatch::inGround * entry.size;
-    const auto isUnder = [&](const glm::dvec3& corner) { return isBelow(asked.ground, entry.anchor + corner, margin); };
-    if (!isUnder(batch.top(i)) || !isUnder(glm::dvec3(0.0))) return false;
-    for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k)
-        if (!isUnder(glm::dvec3(parts.others(part)[k]))) return false;
-    const ConvexShadow below = beneath(asked.ground, parts, part);
-    const Drape under = below.planes.empty() ? Drape() : drape(asked.ground, below, 0.0);
-    for (std::size_t k = 0; k + 2 < under.size(); k += 3)
-        if (reachesUnder(&under[k], below, margin)) return false;
-    return true;
-}
-
-} // namespace
-
-const char* sentence(TerrainOutcome outcome) {
-    switch (outcome) {
-    case TerrainOutcome::fan:
-        return "its shadow is one polygon.";
-    case TerrainOutcome::draped:
-        return "its shadow lies on the ground's triangles.";
-    case TerrainOutcome::steep:
-        return "draped instead, because the ground falls off nearly as steeply as the light. The shadow is right, but "
-               "takes longer.";
-    case TerrainOutcome::rough:
-        return "draped instead, because the ground between the corners is off the polygon. The shadow is right, but "
-               "takes longer.";
-    case TerrainOutcome::noFan:
-        return "draped instead, because a ray meets no ground or the polygon would overlap itself. The shadow is "
-               "right, but takes longer.";
-    case TerrainOutcome::lightBelow:
-        return "no shadow, because the light is below the horizon or in the ground. Raise the light.";
-    case TerrainOutcome::lightInside:
-        return "all the ground is dark, because the light is inside the caster. Move the light out of it.";
-    case TerrainOutcome::edgeOn:
-        return "no shadow, because the light meets the caster edge on or there is no light. Move the light.";
-    case TerrainOutcome::turnedAway:
-        return "no shadow of its own, because the faces turned to the light cast it.";
-    case TerrainOutcome::buried:
-        return "no shadow, because the caster is in the ground. Raise the caster.";
-    case TerrainOutcome::noGround:
-        break;
-    }
-    return "no shadow, because it meets no ground. Extend the terrain, or raise the light.";
-}
-
-bool isLightBelow(const Ground& ground, const glm::dvec4& light) {
-    if (light.w == 0.0) return !(light.z > 0.0);
-    return isBelow(ground, glm::dvec3(light) / light.w);
-}
-
-void findTogether(FanBatch& batch, const TerrainAsk& asked, const PackedParts& parts, std::size_t first,
-                  std::size_t end) {
-    batch.take(parts, first, end);
-    if (asked.method == TerrainMethod::hull) batch.findFans();
-}
-
-Settled settled(FanBatch& batch, std::size_t i, const TerrainAsk& asked, const PackedParts& parts, std::size_t part) {
-    const FanBatch::Entry& entry = batch.entry(i);
-    TerrainOutcome outcome = entry.outcome;
-    if (outcome == TerrainOutcome::lightInside) return {outcome, &batch.allGround(i)};
-    if (outcome != TerrainOutcome::fan && outcome != TerrainOutcome::noFan) return {outcome};
-    const bool isDrape = asked.method == TerrainMethod::drape;
-    if ((isDrape || !batch.isOut(i)) && isBuried(batch, i, asked, parts, part)) return {TerrainOutcome::buried};
-    if (isDrape) outcome = TerrainOutcome::draped;
-    if (outcome == TerrainOutcome::fan && entry.off() <= mostOff) return {outcome};
-    if (outcome == TerrainOutcome::fan) {
-        const double slope = asked.ground.steepest(batch.shadow(i).planes);
-        outcome = slope >= grazing * entry.tangent ? TerrainOutcome::steep : TerrainOutcome::rough;
-    }
-    const DrapeMesh& drape = batch.drape(i, asked.error);
-    if (drape.indices.empty()) return {TerrainOutcome::noGround};
-    return {outcome, &drape};
-}
-
-FanBatch& threadsBatch() {
-    thread_local FanBatch batch;
-    return batch;
-}
 
 TerrainShadow terrainShadow(const Ground& ground, const ConvexPart& part, const glm::dvec4& light, TerrainMethod method,
                             double error) {
     if (isLightBelow(ground, light)) return {{}, TerrainOutcome::lightBelow};
-    const TerrainAsk asked{ground, light, method, error};
+    const TerrainRequest request{ground, light, method, error};
     const PackedParts parts({part});
     FanBatch& batch = threadsBatch();
     batch.begin(ground, light);
-    findTogether(batch, asked, parts, 0, 1);
-    const Settled found = settled(batch, 0, asked, parts, 0);
+    findTogether(batch, request, parts, 0, 1);
+    const PartShadow found = partShadow(batch, 0, request, parts, 0);
     if (found.outcome == TerrainOutcome::fan) return {batch.triangles(0), found.outcome};
     if (!found.drape) return {{}, found.outcome};
     Drape triangles;

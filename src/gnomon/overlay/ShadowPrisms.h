@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/drape/Drape.h>
 #include <gnomon/ground/HeightPyramid.h>
 #include <gnomon/onterrain/PackedShadows.h>
 
