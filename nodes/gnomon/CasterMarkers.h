@@ -4,17 +4,21 @@
 
 namespace gnomon {
 
-/// Marks a node whose drawables, and whatever is below it, never cast.
+/// Base of nodes that never cast, neither their drawables nor any node below them.
+///
+/// Derive a node from it in addition to its osg base class, as ShadowTechnique does.
 class GNOMON_EXPORT NeverCasts {
 public:
     virtual ~NeverCasts() = default;
 };
 
-/// Marks a group that may show all its children and do nothing else with them.
+/// Base of groups that traverse all their children and do nothing else. A search for one node below is then faster.
+///
+/// Derive a group from it in addition to its osg base class, as ShadowCasterGroup does.
 class GNOMON_EXPORT ShowsChildren {
 public:
     virtual ~ShowsChildren() = default;
-    /// False for a derived class, which may traverse in its own way.
+    /// True if the group traverses all its children. A derived class that traverses in its own way returns false.
     virtual bool showsAllChildren() const = 0;
 };
 

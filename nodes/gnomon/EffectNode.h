@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Export.h>
 #include <gnomon/CompositorOptions.h>
+#include <gnomon/Export.h>
 
 #include <osg/Group>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/Selection.h>
 #include <gnomon/EffectNode.h>
+#include <gnomon/Selection.h>
 
 #include <osg/Vec3f>
 #include <osg/Vec4d>

@@ -8,16 +8,22 @@
 
 namespace gnomon {
 
-/// A line on stderr that grows while something takes long, and is gone at the end. Only a terminal shows it.
+/// Shows the progress of a long task as a line on stderr, if stderr is a terminal.
+///
+/// Threads
+/// - Any number may call show().
 class GNOMON_EXPORT ProgressLine {
 public:
-    /// @param after  seconds before which nothing is shown.
+    /// Starts the clock.
+    /// @param what   the task, as the line names it.
+    /// @param after  seconds before the line appears. Default 1.
     explicit ProgressLine(const std::string& what, double after = 1.0);
+    /// Removes the line.
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
-    /// @param share  of the whole, 0 … 1. May be called from several threads at once.
+    /// Shows the finished share of the task, 0 … 1.
     void show(double share);
 
 private:

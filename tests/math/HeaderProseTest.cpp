@@ -17,24 +17,13 @@ using Lines = std::vector<std::string>;
 
 constexpr std::size_t mostWords = 30;
 
-/// Public headers that stand among internal ones. Once these have folders of their own, all that are left are public.
-const std::string publicNames =
-    " Convert Export Selection ShadowLight LightUniform NamedNode VertexTraverser FlatParts CasterMesh CasterDrawables "
-    "ShadowCasterGroup ShadowTechnique PlanarShadowNode ShadowMapTechnique TerrainShadowGeode TerrainGround "
-    "TracedShadowTechnique HaloNode HaloPulse PlanarReflectionNode EffectNode ShadowQuery ShadowSpec "
-    "HeadlessContext CompositorOptions Plane PlanarShadow Reflection RayScene ShadowTruth Ground SunClock ";
-
-bool isPublic(const std::filesystem::path& file) {
-    const bool named = publicNames.find(" " + file.stem().string() + " ") != std::string::npos;
-    return file.extension() == ".h" && (named || file.parent_path().filename() == "metrics");
-}
-
+/// Headers that stand in these folders themselves; those of the rooms below are internal.
 std::vector<std::filesystem::path> publicHeaders() {
     const std::filesystem::path src = GNOMON_SOURCE_DIR;
     std::vector<std::filesystem::path> headers;
     for (const auto& folder : {src / "gnomon", src / "gnomon" / "metrics", src / ".." / "nodes" / "gnomon"})
         for (const auto& entry : std::filesystem::directory_iterator(folder))
-            if (isPublic(entry.path())) headers.push_back(entry.path());
+            if (entry.path().extension() == ".h") headers.push_back(entry.path());
     return headers;
 }
 
