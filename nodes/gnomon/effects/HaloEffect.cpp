@@ -83,9 +83,8 @@ void HaloEffect::blend(ScreenPass& screen) const {
 void HaloEffect::blendEachTriangle(const CompositorStage& draw) const {
     const unsigned bits = countingBits(draw.bits);
     if (bits == 0)
-        return node->report(
-            frameNumber, "without the stencil cure the halo cannot count triangles, because stencil bit 0 is "
-                         "reserved. Leave bit 0 out of CompositorOptions::reservedStencilBits, or switch the cure on.");
+        return report("without the stencil cure the halo cannot count triangles, because stencil bit 0 is "
+                      "reserved. Leave bit 0 out of CompositorOptions::reservedStencilBits, or switch the cure on.");
     draw.clearLeftovers(bits);
     LeafReplay::Overlay overlay;
     overlay.color = LeafReplay::Color::None;

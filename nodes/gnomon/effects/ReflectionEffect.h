@@ -7,6 +7,10 @@
 #include <gnomon/gl/FrameColorCopy.h>
 
 #include <glm/vec4.hpp>
+#include <osg/Vec3f>
+
+#include <memory>
+#include <vector>
 
 namespace gnomon {
 
