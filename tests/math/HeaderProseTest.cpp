@@ -19,7 +19,7 @@ constexpr std::size_t mostWords = 30;
 
 /// Headers that stand in these folders themselves; those of the rooms below are internal.
 std::vector<std::filesystem::path> publicHeaders() {
-    const std::filesystem::path src = GNOMON_SOURCE_DIR;
+    const std::filesystem::path src = std::filesystem::path(GNOMON_ROOT) / "src";
     std::vector<std::filesystem::path> headers;
     for (const auto& folder : {src / "gnomon", src / "gnomon" / "metrics", src / ".." / "nodes" / "gnomon"})
         for (const auto& entry : std::filesystem::directory_iterator(folder))

@@ -2,6 +2,7 @@
 // Shadows of many parts at once, against those of the parts one by one.
 #include "PackedTown.h"
 
+#include <gnomon/onterrain/TerrainShadow.h>
 #include <gnomon/simd/ShadowKernel.h>
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 #include "CountedNew.h"
 #include "Scene.h"
 
+#include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/CasterMesh.h>
 
@@ -36,7 +37,7 @@ public:
 
 private:
     void extract() {
-        gnomon::VertexTraverser casters;
+        gnomon::CasterExtraction casters;
         _root->accept(casters);
         _mesh = new gnomon::CasterMesh(casters);
     }

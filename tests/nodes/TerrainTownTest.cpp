@@ -5,6 +5,7 @@
 #include <support/TerrainTrial.h>
 
 #include <gnomon/Convert.h>
+#include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/ground/HeightPyramid.h>
 #include <gnomon/overlay/ShadowDecals.h>
 #include <gnomon/terrain/TileUpdates.h>
@@ -19,7 +20,6 @@
 
 using gnomon::CasterTiles;
 using gnomon::TerrainMethod;
-using gnomon::TerrainShadowGeode;
 
 namespace {
 
@@ -70,7 +70,7 @@ std::vector<Corners> oneByOne(osg::Group& town, const gnomon::Ground& ground, co
                               TerrainMethod method, const glm::dvec3& origin) {
     std::vector<Corners> result;
     for (unsigned i = 0; i < town.getNumChildren(); ++i) {
-        gnomon::VertexTraverser traverser;
+        gnomon::CasterExtraction traverser;
         town.getChild(i)->accept(traverser);
         const osg::ref_ptr<gnomon::CasterMesh> mesh = new gnomon::CasterMesh(traverser);
         for (const gnomon::ConvexPart& part : gnomon::partsOf(*mesh))
@@ -93,13 +93,13 @@ constexpr double finePixel = 0.04; // metres: a quarter of it is far less than t
 /// Boxes on hills, and what is found of them with no time for what may wait.
 struct Hills {
     Hills() { town.take(*gnomon::CasterDrawables::of(*root, {}, nullptr), {}); }
-    void update(double azimuth, TerrainShadowGeode::Method method = TerrainShadowGeode::HULL) {
+    void update(double azimuth, TerrainMethod method = TerrainMethod::hull) {
         update(azimuth, method, viewAbove(500.0, finePixel), 0.0);
     }
     void update(double azimuth, const gnomon::ViewFrame& view, double seconds = 0.0) {
-        update(azimuth, TerrainShadowGeode::HULL, view, seconds);
+        update(azimuth, TerrainMethod::hull, view, seconds);
     }
-    void update(double azimuth, TerrainShadowGeode::Method method, const gnomon::ViewFrame& view, double seconds) {
+    void update(double azimuth, TerrainMethod method, const gnomon::ViewFrame& view, double seconds) {
         tiles.update(town, {ground, &ground, 0.05}, sunAt(azimuth, elevation), {method, error, {}},
                      gnomon::TileVisibility(view, town.origin()), seconds);
     }
@@ -121,7 +121,7 @@ struct Hills {
 };
 
 TEST(CasterTiles, HasTheShadowsOfEachHouseAloneBitForBit) {
-    for (const auto method : {TerrainShadowGeode::HULL, TerrainShadowGeode::DRAPE}) {
+    for (const auto method : {TerrainMethod::hull, TerrainMethod::drape}) {
         Hills hills;
         hills.update(250.0, method);
         ASSERT_GE(hills.tiles.shadows().size(), 3u);
@@ -131,9 +131,7 @@ TEST(CasterTiles, HasTheShadowsOfEachHouseAloneBitForBit) {
                 found.push_back(cornersOf(tile->found.triangles(i), hills.town.origin()));
         std::sort(found.begin(), found.end());
         ASSERT_EQ(found.size(), std::size_t(houses + houses / 5));
-        EXPECT_TRUE(found == oneByOne(*hills.root, hills.ground, Hills::sunAt(250.0),
-                                      method == TerrainShadowGeode::HULL ? TerrainMethod::hull : TerrainMethod::drape,
-                                      hills.town.origin()));
+        EXPECT_TRUE(found == oneByOne(*hills.root, hills.ground, Hills::sunAt(250.0), method, hills.town.origin()));
     }
 }
 
