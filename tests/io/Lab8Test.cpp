@@ -122,7 +122,7 @@ TEST_F(Lab8, SaysInOneSentenceWhatItCannotDo) {
     expectRefused({"--keys", "?", "--offscreen"}, "there is no key ?");
     expectRefused({"--frames", "0", "--offscreen"}, "Allowed: a whole number");
     expectRefused({"--stencil-bits", "0", "--offscreen"}, "this framebuffer has no stencil bits");
-    expectRefused({"thing"}, "\"thing\" is no option");
+    expectRefused({"thing"}, "\"thing\" is not an option");
     expectRefused({"--thing"}, "there is no option --thing");
     expectRefused({"--out", "o.nothing"}, "o.nothing");
 }
