@@ -91,6 +91,24 @@ TEST_F(Gnomonchart, TwoRunsGiveTheSameErrorsToTheDigit) {
     }
 }
 
+TEST_F(Gnomonchart, WithoutFlickerAllOtherNumbersAreTheSame) {
+    Arguments without = small("without");
+    without.insert(without.end(), {"--flicker", "0"});
+    ASSERT_EQ(run(small("with")).status, 0);
+    ASSERT_EQ(run(without).status, 0);
+    const ChartResults with = results("with"), less = results("without");
+    ASSERT_EQ(less.points.size(), with.points.size());
+    for (std::size_t i = 0; i < less.points.size(); ++i) {
+        const ChartPoint &point = less.points[i], &whole = with.points[i];
+        EXPECT_FALSE(point.flickerEnergy || point.flickerShare || point.crawl);
+        ASSERT_TRUE(point.errors && point.errors->boundary && whole.errors && whole.errors->boundary);
+        EXPECT_EQ(point.errors->boundary->p95, whole.errors->boundary->p95);
+        EXPECT_EQ(point.shadedRmse, whole.shadedRmse);
+        EXPECT_TRUE(point.cost);
+    }
+    EXPECT_TRUE(fs::exists(folder.path() / "without" / "index.html"));
+}
+
 /// Sent by timeout(1) long before a full run of all techniques can end.
 TEST_F(Gnomonchart, AnInterruptedRunKeepsWhatItHas) {
     const Ending ending = runProgram(
@@ -142,6 +160,7 @@ TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
     EXPECT_NE(refusal({"missing.obj"}).find("missing.obj"), std::string::npos);
     EXPECT_EQ(refusal({lab8, "--scene", "room"}), "--scene and files exclude each other. Give one of them.\n");
     EXPECT_NE(refusal({lab8, "--frames", "1"}).find("2 to 10000"), std::string::npos);
+    EXPECT_NE(refusal({lab8, "--flicker", "-1"}).find("0 to 1000"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--size", "16x16"}).find("32x32"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--shadow", "planar"}).find("there is no option --shadow"), std::string::npos);
     folder.write("taken", "");

@@ -9,6 +9,7 @@ namespace gnomon::examples {
 namespace {
 
 constexpr int leastFrames = 2, mostFrames = 10000;
+constexpr int mostFlickerFrames = 1000;
 constexpr int leastSide = 32; // pixels; smaller pictures have no pixel that is judged
 
 // Every technique is measured, each with its own casters and receivers, under light of the chart's own.
@@ -29,6 +30,10 @@ void addChartOptions(Options& table, ChartOptions& into) {
                      "", [&into](Text) { into.quick = true; }});
     table.push_back({"--frames", "N", "frames to time for each motion, 2 to 10000", "60, with --quick 12",
                      [&into](Text t) { into.frames = readWhole(t, leastFrames, mostFrames); }});
+    table.push_back({"--flicker", "N",
+                     "frames of each of the two films that flicker is measured in, 0 to 1000; fewer than 2 leave flicker\n"
+                     "      out and save time",
+                     "16, with --quick 8", [&into](Text t) { into.flicker = readWhole(t, 0, mostFlickerFrames); }});
     table.push_back({"--resume", "",
                      "continue an interrupted run; scenes that are complete in FOLDER are not measured again", "",
                      [&into](Text) { into.resume = true; }});

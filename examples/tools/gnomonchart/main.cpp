@@ -71,7 +71,7 @@ ChartPlan planOf(const ChartOptions& options) {
     plan.folder = options.out;
     plan.frames = options.frameCount();
     if (options.quick) plan.seconds = quickSeconds;
-    plan.flickerFrames = options.quick ? 8 : 16;
+    plan.flickerFrames = options.flickerFrames();
     plan.sweep = options.quick ? SweepWidth::NARROW : SweepWidth::WIDE;
     plan.disc = !options.quick;
     plan.made = {{"size", std::to_string(options.view.width) + "x" + std::to_string(options.view.height)},
