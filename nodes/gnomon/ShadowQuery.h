@@ -51,6 +51,11 @@ public:
     /// @throws std::invalid_argument if no group is above the technique, or the light is zero or not finite.
     /// @throws std::runtime_error if Embree fails, see RayScene.
     ShadowQuery(const ShadowTechnique& technique, const ShadowLight& light);
+    /// Copies share what they have found.
+    ShadowQuery(const ShadowQuery& other);
+    /// As a copy.
+    ShadowQuery& operator=(const ShadowQuery& other);
+    ~ShadowQuery();
 
     /// The same query, answered by rays at the casters, whatever technique is drawn.
     ShadowQuery exact() const;

@@ -53,6 +53,10 @@ ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& li
     _answers = technique.answersFor(probe());
 }
 
+ShadowQuery::ShadowQuery(const ShadowQuery& other) = default;
+ShadowQuery& ShadowQuery::operator=(const ShadowQuery& other) = default;
+ShadowQuery::~ShadowQuery() = default;
+
 ShadowProbe ShadowQuery::probe() const {
     return {*_scene, *_mesh, *_group, _origin, _light, _groupFromTechnique, _answers};
 }
