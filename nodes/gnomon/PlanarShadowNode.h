@@ -3,17 +3,17 @@
 #include <gnomon/PlanarCures.h>
 #include <gnomon/ShadowTechnique.h>
 
-#include <OpenThreads/Mutex>
 #include <osg/Vec4d>
 
 #include <glm/vec4.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace gnomon {
 
 class CasterMesh;
-class PlanarCasters;
+class PlanarCasterCache;
 struct PlanarPrograms;
 
 /// Casts shadows onto planes: floors, walls, table tops. It flattens the casters along the light's rays.
@@ -113,13 +113,11 @@ protected:
 private:
     osg::ref_ptr<MarkJob> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters,
                                      unsigned index, const glm::dvec4& groupPlane) const;
-    osg::ref_ptr<PlanarCasters> castersAbove(const CasterMesh& mesh, const glm::dvec4& plane, unsigned frame) const;
 
     std::vector<osg::Vec4d> _planes;
     PlanarCures _cures;
     osg::ref_ptr<PlanarPrograms> _programs;
-    mutable OpenThreads::Mutex _cacheMutex;
-    mutable std::vector<osg::ref_ptr<PlanarCasters>> _cache; ///< used last at the end.
+    std::unique_ptr<PlanarCasterCache> _casters;
 };
 
 } // namespace gnomon

@@ -3,7 +3,6 @@
 #include <gnomon/casters/RaySceneCache.h>
 
 #include <OpenThreads/ScopedLock>
-#include <algorithm>
 #include <iterator>
 #include <map>
 #include <tbb/task_arena.h>
@@ -65,17 +64,12 @@ Found findOrBuild(const CasterMesh& mesh, const std::string& name) {
 
 std::shared_ptr<const RayScene> RaySceneCache::of(const CasterMesh& mesh, const std::string& name) {
     Lock lock(_mutex);
-    const auto known =
-        std::find_if(_entries.begin(), _entries.end(), [&](const Entry& entry) { return entry.mesh == &mesh; });
-    if (known != _entries.end()) {
-        std::rotate(known, known + 1, _entries.end());
-        return _entries.back().scene;
-    }
-    if (_entries.size() > 1) _entries.erase(_entries.begin()); // before building, for both would be in memory
+    if (const Entry* known = _entries.find([&](const Entry& entry) { return entry.mesh == &mesh; }))
+        return known->scene;
+    _entries.dropOldestBeyond(1); // before building, for both would be in memory
     const Found found = findOrBuild(mesh, name);
-    _entries.push_back({&mesh, found.scene});
     _builds += found.built;
-    return _entries.back().scene;
+    return _entries.add({&mesh, found.scene}).scene;
 }
 
 unsigned RaySceneCache::builds() const {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/RayScene.h>
+#include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/CasterMesh.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/vec3.hpp>
 
 #include <memory>
-#include <vector>
 
 namespace gnomon {
 
@@ -41,7 +41,7 @@ private:
     };
 
     mutable OpenThreads::Mutex _mutex;
-    std::vector<Entry> _entries; ///< used last at the end; two, so that a node under two groups builds neither again.
+    RecentCache<Entry> _entries; ///< Two at most: a node under two groups builds neither again.
     unsigned _builds = 0;
 };
 

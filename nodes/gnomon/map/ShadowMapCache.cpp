@@ -89,10 +89,9 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
 osg::ref_ptr<const CasterLayers> ShadowMapCache::castersOf(const ShadowCasterGroup& group,
                                                            const CasterDrawables& pieces) {
     Lock lock(_mutex);
-    const auto old = [this](const Known& known) { return _calls - known.lastCall > keptCalls; };
-    _casters.erase(std::remove_if(_casters.begin(), _casters.end(), old), _casters.end());
-    auto known = std::find_if(_casters.begin(), _casters.end(), [&](const Known& k) { return k.group == &group; });
-    if (known == _casters.end()) known = _casters.insert(known, {&group, nullptr, 0});
+    _casters.dropWhile([this](const Known& known) { return _calls - known.lastCall > keptCalls; });
+    Known* known = _casters.find([&](const Known& entry) { return entry.group == &group; });
+    if (!known) known = &_casters.add({&group, nullptr, 0});
     known->casters = CasterLayers::of(pieces, known->casters);
     known->lastCall = _calls;
     return known->casters;
@@ -100,17 +99,12 @@ osg::ref_ptr<const CasterLayers> ShadowMapCache::castersOf(const ShadowCasterGro
 
 LightShadowMaps& ShadowMapCache::find(const void* stage, int lightNumber) {
     ++_calls;
-    const auto old = [this](const auto& map) { return _calls - map->lastCall > keptCalls; };
-    _maps.erase(std::remove_if(_maps.begin(), _maps.end(), old), _maps.end());
-    const auto found = std::find_if(_maps.begin(), _maps.end(), [&](const auto& map) {
-        return map->stage == stage && map->lightNumber == lightNumber;
-    });
-    if (found == _maps.end())
-        _maps.push_back(std::make_unique<LightShadowMaps>(stage, lightNumber));
-    else
-        std::rotate(found, found + 1, _maps.end());
-    _maps.back()->lastCall = _calls;
-    return *_maps.back();
+    _maps.dropWhile([this](const auto& map) { return _calls - map->lastCall > keptCalls; });
+    const auto* known =
+        _maps.find([&](const auto& map) { return map->stage == stage && map->lightNumber == lightNumber; });
+    LightShadowMaps& map = known ? **known : *_maps.add(std::make_unique<LightShadowMaps>(stage, lightNumber));
+    map.lastCall = _calls;
+    return map;
 }
 
 void ShadowMapCache::resizeGLObjectBuffers(unsigned maxSize) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
+#include <gnomon/base/RecentCache.h>
 #include <gnomon/map/LightShadowMaps.h>
 #include <gnomon/map/SpotMark.h>
 
@@ -8,7 +9,6 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace gnomon {
 
@@ -47,8 +47,8 @@ private:
 
     const osg::ref_ptr<MapPrograms> _resources;
     OpenThreads::Mutex _mutex;
-    std::vector<std::unique_ptr<LightShadowMaps>> _maps; ///< used last at the end.
-    std::vector<Known> _casters;
+    RecentCache<std::unique_ptr<LightShadowMaps>> _maps;
+    RecentCache<Known> _casters;
     unsigned _calls = 0;
 };
 

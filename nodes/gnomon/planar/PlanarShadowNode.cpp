@@ -7,10 +7,9 @@
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/ShadowProbe.h>
 #include <gnomon/group/ViewFrame.h>
-#include <gnomon/planar/PlanarCasters.h>
+#include <gnomon/planar/PlanarCasterCache.h>
 #include <gnomon/planar/PlanarMark.h>
 
-#include <OpenThreads/ScopedLock>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -24,8 +23,6 @@
 
 namespace gnomon {
 namespace {
-
-using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 std::string sentence(const char* start, const osg::Vec4d& what, const char* rest) {
     std::ostringstream text;
@@ -93,12 +90,16 @@ std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
 
 } // namespace
 
-PlanarShadowNode::PlanarShadowNode() : _programs(new PlanarPrograms) {}
+PlanarShadowNode::PlanarShadowNode() : _programs(new PlanarPrograms), _casters(new PlanarCasterCache) {}
 
 PlanarShadowNode::PlanarShadowNode(const osg::Vec4d& plane) : PlanarShadowNode() { addPlane(plane); }
 
 PlanarShadowNode::PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp)
-    : ShadowTechnique(other, copyOp), _planes(other._planes), _cures(other._cures), _programs(new PlanarPrograms) {}
+    : ShadowTechnique(other, copyOp),
+      _planes(other._planes),
+      _cures(other._cures),
+      _programs(new PlanarPrograms),
+      _casters(new PlanarCasterCache) {}
 
 PlanarShadowNode::~PlanarShadowNode() = default;
 
@@ -129,7 +130,8 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
         report(view.frameNumber, sentence(start, what, rest));
         return nullptr;
     };
-    const osg::ref_ptr<PlanarCasters> casters = castersAbove(mesh, groupPlane, view.frameNumber);
+    const std::size_t most = 2 * _planes.size(); // two meshes a plane: a node under two groups makes neither again
+    const osg::ref_ptr<PlanarCasters> casters = _casters->of(mesh, groupPlane, !_cures.clip, view.frameNumber, most);
     if (casters->parts.empty())
         return refuse("no caster is above the plane", _planes[index],
                       "on the side of its normal. Check where the plane lies and which way its normal points.");
@@ -185,36 +187,16 @@ bool PlanarShadowNode::isLit(const ShadowProbe& probe, const glm::dvec3& point) 
     return std::none_of(_planes.begin(), _planes.end(), shadows);
 }
 
-/// From the cache, which keeps what was used last: two meshes a plane, so that a node under two groups makes neither again.
-osg::ref_ptr<PlanarCasters> PlanarShadowNode::castersAbove(const CasterMesh& mesh, const glm::dvec4& plane,
-                                                           unsigned frame) const {
-    Lock lock(_cacheMutex);
-    const auto found = std::find_if(_cache.begin(), _cache.end(),
-                                    [&](const auto& entry) { return entry->madeFrom(mesh, plane, !_cures.clip); });
-    osg::ref_ptr<PlanarCasters> casters = found == _cache.end() ? nullptr : *found;
-    if (casters) _cache.erase(found);
-    const bool keptStill = casters && casters->firstFrame != frame; // then the search for solids pays from now on
-    if (!casters || (keptStill && !casters->knowsSolids())) {
-        casters = new PlanarCasters(mesh, plane, !_cures.clip, keptStill);
-        casters->firstFrame = frame;
-    }
-    _cache.push_back(casters);
-    if (_cache.size() > 2 * _planes.size()) _cache.erase(_cache.begin());
-    return casters;
-}
-
 void PlanarShadowNode::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
     for (const auto& program : {_programs->plain, _programs->clipping}) program->resizeGLObjectBuffers(maxSize);
-    Lock lock(_cacheMutex);
-    for (const auto& casters : _cache) casters->resizeGLObjectBuffers(maxSize);
+    _casters->resizeGLObjectBuffers(maxSize);
 }
 
 void PlanarShadowNode::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
     for (const auto& program : {_programs->plain, _programs->clipping}) program->releaseGLObjects(state);
-    Lock lock(_cacheMutex);
-    for (const auto& casters : _cache) casters->releaseGLObjects(state);
+    _casters->releaseGLObjects(state);
 }
 
 } // namespace gnomon

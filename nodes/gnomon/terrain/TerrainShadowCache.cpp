@@ -73,19 +73,13 @@ bool TerrainAnswer::covers(const glm::dvec2& place) const {
 
 TerrainShadowCache::Town& TerrainShadowCache::townOf(const ShadowCasterGroup& group, const CasterDrawables& casters,
                                                      const TerrainPlace& place, bool asBoxes) {
-    const auto known = std::find_if(_towns.begin(), _towns.end(), [&](const auto& town) {
-        return town->group == &group && town->casters.asBoxes() == asBoxes;
-    });
-    if (known != _towns.end()) {
-        std::rotate(known, known + 1, _towns.end());
-    } else {
-        if (_towns.size() >= mostTowns) {
-            for (const auto& [number, tiles] : _towns.front()->lights) _foundByOthers += tiles.found();
-            _towns.erase(_towns.begin());
-        }
-        _towns.emplace_back(new Town{&group, nullptr, CasterTiles(asBoxes), {}});
+    const auto isWanted = [&](const auto& town) { return town->group == &group && town->casters.asBoxes() == asBoxes; };
+    std::unique_ptr<Town>* known = _towns.find(isWanted);
+    if (!known) {
+        _towns.dropOldestBeyond(mostTowns - 1); // before adding, for all would be in memory
+        known = &_towns.add(std::unique_ptr<Town>(new Town{&group, nullptr, CasterTiles(asBoxes), {}}));
     }
-    Town& town = *_towns.back();
+    Town& town = **known;
     const osg::ref_ptr<const GroundRevision> drawn = place.drawn(town.drawn);
     if (drawn != town.drawn)
         for (auto& [number, tiles] : town.lights) tiles.groundChanged();
@@ -101,7 +95,9 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
     TileUpdates& tiles = town.lights[number];
     const TileVisibility seen(view, town.casters.origin());
     const TileGround ground = groundOf(*town.drawn);
+    const unsigned before = tiles.found();
     tiles.update(town.casters, ground, light, settings, seen, secondsAFrame);
+    _found += tiles.found() - before;
     return {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
             isFromAbove(view, ground)};
 }
@@ -126,10 +122,7 @@ osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterG
 
 unsigned TerrainShadowCache::found() const {
     Lock lock(_mutex);
-    unsigned sum = _foundByOthers;
-    for (const auto& town : _towns)
-        for (const auto& [number, tiles] : town->lights) sum += tiles.found();
-    return sum;
+    return _found;
 }
 
 void TerrainShadowCache::resizeGLObjectBuffers(unsigned maxSize) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/base/RecentCache.h>
 #include <gnomon/terrain/GroundRevision.h>
 #include <gnomon/terrain/TileUpdates.h>
 
@@ -65,8 +66,8 @@ private:
                  bool asBoxes);
 
     mutable OpenThreads::Mutex _mutex;
-    std::vector<std::unique_ptr<Town>> _towns; ///< used last at the end.
-    unsigned _foundByOthers = 0;               ///< by towns that are gone.
+    RecentCache<std::unique_ptr<Town>> _towns;
+    unsigned _found = 0; ///< By towns that are gone, too.
 };
 
 } // namespace gnomon

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/base/RecentCache.h>
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+namespace {
+
+struct Entry {
+    char key;
+    unsigned lastUse = 0;
+};
+using Cache = gnomon::RecentCache<Entry>;
+
+/// The keys, the least recently used first.
+template <class AnyCache>
+std::string keysOf(const AnyCache& cache) {
+    std::string keys;
+    for (const auto& entry : cache) keys += entry.key;
+    return keys;
+}
+
+Entry* find(Cache& cache, char key) {
+    return cache.find([key](const Entry& entry) { return entry.key == key; });
+}
+
+Cache cacheOf(const std::string& keys) {
+    Cache cache;
+    for (const char key : keys) cache.add({key});
+    return cache;
+}
+
+} // namespace
+
+TEST(RecentCache, FindsNothingInAnEmptyOne) {
+    Cache cache;
+    EXPECT_EQ(find(cache, 'a'), nullptr);
+    EXPECT_EQ(keysOf(cache), "");
+}
+
+TEST(RecentCache, KeepsTheOrderInWhichEntriesCome) {
+    Cache cache;
+    EXPECT_EQ(cache.add({'a'}).key, 'a');
+    EXPECT_EQ(cache.add({'b'}).key, 'b');
+    EXPECT_EQ(keysOf(cache), "ab");
+}
+
+TEST(RecentCache, PutsAFoundEntryLast) {
+    Cache cache = cacheOf("abcd");
+    ASSERT_NE(find(cache, 'b'), nullptr);
+    EXPECT_EQ(find(cache, 'b')->key, 'b');
+    EXPECT_EQ(keysOf(cache), "acdb");
+    find(cache, 'a');
+    EXPECT_EQ(keysOf(cache), "cdba");
+}
+
+TEST(RecentCache, KeepsTheOrderWhereNothingIsFound) {
+    Cache cache = cacheOf("abc");
+    EXPECT_EQ(find(cache, 'x'), nullptr);
+    EXPECT_EQ(keysOf(cache), "abc");
+}
+
+TEST(RecentCache, GivesEntriesThatMayBeReplaced) {
+    Cache cache = cacheOf("abc");
+    *find(cache, 'a') = {'z'};
+    EXPECT_EQ(keysOf(cache), "bcz");
+}
+
+TEST(RecentCache, DropsTheOldestAboveABound) {
+    Cache cache = cacheOf("abc");
+    cache.dropOldestBeyond(3);
+    EXPECT_EQ(keysOf(cache), "abc");
+    find(cache, 'a');
+    cache.dropOldestBeyond(2);
+    EXPECT_EQ(keysOf(cache), "ca") << "b was used least recently";
+}
+
+/// The owner lowers the bound by many: what is freed is spread over as many calls.
+TEST(RecentCache, DropsOneAtATime) {
+    Cache cache = cacheOf("abcd");
+    cache.dropOldestBeyond(1);
+    EXPECT_EQ(keysOf(cache), "bcd");
+}
+
+TEST(RecentCache, NeverHoldsMoreThanABoundThatIsHeldBeforeAdding) {
+    Cache cache;
+    for (const char key : std::string("abcdefg")) {
+        cache.dropOldestBeyond(1);
+        cache.add({key});
+    }
+    EXPECT_EQ(keysOf(cache), "fg");
+}
+
+TEST(RecentCache, DropsWhatIsOldUpToTheFirstThatIsNot) {
+    Cache cache;
+    for (unsigned use = 1; use <= 4; ++use) cache.add({char('a' + use), use});
+    const auto isOld = [](const Entry& entry) { return entry.lastUse < 3; };
+    cache.dropWhile(isOld);
+    EXPECT_EQ(keysOf(cache), "de");
+    cache.dropWhile(isOld);
+    EXPECT_EQ(keysOf(cache), "de");
+    cache.dropWhile([](const Entry&) { return true; });
+    EXPECT_EQ(keysOf(cache), "");
+    cache.dropWhile(isOld);
+    EXPECT_EQ(keysOf(cache), "");
+}
+
+/// As in a cache of maps: an entry is old once it was not used for two calls.
+TEST(RecentCache, AnEntryThatIsUsedStays) {
+    Cache cache;
+    unsigned calls = 0;
+    const auto use = [&](char key) {
+        ++calls;
+        cache.dropWhile([&](const Entry& entry) { return calls - entry.lastUse > 2; });
+        Entry* known = find(cache, key);
+        (known ? *known : cache.add({key})).lastUse = calls;
+    };
+    for (const char key : std::string("abab")) use(key);
+    EXPECT_EQ(keysOf(cache), "ab");
+    for (const char key : std::string("cac")) use(key);
+    EXPECT_EQ(keysOf(cache), "ac");
+}
+
+TEST(RecentCache, HoldsWhatCannotBeCopiedAtOnePlace) {
+    gnomon::RecentCache<std::unique_ptr<char>> cache;
+    char* const first = cache.add(std::make_unique<char>('a')).get();
+    for (const char key : std::string("bcd")) cache.add(std::make_unique<char>(key));
+    const auto* found = cache.find([](const auto& entry) { return *entry == 'a'; });
+    ASSERT_NE(found, nullptr);
+    EXPECT_EQ(found->get(), first);
+}
+
+TEST(RecentCache, FreesWhatItDrops) {
+    gnomon::RecentCache<std::shared_ptr<int>> cache;
+    const std::weak_ptr<int> first = cache.add(std::make_shared<int>(1)), second = cache.add(std::make_shared<int>(2));
+    cache.dropOldestBeyond(1);
+    EXPECT_TRUE(first.expired());
+    EXPECT_FALSE(second.expired());
+}
