@@ -1,5 +1,5 @@
 // Takes a vertex to clip space, of planar shadows by way of the receiver's plane, in one matrix made in double.
-uniform mat4 clipFromCaster;
+uniform mat4 clipFromVertex;
 
 #ifdef CLIP
 // What lies under the plane, or at and above a lamp, casts nothing: kept where the dot product is not negative.
@@ -18,7 +18,7 @@ out vec2 texel;
 #endif
 
 void main() {
-    gl_Position = clipFromCaster * gl_Vertex;
+    gl_Position = clipFromVertex * gl_Vertex;
 #ifdef CUTOUT
     coordinates = gl_MultiTexCoord0.xyz;
 #endif

@@ -53,7 +53,7 @@ public:
         for (int i = 0; i < bitmaps; ++i) all.push_back(_bitmaps[i % 2 ? bitmaps - 1 - i / 2 : i / 2].get());
         osg::State& state = *renderInfo.getState();
         state.apply(_program);
-        gnomon::setUniform(state, "clipFromCaster",
+        gnomon::setUniform(state, "clipFromVertex",
                            glm::dmat4(2.0 / (bitmaps * apart), 0, 0, 0, 0, 2.0 / tall, 0, 0, 0, 0, 1, 0, -1, -1, 0, 1));
         gnomon::setUniform(state, "sheet", 0);
         setCoordinates(state);

@@ -17,13 +17,13 @@ namespace {
 constexpr std::size_t mostTests = 1 << 16; // each hole is looked for in all runs of what has holes: a millisecond
 
 /// Of what fills a hole the corners of those triangles that look to the light, in its clip space.
-std::vector<glm::dvec4> turnedToLight(const std::vector<glm::dvec3>& filling, const glm::dmat4& clipFromMesh) {
-    const double hand = glm::determinant(clipFromMesh) > 0.0 ? -1.0 : 1.0; // see CullableFaces::draw()
+std::vector<glm::dvec4> turnedToLight(const std::vector<glm::dvec3>& filling, const glm::dmat4& clipFromScene) {
+    const double hand = glm::determinant(clipFromScene) > 0.0 ? -1.0 : 1.0; // see CullableFaces::draw()
     const auto xyw = [](const glm::dvec4& p) { return glm::dvec3(p.x, p.y, p.w); };
     std::vector<glm::dvec4> result;
     for (std::size_t i = 0; i + 2 < filling.size(); i += 3) {
         glm::dvec4 corners[3];
-        for (std::size_t k = 0; k < 3; ++k) corners[k] = clipFromMesh * glm::dvec4(filling[i + k], 1.0);
+        for (std::size_t k = 0; k < 3; ++k) corners[k] = clipFromScene * glm::dvec4(filling[i + k], 1.0);
         if (hand * glm::determinant(glm::dmat3(xyw(corners[0]), xyw(corners[1]), xyw(corners[2]))) > 0.0)
             result.insert(result.end(), std::begin(corners), std::end(corners));
     }
@@ -94,9 +94,9 @@ CullableFaces::Outside CullableFaces::outside(const glm::dvec4& light) const {
     return {light.w == 0.0 || isOutside(light, _solidBoxes), light.w == 0.0 || isOutside(light, _holedBoxes)};
 }
 
-void CullableFaces::draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, const Outside& outside) const {
+void CullableFaces::draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromScene, const Outside& outside) const {
     if (others) others->draw(renderInfo);
-    const bool mirrored = glm::determinant(clipFromMesh) > 0.0; // OpenGL's own projections turn left to right hands
+    const bool mirrored = glm::determinant(clipFromScene) > 0.0; // OpenGL's own projections turn left to right hands
     glFrontFace(mirrored ? GL_CW : GL_CCW);
     const auto drawTurned = [&](const osg::Geometry* geometry, bool culled) {
         if (!geometry) return;
@@ -105,21 +105,21 @@ void CullableFaces::draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFrom
     };
     drawTurned(solids, outside.solids);
     drawTurned(holed, outside.holed);
-    if (holed && outside.holed) drawBehindHoles(renderInfo, clipFromMesh);
+    if (holed && outside.holed) drawBehindHoles(renderInfo, clipFromScene);
     glFrontFace(GL_CCW);
     glDisable(GL_CULL_FACE);
 }
 
 /// Faces turned away, of what has holes: elsewhere each is behind one that is turned to the light.
-void CullableFaces::drawBehindHoles(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh) const {
+void CullableFaces::drawBehindHoles(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromScene) const {
     constexpr double rounding = 1.0 / 128.0; // of half the map: some texels
     glCullFace(GL_FRONT);
     for (const auto& filling : _holes) {
-        const std::vector<glm::dvec4> opening = turnedToLight(filling, clipFromMesh);
+        const std::vector<glm::dvec4> opening = turnedToLight(filling, clipFromScene);
         const std::optional<ScreenRect> seen = opening.empty() ? std::nullopt : screenBounds(opening);
         if (!seen) continue;
         const ScreenRect bounds{seen->low - rounding, seen->high + rounding};
-        TriangleClusters::draw(renderInfo, *holed, _clusters->touching(bounds, toOsg(clipFromMesh)));
+        TriangleClusters::draw(renderInfo, *holed, _clusters->touching(bounds, toOsg(clipFromScene)));
     }
     glCullFace(GL_BACK);
 }

@@ -42,8 +42,8 @@ struct CullableFaces : public osg::Referenced {
     /// False where a lamp may be in one, which many drawables may make together. @param light  as localLight().
     Outside outside(const glm::dvec4& light) const;
     /// Needs back faces to be those that are culled.
-    /// @param clipFromMesh  the light's, mesh: about its origin.
-    void draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh, const Outside& outside) const;
+    /// @param clipFromScene  to the light's clip space, from the group's axes about the mesh's origin.
+    void draw(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromScene, const Outside& outside) const;
 
     void resizeGLObjectBuffers(unsigned maxSize) const;
     void releaseGLObjects(osg::State* state) const;
@@ -52,7 +52,7 @@ protected:
     ~CullableFaces() override = default;
 
 private:
-    void drawBehindHoles(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromMesh) const;
+    void drawBehindHoles(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromScene) const;
 
     std::vector<osg::BoundingBox> _solidBoxes, _holedBoxes; ///< of their parts.
     std::vector<std::vector<glm::dvec3>> _holes;            ///< of each the triangles that fill it.

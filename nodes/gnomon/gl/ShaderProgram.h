@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// State that draws geometry as marks: a program that takes each vertex to clip space by the uniform clipFromCaster alone,
+/// State that draws geometry as marks: a program that takes each vertex to clip space by the uniform clipFromVertex alone,
 /// made in double. GLSL 1.30. It belongs to a node, so that it is released with the node's other OpenGL objects.
 /// @param defines  "#define CLIP\n": it writes clip distances to the uniform planes abovePlane and belowLight, too.
 ///                 "#define CUTOUT\n": it leaves out what the texture `cutout` says, by the uniform alphaTest.

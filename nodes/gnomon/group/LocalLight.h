@@ -4,6 +4,7 @@
 #include <gnomon/ShadowLight.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/mapfit/SpotCone.h>
 
 #include <cmath>
@@ -16,11 +17,11 @@
 
 namespace gnomon {
 
-/// A light about `origin`, with a w of 0 and a direction of length 1, or a w of 1; nullopt if it is nowhere.
-inline std::optional<glm::dvec4> localLight(const osg::Vec4d& inGroup, const osg::Vec3d& origin) {
+/// A light in the scene: w is 0 and the direction has length 1, or w is 1. Nullopt if it is nowhere.
+inline std::optional<glm::dvec4> localLight(const osg::Vec4d& inGroup, const SceneFrame& scene) {
     const glm::dvec4 given = toGlm(inGroup);
     const glm::dvec4 light = given.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(given)), 0.0)
-                                            : glm::dvec4(glm::dvec3(given) / given.w - toGlm(origin), 1.0);
+                                            : glm::dvec4(glm::dvec3(given) / given.w - scene.origin, 1.0);
     if (!(std::isfinite(given.w) && std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z)))
         return std::nullopt;
     return light;
@@ -46,9 +47,10 @@ inline std::string notUsable(const osg::Vec4d& light) {
 /// if nothing of it is in sight.
 inline std::optional<ScreenRect> shadowBounds(const CasterMesh& mesh, const glm::dmat4& clipFromScene,
                                               const glm::dvec4& light) {
+    const SceneFrame scene(mesh.origin);
     std::vector<glm::dvec4> points;
     for (unsigned i = 0; i < 8; ++i) {
-        const glm::dvec3 corner = toGlm(mesh.bounds.corner(i) - mesh.origin), at(light);
+        const glm::dvec3 corner = scene.point(mesh.bounds.corner(i)), at(light);
         points.push_back(clipFromScene * glm::dvec4(corner, 1.0));
         points.push_back(clipFromScene * glm::dvec4(light.w == 0.0 ? -at : corner - at, 0.0));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/Convert.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/CasterLayers.h>
 
 #include <glm/common.hpp>
@@ -87,8 +87,9 @@ bool CasterLayers::isAtRest(const CasterDrawable* piece) const {
 
 void CasterLayers::measure() {
     if (pieces->empty()) return;
-    low = toGlm(pieces->bounds._min - origin);
-    high = toGlm(pieces->bounds._max - origin);
+    const SceneFrame scene(origin);
+    low = scene.point(pieces->bounds._min);
+    high = scene.point(pieces->bounds._max);
     reach = glm::max(glm::abs(low), glm::abs(high));
 }
 

@@ -67,7 +67,7 @@ PixelRect wholeOf(const MapPicture::Tile& tile, int size) { return {tile.corner.
 void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size, const PixelRect& texels) {
     glViewport(tile.corner.x, tile.corner.y, size, size);
     glScissor(texels.x, texels.y, texels.width, texels.height);
-    setUniform(state, "clipFromCaster", tile.clipFromCaster);
+    setUniform(state, "clipFromVertex", tile.clipFromScene);
 }
 
 /// Depths, to the bit, between framebuffers of one size.
@@ -107,7 +107,7 @@ bool MapPicture::Layer::operator==(const Layer& other) const {
 const MapPicture::Tile* MapPicture::findStill(const Tile& tile, const MapPicture& other) const {
     if (!(still == other.still && size == other.size && slopeOffset == other.slopeOffset)) return nullptr;
     const auto found = std::find_if(tiles.begin(), tiles.end(), [&tile](const Tile& own) {
-        return own.corner == tile.corner && own.clipFromCaster == tile.clipFromCaster;
+        return own.corner == tile.corner && own.clipFromScene == tile.clipFromScene;
     });
     return found == tiles.end() ? nullptr : &*found;
 }
@@ -225,7 +225,7 @@ std::string DepthMap::drawLayer(osg::RenderInfo& renderInfo, const MapPicture& p
         if (!hasProgram(state)) return noProgram;
         for (const Part& part : parts) {
             drawInto(state, *part.tile, picture.size, part.texels);
-            layer.casters->draw(renderInfo, part.tile->clipFromCaster, layer.outside);
+            layer.casters->draw(renderInfo, part.tile->clipFromScene, layer.outside);
         }
     }
     if (layer.cutouts.empty()) return "";

@@ -23,8 +23,8 @@ struct MapPicture : public osg::Referenced {
     /// A square part of the texture, and what is drawn there.
     struct Tile {
         glm::ivec2 corner{0};
-        glm::dmat4 clipFromCaster{1.0}; ///< caster: about their origin.
-        PixelRect movers;               ///< texels outside which nothing moves.
+        glm::dmat4 clipFromScene{1.0}; ///< The map's clip space. Scene: see SceneFrame.
+        PixelRect movers;              ///< texels outside which nothing moves.
     };
     /// What is drawn of a layer of the casters.
     struct Layer {

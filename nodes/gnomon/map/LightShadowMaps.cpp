@@ -206,7 +206,7 @@ PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile, const MapError
     const CasterLayer& moving = *_cause.casters->moving;
     glm::dvec2 low(1.0), high(-1.0);
     const auto add = [&](const CasterLayer::Box& box) {
-        const auto corners = boxCorners(box.low, box.high, tile.clipFromCaster);
+        const auto corners = boxCorners(box.low, box.high, tile.clipFromScene);
         const auto bounds = screenBounds({corners.begin(), corners.end()});
         if (!bounds) return;
         low = glm::min(low, bounds->low);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/MapMark.h>
 #include <gnomon/map/ProgramMaps.h>
 #include <gnomon/map/ShadowMapCache.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -19,9 +19,14 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 constexpr unsigned keptCalls = 256; // maps that nobody asked for since are let go
 
-glm::dmat4 eyeFromScene(const ViewFrame& view, const CasterLayers& casters) {
-    return glm::translate(toGlm(view.eyeFromGroup), toGlm(casters.origin));
-}
+/// A view's two matrices. Clip space is the projection of eye space to the last bit.
+struct SceneView {
+    SceneView(const ViewFrame& view, const CasterLayers& casters)
+        : eyeFromScene(SceneFrame(casters.origin).eyeFromScene(view)),
+          clipFromScene(toGlm(view.projection) * eyeFromScene) {}
+
+    glm::dmat4 eyeFromScene, clipFromScene;
+};
 
 /// True if what is flat, a ground for one, may stand between the light and any part of what is seen: not if all of that is
 /// on the light's side of it, or in it.
@@ -59,7 +64,7 @@ osg::ref_ptr<SpotMark> ShadowMapCache::around(const ViewFrame& view, const glm::
                                               const CasterLayers& casters) const {
     osg::ref_ptr<SpotMark> mark = new SpotMark;
     mark->resources = _resources;
-    mark->clipFromScene = toGlm(view.projection) * eyeFromScene(view, casters);
+    mark->clipFromScene = SceneView(view, casters).clipFromScene;
     mark->coneFromScene = coneFromScene(glm::dvec3(light), cone);
     return mark;
 }
@@ -67,21 +72,22 @@ osg::ref_ptr<SpotMark> ShadowMapCache::around(const ViewFrame& view, const glm::
 osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
                                            const std::optional<SpotCone>& cone, const CasterLayers& casters,
                                            const MapSettings& wish) {
-    const glm::dmat4 clipFromScene = toGlm(view.projection) * eyeFromScene(view, casters);
+    const SceneView scene(view, casters);
     Lock lock(_mutex);
     LightShadowMaps& map = find(view.stage, lightNumber);
-    const std::vector<MapReceiver> receivers = receiversOf(view, eyeFromScene(view, casters));
+    const std::vector<MapReceiver> receivers = receiversOf(view, scene.eyeFromScene);
     map.setCause({light, cone, &casters, anyIsBetween(casters, light, receivers), wish});
-    const std::vector<glm::dvec4> corners = map.find(receivers, clipFromScene, {view.pixels.x(), view.pixels.y()});
+    const std::vector<glm::dvec4> corners =
+        map.find(receivers, scene.clipFromScene, {view.pixels.x(), view.pixels.y()});
     const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     const bool forPrograms = wish.unit >= 0;
     if (!bounds) return forPrograms ? new ProgramMaps(unsigned(wish.unit)) : nullptr;
     map.update(*_resources);
-    MapLookupPass quad = map.quad(clipFromScene);
+    MapLookupPass quad = map.quad(scene.clipFromScene);
     quad.resources = _resources;
     quad.outline =
         screenOutline(corners, 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y())); // two pixels more, against rounding
-    if (forPrograms) return new ProgramMaps(quad, glm::inverse(eyeFromScene(view, casters)), unsigned(wish.unit));
+    if (forPrograms) return new ProgramMaps(quad, glm::inverse(scene.eyeFromScene), unsigned(wish.unit));
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
     return quad.fades() ? markOf<SoftMapMark>(quad, *bounds, wish.view) : markOf<MapMark>(quad, *bounds, wish.view);
 }

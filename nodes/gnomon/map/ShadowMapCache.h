@@ -22,7 +22,7 @@ public:
 
     /// The casters as maps draw them; made once for all views and lights.
     osg::ref_ptr<const CasterLayers> castersOf(const ShadowCasterGroup& group, const CasterDrawables& pieces);
-    /// @param light  about the casters' origin, see localLight().
+    /// @param light  in the scene about the casters' origin, see localLight().
     /// @param cone   of a lamp that is a spot: nothing outside it is marked.
     /// @return the marks of a light; null if none of its shadow can be seen.
     osg::ref_ptr<MarkJob> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,

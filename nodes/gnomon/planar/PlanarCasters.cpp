@@ -2,6 +2,7 @@
 #include <gnomon/Convert.h>
 #include <gnomon/Plane.h>
 #include <gnomon/casters/CullableFaces.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/planar/PlanarCasters.h>
 
 #include <glm/common.hpp>
@@ -31,7 +32,7 @@ double thicknessOf(const CasterMesh& mesh) {
 } // namespace
 
 PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under, bool findSolids)
-    : plane(groupPlane.x, groupPlane.y, groupPlane.z, distance(groupPlane, toGlm(mesh.origin))),
+    : plane(SceneFrame(mesh.origin).plane(groupPlane)),
       low(std::numeric_limits<double>::infinity()),
       high(-low),
       thickness(thicknessOf(mesh)),

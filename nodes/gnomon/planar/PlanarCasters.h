@@ -37,8 +37,8 @@ public:
 
     unsigned firstFrame = 0; ///< in which these were made.
     std::vector<Part> parts;
-    glm::dvec4 plane;       ///< in the mesh's own frame: about mesh.origin.
-    glm::dvec3 low, high;   ///< bounds of all parts, about mesh.origin.
+    glm::dvec4 plane;       ///< in the scene about mesh.origin, see SceneFrame.
+    glm::dvec3 low, high;   ///< bounds of all parts, in the scene.
     bool crosses = false;   ///< some part crosses the plane.
     double highest = 0.0;   ///< greatest height above the plane.
     double thickness = 0.0; ///< height up to which a vertex counts as lying in the plane.

@@ -74,7 +74,7 @@ bool PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part
     const bool culls = part.solid && !reachesLight && cures.stencil;
     state.apply((clips ? programs->clipping : programs->plain).get());
     if (!hasProgram(state)) return false;
-    setUniform(state, "clipFromCaster", clipFromCaster);
+    setUniform(state, "clipFromVertex", clipFromVertex);
     if (clips) {
         setUniform(state, "abovePlane", abovePlane);
         setUniform(state, "belowLight", belowLight);
@@ -85,7 +85,7 @@ bool PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part
     glFrontFace(mirrored ? GL_CW : GL_CCW);
     part.geometry->draw(renderInfo);
     if (!cures.clip && reachesLight) {
-        setUniform(state, "clipFromCaster", -clipFromCaster); // the same map: OpenGL draws only the half with w > 0
+        setUniform(state, "clipFromVertex", -clipFromVertex); // the same map: OpenGL draws only the half with w > 0
         part.geometry->draw(renderInfo);
     }
     glFrontFace(GL_CCW);

@@ -24,8 +24,8 @@ class PlanarMark : public MarkJob {
 public:
     osg::ref_ptr<const PlanarCasters> casters;
     osg::ref_ptr<const PlanarPrograms> programs;
-    glm::dmat4 clipFromCaster{1.0}; ///< flattened and projected.
-    glm::dvec4 abovePlane{0.0};     ///< see planarClipPlanes(); about the mesh's origin.
+    glm::dmat4 clipFromVertex{1.0}; ///< flattened and projected.
+    glm::dvec4 abovePlane{0.0};     ///< see planarClipPlanes(); in the scene, see SceneFrame.
     glm::dvec4 belowLight{0.0};
     bool reachesLight = false; ///< some caster is as high as the light.
     bool mirrored = false;     ///< the view turns the sense of triangles round.

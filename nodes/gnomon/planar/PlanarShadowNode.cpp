@@ -5,13 +5,13 @@
 #include <gnomon/Plane.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/FrameCasters.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/planar/PlanarCasterCache.h>
 #include <gnomon/planar/PlanarMark.h>
 
 #include <glm/gtc/matrix_access.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 #include <osg/io_utils>
 #include <osgUtil/RenderLeaf>
@@ -84,7 +84,7 @@ std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
     if (mark.reachesLight) halfSpaces.push_back(mark.belowLight);
     std::vector<glm::dvec4> corners;
     for (const glm::dvec3& corner : cutBox(mark.casters->low, mark.casters->high, halfSpaces))
-        corners.push_back(mark.clipFromCaster * glm::dvec4(corner, 1.0));
+        corners.push_back(mark.clipFromVertex * glm::dvec4(corner, 1.0));
     return screenBounds(corners);
 }
 
@@ -137,15 +137,15 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
                       "on the side of its normal. Check where the plane lies and which way its normal points.");
     if (!isFinite(toGlm(light.inGroup)))
         return refuse("the light at", light.inGroup, "has a coordinate that is not finite. Set the light's position.");
-    const glm::dvec3 origin = toGlm(mesh.origin);
-    const glm::dvec4 lightHere(glm::dvec3(toGlm(light.inGroup)) - light.inGroup.w() * origin, light.inGroup.w());
+    const SceneFrame scene(mesh.origin);
+    const glm::dvec4 lightHere(glm::dvec3(toGlm(light.inGroup)) - light.inGroup.w() * scene.origin, light.inGroup.w());
     const auto flatten = planarShadowMatrix(casters->plane, lightHere);
     if (!flatten)
         return refuse("the light at", light.inGroup,
                       "lies in the plane or behind it, so there is no shadow. Move the light to the side that the "
                       "plane's normal points to.");
-    const glm::dmat4 clipFromMesh = glm::translate(toGlm(view.eyeFromGroup * view.projection), origin);
-    if (!(glm::dot(casters->plane, eyeIn(clipFromMesh)) > 0.0))
+    const glm::dmat4 clipFromScene = scene.clipFromScene(view);
+    if (!(glm::dot(casters->plane, eyeIn(clipFromScene)) > 0.0))
         return refuse("the camera is behind the plane", _planes[index],
                       "and sees the side that the light does not reach. If that side is the lit one, reverse the "
                       "plane's normal.");
@@ -154,7 +154,7 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     const PlanarClipPlanes clip = planarClipPlanes(casters->plane, lightHere);
     mark->casters = casters;
     mark->programs = _programs;
-    mark->clipFromCaster = clipFromMesh * *flatten;
+    mark->clipFromVertex = clipFromScene * *flatten;
     mark->abovePlane = clip.abovePlane - glm::dvec4(0.0, 0.0, 0.0, casters->thickness);
     mark->belowLight = clip.belowLight;
     mark->reachesLight = heightLimit(clip, casters->plane) < casters->highest;
@@ -163,7 +163,7 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     mark->dark = view.dark;
     const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
     const auto bounds = boundsOf(*mark);
-    const auto depth = depthOnScreen(casters->plane, clipFromMesh);
+    const auto depth = depthOnScreen(casters->plane, clipFromScene);
     if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
     mark->eyePlane = *eyePlane;
     mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);
@@ -177,8 +177,8 @@ bool PlanarShadowNode::isLit(const ShadowProbe& probe, const glm::dvec3& point) 
     const auto shadows = [&](const osg::Vec4d& given) {
         const auto inGroup = transformedPlane(toGlm(probe.groupFromTechnique), toGlm(given));
         if (!inGroup) return false;
-        const glm::dvec3 normal(*inGroup);
-        const glm::dvec4 plane(normal, distance(*inGroup, toGlm(probe.origin)));
+        const glm::dvec4 plane = SceneFrame(probe.origin).plane(*inGroup);
+        const glm::dvec3 normal(plane);
         const double height = distance(plane, point);
         if (!(std::abs(height) <= 1e-5 * probe.casters.reach())) return false;
         if (!planarShadowMatrix(plane, probe.light)) return false;

@@ -43,7 +43,7 @@ ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& li
     _groupFromTechnique = osg::computeLocalToWorld(path, false);
     _group = &group;
     _mesh = group.casters();
-    const auto usable = localLight(light.inGroup, _mesh->origin);
+    const auto usable = localLight(light.inGroup, SceneFrame(_mesh->origin));
     if (!usable)
         throw std::invalid_argument(
             "gnomon::ShadowQuery: the light has no finite position or direction. Set its position.");
@@ -68,12 +68,13 @@ ShadowQuery ShadowQuery::exact() const {
 }
 
 bool ShadowQuery::isLit(const osg::Vec3d& point) const {
-    const glm::dvec3 local = toGlm(point - _origin);
+    const glm::dvec3 local = SceneFrame(_origin).point(point);
     return _technique ? _technique->isLit(probe(), local) : probe().reachesFrom(local);
 }
 
 bool ShadowQuery::isBlocked(const osg::Vec3d& from, const osg::Vec3d& to) const {
-    const glm::dvec3 a = toGlm(from - _origin), b = toGlm(to - _origin), along = glm::normalize(b - a);
+    const SceneFrame scene(_origin);
+    const glm::dvec3 a = scene.point(from), b = scene.point(to), along = glm::normalize(b - a);
     const glm::dvec3 start = a + _scene->margin(a) * along, end = b - _scene->margin(b) * along;
     if (!(glm::dot(end - start, along) > 0.0)) return false;
     return _scene->blocked({start, end - start, 1.0});

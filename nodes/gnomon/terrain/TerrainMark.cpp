@@ -29,7 +29,7 @@ std::vector<std::vector<LayerSlice>> TerrainMark::roundsOf(unsigned counters) co
 /// Prisms go up and down far enough: what is beside them in plan is out of their reach.
 MarkJob::BoxTest TerrainMark::boxTest(const osg::Matrixd& eyeFromBox) const {
     if (!coverage) return {};
-    return [cover = coverage, toPlan = eyeFromBox * prismsFromEye](const osg::BoundingBox& box) {
+    return [cover = coverage, toPlan = eyeFromBox * sceneFromEye](const osg::BoundingBox& box) {
         const osg::Vec3d middle = osg::Vec3d(box.center()) * toPlan,
                          half = (osg::Vec3d(box._max) - osg::Vec3d(box._min)) / 2.0;
         glm::dvec2 reach(0.0);
@@ -41,11 +41,11 @@ MarkJob::BoxTest TerrainMark::boxTest(const osg::Matrixd& eyeFromBox) const {
 }
 
 /// Nearer by `decalsNearer`, and by some steps of the depth buffer, of which there are few to far distances.
-glm::dmat4 TerrainMark::clipFromDecals() const {
+glm::dmat4 TerrainMark::clipFromNearerScene() const {
     constexpr double steps = 4.0; // the ground's own depth, rounded, and what interpolation leaves of both
     GLint bits = 24;
     glGetIntegerv(GL_DEPTH_BITS, &bits);
-    glm::dmat4 result = clipFromPrisms;
+    glm::dmat4 result = clipFromScene;
     result[3][2] -= decalsNearer;
     for (int column = 0; column < 4; ++column) result[column][2] -= steps * std::ldexp(2.0, -bits) * result[column][3];
     return result;
@@ -60,7 +60,7 @@ bool TerrainMark::drawBitmaps(osg::RenderInfo& renderInfo) const {
     osg::State& state = *renderInfo.getState();
     state.apply(bitmapProgram.get());
     if (!hasProgram(state)) return false;
-    setUniform(state, "clipFromCaster", clipFromDecals());
+    setUniform(state, "clipFromVertex", clipFromNearerScene());
     setUniform(state, "sheet", 0);
     TileBitmap::draw(renderInfo, std::move(bitmaps));
     return true;
@@ -72,7 +72,7 @@ std::string TerrainMark::markDecals(osg::RenderInfo& renderInfo, ScreenPass& pas
     osg::State& state = *renderInfo.getState();
     state.apply(program.get());
     if (!hasProgram(state)) return noProgram;
-    setUniform(state, "clipFromCaster", clipFromDecals());
+    setUniform(state, "clipFromVertex", clipFromNearerScene());
     pass.testDepth(GL_LEQUAL, false);
     pass.stencilEqual(bit, 0, bit);
     if (fromAbove) glEnable(GL_CULL_FACE);
@@ -95,7 +95,7 @@ std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, uns
     for (const std::vector<LayerSlice>& round : rounds) {
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
-        setUniform(state, "clipFromCaster", clipFromPrisms);
+        setUniform(state, "clipFromVertex", clipFromScene);
         pass.countHolding(counters ? counters : bit);
         for (const LayerSlice& slice : round) prisms[slice.tile]->draw(renderInfo, slice.first, slice.count);
         state.apply();

@@ -31,12 +31,12 @@ public:
     std::vector<SeenDecals> decals;
     std::vector<const TileMesh*> prisms;                      ///< each with a layer or more.
     osg::ref_ptr<const osg::StateSet> program, bitmapProgram; ///< see shaderProgram().
-    glm::dmat4 clipFromPrisms{1.0};
+    glm::dmat4 clipFromScene{1.0};                            ///< see SceneFrame.
     /// Of the depth in clip space: decals are drawn so much nearer, on the same pixels, for the ground is drawn by other
     /// numbers than they are.
     double decalsNearer = 0.0;
     bool fromAbove = false; ///< decals that are turned away are on ground that is not seen.
-    osg::Matrixd prismsFromEye;
+    osg::Matrixd sceneFromEye;
     std::shared_ptr<const PlanCoverage> coverage; ///< of the tiles; null: not known.
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
@@ -48,7 +48,7 @@ protected:
 
 private:
     std::vector<std::vector<LayerSlice>> roundsOf(unsigned counters) const;
-    glm::dmat4 clipFromDecals() const;
+    glm::dmat4 clipFromNearerScene() const;
     std::string markDecals(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
     bool drawBitmaps(osg::RenderInfo& renderInfo) const;
 };

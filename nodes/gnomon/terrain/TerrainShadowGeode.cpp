@@ -146,7 +146,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
         return std::vector<osg::ref_ptr<MarkJob>>();
     };
     if (!hasReceiver()) return refuse("no terrain is named, so there is no shadow. Name it with setReceiver().");
-    const auto usable = localLight(light.inGroup, osg::Vec3d());
+    const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) return refuse("the light has no finite position or direction. Set the light's position.");
     const TerrainFrame frame =
         _cache->frame(view, casters.drawables(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
@@ -156,11 +156,10 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
     mark->program = _program;
     mark->bitmapProgram = _bitmapProgram;
-    mark->clipFromPrisms = seen.clipFromTiles();
+    mark->clipFromScene = seen.clipFromScene();
     mark->decalsNearer = aPixelNearer(view.projection, view.pixels);
     mark->fromAbove = frame.fromAbove && view.options.filter;
-    mark->prismsFromEye = osg::Matrixd::inverse(view.eyeFromGroup) *
-                          osg::Matrixd::translate(-frame.origin.x, -frame.origin.y, -frame.origin.z);
+    mark->sceneFromEye = SceneFrame(frame.origin).sceneFromEye(view);
     const auto bounds = addSeen(frame, seen, *mark);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
@@ -209,7 +208,7 @@ TerrainPlace TerrainShadowGeode::terrain() const {
 /// What compute() finds its shadow from, or why that cannot be.
 TerrainShadowGeode::Request TerrainShadowGeode::requestFor(const osg::Vec4d& light) const {
     Request result;
-    const auto usable = localLight(light, osg::Vec3d());
+    const auto usable = localLight(light, SceneFrame(osg::Vec3d()));
     if (!_object) result.refusal = "no object is set, so there is no shadow. Set one with setObjectGraphic().";
     if (!getReceiver().node) result.refusal = "no terrain is named, so there is no shadow. Name it with setReceiver().";
     if (!usable) result.refusal = "the light has no finite position or direction. Give one of them.";

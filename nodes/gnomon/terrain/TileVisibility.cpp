@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/Convert.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/terrain/TileShadows.h>
 #include <gnomon/terrain/TileVisibility.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <array>
@@ -35,8 +34,8 @@ double nearestOf(const std::array<glm::dvec4, 8>& corners) {
 /// How many pixels long what has a length of 1 can be where w is 1. A short way on the screen is (x - u w, y - v w) / w for
 /// one of (x, y, w) in clip space from a place that is seen at (u, v); its length is convex in u and v, so that the most is
 /// at a corner of the screen.
-double mostPixelsOf(const glm::dmat4& clipFromTiles, const osg::Vec2d& pixels) {
-    const auto part = [&](int row) { return glm::dvec3(glm::row(clipFromTiles, row)); };
+double mostPixelsOf(const glm::dmat4& clipFromScene, const osg::Vec2d& pixels) {
+    const auto part = [&](int row) { return glm::dvec3(glm::row(clipFromScene, row)); };
     double most = 0.0;
     for (const double u : {-1.0, 1.0})
         for (const double v : {-1.0, 1.0}) {
@@ -69,13 +68,13 @@ glm::dvec3 marginOf(const TileShadows& tile, double moved) {
 
 TileVisibility::TileVisibility(const ViewFrame& view, const glm::dvec3& origin)
     : _options(view.options),
-      _clipFromTiles(glm::translate(toGlm(view.eyeFromGroup * view.projection), origin)),
-      _mostPixels(mostPixelsOf(_clipFromTiles, view.pixels)) {}
+      _clipFromScene(SceneFrame(origin).clipFromScene(view)),
+      _mostPixels(mostPixelsOf(_clipFromScene, view.pixels)) {}
 
 TileVisibility::Shown TileVisibility::shown(const TileMesh& mesh, const TileShadows& tile, double moved) const {
     if (mesh.layers() == 0) return {};
     const glm::dvec3 margin = marginOf(tile, moved);
-    const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromTiles);
+    const auto corners = boxCorners(mesh.low - margin, mesh.high + margin, _clipFromScene);
     thread_local std::vector<glm::dvec4> points; // memory that is used again
     points.assign(corners.begin(), corners.end());
     const auto bounds = screenBounds(points);
@@ -111,8 +110,8 @@ bool TileVisibility::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& hi
     const glm::dvec3 way = -glm::dvec3(light) / light.z * fall; // of the highest, to the lowest ground
     const glm::dvec3 more(margin * glm::length(high - low - way));
     std::array<glm::dvec4, 16> corners;
-    const auto from = boxCorners(low - more, high + more, _clipFromTiles),
-               to = boxCorners(low - more + way, high + more + way, _clipFromTiles);
+    const auto from = boxCorners(low - more, high + more, _clipFromScene),
+               to = boxCorners(low - more + way, high + more + way, _clipFromScene);
     std::copy(to.begin(), to.end(), std::copy(from.begin(), from.end(), corners.begin()));
     return mayBeInView(corners);
 }

@@ -14,11 +14,11 @@ struct TileShadows;
 /// What a view shows of shadows on terrain. With CompositorOptions::filter off all counts as seen, and as seen exactly.
 class TileVisibility {
 public:
-    /// @param origin  of the tiles, group's frame.
+    /// @param origin  of the tiles' scene, see SceneFrame.
     TileVisibility(const ViewFrame& view, const glm::dvec3& origin);
 
     const CompositorOptions& options() const { return _options; }
-    const glm::dmat4& clipFromTiles() const { return _clipFromTiles; }
+    const glm::dmat4& clipFromScene() const { return _clipFromScene; }
     /// Where a tile's mesh is on the screen; nullopt if nothing of it is to be drawn: it is empty, out of sight, or its widest
     /// shadow is smaller than a pixel.
     std::optional<ScreenRect> seen(const TileMesh& mesh, const TileShadows& tile) const;
@@ -48,7 +48,7 @@ private:
     Shown shown(const TileMesh& mesh, const TileShadows& tile, double moved) const;
 
     const CompositorOptions _options;
-    const glm::dmat4 _clipFromTiles;
+    const glm::dmat4 _clipFromScene;
     const double _mostPixels; ///< that a length of 1 can be where w is 1, exactly.
 };
 

@@ -7,8 +7,6 @@
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/traced/TracedMark.h>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <stdexcept>
 
 namespace gnomon {
@@ -23,7 +21,8 @@ TracedShadowTechnique::~TracedShadowTechnique() = default;
 std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                                   const FrameCasters& casters) const {
     const CasterMesh& mesh = casters.mesh();
-    const auto usable = localLight(light.inGroup, mesh.origin);
+    const SceneFrame scene(mesh.origin);
+    const auto usable = localLight(light.inGroup, scene);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
@@ -31,7 +30,7 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
     osg::ref_ptr<TracedMark> mark = new TracedMark;
     mark->light = *usable;
     mark->resolved = _resolved;
-    mark->clipFromScene = glm::translate(toGlm(view.eyeFromGroup * view.projection), toGlm(mesh.origin));
+    mark->clipFromScene = scene.clipFromScene(view);
     const auto bounds = shadowBounds(mesh, mark->clipFromScene, *usable);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
