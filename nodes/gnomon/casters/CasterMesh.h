@@ -9,11 +9,14 @@
 #include <osg/Referenced>
 #include <osg/ref_ptr>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace gnomon {
+
+class RayScene;
 
 /// The casters of a group as one triangle mesh, in one revision. ShadowCasterGroup::casters() makes it.
 ///
@@ -44,6 +47,9 @@ public:
     unsigned invalidTriangles = 0;                 ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
     std::string invalidNode;                       ///< Name of the first drawable with an invalid triangle.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
+
+    /// The tree of rays over this mesh, as long as anyone holds it. RaySceneCache alone uses it, under its lock.
+    mutable std::weak_ptr<const RayScene> tree;
 
 protected:
     ~CasterMesh() override = default;

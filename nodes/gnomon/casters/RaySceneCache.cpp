@@ -3,8 +3,6 @@
 #include <gnomon/casters/RaySceneCache.h>
 
 #include <OpenThreads/ScopedLock>
-#include <iterator>
-#include <map>
 #include <tbb/task_arena.h>
 
 namespace gnomon {
@@ -12,32 +10,13 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-/// A tree and the casters that it is of: while the one lives, nothing else can have the other's address.
-struct Tree {
-    Tree(const CasterMesh& mesh, const RayScene::ProgressLine& progress)
-        : casters(&mesh), scene(soupOf(mesh), progress) {}
-
-    osg::ref_ptr<const CasterMesh> casters;
-    RayScene scene;
-};
-
-/// All that are in use, whoever asked for them first.
-struct TreesInUse {
-    OpenThreads::Mutex mutex;
-    std::map<const CasterMesh*, std::weak_ptr<Tree>> trees;
-};
-
-TreesInUse& treesInUse() {
-    static TreesInUse all;
-    return all;
-}
-
 /// Isolated: a thread that waits for others must not take up work of the caller's, which might ask for a tree in turn.
-std::shared_ptr<Tree> build(const CasterMesh& mesh, const std::string& name) {
+std::shared_ptr<const RayScene> build(const CasterMesh& mesh, const std::string& name) {
     ProgressLine progress("gnomon: " + name + " builds a tree of " + std::to_string(mesh.triangles->size() / 3) +
                           " triangles");
-    return tbb::this_task_arena::isolate(
-        [&] { return std::make_shared<Tree>(mesh, [&progress](double share) { progress.show(share); }); });
+    return tbb::this_task_arena::isolate([&] {
+        return std::make_shared<const RayScene>(soupOf(mesh), [&progress](double share) { progress.show(share); });
+    });
 }
 
 struct Found {
@@ -45,19 +24,14 @@ struct Found {
     bool built;
 };
 
+/// One at a time, for all who ask.
 Found findOrBuild(const CasterMesh& mesh, const std::string& name) {
-    TreesInUse& all = treesInUse();
-    Lock lock(all.mutex);
-    std::shared_ptr<Tree> tree = all.trees[&mesh].lock();
-    const bool built = !tree;
-    if (built) {
-        for (auto entry = all.trees.begin(); entry != all.trees.end();)
-            entry = entry->second.expired() ? all.trees.erase(entry) : std::next(entry);
-        tree = build(mesh, name);
-        all.trees[&mesh] = tree;
-    }
-    const RayScene* scene = &tree->scene;
-    return {std::shared_ptr<const RayScene>(std::move(tree), scene), built};
+    static OpenThreads::Mutex mutex;
+    Lock lock(mutex);
+    if (std::shared_ptr<const RayScene> scene = mesh.tree.lock()) return {scene, false};
+    const std::shared_ptr<const RayScene> scene = build(mesh, name);
+    mesh.tree = scene;
+    return {scene, true};
 }
 
 } // namespace
