@@ -2,10 +2,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS gnomon gnomon_math gnomon_metrics gnomon_headless gnomon_headless_egl EXPORT gnomonTargets)
-foreach(room src nodes)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/gnomon DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-endforeach()
+install(TARGETS gnomon gnomon_math gnomon_metrics gnomon_headless gnomon_headless_egl EXPORT gnomonTargets FILE_SET HEADERS)
 install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_SOURCE_DIR}/cmake/gnomonConfig.cmake ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake

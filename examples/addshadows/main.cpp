@@ -13,7 +13,8 @@
 int main(int argc, char** argv) {
     osg::ref_ptr<osg::Node> scene = argc == 2 ? osgDB::readRefNodeFile(argv[1]) : nullptr;
     if (!scene) {
-        std::cerr << "addshadows: one scene file with something in the plane z = 0 is needed, e.g. data/lab8.osgt.\n";
+        std::cerr
+            << "addshadows: no scene file can be read. Give one with a ground at z = 0, for example data/lab8.osgt.\n";
         return 1;
     }
     osgViewer::Viewer viewer;

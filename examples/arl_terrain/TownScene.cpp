@@ -2,7 +2,7 @@
 #include "TownScene.h"
 #include "TownSite.h"
 
-#include <gnomon/Progress.h>
+#include <gnomon/ProgressLine.h>
 #include <gnomon/TerrainGround.h>
 
 #include <osg/Geode>
@@ -61,7 +61,7 @@ osg::ref_ptr<osg::Group> makeScene(ViewOptions& view, double hour, osg::HeightFi
     setLooks(view, hour);
     osg::ref_ptr<osg::Group> scene = new osg::Group;
     scene->addChild(drawTerrain(field));
-    Progress progress("building the town");
+    ProgressLine progress("building the town");
     scene->addChild(makeTown(*ground, middle, plan, [&](double share) { progress.show(share); }));
     return scene;
 }

@@ -19,7 +19,7 @@ SunPosition townSun(double hour);
 class TownScene {
 public:
     /// @param view    shadows and picture's size; what else it says is not looked at.
-    /// @param plan    of the town. Progress is shown on a terminal.
+    /// @param plan    of the town. ProgressLine is shown on a terminal.
     /// @param terrain metres. Its origin becomes 0, so that floats suffice.
     /// @throws std::runtime_error, one sentence, if it has no place for a town.
     TownScene(ViewOptions view, double hour, osg::HeightField& terrain, const TownPlan& plan = {});

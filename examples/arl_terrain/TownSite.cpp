@@ -58,8 +58,9 @@ double unfitness(const osg::HeightField& field, const Cells& cells) {
 
 [[noreturn]] void refuse(const osg::HeightField& field, double side) {
     std::ostringstream sentence;
-    sentence << "the elevation model has no place for the town: " << side << " m each way with no height missing, and "
-             << "the model, whose unit must be metres, is "
+    sentence << "the elevation model has no place for the town: " << side
+             << " m each way are needed, with no height missing. "
+             << "The model, whose unit must be metres, is "
              << (field.getNumColumns() - 1) * double(field.getXInterval()) << " by "
              << (field.getNumRows() - 1) * double(field.getYInterval()) << ".";
     throw std::runtime_error(sentence.str());

@@ -110,19 +110,19 @@ private:
 };
 
 const std::vector<Key<FakeShadow>> keys = {
-    {'j', "The cube turns or stands.", [](FakeShadow& c, Hud&) { c.toggleMotion(); }},
-    {'k', "The light overhead, as in the notes' code, or at infinity elsewhere.",
+    {'j', "The cube turns or stands still.", [](FakeShadow& c, Hud&) { c.toggleMotion(); }},
+    {'k', "Light overhead as in the notes' code, or at infinity from the side.",
      [](FakeShadow& c, Hud&) { c.toggleOverhead(); }},
-    {'x', "Darken a pixel once, or once for each face over it, as the notes' code does.",
+    {'x', "Darken a pixel once, or once for each face over it as in the notes' code.",
      [](FakeShadow& c, Hud&) { c.toggleCure(); }},
     {'g', "Hide or show the text.", [](FakeShadow&, Hud& hud) { hud.toggle(); }},
 };
 
 int run(osg::ArgumentParser& arguments) {
-    const ExampleText text = {"cs4470_fakeshadow", "shows the fake shadows of CS-4470.",
-                              "Shows a cube over a checkerboard and its shadow of a light at infinity: CS-4470, \"Fake "
-                              "Shadows\".\n",
-                              "cs4470_fakeshadow --keys x --out twice.png"};
+    const ExampleText text = {
+        "cs4470_fakeshadow", "shows the fake shadows of CS-4470.",
+        "Shows a cube over a checkerboard and its shadow from a light at infinity, after CS-4470, \"Fake Shadows\".\n",
+        "cs4470_fakeshadow --keys x --out twice.png"};
     ExampleOptions options;
     options.view.width = 640, options.view.height = 512; // aspect 1.25
     options.view.fovy = 45.0;

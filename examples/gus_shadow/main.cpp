@@ -30,7 +30,7 @@ glm::dvec4 planeOf(const Floor& floor) {
     const auto plane = gnomon::planeFromPoints(gnomon::toGlm(floor.corner[0]), gnomon::toGlm(floor.corner[1]),
                                                gnomon::toGlm(floor.corner[2]));
     if (!plane)
-        throw std::invalid_argument("--points lie on one line, which gives no plane; three that do not are allowed.");
+        throw std::invalid_argument("--points lie on one line and give no plane. Give three points that do not.");
     return *plane;
 }
 
@@ -82,8 +82,8 @@ public:
     std::vector<std::string> describe() const {
         std::ostringstream plane, light;
         plane << "plane (" << _plane.x << ", " << _plane.y << ", " << _plane.z << ", " << _plane.w << ")";
-        light << (_floor.light.w() == 0.0 ? "way to the light (" : "light at (") << _floor.light.x() << ", "
-              << _floor.light.y() << ", " << _floor.light.z() << ") (k: place or way, or drag)";
+        light << (_floor.light.w() == 0.0 ? "direction towards the light (" : "light at (") << _floor.light.x() << ", "
+              << _floor.light.y() << ", " << _floor.light.z() << ") (k: position or direction, or drag)";
         const bool blends = _setup.blends();
         std::vector<std::string> lines = {
             plane.str(), light.str(), std::string("composite: ") + (blends ? "blend" : "relight") + " (r: the other)",
@@ -110,32 +110,32 @@ private:
 };
 
 const std::vector<Key<GusShadow>> keys = {
-    {'j', "The box turns or stands.", [](GusShadow& c, Hud&) { c.toggleMotion(); }},
-    {'k', "The light's numbers are its place, or the way towards it.", [](GusShadow& c, Hud&) { c.toggleKind(); }},
-    {'r', "Relight or blend.", [](GusShadow& c, Hud&) { c.toggleComposite(); }},
+    {'j', "The box turns or stands still.", [](GusShadow& c, Hud&) { c.toggleMotion(); }},
+    {'k', "--light is the light's position, or the direction towards it.", [](GusShadow& c, Hud&) { c.toggleKind(); }},
+    {'r', "Switch between relight and blend.", [](GusShadow& c, Hud&) { c.toggleComposite(); }},
     {'g', "Hide or show the text.", [](GusShadow&, Hud& hud) { hud.toggle(); }},
 };
 
 Options ownOptions(Floor& into) {
     return {{"--points", "x,y,z,x,y,z,x,y,z",
-             "three corners of the floor, counter-clockwise seen from its lit side, -1e6 to 1e6 each",
+             "three points of the floor, counter-clockwise as seen from its lit side, -1e6 to 1e6 each",
              "-4,-3,0,4,-3,0,4,3,1",
              [&into](const std::string& text) {
                  const std::vector<double> n = readNumbers(text, 9, -1e6, 1e6);
                  for (std::size_t i = 0; i < 3; ++i) into.corner[i] = {n[3 * i], n[3 * i + 1], n[3 * i + 2]};
              }},
-            {"--light", "x,y,z,w", "w = 1: the light's place; w = 0: the way towards it; -1e6 to 1e6 each", "3,-2,6,1",
-             [&into](const std::string& text) {
+            {"--light", "x,y,z,w", "w = 1: position of the light; w = 0: direction towards it; -1e6 to 1e6 each",
+             "3,-2,6,1", [&into](const std::string& text) {
                  const std::vector<double> n = readNumbers(text, 4, -1e6, 1e6);
                  into.light = {n[0], n[1], n[2], n[3]};
              }}};
 }
 
 int run(osg::ArgumentParser& arguments) {
-    const ExampleText text = {"gus_shadow", "shows GusOnGames' box and its shadow.",
-                              "Shows a box and its shadow on the plane through three points: GusOnGames, \"adding the "
-                              "textures\".\n",
-                              "gus_shadow --points 0,0,0,9,0,0,9,9,2 --out gus.png"};
+    const ExampleText text = {
+        "gus_shadow", "shows GusOnGames' box and its shadow.",
+        "Shows a box and its shadow on the plane through three points, after GusOnGames, \"adding the textures\".\n",
+        "gus_shadow --points 0,0,0,9,0,0,9,9,2 --out gus.png"};
     Floor floor;
     return runExample(arguments, text, ownOptions(floor), {}, keys, [&](const auto&) { return GusShadow(floor); });
 }

@@ -161,27 +161,28 @@ void next(HaloMagic& c, Hud&) {
 const std::vector<Key<HaloMagic>> keys = {
     {'p', "Pulse: the halo grows and shrinks once.", [](HaloMagic& c, Hud&) { c.pulse(); }},
     {'k', "Show the halo at its largest.", flip<&Switches::shownHalo>},
-    {'e', "Halo blended or opaque.", flip<&Switches::blendedHalo>},
-    {'v', "Halo of the whole model, of its parts, or of pixels.", next<&Switches::shape, 3>},
-    {'q', "Halo stencil: without it the halo covers the model, again and again.", flip<&Switches::haloStencil>},
+    {'e', "Blended or opaque halo.", flip<&Switches::blendedHalo>},
+    {'v', "Halo around the whole model, around its parts, or by pixels.", next<&Switches::shape, 3>},
+    {'q', "Stencil for the halo; without it the halo covers the model several times.", flip<&Switches::haloStencil>},
     {'n', "Next model: dinosaur, sphere, cube, icosahedron.", next<&Switches::model, 4>},
     {'j', "Motion: the dinosaur jumps, the light circles.", flip<&Switches::motion>},
     {'u', "Light.", flip<&Switches::light>},
-    {'9', "Light directional (arrow) or positional (ball).", flip<&Switches::directional>},
-    {'x', "Texture of the floor: nearest texel, linear, mipmap, none.", next<&Switches::texture, 4>},
+    {'9', "Directional light (arrow) or positional light (ball).", flip<&Switches::directional>},
+    {'x', "Texture filter of the floor: nearest, linear, mipmap, no texture.", next<&Switches::texture, 4>},
     {'a', "Shadows.", flip<&Switches::shadows>},
-    {'r', "Shadows relight a lit floor, or blend over an unlit one as the source does.", flip<&Switches::relight>},
-    {'z', "Shadow stencil: without it pixels are darkened twice.", flip<&Switches::shadowStencil>},
-    {'i', "Shadow offset: without it the shadow fights the floor.", flip<&Switches::shadowOffset>},
+    {'r', "Shadows relight a lit floor, or blend over an unlit one as in the source.", flip<&Switches::relight>},
+    {'z', "Stencil for the shadow; without it pixels are darkened twice.", flip<&Switches::shadowStencil>},
+    {'i', "Depth offset for the shadow; without it the shadow z-fights with the floor.", flip<&Switches::shadowOffset>},
     {'d', "Reflection.", flip<&Switches::reflection>},
-    {'y', "Reflection stencil: without it the mirrored model hangs beside it.", flip<&Switches::reflectionStencil>},
+    {'y', "Stencil for the reflection; without it the mirrored model shows beside the mirror.",
+     flip<&Switches::reflectionStencil>},
     {'o', "The object and its pillar.", flip<&Switches::object>},
     {'g', "Hide or show the text.", [](HaloMagic&, Hud& hud) { hud.toggle(); }},
 };
 
 int run(osg::ArgumentParser& arguments) {
     const ExampleText text = {"halomagic", "shows shadows, reflections and halos at once.",
-                              "Shows a dinosaur's shadow, reflection and halo: M. Kilgard's halomagic.c.\n",
+                              "Shows a dinosaur's shadow, reflection and halo, after M. Kilgard's halomagic.c.\n",
                               "halomagic --keys kv --out halo.png"};
     ExampleOptions options;
     options.view.width = options.view.height = 600;

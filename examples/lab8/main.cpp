@@ -44,7 +44,7 @@ bool ask(const char* what, const osg::Vec3d& usual, std::optional<osg::Vec3d>& a
         try {
             answer = line.find_first_not_of(" \t\r") == std::string::npos ? usual : readPoint(line);
         } catch (const std::invalid_argument& error) {
-            std::cout << "That cannot be used; " << error.what() << std::endl;
+            std::cout << "That cannot be used. " << error.what() << std::endl;
         }
     }
     return true;
@@ -130,7 +130,7 @@ private:
 };
 
 const std::vector<Key<Lab8>> keys = {
-    {'n', "Shadow by the node, by the handout's vertex shader, or none.", [](Lab8& c, Hud&) { c.next(); }},
+    {'n', "Shadow by PlanarShadowNode, by the handout's vertex shader, or none.", [](Lab8& c, Hud&) { c.next(); }},
     {'u', "Raise the light by 0.05.",
      [](Lab8& c, Hud&) {
          c.moveLight({0.0, 0.05, 0.0});
@@ -146,18 +146,17 @@ Options ownOptions(Answers& into) {
     const auto option = [](const char* name, const char* says, const char* usual, std::optional<osg::Vec3d>& place) {
         return Option{name, "(x,y,z)", says, usual, [&place](const std::string& t) { place = readPoint(t); }};
     };
-    return {option("--eye", "where the eye is, y up, -1e6 to 1e6 each; brackets may be left out",
-                   "asked for, or 0,0.1,0.1", into.eye),
-            option("--at", "the point looked at", "asked for, or 0,0,0", into.at),
-            option("--light", "where the light is", "asked for, or 0,5,0", into.light)};
+    return {option("--eye", "camera position, y up, -1e6 to 1e6 each; brackets are optional", "asked for, or 0,0.1,0.1",
+                   into.eye),
+            option("--at", "point that the camera looks at, -1e6 to 1e6 each", "asked for, or 0,0,0", into.at),
+            option("--light", "position of the light, -1e6 to 1e6 each", "asked for, or 0,5,0", into.light)};
 }
 
 int run(osg::ArgumentParser& arguments) {
     const ExampleText text = {
         "lab8", "shows Lab 8's point-light shadows.",
-        "Shows a sphere and a cube on the ground y = 0 with their shadows of a point light: Lab 8, "
-        "\"Fake Shadow\".\n\nAsks for the eye, the point looked at and the light where no option or "
-        "picture says them.\n",
+        "Shows a sphere and a cube on the ground y = 0 with their shadows from a point light, after Lab 8, \"Fake "
+        "Shadow\".\n\nAsks for eye, point and light if no option gives them and a window is opened.\n",
         "lab8 --eye 0,0.3,0.3 --at 0,0,0 --light 1,2,1 --out lab8.png"};
     Answers answers;
     ExampleOptions defaults;

@@ -154,33 +154,33 @@ void bias(Shad& c, Hud&) {
 }
 
 const std::vector<Key<Shad>> keys = {
-    {'v', "View from the next: the eye, each light; there drags move it.", [](Shad& c, Hud&) { c.nextView(); }},
-    {'n', "Shadows by a pass a light, added, or by Gnomon's compositor.", flip<&Switches::compositor>},
-    {'a', "Turn the light that was last looked from, else light 1, by 10 degrees.",
+    {'v', "View from the eye, then from each light, where drags move it.", [](Shad& c, Hud&) { c.nextView(); }},
+    {'n', "Shadows by one added pass for each light, or by Gnomon's compositor.", flip<&Switches::compositor>},
+    {'a', "Turn the light of the last light view (at first light 1) by 10 degrees.",
      [](Shad& c, Hud&) { c.moveLight(0.0, 10.0, 0.0); }},
     {'z', "Raise that light by 5 degrees.", [](Shad& c, Hud&) { c.moveLight(5.0, 0.0, 0.0); }},
-    {'j', "Disco: the lights move in turn, the eye turns.", [](Shad& c, Hud&) { c.toggleDisco(); }},
+    {'j', "Disco: the lights move in turn, and the eye turns.", [](Shad& c, Hud&) { c.toggleDisco(); }},
     {'k', "Coloured or white lights.", flip<&Switches::colours>},
-    {'o', "Boxes where the lights are.", flip<&Switches::boxes>},
-    {'x', "Compare with 2 x 2 texels, or with 4 x 4.", flip<&Switches::bicubic>},
-    {'q', "Bias less by 0.0001: surfaces darken themselves less.", bias<-1>},
-    {'e', "Bias more by 0.0001.", bias<1>},
-    {'d', "Displacement of what a map holds, by its slope.", flipMaps<&Switches::displaced>},
-    {'u', "Maps copied fast, or slowly through the CPU.", flipMaps<&Switches::fast>},
+    {'o', "Boxes at the lights.", flip<&Switches::boxes>},
+    {'x', "Filter 2 x 2 texels, or 4 x 4.", flip<&Switches::bicubic>},
+    {'q', "Decrease the bias by 0.0001: surfaces shadow themselves less.", bias<-1>},
+    {'e', "Increase the bias by 0.0001.", bias<1>},
+    {'d', "Displace the depths in the maps by their slope.", flipMaps<&Switches::displaced>},
+    {'u', "Copy the maps fast, or slowly through the CPU.", flipMaps<&Switches::fast>},
     {'g', "Hide or show the text.", [](Shad&, Hud& hud) { hud.toggle(); }},
 };
 
 int run(osg::ArgumentParser& arguments) {
-    const ExampleText text = {"shad", "shows two-pass z-buffer shadows.",
-                              "Shows objects, y up, and their shadows of several spotlights: CS-4470's shad.c.\n\n"
-                              "Shift and the left button turn the light last looked from, shift and the right one move "
-                              "it in and out.\n",
-                              "shad data/shad.osgt --keys k --out shad.png", "FILE..."};
+    const ExampleText text = {
+        "shad", "shows two-pass z-buffer shadows.",
+        "Shows objects, y up, and their shadows from several spotlights, after CS-4470's shad.c.\n\nShift and the left "
+        "button turn the light of the last light view. Shift and the right button move it in and out.\n",
+        "shad data/shad.osgt --keys k --out shad.png", "FILE..."};
     int lights = 3;
     bool count = false;
     const Options own = {
-        {"--lights", "N", "how many, 1 to 4", "3", [&](const auto& t) { lights = readWhole(t, 1, 4); }},
-        {"--count", "", "say at the end how often each light's map was drawn", "", [&](const auto&) { count = true; }}};
+        {"--lights", "N", "number of lights, 1 to 4", "3", [&](const auto& t) { lights = readWhole(t, 1, 4); }},
+        {"--count", "", "print at the end how often each map was drawn", "", [&](const auto&) { count = true; }}};
     ExampleOptions usual;
     usual.view.width = width, usual.view.height = height;
     usual.view.eye = Orbit{25.0, 30.0, 2.3}.place(), usual.view.center = osg::Vec3d();

@@ -51,7 +51,7 @@ void takeValue(const Option& option, const std::string& value) {
     try {
         option.take(value);
     } catch (const std::invalid_argument& error) {
-        refuse(option.name + " " + value + " cannot be used; " + error.what());
+        refuse(option.name + " " + value + " cannot be used. " + error.what());
     }
 }
 
@@ -78,7 +78,7 @@ void readOptions(osg::ArgumentParser& arguments, const Options& table) {
     for (const Option& option : table) {
         int times = 0;
         for (int position = arguments.find(option.name); position > 0; position = arguments.find(option.name)) {
-            if (++times > 1 && !option.repeats) refuse(option.name + " is given twice; once is allowed.");
+            if (++times > 1 && !option.repeats) refuse(option.name + " is given twice. Give it once.");
             takeOne(arguments, option, position);
         }
     }
@@ -87,7 +87,7 @@ void readOptions(osg::ArgumentParser& arguments, const Options& table) {
 void refuseUnknownOptions(osg::ArgumentParser& arguments) {
     for (int i = 1; i < arguments.argc(); ++i)
         if (arguments[i][0] == '-')
-            refuse(std::string("there is no option ") + arguments[i] + "; --help lists those there are.");
+            refuse(std::string("there is no option ") + arguments[i] + ". See --help for all options.");
 }
 
 /// They take the argument that follows them, whether it is there or not.
@@ -99,7 +99,7 @@ void readOsgOptions(osg::ArgumentParser& arguments) {
 
 std::string osgOptionsHelp() {
     return "  -O TEXT, -e EXT, -l LIBRARY\n      as in other OpenSceneGraph programs; OBJ files are turned from y up "
-           "to z up, but with -O noRotation\n";
+           "to z up, unless -O noRotation is given\n";
 }
 
 std::string describeOptions(const Options& table) {
@@ -115,14 +115,14 @@ std::string describeOptions(const Options& table) {
 
 double readNumber(const std::string& text, double low, double high) {
     const double number = parse(text);
-    if (!(number >= low && number <= high)) refuse("allowed: a number from " + rangeText(low, high) + ".");
+    if (!(number >= low && number <= high)) refuse("Allowed: a number from " + rangeText(low, high) + ".");
     return number;
 }
 
 int readWhole(const std::string& text, int low, int high) {
     const double number = parse(text);
     if (!(number >= low && number <= high) || number != std::floor(number))
-        refuse("allowed: a whole number from " + std::to_string(low) + " to " + std::to_string(high) + ".");
+        refuse("Allowed: a whole number from " + std::to_string(low) + " to " + std::to_string(high) + ".");
     return static_cast<int>(number);
 }
 
@@ -133,8 +133,8 @@ std::vector<double> readNumbers(const std::string& text, std::size_t count, doub
         if (number >= low && number <= high) numbers.push_back(number);
     }
     if (numbers.size() != count || split(text).size() != count)
-        refuse("allowed: " + std::to_string(count) + " numbers from " + rangeText(low, high) +
-               ", commas between them.");
+        refuse("Allowed: " + std::to_string(count) + " numbers from " + rangeText(low, high) +
+               ", separated by commas.");
     return numbers;
 }
 

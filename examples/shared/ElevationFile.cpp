@@ -28,7 +28,7 @@ osg::ref_ptr<osg::HeightField> readElevation(const std::string& file, const std:
         throw std::runtime_error(damagedSentence(file, elevation));
     if (isLevelAtZero(*field))
         throw std::runtime_error(quoted(file) +
-                                 " holds no height but 0: the data that it names may be missing or damaged.");
+                                 " has the height 0 everywhere. The data that it refers to may be missing or damaged.");
     return field;
 }
 

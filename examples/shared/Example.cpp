@@ -15,22 +15,22 @@ using Text = const std::string&;
 constexpr int mostFrames = 10000;
 
 int readStencilBits(Text text) {
-    if (text != "0" && text != "8") throw std::invalid_argument("allowed: 0, 8.");
+    if (text != "0" && text != "8") throw std::invalid_argument("Allowed: 0, 8.");
     return text == "0" ? 0 : 8;
 }
 
 Options exampleOptions(ExampleOptions& into, bool& help, const std::string& program) {
     Options table;
     addSize(table, into.view);
-    table.push_back({"--out", "IMAGE", "draw one picture into this file, without a window or display", "a window",
+    table.push_back({"--out", "IMAGE", "write one picture to this file, without a window or display", "a window",
                      [&into](Text t) { into.out = t; }});
     table.push_back({"--offscreen", "", "the same as --out " + program + ".png", "",
                      [&into, program](Text) { into.out = program + ".png"; }});
     table.push_back(
-        {"--keys", "LETTERS", "keys, see below, that are pressed before", "none", [&into](Text t) { into.keys = t; }});
-    table.push_back({"--frames", "N", "frames drawn for the picture, the last is written; 1 to 10000, 30 a second", "1",
+        {"--keys", "LETTERS", "keys to press first, see KEYS below", "none", [&into](Text t) { into.keys = t; }});
+    table.push_back({"--frames", "N", "frames to draw, 30 a second; the last one is written; 1 to 10000", "1",
                      [&into](Text t) { into.frames = readWhole(t, 1, mostFrames); }});
-    table.push_back({"--stencil-bits", "0|8", "of the picture's framebuffer", "8",
+    table.push_back({"--stencil-bits", "0|8", "stencil bits of the picture's framebuffer", "8",
                      [&into](Text t) { into.stencilBits = readStencilBits(t); }});
     table.push_back({"--help", "", "print this", "", [&help](Text) { help = true; }});
     return table;
@@ -44,7 +44,7 @@ Options joined(Options first, const Options& second) {
 std::string helpText(const ExampleText& text, const Options& table, const std::string& keys) {
     return text.program + " [OPTION...]" + (text.files.empty() ? "" : " " + text.files) + "\n" + text.about + "\n" +
            describeOptions(table) + osgOptionsHelp() + "\nKEYS\n" + keys +
-           "  m        Time that a frame takes to draw.\n" + windowKeysHelp(text.program) +
+           "  m        Show or hide the time that a frame takes to draw.\n" + windowKeysHelp(text.program) +
            "\nDrag with the left mouse button to move the camera, with the middle one to move the light.\n"
            "\nExample: " +
            text.example + "\n";
@@ -54,14 +54,14 @@ void takeFilesOf(const ExampleText& text, osg::ArgumentParser& arguments, ViewOp
     if (!text.files.empty()) {
         takeFiles(arguments, into);
         if (into.files.empty())
-            throw std::invalid_argument("no scene file is given; usage: " + text.program + " [OPTION...] " +
+            throw std::invalid_argument("no scene file is given. Usage: " + text.program + " [OPTION...] " +
                                         text.files);
         return;
     }
     refuseUnknownOptions(arguments);
     if (arguments.argc() > 1)
         throw std::invalid_argument(std::string("\"") + arguments[1] +
-                                    "\" is no option; --help lists those there are.");
+                                    "\" is not an option. See --help for all options.");
 }
 
 } // namespace
@@ -88,7 +88,8 @@ osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string
 
 void writePicture(const ExampleText& text, const ExampleOptions& options, SceneSetup& setup, OutputFile& file) {
     if (options.stencilBits == 0)
-        throw std::runtime_error("at least 1 bit of stencil is needed, and this framebuffer has none.");
+        throw std::runtime_error(
+            "this framebuffer has no stencil bits, so there can be no shadow. Give --stencil-bits 8.");
     const osg::ref_ptr<osg::Image> picture =
         ScenePicture(options.view, setup, options.stencilBits).draw(options.frames);
     for (const std::string& cause : setup.diagnose()) std::cerr << text.program << ": note: " << cause << std::endl;

@@ -50,7 +50,7 @@ void press(const std::string& letters, const std::vector<Key<Controls>>& keys, C
         const Key<Controls>* key = findKey(keys, letter);
         if (!key)
             throw std::invalid_argument(std::string("--keys: there is no key ") + letter +
-                                        "; --help lists those there are.");
+                                        ". See --help for all keys.");
         key->act(controls, hud);
     }
 }

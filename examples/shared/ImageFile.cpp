@@ -44,8 +44,9 @@ osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& p
 metrics::Picture readGrey(const std::string& file, const std::string& program) {
     const osg::ref_ptr<osg::Image> image = readImage(file, program);
     if (!isUnderstood(*image))
-        throw std::runtime_error(quoted(file) + " holds pixels of a kind that cannot be compared: grey or colour, in "
-                                                "bytes, shorts or floats, is needed.");
+        throw std::runtime_error(
+            quoted(file) +
+            " has a pixel format that cannot be compared. Give grey or colour in bytes, shorts or floats.");
     if (image->getOrigin() == osg::Image::TOP_LEFT) image->flipVertical();
     return greysOf(*image);
 }

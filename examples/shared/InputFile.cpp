@@ -48,8 +48,8 @@ bool isThere(const std::string& file) {
 std::string quoted(const std::string& file) { return "\"" + file + "\""; }
 
 std::string damagedSentence(const std::string& file, const FileKind& kind) {
-    return quoted(file) + " cannot be read as " + kind.article + ": it is damaged or not what its name says (" +
-           kind.formats + " can be read).";
+    return quoted(file) + " cannot be read as " + kind.article +
+           ": it is damaged, or it does not match its name. Allowed: " + kind.formats + ".";
 }
 
 std::optional<std::string> fileBytes(const std::filesystem::path& file) {
@@ -61,7 +61,7 @@ std::optional<std::string> fileBytes(const std::filesystem::path& file) {
 
 ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, const ReadMethod& read) {
     if (osgDB::fileType(file) == osgDB::DIRECTORY)
-        throw std::runtime_error(quoted(file) + " is a directory; " + kind.article + " file is needed.");
+        throw std::runtime_error(quoted(file) + " is a directory. Give " + kind.article + " file.");
     ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), read);
     if (result.validObject()) return result;
     if (!isThere(file) && result.status() != ReadResult::ERROR_IN_READING_FILE)

@@ -33,12 +33,12 @@ void readWhole(const json& object, const char* name, Whole& value) {
     const json& found = field(object, name);
     const bool fits =
         found.is_number_unsigned() && found.get<std::uint64_t>() <= std::uint64_t(std::numeric_limits<Whole>::max());
-    if (!fits) refuse(name, "is no whole number from 0");
+    if (!fits) refuse(name, "is not a whole number of 0 or more");
     value = found.get<Whole>();
 }
 
 std::string textOf(const json& value) {
-    if (!value.is_string()) throw std::runtime_error("it is no text.");
+    if (!value.is_string()) throw std::runtime_error("it is not a string.");
     return value.get<std::string>();
 }
 
@@ -54,7 +54,7 @@ json jsonOf(const std::optional<double>& value) { return value ? jsonOf(*value) 
 
 void readField(const json& object, const char* name, double& value) {
     const std::optional<double> number = numberOf(field(object, name));
-    if (!number) refuse(name, "is no number");
+    if (!number) refuse(name, "is not a number");
     value = *number;
 }
 
@@ -75,7 +75,7 @@ void readField(const json& object, const char* name, bool& value) {
 
 void readField(const json& object, const char* name, std::string& value) {
     const json& found = field(object, name);
-    if (!found.is_string()) refuse(name, "is no text");
+    if (!found.is_string()) refuse(name, "is not a string");
     value = found.get<std::string>();
 }
 
@@ -87,20 +87,21 @@ void readField(const json& object, const char* name, std::vector<std::string>& v
 void readField(const json& object, const char* name, std::vector<std::pair<std::string, std::string>>& value) {
     value.clear();
     for (const json& pair : listField(object, name)) {
-        if (!pair.is_array() || pair.size() != 2) throw std::runtime_error(std::string(name) + ": it holds no pairs.");
+        if (!pair.is_array() || pair.size() != 2)
+            throw std::runtime_error(std::string(name) + ": it does not hold pairs.");
         readInside(name, [&] { value.emplace_back(textOf(pair[0]), textOf(pair[1])); });
     }
 }
 
 const json& objectField(const json& object, const char* name, bool orNull) {
     const json& found = field(object, name);
-    if (!found.is_object() && !(orNull && found.is_null())) refuse(name, "is no object");
+    if (!found.is_object() && !(orNull && found.is_null())) refuse(name, "is not an object");
     return found;
 }
 
 const json& listField(const json& object, const char* name) {
     const json& found = field(object, name);
-    if (!found.is_array()) refuse(name, "is no list");
+    if (!found.is_array()) refuse(name, "is not a list");
     return found;
 }
 

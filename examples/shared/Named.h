@@ -16,7 +16,9 @@ struct Named {
     operator osg::ref_ptr<Class>() const {
         const auto found = findNamed(scene, name);
         auto* node = found ? dynamic_cast<Class*>(found->node.get()) : nullptr;
-        if (!node) throw std::runtime_error(std::string("the scene has no ") + name + " of the kind that is needed.");
+        if (!node)
+            throw std::runtime_error(std::string("the scene has no ") + name +
+                                     " of the needed kind. Use the scene file that comes with the program.");
         return node;
     }
 };

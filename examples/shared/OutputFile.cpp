@@ -27,10 +27,10 @@ fs::path draftOf(const fs::path& path) {
 void requirePlace(const fs::path& path) {
     std::error_code ignored;
     const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-    if (!path.has_filename() || fs::is_directory(path, ignored))
-        refuse(path, "it is a directory; a file's name is needed");
+    if (!path.has_filename() || fs::is_directory(path, ignored)) refuse(path, "it is a directory. Give a file's name");
     if (!fs::is_directory(folder, ignored)) refuse(path, "there is no directory \"" + folder.string() + "\"");
-    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) refuse(path, "it is not an ordinary file");
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+        refuse(path, "it is not a regular file. Give another name");
 }
 
 /// Without alpha, which some formats refuse and no picture here needs.
@@ -63,12 +63,12 @@ void requireFolder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (!fs::is_directory(folder))
-        throw std::runtime_error("\"" + folder.string() + "\" cannot be made as a folder: " + error.message() + ".");
+        throw std::runtime_error("\"" + folder.string() + "\" cannot be created as a folder: " + error.message() + ".");
 }
 
 OutputFile::OutputFile(const std::string& path) : _path(path), _draft(draftOf(path)) {
     requirePlace(_path);
-    if (!std::ofstream(_draft)) refuse(_path, "its directory takes no new file");
+    if (!std::ofstream(_draft)) refuse(_path, "its directory is not writable. Give another one");
     removeDraft(); // so that none is left if something in between crashes
 }
 
@@ -84,13 +84,13 @@ void OutputFile::requireImage() const {
     dot->allocateImage(1, 1, 1, GL_RGB, GL_UNSIGNED_BYTE);
     std::fill(dot->data(), dot->data() + dot->getTotalSizeInBytes(), static_cast<unsigned char>(0));
     if (imageBytes(*dot, endingOf(_path)).empty())
-        refuse(_path, "OpenSceneGraph writes no such images; png, jpg, bmp, tif, rgb are allowed");
+        refuse(_path, "OpenSceneGraph writes no such images. Allowed: png, jpg, bmp, tif, rgb");
 }
 
 void OutputFile::requireData() const {
     for (const char* kind : {".osgb", ".osgt", ".osgx"})
         if (_path.extension() == kind) return;
-    refuse(_path, "it would lose what is to be kept; .osgb, .osgt and .osgx are allowed");
+    refuse(_path, "this format cannot hold the data. Allowed: .osgb, .osgt, .osgx");
 }
 
 void OutputFile::writeData(const osg::Image& image) { write(imageBytes(image, endingOf(_path))); }
@@ -100,7 +100,7 @@ void OutputFile::write(const osg::Image& image) { write(imageBytes(*opaque(image
 void OutputFile::write(const std::string& text) {
     std::ofstream out(_draft, std::ios::binary);
     out << text << std::flush;
-    if (!out) refuse(_path, "not all of it was written; perhaps the disk is full");
+    if (!out) refuse(_path, "only a part was written. Check that the disk is not full");
     finish();
 }
 

@@ -25,7 +25,7 @@ std::string percent(const std::optional<double>& share) { return share ? number(
 std::string pixels(std::size_t count) { return std::to_string(count) + " px"; }
 
 std::string boundaryText(const std::optional<BoundaryDistance>& boundary) {
-    if (!boundary) return "none: one picture, or both, has no boundary";
+    if (!boundary) return "none, because one or both pictures have no boundary";
     return "mean " + number(boundary->mean) + " px, 95 % below " + number(boundary->p95) + " px, greatest " +
            number(boundary->max) + " px, outwards " + number(boundary->signedMean) + " px";
 }
@@ -158,7 +158,7 @@ static void fields(Way& way, PartOf<Way, ShadowMetrics> m) {
 
 std::string catastropheText(const Catastrophes& catastrophes) {
     std::string text;
-    if (catastrophes.notFinite) text += pixels(catastrophes.notFinite) + " are no numbers; ";
+    if (catastrophes.notFinite) text += pixels(catastrophes.notFinite) + " are not finite; ";
     if (catastrophes.allShadowed) text += "all is shadowed; ";
     if (catastrophes.allLit) text += "all is lit; ";
     if (catastrophes.lostShadow) text += "intersection over union below 0.2; ";

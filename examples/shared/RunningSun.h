@@ -35,7 +35,7 @@ inline void runSun(SceneWindow& window, double speed, std::function<void(double)
 
 /// --sun-speed of the programs with a window.
 inline Option sunSpeedOption(double& into) {
-    return {"--sun-speed", "N", "how many times as fast as the clock the sun moves, 0 to 100000", "0, it stands still",
+    return {"--sun-speed", "N", "speed of the sun as a multiple of the clock's, 0 to 100000", "0, the sun stands still",
             [&into](const std::string& text) { into = readNumber(text, 0.0, 1e5); }};
 }
 

@@ -24,7 +24,7 @@ osg::ref_ptr<osg::Node> readOne(const std::string& file, const std::string& prog
     if (!node) throw std::runtime_error(damagedSentence(file, scene));
     if (!sceneBounds(*node).valid())
         throw std::runtime_error(quoted(file) +
-                                 " holds nothing to draw: it is empty, damaged or not what its name says.");
+                                 " holds nothing to draw. It is empty or damaged, or it does not match its name.");
     return node;
 }
 

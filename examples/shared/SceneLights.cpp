@@ -134,7 +134,9 @@ int SceneLights::freeNumber() const {
                std::any_of(_own.begin(), _own.end(), [&](const Own& own) { return uses(*own.source, number); });
     };
     while (taken()) ++number;
-    if (number > 7) throw std::invalid_argument("more than 8 lights: OpenGL has 8, those of the scene included.");
+    if (number > 7)
+        throw std::invalid_argument(
+            "there are more than 8 lights, counting those of the scene. Allowed: 8, as OpenGL has.");
     return number;
 }
 

@@ -41,7 +41,8 @@ Selection selectCasters(const std::string& casters, osg::Node& root) {
     }
     const std::optional<NamedNode> found = findNamed(root, casters);
     if (!found)
-        throw std::invalid_argument("--casters: no node is named \"" + casters + "\"; allowed: all, none, a name.");
+        throw std::invalid_argument("--casters: no node is named \"" + casters +
+                                    "\". Allowed: all, none, or a node's name.");
     selection.node = found->node;
     return selection;
 }
@@ -62,7 +63,7 @@ osg::Vec3d chooseUp(const ViewOptions& o, osg::Vec3d view) {
         o.viewUp.value_or(std::abs(view.z()) > 1.0 - 1e-12 ? osg::Vec3d(0, 1, 0) : osg::Vec3d(0, 0, 1));
     osg::Vec3d across = view ^ up;
     if (!(across.length() > 1e-9 * up.length()))
-        throw std::invalid_argument("--viewup points along the view; it must stand at an angle to it.");
+        throw std::invalid_argument("--viewup is parallel to the view. Give a vector at an angle to it.");
     return up;
 }
 
@@ -127,7 +128,7 @@ SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {
 Lookout lookout(const ViewOptions& options, const osg::BoundingBoxd& bounds) {
     const osg::Vec3d center = options.center.value_or(bounds.center());
     const osg::Vec3d eye = options.eye.value_or(framedEye(options, center, bounds.radius()));
-    if (eye == center) throw std::invalid_argument("--eye is the scene's centre; give --center another point.");
+    if (eye == center) throw std::invalid_argument("--eye is the scene's centre. Give another --eye, or a --center.");
     return {eye, center, chooseUp(options, center - eye)};
 }
 

@@ -29,7 +29,8 @@ osg::Vec3d middleOf(const SceneTriangles& triangles) {
     osg::BoundingBoxd bounds;
     for (const unsigned corner : triangles.indices)
         if (isFinite(triangles.vertices[corner])) bounds.expandBy(triangles.vertices[corner]);
-    if (!bounds.valid()) throw std::runtime_error("there is no truth about the scene: it has no triangles.");
+    if (!bounds.valid())
+        throw std::runtime_error("the scene has no triangles, so it has no truth. Give a scene with triangles.");
     return bounds.center();
 }
 

@@ -51,8 +51,8 @@ class Hands : public osgGA::KeySwitchMatrixManipulator {
 public:
     void getUsage(osg::ApplicationUsage& usage) const override {
         usage.addKeyboardMouseBinding(
-            "1 ... 7", "Ways to move: trackball, flight, drive, terrain, orbit, first person, spherical.");
-        usage.addKeyboardMouseBinding("Space", "Back to where the camera was first.");
+            "1 ... 7", "Camera modes: trackball, flight, drive, terrain, orbit, first person, spherical.");
+        usage.addKeyboardMouseBinding("Space", "Back to the first camera position.");
     }
 };
 
@@ -103,11 +103,12 @@ void SceneWindow::openWindow(const WindowNames& names, const ViewOptions& option
     osgViewer::Viewer::Windows windows;
     _viewer.getWindows(windows);
     if (windows.empty())
-        throw std::runtime_error("no window can be opened: DISPLAY must name an X server with OpenGL and a stencil "
-                                 "buffer; " +
-                                 names.without + " draws without one.");
+        throw std::runtime_error(
+            "no window can be opened. Set DISPLAY to an X server with OpenGL and a stencil buffer, or use " +
+            names.without + ", which needs no window.");
     if (windows.front()->getTraits()->stencil == 0)
-        throw std::runtime_error("at least 1 bit of stencil is needed, and this display offers no window with any.");
+        throw std::runtime_error("this display offers no window with a stencil buffer. Use another display, or " +
+                                 names.without + ", which needs no window.");
     _viewer.realize();
     windows.front()->setWindowName(names.program);
 }
@@ -140,13 +141,13 @@ void SceneWindow::placeHands(const ViewOptions& options, const osg::BoundingBoxd
 }
 
 std::string windowKeysHelp(const std::string& program) {
-    return "  1 ... 7  ways to move: trackball, flight, drive, terrain, orbit, first person, spherical; space: back\n"
+    return "  1 ... 7  camera modes: trackball, flight, drive, terrain, orbit, first person, spherical; space: home\n"
            "  s        statistics\n"
            "  w l b t  wire frame, lighting, back faces, textures\n"
            "  f        full screen\n"
-           "  c        picture of the window, " +
+           "  c        save the window as " +
            program +
-           "_0_0.png and on, in the folder where the program was started\n"
+           "_0_0.png and so on, in the current folder\n"
            "  h        all keys, on the screen\n"
            "  Esc      end\n";
 }

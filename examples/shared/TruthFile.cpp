@@ -64,11 +64,11 @@ public:
         const bool kind = image.getPixelFormat() == GL_LUMINANCE && image.getDataType() == GL_FLOAT;
         if (image.getUserDataContainer()) _names = image.getUserDataContainer()->getDescriptions();
         if (!kind || _names.size() != static_cast<std::size_t>(image.r()))
-            refuse("it is not an image of floats with a named layer for each map");
+            refuse("it is not an image of floats with one named layer for each map");
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw std::runtime_error("\"" + _file + "\" is no truth: " + why + ".");
+        throw std::runtime_error("\"" + _file + "\" is not a truth file: " + why + ".");
     }
 
     bool has(const std::string& name) const { return std::find(_names.begin(), _names.end(), name) != _names.end(); }
@@ -110,7 +110,7 @@ Grid<int> wholeNumbers(const Reader& reader, const char* name) {
     for (std::size_t i = 0; i < numbers.cells.size(); ++i) {
         const double number = numbers.cells[i];
         if (!(number >= 0.0 && number <= 16777216.0))
-            reader.refuse(std::string("its layer \"") + name + "\" holds what is no id");
+            reader.refuse(std::string("its layer \"") + name + "\" holds a value that is not an id");
         whole.cells[i] = static_cast<int>(number);
     }
     return whole;

@@ -23,7 +23,7 @@ osg::Vec3d readVec3(Text text, double low = -largestNumber, double high = larges
 osg::Vec4d readLight(Text text) {
     const std::vector<double> n = readNumbers(text, 4);
     if (n[0] == 0.0 && n[1] == 0.0 && n[2] == 0.0 && n[3] == 0.0)
-        refuse("allowed: a direction with w = 0 that is not 0,0,0, or a position with w = 1.");
+        refuse("Allowed: a direction other than 0,0,0 with w = 0, or a position with w = 1.");
     return {n[0], n[1], n[2], n[3]};
 }
 
@@ -31,9 +31,8 @@ SunMoment readSun(Text text) {
     const std::size_t comma = text.find(',');
     const auto day = julianDay(text.substr(0, comma));
     if (!day || comma == std::string::npos)
-        refuse(
-            "allowed: a moment in UTC as 2026-06-21T15:00:00Z, a latitude from -90 to 90 and a longitude from -180 to "
-            "180 degrees, with commas between.");
+        refuse("Allowed: a moment in UTC as 2026-06-21T15:00:00Z, a latitude from -90 to 90 and a longitude from -180 "
+               "to 180 degrees, separated by commas.");
     const std::vector<double> place = readNumbers(text.substr(comma + 1), 2);
     return {SunClock(place[0], place[1]), *day};
 }
@@ -45,7 +44,7 @@ void shine(ViewOptions& into, const SunMoment& sun) {
         std::ostringstream low;
         low.precision(3);
         low << -at.elevation;
-        refuse("the sun is " + low.str() + " degrees below the horizon; allowed: when it is up.");
+        refuse("The sun is " + low.str() + " degrees below the horizon. Give a moment when it is up.");
     }
     const glm::dvec3 towards = sun.clock.towards(sun.day);
     into.sun = sun;
@@ -57,13 +56,13 @@ std::string readGround(Text text) {
     try {
         readNumber(text, smallestLength, largestNumber);
     } catch (const std::invalid_argument&) {
-        refuse("allowed: auto, none, or a side from 1e-09 to 1e+12.");
+        refuse("Allowed: auto, none, or a side from 1e-09 to 1e+12.");
     }
     return text;
 }
 
 bool readUp(Text text) {
-    if (text != "y" && text != "z") refuse("allowed: y, z.");
+    if (text != "y" && text != "z") refuse("Allowed: y, z.");
     return text == "y";
 }
 
@@ -75,76 +74,78 @@ void takeSize(ViewOptions& into, Text text) {
     } catch (const std::invalid_argument&) {
         into.height = 0;
     }
-    if (into.height == 0) refuse("allowed: WIDTHxHEIGHT from 1x1 to 16384x16384 pixels.");
+    if (into.height == 0) refuse("Allowed: WIDTHxHEIGHT from 1x1 to 16384x16384 pixels.");
 }
 
 void addSceneOptions(Options& table, ViewOptions& into) {
-    table.push_back({"--shadow", "SPEC", "how shadows are made, see below", "none",
+    table.push_back({"--shadow", "SPEC", "shadow technique and its keys, see SPEC below", "none",
                      [&into](Text t) { into.shadows.push_back(parseShadowSpec(t)); }, true});
-    table.push_back({"--receiver", "NODENAME", "what shadows fall on, where SPEC names nothing", "ground",
+    table.push_back({"--receiver", "NODENAME", "node that receives shadows, if SPEC names none", "ground",
                      [&into](Text t) { into.receiver = t; }});
     table.push_back(
-        {"--casters", "all|none|NODENAME", "what casts shadows", "all", [&into](Text t) { into.casters = t; }});
-    table.push_back({"--ground", "auto|none|SIZE",
-                     "white ground under a scene without a node named ground, at its lowest point: a square of this "
-                     "side,\n      auto 4 times the scene's radius",
-                     "auto", [&into](Text t) { into.ground = readGround(t); }});
-    table.push_back({"--up", "y|z", "the way up in the files; y turns them by 90 degrees about x, so that all is z up",
-                     "z", [&into](Text t) { into.yUp = readUp(t); }});
+        {"--casters", "all|none|NODENAME", "nodes that cast shadows", "all", [&into](Text t) { into.casters = t; }});
+    table.push_back(
+        {"--ground", "auto|none|SIZE",
+         "white square ground at the scene's lowest point, if no node is named ground; SIZE is its side in\n"
+         "      the scene's unit, auto is 4 times the scene's radius",
+         "auto", [&into](Text t) { into.ground = readGround(t); }});
+    table.push_back({"--up", "y|z", "up axis of the files; y turns them by 90 degrees about x, so that z is up", "z",
+                     [&into](Text t) { into.yUp = readUp(t); }});
 }
 
 void addLightOptions(Options& table, ViewOptions& into) {
-    table.push_back({"--light", "x,y,z,w", "w = 0: the way towards a sun; w = 1: a lamp's position, scene's unit",
-                     "the scene's own, or a sun at azimuth 135, elevation 45 degrees (azimuth from north = +y through "
-                     "east = +x)",
+    table.push_back({"--light", "x,y,z,w",
+                     "light; w = 0: direction towards a sun; w = 1: position of a lamp, scene's unit",
+                     "the scene's lights, else a sun at azimuth 135, elevation 45 degrees; azimuth from north = +y "
+                     "through east = +x",
                      [&into](Text t) { into.lights.push_back(readLight(t)); }, true});
-    table.push_back(
-        {"--sun", "MOMENT,LAT,LON",
-         "the sun as a light: UTC as 2026-06-21T15:00:00Z, degrees north and east; x is east, y north, z up",
-         "no sun but --light's", [&into](Text t) { shine(into, readSun(t)); }});
-    table.push_back({"--ambient", "A", "the scene's ambient light, 0 to 10; each light's own is then 0", "0.2, OSG's",
-                     [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
-    table.push_back({"--diffuse", "D", "each light's diffuse light, 0 to 10", "0.8, OSG's",
+    table.push_back({"--sun", "MOMENT,LAT,LON",
+                     "sun as a light: UTC as 2026-06-21T15:00:00Z, degrees north and east; x is east, y north, z up",
+                     "none", [&into](Text t) { shine(into, readSun(t)); }});
+    table.push_back({"--ambient", "A", "ambient light of the scene, 0 to 10; sets the lights' own ambient part to 0",
+                     "0.2, OSG's", [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
+    table.push_back({"--diffuse", "D", "diffuse part of each light, 0 to 10", "0.8, OSG's",
                      [&into](Text t) { into.diffuse = readNumber(t, 0.0, 10.0); }});
 }
 
 void addCameraOptions(Options& table, ViewOptions& into) {
-    table.push_back({"--eye", "x,y,z", "where the camera is, scene's unit", "so that the scene fills the picture",
+    table.push_back({"--eye", "x,y,z", "camera position, scene's unit", "chosen so that the scene fills the picture",
                      [&into](Text t) { into.eye = readVec3(t); }});
-    table.push_back({"--center", "x,y,z", "what it looks at", "the scene's centre",
+    table.push_back({"--center", "x,y,z", "point that the camera looks at, scene's unit", "the scene's centre",
                      [&into](Text t) { into.center = readVec3(t); }});
-    table.push_back({"--viewup", "x,y,z", "what is up in the picture", "0,0,1, or 0,1,0 when looking along z",
+    table.push_back({"--viewup", "x,y,z", "up direction in the picture", "0,0,1; 0,1,0 when looking along z",
                      [&into](Text t) { into.viewUp = readVec3(t); }});
-    table.push_back({"--fovy", "DEG", "angle of the picture's height, 1 to 170 degrees", "40",
+    table.push_back({"--fovy", "DEG", "vertical field of view, 1 to 170 degrees", "40",
                      [&into](Text t) { into.fovy = readNumber(t, 1.0, 170.0); }});
-    table.push_back({"--near", "N", "distance of the near plane, scene's unit, used exactly; with --far", "computed",
+    table.push_back({"--near", "N", "distance of the near plane, scene's unit, used exactly; needs --far", "computed",
                      [&into](Text t) { into.zNear = readNumber(t, smallestLength, largestNumber); }});
-    table.push_back({"--far", "F", "distance of the far plane; with --near", "computed",
+    table.push_back({"--far", "F", "distance of the far plane, scene's unit, used exactly; needs --near", "computed",
                      [&into](Text t) { into.zFar = readNumber(t, smallestLength, largestNumber); }});
-    table.push_back({"--background", "r,g,b", "colour behind the scene, 0 to 1 each", "0.2,0.2,0.4",
+    table.push_back({"--background", "r,g,b", "background colour, 0 to 1 each", "0.2,0.2,0.4",
                      [&into](Text t) { into.background = readVec3(t, 0.0, 1.0); }});
     addSize(table, into);
 }
 
 void requireCamera(const ViewOptions& o) {
-    if (o.eye && o.center && *o.eye == *o.center) refuse("--eye and --center are the same point; they must differ.");
-    if (o.viewUp && o.viewUp->length2() == 0.0) refuse("--viewup 0,0,0 is no direction; any other is allowed.");
+    if (o.eye && o.center && *o.eye == *o.center)
+        refuse("--eye and --center are the same point. Give two different points.");
+    if (o.viewUp && o.viewUp->length2() == 0.0) refuse("--viewup 0,0,0 is not a direction. Give any other vector.");
     if (!o.viewUp || !o.eye || !o.center) return;
     osg::Vec3d up = *o.viewUp, view = *o.center - *o.eye;
     up.normalize();
     view.normalize();
-    if ((up ^ view).length() < 1e-9) refuse("--viewup points along the view; it must stand at an angle to it.");
+    if ((up ^ view).length() < 1e-9) refuse("--viewup is parallel to the view. Give a vector at an angle to it.");
 }
 
 void requireDepthRange(const ViewOptions& o) {
-    if (o.zNear.has_value() != o.zFar.has_value()) refuse("--near and --far belong together; give both or none.");
+    if (o.zNear.has_value() != o.zFar.has_value()) refuse("--near and --far need each other. Give both or neither.");
     if (o.zNear && !(*o.zNear < *o.zFar)) refuse("--near must be less than --far.");
 }
 
 } // namespace
 
 void addSize(Options& table, ViewOptions& into) {
-    table.push_back({"--size", "WxH", "of the picture, 1x1 to 16384x16384 pixels",
+    table.push_back({"--size", "WxH", "size of the picture, 1x1 to 16384x16384 pixels",
                      std::to_string(into.width) + "x" + std::to_string(into.height),
                      [&into](Text t) { takeSize(into, t); }});
 }
@@ -164,7 +165,7 @@ void takeFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
 
 void readFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
     takeFiles(arguments, into);
-    if (into.files.empty()) refuse("no scene file is given; --help says how.");
+    if (into.files.empty()) refuse("no scene file is given. See --help.");
 }
 
 std::string techniqueNames(const std::vector<ShadowSpec>& specs) {
@@ -176,7 +177,7 @@ std::string techniqueNames(const std::vector<ShadowSpec>& specs) {
 void requireConsistent(const ViewOptions& options) {
     requireCamera(options);
     requireDepthRange(options);
-    if (options.lights.size() > mostLights) refuse("--light is given more than 8 times; 1 to 8 lights are allowed.");
+    if (options.lights.size() > mostLights) refuse("--light is given more than 8 times. Allowed: 1 to 8 lights.");
 }
 
 } // namespace gnomon::examples

@@ -9,18 +9,31 @@
 
 namespace gnomon {
 
-/// A plane that part of a subgraph lies in.
+/// A plane that some triangles of a subgraph share.
 struct FlatPart {
-    osg::Vec4d plane; ///< unit normal, towards the side that the triangles' front faces look to (counter-clockwise).
-    double area;      ///< of its triangles, square units.
+    osg::Vec4d plane; ///< (a, b, c, d) with a unit normal. The normal points to the triangles' front side.
+    double area;      ///< Sum of the triangles' areas, square units.
 };
 
-/// The planes that the triangles of a subgraph lie in, the largest area first; frame of the root, as VertexTraverser's.
-/// Triangles belong together where their planes agree within the vertices' own rounding and face the same way. A table
-/// top has six, a ground quad one. At most `limit` parts are returned. Triangles no higher than that rounding have no
-/// plane.
+/// Finds the flat parts of a subgraph, for example the planes to give to PlanarShadowNode.
 ///
-/// Cost    an extraction and a sort of the triangles; 150 bytes a triangle while it runs.
+/// A ground quad has one flat part, a table top six. Triangles share a part if their planes agree within the rounding
+/// of their vertices and face the same way. The front side is the one that sees the corners counter-clockwise.
+///
+/// @param root   the subgraph. Planes are in its frame as VertexTraverser defines it.
+/// @param limit  most parts to return.
+/// @return       the parts, largest area first.
+///
+/// Cost
+/// - One extraction and one sort of the triangles.
+/// - 150 bytes a triangle while it runs.
+/// Needs
+/// - No OpenGL and no view.
+/// Limits
+/// - Skips triangles that are no higher than the rounding of their vertices.
+/// - VertexTraverser's limits hold.
+/// Threads
+/// - Reads the graph as a cull traversal does.
 GNOMON_EXPORT std::vector<FlatPart> flatParts(osg::Node& root, unsigned limit = 64);
 
 } // namespace gnomon

@@ -1,33 +1,44 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/StageEffectNode.h>
+#include <gnomon/EffectNode.h>
 
 #include <osg/Vec4f>
 
 namespace gnomon {
 
-/// A halo: a rim of one colour about the children, which are drawn as ever.
+/// Draws a halo: a coloured rim around its children, for example to show a selected object.
 ///
-/// The rim never covers what one sees of the children, and each of its pixels is blended once, however many of their
-/// triangles fall on it. It stands where the children, made larger, would be seen: what is nearer than those hides it.
+/// The children are drawn as usual and the rim never covers them. The rim is the outline of the enlarged children.
+/// Objects nearer than the enlarged children hide it.
 ///
+///     osg::ref_ptr<gnomon::HaloNode> halo = new gnomon::HaloNode;
 ///     halo->addChild(model);
 ///     halo->setScale(1.2);
 ///
-/// Cost    a second cull of the children and two more draws, stencil only, and one quad; for PIXELS of width w about
-///         3·w² + 3 draws instead of two: 29 at 3, 197 at 8.
-/// Needs   one stencil bit that is not reserved, 0 again afterwards.
-/// Limits  children that write depth. Drawn after shadows, which do not touch it, and before transparent things, which
-///         are blended over it. A child that does not stand round its own centre gets a lopsided rim of WHOLE and PARTS;
-///         one of PIXELS ends where the view ends, for what lies beyond is not drawn. Not seen in mirrors.
-/// Threads any number of cull and draw threads; set properties between frames. HaloPulse makes it pulse.
-/// Cure    the stencil; switched off, to show what it is for, every triangle of the larger children blends for itself,
-///         up to as many times as the free stencil bits can count (at most 7), over the children, too.
+/// HaloPulse makes a halo pulse.
 ///
-/// Source: M. Kilgard, halomagic.c.
+/// Cost
+/// - A second cull of the children, two more draws of them (stencil only), and one quad.
+/// - PIXELS: about 3·w² + 3 draws, and not two, for a rim of w pixels.
+/// Needs
+/// - One stencil bit that is not reserved, see CompositorOptions. It is 0 again afterwards.
+/// Limits
+/// - The children must write depth.
+/// - Shadows do not darken the rim. Transparent drawables blend over it.
+/// - WHOLE and PARTS: a model that is not centred in its box gets a lopsided rim.
+/// - PIXELS: the rim ends at the border of the view.
+/// - Mirrors show no halos.
+/// Threads
+/// - Any number of cull and draw threads. Set properties between frames.
+/// Source
+/// - M. Kilgard, halomagic.c.
 ///
-/// In a file (.osgt, .osgb, .osgx), where what is left out has its default, here WHOLE, no larger than the children, 3
-/// pixels, his yellow at 30 %, the cure on:
+/// Cure
+/// - The stencil blends each pixel of the rim once. Switch the cure off to show the fault it prevents.
+/// - Off: every triangle of the enlarged children blends, over the children too. Free stencil bits limit how often: at
+///   most 7 times a pixel.
+///
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::HaloNode {
 ///       UniqueID 2
@@ -36,49 +47,56 @@ namespace gnomon {
 ///       Scale 1.2
 ///       Color 0.8 0.8 0 0.3
 ///     }
-class GNOMON_EXPORT HaloNode : public StageEffectNode {
+class GNOMON_EXPORT HaloNode : public EffectNode {
 public:
-    /// How the children are made larger.
+    /// How the children are enlarged.
     enum Shape : int {
-        WHOLE, ///< all together, about the centre of the box that holds them.
-        PARTS, ///< each drawable about the centre of its own box: better for what is not convex.
-        PIXELS ///< not larger in space: the rim is of one width on the screen.
+        WHOLE, ///< All together, about the centre of their common box.
+        PARTS, ///< Each drawable about the centre of its own box. Better for models that are not convex.
+        PIXELS ///< Not enlarged in space: the rim has one width on the screen.
     };
 
+    /// A halo of shape WHOLE and scale 1, which is not visible.
     HaloNode() = default;
+    /// Copies the properties.
     HaloNode(const HaloNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, HaloNode)
 
-        /// Default WHOLE, which any value that is none of them stands for too.
-        void setShape(Shape shape);
+    /// Shape of the halo. Default WHOLE, which also replaces any unknown value.
+    void setShape(Shape shape);
+    /// See setShape().
     Shape getShape() const { return _shape; }
 
-    /// How many times as large, of WHOLE and PARTS; default 1: no halo, as for anything less. Clamped to 1000; NaN is
-    /// refused with a warning.
+    /// Scale of WHOLE and PARTS, 1 (no halo) … 1000. Default 1. Clamped. NaN is refused with a warning.
     void setScale(double factor);
+    /// See setScale().
     double getScale() const { return _scale; }
 
-    /// Width of PIXELS, 0 (no halo) … 8; default 3. Clamped.
+    /// Width of PIXELS on the screen, 0 (no halo) … 8 pixels. Default 3. Clamped.
     void setWidth(int pixels);
+    /// See setWidth().
     int getWidth() const { return _width; }
 
-    /// Red, green, blue and opacity, 0 … 1 each; default (0.8, 0.8, 0, 0.3). Opacity 1 hides what is behind. Clamped;
+    /// Red, green, blue and opacity of the rim, 0 … 1 each. Default (0.8, 0.8, 0, 0.3). Clamped.
     /// NaN is refused with a warning.
     void setColor(const osg::Vec4f& color);
+    /// See setColor().
     const osg::Vec4f& getColor() const { return _color; }
 
-    /// Each pixel is blended once, and none of the children's. Default on.
+    /// On: each pixel of the rim is blended once, and the children stay free. Default on.
     void setStencilCure(bool on) { _stencilCure = on; }
+    /// See setStencilCure().
     bool getStencilCure() const { return _stencilCure; }
 
-    /// True if there is a halo to draw.
+    /// True if the shape's own scale or width gives a rim.
     bool isOn() const { return _shape == PIXELS ? _width > 0 : _scale > 1.0; }
 
+    /// Bounds of the enlarged children.
     osg::BoundingSphere computeBound() const override;
 
 protected:
     ~HaloNode() override = default;
-    osg::ref_ptr<StageEffect> makeEffect(osgUtil::CullVisitor& cull) override;
+    osg::ref_ptr<ViewEffect> makeEffect(osgUtil::CullVisitor& cull) override;
 
 private:
     Shape _shape = WHOLE;

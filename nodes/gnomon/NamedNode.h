@@ -11,18 +11,18 @@
 
 namespace gnomon {
 
-/// A node found by its name, and where it stands.
+/// A node found by its name, with its place in the graph.
 struct NamedNode {
-    osg::ref_ptr<osg::Node> node;
+    osg::ref_ptr<osg::Node> node; ///< The node itself.
     osg::Matrixd
-        rootFromParent; ///< from the frame that the node stands in (its own transform left out) to that of the root.
+        rootFromParent; ///< Transform from the node's parent frame to the root's. The node's own transform is left out.
 };
 
-/// First node called exactly `name` under `root` (itself included), depth first, whatever masks and switches say.
-/// nullopt if there is none, or `name` is empty.
+/// Finds a node by its exact name, depth first. It looks at `root` too, and ignores node masks and switches.
+/// @return the first match; nullopt if there is none or `name` is empty.
 GNOMON_EXPORT std::optional<NamedNode> findNamed(osg::Node& root, const std::string& name);
 
-/// Names under `root`, in the order they are met, each once; at most `limit`. For messages.
+/// Lists the names under `root` for a message: each once, in traversal order, at most `limit` of them.
 GNOMON_EXPORT std::vector<std::string> nodeNames(osg::Node& root, std::size_t limit = 10);
 
 } // namespace gnomon

@@ -3,9 +3,9 @@
 
 namespace gnomon {
 
-/// What cures the classic faults of planar shadows; see PlanarShadowNode.
+/// The cures for the classic faults of planar shadows. PlanarShadowNode explains each.
 struct PlanarCures {
-    bool stencil = true, offset = true, clip = true;
+    bool stencil = true, offset = true, clip = true; ///< True: the cure is on.
 };
 
 } // namespace gnomon

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/EffectNode.h>
 #include <gnomon/Selection.h>
-#include <gnomon/StageEffectNode.h>
 
 #include <osg/Vec3f>
 #include <osg/Vec4d>
@@ -10,34 +10,45 @@
 
 namespace gnomon {
 
-class SavedColors;
+class FrameColorCopy;
 
-/// A flat mirror: the children, drawn as ever, are seen once more behind a surface, mirrored in its plane.
+/// Draws a flat mirror: its children appear a second time in a surface, mirrored in a plane.
 ///
-/// What of the surface one sees keeps the rest of its own colour: (1 - r) · own + r · mirrored, a channel each, r being
-/// the reflectance. Outside the surface nothing is mirrored, nor from behind it, where it looks as it does without this.
-/// Where nothing is mirrored the mirror shows the view's background. Lights are mirrored, too, wherever they stand.
-/// Shadows that relight lie under the mirror image, in the surface's own share; those that blend darken both.
+/// Use it for polished floors, still water and wall mirrors. It works beside shadows in one scene.
 ///
+///     osg::ref_ptr<gnomon::PlanarReflectionNode> mirror = new gnomon::PlanarReflectionNode;
 ///     mirror->addChild(scene);
-///     mirror->setSurface({floor});                    // in the scene, or beside it
-///     mirror->setPlane(osg::Vec4d(0, 0, 1, 0));       // z = 0, reflecting upwards
+///     mirror->setSurface({floor});              // in the scene, or beside it
+///     mirror->setPlane(osg::Vec4d(0, 0, 1, 0)); // z = 0, reflecting upwards
 ///
-/// Cost    a second cull of the children; one more draw of those that can be seen mirrored, two of the surface; a copy
-///         of the surface's part of the screen.
-/// Needs   one stencil bit that is not reserved, 0 again afterwards, for any number of mirrors; one of OpenGL's clip
-///         planes, the sixth. A surface that is opaque.
-/// Limits  a mirror shows no shadows, no halos and no mirrors but their surfaces as they are without; what cameras below
-///         it draw is left out. Programs of the children must let OpenGL clip (gl_ClipVertex, or none). The surface may
-///         be any shape, what it mirrors is mirrored in the plane. Framebuffer objects of several samples are refused.
-/// Threads any number of cull and draw threads; set properties between frames.
-/// Cure    the stencil keeps the image inside the surface; switched off, to show what it is for, the mirrored children
-///         are seen beside it, too.
+/// A pixel of the surface shows (1 - r) · own + r · mirrored colour, where r is the reflectance of each channel.
+/// The mirror image shows the view's background where no child is mirrored, and the lights are mirrored, too.
+/// RELIGHT shadows darken the surface's own colour alone; BLEND shadows darken the mirror image as well.
 ///
-/// Source: M. Kilgard, halomagic.c.
+/// Cost
+/// - A second cull of the children.
+/// - One more draw of the mirrored children in view, and two of the surface.
+/// - A copy of the surface's part of the screen.
+/// Needs
+/// - One stencil bit that is not reserved, see CompositorOptions, for any number of mirrors. It is 0 again afterwards.
+/// - OpenGL's sixth clip plane.
+/// - An opaque surface.
+/// Limits
+/// - The mirror image has no shadows and no halos. Other mirrors in it show their plain surfaces.
+/// - Nested cameras are not mirrored.
+/// - Vertex shaders of the children must support OpenGL's clip planes, for example by writing gl_ClipVertex.
+/// - The surface may have any shape, but the image is always that of the plane.
+/// - The surface reflects on the plane's front side only.
+/// - Multisampled framebuffer objects are refused.
+/// Threads
+/// - Any number of cull and draw threads. Set properties between frames.
+/// Source
+/// - M. Kilgard, halomagic.c.
 ///
-/// In a file (.osgt, .osgb, .osgx), where what is left out has its default, here the plane z = 0 facing up, no surface,
-/// 0.7 of each channel, the cure on:
+/// Cure
+/// - The stencil keeps the image inside the surface. Switch the cure off to show the mirrored children beside it.
+///
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::PlanarReflectionNode {
 ///       UniqueID 2
@@ -46,46 +57,54 @@ class SavedColors;
 ///       Surface { Mask 0xffffffff Node TRUE { osg::Geode { UniqueID 7 } } }
 ///       Reflectance 0.9 0.6 0.4
 ///     }
-class GNOMON_EXPORT PlanarReflectionNode : public StageEffectNode {
+class GNOMON_EXPORT PlanarReflectionNode : public EffectNode {
 public:
+    /// A mirror in the plane z = 0, without a surface.
     PlanarReflectionNode();
+    /// Copies the properties. A deep copy names its own copy of the surface.
     PlanarReflectionNode(const PlanarReflectionNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, PlanarReflectionNode)
 
-        /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the side that is mirrored;
-        /// any length of normal. Default (0, 0, 1, 0). Kept as given; one that is degenerate or not finite mirrors
-        /// nothing, and diagnose() says so.
-        void setPlane(const osg::Vec4d& plane);
+    /// Mirror plane (a, b, c, d): a·x + b·y + c·z + d = 0 in this node's frame. Default (0, 0, 1, 0).
+    /// Its normal points to the reflecting side and may have any length. A degenerate or non-finite plane mirrors
+    /// nothing, and diagnose() says so.
+    void setPlane(const osg::Vec4d& plane);
+    /// The mirror plane, as given.
     const osg::Vec4d& getPlane() const { return _plane; }
 
-    /// What the mirror image is seen in: it must be named. It is not mirrored itself.
+    /// The surface that shows the mirror image. It must be set. It is not mirrored itself.
     void setSurface(const Selection& surface) { _surface = surface; }
+    /// See setSurface().
     const Selection& getSurface() const { return _surface; }
 
-    /// Share of red, green and blue light that is mirrored, 0 (none) … 1 (all that is seen); default 0.7 each. Clamped;
+    /// Mirrored share of red, green and blue, 0 (none) … 1 (image only). Default 0.7 each. Clamped.
     /// NaN is refused with a warning.
     void setReflectance(const osg::Vec3f& share);
+    /// See setReflectance().
     const osg::Vec3f& getReflectance() const { return _reflectance; }
 
-    /// The image ends at the surface's edges. Default on.
+    /// On: the image ends at the surface's edges. Default on.
     void setStencilCure(bool on) { _stencilCure = on; }
+    /// See setStencilCure().
     bool getStencilCure() const { return _stencilCure; }
 
-    /// The children and their mirror images.
+    /// Bounds of the children and their mirror images.
     osg::BoundingSphere computeBound() const override;
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
     ~PlanarReflectionNode() override;
-    osg::ref_ptr<StageEffect> makeEffect(osgUtil::CullVisitor& cull) override;
+    osg::ref_ptr<ViewEffect> makeEffect(osgUtil::CullVisitor& cull) override;
 
 private:
     osg::Vec4d _plane{0.0, 0.0, 1.0, 0.0};
     Selection _surface;
     osg::Vec3f _reflectance{0.7f, 0.7f, 0.7f};
     bool _stencilCure = true;
-    std::shared_ptr<SavedColors> _saved; ///< a frame that is still drawn keeps it.
+    std::shared_ptr<FrameColorCopy> _saved; ///< a frame that is still drawn keeps it.
 };
 
 } // namespace gnomon

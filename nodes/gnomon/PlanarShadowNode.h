@@ -1,47 +1,61 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/PlanarCasters.h>
 #include <gnomon/PlanarCures.h>
 #include <gnomon/ShadowTechnique.h>
 
+#include <OpenThreads/Mutex>
 #include <osg/Vec4d>
+
+#include <glm/vec4.hpp>
 
 #include <vector>
 
 namespace gnomon {
 
+class CasterMesh;
+class PlanarCasters;
 struct PlanarPrograms;
 
-/// Shadow on one or several planes: the casters flattened along the light's rays (Blinn 1988).
+/// Casts shadows onto planes: floors, walls, table tops. It flattens the casters along the light's rays.
 ///
-/// The shadow lies where what one sees lies in the plane, and ends at that thing's edges. Name the receiver
-/// (setReceiver) where you can: only that receives then, to the pixel, and the leaves that it hides or that stand on it
-/// need not be drawn again. Without one the plane is told from everything else by depth.
+/// The shadow is exact to the pixel, and cheap. Use ShadowMapTechnique where receivers are curved or casters shadow one
+/// another, and TerrainShadowGeode on hills.
 ///
-/// Cost    one draw of the casters a plane and light, stencil only, and one of the receiver where marked; with no
-///         receiver named, one of every leaf that the marks can touch.
-/// Needs   1 stencil bit a light, 1 more for several planes or techniques of one light.
-/// Limits  flat receivers; a caster is not shadowed by another. A plane receives on its lit side only. Without a named
-///         receiver walls that stand in the plane take marks up to an eighth of a pixel's slope and 32 steps of depth
-///         high; a ground of many kilometres under a near plane of decimetres may lose its shadow, and one drawn
-///         with a polygon offset or a depth range of its own does. Alpha-tested casters cast as if they were solid.
-/// Threads any number of cull and draw threads; set properties between frames.
-/// Cures   three classic faults of planar shadows are cured; each cure can be switched off, to show its fault:
+///     osg::ref_ptr<gnomon::PlanarShadowNode> shadow = new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0));
+///     shadow->setReceiver({ground}); // optional, and faster
+///     group->addChild(shadow);
 ///
-///         stencil  off: each flattened triangle darkens what it covers by the group's setDark(), be it relight or blend,
-///                  so that a pixel under n of them takes the factor n times. What lies in the plane receives, whatever
-///                  receiver is named. Costs the casters' draw twice.
-///         offset   off: the flattened triangles are tested at their own depth against what stands there, nothing between
-///                  the two, as they would be if they were drawn: they fight the receiver for each pixel. Which pixels
-///                  win is the rounding's, and differs from one OpenGL to the next.
-///         clip     off: what lies under the plane, or above a lamp, casts as well: an anti-shadow, where the line
-///                  through it and the light meets the plane. What lies in the plane never casts. The marks' bounds are
-///                  then the whole screen.
+/// Name the receiver if you can: the shadow then ends at its edges, and the compositor draws less again.
+/// Without a receiver, a depth comparison finds the pixels that lie in the plane.
 ///
-/// Source: CS-4470 "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8; J. Blinn 1988.
+/// Cost
+/// - Each plane and light: one draw of the casters' triangles, stencil only.
+/// - With a receiver: one more draw of the receiver where it is shadowed.
+/// - Without a receiver: one more draw of every drawable that the shadow can touch.
+/// Needs
+/// - One stencil bit a light, and one more for several planes or techniques of one light.
+/// Limits
+/// - Receivers are flat. Casters do not shadow one another.
+/// - A plane receives on its lit side only.
+/// - Alpha-tested casters cast as if they were solid.
+/// - Without a receiver, a wall that stands in the plane is marked at its foot: up to an eighth of a pixel's slope and
+///   32 depth steps high.
+/// - Without a receiver, a polygon offset or depth range on the ground loses the shadow. A ground of many kilometres
+///   with a near plane of decimetres may lose it, too.
+/// Threads
+/// - Any number of cull and draw threads. Set properties between frames.
+/// Source
+/// - J. Blinn, "Me and My (Fake) Shadow", IEEE CG&A 8(1), 1988.
+/// - CS-4470, "Fake Shadows"; GusOnGames; M. Kilgard, halomagic.c; Lab 8.
 ///
-/// In a file (.osgt, .osgb, .osgx), where what is left out has its default, here no receiver named, no plane, all
-/// cures on:
+/// Cures
+/// - Three cures prevent the classic faults of planar shadows. Switch one off to show its fault.
+/// - Stencil off: each flattened triangle multiplies its pixels by setDark(), so overlaps darken several times.
+///   Everything in the plane receives, even if a receiver is named. The casters are drawn twice.
+/// - Offset off: the flattened triangles fight the receiver for depth. The pattern depends on the OpenGL driver.
+/// - Clip off: parts under the plane or above a lamp cast anti-shadows. The compositor then works on the whole screen.
+///
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::PlanarShadowNode {
 ///       UniqueID 2
@@ -51,35 +65,46 @@ struct PlanarPrograms;
 ///     }
 class GNOMON_EXPORT PlanarShadowNode : public ShadowTechnique {
 public:
+    /// A node without planes.
     PlanarShadowNode();
+    /// A node with one plane, as addPlane() takes it.
     explicit PlanarShadowNode(const osg::Vec4d& plane);
+    /// Copies the properties.
     PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, PlanarShadowNode)
 
-        /// Plane (a, b, c, d), a·x + b·y + c·z + d = 0 in this node's frame, normal towards the lit side; any length of
-        /// normal. Kept as given; one that is degenerate or not finite gets no shadow, and diagnose() says so.
-        void addPlane(const osg::Vec4d& plane);
+    /// Adds a plane (a, b, c, d): a·x + b·y + c·z + d = 0 in this node's frame. Its normal points to the lit side and
+    /// may have any length. A degenerate or non-finite plane gets no shadow, and diagnose() says so.
+    void addPlane(const osg::Vec4d& plane);
+    /// Replaces the planes.
     void setPlanes(const std::vector<osg::Vec4d>& planes);
+    /// The planes, as given.
     const std::vector<osg::Vec4d>& getPlanes() const { return _planes; }
 
-    /// A pixel is darkened once, however many triangles fall on it. Default on.
+    /// On: a pixel is darkened once, however many triangles cover it. Default on.
     void setStencilCure(bool on) { _cures.stencil = on; }
+    /// See setStencilCure().
     bool getStencilCure() const { return _cures.stencil; }
-    /// Marks do not fight the receiver for depth. Default on.
+    /// On: the shadow does not fight the receiver for depth. Default on.
     void setOffsetCure(bool on) { _cures.offset = on; }
+    /// See setOffsetCure().
     bool getOffsetCure() const { return _cures.offset; }
-    /// Casts only what lies between plane and light. Default on.
+    /// On: only parts between the plane and the light cast. Default on.
     void setClipCure(bool on) { _cures.clip = on; }
+    /// See setClipCure().
     bool getClipCure() const { return _cures.clip; }
 
+    /// Makes one job for each plane that receives a shadow. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const GroupCasters& casters) const override;
+                                               const FrameCasters& casters) const override;
 
-    /// In shadow is what lies in one of the planes, to 10⁻⁵ of the casters' size, on its lit side, with a caster above
-    /// that plane in the way. All else is lit, as it is in the picture.
-    bool isLit(const LightProbe& probe, const glm::dvec3& point) const override;
+    /// False for a point in one of the planes if a caster above that plane blocks the light. True for any other point.
+    /// A point is in a plane if it is nearer than 10⁻⁵ of the casters' size.
+    bool isLit(const ShadowProbe& probe, const glm::dvec3& point) const override;
 
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:

@@ -5,13 +5,18 @@
 
 namespace gnomon {
 
-/// Part of a scene graph: what lies under `node` (empty: anything) and is let through by `mask` on its whole way
-/// down, as a traversal mask works. Both must hold.
+/// Selects part of a scene graph by a node, by a mask, or by both.
+///
+/// Use it to say which nodes cast (ShadowCasterGroup::setCasters()) and which receive (ShadowTechnique::setReceiver()).
+/// A drawable is selected if it lies under `node` and `mask` lets every node on the way down to it pass.
+/// The default selects everything.
 struct Selection {
-    osg::ref_ptr<osg::Node> node;
-    osg::Node::NodeMask mask = ~0u;
+    osg::ref_ptr<osg::Node> node;   ///< Root of the part. Null selects any node.
+    osg::Node::NodeMask mask = ~0u; ///< Compared with node masks as a traversal mask is. Default: all bits.
 
+    /// True if node and mask are equal.
     bool operator==(const Selection& other) const { return node == other.node && mask == other.mask; }
+    /// True if node or mask differs.
     bool operator!=(const Selection& other) const { return !(*this == other); }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/CasterMesh.h>
-#include <gnomon/CasterPieces.h>
+#include <gnomon/CasterMarkers.h>
+#include <gnomon/CompositorOptions.h>
 #include <gnomon/Export.h>
 #include <gnomon/LightUniform.h>
 #include <gnomon/Selection.h>
@@ -16,16 +16,41 @@
 
 namespace gnomon {
 
-class CasterRevision;
+class CasterMesh;
+class CasterDrawables;
+class CasterFingerprint;
 
-/// Group whose subgraph casts shadows. It wraps the scene or any part of it; the scene's own nodes stay as they are.
-/// Techniques (PlanarShadowNode, …) are its children, beside the scene:
+/// Group whose subgraph casts shadows. Every scene with Gnomon's shadows has one.
 ///
+/// Wrap the scene, or any part of it, and add a technique beside it. The scene's own nodes stay as they are.
+/// The techniques are PlanarShadowNode, ShadowMapTechnique, TerrainShadowGeode and TracedShadowTechnique.
+///
+///     osg::DisplaySettings::instance()->setMinimumNumStencilBits(8); // before the window is made
 ///     osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
 ///     group->addChild(scene);
 ///     group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
 ///
-/// In a file (.osgt, .osgb, .osgx); what is left out has its default, here all casts, RELIGHT, 0.5, every light:
+/// Cost
+/// - Each frame and view: one visit of the casters' nodes, to find changes.
+/// - After a change: an extraction of the changed drawables. PlanarShadowNode and TracedShadowTechnique extract all.
+/// - RELIGHT: one more draw of the drawables that shadows touch.
+/// - BLEND: one multiplication a shadowed pixel.
+/// Needs
+/// - Stencil bits; 8 are always enough. RELIGHT takes one a light and sometimes one more.
+/// - Alpha bits for soft and smooth edges.
+/// Limits
+/// - RELIGHT shadows three lights. BLEND shadows any number, but darkens a pixel only once.
+/// - RELIGHT darkens unlit receivers by setDark(), and receivers whose program reads no light it knows.
+/// - RELIGHT falls back to BLEND if an opaque drawable has a stencil test of its own.
+/// - Reversed depth is refused.
+/// - A technique's diagnose() reports each of the four cases above.
+/// - Transparent drawables receive no shadow, nor does anything in render bin 8 or higher.
+/// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
+/// - VertexTraverser lists which drawables never cast.
+/// Threads
+/// - Any number of cull and draw threads. Set properties between frames.
+///
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::ShadowCasterGroup {
 ///       UniqueID 1
@@ -37,61 +62,77 @@ class CasterRevision;
 ///       Lights 1 { 0 433000.25 5410000.5 60 1 }
 ///       Spots 1 { 0 0 -1 30 }
 ///       LightUniforms 1 { 0 "sunColor" }
+///       CompositorOptions 15 TRUE 10000
 ///     }
-///
-/// Cost    a visit of the casters' nodes a frame and view to see that nothing changed; an extraction where something
-/// did. Needs   stencil bits for its techniques. Limits  see VertexTraverser for what is left out. Threads any number
-/// of cull and draw threads; set properties between frames.
-class GNOMON_EXPORT ShadowCasterGroup : public osg::Group {
+class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren {
 public:
-    /// How the light is taken away from the pixels it does not reach.
+    /// How the compositor darkens shadowed pixels.
     enum Composite : int {
-        RELIGHT, ///< exact: they are drawn once more without that light's diffuse and specular.
-        BLEND    ///< cheap: their colour is multiplied by a factor, once.
+        RELIGHT, ///< Exact: draws them again without the light's diffuse and specular.
+        BLEND    ///< Cheap: multiplies their colour by setDark(), once a pixel.
     };
 
+    /// An empty group.
     ShadowCasterGroup();
+    /// Copies the properties. A deep copy names its own copies of casters, light sources and receivers.
     ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowCasterGroup)
 
-        /// What casts, of this group's subgraph. Default: all of it.
-        void setCasters(const Selection& casters);
+    /// The part of this group's subgraph that casts. Default: all of it.
+    void setCasters(const Selection& casters);
+    /// See setCasters().
     const Selection& getCasters() const { return _selection; }
 
-    /// Default RELIGHT, which any value that is none of the two stands for too.
+    /// How shadowed pixels are darkened. Default RELIGHT, which also replaces any unknown value.
     void setComposite(Composite composite) { _composite = composite == BLEND ? BLEND : RELIGHT; }
+    /// See setComposite().
     Composite getComposite() const { return _composite; }
 
-    /// Factor of BLEND, 0 (black) … 1 (nothing); default 0.5. Clamped; NaN is refused with a warning.
+    /// Factor for the colour of shadowed pixels under BLEND, 0 (black) … 1 (unchanged). Default 0.5.
+    /// Clamped. NaN is refused with a warning.
     void setDark(float factor);
+    /// See setDark().
     float getDark() const { return _dark; }
 
-    /// Lights that cast, instead of all those that are on in the view. A LightSource may stand anywhere in the graph,
-    /// moved by transforms.
+    /// Adds a light that casts. Without any, every light that is on in the view casts.
+    /// The LightSource may stand anywhere in the graph, also under transforms.
     void addLight(osg::LightSource* light);
-    /// A light given by its place in the group's frame, in double: for lamps far from the origin. Refused with a warning
-    /// if its number is none of OpenGL's, 0 to 7.
+    /// Adds a light by its position in the group's frame, in double: for lamps far from the origin.
+    /// A light number outside 0 … 7 is refused with a warning.
     void addLight(const ShadowLight& light);
+    /// Removes all lights of both kinds, so that every light in the view casts again.
     void removeLights();
-    /// All of one kind in place of those that were.
+    /// Replaces the light sources. Null entries are skipped.
     void setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources);
+    /// The light sources that cast.
     const std::vector<osg::ref_ptr<osg::LightSource>>& getLightSources() const { return _lightSources; }
+    /// Replaces the lights given by position. A light number outside 0 … 7 is refused with a warning.
     void setLights(std::vector<ShadowLight> lights);
+    /// The lights given by position.
     const std::vector<ShadowLight>& getLights() const { return _lights; }
 
-    /// Uniforms by which programs of receivers read the colours of lights: relight sets them to 0 where the light does not
-    /// reach, as it does the OpenGL light's own colours. Default none. Not for elements of arrays. A uniform whose light
-    /// number is none of OpenGL's, 0 to 7, is refused with a warning.
+    /// Names a uniform by which the receivers' programs read a light. RELIGHT sets it to 0 in that light's shadow.
+    /// Default: none. Array elements do not work. A light number outside 0 … 7 is refused with a warning.
     void addLightUniform(const LightUniform& uniform);
+    /// Replaces the light uniforms.
     void setLightUniforms(std::vector<LightUniform> uniforms);
+    /// The light uniforms.
     const std::vector<LightUniform>& getLightUniforms() const { return _lightUniforms; }
 
-    /// The casters as they are now; extracted again only if something changed since the last call. Call it where
-    /// reading the graph is allowed: in update, event or cull.
+    /// Limits of the view's compositor. See CompositorOptions for several nodes in one view. Default: none.
+    void setCompositorOptions(const CompositorOptions& options) { _options = options; }
+    /// See setCompositorOptions().
+    const CompositorOptions& getCompositorOptions() const { return _options; }
+
+    /// True for the class itself, whose traversal visits all children.
+    bool showsAllChildren() const override;
+
+    /// The casters as one mesh. They are extracted again only if something changed since the last call.
+    /// Call it where the graph may be read: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
-    /// The same drawable by drawable: what did not change since the last call is the same piece, and not read again.
-    osg::ref_ptr<const CasterPieces> pieces() const;
-    /// Rises by one with each change that casters() or pieces() finds; 0 before the first call of either.
+    /// The casters, drawable by drawable. Only changed drawables are read again. Call it as casters().
+    osg::ref_ptr<const CasterDrawables> drawables() const;
+    /// Number of changes that casters() and drawables() have found. 0 before the first call of either.
     unsigned revision() const;
 
 protected:
@@ -108,11 +149,12 @@ private:
     std::vector<osg::ref_ptr<osg::LightSource>> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;
+    CompositorOptions _options;
 
     mutable OpenThreads::Mutex _mutex;
-    osg::ref_ptr<CasterRevision> _watch;
+    osg::ref_ptr<CasterFingerprint> _watch;
     mutable osg::ref_ptr<const CasterMesh> _mesh;
-    mutable osg::ref_ptr<const CasterPieces> _pieces;
+    mutable osg::ref_ptr<const CasterDrawables> _pieces;
     mutable std::uint64_t _fingerprint = 0, _meshFingerprint = 0;
     mutable unsigned _revision = 0;
 };

@@ -7,64 +7,80 @@
 
 namespace gnomon {
 
-class LightMaps;
-struct MapWish;
+class CasterDrawables;
+class ShadowMapCache;
+struct MapSettings;
 
-/// Shadow on everything that is seen, by depth maps: the casters drawn once as each light sees them, and what is seen
-/// compared with that.
+/// Casts shadows onto everything visible, by depth maps. Choose it first for general scenes.
+///
+/// It fits, keeps and biases its maps by itself. Use PlanarShadowNode for flat floors alone, TerrainShadowGeode for
+/// buildings on terrain, and TracedShadowTechnique for exact hard edges.
 ///
 ///     osg::ref_ptr<gnomon::ShadowMapTechnique> shadow = new gnomon::ShadowMapTechnique;
 ///     shadow->setSize(2048);
 ///     group->addChild(shadow);
 ///
-/// Maps    A map covers what of the seen receivers the casters can darken, and no more: the smallest rectangle about it, and
-///         a sixteenth more on each side so that it holds for a while. It is drawn again only when the light has changed or a
-///         caster in it, or when what is seen is no longer in it or would fill less than half of it. Casters between it and the
-///         light count wherever they are. What is flat along an axis of the group, as grounds are, is left out while all that
-///         is seen is on the light's side of it: it darkens nothing.
-/// Texels  as many as the view can show, and no more than setSize() allows: 1.5 pixels are as wide as the widest, on what of
-///         the seen receivers is nearest, or, for soft edges, a third of one. A map is drawn again with more when they are an
-///         eighth too few, and with fewer when half of them would do and it is to be drawn anyway.
-/// Moving  Casters are in two layers. What has changed since it was first met, as by a transform above it, is in the one that
-///         moves: it alone is extracted and drawn when it changes again, in those maps that it is or was in, over what stands
-///         still, which stays in the map. What stood still and begins to move, or goes, costs one drawing of all.
-/// Bias    none to set. Both the surface in the map and the one that is seen allow for their own slope within the texels
-///         that are compared, and for the rounding of depth, here and in the frame. Thin things lose their shadow where
-///         they are less than about a texel off the surface, measured along the light.
-/// Spots   a lamp with a cutoff (osg::Light::setSpotCutoff(), ShadowLight::cutoff) has one map, about its cone, up
-///         to a cutoff of 75 degrees, wider ones have those of a lamp; and nothing without casters. RELIGHT
-///         takes its light from all that is outside the cone, to the pixel, where OpenGL alone decides a vertex; BLEND
-///         leaves that as OpenGL has drawn it, which is without the light as far as vertices tell. Where no vertex is
-///         in the cone OpenGL gives no light, and none is added. What is unlit, as a sky, is darkened outside the cone as in
-///         any shadow: name receivers where there is such a thing.
-/// Alpha   of casters with an alpha test (osg::AlphaFunc) casts what that leaves of them, by the alpha of the 2D texture on
-///         unit 0 at coordinates given a vertex; where alpha comes from elsewhere, all of them casts, and diagnose() says
-///         so.
-/// Edges   hard: what gets less than half of the light, by the filter, gets none. Smooth: the same edge, a pixel wide.
-///         Soft, see setEdges(): as much as the filter says, or, of a light that is seen under an angle, as much as comes
-///         past what stands before it: its penumbra, where that is wider than two texels.
+/// Cost
+/// - Each frame and light: a copy of the depth buffer and one quad within the shadows' bounds.
+/// - When a map changes: one draw of the casters' positions.
+/// - Moving casters: a draw of them alone, two copies of the texels they cover, and a second texture of the maps' size.
+/// - Each pixel within those bounds: one comparison of 2 × 2 texels; four with BICUBIC, 16 with FINE and SMOOTH edges.
+/// - SMOOTH and SOFT edges: another copy and quad, unless a single light blends.
+/// - Penumbras: 16 texels and 8 to 32 comparisons more a pixel.
+/// - A spot under RELIGHT: another copy and quad over the whole view.
+/// Needs
+/// - OpenGL 3.0 with GLSL 1.30, and a depth buffer.
+/// - One stencil bit a light, and one more where a receiver is named.
+/// - SMOOTH and SOFT edges: alpha bits, unless a single light blends.
+/// - Penumbras: OpenGL 3.3 or its sampler objects.
+/// Limits
+/// - An edge is off by a fraction of a texel, see Filter.
+/// - An object loses its shadow if it is less than about a texel off the receiver, measured along the light.
+/// - A lamp inside a closed box may light single pixels along the box's edges.
+/// - A penumbra is that of one straight edge at the blockers' mean distance. Overlapping edges at several distances are
+///   only estimated.
+/// - Penumbras end at 128 texels, and at the borders of a lamp's six maps.
+/// - Blended casters cast as if they were solid.
+/// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.
+/// - Multisampled framebuffers are shadowed by pixel, from one sample.
+/// - ShadowQuery takes all casters for solid, and ignores spot cones.
+/// Threads
+/// - Any number of cull and draw threads. Set properties between frames.
+/// Source
+/// - L. Williams, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 1978.
+/// - W. Reeves, D. Salesin, R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987.
+/// - CS-4470, part 2.
 ///
-/// Cost    while nothing changes, a copy of the depth buffer and one quad over what the shadows' bounds cover; a draw of
-///         all casters' positions when a map is made. Where casters move, those alone and two copies of what of the map they
-///         cover, and a second texture of the maps' size. A spot that relights takes another copy and quad, of all that is
-///         seen.
-///         Of a pixel 1, 1 or 4 comparisons of 2 × 2 texels, by the filter; smooth and soft edges take another copy and
-///         quad unless a single light blends, and in penumbras 16 texels and 8 to 32 comparisons more.
-/// Needs   OpenGL 3.0 with GLSL 1.30 and a depth buffer; 1 stencil bit a light, 1 more where a receiver is named. Smooth
-///         and soft edges: alpha bits, but for a single light that blends; penumbras: OpenGL 3.3 or its sampler objects.
-/// Limits  A shadow's edge is off by a fraction of a texel, see setFilter(); through the edges of a closed box with a lamp in
-///         it single pixels may be lit. A penumbra is that of one straight edge as far
-///         away as what blocks the light there is on average: where several edges at several distances overlap it is a
-///         guess; it is cut at 128 texels, and at the sides of a lamp's six maps. Of alpha tests, alpha of vertices and
-///         materials counts as 1, and where the map is coarser than the texture its mipmaps are what is tested; what is
-///         blended casts as if it were solid. A ShadowQuery takes all casters for solid and knows no cones. What writes no
-///         depth does not receive; what is drawn with a polygon offset or a depth range of its own receives as if it stood
-///         where its depth says. Multisampled framebuffers are decided a pixel, by one of its samples.
-/// Threads any number of cull and draw threads; set properties between frames.
-/// Source: L. Williams, "Casting Curved Shadows on Curved Surfaces", SIGGRAPH 1978; CS-4470, part 2; W. Reeves, D. Salesin
-///         and R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987.
+/// Maps
+/// - A map covers only those visible receivers that a caster can shadow, and a sixteenth more on each side.
+/// - A map is drawn again if the light or a caster in it changes.
+/// - A map is fitted again if the view leaves it or would fill less than half of it.
+/// - Casters between a map and the light always count, even outside the map's depth range.
+/// - A flat caster, such as a ground, is left out while all visible receivers are on the light's side of it.
+/// Texels
+/// - A map has only as many texels as the view can show, and never more than setSize().
+/// - On the nearest receiver, a texel is at most 1.5 pixels wide, and a third of a pixel for SOFT edges.
+/// - A map is drawn again with more texels if it has an eighth too few.
+/// Moving casters
+/// - Casters are in two layers, static and moving. All start in the static one.
+/// - A caster that changes joins the moving layer, at the cost of one full redraw. After that, it is drawn alone.
+/// Bias
+/// - There is none to set. Both the caster's and the receiver's slope within the compared texels are allowed for, and
+///   the rounding of both depths.
+/// Spots
+/// - A light with a cutoff (osg::Light::setSpotCutoff(), ShadowLight::cutoff) of up to 75 degrees has one map. A wider
+///   spot has a lamp's maps.
+/// - RELIGHT darkens every pixel outside the cone, exactly. BLEND leaves the cone as OpenGL draws it, by vertex.
+/// - OpenGL lights a triangle by its vertices: without a vertex in the cone there is no light, and none is added.
+/// - Unlit drawables, such as a sky, darken outside the cone as in any shadow. Name receivers to prevent that.
+/// - Without any caster, RELIGHT changes nothing.
+/// Alpha tests
+/// - A caster with an osg::AlphaFunc casts only its opaque texels: by the 2D texture on unit 0 and its coordinates.
+/// - Alpha of vertices and materials counts as 1. If alpha comes from elsewhere, all of the caster casts, and
+///   diagnose() says so.
+/// - If the map is coarser than the texture, the texture's mipmaps are tested.
 ///
-/// In a file (.osgt, .osgb, .osgx), where what is left out has its default:
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::ShadowMapTechnique {
 ///       UniqueID 2
@@ -73,105 +89,119 @@ struct MapWish;
 ///     }
 class GNOMON_EXPORT ShadowMapTechnique : public ShadowTechnique {
 public:
-    /// How a pixel is compared with the map. How far the middle of an edge is off, 95 % of it, is of random edges.
+    /// How many texels of the map a pixel is compared with. Later filters are more accurate in general, and slower.
     enum Filter : int {
-        NEAREST,  ///< with one texel: steps, 0.51 texel off.
-        BILINEAR, ///< with 2 × 2, weighted: 0.41 texel off.
-        BICUBIC, ///< with 4 × 4, weighted by cubic B-splines: rounded, 0.35 texel off; smooth edges: with 4 times 2 × 2,
-                 ///< spread over the pixel.
-        FINE ///< smooth edges: with 16 times 2 × 2, of maps with twice as many texels a pixel, as far as setSize() lets
-             ///< them be had; others as BICUBIC.
+        NEAREST,  ///< One texel: stepped edges.
+        BILINEAR, ///< 2 × 2 texels, weighted.
+        BICUBIC,  ///< 4 × 4 texels, weighted by cubic B-splines: rounded edges. SMOOTH edges: 4 times 2 × 2 texels,
+                  ///< spread over the pixel.
+        FINE      ///< SMOOTH edges: 16 times 2 × 2 texels, in maps of twice the resolution, within setSize(). Other
+                  ///< edges: as BICUBIC.
     };
 
+    /// How much of a light a pixel at a shadow's edge gets.
     enum Edges : int {
-        HARD,   ///< a pixel has all of a light or none of it.
-        SMOOTH, ///< where an edge passes through it, it has what of the light is on its lit side; with NEAREST as HARD.
-        SOFT    ///< it has the share that arrives.
+        HARD,   ///< All or nothing: nothing if less than half of the light arrives.
+        SMOOTH, ///< The lit share of the pixel: a hard edge without steps. With NEAREST as HARD.
+        SOFT    ///< The share of the light that arrives: penumbras. See setSunAngle(), setLampSize() and setRadius().
     };
 
-    /// What is drawn over the finished picture, to see how maps lie.
+    /// Debug views, drawn over the finished picture.
     enum View : int {
-        NOTHING, ///< which is the default.
-        MAP,     ///< each light's maps in the lower left corner, near things bright; blue where nothing stands.
-        TEXELS, ///< how wide a texel of the first light is: blue a quarter of a pixel, green one, yellow three, red eight or
-                ///< more; a chequerboard of texels that are wider than two.
-        CASCADES ///< which map of the first light answers: red, green, blue, yellow, purple, cyan; the finest is red.
+        NOTHING, ///< No debug view.
+        MAP,     ///< Each light's maps in the lower left corner. Near casters are bright, empty texels blue.
+        TEXELS,  ///< Width of the first light's texels: blue ¼ pixel, green 1, yellow 3, red 8 or more. A chequerboard
+                 ///< shows texels wider than two pixels.
+        CASCADES ///< The map of the first light that answers: red (the finest), green, blue, yellow, purple or cyan.
     };
 
+    /// A technique with the default properties.
     ShadowMapTechnique();
+    /// Copies the properties.
     ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowMapTechnique)
 
-        /// Texels on a side of each map, at most, 16 … 16384; default 1024. Clamped; beyond what OpenGL has there is no shadow,
-        /// and diagnose() says so. Fewer are used where the view can show no more, see Texels.
-        void setSize(int texels);
+    /// Most texels on a side of a map, 16 … 16384. Default 1024. Clamped.
+    /// A map has fewer if the view cannot show more. Above OpenGL's limit there is no shadow, and diagnose() says so.
+    void setSize(int texels);
+    /// See setSize().
     int getSize() const { return _size; }
 
-    /// Default BICUBIC, which any value that is none of them stands for too.
+    /// Filter of the comparisons. Default BICUBIC, which also replaces any unknown value.
     void setFilter(Filter filter) { _filter = filter >= NEAREST && filter <= FINE ? filter : BICUBIC; }
+    /// See setFilter().
     Filter getFilter() const { return _filter; }
 
-    /// Maps of a sun, 0 … 4: that many at most; default 0, as many as keep their texels to six pixels, which keeps 95 %
-    /// of the edges to within about a pixel. Clamped. What is seen is divided by its distance along the line of sight, so
-    /// that each part is as many times as far at its end as at its beginning, and each part has a map of its own: for
-    /// views that reach from near to far, a street or a landscape. Fewer are made where a part's end would be less than
-    /// twice as far as its beginning; one for orthographic views and for lamps.
+    /// Most cascades (maps) of a sun, 0 … 4. Default 0: as many as keep texels within six pixels. Clamped.
+    /// Cascades divide a view that reaches from near to far, such as a street or a landscape. Their depths grow by a
+    /// constant ratio. A ratio below two gives fewer cascades. Orthographic views and lamps have one.
     void setCascades(int maps);
+    /// See setCascades().
     int getCascades() const { return _cascades; }
 
-    /// Default HARD, which any value that is none of them stands for too. What follows counts where edges are soft.
+    /// Kind of edges. Default HARD, which also replaces any unknown value.
     void setEdges(Edges edges) { _edges = edges == SMOOTH || edges == SOFT ? edges : HARD; }
+    /// See setEdges().
     Edges getEdges() const { return _edges; }
 
-    /// Angle under which suns are seen, degrees, 0 … 20; default 0.533, the sun's own from the earth; 0 is a point, whose edges
-    /// are as wide as the filter. Clamped; what is not a number is 0.
+    /// SOFT edges: angular diameter of suns, degrees, 0 (a point) … 20. Default 0.533, the sun as seen from the earth.
+    /// Clamped. NaN becomes 0.
     void setSunAngle(double degrees);
+    /// See setSunAngle().
     double getSunAngle() const { return _sunAngle; }
 
-    /// Diameter of lamps and spots, scene's unit, 0 … 1e6; default 0, a point. Clamped; what is not a number is 0.
+    /// SOFT edges: diameter of lamps and spots, scene's unit, 0 (a point) … 1e6. Default 0. Clamped. NaN becomes 0.
     void setLampSize(double diameter);
+    /// See setLampSize().
     double getLampSize() const { return _lampSize; }
 
-    /// Radius of the disc, across the light's way, that is averaged about every place, scene's unit, 0 … 1e6: edges as wide
-    /// as that wherever they fall, for looks; default 0, the filter alone. Clamped; what is not a number is 0.
+    /// SOFT edges: blur radius, scene's unit, 0 (the filter alone) … 1e6. Default 0. Clamped. NaN becomes 0.
+    /// It averages a disc across the light's direction. Every edge then has the same width, for looks.
     void setRadius(double radius);
+    /// See setRadius().
     double getRadius() const { return _radius; }
 
-    /// Default NOTHING, which any value that is none of them stands for too. MAP needs what penumbras need. What no map
-    /// answers for is left as it is; with a program unit nothing is drawn.
+    /// Debug view. Default NOTHING, which also replaces any unknown value.
+    /// MAP needs the OpenGL that penumbras need. Pixels without a map stay unchanged. With setProgramUnit() there is no
+    /// debug view.
     void setView(View view) { _view = view == MAP || view == TEXELS || view == CASCADES ? view : NOTHING; }
+    /// See setView().
     View getView() const { return _view; }
 
-    /// Texture unit, 0 … 31, at which the programs of all that this view draws find the maps of the group's first light, for
-    /// shading of their own; default -1: no program does, and shadows are marked as ever. With a unit nothing is marked.
-    /// Values that are none of them are -1. What is drawn by OpenGL's fixed functions is drawn as if there were no shadow; give
-    /// such things a technique of their own.
+    /// Texture unit, 0 … 31, where the scene's own shader programs find the maps of the first light. Default -1: off.
+    /// Other values become -1. With a unit, the technique marks no pixels: only programs with programFunction() show
+    /// shadows. Give other drawables a technique of their own.
     void setProgramUnit(int unit) { _programUnit = unit >= 0 && unit < 32 ? unit : -1; }
+    /// See setProgramUnit().
     int getProgramUnit() const { return _programUnit; }
-    /// The function for such programs, GLSL 1.30, to be added to them as a fragment shader of its own, which compares as the
-    /// filter says; edges are as soft as that, penumbras it does not know.
+    /// GLSL 1.30 source of the lookup function for setProgramUnit(). Add it to a program as another fragment shader.
+    /// It returns the share of the light that arrives. Edges follow the filter; there are no penumbras.
     ///
-    ///     float gnomon_visibility(vec3 eye); // declare it; eye: in eye coordinates
+    ///     float gnomon_visibility(vec3 eye); // declare it like this; eye: position in eye coordinates
     std::string programFunction() const;
 
-    /// Maps drawn so far, over all lights, views and contexts: rises only where something changed. A map counts once in a
-    /// frame in which anything is drawn into it, all casters or those that move; not, if all that moves is beside it.
+    /// Number of maps drawn so far, over all lights, views and contexts. It rises only if something changed.
+    /// A map counts once a frame if any caster is drawn into it.
     unsigned passes() const;
 
+    /// Updates the maps of one light and makes the jobs that look them up. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const GroupCasters& casters) const override;
+                                               const FrameCasters& casters) const override;
 
-    bool takesPieces() const override { return true; }
+    /// True: the technique keeps casters by drawable.
+    bool takesDrawables() const override { return true; }
 
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
     ~ShadowMapTechnique() override;
 
 private:
-    void reportUnknownTests(unsigned frame, const CasterPieces& pieces) const;
-    MapWish wish() const;
+    void reportUnknownTests(unsigned frame, const CasterDrawables& pieces) const;
+    MapSettings wish() const;
 
     int _size = 1024;
     Filter _filter = BICUBIC;
@@ -181,7 +211,7 @@ private:
     double _lampSize = 0.0, _radius = 0.0;
     View _view = NOTHING;
     int _programUnit = -1;
-    std::unique_ptr<LightMaps> _maps;
+    std::unique_ptr<ShadowMapCache> _maps;
 };
 
 } // namespace gnomon

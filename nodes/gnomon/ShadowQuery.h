@@ -19,46 +19,64 @@
 namespace gnomon {
 
 class ShadowCasterGroup;
-struct LightProbe;
+struct ShadowProbe;
 
-/// "Is this point lit?", "is this line blocked?": asked of the technique that is drawn, so that the answer is the
-/// picture's, or by exact() of rays at the casters whatever is drawn.
+/// Answers "is this point lit?" and "is this line blocked?" without drawing.
+///
+/// Use it for game logic and simulation: can the guard see the player, how much sun does the field get.
+/// A query asks the drawn technique, so its answers match the picture. exact() asks rays at the casters.
 ///
 ///     gnomon::ShadowQuery query(*planar, {0, sun});
-///     if (query.isLit(player->position())) …
+///     if (query.isLit(player->position())) player->hide();
 ///
-/// Points are of the group's frame, in double. It keeps the casters as they were when it was made: make another one
+/// Points are in the group's frame, in double. A query keeps the casters of the time when it was made. Make another one
 /// when ShadowCasterGroup::revision() has risen.
 ///
-/// Cost    making it: a tree over the casters, see RayScene, unless a TracedShadowTechnique of their group or
-///         another query has one, which is shared; a question: about 0.25 µs of one core.
-/// Needs   Embree. No OpenGL, no view.
-/// Limits  a point does not tell what it belongs to: where a technique names a receiver, its answer holds for points of
-///         that. Points on a surface that the light hardly grazes, sine 0.01 or less, may be called either way.
-/// Threads any number may ask one query.
+/// Cost
+/// - To make one: a ray tree over the casters, see RayScene. Queries and TracedShadowTechnique share trees.
+/// - To ask: a ray, less than a microsecond.
+/// Needs
+/// - Embree. No OpenGL and no view.
+/// Limits
+/// - If the technique names a receiver, its answers hold for points on that receiver only.
+/// - Points on a surface that the light grazes (sine 0.01 or less) may get either answer.
+/// Threads
+/// - Any number may ask one query.
 class GNOMON_EXPORT ShadowQuery {
 public:
-    /// @param technique  a child of a ShadowCasterGroup, directly or not; of several groups the first one's.
-    /// @throws std::invalid_argument if there is no group above it or the light is nowhere (zero, or not finite).
-    /// @throws std::runtime_error, see RayScene.
+    /// Reads the casters as they are now. Call it where the graph may be read.
+    /// @param technique  a technique below a ShadowCasterGroup, directly or not. If it is below several, the first one
+    ///                   counts.
+    /// @param light      the light to ask about.
+    /// @throws std::invalid_argument if no group is above the technique, or the light is zero or not finite.
+    /// @throws std::runtime_error if Embree fails, see RayScene.
     ShadowQuery(const ShadowTechnique& technique, const ShadowLight& light);
+    /// Copies share what they have found.
+    ShadowQuery(const ShadowQuery& other);
+    /// As a copy.
+    ShadowQuery& operator=(const ShadowQuery& other);
+    ~ShadowQuery();
 
-    /// The same questions, answered by rays at the casters.
+    /// The same query, answered by rays at the casters, whatever technique is drawn.
     ShadowQuery exact() const;
 
+    /// True if the light reaches a point.
     bool isLit(const osg::Vec3d& point) const;
-    /// True if a caster is between two points; those that they lie on do not count.
+    /// True if a caster is between two points. Surfaces that the points lie on do not count.
     bool isBlocked(const osg::Vec3d& from, const osg::Vec3d& to) const;
-    /// Share of a box's volume that is lit, 0 … 1, asked at `side`³ points. @param side  1 … 256; clamped.
+    /// Lit share of a box's volume, 0 … 1. Asks side³ points, on all cores.
+    /// @param side  1 … 256. Clamped.
     double litShare(const osg::BoundingBoxd& box, unsigned side = 8) const;
 
-    /// Many at once, on all cores: 1 is lit.
+    /// Asks for many points at once, on all cores.
+    /// @return one value a point: 1 lit, 0 in shadow.
     std::vector<std::uint8_t> areLit(const std::vector<osg::Vec3d>& points) const;
-    /// From one point to many: 1 is blocked.
+    /// Asks for lines from one point to many, on all cores.
+    /// @return one value a line: 1 blocked, 0 free.
     std::vector<std::uint8_t> areBlocked(const osg::Vec3d& from, const std::vector<osg::Vec3d>& to) const;
 
 private:
-    LightProbe probe() const;
+    ShadowProbe probe() const;
 
     osg::ref_ptr<const ShadowTechnique> _technique; ///< null: exact.
     osg::ref_ptr<const ShadowCasterGroup> _group;

@@ -11,44 +11,52 @@
 
 namespace gnomon {
 
-/// What a specification string says: which technique, and how. The same text selects a technique everywhere.
+/// A technique and its settings, written as one string. The same string works in every program and in code.
 ///
-///     none | planar | box | hull | drape | map | traced    the others that are planned are refused as not built yet
-///     NAME:key=value,key=value               planar:composite=blend,dark=0.4,receiver=floor
+/// Use it for command lines and configuration files. In code, set the properties of a technique directly.
+///
+///     gnomon::addShadows(*group, {gnomon::parseShadowSpec("planar:composite=blend,dark=0.4,receiver=floor")});
+///
+/// Syntax: NAME, or NAME:key=value,key=value. The names are none, planar, box, hull, drape, map and traced.
+/// shadowSpecHelp() lists the keys with ranges, units and defaults.
 struct ShadowSpec {
-    std::string text;                                      ///< as given.
-    std::string technique = "none";                        ///< one of shadowTechniques().
-    std::optional<ShadowCasterGroup::Composite> composite; ///< not given: RELIGHT.
-    std::optional<float> dark;                             ///< factor of BLEND, 0 … 1; not given: the group's 0.5.
-    std::optional<double> error;                      ///< of hull and drape: in plan, scene's unit; not given: 0.1.
-    std::optional<int> size;                          ///< of map: texels on a side; not given: 1024.
-    std::optional<ShadowMapTechnique::Filter> filter; ///< of map; not given: BICUBIC.
-    std::optional<int> cascades; ///< of map: maps of a sun at most, 0: as many as it takes; not given: 0.
-    std::optional<ShadowMapTechnique::Edges> edges; ///< of map; not given: HARD.
-    std::optional<double> sunAngle;                 ///< of map with soft edges: degrees; not given: 0.533.
-    std::optional<double> lampSize;                 ///< of map with soft edges: diameter, scene's unit; not given: 0.
-    std::optional<double> radius;                   ///< of map with soft edges: scene's unit; not given: 0.
-    std::optional<ShadowMapTechnique::View> view;   ///< of map; not given: NOTHING.
-    /// Name of the node that receives; empty: map and traced everything, the others the node named "ground".
+    std::string text;                                      ///< The string as given.
+    std::string technique = "none";                        ///< One of shadowTechniques().
+    std::optional<ShadowCasterGroup::Composite> composite; ///< Default RELIGHT.
+    std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default 0.5.
+    std::optional<double> error;                           ///< hull, drape: see TerrainShadowGeode::setError().
+    std::optional<int> size;                               ///< map: see ShadowMapTechnique::setSize().
+    std::optional<ShadowMapTechnique::Filter> filter;      ///< map: see ShadowMapTechnique::setFilter().
+    std::optional<int> cascades;                           ///< map: see ShadowMapTechnique::setCascades().
+    std::optional<ShadowMapTechnique::Edges> edges;        ///< map: see ShadowMapTechnique::setEdges().
+    std::optional<double> sunAngle;                        ///< map: see ShadowMapTechnique::setSunAngle().
+    std::optional<double> lampSize;                        ///< map: see ShadowMapTechnique::setLampSize().
+    std::optional<double> radius;                          ///< map: see ShadowMapTechnique::setRadius().
+    std::optional<ShadowMapTechnique::View> view;          ///< map: see ShadowMapTechnique::setView().
+    /// Name of the node that receives. Default, empty: everything for map and traced, else the node named "ground".
     std::string receiver;
 };
 
-/// @throws std::invalid_argument, one sentence that names what is wrong and lists what is allowed.
+/// Parses a specification string. Keys that it leaves out stay empty and take their defaults.
+/// @throws std::invalid_argument with one sentence that names the mistake and lists what is allowed.
 GNOMON_EXPORT ShadowSpec parseShadowSpec(const std::string& text);
 
-/// Names of the techniques that are built.
+/// Names of the techniques that can be used, "none" included.
 GNOMON_EXPORT std::vector<std::string> shadowTechniques();
 
-/// Table of the techniques, their keys, ranges, units and defaults, for --help: lines of at most 120 characters.
-/// @param names  those of them that the program has.
+/// Table of the techniques and their keys, ranges, units and defaults, for --help. Lines have at most 120 characters.
+/// @param names  techniques to list. Default: all.
 GNOMON_EXPORT std::string shadowSpecHelp(const std::vector<std::string>& names = shadowTechniques());
 
-/// Adds what `specs` ask for as children of `group`, and sets its composite. The receiver is looked for under the
-/// group. planar: a plane for each flat part of the receiver, up to eight, the largest first, none under 1 % of the
-/// largest. box, hull, drape: the receiver is the terrain. map, traced: everything receives, unless a receiver is given.
-/// @return the techniques added, in the order of `specs`; none for "none".
-/// @throws std::invalid_argument, one sentence, if the specs' composites differ, the receiver is not there or has
-/// nothing flat.
+/// Adds the techniques of `specs` as children of `group`, and sets the group's composite.
+///
+/// It looks for receivers by name under the group.
+/// - planar: takes the receiver's flat parts as planes. At most eight, and none below 1 % of the largest.
+/// - box, hull, drape: take the receiver as terrain.
+/// - map, traced: take everything as receiver, unless one is named.
+///
+/// @return the techniques in the order of `specs`. "none" adds none.
+/// @throws std::invalid_argument with one sentence if composites differ, or a receiver is missing or has no flat part.
 GNOMON_EXPORT std::vector<osg::ref_ptr<ShadowTechnique>> addShadows(ShadowCasterGroup& group,
                                                                     const std::vector<ShadowSpec>& specs);
 

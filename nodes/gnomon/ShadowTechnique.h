@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CasterMarkers.h>
 #include <gnomon/Export.h>
-#include <gnomon/FrameCauses.h>
-#include <gnomon/GroupCasters.h>
-#include <gnomon/MarkJob.h>
+#include <gnomon/NamesNodes.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
-#include <gnomon/ViewFrame.h>
 
 #include <glm/vec3.hpp>
 #include <osg/Geode>
@@ -20,67 +18,89 @@ class CullVisitor;
 
 namespace gnomon {
 
+class FrameDiagnosis;
+class CopiedNodes;
+class FrameCasters;
+class MarkJob;
 class ShadowCasterGroup;
-struct LightProbe;
+struct FrameReport;
+struct ShadowProbe;
+struct ViewFrame;
 
-/// Base of all shadow techniques: finds the pixels that a light does not reach. The compositor (ShadowBin) takes the
-/// light away from them.
+/// Base class of all shadow techniques: finds the pixels that a light does not reach.
 ///
-/// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. In a cull traversal
-/// it registers itself with the ShadowBin of the stage being filled, and draws nothing else. After the whole cull the
-/// bin calls prepare() once a light, in each view.
-class GNOMON_EXPORT ShadowTechnique : public osg::Geode {
+/// Derive from it to add a technique. To use a technique, take PlanarShadowNode, ShadowMapTechnique, TerrainShadowGeode
+/// or TracedShadowTechnique.
+///
+/// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. The cull traversal
+/// registers the technique with the compositor of its render stage. After the cull, the compositor calls prepare() once
+/// a light in each view. The technique marks pixels; the compositor darkens them.
+class GNOMON_EXPORT ShadowTechnique : public osg::Geode, public NeverCasts, public NamesNodes {
 public:
+    /// A technique with every opaque drawable as receiver.
     ShadowTechnique();
+    /// Copies the properties.
     ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+    /// "gnomon", as OSG's serializers ask.
     const char* libraryName() const override { return "gnomon"; }
+    /// Name of the class without its namespace.
     const char* className() const override { return "ShadowTechnique"; }
 
-    /// What receives: the shadow ends at its edges. Default: everything opaque.
+    /// The part of the scene that receives the shadow. The shadow ends at its edges. Default: everything opaque.
     void setReceiver(const Selection& receiver) { _receiver = receiver; }
+    /// See setReceiver().
     const Selection& getReceiver() const { return _receiver; }
+    /// True if setReceiver() has named a receiver.
     bool hasReceiver() const { return _receiver != Selection(); }
 
-    /// Why there was no (or no full) shadow in the last frame, over all its views: one sentence a cause, with the node
-    /// and the remedy. Empty if all is well.
+    /// Says why a shadow was missing or incomplete in the last frame, in any view.
+    /// @return one sentence a cause, with the node and the remedy; empty if all is well.
     std::vector<std::string> diagnose() const;
 
+    /// Registers the technique with the compositor in a cull traversal.
     void traverse(osg::NodeVisitor& visitor) override;
 
-    /// Called by the ShadowBin after the whole cull, once a light and view.
-    /// @return what to draw; nothing if this light casts nothing in this view (report() says why, where a user could
-    /// wonder).
+    /// Finds the pixels that one light does not reach in one view. The compositor calls it after the cull.
+    /// @return jobs that mark those pixels in draw; empty if the light casts nothing in this view. If a user might
+    ///         wonder why, prepare() calls report().
     virtual std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                                       const GroupCasters& casters) const = 0;
-    /// True if prepare() asks for the casters' pieces alone, so that nobody need make a mesh of all.
-    virtual bool takesPieces() const { return false; }
+                                                       const FrameCasters& casters) const = 0;
+    /// True if prepare() uses only the casters' pieces. The group then never joins them into one mesh. Default false.
+    virtual bool takesDrawables() const { return false; }
 
-    /// Whether the light reaches a point as this technique draws it; see ShadowQuery, which asks.
-    /// Default: whether a ray from there to the light meets no caster.
-    /// @param point  about the probe's origin.
-    virtual bool isLit(const LightProbe& probe, const glm::dvec3& point) const;
-    /// What isLit() needs to have found before, for many points; the ShadowQuery keeps it, and hands it over as
-    /// LightProbe::answers. Default none.
-    virtual osg::ref_ptr<const osg::Referenced> answersFor(const LightProbe& probe) const;
+    /// True if the light reaches a point, as this technique draws it. ShadowQuery calls it.
+    /// Default: true if a ray from the point to the light meets no caster.
+    /// @param point  relative to the probe's origin, group frame.
+    virtual bool isLit(const ShadowProbe& probe, const glm::dvec3& point) const;
+    /// Prepares whatever isLit() needs for many points. ShadowQuery keeps the result and passes it as
+    /// ShadowProbe::answers. Default: null.
+    virtual osg::ref_ptr<const osg::Referenced> answersFor(const ShadowProbe& probe) const;
 
-    /// Notes a cause for diagnose(); repeated causes count once. Called in cull or draw.
+    /// Names the copy of the receiver as receiver.
+    void followCopies(const CopiedNodes& copied) override;
+
+    /// Adds a cause to diagnose(). Repeated causes count once. Call it in cull or draw.
+    /// @param cause  the end of a sentence that begins with describe().
     void report(unsigned frame, const std::string& cause) const;
-    /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
-    /// it) has been met in it before, as where nobody counts frames.
+    /// Forgets the causes of earlier frames. A frame begins when `frame` changes, or when `view` comes a second time.
+    /// @param view  any address that identifies the view.
     void beginFrame(unsigned frame, const void* view) const;
-    /// "PlanarShadowNode 'floor'": what a cause begins with.
+    /// What report() does in one frame. For jobs that outlive the frame's cull.
+    FrameReport reportIn(unsigned frame) const;
+    /// Class and name, for messages: "PlanarShadowNode 'floor'".
     std::string describe() const;
 
 protected:
-    ~ShadowTechnique() override = default;
+    ~ShadowTechnique() override;
 
-    /// Registers this with the ShadowBin of the stage that is being filled, or reports why it cannot be.
+    /// Registers the technique with the compositor of the current render stage, or reports why it cannot.
     void enlist(osgUtil::CullVisitor& cull);
+    /// True if a ShadowCasterGroup is above the visited node.
     static bool hasGroupAbove(const osg::NodeVisitor& visitor);
 
 private:
     Selection _receiver;
-    mutable FrameCauses _causes;
+    const osg::ref_ptr<FrameDiagnosis> _diagnosis;
 };
 
 } // namespace gnomon

@@ -12,28 +12,34 @@ class HeightField;
 
 namespace gnomon {
 
-/// The ground that a subgraph draws, in the frame of `root` as VertexTraverser's, z up, in double. Never null; where
-/// nothing is drawn the ground is empty.
+/// Reads terrain from a subgraph, for questions about heights, rays and slopes. See Ground.
 ///
-/// What is a regular grid along x and y, cells cut along either diagonal or left out, becomes a HeightPyramid, whose drapes
-/// adapt: a ShapeDrawable of an osg::HeightField, a mesh, terrain tiles side by side as osgTerrain's GeometryTechnique draws
-/// them. All else becomes a TriangleGround. A height field's skirt and border are left out; its posts without a height (see
-/// isHeight()) are holes, whatever is drawn there.
+///     const std::shared_ptr<const gnomon::Ground> ground = gnomon::groundOf(*terrain);
+///     const std::optional<double> height = ground->height(x, y);
 ///
-/// Limits  those of VertexTraverser: what a vertex shader lifts, as osgTerrain's DisplacementMappingTechnique does, is not
-///         seen.
-/// @param groundFromRoot  to the frame that the ground is wanted in, of the root's own.
+/// A regular grid along x and y is recognised and answers faster: an osg::HeightField, a mesh, or osgTerrain's tiles
+/// side by side. Cells may be cut along either diagonal or be missing. Other terrain is kept as triangles.
+/// A height field's skirt and border are left out. Posts without a height, see isHeight(), are holes.
 ///
-/// Cost    what VertexTraverser costs, and the ground's own. Holds nothing of the graph: make it anew after changes.
-/// Threads reads the graph as a cull traversal does.
+/// @param root            the subgraph.
+/// @param terrain         the part of it that is terrain. Default: all of it.
+/// @param groundFromRoot  transform to the frame of the ground, z up, from the root's frame as VertexTraverser has it.
+/// @return                never null; an empty ground if there is no terrain.
+///
+/// Cost
+/// - One extraction as by VertexTraverser, and the ground's own structure.
+/// Needs
+/// - No OpenGL and no view.
+/// Limits
+/// - The ground does not follow later changes of the graph.
+/// - Heights from vertex shaders, as osgTerrain's DisplacementMappingTechnique makes them, are not seen.
+/// - VertexTraverser's limits hold.
+/// Threads
+/// - Reads the graph as a cull traversal does.
 GNOMON_EXPORT std::shared_ptr<const Ground> groundOf(osg::Node& root, const Selection& terrain = {},
                                                      const osg::Matrixd& groundFromRoot = osg::Matrixd::identity());
 
-/// The same of a field alone, as osgDB::readRefHeightFieldFile() returns it for an elevation model.
+/// Reads terrain from a height field, such as an elevation model by osgDB::readRefHeightFieldFile().
 GNOMON_EXPORT std::shared_ptr<const Ground> groundOf(const osg::HeightField& field);
-
-/// False for what elevation models hold where nothing was measured, -9999, -99999, -32767 and -32768 to the bit, and for
-/// what is not finite or beyond 10¹⁸. OpenSceneGraph's readers do not pass on which of them a file uses.
-GNOMON_EXPORT bool isHeight(float value);
 
 } // namespace gnomon

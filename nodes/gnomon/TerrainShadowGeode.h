@@ -14,30 +14,64 @@
 
 namespace gnomon {
 
-class TerrainCache;
+class CasterMesh;
+class TerrainShadowCache;
 struct TerrainPlace;
 struct TerrainShadows;
 
-/// Shadows of buildings and the like on terrain, as polygons: the bounding-box method of ARL-TN-156 as published, and two
-/// successors that follow the caster and the ground.
+/// Casts shadows of buildings and other upright objects onto terrain.
+///
+/// It works for one house and for a town of 100,000. Only the terrain receives. Use ShadowMapTechnique if walls and
+/// roofs receive, too, and PlanarShadowNode if the ground is flat.
 ///
 ///     osg::ref_ptr<gnomon::TerrainShadowGeode> shadow = new gnomon::TerrainShadowGeode;
-///     shadow->setReceiver({terrain});
+///     shadow->setReceiver({terrain}); // required
 ///     group->addChild(shadow);
 ///
-/// BOX    as published: five vertices of the caster's bounding box by the light's quadrant, moved to its nearest own
-///        vertices, three rays, twelve triangles. Off for whatever is no upright box along the axes.
-/// HULL   the silhouette of each convex part of the caster, a ray for each corner above the ground, and the polygon between
-///        them: four triangles for a house. Where rays do not settle (slopes as steep as the light, borders, holes, cliffs)
-///        it drapes instead, and diagnose() says how often.
-/// DRAPE  the ground's triangles cut by the caster's shadow, to within setError() in plan; with 0 exact
-///        once the light stands still.
+/// Methods
+/// - HULL, the default: casts the silhouette of each convex part, with a ray for each corner above the ground. A house
+///   takes four triangles. If the rays fail, for example at cliffs and holes, it drapes; diagnose() says how often.
+/// - DRAPE: cuts the ground's triangles by the caster's shadow, within setError() in plan.
+/// - BOX: the bounding-box method of ARL-TN-156, as published. It is wrong for casters that are no upright boxes along
+///   the axes.
+/// Cost
+/// - Shadows are computed on all cores, only for tiles in view, and kept.
+/// - Each frame: 4 to 10 triangles a house on a regular grid, 20 elsewhere, stencil only.
+/// - Each frame: one more draw of the receiver where it is shadowed.
+/// - A caster that is neither convex nor an upright prism takes a polygon for each flat face. Detailed models are
+///   therefore slow.
+/// Needs
+/// - A named receiver, see setReceiver(). It casts no shadow of this kind.
+/// - z up in the group's frame.
+/// - One stencil bit; two for shadows off a grid; three if those overlap. More bits save passes.
+/// Limits
+/// - Walls and roofs receive nothing.
+/// - Casters stand on or in the ground. HULL shows no light below an overhang.
+/// - Terrain that overlaps itself in plan receives on all of its levels.
+/// - Shaders that move the terrain's vertices or discard its pixels are not known here.
+/// - In a town seen from afar, a shadow's edge may be off by 0.3 pixels, because far tiles are drawn as bitmaps.
+/// - Moving light: a shadow may lag by setError() or a quarter of a pixel, whichever is larger. It catches up when the
+///   light stops. After a jump of the light, shadows are right at once.
+/// Threads
+/// - Any number of cull and draw threads. Set properties, compute() and update() between frames.
+/// Source
+/// - ARL-TN-156, "Real-Time Shadows for Terrain Objects by the Bounding-Box Method".
 ///
-/// Below a ShadowCasterGroup it marks what of the receiver, which must be named, lies under the polygons, whatever level of
-/// detail is drawn: once where they overlap. Where a grid's own triangles are drawn, HULL's polygons are laid on them, a
-/// pixel's length nearer to the eye, and, where there are very many, far ones as bitmaps, off by 0.28 pixels at most; all
-/// else is marked by prisms that reach through the ground. What belongs to the receiver casts no such shadow. With no
-/// group above, it draws the shadow of one object as plain transparent geometry of its own, as the published class did:
+/// Tiles
+/// - The casters' shadows are kept in tiles of up to 256 neighbours.
+/// - If a caster moves, comes or goes, only its tile is computed again.
+/// - If the light moves, a tile is computed again when its error would exceed both bounds above. Smaller errors are
+///   repaired within 2 ms a frame.
+/// - Tiles out of sight, or with shadows smaller than a pixel, are not drawn.
+/// Marking
+/// - The shadow falls on whatever level of detail is drawn. Overlaps darken once.
+/// - On a regular grid, HULL's polygons lie on the drawn triangles, a pixel's length nearer to the eye. If there are
+///   very many, far tiles are bitmaps. Other shadows are prisms through the ground.
+///
+/// One object, without a group
+/// - With no ShadowCasterGroup above, it draws the shadow of one object as plain transparent geometry. The published
+///   class works like this.
+/// - Edges may sink into rough ground, overlaps darken twice, and vertices are floats about this node's origin.
 ///
 ///     shadow->setObjectGraphic(house);
 ///     shadow->setObjectPos({120.0, 80.0, 0.0});
@@ -45,27 +79,7 @@ struct TerrainShadows;
 ///     if (!shadow->compute(sun)) osg::notify(osg::WARN) << shadow->diagnose().front() << std::endl;
 ///     root->addChild(shadow);
 ///
-/// Any number of casters: their shadows are kept in tiles of 256 neighbours at most, and found where they may be seen. A
-/// caster that moves, comes or goes has its tile found anew, and so has a light that moves by so much that a shadow of the
-/// tile may be off by more than setError() and by more than a quarter of a pixel; what is off by less follows within 2 ms of
-/// each frame, and all that is seen once the light stands still, when the picture is that of a fresh start. A jump of the
-/// light is right in the frame in which it happens. Tiles out of sight are not drawn, nor those whose largest shadow is
-/// smaller than a pixel.
-///
-/// Cost    found on all cores; then 4 to 10 triangles a house on a grid, 20 elsewhere, stencil only, and the receiver once more
-///         where marked. A caster that is neither convex nor an upright prism takes a polygon for each of its flat faces: a
-///         bunny of 70,000 triangles 0.03 s a frame, 0.06 s where the light moves (OSMesa, 2 cores).
-/// Needs   z up in the group's frame; a stencil bit, for prisms another, one more where they lie over one another, and fewer
-///         passes with each more.
-/// Limits  receivers are ground: walls receive nothing. Casters stand in the ground or on it: what hangs down lower than
-///         a silhouette's corner shows no light below it in HULL. Terrain that overlaps itself in plan receives on all of
-///         its storeys. A shader that moves the terrain's vertices, or discards its pixels, is not known here. With no group
-///         above: edges may sink into rough ground between the polygon's corners, overlaps darken twice, and vertices are
-///         floats about this node's origin.
-/// Threads any number of cull and draw threads; set properties, compute() and update() between frames.
-/// Source: ARL-TN-156, "Real-Time Shadows for Terrain Objects by the Bounding-Box Method".
-///
-/// In a file (.osgt, .osgb, .osgx), where what is left out has its default, here HULL and 0.1:
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::TerrainShadowGeode {
 ///       UniqueID 2
@@ -75,75 +89,91 @@ struct TerrainShadows;
 ///     }
 class GNOMON_EXPORT TerrainShadowGeode : public ShadowTechnique {
 public:
+    /// How a caster's shadow is computed.
     enum Method : int {
-        BOX,  ///< the bounding-box method as published.
-        HULL, ///< the silhouette's rays.
-        DRAPE ///< the ground's own triangles, cut.
+        BOX,  ///< The bounding-box method as published: 12 triangles a caster.
+        HULL, ///< Rays from the silhouettes of the caster's convex parts: four triangles for a house.
+        DRAPE ///< The ground's own triangles, cut by the shadow: exact if setError() is 0.
     };
 
+    /// A technique with the default properties.
     TerrainShadowGeode();
+    /// Copies the properties, and the geometry of compute().
     TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, TerrainShadowGeode)
 
-        /// Default HULL, which any value that is none of the three stands for too.
-        void setMethod(Method method) {
-        _method = method == BOX || method == DRAPE ? method : HULL;
-    }
+    /// Method. Default HULL, which also replaces any unknown value.
+    void setMethod(Method method) { _method = method == BOX || method == DRAPE ? method : HULL; }
+    /// See setMethod().
     Method getMethod() const { return _method; }
 
-    /// How far a draped edge may be off in plan, group's unit; default 0.1; 0 is exact. Negative or not a number is refused
-    /// with a warning.
+    /// Largest error of a draped edge in plan, group's unit, 0 (exact) or more. Default 0.1.
+    /// A negative or non-finite value is refused with a warning.
     void setError(double error);
+    /// See setError().
     double getError() const { return _error; }
 
-    /// What casts where there is no group above. Default none.
+    /// Without a group: the object that casts. Default null.
     void setObjectGraphic(osg::Node* object) { _object = object; }
+    /// See setObjectGraphic().
     osg::Node* getObjectGraphic() { return _object.get(); }
+    /// See setObjectGraphic().
     const osg::Node* getObjectGraphic() const { return _object.get(); }
-    /// Where it stands, this node's frame. Default (0, 0, 0).
+    /// Without a group: position of the object, this node's frame. Default (0, 0, 0).
     void setObjectPos(const osg::Vec3d& position) { _position = position; }
+    /// See setObjectPos().
     const osg::Vec3d& getObjectPos() const { return _position; }
-    /// Heading, degrees, counter-clockwise from above. Default 0.
+    /// Without a group: heading of the object, degrees, counter-clockwise from above. Default 0.
     void setObjectOrientation(double heading) { _heading = heading; }
+    /// See setObjectOrientation().
     double getObjectOrientation() const { return _heading; }
-    /// BOX alone: bounds about the position, along this node's axes. Default invalid: found from the object.
+    /// Without a group, BOX only: bounds about the position, along this node's axes.
+    /// Default: an invalid box, which stands for the object's own bounds.
     void setObjectBounds(const osg::BoundingBoxd& bounds) { _bounds = bounds; }
+    /// See setObjectBounds().
     const osg::BoundingBoxd& getObjectBounds() const { return _bounds; }
 
-    /// With no group above: finds the object's shadow on the receiver and makes it this node's geometry, black of half
+    /// Without a group: computes the object's shadow on the receiver. It becomes this node's geometry, black at half
     /// opacity, in the transparent bin.
-    /// @param light  homogeneous, this node's frame: w = 0 the way towards a sun, w = 1 a lamp.
-    /// @return whether there is one; if not, diagnose() says why, and there is no geometry.
+    /// @param light  homogeneous, this node's frame: w = 0 is the direction towards a sun, w = 1 a lamp's position.
+    /// @return       true if there is a shadow. If not, diagnose() says why and the node has no geometry.
     bool compute(const osg::Vec4d& light);
-    /// As compute(), but does nothing if neither light, object, terrain nor settings have changed since.
+    /// As compute(), but only if light, object, terrain or properties have changed since.
     bool update(const osg::Vec4d& light);
-    /// The triangles that compute() found, three corners each, counter-clockwise from above, this node's frame, in double.
+    /// The triangles of compute(): three corners each, counter-clockwise from above, this node's frame, in double.
     const std::vector<osg::Vec3d>& getTriangles() const { return _triangles; }
-    /// Settings, light and triangles, for people.
+    /// Prints properties, light and triangles of compute() as text.
     void print(std::ostream& out) const;
 
-    /// How often shadows were found anew: those of a tile of neighbours, or by compute(), rise it by one.
+    /// Number of computations so far. Each computed tile adds one, and each compute() that finds a new shadow.
     unsigned builds() const;
 
+    /// Makes the job that marks the tiles in view. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const GroupCasters& casters) const override;
-    bool takesPieces() const override { return true; }
+                                               const FrameCasters& casters) const override;
+    /// True: the technique keeps casters by drawable.
+    bool takesDrawables() const override { return true; }
 
-    /// In shadow is what lies on the ground, to 10⁻⁵ of the casters' size, under one of the polygons.
-    osg::ref_ptr<const osg::Referenced> answersFor(const LightProbe& probe) const override;
-    bool isLit(const LightProbe& probe, const glm::dvec3& point) const override;
+    /// Computes all shadows of one light, for isLit().
+    osg::ref_ptr<const osg::Referenced> answersFor(const ShadowProbe& probe) const override;
+    /// False for a point on the ground under one of the shadow polygons. True for any other point.
+    /// A point is on the ground if it is nearer than 10⁻⁵ of the casters' size.
+    bool isLit(const ShadowProbe& probe, const glm::dvec3& point) const override;
 
+    /// Registers the technique with the compositor. Without a group, it draws the geometry of compute().
     void traverse(osg::NodeVisitor& visitor) override;
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
     ~TerrainShadowGeode() override;
 
 private:
-    struct Asked; // what compute() was asked for
-    Asked asked(const osg::Vec4d& light) const;
-    bool compute(const Asked& with);
+    struct Request; // what compute() was request for
+    Request requestFor(const osg::Vec4d& light) const;
+    bool compute(const Request& with);
     osg::ref_ptr<osg::Node> placedObject() const;
     TerrainPlace terrain() const;
     osg::ref_ptr<const CasterMesh> meshOf(std::uint64_t object) const;
@@ -160,7 +190,7 @@ private:
     std::uint64_t _shownObject = 0;            ///< revision of the placed object then.
     unsigned _foundAlone = 0;                  ///< by compute().
     osg::ref_ptr<osg::StateSet> _program, _bitmapProgram;
-    std::unique_ptr<TerrainCache> _cache;
+    std::unique_ptr<TerrainShadowCache> _cache;
 };
 
 } // namespace gnomon

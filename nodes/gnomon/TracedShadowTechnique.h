@@ -8,54 +8,67 @@
 namespace gnomon {
 
 class ResolvedDepth;
-class TracedCasters;
+class RaySceneCache;
 
-/// Shadow on everything that is seen, by one ray a pixel towards the light: the accurate end of the chart.
+/// Casts hard shadows onto everything visible, by one ray a pixel towards the light.
+///
+/// It is the exact technique: use it for reference pictures, and for static scenes of very many triangles. Use
+/// ShadowMapTechnique for moving casters, smooth edges or penumbras.
 ///
 ///     group->addChild(new gnomon::TracedShadowTechnique);
 ///
-/// Where surfaces are is read from the depth buffer, so that whatever draws, shaders and all, receives; see depthShadow()
-/// for how a depth's own error is kept from showing.
+/// The depth buffer says where the surfaces are. Everything that writes depth receives, whatever shader draws it.
 ///
-/// Cost    0.1 to 0.35 µs of one core a pixel within the casters' and shadows' bounds, on all cores, and reading the depth
-///         buffer; whenever the casters change, a tree over them: 0.6 to 0.8 µs a triangle, see RayScene. No draw of any
-///         geometry, but the compositor's. Building for more than a second tells its progress on stderr, if that is a
-///         terminal.
-/// Needs   Embree, a depth buffer that can be read; 1 stencil bit a light, 1 more where a receiver is named.
-/// Limits  a sample a pixel, hard edges. Facets, not smoothed normals, decide what is turned away from the light: low-poly
-///         models show them near the terminator. Alpha-tested casters cast as if they were solid. Multisampled framebuffers
-///         are decided a pixel, by one of its samples: the shadows' edges are not smoothed. In multisampled windows they
-///         may be off by a pixel, for OpenGL does not tell which sample that is; and a texture of several samples for the
-///         depth is diagnosed, and shows no shadow. What writes no depth does not receive; what is drawn with a polygon
-///         offset or a depth range of its own receives as if it stood where its depth says.
-/// Threads any number of cull and draw threads; set properties between frames.
-/// Source: I. Wald et al., "Embree", ACM TOG 33(4), 2014.
+/// Cost
+/// - One ray for each pixel within the casters' and shadows' bounds, on all cores.
+/// - A read of the depth buffer.
+/// - After each change of the casters: a new ray tree over all of them, see RayScene.
+/// - If stderr is a terminal, a build of more than a second shows its progress there.
+/// Needs
+/// - Embree, and a depth buffer that can be read.
+/// - One stencil bit a light, and one more where a receiver is named.
+/// Limits
+/// - One sample a pixel: edges are hard.
+/// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
+/// - Alpha-tested casters cast as if they were solid.
+/// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.
+/// - Multisampled framebuffers are shadowed by pixel, from one sample. In multisampled windows an edge may be off by a
+///   pixel.
+/// - A multisampled depth texture gets no shadow, and diagnose() says so.
+/// Threads
+/// - Any number of cull and draw threads. Set properties between frames.
+/// Source
+/// - I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG 33(4), 2014.
 ///
-/// In a file (.osgt, .osgb, .osgx), here with its default, no receiver named:
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
 ///
 ///     gnomon::TracedShadowTechnique {
 ///       UniqueID 2
 ///     }
 class GNOMON_EXPORT TracedShadowTechnique : public ShadowTechnique {
 public:
+    /// A technique with every opaque drawable as receiver.
     TracedShadowTechnique();
+    /// Copies the properties.
     TracedShadowTechnique(const TracedShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, TracedShadowTechnique)
 
-        std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                                   const GroupCasters& casters) const override;
+    /// Makes the job that casts the rays of one light. See ShadowTechnique::prepare().
+    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+                                               const FrameCasters& casters) const override;
 
-    /// How often this built a tree: rises by one with each revision of the casters, whatever the views and lights, unless a
-    /// ShadowQuery or another technique has a tree of the same casters, which is then shared.
+    /// Number of ray trees built so far: one for each revision of the casters, whatever the views and lights.
+    /// A tree that a ShadowQuery or another technique has of the same casters is shared and does not count.
     unsigned builds() const;
 
+    /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
     ~TracedShadowTechnique() override;
 
 private:
-    std::unique_ptr<TracedCasters> _casters;
+    std::unique_ptr<RaySceneCache> _casters;
     std::shared_ptr<ResolvedDepth> _resolved; ///< a frame that is still drawn keeps it.
 };
 

@@ -34,4 +34,15 @@ Selection readSelection(osgDB::InputStream& in) {
     return selection;
 }
 
+bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options) {
+    out << options.reservedStencilBits << options.filter << options.mostDecals << std::endl;
+    return true;
+}
+
+CompositorOptions readOptions(osgDB::InputStream& in) {
+    CompositorOptions options;
+    in >> options.reservedStencilBits >> options.filter >> options.mostDecals;
+    return options;
+}
+
 } // namespace gnomon::fields

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/CompositorOptions.h>
 #include <gnomon/Selection.h>
 
 #include <osgDB/InputStream>
@@ -81,6 +82,10 @@ auto readList(osgDB::InputStream& in, ReadItem readItem) {
 /// The node is written as an object: where it stands in the graph too, the file refers to it by its number.
 bool writeSelection(osgDB::OutputStream& out, const Selection& selection);
 Selection readSelection(osgDB::InputStream& in);
+
+/// Reserved stencil bits, filter, most decals.
+bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options);
+CompositorOptions readOptions(osgDB::InputStream& in);
 
 /// A property that keeps every bit in text as well.
 template <typename Class, typename Value, typename Base>

@@ -149,7 +149,7 @@ void main() {
 #endif
     bool unwanted = e <= 0.0 || arrives >= wanted.x; // e is 0 where nothing is seen
 #ifdef CONE
-    unwanted = unwanted || !isInCone(vec4(at, e, 1.0)); // a ConeMark's, or nobody's
+    unwanted = unwanted || !isInCone(vec4(at, e, 1.0)); // a SpotMark's, or nobody's
 #endif
     gl_FragColor = vec4(vec3(mix(wanted.z, 1.0, arrives * wanted.w)), unwanted ? 1.0 : mix(arrives, 1.0 - arrives, wanted.y));
 }

@@ -6,7 +6,7 @@
 
 uniform sampler2D seen;       // depths of the frame
 
-// What is the same for all pixels: SHARED vectors, then EACH of them for each map; see quad.vert and MapQuad::setConstants().
+// What is the same for all pixels: SHARED vectors, then EACH of them for each map; see quad.vert and MapLookupPass::setConstants().
 #ifdef FLAT
 flat in vec4 constant[CONSTANTS];
 #else
@@ -16,7 +16,7 @@ uniform vec4 constants[CONSTANTS];
 mat4 matrixAt(int first) { return mat4(constant[first], constant[first + 1], constant[first + 2], constant[first + 3]); }
 #define depthError constant[0]       // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
 #define texel constant[1].xy         // of the texture, whose sides are 1
-#define rows constant[1].zw           // of `seen`: see SeenDepth
+#define rows constant[1].zw           // of `seen`: see FrameDepthCopy
 #define wanted constant[2]           // see map.frag
 #define seenPixels constant[3]       // first and last pixel that `seen` holds: x, y; x, y
 #define coneFromPixel matrixAt(4)    // see cone.frag

@@ -4,7 +4,7 @@ uniform sampler2D cutout;
 uniform vec2 alphaTest; // which alphas pass, as bits: 1 less than, 2 equal to, 4 greater than the second
 in vec3 coordinates;    // s, t and q of unit 0
 #endif
-#ifdef BITMAP // TerrainSheet::bits
+#ifdef BITMAP // BitmapAtlas::bits
 uniform usampler2D sheet; // of bytes, four to a block of 8 by 4 texels; of texel (x, y) of one byte y, bit x
 flat in vec4 texels;      // the last one, for the border is empty; bytes in a row of blocks, the first byte in the sheet
 in vec2 texel;

@@ -11,38 +11,53 @@
 
 namespace gnomon {
 
-using GroundTriangle = std::array<glm::dvec3, 3>; ///< counter-clockwise from above.
+/// A triangle of the ground, counter-clockwise from above.
+using GroundTriangle = std::array<glm::dvec3, 3>;
 
-/// A bit for each of the first 64 planes.
+/// A set of planes: one bit for each of the first 64.
 using PlaneSet = std::uint64_t;
 
+/// Bounds of the ground over a rectangle; see Ground::range().
 struct GroundRange {
-    double low, high, steepest; ///< tangent of the slope.
-    bool holes = false;         ///< rays may pass through holes there, and meet ground behind.
+    double low, high, steepest; ///< Least and greatest height, and greatest slope as a tangent.
+    bool holes = false;         ///< True if rays may pass through holes there and hit ground behind.
 };
 
-/// What shadows fall on: triangles, z up, mostly one over each place in plan. Where there is none is a hole.
+/// Terrain that shadows fall on: triangles, z up, in double. groundOf() reads one from a scene graph.
 ///
-/// Threads any number, once built.
+/// Use it to ask for heights and slopes and to cast rays at terrain. Most places in plan have one triangle. Places
+/// without a triangle are holes.
+///
+/// Cost
+/// - height() and hit() use a spatial structure, and do not visit all triangles.
+/// Threads
+/// - Any number, once the ground is built.
 class Ground {
 public:
     virtual ~Ground() = default;
 
-    /// nullopt beside the ground and in a hole.
+    /// Height at a place in plan. nullopt beside the ground and in a hole.
     virtual std::optional<double> height(double x, double y) const = 0;
-    /// Where a ray meets the ground first, from either side. @param along  any length but 0; the ray has no end.
+    /// First point of the ground on a ray, from either side. nullopt if there is none.
+    /// @param along  direction, any length but 0. The ray has no end.
     virtual std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const = 0;
-    /// Triangles that stand for the ground to within `error` of its height, each point of it once in plan, wherever a
-    /// point of them may be on the inner side of all `planes` (unit normals); others may be left out.
-    /// @param error  scene's unit; 0 gives the ground's own triangles.
-    /// @param take   gets a triangle, and some of the planes that all of it is on the inner side of.
+    /// Approximates a part of the ground by triangles. Each point of it is covered once in plan.
+    /// @param planes  half-spaces with unit normals. Only triangles that may reach the inner side of all are needed.
+    /// @param error   largest error in height, scene's unit; 0 gives the ground's own triangles.
+    /// @param take    receives each triangle, and some of the planes that have all of it on their inner side.
     virtual void cover(const std::vector<glm::dvec4>& planes, double error,
                        const std::function<void(const GroundTriangle&, PlaneSet)>& take) const = 0;
-    /// Tangent of the steepest slope where the ground may be on the inner side of all planes; 0 if it is nowhere.
+    /// Greatest slope, as a tangent, of ground that may be on the inner side of all planes. 0 if there is none.
     virtual double steepest(const std::vector<glm::dvec4>& planes) const = 0;
-    /// No point of the ground over a rectangle in plan is lower, higher or steeper, and no hole is there that it does not tell;
-    /// nullopt if there is no ground. Quick: others about may be taken for it.
+    /// Conservative bounds of height, slope and holes over a rectangle in plan. They may include nearby ground.
+    /// nullopt if there is no ground.
     virtual std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const = 0;
 };
+
+/// True if a post of an elevation model has a height.
+///
+/// The values -9999, -99999, -32767 and -32768 stand for missing data, as do non-finite values and values beyond 10¹⁸.
+/// All are refused, because OpenSceneGraph's readers do not say which of them a file uses.
+bool isHeight(float value);
 
 } // namespace gnomon

@@ -6,35 +6,38 @@
 
 namespace gnomon {
 
-/// Matrix that flattens a point onto `plane` along the light's rays.
+/// Makes the matrix that flattens a point onto `plane` along the light's rays. PlanarShadowNode draws with it.
 ///
 ///     M = (P·L) I - L Pᵀ            shadow = M * point
 ///
+/// Only points between plane and light cast. Clip the casters with planarClipPlanes() first.
+///
 /// @param plane  P = (a, b, c, d), a·x + b·y + c·z + d = 0, unit normal towards the lit side.
-/// @param light  L = (x, y, z, w), homogeneous, in the plane's frame and unit: w = 0 the way towards a sun, w = 1 a
-///               lamp's position, any other w the point (x, y, z) / w; with w < 0, too. The length of L does not
-///               matter: 10⁻¹⁵⁰ and 10¹⁵⁰ give the matrix of 1.
-/// @return       M for L of length 1 and w >= 0, so that M * v = (P·L) v for a point v of the plane, and every point
-///               between plane and light has w > 0. nullopt if no shadow exists: the light is on or behind the plane,
-///               zero, or anything is not finite.
+/// @param light  L = (x, y, z, w), homogeneous, in the plane's frame and unit. w = 0 is the direction towards a sun,
+///               w = 1 a lamp's position, any other w the point (x, y, z) / w. The length of L does not matter.
+/// @return       M for L of length 1 and w >= 0; nullopt if no shadow exists. M * v = (P·L) v for a point v of the
+///               plane. Every point between plane and light has w > 0.
 ///
-/// A sun is on the plane when lower than 0.006° (sine 10⁻⁴): its shadows would be more than 10⁴ times as long as the
-/// casters are high, and coarser by as much in single precision. A lamp is on it when no higher than the rounding of
-/// P·L, be it a millimetre up and a kilometre away: only the sign of a lamp's height is the same in every unit and
-/// about every origin. Hence a lamp that recedes (w → 0) has a shadow wherever its sun is above 0°; M tends to the
-/// sun's.
+/// No shadow exists if the light is on or behind the plane, is zero, or is not finite.
+/// A sun is on the plane if it is lower than 0.006° (sine 10⁻⁴). Its shadows would be too long for single precision.
+/// A lamp is on the plane if its height is within the rounding of P·L. Only that rule holds in every unit and about
+/// every origin. A lamp that recedes (w → 0) therefore has a shadow if its sun is above 0°. M then tends to the sun's
+/// matrix.
 ///
-/// Only points between plane and light cast: clip with planarClipPlanes().
-/// Source: J. Blinn, "Me and My (Fake) Shadow", IEEE CG&A 8(1), 1988; the four planar documents (docs/sources.md).
+/// Source
+/// - J. Blinn, "Me and My (Fake) Shadow", IEEE CG&A 8(1), 1988.
+/// - The four planar documents, see docs/sources.md.
 std::optional<glm::dmat4> planarShadowMatrix(const glm::dvec4& plane, const glm::dvec4& light);
 
-/// The half-spaces a caster must be cut to before it is flattened: a point (x, y, z, 1) is kept where both
-/// dot products are >= 0.
+/// The half-spaces that a caster is clipped to before it is flattened.
+///
+/// A point (x, y, z, 1) is kept if both dot products are >= 0. Other points would cast anti-shadows.
 struct PlanarClipPlanes {
-    glm::dvec4 abovePlane; ///< the plane itself: what lies under it would throw an anti-shadow.
-    glm::dvec4 belowLight; ///< what is lower than 0.999 of a lamp's height; (0, 0, 0, c > 0), that is all, for a sun.
+    glm::dvec4 abovePlane; ///< The plane itself: keeps points above it.
+    glm::dvec4 belowLight; ///< Keeps points below 0.999 of a lamp's height. (0, 0, 0, c > 0) for a sun: keeps all.
 };
 
+/// Makes the clip planes for one plane and light.
 /// @pre planarShadowMatrix(plane, light) has a value.
 PlanarClipPlanes planarClipPlanes(const glm::dvec4& plane, const glm::dvec4& light);
 

@@ -9,90 +9,108 @@
 
 namespace gnomon {
 
-/// Triangles as a caller holds them: nothing is copied before a RayScene is made of it.
+/// Triangles in the caller's memory, to make a RayScene from. The RayScene copies them.
 struct TriangleSoup {
-    const glm::vec3* vertices = nullptr; ///< floats about `origin`.
-    std::size_t vertexCount = 0;
-    const unsigned* indices = nullptr; ///< three a triangle.
-    std::size_t indexCount = 0;
-    glm::dvec3 origin{0.0}; ///< in the frame of the rays; near the middle of the triangles, for precision.
-    /// Whether a triangle, by its place among those given, is there at a point: `u` and `v` are the point's barycentric
-    /// weights of the second and third corner. Rays go on through what is not. Empty: all is solid. Kept as long as the
-    /// scene, and asked by any thread that casts rays.
+    const glm::vec3* vertices = nullptr; ///< Floats relative to `origin`.
+    std::size_t vertexCount = 0;         ///< Number of vertices.
+    const unsigned* indices = nullptr;   ///< Three a triangle.
+    std::size_t indexCount = 0;          ///< Number of indices.
+    glm::dvec3 origin{0.0};              ///< Frame of the rays. Choose it near the triangles' middle, for precision.
+    /// True if a triangle is solid at a point. Rays pass through other points. Default, empty: all is solid.
+    /// `triangle` counts the given triangles; `u` and `v` are the barycentric weights of the second and third corner.
+    /// The scene keeps the function, and calls it from any thread that casts rays.
     std::function<bool(unsigned triangle, double u, double v)> solidAt{};
 };
 
-/// A ray, or with reach 1 the line from `start` to `start + along`.
+/// A ray. With reach 1 it is the line from `start` to `start + along`.
 struct Ray {
-    glm::dvec3 start;
-    glm::dvec3 along;                                       ///< any length but 0.
-    double reach = std::numeric_limits<double>::infinity(); ///< in lengths of `along`.
+    glm::dvec3 start;                                       ///< Start point.
+    glm::dvec3 along;                                       ///< Direction, any length but 0.
+    double reach = std::numeric_limits<double>::infinity(); ///< End of the ray, in lengths of `along`.
 };
 
-/// What a ray meets first.
+/// The first triangle on a ray.
 struct RayHit {
-    static constexpr unsigned none = ~0u;
-    unsigned triangle = none; ///< its place among the triangles given; `none` if nothing is met.
-    double distance = std::numeric_limits<double>::infinity(); ///< in lengths of the ray's `along`.
-    glm::dvec3 normal{0.0}; ///< geometric, unit; to the side from which the corners go round counter-clockwise.
+    static constexpr unsigned none = ~0u;                      ///< Value of `triangle` without a hit.
+    unsigned triangle = none;                                  ///< Index among the given triangles.
+    double distance = std::numeric_limits<double>::infinity(); ///< In lengths of the ray's `along`.
+    glm::dvec3 normal{0.0}; ///< Geometric unit normal, to the side that sees the corners counter-clockwise.
 
+    /// True if there is a hit.
     explicit operator bool() const { return triangle != none; }
+    /// True if both are the same hit, to the bit.
     bool operator==(const RayHit& o) const {
         return triangle == o.triangle && distance == o.distance && normal == o.normal;
     }
 };
 
-/// Triangles to cast rays at: the nearest that a ray meets, or whether it meets any. Both faces of a triangle count.
+/// Casts rays at triangles: finds the first triangle on a ray, or whether there is any.
 ///
-/// Embree traverses in single precision about the scene's origin; the distance that is returned is then worked out in
-/// double from the ray and the triangle's plane, so that a hit point is as good as the ray.
+/// Use it for ray casting without a scene graph. ShadowQuery asks the same of a ShadowCasterGroup.
 ///
-/// Cost    building, of one core: 0.57 µs a triangle of a terrain of 3,000,000, 0.76 of a town of as many; 90 bytes a
-///         triangle where corners are shared, 120 where each triangle has three of its own, 30 more while building. A ray:
-///         0.1 to 0.35 µs of one core.
-/// Needs   Embree 3 (libembree3) on x86-64 with SSE2, or ARM.
-/// Limits  a ray is decided with an error of some 10⁻⁶ of the distance between ray and origin: what is thinner is hit or
-///         missed by chance, and so is a surface that the ray starts on; see lifted(). Triangles of no area, with
-///         corners that are not finite or beyond 10¹⁸, or with indices out of the vertices are left out. A ray that is
-///         not finite or goes nowhere meets nothing.
-/// Threads any number at once ask one scene. The bulk calls use all cores, by TBB, and give the same bits as single ones.
-/// Source: I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG 33(4), 2014;
-///         RTC_SCENE_FLAG_ROBUST against rays slipping through shared edges.
+///     const gnomon::RayScene scene(soup);
+///     const gnomon::RayHit hit = scene.closest({eye, direction});
+///     if (hit) drawCross(eye + hit.distance * direction);
+///
+/// Both faces of a triangle count. Embree traverses in single precision about the scene's origin. The distance is then
+/// computed in double from the ray and the triangle's plane, so a hit point is as precise as the ray.
+///
+/// Cost
+/// - To build: less than a microsecond a triangle on one core.
+/// - Memory: 90 bytes a triangle if corners are shared, 120 if not, and 30 more while building.
+/// - To cast: less than a microsecond a ray on one core.
+/// Needs
+/// - Embree 3 (libembree3) on x86-64 with SSE2, or ARM.
+/// Limits
+/// - The error is about 10⁻⁶ of the distance between ray and origin. Thinner objects are hit or missed by chance.
+/// - A ray may hit the surface that it starts on. Start it at lifted().
+/// - Leaves out triangles without area, with a corner that is not finite or beyond 10¹⁸, or with an index out of range.
+/// - A ray that is not finite or has no direction hits nothing.
+/// Threads
+/// - Any number may ask one scene. The bulk calls use all cores and give the same bits as single calls.
+/// Source
+/// - I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG 33(4), 2014.
+/// - RTC_SCENE_FLAG_ROBUST keeps rays from slipping through shared edges.
 class RayScene {
 public:
-    /// Told how much of the building is done, 0 … 1, now and then, from the threads that build, perhaps several at once.
-    using Progress = std::function<void(double)>;
+    /// Receives the finished share of a build, 0 … 1. The building threads call it, possibly several at once.
+    using ProgressLine = std::function<void(double)>;
 
-    /// @throws std::runtime_error, one sentence, if Embree cannot start or there is not enough memory.
-    explicit RayScene(const TriangleSoup& triangles, const Progress& progress = {});
+    /// Builds the tree.
+    /// @throws std::runtime_error with one sentence if Embree cannot start or there is not enough memory.
+    explicit RayScene(const TriangleSoup& triangles, const ProgressLine& progress = {});
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
+    /// Finds the first triangle on a ray.
     RayHit closest(const Ray& ray) const;
+    /// True if any triangle is on a ray.
     bool blocked(const Ray& ray) const;
 
-    /// `count` rays at once; `hits` and `answers` have as many places; 1 is blocked.
+    /// Casts `count` rays on all cores. `hits` has room for as many.
     void closest(const Ray* rays, std::size_t count, RayHit* hits) const;
+    /// Casts `count` rays on all cores. `answers` has room for as many: 1 blocked, 0 free.
     void blocked(const Ray* rays, std::size_t count, std::uint8_t* answers) const;
 
-    /// A start for a ray that leaves a surface of this scene, so that it does not meet the surface itself: `point` moved
-    /// along `normal` by 256 steps of a float of the size of each coordinate about the origin, or of a 16th of the
-    /// scene's reach() where the coordinate is smaller.
+    /// Moves a point off a surface of this scene, so that a ray from there does not hit the surface.
     ///
-    /// Moves a point at the edge of a scene of 100 m by no more than 2 mm, one near its middle by 0.1 mm.
-    /// @param normal  unit, geometric, to the side on which the ray leaves.
-    /// Source: C. Wächter and N. Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems,
-    /// 2019, ch. 6. Theirs takes 1/65536 unit near the origin, which holds for one unit only: here the scene's size rules.
+    /// Each coordinate moves along the normal by 256 float steps of its size about the origin. A 16th of reach() is the
+    /// least size. In a scene of 100 m, a point moves by 2 mm at most.
+    /// @param normal  geometric unit normal, to the side on which the ray leaves.
+    ///
+    /// Source
+    /// - C. Wächter and N. Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019,
+    ///   ch. 6. Near the origin, this function uses the scene's size and not a fixed 1/65536 unit.
     glm::dvec3 lifted(const glm::dvec3& point, const glm::dvec3& normal) const;
 
-    /// The largest step that lifted() takes along any axis there: how far to move a start along a direction that is no
-    /// normal. lifted() itself must not be given one, for its steps differ from axis to axis and turn it.
+    /// Largest step of lifted() at a point, along any axis. Use it to move a start along a direction that is no normal.
+    /// Do not pass such a direction to lifted(): its steps differ by axis and would turn the direction.
     double margin(const glm::dvec3& point) const;
 
-    /// Triangles that were left out.
+    /// Number of triangles left out.
     std::size_t leftOut() const;
-    /// Half of the longest side of the bounds, about the origin: 0 for an empty scene.
+    /// Half of the longest side of the triangles' bounds. 0 for an empty scene.
     double reach() const;
 
 private:

@@ -5,11 +5,15 @@
 
 namespace gnomon {
 
-/// Matrix that takes a point to its mirror image: x - 2 (n·x + d) n. It is its own inverse and turns round the sense in
-/// which a triangle's corners follow each other.
+/// Makes the matrix that mirrors a point x in a plane: x - 2 (n·x + d) n. PlanarReflectionNode draws with it.
 ///
-/// @param plane  (a, b, c, d), a·x + b·y + c·z + d = 0, unit normal; either side. Not finite: nor is the matrix.
-/// Source: M. Kilgard, halomagic.c, whose glScalef(1, -1, 1) is that of y = 0.
+/// The matrix is its own inverse. It reverses the winding of triangles.
+///
+/// @param plane  (a, b, c, d), a·x + b·y + c·z + d = 0, unit normal to either side. A non-finite plane gives a
+///               non-finite matrix.
+///
+/// Source
+/// - M. Kilgard, halomagic.c: its glScalef(1, -1, 1) mirrors in y = 0.
 glm::dmat4 reflectionMatrix(const glm::dvec4& plane);
 
 } // namespace gnomon

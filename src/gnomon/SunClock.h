@@ -7,38 +7,52 @@
 
 namespace gnomon {
 
-/// Where the sun stands. Degrees; azimuth from north through east, 0 to 360, elevation above level.
+/// Position of the sun in the sky, degrees.
 struct SunPosition {
-    double azimuth, elevation;
+    double azimuth, elevation; ///< Azimuth from north through east, 0 … 360. Elevation above the horizon.
 };
 
-/// The Julian day, UTC, of "2026-06-21T15:00:00Z"; nullopt if there is no such moment. Seconds may have decimals.
+/// Converts a moment, "2026-06-21T15:00:00Z", to a Julian day, UTC. Seconds may have decimals.
+/// @return nullopt if there is no such moment.
 std::optional<double> julianDay(const std::string& moment);
 
-/// The other way, to the second: "2026-06-21T15:00:00Z".
+/// Converts a Julian day, UTC, to a moment, to the nearest second: "2026-06-21T15:00:00Z".
 std::string momentOf(double julianDay);
 
-/// Where the sun is seen from one place on earth, at any time.
+/// Computes the sun's position for a place on earth at any time.
+///
+/// Use it to light a scene as on a given day. Pass towards() as a light with w = 0 to ShadowLight.
 ///
 ///     const gnomon::SunClock clock(36.6, -84.3);
 ///     const glm::dvec3 towards = clock.towards(*gnomon::julianDay("2026-06-21T15:00:00Z"));
 ///
-/// Cost    some 20 microseconds a moment.
-/// Limits  good to a hundredth of a degree from 1900 to 2100; the air is that of 10 degrees Celsius and 1010 mbar at sea level.
-/// Threads one at a time: libnova keeps its last results.
-/// Source: VSOP87 and J. Meeus, "Astronomical Algorithms", 1991, by libnova; refraction by G. G. Bennett, 1982.
+/// Cost
+/// - Microseconds a moment.
+/// Needs
+/// - libnova. No OpenGL.
+/// Limits
+/// - The error is below a hundredth of a degree from 1900 to 2100.
+/// - Refraction is that of air at 10 °C and 1010 mbar, at sea level.
+/// Threads
+/// - One at a time: libnova keeps its last results.
+/// Source
+/// - VSOP87 and J. Meeus, "Astronomical Algorithms", 1991, by libnova.
+/// - Refraction: G. G. Bennett, 1982.
 class SunClock {
 public:
-    /// @param latitude,longitude  degrees, north and east positive, -90 to 90 and -180 to 180.
-    /// @throws std::invalid_argument, one sentence, for any other.
+    /// A clock for one place.
+    /// @param latitude,longitude  degrees, north and east positive, -90 … 90 and -180 … 180.
+    /// @throws std::invalid_argument with one sentence if either is out of range.
     SunClock(double latitude, double longitude);
 
-    /// Its centre as it is seen: raised by the air's refraction, half a degree at the horizon.
+    /// Apparent position of the sun's centre. Refraction raises it by half a degree at the horizon.
     SunPosition at(double julianDay) const;
-    /// The way towards it, unit length; x east, y north, z up.
+    /// Apparent direction towards the sun, unit length: x east, y north, z up.
     glm::dvec3 towards(double julianDay) const;
 
+    /// Latitude, degrees.
     double latitude() const { return _latitude; }
+    /// Longitude, degrees.
     double longitude() const { return _longitude; }
 
 private:

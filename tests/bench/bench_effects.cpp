@@ -9,6 +9,7 @@
 #include <gnomon/HaloNode.h>
 #include <gnomon/PlanarReflectionNode.h>
 
+#include <glm/common.hpp>
 #include <osg/MatrixTransform>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowQuery.h>
-#include <gnomon/TracedCasters.h>
 #include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/casters/RaySceneCache.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

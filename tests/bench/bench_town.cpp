@@ -3,9 +3,9 @@
 // machine could do at most. Each run's result is checked before it is timed.
 #include <support/TerrainTrial.h>
 
-#include <gnomon/HeightPyramid.h>
-#include <gnomon/PackedShadows.h>
-#include <gnomon/ShadowKernel.h>
+#include <gnomon/ground/HeightPyramid.h>
+#include <gnomon/onterrain/PackedShadows.h>
+#include <gnomon/simd/ShadowKernel.h>
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -87,10 +87,10 @@ Town& town(std::size_t count) {
 
 glm::dvec4 sunAt(double azimuth) { return {test::sunAt(azimuth, 30.0), 0.0}; }
 
-void step(Town& town, const glm::dvec4& sun, TerrainMethod method) {
+void step(Town& town, const glm::dvec4& sun, TerrainMethod method, const gnomon::ShadowKernel& kernel) {
     tbb::parallel_for(std::size_t{0}, town.tiles.size(), [&](std::size_t i) {
         Tile& tile = town.tiles[i];
-        packedShadows(ground(), tile.parts, sun, method, 0.1, tile.origin, tile.shadows);
+        packedShadows(ground(), tile.parts, sun, method, 0.1, tile.origin, tile.shadows, &kernel);
     });
 }
 
@@ -106,23 +106,20 @@ double quality(const Town& town, const glm::dvec4& sun) {
     return tally(shares).pooled;
 }
 
-struct Chosen {
-    Chosen(int threads, bool simd) : control(tbb::global_control::max_allowed_parallelism, std::size_t(threads)) {
-        gnomon::chooseShadowKernel(simd ? gnomon::shadowKernels().back() : gnomon::shadowKernels().front());
-    }
-    ~Chosen() { gnomon::chooseShadowKernel(gnomon::shadowKernels().back()); }
-    tbb::global_control control;
-};
+const gnomon::ShadowKernel& kernel(bool simd) {
+    return simd ? gnomon::shadowKernels().back() : gnomon::shadowKernels().front();
+}
 
 /// A step of the sun over all of the town. Arguments: houses, threads, with SIMD or without.
 void sunStep(benchmark::State& state, TerrainMethod method) {
     Town& houses = town(std::size_t(state.range(0)));
-    const Chosen chosen(int(state.range(1)), state.range(2) != 0);
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, std::size_t(state.range(1)));
+    const gnomon::ShadowKernel& with = kernel(state.range(2) != 0);
     double azimuth = 100.0;
-    step(houses, sunAt(azimuth), method);
+    step(houses, sunAt(azimuth), method, with);
     if (!(quality(houses, sunAt(azimuth)) > 0.99)) return state.SkipWithError("the shadows are wrong.");
     std::size_t triangles = 0, kept = 0, parts = 0;
-    for (auto _ : state) step(houses, sunAt(azimuth += 0.25), method);
+    for (auto _ : state) step(houses, sunAt(azimuth += 0.25), method, with);
     for (const Tile& tile : houses.tiles) {
         parts += tile.parts.bytes();
         kept += tile.shadows.bytes();
@@ -146,7 +143,7 @@ BENCHMARK_CAPTURE(sunStep, drape, TerrainMethod::drape)->Apply(sizes);
 
 /// What bounds a step: heights of the ground at places in random houses' shadows, by the kernel alone. Without SIMD or with.
 void heightsAlone(benchmark::State& state) {
-    const Chosen chosen(1, state.range(0) != 0);
+    const gnomon::ShadowKernel& with = kernel(state.range(0) != 0);
     constexpr std::size_t count = 4096, together = 16;
     std::mt19937 random(3);
     std::uniform_real_distribution<double> anywhere(30.0, posts - 30.0), near(-3.0, 3.0);
@@ -162,7 +159,7 @@ void heightsAlone(benchmark::State& state) {
     }
     const gnomon::HeightField& field = ground().field();
     const gnomon::GridView view{field.heights(), field.cuts(), field.columns(), field.rows(), true};
-    for (auto _ : state) gnomon::shadowKernel().heights(view, places.data(), places.size(), gnomon::kernelLanes);
+    for (auto _ : state) with.heights(view, places.data(), places.size(), gnomon::kernelLanes);
     for (std::size_t i = 0; i < count; ++i) {
         const auto [block, lane] = at(i);
         const double u = places[block].u[lane] * pitch, v = places[block].v[lane] * pitch;

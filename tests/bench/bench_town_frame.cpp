@@ -7,10 +7,10 @@
 #include <FrameTime.h>
 #include <TownScene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/TerrainBitmap.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/group/ShadowBin.h>
+#include <gnomon/terrain/TileBitmap.h>
 
 #include <algorithm>
 #include <chrono>
@@ -32,7 +32,7 @@ class TimedTerrain : public gnomon::TerrainShadowGeode {
 public:
     explicit TimedTerrain(const gnomon::TerrainShadowGeode& other) : TerrainShadowGeode(other) {}
     std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                       const gnomon::GroupCasters& casters) const override {
+                                                       const gnomon::FrameCasters& casters) const override {
         const auto start = std::chrono::steady_clock::now();
         const std::clock_t processor = std::clock();
         auto jobs = TerrainShadowGeode::prepare(view, light, casters);
@@ -108,18 +108,13 @@ double median(const bench::Contender& contender) { return quartiles(contender.wa
 
 /// Against the ground's own triangles, exactly cut; without bitmaps, and with nothing left out.
 bool rightPicture(const TownScene& town, const test::View& view) {
-    const auto picture = [&](const std::string& shadow) {
+    const auto picture = [&](const std::string& shadow, const gnomon::CompositorOptions& options = {}) {
         const SceneSetup setup = setUp(town, shadow);
-        return test::render(setup.root, view);
+        return test::render(test::withOptions(setup.root, options), view);
     };
     const test::Picture plain = picture("none"), hull = picture("hull"), exact = picture("drape:error=0");
-    const unsigned before = gnomon::TerrainBitmap::getMostPolygons();
-    gnomon::TerrainBitmap::setMostPolygons(~0u);
-    const test::Picture polygons = picture("hull");
-    gnomon::TerrainBitmap::setMostPolygons(before);
-    gnomon::ShadowBin::setFilter(false);
-    const int culled = picture("hull").different(polygons);
-    gnomon::ShadowBin::setFilter(true);
+    const test::Picture polygons = picture("hull", {0, true, ~0u});
+    const int culled = picture("hull", {0, false, ~0u}).different(polygons);
     const int shadow = exact.different(plain), wrong = hull.different(exact);
     std::printf("  picture: %d pixels in shadow; hull and exact drape differ in %d, without bitmaps in %d; culling "
                 "changes %d\n",
@@ -145,12 +140,9 @@ bool run(int buildings, int frames) {
     Turning sun(setups[3], *town.view().center, pacePerFrame);
     contenders[3].before = [&] { sun(); };
     contenders[4].before = Turning(setups[4], *town.view().center, 15.0);
-    const unsigned mostPolygons = gnomon::TerrainBitmap::getMostPolygons();
-    contenders[5].before = [] { gnomon::TerrainBitmap::setMostPolygons(~0u); };
-    contenders[0].before = [=] { gnomon::TerrainBitmap::setMostPolygons(mostPolygons); };
+    test::withOptions(setups[5].root, {0, true, ~0u});
     std::printf("%d buildings, %dx%d, 800 m above ground\n", buildings, width, height);
     bench::race(contenders, frames);
-    contenders[0].before();
     const double plain = median(contenders[0]);
     const auto more = [&](int contender) { return 100.0 * (median(contenders[std::size_t(contender)]) / plain - 1.0); };
     std::printf("  sun still: blend adds %.0f %% of the frame (goal 25), relight %.0f %% (goal 60), blend by polygons "

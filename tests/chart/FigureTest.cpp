@@ -141,7 +141,7 @@ TEST_F(FigureFiles, WithoutGnuplotOneSentenceSaysSo) {
         draw({chartPoint("Gnomon", "map", "size 512", 2, 4)});
         ADD_FAILURE();
     } catch (const std::runtime_error& error) {
-        EXPECT_STREQ(error.what(), "the figures need gnuplot, which cannot be started: install gnuplot-nox.");
+        EXPECT_STREQ(error.what(), "the figures need gnuplot, which cannot be started. Install gnuplot-nox.");
     }
     setenv("PATH", path.c_str(), 1);
     EXPECT_TRUE(folder.list().empty());

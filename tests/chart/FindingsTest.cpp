@@ -50,9 +50,8 @@ TEST(Findings, SayPlainlyWhereAPeerBeatsUs) {
                  chartPoint("osgShadow", "ShadowMap", "a", 3, 2), chartPoint("osgShadow", "ShadowMap", "b", 4, 1.5)});
     EXPECT_TRUE(finding.peerBeatsUs);
     EXPECT_TRUE(says(finding,
-                     "A peer beats every Gnomon technique: at equal or lower cost the most accurate of Gnomon's "
-                     "is map, a (2 ms, 4 px), but there is osgShadow ShadowMap, a (3 ms, 2 px); osgShadow "
-                     "ShadowMap, b (4 ms, 1.5 px)."))
+                     "A peer beats every Gnomon technique: osgShadow ShadowMap, a (3 ms, 2 px); osgShadow ShadowMap, b "
+                     "(4 ms, 1.5 px). At equal or lower cost, the most accurate of Gnomon's is map, a (2 ms, 4 px)."))
         << allOf(finding);
 }
 
@@ -82,10 +81,9 @@ TEST(Findings, TellPeersThatAreAheadByMoreThanRunsDifferBy) {
                                              chartPoint("osgShadow", "ShadowMap", "", one.theirs, one.error)}));
         EXPECT_TRUE(all[0].peerBeatsUs);
         EXPECT_EQ(all[0].peerIsAhead, one.ahead) << one.theirs << " ms, " << one.error << " px";
-        EXPECT_EQ(
-            says(all[0],
-                 "By no more than runs differ by: 1 ms or a tenth of the time, and a tenth of the error, suffice."),
-            !one.ahead);
+        EXPECT_EQ(says(all[0], "The lead is within the variation between runs: at most 1 ms or a tenth of the time, "
+                               "and a tenth of the error."),
+                  !one.ahead);
         const std::string summary = findingsSummary(all);
         EXPECT_EQ(summary.find("in none.") != std::string::npos, !one.ahead) << summary;
     }
@@ -97,7 +95,7 @@ TEST(Findings, NameOurTechniquesThatAreNeverWorthIt) {
                  chartPoint("Gnomon", "box", "a", 1, 9), chartPoint("Gnomon", "box", "b", 4, 9),
                  chartPoint("osgShadow", "ShadowMap", "", 3, 2)});
     EXPECT_TRUE(
-        says(finding, "Never worth it here, for at each setting some peer costs no more and errs no more: traced."))
+        says(finding, "Never worth it here, because at each setting a peer costs no more and errs no more: traced."))
         << allOf(finding); // of box only one setting is outdone
 }
 
@@ -115,8 +113,8 @@ TEST(Findings, WithNothingSoundOfOursAPeerWins) {
     ChartPoint ours = chartPoint("Gnomon", "map", "", 1, 1);
     ours.errors->catastrophes.allLit = true;
     const SceneFinding finding = stillOf({ours, chartPoint("osgShadow", "ShadowMap", "", 3, 2)});
-    EXPECT_TRUE(says(finding, "A peer is cheaper than every Gnomon technique, none of which gives a sound shadow here: "
-                              "osgShadow ShadowMap (3 ms, 2 px)."))
+    EXPECT_TRUE(says(
+        finding, "No Gnomon technique gives a sound shadow here, but a peer does: osgShadow ShadowMap (3 ms, 2 px)."))
         << allOf(finding);
     ChartPoint theirs = chartPoint("osgShadow", "ShadowMap", "", 3, 2);
     theirs.errors->catastrophes.allLit = true;
@@ -132,8 +130,8 @@ TEST(Findings, StillAndMovingLightAreJudgedApart) {
     EXPECT_TRUE(all[1].peerBeatsUs);
     EXPECT_EQ(findingsSummary(all),
               "In 1 of 2 cases (each scene with a still and with a moving light) a peer beats every "
-              "Gnomon technique at some cost: boxes, moving light. By more than 1 ms and a tenth of its time, "
-              "or a tenth of its error: in 1: boxes, moving light.");
+              "Gnomon technique at some cost: boxes, moving light. The lead exceeds 1 ms and a tenth of the time, "
+              "or a tenth of the error, in 1: boxes, moving light.");
 }
 
 TEST(Findings, AreNoneOfScenesWithoutPoints) {
@@ -147,12 +145,11 @@ TEST(Findings, SayNothingOfWhoBeatsWhomWhereOneKitWasNotTimed) {
     ChartPoint untimed = chartPoint("osgShadow", "ShadowMap", "", 3, 4); // a run that ended before its race
     untimed.cost.reset();
     const ChartPoint ours = chartPoint("Gnomon", "map", "", 1, 2);
-    EXPECT_TRUE(says(stillOf({ours, untimed}),
-                     "Only Gnomon's techniques were timed here, so that nothing is said of who beats whom."));
+    EXPECT_TRUE(says(stillOf({ours, untimed}), "Only Gnomon's techniques were timed here, so there is no comparison."));
     EXPECT_TRUE(says(stillOf({untimed}), "Nothing was timed here."));
     EXPECT_FALSE(stillOf({chartPoint("osgShadow", "ShadowMap", "", 3, 4)}).peerBeatsUs);
     EXPECT_EQ(findingsSummary(findings(resultsOf({ours, untimed}))),
-              "No scene is judged: that takes a technique of Gnomon and a peer, both timed.");
+              "No scene is compared, because that needs timings of a Gnomon technique and of a peer.");
 }
 
 } // namespace

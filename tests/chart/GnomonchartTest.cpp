@@ -94,6 +94,24 @@ TEST_F(Gnomonchart, TwoRunsGiveTheSameErrorsToTheDigit) {
     }
 }
 
+TEST_F(Gnomonchart, WithoutFlickerAllOtherNumbersAreTheSame) {
+    Arguments without = small("without");
+    without.insert(without.end(), {"--flicker", "0"});
+    ASSERT_EQ(run(small("with")).status, 0);
+    ASSERT_EQ(run(without).status, 0);
+    const ChartResults with = results("with"), less = results("without");
+    ASSERT_EQ(less.points.size(), with.points.size());
+    for (std::size_t i = 0; i < less.points.size(); ++i) {
+        const ChartPoint &point = less.points[i], &whole = with.points[i];
+        EXPECT_FALSE(point.flickerEnergy || point.flickerShare || point.crawl);
+        ASSERT_TRUE(point.errors && point.errors->boundary && whole.errors && whole.errors->boundary);
+        EXPECT_EQ(point.errors->boundary->p95, whole.errors->boundary->p95);
+        EXPECT_EQ(point.shadedRmse, whole.shadedRmse);
+        EXPECT_TRUE(point.cost);
+    }
+    EXPECT_TRUE(fs::exists(folder.path() / "without" / "index.html"));
+}
+
 /// Once something is measured, long before a run of all techniques can end.
 TEST_F(Gnomonchart, AnInterruptedRunKeepsWhatItHas) {
     ChildProcess chart({GNOMONCHART, lab8, "--size", "64x48", "--out", "o"}, folder.path());
@@ -108,7 +126,7 @@ TEST_F(Gnomonchart, AnInterruptedRunKeepsWhatItHas) {
     chart.interrupt();
     EXPECT_EQ(chart.ended(std::chrono::seconds(60)), 130);
     const std::string said = readFile(folder.path() / "gnomonchart.err");
-    EXPECT_NE(said.find("gnomonchart: interrupted; what was measured so far is kept.\n"), std::string::npos) << said;
+    EXPECT_NE(said.find("gnomonchart: interrupted. The results so far are kept.\n"), std::string::npos) << said;
     const ChartResults r = results("o");
     EXPECT_FALSE(r.complete);
     EXPECT_EQ(r.scenes.size(), 1u);
@@ -140,22 +158,24 @@ TEST_F(Gnomonchart, AResumedRunMeasuresOnlyWhatIsLeft) {
     }
     more[10] = "4"; // --frames
     EXPECT_EQ(refusal(more),
-              "--resume: the results there were not made with frames 4; leave --resume out to measure all "
-              "anew.\n");
+              "--resume: the results in the folder were not made with frames 4. Leave --resume out to measure "
+              "everything again.\n");
     more[12] = "elsewhere"; // --out
     EXPECT_NE(refusal(more).find("there is no file"), std::string::npos);
 }
 
 TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
-    EXPECT_NE(refusal({"--scene", "moon"}).find("no scene is named \"moon\"; allowed: lab8-45"), std::string::npos);
-    EXPECT_EQ(refusal({lab8, "--technique", "volumetric"}), "no technique's name holds \"volumetric\".\n");
+    EXPECT_NE(refusal({"--scene", "moon"}).find("no scene is named \"moon\". Allowed: lab8-45"), std::string::npos);
+    EXPECT_EQ(refusal({lab8, "--technique", "volumetric"}),
+              "no technique's name contains \"volumetric\". See --list.\n");
     EXPECT_NE(refusal({"missing.obj"}).find("missing.obj"), std::string::npos);
-    EXPECT_EQ(refusal({lab8, "--scene", "room"}), "--scene and files are given; one of them is allowed.\n");
+    EXPECT_EQ(refusal({lab8, "--scene", "room"}), "--scene and files exclude each other. Give one of them.\n");
     EXPECT_NE(refusal({lab8, "--frames", "1"}).find("2 to 10000"), std::string::npos);
+    EXPECT_NE(refusal({lab8, "--flicker", "-1"}).find("0 to 1000"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--size", "16x16"}).find("32x32"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--shadow", "planar"}).find("there is no option --shadow"), std::string::npos);
     folder.write("taken", "");
-    EXPECT_NE(refusal({lab8, "--out", "taken"}).find("\"taken\" cannot be made as a folder"), std::string::npos);
+    EXPECT_NE(refusal({lab8, "--out", "taken"}).find("\"taken\" cannot be created as a folder"), std::string::npos);
 }
 
 TEST_F(Gnomonchart, ListsWhatItKnows) {

@@ -99,7 +99,7 @@ TEST_F(Page, TooManyBytesOfPicturesAreHalvedUntilTheyFit) {
 TEST_F(Page, OfNothingMeasuredIsWrittenAndSaysThatItIsNotWhole) {
     writeReport(ChartResults(), path());
     const std::string html = readFile(folder.path() / "index.html");
-    EXPECT_TRUE(holds(html, "The run was interrupted or is still under way: 0 points so far."));
+    EXPECT_TRUE(holds(html, "The run was interrupted or is still running: 0 points so far."));
     EXPECT_TRUE(holds(html, "What the numbers mean"));
 }
 

@@ -350,18 +350,18 @@ TEST_F(ResultsFile, RefusesABrokenFileInOneSentence) {
         std::string text = whole;
         return refusalOf(text.replace(text.find(old), old.size(), by));
     };
-    EXPECT_EQ(refusalOf(whole.substr(0, whole.size() / 2)), begin + "it is no whole JSON file.");
-    EXPECT_EQ(refusalOf(""), begin + "it is no whole JSON file.");
+    EXPECT_EQ(refusalOf(whole.substr(0, whole.size() / 2)), begin + "it is not a complete JSON file.");
+    EXPECT_EQ(refusalOf(""), begin + "it is not a complete JSON file.");
     EXPECT_EQ(refusalOf("[]"), begin + "\"gnomonchart\" is missing.");
-    EXPECT_EQ(changed("\"gnomonchart\": 1", "\"gnomonchart\": 2"), begin + "it is of version 2; 1 is allowed.");
+    EXPECT_EQ(changed("\"gnomonchart\": 1", "\"gnomonchart\": 2"), begin + "its version is 2. Allowed: 1.");
     EXPECT_EQ(changed("\"complete\": true", "\"complete\": 1"), begin + "\"complete\" is neither true nor false.");
     EXPECT_EQ(changed("\"triangles\": 3000000", "\"triangles\": -3"),
-              begin + "scenes[0]: \"triangles\" is no whole number from 0.");
+              begin + "scenes[0]: \"triangles\" is not a whole number of 0 or more.");
     EXPECT_EQ(changed("\"firstMs\"", "\"f\""), begin + "points[0]: cost: \"firstMs\" is missing.");
     EXPECT_EQ(changed("\"p95\"", "\"p\""), begin + "points[0]: errors: boundaryPixels: \"p95\" is missing.");
     EXPECT_EQ(changed("\"causes\": {", "\"causes\": 3, \"c\": {"),
-              begin + "points[0]: errors: \"causes\" is no object.");
-    EXPECT_EQ(changed("\"影\"", "7"), begin + "points[0]: notes: it is no text.");
+              begin + "points[0]: errors: \"causes\" is not an object.");
+    EXPECT_EQ(changed("\"影\"", "7"), begin + "points[0]: notes: it is not a string.");
 }
 
 TEST_F(ResultsFile, RefusesAFileThatIsNotThere) {
@@ -370,7 +370,7 @@ TEST_F(ResultsFile, RefusesAFileThatIsNotThere) {
         loadResults(gone);
         FAIL();
     } catch (const std::runtime_error& error) {
-        EXPECT_EQ(error.what(), "there is no file \"" + gone + "\"; a results.json of gnomonchart is needed.");
+        EXPECT_EQ(error.what(), "there is no file \"" + gone + "\". Give the results.json of a run of gnomonchart.");
     }
     EXPECT_THROW(loadResults(folder.path().string()), std::runtime_error);
     EXPECT_THROW(saveResults({}, gone), std::runtime_error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "../../examples/gnomonchart/scenes/ChartScene.h"
+#include "../../examples/tools/gnomonchart/scenes/ChartScene.h"
 
 namespace test {
 

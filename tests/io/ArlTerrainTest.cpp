@@ -153,14 +153,14 @@ TEST_F(ArlTerrain, BadInputIsRefusedInOneSentenceAndLeavesNothing) {
         EXPECT_NE(ending.lastLine().find(says), std::string::npos) << ending.err;
         EXPECT_EQ(folder.list(), Arguments{"small.asc"});
     };
-    refused({"--shadow", "planar", "--out", "o.png"}, "allowed: none, box, hull, drape.");
+    refused({"--shadow", "planar", "--out", "o.png"}, "Allowed: none, box, hull, drape.");
     refused({"--shadow", "drape:error=-1", "--out", "o.png"}, "error=-1 cannot be used");
-    refused({"--hour", "3", "--out", "o.png"}, "allowed: a number from 6.5 to 17.5.");
-    refused({"--hour", "noon", "--out", "o.png"}, "allowed: a number from 6.5 to 17.5.");
+    refused({"--hour", "3", "--out", "o.png"}, "Allowed: a number from 6.5 to 17.5.");
+    refused({"--hour", "noon", "--out", "o.png"}, "Allowed: a number from 6.5 to 17.5.");
     refused({"--size", "0x10", "--out", "o.png"}, "--size 0x10 cannot be used");
     refused({"--nothing"}, "there is no option --nothing");
     refused({"--out"}, "--out needs a value");
-    refused({"--out", "o.png", "--report", "r"}, "one of them is allowed.");
+    refused({"--out", "o.png", "--report", "r"}, "--out and --report exclude each other. Give one of them.");
     refused({"a.gdal", "b.gdal", "--out", "o.png"}, "\"b.gdal\" is a second elevation model");
     refused({"missing.tif.gdal", "--out", "o.png"}, "there is no file \"missing.tif.gdal\"");
     refused({"small.asc.gdal", "--out", "o.png"}, "no place for the town: 900 m");

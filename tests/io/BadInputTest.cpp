@@ -42,12 +42,12 @@ protected:
 
 std::string damaged(const std::string& file) {
     return "\"" + file +
-           "\" cannot be read as a scene: it is damaged or not what its name says (obj, osgt, ive, stl, 3ds, … can be "
-           "read).";
+           "\" cannot be read as a scene: it is damaged, or it does not match its name. Allowed: obj, osgt, ive, stl, "
+           "3ds, ….";
 }
 
 std::string empty(const std::string& file) {
-    return "\"" + file + "\" holds nothing to draw: it is empty, damaged or not what its name says.";
+    return "\"" + file + "\" holds nothing to draw. It is empty or damaged, or it does not match its name.";
 }
 
 /// A sphere in OSG's own format of this ending.
@@ -65,8 +65,8 @@ TEST_F(BadInput, MissingFile) {
 
 TEST_F(BadInput, Directory) {
     std::filesystem::create_directory(folder.path() / "dir.osgt");
-    EXPECT_EQ(refusalOf("dir.osgt"), "\"dir.osgt\" is a directory; a scene file is needed.");
-    EXPECT_EQ(refusalOf("."), "\".\" is a directory; a scene file is needed.");
+    EXPECT_EQ(refusalOf("dir.osgt"), "\"dir.osgt\" is a directory. Give a scene file.");
+    EXPECT_EQ(refusalOf("."), "\".\" is a directory. Give a scene file.");
 }
 
 TEST_F(BadInput, EmptyFile) {
@@ -128,31 +128,32 @@ TEST_F(BadInput, VerticesThatAreNotFinite) {
 TEST_F(BadInput, UnknownTechniqueOrKey) {
     EXPECT_EQ(
         refusalWith({"--shadow", "plane"}),
-        "--shadow plane cannot be used; \"plane\" is not a shadow technique; allowed: none, planar, box, hull, drape, "
+        "--shadow plane cannot be used. \"plane\" is not a shadow technique. Allowed: none, planar, box, hull, drape, "
         "map, traced.");
     EXPECT_EQ(refusalWith({"--shadow", "volume:bits=8"}),
-              "--shadow volume:bits=8 cannot be used; \"volume\" is not built yet; built: none, planar, box, hull, "
+              "--shadow volume:bits=8 cannot be used. \"volume\" is not built yet. Allowed: none, planar, box, hull, "
               "drape, map, traced.");
-    EXPECT_EQ(refusalWith({"--shadow", "planar:soft=1"}), "--shadow planar:soft=1 cannot be used; the technique planar "
-                                                          "has no key \"soft\"; allowed: composite, dark, receiver.");
+    EXPECT_EQ(refusalWith({"--shadow", "planar:soft=1"}), "--shadow planar:soft=1 cannot be used. the technique planar "
+                                                          "has no key \"soft\". Allowed: composite, dark, receiver.");
 }
 
 TEST_F(BadInput, MixedComposites) {
     EXPECT_EQ(refusalWith({"--shadow", "planar", "--shadow", "planar:composite=blend"}),
-              "composite=relight and composite=blend cannot be mixed; give every shadow the same.");
+              "composite=relight and composite=blend cannot be mixed. Give every shadow the same.");
 }
 
 TEST_F(BadInput, NodesThatAreNotThere) {
     EXPECT_EQ(refusalWith({"--shadow", "planar", "--receiver", "roof"}),
-              "no node is named \"roof\" to receive the shadow; names in the scene: lab8, ground, sphere, cube.");
-    EXPECT_EQ(refusalWith({"--casters", "roof"}), "--casters: no node is named \"roof\"; allowed: all, none, a name.");
+              "no node is named \"roof\" to receive the shadow. Names in the scene: lab8, ground, sphere, cube.");
+    EXPECT_EQ(refusalWith({"--casters", "roof"}),
+              "--casters: no node is named \"roof\". Allowed: all, none, or a node's name.");
 }
 
 TEST_F(BadInput, Size) {
     for (const char* size : {"0x600", "800x0", "0", "1000000x1000000", "1000000x1", "-8x6", "8x", "x6", "8.5x6",
                              "8x6x4", "nanxnan", "800", "99999999999999999999x1"})
         EXPECT_EQ(refusalWith({"--size", size}), "--size " + std::string(size) +
-                                                     " cannot be used; allowed: WIDTHxHEIGHT from 1x1 to "
+                                                     " cannot be used. Allowed: WIDTHxHEIGHT from 1x1 to "
                                                      "16384x16384 pixels.");
 }
 
@@ -160,9 +161,9 @@ TEST_F(BadInput, LightThatIsNotFinite) {
     for (const char* light : {"nan,0,1,0", "0,0,inf,0", "0,0,1", "0,0,1,0,0", "a,b,c,d", "0,0,1e300,1", "1,,1,0"})
         EXPECT_EQ(refusalWith({"--light", light}),
                   "--light " + std::string(light) +
-                      " cannot be used; allowed: 4 numbers from -1e+12 to 1e+12, commas between them.");
-    EXPECT_EQ(refusalWith({"--light", "0,0,0,0"}), "--light 0,0,0,0 cannot be used; allowed: a direction with w = 0 "
-                                                   "that is not 0,0,0, or a position with w = 1.");
+                      " cannot be used. Allowed: 4 numbers from -1e+12 to 1e+12, separated by commas.");
+    EXPECT_EQ(refusalWith({"--light", "0,0,0,0"}), "--light 0,0,0,0 cannot be used. Allowed: a direction other than "
+                                                   "0,0,0 with w = 0, or a position with w = 1.");
 }
 
 TEST_F(BadInput, SunOfNoMomentOrPlaceOrNight) {
@@ -170,12 +171,12 @@ TEST_F(BadInput, SunOfNoMomentOrPlaceOrNight) {
         EXPECT_EQ(
             refusalWith({"--sun", sun}),
             "--sun " + std::string(sun) +
-                " cannot be used; allowed: a moment in UTC as 2026-06-21T15:00:00Z, a latitude from -90 to 90 and a "
-                "longitude from -180 to 180 degrees, with commas between.");
+                " cannot be used. Allowed: a moment in UTC as 2026-06-21T15:00:00Z, a latitude from -90 to 90 and a "
+                "longitude from -180 to 180 degrees, separated by commas.");
     EXPECT_EQ(refusalWith({"--sun", "2026-06-21T15:00:00Z,91,0"}),
-              "--sun 2026-06-21T15:00:00Z,91,0 cannot be used; a latitude is from -90 to 90 degrees.");
+              "--sun 2026-06-21T15:00:00Z,91,0 cannot be used. The latitude must be from -90 to 90 degrees.");
     EXPECT_EQ(refusalWith({"--sun", "2026-06-21T00:00:00Z,0,0"})
-                  .find("--sun 2026-06-21T00:00:00Z,0,0 cannot be used; the sun "
+                  .find("--sun 2026-06-21T00:00:00Z,0,0 cannot be used. The sun "
                         "is 66.6 degrees below the horizon"),
               0u); // 90 degrees less the declination of 23.44
 }
@@ -183,45 +184,45 @@ TEST_F(BadInput, SunOfNoMomentOrPlaceOrNight) {
 TEST_F(BadInput, NineLights) {
     Arguments lights;
     for (int i = 0; i < 9; ++i) lights.insert(lights.end(), {"--light", "0,0,1,0"});
-    EXPECT_EQ(refusalWith(lights), "--light is given more than 8 times; 1 to 8 lights are allowed.");
+    EXPECT_EQ(refusalWith(lights), "--light is given more than 8 times. Allowed: 1 to 8 lights.");
 }
 
 TEST_F(BadInput, CameraThatIsNotFinite) {
     for (const char* option : {"--eye", "--center", "--viewup"})
         EXPECT_EQ(refusalWith({option, "0,nan,1"}),
                   std::string(option) +
-                      " 0,nan,1 cannot be used; allowed: 3 numbers from -1e+12 to 1e+12, commas between them.");
+                      " 0,nan,1 cannot be used. Allowed: 3 numbers from -1e+12 to 1e+12, separated by commas.");
 }
 
 TEST_F(BadInput, CameraThatLooksNowhere) {
     EXPECT_EQ(refusalWith({"--eye", "1,2,3", "--center", "1,2,3"}),
-              "--eye and --center are the same point; they must differ.");
-    EXPECT_EQ(refusalWith({"--viewup", "0,0,0"}), "--viewup 0,0,0 is no direction; any other is allowed.");
+              "--eye and --center are the same point. Give two different points.");
+    EXPECT_EQ(refusalWith({"--viewup", "0,0,0"}), "--viewup 0,0,0 is not a direction. Give any other vector.");
     EXPECT_EQ(refusalWith({"--eye", "0,0,5", "--center", "0,0,0", "--viewup", "0,0,1"}),
-              "--viewup points along the view; it must stand at an angle to it.");
+              "--viewup is parallel to the view. Give a vector at an angle to it.");
 }
 
 TEST_F(BadInput, AnglesAndPlanesOutOfRange) {
     for (const char* angle : {"0", "180", "-40", "nan", "wide"})
         EXPECT_EQ(refusalWith({"--fovy", angle}),
-                  "--fovy " + std::string(angle) + " cannot be used; allowed: a number from 1 to 170.");
+                  "--fovy " + std::string(angle) + " cannot be used. Allowed: a number from 1 to 170.");
     EXPECT_EQ(refusalWith({"--near", "5", "--far", "5"}), "--near must be less than --far.");
-    EXPECT_EQ(refusalWith({"--near", "5"}), "--near and --far belong together; give both or none.");
+    EXPECT_EQ(refusalWith({"--near", "5"}), "--near and --far need each other. Give both or neither.");
     EXPECT_EQ(refusalWith({"--near", "0", "--far", "5"}),
-              "--near 0 cannot be used; allowed: a number from 1e-09 to 1e+12.");
+              "--near 0 cannot be used. Allowed: a number from 1e-09 to 1e+12.");
 }
 
 TEST_F(BadInput, LevelsOutOfRange) {
-    EXPECT_EQ(refusalWith({"--ambient", "nan"}), "--ambient nan cannot be used; allowed: a number from 0 to 10.");
-    EXPECT_EQ(refusalWith({"--diffuse", "-1"}), "--diffuse -1 cannot be used; allowed: a number from 0 to 10.");
+    EXPECT_EQ(refusalWith({"--ambient", "nan"}), "--ambient nan cannot be used. Allowed: a number from 0 to 10.");
+    EXPECT_EQ(refusalWith({"--diffuse", "-1"}), "--diffuse -1 cannot be used. Allowed: a number from 0 to 10.");
     EXPECT_EQ(refusalWith({"--background", "0,0,2"}),
-              "--background 0,0,2 cannot be used; allowed: 3 numbers from 0 to 1, commas between them.");
-    EXPECT_EQ(refusalWith({"--frames", "0"}), "--frames 0 cannot be used; allowed: a whole number from 1 to 100000.");
+              "--background 0,0,2 cannot be used. Allowed: 3 numbers from 0 to 1, separated by commas.");
+    EXPECT_EQ(refusalWith({"--frames", "0"}), "--frames 0 cannot be used. Allowed: a whole number from 1 to 100000.");
     EXPECT_EQ(refusalWith({"--frames", "2.5"}),
-              "--frames 2.5 cannot be used; allowed: a whole number from 1 to 100000.");
-    EXPECT_EQ(refusalWith({"--up", "x"}), "--up x cannot be used; allowed: y, z.");
+              "--frames 2.5 cannot be used. Allowed: a whole number from 1 to 100000.");
+    EXPECT_EQ(refusalWith({"--up", "x"}), "--up x cannot be used. Allowed: y, z.");
     EXPECT_EQ(refusalWith({"--ground", "big"}),
-              "--ground big cannot be used; allowed: auto, none, or a side from 1e-09 to 1e+12.");
+              "--ground big cannot be used. Allowed: auto, none, or a side from 1e-09 to 1e+12.");
 }
 
 TEST_F(BadInput, OutputThatCannotBeWritten) {
@@ -229,13 +230,13 @@ TEST_F(BadInput, OutputThatCannotBeWritten) {
     EXPECT_EQ(refusal({scene, "--out", "gone/o.png"}),
               "\"gone/o.png\" cannot be written: there is no directory \"gone\".");
     EXPECT_EQ(refusal({scene, "--out", "dir.png"}),
-              "\"dir.png\" cannot be written: it is a directory; a file's name is needed.");
-    EXPECT_EQ(refusal({scene, "--out", "/dev/null"}), "\"/dev/null\" cannot be written: it is not an ordinary file.");
+              "\"dir.png\" cannot be written: it is a directory. Give a file's name.");
+    EXPECT_EQ(refusal({scene, "--out", "/dev/null"}),
+              "\"/dev/null\" cannot be written: it is not a regular file. Give another name.");
     EXPECT_EQ(refusal({scene, "--out", "/proc/o.png"}),
-              "\"/proc/o.png\" cannot be written: its directory takes no new file.");
-    EXPECT_EQ(
-        refusal({scene, "--out", "o.obj"}),
-        "\"o.obj\" cannot be written: OpenSceneGraph writes no such images; png, jpg, bmp, tif, rgb are allowed.");
+              "\"/proc/o.png\" cannot be written: its directory is not writable. Give another one.");
+    EXPECT_EQ(refusal({scene, "--out", "o.obj"}),
+              "\"o.obj\" cannot be written: OpenSceneGraph writes no such images. Allowed: png, jpg, bmp, tif, rgb.");
     EXPECT_EQ(refusal({scene, "--stats", "gone/s.json"}),
               "\"gone/s.json\" cannot be written: there is no directory \"gone\".");
 }
@@ -247,26 +248,26 @@ TEST_F(BadInput, AFileThatIsThereStaysAsItIs) {
 }
 
 TEST_F(BadInput, OptionsThatAreWrong) {
-    EXPECT_EQ(refusalWith({"--moon", "full"}), "there is no option --moon; --help lists those there are.");
+    EXPECT_EQ(refusalWith({"--moon", "full"}), "there is no option --moon. See --help for all options.");
     EXPECT_EQ(refusalWith({"--size"}), "--size needs a value: WxH.");
     EXPECT_EQ(refusal({scene, "--out", "--size", "8x8"}), "--out needs a value: IMAGE.");
-    EXPECT_EQ(refusalWith({"--size", "8x8", "--size", "9x9"}), "--size is given twice; once is allowed.");
+    EXPECT_EQ(refusalWith({"--size", "8x8", "--size", "9x9"}), "--size is given twice. Give it once.");
     EXPECT_EQ(refusalWith({"-O"}), "-O needs a value.");
 }
 
 TEST_F(BadInput, TruthsThatCannotBeHad) {
     EXPECT_EQ(refusal({scene, "--truth", "t.png"}),
-              "\"t.png\" cannot be written: it would lose what is to be kept; .osgb, .osgt and .osgx are allowed.");
+              "\"t.png\" cannot be written: this format cannot hold the data. Allowed: .osgb, .osgt, .osgx.");
     EXPECT_EQ(refusal({scene, "--truth", "t.osgb", "--casters", "cube"}),
-              "--truth and --casters are given; the truth is that of all casters.");
+              "--truth and --casters exclude each other. Give one of them: the truth is that of all casters.");
     EXPECT_EQ(refusal({scene, "--truth", "t.osgb", "--light", "1,0,1,0", "--light", "0,1,1,0"}),
-              "--truth is that of one light; there are 2.");
+              "--truth needs exactly one light, but the scene has 2.");
 }
 
 TEST_F(BadInput, NothingToDo) {
-    EXPECT_EQ(refusal({}), "no scene file is given; --help says how.");
-    EXPECT_EQ(refusal({"--out", "o.png"}), "no scene file is given; --help says how.");
-    EXPECT_EQ(refusal({scene}), "nothing is asked for; give --out IMAGE, --stats FILE.json or --truth FILE.osgb.");
+    EXPECT_EQ(refusal({}), "no scene file is given. See --help.");
+    EXPECT_EQ(refusal({"--out", "o.png"}), "no scene file is given. See --help.");
+    EXPECT_EQ(refusal({scene}), "no output is asked for. Give --out IMAGE, --stats FILE.json or --truth FILE.osgb.");
 }
 
 } // namespace

@@ -4,8 +4,8 @@
 
 #include <ElevationFile.h>
 
-#include <gnomon/HeightPyramid.h>
 #include <gnomon/TerrainGround.h>
+#include <gnomon/ground/HeightPyramid.h>
 
 #include <gtest/gtest.h>
 
@@ -43,8 +43,8 @@ std::string refusal(const std::string& name, const std::string& bytes) {
 
 std::string damaged(const std::string& name) {
     return "\"" + name +
-           ".gdal\" cannot be read as an elevation model: it is damaged or not what its name says "
-           "(tif.gdal, asc.gdal, hgt.gdal, vrt.gdal, … can be read).";
+           ".gdal\" cannot be read as an elevation model: it is damaged, or it does not match its name. "
+           "Allowed: tif.gdal, asc.gdal, hgt.gdal, vrt.gdal, ….";
 }
 
 /// 99 × 99 posts of 2 bytes in a file beside it, from a byte of it on.
@@ -108,9 +108,9 @@ TEST(ElevationFile, BadOnesAreRefusedInOneSentence) {
     EXPECT_EQ(refusal("line.asc", "ncols 3\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n"),
               damaged("line.asc"));
     EXPECT_EQ(refusal("level.asc", grid("0 0 0\n0 0 0\n0 0 0\n")),
-              "\"level.asc.gdal\" holds no height but 0: the data that it names may be missing or damaged.");
+              "\"level.asc.gdal\" has the height 0 everywhere. The data that it refers to may be missing or damaged.");
     EXPECT_EQ(refusal("beyond.vrt", rawGrid("beyond.vrt", 5000)),
-              "\"beyond.vrt.gdal\" holds no height but 0: the data that it names may be missing or damaged.")
+              "\"beyond.vrt.gdal\" has the height 0 everywhere. The data that it refers to may be missing or damaged.")
         << "its posts begin after the last byte";
     EXPECT_EQ(refusal("good.asc", grid("7 8 9\n4 5 6\n1 2 3\n")), "read");
 }

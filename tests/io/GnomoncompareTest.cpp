@@ -237,31 +237,32 @@ TEST_F(Gnomoncompare, RefusesSizesThatDiffer) {
     saveAll(perfect());
     save(*floats(Picture(64, 96, 1.0)), "small.tif");
     EXPECT_EQ(refusal(run({}, "a.tif", "small.tif")),
-              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px; one size is needed.");
+              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px. Give files of one size.");
     EXPECT_EQ(refusal(run({"--shadowed", "small.tif"})),
-              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px; one size is needed.");
+              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px. Give files of one size.");
     EXPECT_EQ(refusal(run({"--json", "n.json"}, "small.tif", "small.tif")),
-              "\"t.osgb\" is 128 x 96 px and \"small.tif\" 64 x 96 px; one size is needed.");
+              "\"t.osgb\" is 128 x 96 px and \"small.tif\" 64 x 96 px. Give files of one size.");
 }
 
 TEST_F(Gnomoncompare, RefusesATruthThatIsNone) {
     saveAll(perfect());
     EXPECT_EQ(refusal(run({}, "a.tif", "b.tif", "b.tif")),
-              "\"b.tif\" is no truth: it is not an image of floats with a named layer for each map.");
+              "\"b.tif\" is not a truth file: it is not an image of floats with one named layer for each map.");
     const auto spoilt = [&](const std::function<void(TruthMaps&)>& spoil) {
         TruthMaps truth = BoxOnGround().truth();
         spoil(truth);
         save(*truthImage(truth), "spoilt.osgb");
         return refusal(run({}, "a.tif", "b.tif", "spoilt.osgb"));
     };
-    EXPECT_EQ(spoilt([](TruthMaps& t) { t.facing = {}; }), "\"spoilt.osgb\" is no truth: it has no layer \"facing\".");
+    EXPECT_EQ(spoilt([](TruthMaps& t) { t.facing = {}; }),
+              "\"spoilt.osgb\" is not a truth file: it has no layer \"facing\".");
     const std::string noNumber =
-        "\"spoilt.osgb\" is no truth: a pixel of its surface holds NaN, or a share outside 0 to 1.";
+        "\"spoilt.osgb\" is not a truth file: a pixel of its surface holds NaN, or a share outside 0 to 1.";
     EXPECT_EQ(spoilt([](TruthMaps& t) { t.lit.at(5, 5) = std::nan(""); }), noNumber);
     EXPECT_EQ(spoilt([](TruthMaps& t) { t.lit.at(5, 5) = 16.0; }), noNumber);
     EXPECT_EQ(spoilt([](TruthMaps& t) { t.facing.at(5, 5) = std::nan(""); }), noNumber);
     EXPECT_EQ(spoilt([](TruthMaps& t) { t.receiver.at(5, 5) = -1; }),
-              "\"spoilt.osgb\" is no truth: its layer \"receiver\" holds what is no id.");
+              "\"spoilt.osgb\" is not a truth file: its layer \"receiver\" holds a value that is not an id.");
 }
 
 TEST_F(Gnomoncompare, RefusesWhatCannotBeJudged) {
@@ -274,13 +275,13 @@ TEST_F(Gnomoncompare, RefusesWhatCannotBeJudged) {
 TEST_F(Gnomoncompare, RefusesOptionsItCannotUse) {
     saveAll(perfect());
     const auto refused = [&](const Arguments& all) { return refusal(runProgram(GNOMONCOMPARE, all, folder.path())); };
-    EXPECT_EQ(refused({}), "--casting is needed; --help says what it is.");
-    EXPECT_EQ(refused({"--casting", "a.tif", "--not-casting", "b.tif"}), "--truth is needed; --help says what it is.");
-    EXPECT_NE(refusal(run({"a.tif"})).find("nothing to do with \"a.tif\""), std::string::npos);
+    EXPECT_EQ(refused({}), "--casting is missing. See --help.");
+    EXPECT_EQ(refused({"--casting", "a.tif", "--not-casting", "b.tif"}), "--truth is missing. See --help.");
+    EXPECT_NE(refusal(run({"a.tif"})).find("no option takes \"a.tif\""), std::string::npos);
     EXPECT_NE(refusal(run({"--tolerance", "3"})).find("--tolerance"), std::string::npos);
     EXPECT_NE(refusal(run({"--contact", "near"})).find("--contact near cannot be used"), std::string::npos);
     EXPECT_EQ(refusal(run({"--shadowed", "s.tif", "--ambient", "0"})),
-              "--shadowed and --ambient are given; one of them is allowed.");
+              "--shadowed and --ambient exclude each other. Give one of them.");
     EXPECT_NE(refusal(run({"--overlay", "o.txt"})).find("\"o.txt\" cannot be written"), std::string::npos);
     EXPECT_NE(refusal(run({"--json", "gone/n.json"})).find("there is no directory"), std::string::npos);
 }

@@ -109,9 +109,9 @@ TEST_F(GusShadow, BlendHalvesWhatRelightTakesTheLightFrom) {
 TEST_F(GusShadow, ThreePointsOnALineAreNoPlane) {
     expectRefused({"--points", "0,0,0,1,1,1,2,2,2", "--offscreen"}, "--points lie on one line");
     expectRefused({"--points", "1,2,3,1,2,3,4,5,6", "--offscreen"}, "--points lie on one line");
-    expectRefused({"--points", "1,2,3", "--offscreen"}, "allowed: 9 numbers");
-    expectRefused({"--points", "nan,0,0,1,0,0,0,1,0", "--offscreen"}, "allowed: 9 numbers");
-    expectRefused({"--light", "1,2,3", "--offscreen"}, "allowed: 4 numbers");
+    expectRefused({"--points", "1,2,3", "--offscreen"}, "Allowed: 9 numbers");
+    expectRefused({"--points", "nan,0,0,1,0,0,0,1,0", "--offscreen"}, "Allowed: 9 numbers");
+    expectRefused({"--light", "1,2,3", "--offscreen"}, "Allowed: 4 numbers");
 }
 
 TEST_F(GusShadow, HelpNamesItsOptionsAndKeys) { expectHelp({"--points x,y,z", "--light x,y,z,w", "  k        "}); }

@@ -174,7 +174,7 @@ TEST_F(Halomagic, ThePulseGrowsAndEndsAndMotionJumps) {
 }
 
 TEST_F(Halomagic, SaysWhatItCannotDoAndHelps) {
-    expectRefused({"--stencil-bits", "0", "--offscreen"}, "at least 1 bit of stencil is needed");
+    expectRefused({"--stencil-bits", "0", "--offscreen"}, "this framebuffer has no stencil bits");
     expectRefused({"--keys", "W", "--offscreen"}, "there is no key W");
     expectHelp({"  p        ", "  q        ", "  y        ", "  9        ", "halo"});
 }

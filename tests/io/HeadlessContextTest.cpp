@@ -196,14 +196,14 @@ TEST(HeadlessContext, GivesAPerspectiveCameraTheAspectOfThePicture) {
 
 TEST(HeadlessContext, RefusesSizesAndBitsInOneSentence) {
     EXPECT_EQ(refusal(sized(0, 10)),
-              "HeadlessContext: a picture of 0x10 pixels cannot be made; allowed are 1x1 to 16384x16384.");
+              "HeadlessContext: a picture of 0x10 pixels cannot be made. Allowed: 1x1 to 16384x16384.");
     EXPECT_NE(refusal(sized(1000000, 1000000)), "");
     HeadlessContext::Options options;
     options.stencilBits = 4;
-    EXPECT_EQ(refusal(options), "HeadlessContext: 4 stencil bits cannot be had; allowed are 0 and 8.");
+    EXPECT_EQ(refusal(options), "HeadlessContext: 4 stencil bits cannot be had. Allowed: 0, 8.");
     options = {};
     options.depthBits = 7;
-    EXPECT_EQ(refusal(options), "HeadlessContext: 7 depth bits cannot be had; allowed are 16, 24 and 32.");
+    EXPECT_EQ(refusal(options), "HeadlessContext: 7 depth bits cannot be had. Allowed: 16, 24, 32.");
 }
 
 } // namespace

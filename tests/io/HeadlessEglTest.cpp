@@ -76,7 +76,7 @@ TEST(HeadlessEgl, DrawsInFloatAfterACameraWithItsOwnBuffers) {
 TEST(HeadlessEglDeathTest, SaysInOneSentenceThatThereIsNoDevice) {
     testing::GTEST_FLAG(death_test_style) = "threadsafe"; // a new process, where EGL has not looked yet
     EXPECT_EXIT(makeContextWithoutDriver(), testing::ExitedWithCode(1),
-                "^HeadlessContext: EGL finds no device that draws OpenGL into memory; [^.]*\\.\n$");
+                "^HeadlessContext: EGL finds no device that renders without a display\\. Install [^.]*\\.\n$");
 }
 
 } // namespace

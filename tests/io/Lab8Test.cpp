@@ -103,7 +103,7 @@ TEST_F(Lab8, AsksAgainAfterABadAnswer) {
         EXPECT_EQ(timesIn(ending.out, "Please enter an eye point: "), 2) << bad;
         EXPECT_EQ(timesIn(ending.out, "Please enter an at point: "), 1) << "nothing is the handout's answer";
         EXPECT_EQ(timesIn(ending.out, "Please enter a light location: "), 2) << bad;
-        EXPECT_EQ(timesIn(ending.out, "That cannot be used; allowed: 3 numbers"), 2) << ending.out;
+        EXPECT_EQ(timesIn(ending.out, "That cannot be used. Allowed: 3 numbers"), 2) << ending.out;
         EXPECT_NE(ending.err.find("no window can be opened"), std::string::npos) << ending.err;
     }
 }
@@ -117,12 +117,12 @@ TEST_F(Lab8, EndOfInputEndsItCleanly) {
 }
 
 TEST_F(Lab8, SaysInOneSentenceWhatItCannotDo) {
-    expectRefused({"--eye", "1,2", "--offscreen"}, "--eye 1,2 cannot be used; allowed: 3 numbers");
+    expectRefused({"--eye", "1,2", "--offscreen"}, "--eye 1,2 cannot be used. Allowed: 3 numbers");
     expectRefused({"--eye", "0,0,0", "--at", "0,0,0", "--offscreen"}, "--eye");
     expectRefused({"--keys", "?", "--offscreen"}, "there is no key ?");
-    expectRefused({"--frames", "0", "--offscreen"}, "allowed: a whole number");
-    expectRefused({"--stencil-bits", "0", "--offscreen"}, "at least 1 bit of stencil is needed");
-    expectRefused({"thing"}, "\"thing\" is no option");
+    expectRefused({"--frames", "0", "--offscreen"}, "Allowed: a whole number");
+    expectRefused({"--stencil-bits", "0", "--offscreen"}, "this framebuffer has no stencil bits");
+    expectRefused({"thing"}, "\"thing\" is not an option");
     expectRefused({"--thing"}, "there is no option --thing");
     expectRefused({"--out", "o.nothing"}, "o.nothing");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The line of progress, written by a process of its own whose stderr is a terminal or a pipe.
-#include <gnomon/Progress.h>
+#include <gnomon/ProgressLine.h>
 #include <gtest/gtest.h>
 
 #include <cerrno>
@@ -23,7 +23,7 @@ std::string readAll(int from) {
 }
 
 void work(double after) {
-    gnomon::Progress progress("builds", after);
+    gnomon::ProgressLine progress("builds", after);
     for (const double share : {0.0, 0.25, 0.2, 0.25, 0.5}) progress.show(share);
 }
 
@@ -61,17 +61,17 @@ std::string onPipe(double after) {
     if (!said)                                                                                                         \
     GTEST_SKIP() << "forkpty() gives no pseudo-terminal (" << std::strerror(errno) << "); mount /dev/pts to run this"
 
-TEST(Progress, GrowsOnATerminalAndIsGoneAtTheEnd) {
+TEST(ProgressLine, GrowsOnATerminalAndIsGoneAtTheEnd) {
     GNOMON_ON_TERMINAL(said, 0.0);
     const std::string blanks(std::string("builds").size() + 8, ' ');
     EXPECT_EQ(*said, "\rbuilds: 0 %\rbuilds: 25 %\rbuilds: 50 %\r" + blanks + "\r");
 }
 
-TEST(Progress, IsNotShownOfWhatIsDoneSooner) {
+TEST(ProgressLine, IsNotShownOfWhatIsDoneSooner) {
     GNOMON_ON_TERMINAL(said, 100.0);
     EXPECT_EQ(*said, "");
 }
 
-TEST(Progress, IsNeverWrittenToAPipe) { EXPECT_EQ(onPipe(0.0), ""); }
+TEST(ProgressLine, IsNeverWrittenToAPipe) { EXPECT_EQ(onPipe(0.0), ""); }
 
 } // namespace

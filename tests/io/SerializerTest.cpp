@@ -24,7 +24,7 @@ using gnomon::Selection;
 using gnomon::ShadowCasterGroup;
 using gnomon::ShadowLight;
 
-/// Numbers that six digits, or a reader that rounds carelessly, would change.
+/// KeyNumbers that six digits, or a reader that rounds carelessly, would change.
 const std::vector<osg::Vec4d> delicate = {
     {0.1, -1.0 / 3.0, 4234567.123456789, 1e-300},
     {-std::nextafter(1.0, 2.0), std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min(), -0.0},

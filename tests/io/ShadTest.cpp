@@ -148,7 +148,7 @@ TEST_F(Shad, LooksFromEachLight) {
 }
 
 TEST_F(Shad, SaysWhatItCannotDoAndHelps) {
-    expectRefused({}, "no scene file is given; usage: shad [OPTION...] FILE...");
+    expectRefused({}, "no scene file is given. Usage: shad [OPTION...] FILE...");
     expectRefused({"nowhere.osgt", "--offscreen"}, "nowhere.osgt");
     expectRefused({SHAD_SCENE, "--lights", "5", "--offscreen"}, "--lights 5 cannot be used");
     expectRefused({SHAD_SCENE, "--keys", "W", "--offscreen"}, "there is no key W");

@@ -84,13 +84,13 @@ TEST(ShadowSpec, KeysOfMapAreReadAndSet) {
     EXPECT_EQ(asked.getCascades(), 3);
     EXPECT_EQ(asked.getSize(), 2048);
     EXPECT_EQ(asked.getFilter(), ShadowMapTechnique::NEAREST);
-    EXPECT_EQ(refusal("map:size=8"), "size=8 cannot be used; allowed: 16 to 16384, texels.");
+    EXPECT_EQ(refusal("map:size=8"), "size=8 cannot be used. Allowed: 16 to 16384, texels.");
     EXPECT_EQ(parseShadowSpec("map:cascades=auto").cascades, 0);
-    EXPECT_EQ(refusal("map:cascades=0"), "cascades=0 cannot be used; allowed: auto, 1 to 4.");
-    EXPECT_EQ(refusal("map:cascades=5"), "cascades=5 cannot be used; allowed: auto, 1 to 4.");
+    EXPECT_EQ(refusal("map:cascades=0"), "cascades=0 cannot be used. Allowed: auto, 1 to 4.");
+    EXPECT_EQ(refusal("map:cascades=5"), "cascades=5 cannot be used. Allowed: auto, 1 to 4.");
     EXPECT_EQ(plain.getEdges(), ShadowMapTechnique::HARD);
     EXPECT_EQ(parseShadowSpec("map:filter=fine").filter, ShadowMapTechnique::FINE);
-    EXPECT_EQ(refusal("map:filter=soft"), "filter=soft cannot be used; allowed: nearest, bilinear, bicubic, fine.");
+    EXPECT_EQ(refusal("map:filter=soft"), "filter=soft cannot be used. Allowed: nearest, bilinear, bicubic, fine.");
 }
 
 TEST(ShadowSpec, KeysOfSoftMapsAreReadAndSet) {
@@ -107,11 +107,11 @@ TEST(ShadowSpec, KeysOfSoftMapsAreReadAndSet) {
     EXPECT_EQ(dynamic_cast<ShadowMapTechnique&>(*added.at(1)).getEdges(), ShadowMapTechnique::HARD);
     EXPECT_EQ(dynamic_cast<ShadowMapTechnique&>(*added.at(2)).getEdges(), ShadowMapTechnique::SMOOTH);
     EXPECT_EQ(parseShadowSpec("map:view=texels").view, ShadowMapTechnique::TEXELS);
-    EXPECT_EQ(refusal("map:view=x"), "view=x cannot be used; allowed: nothing, map, texels, cascades.");
-    EXPECT_EQ(refusal("map:edges=round"), "edges=round cannot be used; allowed: hard, smooth, soft.");
-    EXPECT_EQ(refusal("map:sun-angle=21"), "sun-angle=21 cannot be used; allowed: 0 to 20, degrees.");
-    EXPECT_EQ(refusal("map:lamp-size=-1"), "lamp-size=-1 cannot be used; allowed: 0 to 1e6, scene's unit.");
-    EXPECT_EQ(refusal("map:radius=nan"), "radius=nan cannot be used; allowed: 0 to 1e6, scene's unit.");
+    EXPECT_EQ(refusal("map:view=x"), "view=x cannot be used. Allowed: nothing, map, texels, cascades.");
+    EXPECT_EQ(refusal("map:edges=round"), "edges=round cannot be used. Allowed: hard, smooth, soft.");
+    EXPECT_EQ(refusal("map:sun-angle=21"), "sun-angle=21 cannot be used. Allowed: 0 to 20, degrees.");
+    EXPECT_EQ(refusal("map:lamp-size=-1"), "lamp-size=-1 cannot be used. Allowed: 0 to 1e6, scene's unit.");
+    EXPECT_EQ(refusal("map:radius=nan"), "radius=nan cannot be used. Allowed: 0 to 1e6, scene's unit.");
 }
 
 TEST(ShadowSpec, KeysAreRead) {
@@ -123,17 +123,17 @@ TEST(ShadowSpec, KeysAreRead) {
 }
 
 TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
-    const std::string allowed = "allowed: none, planar, box, hull, drape, map, traced.";
-    EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique; " + allowed);
-    EXPECT_EQ(refusal(""), "\"\" is not a shadow technique; " + allowed);
-    EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique; " + allowed);
+    const std::string allowed = "Allowed: none, planar, box, hull, drape, map, traced.";
+    EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique. " + allowed);
+    EXPECT_EQ(refusal(""), "\"\" is not a shadow technique. " + allowed);
+    EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique. " + allowed);
 }
 
 TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
     for (const char* name : {"volume", "auto"})
         EXPECT_EQ(refusal(std::string(name) + ":size=4"),
                   "\"" + std::string(name) +
-                      "\" is not built yet; built: none, planar, box, hull, drape, map, traced.");
+                      "\" is not built yet. Allowed: none, planar, box, hull, drape, map, traced.");
 }
 
 TEST(ShadowSpec, HullAndDrapeTakeAnErrorAndAllThreeTheTerrain) {
@@ -152,26 +152,26 @@ TEST(ShadowSpec, HullAndDrapeTakeAnErrorAndAllThreeTheTerrain) {
         EXPECT_EQ(shadow.getReceiver().node->getName(), "hills");
     }
     EXPECT_EQ(parseShadowSpec("drape:error=0").error, 0.0);
-    EXPECT_EQ(refusal("drape:error=-1"), "error=-1 cannot be used; allowed: 0 to 1e6, scene's unit.");
-    EXPECT_EQ(refusal("hull:error=nan"), "error=nan cannot be used; allowed: 0 to 1e6, scene's unit.");
-    EXPECT_EQ(refusal("box:error=1"), "the technique box has no key \"error\"; allowed: composite, dark, receiver.");
+    EXPECT_EQ(refusal("drape:error=-1"), "error=-1 cannot be used. Allowed: 0 to 1e6, scene's unit.");
+    EXPECT_EQ(refusal("hull:error=nan"), "error=nan cannot be used. Allowed: 0 to 1e6, scene's unit.");
+    EXPECT_EQ(refusal("box:error=1"), "the technique box has no key \"error\". Allowed: composite, dark, receiver.");
 }
 
 TEST(ShadowSpec, UnknownKeysAreRefusedWithThoseAllowed) {
     EXPECT_EQ(refusal("planar:size=4096"),
-              "the technique planar has no key \"size\"; allowed: composite, dark, receiver.");
-    EXPECT_EQ(refusal("planar:"), "the technique planar has no key \"\"; allowed: composite, dark, receiver.");
+              "the technique planar has no key \"size\". Allowed: composite, dark, receiver.");
+    EXPECT_EQ(refusal("planar:"), "the technique planar has no key \"\". Allowed: composite, dark, receiver.");
     EXPECT_EQ(refusal("planar:composite=blend,"),
-              "the technique planar has no key \"\"; allowed: composite, dark, receiver.");
+              "the technique planar has no key \"\". Allowed: composite, dark, receiver.");
 }
 
 TEST(ShadowSpec, ValuesOutOfRangeAreRefusedWithTheRange) {
     for (const char* value : {"-0.1", "1.01", "nan", "inf", "", "half", "0.5x", "1e99"})
         EXPECT_EQ(refusal(std::string("planar:composite=blend,dark=") + value),
-                  std::string("dark=") + value + " cannot be used; allowed: 0 to 1.");
-    EXPECT_EQ(refusal("planar:composite=mix"), "composite=mix cannot be used; allowed: relight, blend.");
-    EXPECT_EQ(refusal("planar:receiver="), "receiver= cannot be used; allowed: a node's name.");
-    EXPECT_EQ(refusal("planar:receiver"), "receiver= cannot be used; allowed: a node's name.");
+                  std::string("dark=") + value + " cannot be used. Allowed: 0 to 1.");
+    EXPECT_EQ(refusal("planar:composite=mix"), "composite=mix cannot be used. Allowed: relight, blend.");
+    EXPECT_EQ(refusal("planar:receiver="), "receiver= cannot be used. Allowed: a node's name.");
+    EXPECT_EQ(refusal("planar:receiver"), "receiver= cannot be used. Allowed: a node's name.");
 }
 
 TEST(ShadowSpec, TheEndsOfARangeAreAllowed) {
@@ -181,11 +181,11 @@ TEST(ShadowSpec, TheEndsOfARangeAreAllowed) {
 
 TEST(ShadowSpec, AKeyGivenTwiceIsRefused) {
     EXPECT_EQ(refusal("planar:receiver=a,receiver=b"),
-              "the key \"receiver\" is given twice in \"planar:receiver=a,receiver=b\".");
+              "the key \"receiver\" is given twice. Give it once in \"planar:receiver=a,receiver=b\".");
 }
 
 TEST(ShadowSpec, DarkWithoutBlendIsRefused) {
-    EXPECT_EQ(refusal("planar:dark=0.5"), "dark= is of use only with composite=blend; add it to \"planar:dark=0.5\".");
+    EXPECT_EQ(refusal("planar:dark=0.5"), "dark= needs composite=blend. Add it to \"planar:dark=0.5\".");
 }
 
 TEST(ShadowSpec, HelpNamesEveryTechniqueAndKey) {
@@ -238,26 +238,27 @@ TEST(AddShadows, TracedReceivesEverywhereUnlessAReceiverIsNamed) {
     EXPECT_EQ(added[1]->getReceiver().node, group->getChild(0));
     EXPECT_STREQ(added[0]->className(), "TracedShadowTechnique");
     EXPECT_EQ(refusal(*groupOf(square("floor", 1)), {"traced:receiver=roof"}),
-              "no node is named \"roof\" to receive the shadow; names in the scene: floor.");
+              "no node is named \"roof\" to receive the shadow. Names in the scene: floor.");
 }
 
 TEST(AddShadows, AMissingReceiverIsRefusedWithTheNamesThereAre) {
     osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
     EXPECT_EQ(refusal(*group, {"planar"}),
-              "no node is named \"ground\" to receive the shadow; names in the scene: floor.");
+              "no node is named \"ground\" to receive the shadow. Names in the scene: floor.");
     EXPECT_EQ(group->getNumChildren(), 1u) << "nothing is added when something is refused";
 }
 
 TEST(AddShadows, AReceiverWithNothingFlatIsRefused) {
     osg::ref_ptr<osg::Group> empty = new osg::Group;
     empty->setName("ground");
-    EXPECT_EQ(refusal(*groupOf(empty), {"planar"}), "the receiver \"ground\" has no flat part for planar to use.");
+    EXPECT_EQ(refusal(*groupOf(empty), {"planar"}),
+              "the receiver \"ground\" has no flat part, which planar needs. Name another one with receiver=NAME.");
 }
 
 TEST(AddShadows, CompositeBelongsToTheWholeGroup) {
     osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("ground", 1));
     EXPECT_EQ(refusal(*group, {"planar", "planar:composite=blend"}),
-              "composite=relight and composite=blend cannot be mixed; give every shadow the same.");
+              "composite=relight and composite=blend cannot be mixed. Give every shadow the same.");
     EXPECT_EQ(refusal(*group, {"planar:composite=blend,dark=0.3", "planar:composite=blend,dark=0.3"}), "accepted");
     EXPECT_EQ(group->getComposite(), ShadowCasterGroup::BLEND);
     EXPECT_FLOAT_EQ(group->getDark(), 0.3f);

@@ -378,10 +378,10 @@ TEST(ViewerInput, SaysInOneSentenceWhatItCannotDo) {
     expectRefused({}, "no scene file");
     expectRefused({"/nowhere.osgt"}, "there is no file");
     expectRefused({GNOMON_DATA "/lab8.osgt", "--shadow", "moon"}, "not a shadow technique");
-    expectRefused({GNOMON_DATA "/lab8.osgt", "--size", "0x5"}, "allowed: WIDTHxHEIGHT");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--size", "0x5"}, "Allowed: WIDTHxHEIGHT");
     expectRefused({GNOMON_DATA "/lab8.osgt", "--out", "x.png"}, "no option --out");
-    expectRefused({GNOMON_DATA "/lab8.osgt", "--sun-speed", "60"}, "--sun-speed needs --sun");
-    expectRefused({GNOMON_DATA "/lab8.osgt", "--sun-speed", "-1"}, "allowed: a number from 0 to 100000.");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--sun-speed", "60"}, "--sun-speed needs exactly one --sun");
+    expectRefused({GNOMON_DATA "/lab8.osgt", "--sun-speed", "-1"}, "Allowed: a number from 0 to 100000.");
     expectRefused({GNOMON_DATA "/lab8.osgt", "--shadow", "planar", "--receiver", "sea"}, "no node is named \"sea\"");
 }
 

@@ -3,7 +3,7 @@
 // it is.
 #include "Houses.h"
 
-#include <gnomon/BoxShadow.h>
+#include <gnomon/drape/BoxShadow.h>
 #include <gtest/gtest.h>
 
 #include <iostream>

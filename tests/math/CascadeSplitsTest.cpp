@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/CascadeSplits.h>
-#include <gnomon/MapFit.h>
+#include <gnomon/mapfit/CascadeSplits.h>
+#include <gnomon/mapfit/MapFit.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Compare.h"
 
-#include <gnomon/ClosedParts.h>
+#include <gnomon/geometry/ClosedParts.h>
 
 #include <functional>
 #include <utility>

@@ -2,9 +2,9 @@
 // Casters as convex pieces: their shadows together against rays at the casters' triangles in double.
 #include "Soup.h"
 
-#include <gnomon/ConvexParts.h>
-#include <gnomon/ConvexPolygons.h>
-#include <gnomon/ConvexShadow.h>
+#include <gnomon/geometry/ConvexParts.h>
+#include <gnomon/geometry/ConvexPolygons.h>
+#include <gnomon/geometry/ConvexShadow.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Convex hulls and their shadows: closed forms, and rays against the hull's half-spaces, which share nothing with the
 // shadow's planes.
-#include <gnomon/ConvexShadow.h>
+#include <gnomon/geometry/ConvexShadow.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

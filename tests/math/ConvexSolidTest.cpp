@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Meshes that are their own hulls, and those that only look so.
-#include <gnomon/ConvexSolid.h>
-#include <gnomon/HullTopology.h>
+#include <gnomon/geometry/ConvexSolid.h>
+#include <gnomon/onterrain/HullTopology.h>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>

@@ -2,15 +2,15 @@
 // How far shadows that are kept are known to be off, against where corners fall by hand.
 #include "Houses.h"
 
-#include <gnomon/FollowedShadows.h>
+#include <gnomon/onterrain/ShadowDrift.h>
 #include <gtest/gtest.h>
 
 #include <array>
 
-using gnomon::FollowedShadows;
 using gnomon::HeightPyramid;
 using gnomon::PackedParts;
 using gnomon::PackedShadows;
+using gnomon::ShadowDrift;
 using gnomon::TerrainMethod;
 
 namespace {
@@ -60,7 +60,7 @@ struct Followed {
     const HeightPyramid& ground;
     const PackedParts parts;
     PackedShadows shown;
-    FollowedShadows followed;
+    ShadowDrift followed;
 };
 
 /// Level at 0 as far as x = 490, from x = 520 on 109.9 m lower, between them steeper than light at 45 degrees.
@@ -75,7 +75,7 @@ double crest(double x, double) { return -std::clamp(5.0 * (x - 500.0), 0.0, 100.
 } // namespace
 
 /// A corner h over level ground falls h times the shift away.
-TEST(FollowedShadows, OnLevelGroundAreOffByWhatTheirHeightMakesThem) {
+TEST(ShadowDrift, OnLevelGroundAreOffByWhatTheirHeightMakesThem) {
     const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
     Followed town(level, towerAt(400.0, 0.0, 40.0), 1.0);
     EXPECT_EQ(town.offBy(1.0), 0.0);
@@ -86,7 +86,7 @@ TEST(FollowedShadows, OnLevelGroundAreOffByWhatTheirHeightMakesThem) {
 }
 
 /// Under the sun that it was found with a shadow is right, as a look would say; without one it is not known which way it went.
-TEST(FollowedShadows, OfWhichOneIsLateAreLookedAtNoMoreUntilThatMayBeTooMuch) {
+TEST(ShadowDrift, OfWhichOneIsLateAreLookedAtNoMoreUntilThatMayBeTooMuch) {
     const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
     Followed town(level, towerAt(400.0, 0.0, 40.0), 1.0);
     EXPECT_NEAR(town.seenBy(1.005, 0.1, 1.0), 40.0 * 0.005, rounding);
@@ -95,7 +95,7 @@ TEST(FollowedShadows, OfWhichOneIsLateAreLookedAtNoMoreUntilThatMayBeTooMuch) {
 }
 
 /// Two towers before the crest have no bound, two that are higher have one.
-TEST(FollowedShadows, AreOffByNoLessThanThoseThatAreNotLookedAt) {
+TEST(ShadowDrift, AreOffByNoLessThanThoseThatAreNotLookedAt) {
     const HeightPyramid ground = test::groundOf(crest, posts);
     Followed town(
         ground,
@@ -106,7 +106,7 @@ TEST(FollowedShadows, AreOffByNoLessThanThoseThatAreNotLookedAt) {
 }
 
 /// Had any been looked at, it would not be known which way it went.
-TEST(FollowedShadows, AreNotLookedAtWhereOfTheOthersTooLittleIsKnown) {
+TEST(ShadowDrift, AreNotLookedAtWhereOfTheOthersTooLittleIsKnown) {
     const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
     Followed town(level, towersAt({{{400.0, 300.0}, 40.0}, {{400.0, 500.0}, 40.0}, {{400.0, 700.0}, 40.0}}), 1.0);
     EXPECT_NEAR(town.seenBy(1.005, 0.1), 40.0 * 0.005, rounding);
@@ -114,7 +114,7 @@ TEST(FollowedShadows, AreNotLookedAtWhereOfTheOthersTooLittleIsKnown) {
 }
 
 /// Before a crest, from where on the ground falls as steeply as light; the tip stays 5 m before it.
-TEST(FollowedShadows, BesideGroundThatIsAsSteepAsTheLightAreOffByLittleOnceTheyWereLookedAt) {
+TEST(ShadowDrift, BesideGroundThatIsAsSteepAsTheLightAreOffByLittleOnceTheyWereLookedAt) {
     const HeightPyramid ground = test::groundOf(crest, posts);
     Followed town(ground, towerAt(453.0, 0.0, 40.0), 1.0);
     EXPECT_GT(town.offBy(1.0001), 1e9);
@@ -124,20 +124,20 @@ TEST(FollowedShadows, BesideGroundThatIsAsSteepAsTheLightAreOffByLittleOnceTheyW
 }
 
 /// Over the crest the tip falls on from there, 100 m down, and at least 80 m on.
-TEST(FollowedShadows, ThatLeapOverACrestAreOffByMoreThanTheLeap) {
+TEST(ShadowDrift, ThatLeapOverACrestAreOffByMoreThanTheLeap) {
     const HeightPyramid ground = test::groundOf(crest, posts);
     Followed town(ground, towerAt(458.0, 0.0, 39.95), 1.0);
     EXPECT_GT(town.seenBy(1.01, 0.1), 80.0);
 }
 
-TEST(FollowedShadows, AreNotLookedAtWhereMostWouldHaveToBe) {
+TEST(ShadowDrift, AreNotLookedAtWhereMostWouldHaveToBe) {
     const HeightPyramid level = test::groundOf([](double, double) { return 0.0; }, posts);
     Followed town(level, towerAt(400.0, 0.0, 40.0), 1.0);
     EXPECT_GT(town.seenBy(2.0, 0.1), 1e9);
 }
 
 /// A plate's ray clears the brink by 1 cm and lands 100 m beyond; soon it meets the brink, of which its shadow tells nothing.
-TEST(FollowedShadows, OfWhatFloatsHaveABoundByAllTheGroundThatItsRaysPass) {
+TEST(ShadowDrift, OfWhatFloatsHaveABoundByAllTheGroundThatItsRaysPass) {
     const HeightPyramid ground = test::groundOf(brink, posts);
     const Followed town(ground, withHuts(test::boxAt({445.0, 700.0}, {5.0, 5.0}, 0.0, 50.11, 51.0)), 1.0);
     ASSERT_GT(town.shown[0].cornerCount, 0u);
@@ -146,7 +146,7 @@ TEST(FollowedShadows, OfWhatFloatsHaveABoundByAllTheGroundThatItsRaysPass) {
 }
 
 /// The same plate, held up from where its shadow lies.
-TEST(FollowedShadows, OfWhatLeansHaveABoundByAllTheGroundThatItsRaysPass) {
+TEST(ShadowDrift, OfWhatLeansHaveABoundByAllTheGroundThatItsRaysPass) {
     const HeightPyramid ground = test::groundOf(brink, posts);
     std::vector<glm::dvec3> corners;
     for (const auto& [x, half, base, top] : {std::array{445.0, 5.0, 50.11, 51.0}, {625.0, 2.0, -115.0, -109.0}})
@@ -159,7 +159,7 @@ TEST(FollowedShadows, OfWhatLeansHaveABoundByAllTheGroundThatItsRaysPass) {
 }
 
 /// The tip is 3 cm before the hole.
-TEST(FollowedShadows, BesideAHoleHaveNoBound) {
+TEST(ShadowDrift, BesideAHoleHaveNoBound) {
     const HeightPyramid ground = test::groundOf(gap, posts);
     const Followed town(ground, towerAt(487.97, 0.0, 10.0), 1.0);
     ASSERT_GT(town.shown[0].cornerCount, 0u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Polygons cut along a grid's triangles: areas and heights in closed form, no gaps.
-#include <gnomon/GridCut.h>
-#include <gnomon/GroundQuery.h>
+#include <gnomon/drape/GridCut.h>
+#include <gnomon/ground/GroundIntersection.h>
 #include <gtest/gtest.h>
 
 #include <set>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/TriangleGround.h>
+#include <gnomon/ground/TriangleGround.h>
 
-#include <gnomon/Drape.h>
-#include <gnomon/HeightField.h>
+#include <gnomon/drape/Drape.h>
+#include <gnomon/ground/HeightField.h>
 
 #include <glm/geometric.hpp>
 

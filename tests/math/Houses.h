@@ -2,7 +2,7 @@
 #pragma once
 #include "support/TerrainTrial.h"
 
-#include <gnomon/HeightPyramid.h>
+#include <gnomon/ground/HeightPyramid.h>
 
 #include <glm/geometric.hpp>
 

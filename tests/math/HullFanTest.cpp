@@ -2,7 +2,7 @@
 // The hull's shadow as one polygon, in plan against rays at boxes in double.
 #include "Houses.h"
 
-#include <gnomon/HullFan.h>
+#include <gnomon/onterrain/HullFan.h>
 #include <gtest/gtest.h>
 
 #include <iostream>

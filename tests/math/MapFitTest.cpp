@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/MapFit.h>
+#include <gnomon/mapfit/MapFit.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/MapTexels.h>
+#include <gnomon/mapfit/TexelDensity.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -32,7 +32,7 @@ glm::dvec3 sunAt(double degrees) { return {std::cos(glm::radians(degrees)), 0.0,
 
 double sideOn(const glm::dvec3& low, const glm::dvec3& high, const LightFrame& light, const glm::dmat4& view,
               const glm::dmat4& sceneFromBox = here, const std::vector<glm::dvec4>& halfSpaces = {}) {
-    SeenPixels seen(light, view, pixels);
+    TexelDensity seen(light, view, pixels);
     seen.addBox(low, high, sceneFromBox, halfSpaces);
     return seen.side;
 }
@@ -41,7 +41,7 @@ double onGround(double elevation) { return sideOn({-5, -5, 0}, {5, 5, 0}, sunFra
 
 } // namespace
 
-TEST(SeenPixels, AreStretchedByTheSlopeOfFlatGroundsUpToEightTimes) {
+TEST(TexelDensity, AreStretchedByTheSlopeOfFlatGroundsUpToEightTimes) {
     EXPECT_NEAR(onGround(90.0), 0.01, 1e-12);
     EXPECT_NEAR(onGround(30.0), 0.01 * 0.5, 1e-12);
     EXPECT_NEAR(onGround(1.0), 0.01 / 8.0, 1e-12);
@@ -52,7 +52,7 @@ TEST(SeenPixels, AreStretchedByTheSlopeOfFlatGroundsUpToEightTimes) {
     EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, sunFrame(sunAt(60.0)), map(), standing), 0.01 * 0.5, 1e-12);
 }
 
-TEST(SeenPixels, AreSmallestWhereWhatIsSeenIsNearest) {
+TEST(TexelDensity, AreSmallestWhereWhatIsSeenIsNearest) {
     const LightFrame sun = sunFrame(sunAt(90.0));
     EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 0}, sun, flying(20.0)), 0.2, 1e-12);
     EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 10}, sun, flying(20.0)), 0.1 / 2.0, 1e-12);
@@ -60,7 +60,7 @@ TEST(SeenPixels, AreSmallestWhereWhatIsSeenIsNearest) {
     EXPECT_EQ(sideOn({-5, -5, 0}, {5, 5, 30}, sun, flying(20.0)), 0.0); // around the eye
     EXPECT_EQ(sideOn({-5, -5, 0}, {5, 5, 0}, sun, flying(20.0), here, {{0, 0, 1, -1}}), infinity);
 
-    SeenPixels both(sun, flying(20.0), pixels);
+    TexelDensity both(sun, flying(20.0), pixels);
     both.addBox({-5, -5, 0}, {5, 5, 0}, here, {});
     both.addBox({-5, -5, 12}, {5, 5, 12}, here, {});
     both.addBox({-5, -5, 4}, {5, 5, 4}, here, {});
@@ -68,7 +68,7 @@ TEST(SeenPixels, AreSmallestWhereWhatIsSeenIsNearest) {
 }
 
 // As a share of the distance from the lamp: in its map that is what a texel is. The farther from below it, the more slanted.
-TEST(SeenPixels, AreSeenFromWhereALampIs) {
+TEST(TexelDensity, AreSeenFromWhereALampIs) {
     const LightFrame lamp = lampFrame({0, 0, 4}, down, 1.0);
     const auto cosine = [](double beside, double above) { return above / std::hypot(beside, above); };
     const double corner = std::sqrt(2.0);
@@ -81,13 +81,13 @@ TEST(SeenPixels, AreSeenFromWhereALampIs) {
 }
 
 // A lamp a metre behind the eye, over a landscape that reaches behind both.
-TEST(SeenPixels, AreAsSmallWhicheverBoxComesFirst) {
+TEST(TexelDensity, AreAsSmallWhicheverBoxComesFirst) {
     const glm::dmat4 view = glm::perspective(std::acos(0.0), 1.0, 0.1, 1000.0) *
                             glm::lookAt(glm::dvec3(0, 0, 2), glm::dvec3(1, 0, 2), glm::dvec3(0, 0, 1));
     const LightFrame lamp = lampFrame({-1, 0, 2}, {1, 0, 0}, 1.0);
     const std::vector<glm::dvec4> ahead{{1, 0, 0, -0.1}};
     const auto side = [&](bool mountainFirst) {
-        SeenPixels seen(lamp, view, pixels);
+        TexelDensity seen(lamp, view, pixels);
         for (const bool mountain : {mountainFirst, !mountainFirst})
             mountain ? seen.addBox({60, -10, 0}, {80, 10, 20}, here, ahead)
                      : seen.addBox({-100, -100, -1}, {100, 100, 3}, here, ahead);
@@ -97,9 +97,9 @@ TEST(SeenPixels, AreAsSmallWhicheverBoxComesFirst) {
     EXPECT_LT(side(true), 0.001 / 1.1); // at the near plane
 }
 
-TEST(SeenPixels, AreAsSmallAsTheirShorterSide) {
+TEST(TexelDensity, AreAsSmallAsTheirShorterSide) {
     for (const glm::dvec2& given : {glm::dvec2(200, 100), glm::dvec2(100, 200)}) {
-        SeenPixels seen(sunFrame(sunAt(90.0)), map(), given);
+        TexelDensity seen(sunFrame(sunAt(90.0)), map(), given);
         seen.addBox({-5, -5, 0}, {5, 5, 0}, here, {});
         EXPECT_NEAR(seen.side, 0.01, 1e-12);
     }

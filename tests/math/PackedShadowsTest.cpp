@@ -2,7 +2,8 @@
 // Shadows of many parts at once, against those of the parts one by one.
 #include "PackedTown.h"
 
-#include <gnomon/ShadowKernel.h>
+#include <gnomon/onterrain/TerrainShadow.h>
+#include <gnomon/simd/ShadowKernel.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -75,11 +76,6 @@ void expectSame(const PackedShadows& a, const PackedShadows& b, const std::strin
     EXPECT_EQ(std::memcmp(a.corners.data(), b.corners.data(), a.corners.size() * sizeof(glm::vec3)), 0) << where;
 }
 
-struct ChosenKernel {
-    explicit ChosenKernel(const std::string& name) { gnomon::chooseShadowKernel(name); }
-    ~ChosenKernel() { gnomon::chooseShadowKernel(gnomon::shadowKernels().back()); }
-};
-
 TEST(PackedShadows, AreThoseOfThePartsOneByOneBitForBit) {
     const HeightPyramid ground = groundOf(hills, posts);
     const auto parts = townOn(ground, 120);
@@ -90,18 +86,15 @@ TEST(PackedShadows, AreThoseOfThePartsOneByOneBitForBit) {
 }
 
 TEST(PackedShadows, AreTheSameBitForBitWithAndWithoutSimd) {
-    const auto kernels = gnomon::shadowKernels();
+    const auto& kernels = gnomon::shadowKernels();
     ASSERT_GE(kernels.size(), 2u) << "one is without SIMD";
     for (const HeightPyramid& ground : {groundOf(hills, posts), mountains(), patched()}) {
         const PackedParts packed(townOn(ground, 200));
         for (const glm::dvec4& light : lights)
             for (const TerrainMethod method : {TerrainMethod::hull, TerrainMethod::drape}) {
                 const PackedShadows best = found(ground, packed, light, method);
-                for (const std::string& name : kernels) {
-                    const ChosenKernel chosen(name);
-                    EXPECT_EQ(gnomon::shadowKernel().instructions, name);
-                    expectSame(best, found(ground, packed, light, method), name);
-                }
+                for (const gnomon::ShadowKernel& kernel : kernels)
+                    expectSame(best, found(ground, packed, light, method, 0.1, &kernel), kernel.instructions);
             }
     }
 }

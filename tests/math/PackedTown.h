@@ -3,8 +3,8 @@
 #include "GroundTriangles.h"
 #include "Houses.h"
 
-#include <gnomon/ConvexParts.h>
-#include <gnomon/PackedShadows.h>
+#include <gnomon/geometry/ConvexParts.h>
+#include <gnomon/onterrain/PackedShadows.h>
 
 namespace test {
 
@@ -25,9 +25,9 @@ inline glm::dvec4 sun(double azimuth, double elevation) { return glm::dvec4(sunA
 
 inline gnomon::PackedShadows found(const gnomon::Ground& ground, const gnomon::PackedParts& parts,
                                    const glm::dvec4& light, gnomon::TerrainMethod method = gnomon::TerrainMethod::hull,
-                                   double error = 0.1) {
+                                   double error = 0.1, const gnomon::ShadowKernel* kernel = nullptr) {
     gnomon::PackedShadows shadows;
-    packedShadows(ground, parts, light, method, error, origin, shadows);
+    packedShadows(ground, parts, light, method, error, origin, shadows, kernel);
     return shadows;
 }
 

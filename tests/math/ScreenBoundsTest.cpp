@@ -2,7 +2,7 @@
 #include "Compare.h"
 #include <glm/gtc/matrix_transform.hpp>
 #include <gnomon/PlanarShadow.h>
-#include <gnomon/ScreenBounds.h>
+#include <gnomon/geometry/ScreenBounds.h>
 
 using glm::dvec2;
 using glm::dvec3;

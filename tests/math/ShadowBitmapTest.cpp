@@ -3,7 +3,7 @@
 #include "GroundTriangles.h"
 #include "Houses.h"
 
-#include <gnomon/ShadowBitmap.h>
+#include <gnomon/overlay/ShadowBitmap.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "GroundTriangles.h"
 #include "Houses.h"
 
-#include <gnomon/ShadowDecals.h>
+#include <gnomon/overlay/ShadowDecals.h>
 #include <gtest/gtest.h>
 
 #include <array>

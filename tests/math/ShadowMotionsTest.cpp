@@ -2,7 +2,7 @@
 // How far shadows of many parts move at most while the sun turns.
 #include "PackedTown.h"
 
-#include <gnomon/ConvexHull.h>
+#include <gnomon/geometry/ConvexHull.h>
 #include <gtest/gtest.h>
 
 #include <tuple>

@@ -2,7 +2,7 @@
 // Prisms over shadows: what they hold, by the winding number of their surface about points, in double.
 #include "Houses.h"
 
-#include <gnomon/ShadowPrisms.h>
+#include <gnomon/overlay/ShadowPrisms.h>
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/SpotCone.h>
+#include <gnomon/mapfit/SpotCone.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

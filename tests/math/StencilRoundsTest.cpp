@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/StencilRounds.h>
+#include <gnomon/overlay/StencilBatches.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 using gnomon::LayerSlice;
 using gnomon::PrismLayers;
-using gnomon::stencilRounds;
+using gnomon::stencilBatches;
 
 namespace {
 
@@ -49,19 +49,19 @@ std::vector<PrismLayers> someTiles(unsigned count) {
 
 TEST(StencilRounds, TakeAllInOneWhereCountersAreWideEnough) {
     const std::vector<PrismLayers> tiles = {{{0, 0}, {2, 2}, 3, 3}, {{1, 1}, {3, 3}, 4, 4}, {{9, 9}, {10, 10}, 7, 7}};
-    const Rounds rounds = stencilRounds(tiles, 7);
+    const Rounds rounds = stencilBatches(tiles, 7);
     ASSERT_EQ(rounds.size(), 1u);
     EXPECT_EQ(rounds[0].size(), 3u);
-    EXPECT_EQ(stencilRounds(tiles, 6).size(), 2u) << "3 and 4 lie over one another";
-    EXPECT_EQ(stencilRounds(tiles, 1).size(), 7u);
-    EXPECT_TRUE(stencilRounds({}, 7).empty());
+    EXPECT_EQ(stencilBatches(tiles, 6).size(), 2u) << "3 and 4 lie over one another";
+    EXPECT_EQ(stencilBatches(tiles, 1).size(), 7u);
+    EXPECT_TRUE(stencilBatches({}, 7).empty());
 }
 
 TEST(StencilRounds, CountNoPointTooHighAndEachLayerOnce) {
     const std::vector<PrismLayers> tiles = someTiles(120);
     for (const unsigned capacity : {1u, 3u, 7u, 31u, 63u}) {
         std::map<std::pair<std::size_t, unsigned>, int> times;
-        for (const auto& round : stencilRounds(tiles, capacity)) {
+        for (const auto& round : stencilBatches(tiles, capacity)) {
             EXPECT_FALSE(round.empty());
             EXPECT_LE(mostOver(tiles, round), capacity);
             for (const LayerSlice& slice : round)
@@ -73,6 +73,6 @@ TEST(StencilRounds, CountNoPointTooHighAndEachLayerOnce) {
 }
 
 TEST(StencilRounds, TouchingTilesAreTakenForOverlapping) {
-    EXPECT_EQ(stencilRounds({{{0, 0}, {1, 1}, 1, 1}, {{1, 1}, {2, 2}, 1, 1}}, 1).size(), 2u);
-    EXPECT_EQ(stencilRounds({{{0, 0}, {1, 1}, 1, 1}, {{0, 1.5}, {1, 2}, 1, 1}}, 1).size(), 1u);
+    EXPECT_EQ(stencilBatches({{{0, 0}, {1, 1}, 1, 1}, {{1, 1}, {2, 2}, 1, 1}}, 1).size(), 2u);
+    EXPECT_EQ(stencilBatches({{{0, 0}, {1, 1}, 1, 1}, {{0, 1.5}, {1, 2}, 1, 1}}, 1).size(), 1u);
 }

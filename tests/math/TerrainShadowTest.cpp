@@ -2,8 +2,8 @@
 // Shadows of boxes, L-shapes and tanks on terrain, in plan, against rays in double; and whatever can go wrong.
 #include "Houses.h"
 
-#include <gnomon/TerrainShadow.h>
-#include <gnomon/TriangleGround.h>
+#include <gnomon/ground/TriangleGround.h>
+#include <gnomon/onterrain/TerrainShadow.h>
 #include <gtest/gtest.h>
 
 #include <iostream>

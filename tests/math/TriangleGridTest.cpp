@@ -4,7 +4,7 @@
 #include "GroundTriangles.h"
 #include "Houses.h"
 
-#include <gnomon/TriangleGrid.h>
+#include <gnomon/ground/GridFromTriangles.h>
 
 #include <algorithm>
 #include <ostream>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Scene.h"
 
-#include <gnomon/CasterMesh.h>
+#include <gnomon/casters/CasterExtraction.h>
+#include <gnomon/casters/CasterMesh.h>
 
 #include <osg/ShapeDrawable>
 #include <osg/observer_ptr>
@@ -13,14 +14,14 @@
 #include <random>
 
 using namespace scene;
+using gnomon::CasterExtraction;
 using gnomon::CasterMesh;
-using gnomon::VertexTraverser;
 using Mode = osg::PrimitiveSet::Mode;
 
 namespace {
 
 osg::ref_ptr<CasterMesh> meshOf(osg::Node& root) {
-    VertexTraverser casters;
+    CasterExtraction casters;
     root.accept(casters);
     return new CasterMesh(casters);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "Scene.h"
 
-#include <gnomon/CasterMesh.h>
-#include <gnomon/CasterPieces.h>
-#include <gnomon/CasterRevision.h>
-#include <gnomon/CasterWeld.h>
 #include <gnomon/VertexTraverser.h>
+#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/WeldedDrawables.h>
 
 #include <osg/AlphaFunc>
 #include <osg/Switch>
@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <limits>
 
-using gnomon::CasterPieces;
+using gnomon::CasterDrawables;
 
 namespace {
 
@@ -36,33 +36,33 @@ struct Row {
         }
     }
     osg::MatrixTransform& place(unsigned i) { return static_cast<osg::MatrixTransform&>(*root->getChild(i)); }
-    osg::ref_ptr<const CasterPieces> now(const osg::ref_ptr<const CasterPieces>& known) {
-        return CasterPieces::of(*root, {}, known);
+    osg::ref_ptr<const CasterDrawables> now(const osg::ref_ptr<const CasterDrawables>& known) {
+        return CasterDrawables::of(*root, {}, known);
     }
     osg::ref_ptr<osg::Group> root = new osg::Group;
 };
 
-int shared(const CasterPieces& a, const CasterPieces& b) {
+int shared(const CasterDrawables& a, const CasterDrawables& b) {
     int count = 0;
     for (const auto& piece : a.list) count += std::count(b.list.begin(), b.list.end(), piece) > 0;
     return count;
 }
 
 /// Counts the nodes it meets.
-class Counting : public gnomon::CasterRevision {
+class Counting : public gnomon::CasterFingerprint {
 public:
-    using CasterRevision::apply;
-    using CasterRevision::CasterRevision;
+    using CasterFingerprint::apply;
+    using CasterFingerprint::CasterFingerprint;
     void apply(osg::Node& node) override {
         ++met;
-        CasterRevision::apply(node);
+        CasterFingerprint::apply(node);
     }
     int met = 0;
 };
 
 } // namespace
 
-TEST(CasterPieces, AreTheSameAsLongAsNothingChanges) {
+TEST(CasterDrawables, AreTheSameAsLongAsNothingChanges) {
     Row row;
     const auto first = row.now(nullptr);
     ASSERT_EQ(first->list.size(), 6u);
@@ -71,7 +71,7 @@ TEST(CasterPieces, AreTheSameAsLongAsNothingChanges) {
     EXPECT_EQ(row.now(first), first);
 }
 
-TEST(CasterPieces, OfAChangeAreNewOnlyWhereItIs) {
+TEST(CasterDrawables, OfAChangeAreNewOnlyWhereItIs) {
     Row row;
     auto known = row.now(nullptr);
     const auto expect = [&](std::size_t size, int same, const char* what) {
@@ -101,7 +101,7 @@ TEST(CasterPieces, OfAChangeAreNewOnlyWhereItIs) {
     EXPECT_GE(shared(*row.now(known), *known), 3) << "four less: but for one everything is known again";
 }
 
-TEST(CasterPieces, NameWhatIsNotUsable) {
+TEST(CasterDrawables, NameWhatIsNotUsable) {
     Row row;
     auto& corners = static_cast<osg::Vec3Array&>(*row.place(1).getChild(0)->asGeometry()->getVertexArray());
     corners[1].y() = std::numeric_limits<float>::quiet_NaN();
@@ -115,7 +115,7 @@ TEST(CasterPieces, NameWhatIsNotUsable) {
 }
 
 // One pane below two parents, of which the second alone has a test: a mesh of pieces knows them apart without the nodes above.
-TEST(CasterPieces, AreTestedAsTheWayDownToThemSays) {
+TEST(CasterDrawables, AreTestedAsTheWayDownToThemSays) {
     const osg::ref_ptr<osg::Geometry> pane = triangle(0.0f);
     pane->setTexCoordArray(0, scene::vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -127,17 +127,17 @@ TEST(CasterPieces, AreTestedAsTheWayDownToThemSays) {
     osg::StateSet& set = *root->getChild(1)->getOrCreateStateSet();
     set.setTextureAttributeAndModes(0, new osg::Texture2D);
     set.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
-    const auto pieces = CasterPieces::of(*root, {}, nullptr);
+    const auto pieces = CasterDrawables::of(*root, {}, nullptr);
     const osg::ref_ptr<gnomon::CasterMesh> mesh = gnomon::meshOf(pieces->list);
     ASSERT_EQ(mesh->cutouts.size(), 1u);
     EXPECT_EQ(mesh->cutouts[0].drawn, 1u);
     EXPECT_EQ(pieces->unknownTests, 0u);
     pane->setTexCoordArray(0, nullptr);
-    EXPECT_EQ(CasterPieces::of(*root, {}, pieces)->unknownTests, 1u) << "by the state of what is above it";
+    EXPECT_EQ(CasterDrawables::of(*root, {}, pieces)->unknownTests, 1u) << "by the state of what is above it";
 }
 
 // Two that are alike in one place, behind one that moves.
-TEST(CasterPieces, OfEqualOnesStayTheSame) {
+TEST(CasterDrawables, OfEqualOnesStayTheSame) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->addChild(triangle(0.0f));
@@ -145,9 +145,9 @@ TEST(CasterPieces, OfEqualOnesStayTheSame) {
     root->addChild(mover);
     root->addChild(twice);
     root->addChild(twice);
-    const auto before = CasterPieces::of(*root, {}, nullptr);
+    const auto before = CasterDrawables::of(*root, {}, nullptr);
     mover->setMatrix(osg::Matrixd::translate(0.0, 0.0, 1.0));
-    const auto after = CasterPieces::of(*root, {}, before);
+    const auto after = CasterDrawables::of(*root, {}, before);
     ASSERT_EQ(after->list.size(), 3u);
     EXPECT_NE(after->list[0], before->list[0]);
     EXPECT_EQ(after->list[1], before->list[1]);
@@ -155,13 +155,13 @@ TEST(CasterPieces, OfEqualOnesStayTheSame) {
 }
 
 /// Exactly: 10 + 1 is where the next begins.
-TEST(CasterPieces, AreWeldedWhereTheyShareACorner) {
+TEST(CasterDrawables, AreWeldedWhereTheyShareACorner) {
     Row row;
     row.place(1).setMatrix(osg::Matrixd::translate(1.0, 0.0, 0.0));
     row.place(3).setMatrix(osg::Matrixd::translate(41.0, 0.0, 0.0));
     row.place(5).setMatrix(osg::Matrixd::translate(40.25, 0.0, 0.0)); // meets others' bounds, none of their corners
     const auto pieces = row.now(nullptr);
-    EXPECT_EQ(gnomon::weldedPieces(pieces->list), (std::vector<std::size_t>{0, 0, 2, 3, 3, 5}));
+    EXPECT_EQ(gnomon::weldedDrawables(pieces->list), (std::vector<std::size_t>{0, 0, 2, 3, 3, 5}));
 }
 
 /// Of many things beside the selected one none is visited.
@@ -186,5 +186,5 @@ TEST(CasterVisitor, GoesStraightToTheSelectedNode) {
     found.reset();
     root->accept(found);
     EXPECT_NE(found.value(), both) << "a switch counts on the way";
-    EXPECT_NE(found.value(), gnomon::CasterRevision().value());
+    EXPECT_NE(found.value(), gnomon::CasterFingerprint().value());
 }

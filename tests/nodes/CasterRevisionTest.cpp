@@ -2,8 +2,9 @@
 #include "CountedNew.h"
 #include "Scene.h"
 
-#include <gnomon/CasterMesh.h>
-#include <gnomon/CasterRevision.h>
+#include <gnomon/casters/CasterExtraction.h>
+#include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/CasterMesh.h>
 
 #include <osg/AlphaFunc>
 #include <osg/LOD>
@@ -36,13 +37,13 @@ public:
 
 private:
     void extract() {
-        gnomon::VertexTraverser casters;
+        gnomon::CasterExtraction casters;
         _root->accept(casters);
         _mesh = new gnomon::CasterMesh(casters);
     }
 
     osg::ref_ptr<osg::Node> _root;
-    gnomon::CasterRevision _revision;
+    gnomon::CasterFingerprint _revision;
     std::uint64_t _value = 0;
     osg::ref_ptr<gnomon::CasterMesh> _mesh;
 };
@@ -231,17 +232,17 @@ TEST(CasterRevisionStays, WhenAChildThatIsOffOrNotSelectedChanges) {
     EXPECT_FALSE(watched.changed());
 }
 
-TEST(CasterRevision, TwoVisitorsAgree) {
+TEST(CasterFingerprint, TwoVisitorsAgree) {
     const osg::ref_ptr<osg::Group> root = boxes(10);
-    gnomon::CasterRevision a, b;
+    gnomon::CasterFingerprint a, b;
     root->accept(a);
     root->accept(b);
     EXPECT_EQ(a.value(), b.value());
 }
 
-TEST(CasterRevision, AllocatesNothingOnceWarm) {
+TEST(CasterFingerprint, AllocatesNothingOnceWarm) {
     const osg::ref_ptr<osg::Group> root = boxes(100);
-    gnomon::CasterRevision revision;
+    gnomon::CasterFingerprint revision;
     root->accept(revision);
     const std::size_t before = countedNews();
     for (int frame = 0; frame < 10; ++frame) {

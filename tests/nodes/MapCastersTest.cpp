@@ -2,13 +2,13 @@
 // Casters in two layers: which of them is made anew when.
 #include "Scene.h"
 
-#include <gnomon/CasterMesh.h>
-#include <gnomon/MapCasters.h>
+#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/map/CasterLayers.h>
 
 #include <gtest/gtest.h>
 
-using gnomon::CasterPieces;
-using gnomon::MapCasters;
+using gnomon::CasterDrawables;
+using gnomon::CasterLayers;
 
 namespace {
 
@@ -28,20 +28,20 @@ struct Row {
         static_cast<osg::MatrixTransform&>(*root->getChild(i)).setMatrix(osg::Matrixd::translate(corner + to));
     }
     /// What maps draw now.
-    osg::ref_ptr<const MapCasters> next() {
-        pieces = CasterPieces::of(*root, {}, pieces);
-        return casters = MapCasters::of(*pieces, casters);
+    osg::ref_ptr<const CasterLayers> next() {
+        pieces = CasterDrawables::of(*root, {}, pieces);
+        return casters = CasterLayers::of(*pieces, casters);
     }
 
     osg::Vec3d corner;
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    osg::ref_ptr<const CasterPieces> pieces;
-    osg::ref_ptr<const MapCasters> casters;
+    osg::ref_ptr<const CasterDrawables> pieces;
+    osg::ref_ptr<const CasterLayers> casters;
 };
 
-std::size_t triangles(const gnomon::MapLayer& layer) { return layer.triangles; }
+std::size_t triangles(const gnomon::CasterLayer& layer) { return layer.triangles; }
 
-TEST(MapCasters, AllStandStillAtFirst) {
+TEST(CasterLayers, AllStandStillAtFirst) {
     Row row(5);
     const auto first = row.next();
     EXPECT_EQ(triangles(*first->still), 5u);
@@ -51,7 +51,7 @@ TEST(MapCasters, AllStandStillAtFirst) {
     EXPECT_EQ(row.next(), first);
 }
 
-TEST(MapCasters, WhatMovesIsTakenFromThoseThatStandOnce) {
+TEST(CasterLayers, WhatMovesIsTakenFromThoseThatStandOnce) {
     for (const unsigned which : {0u, 2u, 4u}) {
         Row row(5);
         row.next();
@@ -69,7 +69,7 @@ TEST(MapCasters, WhatMovesIsTakenFromThoseThatStandOnce) {
     }
 }
 
-TEST(MapCasters, WhatComesMovesAndWhatGoesIsGone) {
+TEST(CasterLayers, WhatComesMovesAndWhatGoesIsGone) {
     Row row(5);
     const auto first = row.next();
     row.add(25.0);
@@ -84,7 +84,7 @@ TEST(MapCasters, WhatComesMovesAndWhatGoesIsGone) {
 }
 
 // Two have moved; one of them rests while the other makes 60 moves.
-TEST(MapCasters, WhatHasComeToRestStandsStillAgainWhenTheOthersAreMadeAnew) {
+TEST(CasterLayers, WhatHasComeToRestStandsStillAgainWhenTheOthersAreMadeAnew) {
     for (const bool rests : {false, true}) {
         Row row(200);
         row.next();
@@ -103,7 +103,7 @@ TEST(MapCasters, WhatHasComeToRestStandsStillAgainWhenTheOthersAreMadeAnew) {
 }
 
 // 20 that came one by one rest among five that stood: to make them again and again would soon cost more than all.
-TEST(MapCasters, WhatHasComeToRestStandsStillAgainOnceItHasCostAsMuchAsAll) {
+TEST(CasterLayers, WhatHasComeToRestStandsStillAgainOnceItHasCostAsMuchAsAll) {
     Row row(5);
     row.next();
     for (int i = 0; i < 20; ++i) row.add(1.0 * i);
@@ -119,18 +119,18 @@ TEST(MapCasters, WhatHasComeToRestStandsStillAgainOnceItHasCostAsMuchAsAll) {
     EXPECT_EQ(triangles(*row.casters->still), 24u);
 }
 
-TEST(MapCasters, ThatAreTheSameInAnotherOrderStandStill) {
+TEST(CasterLayers, ThatAreTheSameInAnotherOrderStandStill) {
     Row row(5);
     const auto first = row.next();
-    const CasterPieces::List& list = row.pieces->list;
-    const osg::ref_ptr<const CasterPieces> turned = new CasterPieces({list.rbegin(), list.rend()}, 1);
-    const auto now = MapCasters::of(*turned, first);
+    const CasterDrawables::List& list = row.pieces->list;
+    const osg::ref_ptr<const CasterDrawables> turned = new CasterDrawables({list.rbegin(), list.rend()}, 1);
+    const auto now = CasterLayers::of(*turned, first);
     EXPECT_EQ(triangles(*now->moving), 0u);
     EXPECT_EQ(triangles(*now->still), 5u);
 }
 
 /// Largest distance of a drawn vertex from where it ought to be: each triangle's corner.
-double worst(const MapCasters& casters, const osg::Vec3d& corner) {
+double worst(const CasterLayers& casters, const osg::Vec3d& corner) {
     const auto& vertices =
         static_cast<const osg::Vec3Array&>(*casters.moving->faces(true, false)->others->getVertexArray());
     return (osg::Vec3d(vertices[0]) + casters.origin - corner).length();
@@ -138,7 +138,7 @@ double worst(const MapCasters& casters, const osg::Vec3d& corner) {
 
 // At 6,400 km a float's step is half a metre. Something drives 5 km, alone or out of a scene of 50 m: floats about the middle
 // of all have steps of half a millimetre at 4 km to 8, and of less than a micrometre about the thing itself.
-TEST(MapCasters, ThatMoveFarFromTheCentreOfTheEarthStayWhereTheyAre) {
+TEST(CasterLayers, ThatMoveFarFromTheCentreOfTheEarthStayWhereTheyAre) {
     const osg::Vec3d earth(4.2e6, 1.7e6, 4.5e6);
     for (const auto& [others, off] : {std::pair(0, 1e-6), {5, 0.0005}}) {
         Row row(others + 1, earth);
@@ -152,7 +152,7 @@ TEST(MapCasters, ThatMoveFarFromTheCentreOfTheEarthStayWhereTheyAre) {
     }
 }
 
-TEST(MapCasters, WithoutTrianglesAreNeitherStillNorMoving) {
+TEST(CasterLayers, WithoutTrianglesAreNeitherStillNorMoving) {
     Row row(2);
     const auto first = row.next();
     row.root->addChild(scene::geometryOf(scene::vec3s({{0, 0, 0}, {1, 0, 0}}), new osg::DrawArrays(GL_LINES, 0, 2)));

@@ -2,7 +2,7 @@
 // What is known of how a terrain is drawn: only what is drawn as it was found takes decals.
 #include "Scene.h"
 
-#include <gnomon/TerrainDrawn.h>
+#include <gnomon/terrain/GroundRevision.h>
 
 #include <osg/LOD>
 
@@ -20,18 +20,18 @@ osg::ref_ptr<osg::Geode> square(GLenum mode) {
     return scene::geodeOf(scene::geometryOf(scene::vec3s({{0, 0, 0}, {9, 0, 0}, {9, 9, 1}, {0, 9, 0}}), corners));
 }
 
-osg::ref_ptr<const gnomon::TerrainDrawn> drawn(osg::Node& node) {
+osg::ref_ptr<const gnomon::GroundRevision> drawn(osg::Node& node) {
     return TerrainPlace::inFrameOf(node, gnomon::Selection()).drawn(nullptr);
 }
 
 } // namespace
 
-TEST(TerrainDrawn, TellsWhatADriverCutsByItsOwnRule) {
+TEST(GroundRevision, TellsWhatADriverCutsByItsOwnRule) {
     EXPECT_FALSE(drawn(*square(GL_TRIANGLES))->hasQuads);
     for (const GLenum mode : {GL_QUADS, GL_POLYGON}) EXPECT_TRUE(drawn(*square(mode))->hasQuads) << mode;
 }
 
-TEST(TerrainDrawn, TellsLevelsOfDetailThoughTheyAreDrawnOutsideToo) {
+TEST(GroundRevision, TellsLevelsOfDetailThoughTheyAreDrawnOutsideToo) {
     const osg::ref_ptr<osg::Geode> fine = square(GL_TRIANGLES);
     const osg::ref_ptr<osg::LOD> lod = new osg::LOD;
     lod->addChild(fine, 0.0f, 1e6f);

@@ -2,9 +2,9 @@
 // The ground that a subgraph draws, against the heights that it was made from.
 #include "Scene.h"
 
-#include <gnomon/HeightPyramid.h>
 #include <gnomon/TerrainGround.h>
-#include <gnomon/TriangleGround.h>
+#include <gnomon/ground/HeightPyramid.h>
+#include <gnomon/ground/TriangleGround.h>
 
 #include <osg/LOD>
 #include <osg/Shape>

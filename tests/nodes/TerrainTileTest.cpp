@@ -2,8 +2,8 @@
 // Ground from osgTerrain's tiles, against the heights in their layers.
 #include "Scene.h"
 
-#include <gnomon/HeightPyramid.h>
 #include <gnomon/TerrainGround.h>
+#include <gnomon/ground/HeightPyramid.h>
 
 #include <osgTerrain/Terrain>
 #include <osgTerrain/TerrainTile>

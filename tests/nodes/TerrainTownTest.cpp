@@ -5,9 +5,10 @@
 #include <support/TerrainTrial.h>
 
 #include <gnomon/Convert.h>
-#include <gnomon/HeightPyramid.h>
-#include <gnomon/ShadowDecals.h>
-#include <gnomon/TerrainTiles.h>
+#include <gnomon/casters/CasterExtraction.h>
+#include <gnomon/ground/HeightPyramid.h>
+#include <gnomon/overlay/ShadowDecals.h>
+#include <gnomon/terrain/TileUpdates.h>
 
 #include <osg/ShapeDrawable>
 
@@ -17,9 +18,8 @@
 #include <algorithm>
 #include <random>
 
+using gnomon::CasterTiles;
 using gnomon::TerrainMethod;
-using gnomon::TerrainShadowGeode;
-using gnomon::TerrainTown;
 
 namespace {
 
@@ -70,7 +70,7 @@ std::vector<Corners> oneByOne(osg::Group& town, const gnomon::Ground& ground, co
                               TerrainMethod method, const glm::dvec3& origin) {
     std::vector<Corners> result;
     for (unsigned i = 0; i < town.getNumChildren(); ++i) {
-        gnomon::VertexTraverser traverser;
+        gnomon::CasterExtraction traverser;
         town.getChild(i)->accept(traverser);
         const osg::ref_ptr<gnomon::CasterMesh> mesh = new gnomon::CasterMesh(traverser);
         for (const gnomon::ConvexPart& part : gnomon::partsOf(*mesh))
@@ -92,16 +92,16 @@ constexpr double finePixel = 0.04; // metres: a quarter of it is far less than t
 
 /// Boxes on hills, and what is found of them with no time for what may wait.
 struct Hills {
-    Hills() { town.take(*gnomon::CasterPieces::of(*root, {}, nullptr), {}); }
-    void update(double azimuth, TerrainShadowGeode::Method method = TerrainShadowGeode::HULL) {
+    Hills() { town.take(*gnomon::CasterDrawables::of(*root, {}, nullptr), {}); }
+    void update(double azimuth, TerrainMethod method = TerrainMethod::hull) {
         update(azimuth, method, viewAbove(500.0, finePixel), 0.0);
     }
     void update(double azimuth, const gnomon::ViewFrame& view, double seconds = 0.0) {
-        update(azimuth, TerrainShadowGeode::HULL, view, seconds);
+        update(azimuth, TerrainMethod::hull, view, seconds);
     }
-    void update(double azimuth, TerrainShadowGeode::Method method, const gnomon::ViewFrame& view, double seconds) {
-        tiles.update(town, {ground, &ground, 0.05}, sunAt(azimuth, elevation), {method, error, {}},
-                     gnomon::TerrainView(view, town.origin()), seconds);
+    void update(double azimuth, TerrainMethod method, const gnomon::ViewFrame& view, double seconds) {
+        tiles.update(town, {ground, &ground, 0.05}, sunAt(azimuth, elevation), {false, method, error, {}},
+                     gnomon::TileVisibility(view, town.origin()), seconds);
     }
     /// How many tiles' shadows are those of this sun.
     long ofSun(double azimuth) const {
@@ -115,13 +115,13 @@ struct Hills {
 
     const gnomon::HeightPyramid ground = hillyGround();
     const osg::ref_ptr<osg::Group> root = townOnHills();
-    TerrainTown town{false};
-    gnomon::TerrainTiles tiles;
+    CasterTiles town{false};
+    gnomon::TileUpdates tiles;
     double elevation = 35.0; // of the sun, degrees
 };
 
-TEST(TerrainTown, HasTheShadowsOfEachHouseAloneBitForBit) {
-    for (const auto method : {TerrainShadowGeode::HULL, TerrainShadowGeode::DRAPE}) {
+TEST(CasterTiles, HasTheShadowsOfEachHouseAloneBitForBit) {
+    for (const auto method : {TerrainMethod::hull, TerrainMethod::drape}) {
         Hills hills;
         hills.update(250.0, method);
         ASSERT_GE(hills.tiles.shadows().size(), 3u);
@@ -131,9 +131,7 @@ TEST(TerrainTown, HasTheShadowsOfEachHouseAloneBitForBit) {
                 found.push_back(cornersOf(tile->found.triangles(i), hills.town.origin()));
         std::sort(found.begin(), found.end());
         ASSERT_EQ(found.size(), std::size_t(houses + houses / 5));
-        EXPECT_TRUE(found == oneByOne(*hills.root, hills.ground, Hills::sunAt(250.0),
-                                      method == TerrainShadowGeode::HULL ? TerrainMethod::hull : TerrainMethod::drape,
-                                      hills.town.origin()));
+        EXPECT_TRUE(found == oneByOne(*hills.root, hills.ground, Hills::sunAt(250.0), method, hills.town.origin()));
     }
 }
 
@@ -149,26 +147,26 @@ osg::ref_ptr<osg::Geometry> cubeFaces(bool upper) {
     return scene::geometryOf(corners, faces);
 }
 
-std::size_t partsOf(const TerrainTown& town) {
+std::size_t partsOf(const CasterTiles& town) {
     std::size_t count = 0;
-    for (const TerrainTown::Tile& tile : town.tiles()) count += tile.size();
+    for (const CasterTiles::Tile& tile : town.tiles()) count += tile.size();
     return count;
 }
 
-TEST(TerrainTown, WeldsARoofToTheWallsThatWereThereBefore) {
+TEST(CasterTiles, WeldsARoofToTheWallsThatWereThereBefore) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(cubeFaces(false));
-    TerrainTown town(false);
-    const auto walls = gnomon::CasterPieces::of(*root, {}, nullptr);
+    CasterTiles town(false);
+    const auto walls = gnomon::CasterDrawables::of(*root, {}, nullptr);
     town.take(*walls, {});
     EXPECT_GT(partsOf(town), 1u) << "plates";
     root->addChild(cubeFaces(true));
-    town.take(*gnomon::CasterPieces::of(*root, {}, walls), {});
+    town.take(*gnomon::CasterDrawables::of(*root, {}, walls), {});
     EXPECT_EQ(partsOf(town), 1u) << "a solid";
 }
 
 /// Shadows of 12 m that turn by 0.05 degrees are off by a centimetre, on slopes by some more; by a degree, by some 0.3 m.
-TEST(TerrainTiles, WaitWhileTheyAreOffByLessThanTheErrorAndNoLonger) {
+TEST(TileUpdates, WaitWhileTheyAreOffByLessThanTheErrorAndNoLonger) {
     Hills hills;
     hills.update(250.0);
     const unsigned all = hills.tiles.found();
@@ -196,7 +194,7 @@ double apart(const gnomon::PackedShadow& a, const gnomon::PackedShadow& b) {
 } // namespace
 
 /// A sun at 12 degrees, in places as low as the hills are steep: 20 steps take tips that are up to 85 m away 0.15 m on.
-TEST(TerrainTiles, OnGroundAsSteepAsTheLightWaitAsLongAsTheyAreOffByLessThanTheError) {
+TEST(TileUpdates, OnGroundAsSteepAsTheLightWaitAsLongAsTheyAreOffByLessThanTheError) {
     Hills hills;
     hills.elevation = 12.0;
     hills.update(250.0);
@@ -225,7 +223,7 @@ TEST(TerrainTiles, OnGroundAsSteepAsTheLightWaitAsLongAsTheyAreOffByLessThanTheE
 }
 
 /// Shadows of 12 to 25 m move by 0.2 to 0.4 m in a degree and on slopes by some more, in three by 0.6 m at least.
-TEST(TerrainTiles, WaitWhileTheyAreOffByLessThanAQuarterOfAPixel) {
+TEST(TileUpdates, WaitWhileTheyAreOffByLessThanAQuarterOfAPixel) {
     Hills hills;
     hills.update(250.0);
     const unsigned all = hills.tiles.found();
@@ -236,7 +234,7 @@ TEST(TerrainTiles, WaitWhileTheyAreOffByLessThanAQuarterOfAPixel) {
 }
 
 /// The last houses end at 829 m; a low sun in the west takes their shadows 70 m further.
-TEST(TerrainTiles, AreFoundWhereShadowsFallIntoTheViewOfWhatIsOutside) {
+TEST(TileUpdates, AreFoundWhereShadowsFallIntoTheViewOfWhatIsOutside) {
     Hills hills;
     hills.elevation = 10.0;
     hills.update(250.0, viewAbove(1380.0, finePixel)); // from x = 880
@@ -248,7 +246,7 @@ TEST(TerrainTiles, AreFoundWhereShadowsFallIntoTheViewOfWhatIsOutside) {
 }
 
 /// Of tiles that cover 100 to 840 m, those beyond the view wait until they are seen.
-TEST(TerrainTiles, WaitWhileTheyAreOutOfSight) {
+TEST(TileUpdates, WaitWhileTheyAreOutOfSight) {
     Hills hills;
     const gnomon::ViewFrame beside = viewAbove(2000.0, finePixel), half = viewAbove(-200.0, finePixel); // to x = 300
     hills.update(250.0, beside, 60.0);
@@ -270,7 +268,7 @@ TEST(TerrainTiles, WaitWhileTheyAreOutOfSight) {
 }
 
 /// What is drawn has the picture's own shadows and no others, whatever was seen before.
-TEST(TerrainTiles, AreLetGoWhereTheirShadowsWereAndAreNot) {
+TEST(TileUpdates, AreLetGoWhereTheirShadowsWereAndAreNot) {
     Hills hills;
     const gnomon::ViewFrame west = viewAbove(-350.0, finePixel); // to x = 150: the houses from 100 on
     hills.update(250.0, west);
@@ -280,7 +278,7 @@ TEST(TerrainTiles, AreLetGoWhereTheirShadowsWereAndAreNot) {
     Hills low; // so that some have no bound
     low.elevation = 12.0;
     low.update(250.0);
-    const gnomon::TerrainTiles::List before = low.tiles.shadows();
+    const gnomon::TileUpdates::List before = low.tiles.shadows();
     low.update(250.005, viewAbove(9000.0, finePixel));
     for (std::size_t i = 0; i < before.size(); ++i) {
         const bool isKnown = movedAtMost(before[i]->found, before[i]->light, Hills::sunAt(250.005, 12.0)) < 1e9;
@@ -289,7 +287,7 @@ TEST(TerrainTiles, AreLetGoWhereTheirShadowsWereAndAreNot) {
 }
 
 /// In one degree a shadow moves by some 0.3 m: one of a tile that ends 5 cm beyond the view may be in it now.
-TEST(TerrainTiles, AreFoundWhereTheyMayHaveMovedIntoTheView) {
+TEST(TileUpdates, AreFoundWhereTheyMayHaveMovedIntoTheView) {
     Hills hills;
     hills.update(250.0);
     double left = 1e9;
@@ -319,7 +317,7 @@ double mostPixels(const gnomon::ViewFrame& view, const osg::BoundingBoxd& box, d
 }
 
 /// On slopes of 45 degrees: to the corners of a wide view, where a metre is the most pixels, and along the ground.
-TEST(TerrainView, ShowsWhatMayBeOffAsAQuarterOfAPixelAtMost) {
+TEST(TileVisibility, ShowsWhatMayBeOffAsAQuarterOfAPixelAtMost) {
     const osg::BoundingBoxd box(-30.0, -20.0, -5.0, 30.0, 20.0, 10.0);
     gnomon::ShadowDecals corners;
     corners.low = gnomon::toGlm(box._min);
@@ -327,8 +325,8 @@ TEST(TerrainView, ShowsWhatMayBeOffAsAQuarterOfAPixelAtMost) {
     corners.vertices = {corners.low, corners.high, {30.0f, -20.0f, 0.0f}};
     corners.triangles = {0, 1, 2};
     const osg::ref_ptr<gnomon::TileShadows> tile = new gnomon::TileShadows;
-    tile->decals = new gnomon::TerrainMesh;
-    tile->prisms = new gnomon::TerrainMesh;
+    tile->decals = new gnomon::TileMesh;
+    tile->prisms = new gnomon::TileMesh;
     tile->decals->set(corners);
     tile->found.steepest = 1.0;
     tile->widest = 10.0;
@@ -337,16 +335,16 @@ TEST(TerrainView, ShowsWhatMayBeOffAsAQuarterOfAPixelAtMost) {
         view.eyeFromGroup = osg::Matrixd::lookAt(eye, osg::Vec3d(), osg::Vec3d(osg::Z_AXIS));
         view.projection = osg::Matrixd::perspective(fovy, 1.0, 1.0, 1000.0);
         view.pixels.set(500.0, 500.0);
-        const double off = gnomon::TerrainView(view, glm::dvec3(0.0)).mayBeOff(*tile, 0.0);
+        const double off = gnomon::TileVisibility(view, glm::dvec3(0.0)).mayBeOff(*tile, 0.0);
         EXPECT_LE(mostPixels(view, box, off), 0.25 * 1.01) << "1 % for what is not linear";
         EXPECT_GT(mostPixels(view, box, off), 0.1);
     }
 }
 
-TEST(TerrainTiles, ThatAFrameHoldsStayAsTheyAre) {
+TEST(TileUpdates, ThatAFrameHoldsStayAsTheyAre) {
     Hills hills;
     hills.update(250.0);
-    const gnomon::TerrainTiles::List held = hills.tiles.shadows();
+    const gnomon::TileUpdates::List held = hills.tiles.shadows();
     std::vector<std::vector<glm::vec3>> corners;
     for (const auto& tile : held) corners.push_back(tile->found.corners);
     for (const double azimuth : {200.0, 150.0, 100.0}) hills.update(azimuth);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "Scene.h"
 
-#include <gnomon/CasterMesh.h>
+#include <gnomon/VertexTraverser.h>
+#include <gnomon/casters/CasterExtraction.h>
+#include <gnomon/casters/CasterMesh.h>
 
 #include <gtest/gtest.h>
 
@@ -123,7 +125,7 @@ TEST(VertexTraverserInvalid, EmptyThingsAreNothing) {
     osg::ref_ptr<osg::Geometry> withoutVertices = new osg::Geometry;
     withoutVertices->addPrimitiveSet(new osg::DrawElementsUInt(Mode::TRIANGLES, 0));
     root->addChild(withoutVertices);
-    VertexTraverser casters;
+    gnomon::CasterExtraction casters;
     root->accept(casters);
     EXPECT_TRUE(casters.getVertices().empty());
     EXPECT_TRUE(casters.getTriangles().empty());
@@ -133,7 +135,7 @@ TEST(VertexTraverserInvalid, EmptyThingsAreNothing) {
 }
 
 TEST(VertexTraverserInvalid, LargeCoordinatesAreKeptAndStayFinite) {
-    VertexTraverser casters;
+    gnomon::CasterExtraction casters;
     geometryOf(vec3s({{1e17f, 0, 0}, {-1e17f, 0, 0}, {0, 1e17f, 0}}), new osg::DrawArrays(Mode::TRIANGLES, 0, 3))
         ->accept(casters);
     EXPECT_EQ(casters.getInvalidTriangles(), 0u);

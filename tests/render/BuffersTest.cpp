@@ -4,7 +4,6 @@
 #include "IntoTexture.h"
 #include "TwoGrounds.h"
 
-#include <gnomon/ShadowBin.h>
 #include <osg/Depth>
 #include <osg/Stencil>
 
@@ -65,12 +64,6 @@ bool atEdge(const Mask& mask, int x, int y) {
         for (int u = std::max(0, x - 1); u <= std::min(mask.width - 1, x + 2); ++u) edge = edge || mask.atEdge(u, v);
     return edge;
 }
-
-/// Puts reserved bits back.
-struct Reservation {
-    explicit Reservation(unsigned bits) { gnomon::ShadowBin::reserve(bits); }
-    ~Reservation() { gnomon::ShadowBin::reserve(0); }
-};
 
 class FillStencil : public osg::Camera::DrawCallback {
 public:
@@ -177,10 +170,9 @@ TEST_P(Buffers, ReservedBitsKeepWhatTheApplicationWroteThereAndOursNeedNotBeZero
     for (const unsigned reserved : {0x00u, 0x0fu, 0xf0u})
         for (const unsigned filled : {0xffu, 0xaau}) {
             SCOPED_TRACE(testing::Message() << "reserved " << reserved << ", filled with " << filled);
-            const Reservation kept(reserved);
             Scene scene = GetParam().build();
             const auto technique = GetParam().addShadow(scene);
-            Camera camera(scene.root, GetParam().view);
+            Camera camera(test::reserving(scene.root, reserved), GetParam().view);
             camera.viewer().getCamera()->setPreDrawCallback(new FillStencil(filled));
             const Frames actual = frames(camera);
             EXPECT_TRUE(judge(actual.first, lit.first, dark.first, GetParam().mask()));

@@ -163,7 +163,7 @@ TEST(ChartScene, ANameThatIsNotThereIsRefusedWithThoseThatAre) {
         gnomon::examples::chartScene("moon", 8, 8);
         FAIL();
     } catch (const std::invalid_argument& refusal) {
-        EXPECT_EQ(std::string(refusal.what()).substr(0, 45), "no scene is named \"moon\"; allowed: lab8-45 la");
+        EXPECT_EQ(std::string(refusal.what()).substr(0, 45), "no scene is named \"moon\". Allowed: lab8-45 la");
     }
 }
 

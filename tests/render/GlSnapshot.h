@@ -22,7 +22,8 @@ class GlProbe : public osg::Drawable {
 public:
     GlProbe();
     GlProbe(const GlProbe& other, const osg::CopyOp& copyOp) : osg::Drawable(other, copyOp) {}
-    META_Node(test, GlProbe) void drawImplementation(osg::RenderInfo&) const override { _seen = glSnapshot(); }
+    META_Node(test, GlProbe)
+    void drawImplementation(osg::RenderInfo&) const override { _seen = glSnapshot(); }
     const GlSnapshot& seen() const { return _seen; }
 
 private:

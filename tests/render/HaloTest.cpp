@@ -6,7 +6,6 @@
 #include <gnomon/HaloPulse.h>
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/PlanarShadowNode.h>
-#include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <support/Panels.h>
 #include <support/Scene.h>
@@ -247,17 +246,17 @@ TEST(Halo, NeedsOneStencilBitAndSaysSoWhereThereIsNone) {
     Watched watched({level(0.0, 0.0, 0.5, 1.0)});
     watched.halo->setScale(2.0);
     const Picture with = watched.with(), without = watched.without();
-    gnomon::ShadowBin::reserve(0x7fu);
+    test::reserving(watched.root, 0x7fu);
     EXPECT_EQ(watched.with().different(with), 0);
     watched.halo->setStencilCure(false);
     EXPECT_EQ(watched.with().different(without), 0);
     ASSERT_FALSE(watched.halo->diagnose().empty());
-    EXPECT_NE(watched.halo->diagnose().back().find("cannot count"), std::string::npos);
+    EXPECT_NE(watched.halo->diagnose().back().find("cannot count triangles"), std::string::npos);
     watched.halo->setStencilCure(true);
-    gnomon::ShadowBin::reserve(0xffu);
+    test::reserving(watched.root, 0xffu);
     EXPECT_EQ(watched.with().different(without), 0);
-    gnomon::ShadowBin::reserve(0u);
-    EXPECT_NE(watched.halo->diagnose().back().find("every stencil bit reserved"), std::string::npos);
+    test::reserving(watched.root, 0u);
+    EXPECT_NE(watched.halo->diagnose().back().find("every stencil bit is reserved"), std::string::npos);
     gnomon::HeadlessContext::Options none;
     none.stencilBits = 0;
     EXPECT_EQ(Camera(watched.root, above, none).frame().different(without), 0);

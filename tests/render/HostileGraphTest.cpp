@@ -80,7 +80,7 @@ TEST(HostileGraph, ReceiverThatCannotReceiveIsNamedAsTheCause) {
     const auto outside = planar(elsewhere);
     scene.addShadow(outside);
     const Picture first = render(scene.root, slanted);
-    expectOneCause(*outside, "'elsewhere', which is not in this graph");
+    expectOneCause(*outside, "the receiver 'elsewhere' is not in this scene graph");
     EXPECT_EQ(first.different(render(boxScene().root, slanted)), 0);
 }
 

@@ -4,7 +4,6 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gtest/gtest.h>
 #include <osg/BlendEquation>
 #include <osg/BlendFunc>
@@ -103,9 +102,7 @@ TEST(HostileState, WidePointsBesideTheShadowAreDrawnAgainWhereTheyReachIn) {
     scene.content->addChild(geode);
     scene.addShadow(disc(30.0, 30.0));
     const Picture filtered = render(scene.root, view);
-    gnomon::ShadowBin::setFilter(false);
-    const Picture whole = render(scene.root, view);
-    gnomon::ShadowBin::setFilter(true);
+    const Picture whole = render(test::unfiltered(scene.root), view);
     EXPECT_EQ(changed(filtered, whole), 0);
 }
 

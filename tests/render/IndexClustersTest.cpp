@@ -4,8 +4,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/IndexClusters.h>
-#include <gnomon/ShadowBin.h>
+#include <gnomon/gl/TriangleClusters.h>
 #include <gtest/gtest.h>
 #include <osg/PrimitiveSetIndirect>
 #include <osg/VertexProgram>
@@ -104,7 +103,7 @@ struct Case {
 
 std::ostream& operator<<(std::ostream& out, const Case& given) { return out << given.name; }
 
-class IndexClusters : public testing::TestWithParam<Case> {
+class TriangleClusters : public testing::TestWithParam<Case> {
 protected:
     static osg::ref_ptr<osg::Geometry> make() {
         osg::ref_ptr<osg::Geometry> geometry = GetParam().make();
@@ -112,7 +111,6 @@ protected:
         geometry->setUseVertexBufferObjects(GetParam().buffers);
         return geometry;
     }
-    void TearDown() override { gnomon::ShadowBin::setFilter(true); }
 };
 
 Scene sceneOf(osg::Geometry* geometry) {
@@ -131,7 +129,7 @@ osg::ref_ptr<DiscShadow> disc(double radius) {
 }
 
 /// Corners that `runs` draw, as (primitive set, corner).
-std::set<std::pair<unsigned, unsigned>> cornersOf(const std::vector<gnomon::IndexClusters::Run>& runs) {
+std::set<std::pair<unsigned, unsigned>> cornersOf(const std::vector<gnomon::TriangleClusters::Run>& runs) {
     std::set<std::pair<unsigned, unsigned>> corners;
     for (const auto& run : runs)
         for (unsigned i = 0; i < run.count; ++i) corners.insert({run.primitiveSet, run.first + i});
@@ -140,9 +138,9 @@ std::set<std::pair<unsigned, unsigned>> cornersOf(const std::vector<gnomon::Inde
 
 } // namespace
 
-TEST_P(IndexClusters, RedrawnInPartGivesThePictureOfAFullRedraw) {
+TEST_P(TriangleClusters, RedrawnInPartGivesThePictureOfAFullRedraw) {
     const osg::ref_ptr<osg::Geometry> geometry = make();
-    ASSERT_TRUE(gnomon::IndexClusters::of(*geometry)) << "the case is not cut at all";
+    ASSERT_TRUE(gnomon::TriangleClusters::of(*geometry)) << "the case is not cut at all";
     for (const bool named : {false, true}) {
         Scene lit = sceneOf(geometry), gone = sceneOf(geometry), shadowed = sceneOf(geometry);
         gone.takeLightAway();
@@ -160,15 +158,13 @@ TEST_P(IndexClusters, RedrawnInPartGivesThePictureOfAFullRedraw) {
             }
         EXPECT_GT(shaded, 1000);
         EXPECT_EQ(wrong, 0) << "named " << named;
-        gnomon::ShadowBin::setFilter(false);
-        EXPECT_EQ(render(shadowed.root, view).different(c), 0);
-        gnomon::ShadowBin::setFilter(true);
+        EXPECT_EQ(render(test::unfiltered(shadowed.root), view).different(c), 0);
     }
 }
 
-TEST_P(IndexClusters, RunsHoldAllThatTouchesThePartAndLeaveOutMost) {
+TEST_P(TriangleClusters, RunsHoldAllThatTouchesThePartAndLeaveOutMost) {
     const osg::ref_ptr<osg::Geometry> geometry = make();
-    const osg::ref_ptr<const gnomon::IndexClusters> clusters = gnomon::IndexClusters::of(*geometry);
+    const osg::ref_ptr<const gnomon::TriangleClusters> clusters = gnomon::TriangleClusters::of(*geometry);
     const osg::Matrixd clip = view.view * view.projection;
     const gnomon::ScreenRect part{{0.1, -0.3}, {0.2, -0.1}};
     const auto drawn = cornersOf(clusters->touching(part, clip));
@@ -189,19 +185,19 @@ TEST_P(IndexClusters, RunsHoldAllThatTouchesThePartAndLeaveOutMost) {
     EXPECT_LT(drawn.size(), all / 2);
 }
 
-TEST_P(IndexClusters, AreMadeAnewOnlyWhenTheGeometryChanged) {
+TEST_P(TriangleClusters, AreMadeAnewOnlyWhenTheGeometryChanged) {
     const osg::ref_ptr<osg::Geometry> geometry = make();
-    const auto first = gnomon::IndexClusters::of(*geometry);
-    EXPECT_EQ(gnomon::IndexClusters::of(*geometry), first);
+    const auto first = gnomon::TriangleClusters::of(*geometry);
+    EXPECT_EQ(gnomon::TriangleClusters::of(*geometry), first);
     for (osg::Vec3& v : static_cast<osg::Vec3Array&>(*geometry->getVertexArray())) v.z() += 100.0f;
     geometry->getVertexArray()->dirty();
-    const auto second = gnomon::IndexClusters::of(*geometry);
+    const auto second = gnomon::TriangleClusters::of(*geometry);
     EXPECT_NE(second, first);
     EXPECT_TRUE(second->touching({{-1.0, -1.0}, {1.0, 1.0}}, view.view * view.projection).empty()); // out of sight
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Kinds, IndexClusters,
+    Kinds, TriangleClusters,
     testing::Values(
         Case{"Triangles", [] { return geometryWith(cells<osg::DrawElementsUInt>(GL_TRIANGLES)); }, false},
         Case{"TrianglesInBuffers", [] { return geometryWith(cells<osg::DrawElementsUInt>(GL_TRIANGLES)); }, true},
@@ -211,29 +207,29 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"ArraysInBuffers", arrays, true}),
     [](const auto& given) { return given.param.name; });
 
-TEST(IndexClusters, WhatCannotBeCutIsDrawnWhole) {
+TEST(TriangleClusters, WhatCannotBeCutIsDrawnWhole) {
     const auto make = [] { return geometryWith(cells<osg::DrawElementsUInt>(GL_TRIANGLES)); };
     struct Callback : osg::Drawable::DrawCallback {};
     osg::ref_ptr<osg::Geometry> geometry = make();
     geometry->setDrawCallback(new Callback);
-    EXPECT_FALSE(gnomon::IndexClusters::of(*geometry));
+    EXPECT_FALSE(gnomon::TriangleClusters::of(*geometry));
     geometry = make();
     geometry->getPrimitiveSet(0)->setNumInstances(2);
-    EXPECT_FALSE(gnomon::IndexClusters::of(*geometry));
+    EXPECT_FALSE(gnomon::TriangleClusters::of(*geometry));
     geometry = make();
     geometry->setInitialBound(osg::BoundingBox(-9.0f, -9.0f, -9.0f, 9.0f, 9.0f, 9.0f)); // a program may move it so far
-    EXPECT_FALSE(gnomon::IndexClusters::of(*geometry));
+    EXPECT_FALSE(gnomon::TriangleClusters::of(*geometry));
     geometry = make();
     geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 5));
-    EXPECT_FALSE(gnomon::IndexClusters::of(*geometry));
+    EXPECT_FALSE(gnomon::TriangleClusters::of(*geometry));
     geometry = make();
     geometry->addPrimitiveSet(new osg::DrawElementsIndirectUInt(GL_TRIANGLES));
-    EXPECT_FALSE(gnomon::IndexClusters::of(*geometry));
-    EXPECT_FALSE(gnomon::IndexClusters::of(*node(square(1.0))->getDrawable(0)));
+    EXPECT_FALSE(gnomon::TriangleClusters::of(*geometry));
+    EXPECT_FALSE(gnomon::TriangleClusters::of(*node(square(1.0))->getDrawable(0)));
 }
 
 // A vertex program of assembly moves what it draws away from the boxes of its clusters.
-TEST(IndexClusters, WhatAProgramMovesIsDrawnWhole) {
+TEST(TriangleClusters, WhatAProgramMovesIsDrawnWhole) {
     osg::ref_ptr<osg::Geometry> geometry = geometryWith(cells<osg::DrawElementsUInt>(GL_TRIANGLES));
     osg::ref_ptr<osg::VertexProgram> moving = new osg::VertexProgram;
     moving->setVertexProgram("!!ARBvp1.0\n"
@@ -249,9 +245,7 @@ TEST(IndexClusters, WhatAProgramMovesIsDrawnWhole) {
     Scene scene = sceneOf(geometry);
     scene.addShadow(disc(25.0));
     const Picture filtered = render(scene.root, view);
-    gnomon::ShadowBin::setFilter(false);
-    const Picture whole = render(scene.root, view);
-    gnomon::ShadowBin::setFilter(true);
+    const Picture whole = render(test::unfiltered(scene.root), view);
     EXPECT_EQ(filtered.different(whole), 0);
     Scene lit = sceneOf(geometry);
     EXPECT_GT(render(lit.root, view).different(whole), 1000) << "there is no shadow to compare";

@@ -312,7 +312,7 @@ TEST(MapCutout, WhatCannotBeKnownCastsAsIfItWereSolidAndIsDiagnosed) {
          {std::function<void(osg::Geometry&)>(generated), {otherUnit}, {noCoordinates}, {shader}}) {
         const Causes causes = solidWith(change);
         ASSERT_FALSE(causes.empty());
-        EXPECT_NE(causes[0].find("casts 1 alpha-tested drawables as if they were solid, the first of them in 'fence'"),
+        EXPECT_NE(causes[0].find("alpha-tested drawables cast as if they were solid: 1, the first in 'fence'"),
                   std::string::npos)
             << causes[0];
     }

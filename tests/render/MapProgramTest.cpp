@@ -74,7 +74,7 @@ Wrong against(const gnomon::TruthImage& truth, const Picture& picture) {
 
 } // namespace
 
-TEST(MapProgram, FindsWhatRaysFind) {
+TEST(ProgramMaps, FindsWhatRaysFind) {
     for (const TracedCase& given : {test::labEight(), test::townOfHouses(), test::room()}) {
         Asking asking(given);
         const Wrong result = against(given.truth(), test::render(asking.scene.root, given.view));
@@ -87,7 +87,7 @@ TEST(MapProgram, FindsWhatRaysFind) {
     }
 }
 
-TEST(MapProgram, FindsTheFirstCascadeThatHoldsAPlace) {
+TEST(ProgramMaps, FindsTheFirstCascadeThatHoldsAPlace) {
     const TracedCase street = test::longStreet(45.0);
     Asking asking(street);
     asking.technique->setCascades(3);
@@ -97,7 +97,7 @@ TEST(MapProgram, FindsTheFirstCascadeThatHoldsAPlace) {
     EXPECT_GT(result.dark, 3000);
 }
 
-TEST(MapProgram, FindsAllOfTheLightWhereThereIsNoneToBlock) {
+TEST(ProgramMaps, FindsAllOfTheLightWhereThereIsNoneToBlock) {
     Asking asking(test::labEight());
     test::Camera camera(asking.scene.root, asking.given.view);
     const auto dark = [](const Picture& picture) { return picture.count(0); };
@@ -117,7 +117,7 @@ TEST(MapProgram, FindsAllOfTheLightWhereThereIsNoneToBlock) {
     EXPECT_EQ(asking.technique->diagnose(), std::vector<std::string>());
 }
 
-TEST(MapProgram, FindsInEachOfTwoViewsWhatIsTrueThere) {
+TEST(ProgramMaps, FindsInEachOfTwoViewsWhatIsTrueThere) {
     Asking asking(test::labEight());
     TracedCase other = asking.given;
     other.view = test::perspective({10.0, -6.0, 5.0}, {0.0, 0.0, 1.0}, 640, 480);
@@ -128,7 +128,7 @@ TEST(MapProgram, FindsInEachOfTwoViewsWhatIsTrueThere) {
     }
 }
 
-TEST(MapProgram, HasUnitsFromNoneTo31) {
+TEST(ProgramMaps, HasUnitsFromNoneTo31) {
     const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
     EXPECT_EQ(technique->getProgramUnit(), -1);
     for (const auto& [asked, kept] : {std::pair(5, 5), {31, 31}, {32, -1}, {-7, -1}}) {

@@ -2,9 +2,9 @@
 // Shadow maps against the truth image; acne, lights, passes, limits.
 #include "MovingCase.h"
 
-#include <gnomon/DepthMap.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/map/DepthMap.h>
 #include <gtest/gtest.h>
 #include <osg/ContextData>
 #include <osg/GLExtensions>
@@ -303,7 +303,7 @@ TEST(Map, ASizeBeyondTheDriversIsToldInOneSentence) {
     unsigned drawn = 0;
     const std::string cause = map->show(renderInfo, *picture, drawn);
     context.releaseContext();
-    EXPECT_NE(cause.find("cannot make a map of 1048576 x 16 texels"), std::string::npos) << cause;
+    EXPECT_NE(cause.find("a map of 1048576 x 16 texels cannot be made"), std::string::npos) << cause;
     EXPECT_EQ(drawn, 0u);
 }
 

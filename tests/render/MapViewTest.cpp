@@ -51,7 +51,7 @@ int tintOf(const std::array<int, 3>& over) {
 
 } // namespace
 
-TEST(MapView, OfCascadesIsRedThenGreenThenBlueTheFartherOneLooks) {
+TEST(MapDebugView, OfCascadesIsRedThenGreenThenBlueTheFartherOneLooks) {
     const TracedCase street = test::longStreet(45.0);
     const Picture plain = pictureOf(street, ShadowMapTechnique::NOTHING, 512, 3),
                   tinted = pictureOf(street, ShadowMapTechnique::CASCADES, 512, 3);
@@ -69,7 +69,7 @@ TEST(MapView, OfCascadesIsRedThenGreenThenBlueTheFartherOneLooks) {
     EXPECT_EQ(last, 2);
 }
 
-TEST(MapView, OfTexelsIsRedWhereTheyAreCoarseAndNotWhereTheyAreAsFineAsPixels) {
+TEST(MapDebugView, OfTexelsIsRedWhereTheyAreCoarseAndNotWhereTheyAreAsFineAsPixels) {
     const TracedCase lab = test::labEight();
     const Picture plain = pictureOf(lab, ShadowMapTechnique::NOTHING, 16);
     const Picture coarse = pictureOf(lab, ShadowMapTechnique::TEXELS, 16),
@@ -91,7 +91,7 @@ TEST(MapView, OfTexelsIsRedWhereTheyAreCoarseAndNotWhereTheyAreAsFineAsPixels) {
     EXPECT_GE(others, both * 95 / 100);
 }
 
-TEST(MapView, OfMapsShowsThemInTheCornerAndLeavesTheRestAlone) {
+TEST(MapDebugView, OfMapsShowsThemInTheCornerAndLeavesTheRestAlone) {
     const TracedCase lab = test::labEight();
     const Picture plain = pictureOf(lab, ShadowMapTechnique::NOTHING, 256),
                   shown = pictureOf(lab, ShadowMapTechnique::MAP, 256);
@@ -114,7 +114,7 @@ TEST(MapView, OfMapsShowsThemInTheCornerAndLeavesTheRestAlone) {
     EXPECT_EQ(empty + things, side * side);
 }
 
-TEST(MapView, TakesViewsOnlyThatItHas) {
+TEST(MapDebugView, TakesViewsOnlyThatItHas) {
     const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
     EXPECT_EQ(technique->getView(), ShadowMapTechnique::NOTHING);
     technique->setView(ShadowMapTechnique::TEXELS);

@@ -74,7 +74,7 @@ Trial litDecal(int bin) {
 /// Blends without light, so that it shows as it would over any picture.
 Trial glassDecal(int bin) {
     Trial trial;
-    trial.cause = "cannot take a light from 'unlit'";
+    trial.cause = "no light can be taken from 'unlit'";
     trial.change = [bin](Scene& scene) {
         const osg::ref_ptr<osg::Geode> decal = unlit(decalMesh, {0.2f, 1.0f, 0.2f, 0.4f});
         paintOn(*decal);

@@ -4,7 +4,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
+#include <gnomon/group/ShadowBin.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 
@@ -56,7 +56,7 @@ TEST_P(Receiver, IsNotDarkenedFromItsUnlitSide) {
     scene.addShadow(technique);
     EXPECT_EQ(render(scene.root, below).different(lit), 0);
     ASSERT_EQ(technique->diagnose().size(), 1u);
-    EXPECT_NE(technique->diagnose()[0].find("from behind"), std::string::npos);
+    EXPECT_NE(technique->diagnose()[0].find("the camera is behind the plane"), std::string::npos);
 }
 
 TEST_P(Receiver, ThingsInFrontHideTheShadowAndKeepTheirLight) {

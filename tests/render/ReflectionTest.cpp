@@ -4,7 +4,6 @@
 
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/PlanarShadowNode.h>
-#include <gnomon/ShadowBin.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <support/Panels.h>
 #include <support/Scene.h>
@@ -285,13 +284,13 @@ TEST(Reflection, LeavesDepthAndOpenGlAsTheyWere) {
 TEST(Reflection, NeedsOneStencilBitAndSaysSoWhereThereIsNone) {
     const auto node = mirrorOf(*group(panels), floorMirror);
     const Picture picture = render(node, view), plain = render(group(panels), view);
-    gnomon::ShadowBin::reserve(0xfeu);
+    test::reserving(node, 0xfeu);
     EXPECT_EQ(render(node, view).different(picture), 0);
-    gnomon::ShadowBin::reserve(0xffu);
+    test::reserving(node, 0xffu);
     EXPECT_EQ(render(node, view).different(plain), 0);
-    gnomon::ShadowBin::reserve(0u);
+    test::reserving(node, 0u);
     ASSERT_FALSE(node->diagnose().empty());
-    EXPECT_NE(node->diagnose().back().find("every stencil bit reserved"), std::string::npos);
+    EXPECT_NE(node->diagnose().back().find("every stencil bit is reserved"), std::string::npos);
     gnomon::HeadlessContext::Options none;
     none.stencilBits = 0;
     EXPECT_EQ(Camera(node, view, none).frame().different(plain), 0);

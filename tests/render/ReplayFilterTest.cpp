@@ -3,7 +3,6 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gtest/gtest.h>
 #include <osg/BlendFunc>
 #include <osg/Depth>
@@ -41,15 +40,13 @@ Scene build(bool named, bool groundLast, bool decal) {
 }
 
 Picture picture(bool named, bool groundLast, bool decal, bool filter) {
-    gnomon::ShadowBin::setFilter(filter);
-    const Picture result = render(build(named, groundLast, decal).root, slanted);
-    gnomon::ShadowBin::setFilter(true);
-    return result;
+    const Scene scene = build(named, groundLast, decal);
+    return render(filter ? scene.root.get() : test::unfiltered(scene.root), slanted);
 }
 
 } // namespace
 
-TEST(ReplayFilter, FilteredIsUnfilteredBitForBit) {
+TEST(ReplaySelection, FilteredIsUnfilteredBitForBit) {
     for (const bool named : {false, true})
         for (const bool groundLast : {false, true})
             for (const bool decal : {false, true})
@@ -59,7 +56,7 @@ TEST(ReplayFilter, FilteredIsUnfilteredBitForBit) {
 }
 
 // Named, only the ground receives; else the decal does too, and as it is unlit, takes the factor in its own colour.
-TEST(ReplayFilter, UnlitDecalOverTheReceiverStaysOverItsShadow) {
+TEST(ReplaySelection, UnlitDecalOverTheReceiverStaysOverItsShadow) {
     const std::uint32_t red = 0xff0000ffu;
     for (const bool named : {false, true}) {
         Scene scene = build(named, false, true);

@@ -4,7 +4,6 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,15 +39,12 @@ Scene build(int lights, unsigned dark) {
 }
 
 /// Lights, whether the receiver is named, reserved stencil bits.
-class SeveralLights : public testing::TestWithParam<std::tuple<int, bool, unsigned>> {
-    void TearDown() override { gnomon::ShadowBin::reserve(0); }
-};
+class SeveralLights : public testing::TestWithParam<std::tuple<int, bool, unsigned>> {};
 
 } // namespace
 
 TEST_P(SeveralLights, EachPixelLosesJustTheLightsThatItsRaysMiss) {
     const auto [lights, named, reserved] = GetParam();
-    gnomon::ShadowBin::reserve(reserved);
     std::vector<Picture> renders;
     for (unsigned dark = 0; dark < (1u << lights); ++dark) renders.push_back(render(build(lights, dark).root, view));
     std::vector<Mask> masks;
@@ -56,6 +52,7 @@ TEST_P(SeveralLights, EachPixelLosesJustTheLightsThatItsRaysMiss) {
         masks.push_back(castRays(square(8.0), casters, suns[static_cast<std::size_t>(i)], view));
     Scene scene = build(lights, 0);
     scene.addShadow(planar(named ? find(*scene.root, "ground") : nullptr));
+    test::reserving(scene.root, reserved);
     Camera camera(scene.root, view);
     camera.frame();
     const Picture actual = camera.frame();

@@ -4,8 +4,6 @@
 
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
-#include <gnomon/TerrainBitmap.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
@@ -55,16 +53,20 @@ Scene withHull() { return hillyTown(new TerrainShadowGeode); }
 
 const test::View far = test::perspective({180.0, -820.0, 500.0}, {180.0, 180.0, 0.0}, 400, 300, 20.0, 20.0, 2500.0);
 
-/// For a while.
-struct MostPolygons {
-    explicit MostPolygons(unsigned triangles) { gnomon::TerrainBitmap::setMostPolygons(triangles); }
-    ~MostPolygons() { gnomon::TerrainBitmap::setMostPolygons(before); }
-    const unsigned before = gnomon::TerrainBitmap::getMostPolygons();
-};
+/// Draws at most so many triangles of decals as they are.
+const Scene& withDecals(const Scene& scene, unsigned most) {
+    gnomon::CompositorOptions options;
+    options.mostDecals = most;
+    test::withOptions(scene.root, options);
+    return scene;
+}
 
 test::Picture byPolygons(const Scene& scene, const test::View& view) {
-    const MostPolygons all(~0u);
-    return test::render(scene.root, view);
+    return test::render(withDecals(scene, ~0u).root, view);
+}
+
+test::Picture byBitmaps(const Scene& scene, const test::View& view) {
+    return test::render(withDecals(scene, 0).root, view);
 }
 
 /// By prisms, whatever the eye sees of the ground.
@@ -111,38 +113,36 @@ void expectAlikeButForEdges(const test::Picture& bitmaps, const test::Picture& p
 } // namespace
 
 TEST(TerrainDecals, BitmapsMarkAsPolygonsButForEdges) {
-    const MostPolygons none(0);
     for (const double away : {1000.0, 1400.0}) {
         SCOPED_TRACE(away);
         const test::View view =
             test::perspective({180.0, 180.0 - away, 0.5 * away}, {180.0, 180.0, 0.0}, 400, 300, 20.0, 20.0, 2500.0);
-        expectAlikeButForEdges(test::render(withHull().root, view), byPolygons(withHull(), view),
+        expectAlikeButForEdges(byBitmaps(withHull(), view), byPolygons(withHull(), view),
                                test::render(hillyTown(nullptr).root, view));
-        EXPECT_GT(test::render(withHull().root, view).different(byPolygons(withHull(), view)), 0) << "are drawn";
+        EXPECT_GT(byBitmaps(withHull(), view).different(byPolygons(withHull(), view)), 0) << "are drawn";
     }
 }
 
 /// On which a texel is eight times as long as in plan. There would be too many of them: polygons are drawn.
 TEST(TerrainDecals, BitmapsAreAsFineOnASteepSlope) {
-    const MostPolygons none(0);
     const auto slope = [](double x, double) { return -8.0 * x; };
     const double away = 900.0 / std::sqrt(65.0);
     const test::View view = test::perspective({180.0 + 8.0 * away, 180.0, -1440.0 + away}, {180.0, 180.0, -1440.0}, 400,
                                               300, 20.0, 20.0, 2500.0);
     const auto town = [&] { return townOn(slope, new TerrainShadowGeode); };
-    expectAlikeButForEdges(test::render(town().root, view), byPolygons(town(), view),
+    expectAlikeButForEdges(byBitmaps(town(), view), byPolygons(town(), view),
                            test::render(townOn(slope, nullptr).root, view));
 }
 
 /// In one view: what is seen later is as a view shows it that has seen nothing else.
 TEST(TerrainDecals, BitmapsFollowTheSunTheirCastersAndTheEye) {
-    const MostPolygons none(0);
     const auto from = [](double away) {
         return test::perspective({180.0, 180.0 - away, 0.5 * away}, {180.0, 180.0, 0.0}, 400, 300, 20.0, 20.0, 4000.0);
     };
     const auto sunMoves = [](Scene& scene) { scene.light->getLight()->setPosition({-0.3f, 1.0f, 0.8f, 0.0f}); };
     const auto houseGoes = [](Scene& scene) { scene.content->removeChildren(100, 30); };
     Scene scene = withHull();
+    withDecals(scene, 0);
     test::Camera camera(scene.root, from(3200.0)); // coarse
     camera.frame();
     for (int step = 0; step < 5; ++step) {
@@ -160,32 +160,30 @@ TEST(TerrainDecals, BitmapsFollowTheSunTheirCastersAndTheEye) {
 
 /// As fine as those of a view that was there from the start: bit for bit.
 TEST(TerrainDecals, BitmapsGetFinerWhereTheEyeComesNear) {
-    const MostPolygons none(0);
     const test::View farther =
         test::perspective({180.0, -4000.0, 2000.0}, {180.0, 180.0, 0.0}, 400, 300, 20.0, 20.0, 6000.0);
     const Scene scene = withHull();
+    withDecals(scene, 0);
     test::Camera camera(scene.root, farther);
     camera.frame();
     camera.setView(far);
-    EXPECT_EQ(camera.frame().different(test::render(withHull().root, far)), 0);
+    EXPECT_EQ(camera.frame().different(byBitmaps(withHull(), far)), 0);
 }
 
 /// A bitmap says one thing of all samples of a pixel: its edges had no shades between.
 TEST(TerrainDecals, AreNoBitmapsWherePixelsHaveSamples) {
-    const auto picture = [] {
+    const auto picture = [](unsigned most) {
         test::Target target;
         target.samples = 4;
-        return test::IntoTexture(withHull().root, far, target).camera->frame();
+        return test::IntoTexture(withDecals(withHull(), most).root, far, target).camera->frame();
     };
-    const test::Picture polygons = picture();
-    const MostPolygons none(0);
-    EXPECT_EQ(polygons.different(picture()), 0);
+    EXPECT_EQ(picture(~0u).different(picture(0)), 0);
 }
 
 /// Frame by frame, and after all of OpenGL was released.
 TEST(TerrainDecals, BitmapsStayTheSameWhileNothingMoves) {
-    const MostPolygons none(0);
     const Scene scene = withHull();
+    withDecals(scene, 0);
     test::Camera camera(scene.root, far);
     const test::Picture first = camera.frame();
     EXPECT_EQ(camera.frame().different(first), 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bitmaps that share textures: each is drawn with its own bytes, whatever sheet they are in and whose they were before.
-#include <gnomon/MarkProgram.h>
-#include <gnomon/TerrainBitmap.h>
+#include <gnomon/gl/ShaderProgram.h>
+#include <gnomon/terrain/TileBitmap.h>
 #include <gtest/gtest.h>
 #include <osg/GLExtensions>
 #include <osg/Geode>
@@ -10,7 +10,7 @@
 #include <set>
 
 using gnomon::ShadowBitmap;
-using gnomon::TerrainBitmap;
+using gnomon::TileBitmap;
 
 namespace {
 
@@ -42,14 +42,14 @@ public:
     void set(int at, int pattern) {
         _patterns[at] = pattern;
         _bitmaps[at] = nullptr; // first of all: another's rows are what it gets
-        _bitmaps[at] = new TerrainBitmap(banded(at, pattern), 0, _sheets);
+        _bitmaps[at] = new TileBitmap(banded(at, pattern), 0, _sheets);
     }
     int pattern(int at) const { return _patterns[at]; }
     void releaseSheets() { _sheets.releaseGLObjects(nullptr); }
 
     /// From both ends in turns, so that neighbours are in different sheets.
     void drawImplementation(osg::RenderInfo& renderInfo) const override {
-        std::vector<const TerrainBitmap*> all;
+        std::vector<const TileBitmap*> all;
         for (int i = 0; i < bitmaps; ++i) all.push_back(_bitmaps[i % 2 ? bitmaps - 1 - i / 2 : i / 2].get());
         osg::State& state = *renderInfo.getState();
         state.apply(_program);
@@ -57,7 +57,7 @@ public:
                            glm::dmat4(2.0 / (bitmaps * apart), 0, 0, 0, 0, 2.0 / tall, 0, 0, 0, 0, 1, 0, -1, -1, 0, 1));
         gnomon::setUniform(state, "sheet", 0);
         setCoordinates(state);
-        TerrainBitmap::draw(renderInfo, all);
+        TileBitmap::draw(renderInfo, all);
         making = _last->sheet->apply(state);
         readCoordinates(state);
     }
@@ -79,10 +79,10 @@ private:
         }
     }
 
-    gnomon::TerrainSheets _sheets;
-    const std::unique_ptr<const gnomon::SheetRows> _last = _sheets.take(1);
-    osg::ref_ptr<osg::StateSet> _program = TerrainBitmap::program();
-    osg::ref_ptr<TerrainBitmap> _bitmaps[bitmaps];
+    gnomon::BitmapAtlases _sheets;
+    const std::unique_ptr<const gnomon::AtlasRows> _last = _sheets.take(1);
+    osg::ref_ptr<osg::StateSet> _program = TileBitmap::program();
+    osg::ref_ptr<TileBitmap> _bitmaps[bitmaps];
     int _patterns[bitmaps];
 };
 
@@ -108,7 +108,7 @@ int wrongPixels(const test::Picture& picture, const Board& board) {
 
 } // namespace
 
-TEST(TerrainSheet, ShowsOfEachBitmapItsOwnBytes) {
+TEST(BitmapAtlas, ShowsOfEachBitmapItsOwnBytes) {
     const osg::ref_ptr<Board> board = new Board;
     const osg::ref_ptr<osg::Geode> root = new osg::Geode;
     root->addDrawable(board);
@@ -118,7 +118,7 @@ TEST(TerrainSheet, ShowsOfEachBitmapItsOwnBytes) {
     EXPECT_EQ(wrongPixels(camera.frame(), *board), 0) << "in rows that were another's";
 }
 
-TEST(TerrainSheet, IsMadeAnewWithItsBytesOnceItWasReleased) {
+TEST(BitmapAtlas, IsMadeAnewWithItsBytesOnceItWasReleased) {
     const osg::ref_ptr<Board> board = new Board;
     const osg::ref_ptr<osg::Geode> root = new osg::Geode;
     root->addDrawable(board);
@@ -131,11 +131,11 @@ TEST(TerrainSheet, IsMadeAnewWithItsBytesOnceItWasReleased) {
     EXPECT_EQ(board->making, 2u);
 }
 
-TEST(TerrainSheet, IsNoLargerThanOpenGl3Promises) {
-    EXPECT_LE(std::max(gnomon::TerrainSheet::width, gnomon::TerrainSheet::height), 1024);
+TEST(BitmapAtlas, IsNoLargerThanOpenGl3Promises) {
+    EXPECT_LE(std::max(gnomon::BitmapAtlas::width, gnomon::BitmapAtlas::height), 1024);
 }
 
-TEST(TerrainSheet, LeavesCurrentTextureCoordinatesAsTheyWere) {
+TEST(BitmapAtlas, LeavesCurrentTextureCoordinatesAsTheyWere) {
     const osg::ref_ptr<Board> board = new Board;
     const osg::ref_ptr<osg::Geode> root = new osg::Geode;
     root->addDrawable(board);
@@ -144,16 +144,16 @@ TEST(TerrainSheet, LeavesCurrentTextureCoordinatesAsTheyWere) {
     EXPECT_EQ(board->coordinates, expected);
 }
 
-TEST(TerrainSheet, GivesRowsToOneAtATime) {
-    gnomon::TerrainSheets sheets;
-    std::vector<std::unique_ptr<const gnomon::SheetRows>> taken;
+TEST(BitmapAtlas, GivesRowsToOneAtATime) {
+    gnomon::BitmapAtlases sheets;
+    std::vector<std::unique_ptr<const gnomon::AtlasRows>> taken;
     std::set<std::pair<const void*, int>> rowsTaken;
     const auto take = [&](std::size_t bytes) {
         taken.push_back(sheets.take(bytes));
         for (int i = 0; i < taken.back()->count; ++i)
             EXPECT_TRUE(rowsTaken.insert({taken.back()->sheet.get(), taken.back()->first + i}).second);
-        EXPECT_GE(std::size_t(taken.back()->count) * gnomon::TerrainSheet::width, bytes);
-        EXPECT_LE(taken.back()->first + taken.back()->count, gnomon::TerrainSheet::height);
+        EXPECT_GE(std::size_t(taken.back()->count) * gnomon::BitmapAtlas::width, bytes);
+        EXPECT_LE(taken.back()->first + taken.back()->count, gnomon::BitmapAtlas::height);
     };
     for (std::size_t bytes = 1; bytes <= 131072; bytes += 1200) take(bytes);
     const auto* sheet = taken[20]->sheet.get();

@@ -2,7 +2,6 @@
 // Shadows of a town on terrain: the same picture as by another technique, what is found anew and when, the sun's way.
 #include <support/Scene.h>
 
-#include <gnomon/ShadowBin.h>
 #include <gnomon/SunClock.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gtest/gtest.h>
@@ -18,7 +17,6 @@
 #include <memory>
 #include <string>
 
-using gnomon::ShadowBin;
 using gnomon::TerrainShadowGeode;
 using test::Scene;
 
@@ -62,27 +60,18 @@ test::Picture byPlanar(const osg::Vec4d& light, const test::View& view) {
 }
 
 test::Picture fresh(const osg::Vec4d& light, const test::View& view,
-                    TerrainShadowGeode::Method method = TerrainShadowGeode::HULL) {
+                    TerrainShadowGeode::Method method = TerrainShadowGeode::HULL,
+                    const gnomon::CompositorOptions& options = {}) {
     Town town(light);
     town.cast(method);
-    return test::render(town.root, view);
+    return test::render(test::withOptions(town.root, options), view);
 }
-
-/// Settings of the whole program, for a while.
-struct Reserve {
-    explicit Reserve(unsigned bits) { ShadowBin::reserve(bits); }
-    ~Reserve() { ShadowBin::reserve(0); }
-};
-struct NoFilter {
-    NoFilter() { ShadowBin::setFilter(false); }
-    ~NoFilter() { ShadowBin::setFilter(true); }
-};
 
 } // namespace
 
 /// A plane's shadow is exact; on level ground hull and drape must be. Of some 4000 edges in sight a few go through the middle
 /// of a pixel to within what floats leave of them.
-TEST(TerrainTiles, DrawThePlanarTechniquesPicture) {
+TEST(TileUpdates, DrawThePlanarTechniquesPicture) {
     for (const test::View& view : {all, slanted}) {
         const test::Picture exact = byPlanar(sun, view);
         const int dark = exact.different(plain(view));
@@ -92,32 +81,34 @@ TEST(TerrainTiles, DrawThePlanarTechniquesPicture) {
     }
 }
 
-TEST(TerrainTiles, AreTheSameOfOneDrawableAndOfManyNodes) {
+TEST(TileUpdates, AreTheSameOfOneDrawableAndOfManyNodes) {
     Town town(sun, false);
     town.cast();
     EXPECT_EQ(test::render(town.root, all).different(fresh(sun, all)), 0);
 }
 
 /// A sun at 6 degrees: each shadow lies over several others', and tiles' over one another.
-TEST(TerrainTiles, DarkenOnceWhateverLiesOverWhatAndHoweverFewBitsAreLeft) {
+TEST(TileUpdates, DarkenOnceWhateverLiesOverWhatAndHoweverFewBitsAreLeft) {
     const osg::Vec4d low(1.0, 0.7, 0.13, 0.0);
     const test::Picture exact = byPlanar(low, all), counted = fresh(low, all);
     EXPECT_LE(counted.different(exact), 5) << "see above";
     for (const unsigned reserved : {0x80u, 0xc0u, 0x03u, 0xf0u, 0xf8u, 0x1fu}) {
-        const Reserve reserve(reserved);
-        EXPECT_EQ(fresh(low, all).different(counted), 0) << reserved;
+        gnomon::CompositorOptions options;
+        options.reservedStencilBits = reserved;
+        EXPECT_EQ(fresh(low, all, TerrainShadowGeode::HULL, options).different(counted), 0) << reserved;
     }
 }
 
-TEST(TerrainTiles, CulledAndAllOfThemGiveTheSameBits) {
+TEST(TileUpdates, CulledAndAllOfThemGiveTheSameBits) {
     for (const test::View& view : {test::fromAbove(20.0, 200), test::fromAbove(60.0, 200), slanted}) {
         const test::Picture culled = fresh(sun, view);
-        const NoFilter everything;
-        EXPECT_EQ(fresh(sun, view).different(culled), 0);
+        gnomon::CompositorOptions everything;
+        everything.filter = false;
+        EXPECT_EQ(fresh(sun, view, TerrainShadowGeode::HULL, everything).different(culled), 0);
     }
 }
 
-TEST(TerrainTiles, LeaveOutWhatIsSmallerThanAPixel) {
+TEST(TileUpdates, LeaveOutWhatIsSmallerThanAPixel) {
     const auto shadowAt = [](double half) {
         Scene scene = test::groundScene({test::box({1.5, -1.0, 0.0}, {3.5, 1.0, 3.0})}, 400.0, {1.0, 0.0, 1.0, 0.0});
         const test::View view =
@@ -135,7 +126,7 @@ TEST(TerrainTiles, LeaveOutWhatIsSmallerThanAPixel) {
     EXPECT_EQ(shadowAt(0.5 * 101 * 5.6), 0);
 }
 
-TEST(TerrainTiles, AreFoundOnceWhileTheSunIsStillWhereverTheCameraLooks) {
+TEST(TileUpdates, AreFoundOnceWhileTheSunIsStillWhereverTheCameraLooks) {
     Town town;
     TerrainShadowGeode& shadow = town.cast();
     test::Camera camera(town.root, all);
@@ -150,7 +141,7 @@ TEST(TerrainTiles, AreFoundOnceWhileTheSunIsStillWhereverTheCameraLooks) {
     EXPECT_EQ(shadow.builds(), found);
 }
 
-TEST(TerrainTiles, OfACasterThatMovesAloneAreFoundAnew) {
+TEST(TileUpdates, OfACasterThatMovesAloneAreFoundAnew) {
     Town town;
     TerrainShadowGeode& shadow = town.cast();
     test::Camera camera(town.root, all);
@@ -170,7 +161,7 @@ TEST(TerrainTiles, OfACasterThatMovesAloneAreFoundAnew) {
     EXPECT_EQ(camera.frame().different(test::render(moved.root, all)), 0);
 }
 
-TEST(TerrainTiles, OfCastersThatComeAndGoAloneAreFoundAnew) {
+TEST(TileUpdates, OfCastersThatComeAndGoAloneAreFoundAnew) {
     Town town;
     TerrainShadowGeode& shadow = town.cast();
     test::Camera camera(town.root, all);
@@ -200,7 +191,7 @@ TEST(TerrainTiles, OfCastersThatComeAndGoAloneAreFoundAnew) {
 }
 
 /// Walls, and a roof apart from them, which moves: a solid as long as they meet.
-TEST(TerrainTiles, TakeDrawablesThatShareCornersForOneSolid) {
+TEST(TileUpdates, TakeDrawablesThatShareCornersForOneSolid) {
     test::Mesh walls, roof;
     for (std::size_t i = 0; i < test::box({0, 0, 0}, {1, 1, 1}).size(); i += 3) {
         const test::Mesh box = test::box({60.0, 60.0, 0.0}, {64.0, 64.0, 5.0});
@@ -229,7 +220,7 @@ TEST(TerrainTiles, TakeDrawablesThatShareCornersForOneSolid) {
     }
 }
 
-TEST(TerrainTiles, JumpWithTheSunInTheFrameInWhichItJumps) {
+TEST(TileUpdates, JumpWithTheSunInTheFrameInWhichItJumps) {
     Town town;
     town.cast();
     test::Camera camera(town.root, all);
@@ -272,7 +263,7 @@ int fartherThan(int reach, const test::Picture& picture, const test::Picture& ot
 
 /// An error of 0.5 is 5 pixels here. The light is white on white: what the sun's height does to colours is left out by a
 /// blend of factor 0, which leaves black shadows on whatever stands.
-TEST(TerrainTiles, FollowASlowSunToWithinTheErrorAndAreExactOnceItStands) {
+TEST(TileUpdates, FollowASlowSunToWithinTheErrorAndAreExactOnceItStands) {
     const test::View near = test::fromAbove(10.0, 200);
     const auto isDark = [](test::Picture picture) {
         for (std::uint32_t& pixel : picture.pixels) pixel = pixel == test::grey(0) ? 1u : 0u;
@@ -360,7 +351,7 @@ osg::ref_ptr<TerrainShadowGeode> hullOfError(double error) {
 }
 
 class SunOver : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(TerrainTiles, SunOver, testing::Values(0, 40, 70),
+INSTANTIATE_TEST_SUITE_P(TileUpdates, SunOver, testing::Values(0, 40, 70),
                          [](const auto& one) { return "Latitude" + std::to_string(one.param); });
 
 } // namespace
@@ -383,7 +374,7 @@ TEST_P(SunOver, HasTheRightShadowsAllDay) {
 }
 
 /// The same four hours three times over. Drivers hold a megabyte more now and then: the least of each time counts.
-TEST(TerrainTiles, HoldNoMoreMemoryWhenTheSunHasComeByAgain) {
+TEST(TileUpdates, HoldNoMoreMemoryWhenTheSunHasComeByAgain) {
     Yard yard(hullOfError(0.5));
     std::size_t least[3];
     for (std::size_t& bytes : least) {

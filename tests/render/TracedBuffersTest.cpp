@@ -74,7 +74,9 @@ TEST(TracedBuffers, ThatCannotBeResolvedAreDiagnosedAndShowNoShadow) {
     traced.frame();
     extensions.glBlitFramebuffer = blit; // the next context of this number has the same extensions
     ASSERT_EQ(traced.technique->diagnose().size(), 1u);
-    EXPECT_NE(traced.technique->diagnose()[0].find("cannot resolve the depth"), std::string::npos);
+    EXPECT_NE(
+        traced.technique->diagnose()[0].find("the depth of this multisampled framebuffer object cannot be resolved"),
+        std::string::npos);
     EXPECT_EQ(traced.into->complaints->all(), std::vector<std::string>());
 }
 

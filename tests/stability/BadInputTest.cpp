@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers that are none, planes without a normal, groups without casters: no shadow, and nothing else changes.
+// KeyNumbers that are none, planes without a normal, groups without casters: no shadow, and nothing else changes.
 #include "Trial.h"
 
 #include <osg/Geometry>

@@ -2,7 +2,7 @@
 // Every cause that diagnose() can give, provoked, and gone when its remedy is applied.
 #include "Trial.h"
 
-#include <gnomon/ShadowBin.h>
+#include <gnomon/group/ShadowBin.h>
 #include <osg/LightModel>
 
 #include <limits>
@@ -23,6 +23,7 @@ struct Site {
         scene.addShadow(technique);
         technique->setName("floor");
     }
+    void reserve(unsigned stencilBits) { test::reserving(scene.root, stencilBits); }
     /// What the technique says after one more frame.
     Causes causes() {
         if (!camera) camera = std::make_unique<Camera>(scene.root, view, options);
@@ -41,20 +42,18 @@ bool endsWith(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Exactly one sentence: it begins with the node, says `what` and ends with `remedy`.
+bool isLower(char letter) { return letter >= 'a' && letter <= 'z'; }
+
+/// Exactly one cause: "PlanarShadowNode 'floor': what is wrong. What to do.", with `what` in it and `remedy` at its end.
 ::testing::AssertionResult says(const Causes& causes, const std::string& what, const std::string& remedy) {
     if (causes.size() != 1) return ::testing::AssertionFailure() << causes.size() << " causes";
     const std::string& cause = causes.front();
-    const bool right = cause.rfind("PlanarShadowNode 'floor' ", 0) == 0 && cause.find(what) != std::string::npos &&
-                       endsWith(cause, remedy + ".") && cause.find(". ") == std::string::npos;
+    const std::string start = "PlanarShadowNode 'floor': ";
+    const std::size_t wrong = cause.find(what), next = cause.find(". ");
+    const bool right = cause.rfind(start, 0) == 0 && isLower(cause[start.size()]) && wrong < next &&
+                       next < cause.size() - remedy.size() - 1 && endsWith(cause, remedy + ".");
     return right ? ::testing::AssertionSuccess() : ::testing::AssertionFailure() << cause;
 }
-
-/// Puts the stencil bits back that a test reserves.
-struct Reservation {
-    explicit Reservation(unsigned bits) { gnomon::ShadowBin::reserve(bits); }
-    ~Reservation() { gnomon::ShadowBin::reserve(0); }
-};
 
 /// Lights 1 to `count` - 1 beside light 0, on, from different sides.
 void addLights(Scene& scene, int count) {
@@ -83,7 +82,7 @@ TEST(Diagnose, NamesTheClassAloneWhereTheNodeHasNoName) {
     site.technique->setName("");
     site.technique->setPlanes({});
     ASSERT_EQ(site.causes().size(), 1u);
-    EXPECT_EQ(site.technique->diagnose().front().rfind("PlanarShadowNode has no plane", 0), 0u);
+    EXPECT_EQ(site.technique->diagnose().front().rfind("PlanarShadowNode: no plane is set", 0), 0u);
 }
 
 TEST(Diagnose, TellsOfALightInThePlaneOrBehindItUntilItIsMovedBack) {
@@ -91,8 +90,8 @@ TEST(Diagnose, TellsOfALightInThePlaneOrBehindItUntilItIsMovedBack) {
     const osg::Vec4 good = site.scene.light->getLight()->getPosition();
     for (const osg::Vec4& bad : {osg::Vec4(1, 0, 0, 0), osg::Vec4(1, 0, -1, 0), osg::Vec4(1, 0, -1, 1), osg::Vec4()}) {
         site.scene.light->getLight()->setPosition(bad);
-        EXPECT_TRUE(says(site.causes(), "which is in its plane or behind it",
-                         "move the light to the side that the plane's normal points to"));
+        EXPECT_TRUE(says(site.causes(), "lies in the plane or behind it",
+                         "Move the light to the side that the plane's normal points to"));
         site.scene.light->getLight()->setPosition(good);
         EXPECT_EQ(site.causes(), Causes());
     }
@@ -101,7 +100,7 @@ TEST(Diagnose, TellsOfALightInThePlaneOrBehindItUntilItIsMovedBack) {
 TEST(Diagnose, TellsOfALightThatIsNotANumber) {
     Site site;
     site.scene.group->addLight({0, osg::Vec4d(noNumber, 0.0, 1.0, 0.0)});
-    EXPECT_TRUE(says(site.causes(), "which is not a finite number", "set the light's position"));
+    EXPECT_TRUE(says(site.causes(), "has a coordinate that is not finite", "Set the light's position"));
     site.scene.group->removeLights();
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -109,7 +108,7 @@ TEST(Diagnose, TellsOfALightThatIsNotANumber) {
 TEST(Diagnose, TellsOfAMissingPlane) {
     Site site;
     site.technique->setPlanes({});
-    EXPECT_TRUE(says(site.causes(), "has no plane to cast on", "give it one with addPlane()"));
+    EXPECT_TRUE(says(site.causes(), "no plane is set", "Set one with addPlane()"));
     site.technique->addPlane(groundPlane);
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -119,8 +118,8 @@ TEST(Diagnose, TellsOfAPlaneWithoutANormal) {
     for (const osg::Vec4d& bad :
          {osg::Vec4d(), osg::Vec4d(noNumber, 0.0, 1.0, 0.0), osg::Vec4d(0.0, 0.0, 1.0, noNumber)}) {
         site.technique->setPlanes({bad});
-        EXPECT_TRUE(says(site.causes(), "whose normal is zero or not a number",
-                         "give (a, b, c, d) of a x + b y + c z + d = 0"));
+        EXPECT_TRUE(
+            says(site.causes(), "is zero or not a number", "Give (a, b, c, d) of the plane a x + b y + c z + d = 0"));
     }
     site.technique->setPlanes({groundPlane});
     EXPECT_EQ(site.causes(), Causes());
@@ -129,8 +128,8 @@ TEST(Diagnose, TellsOfAPlaneWithoutANormal) {
 TEST(Diagnose, TellsWhenNothingIsAboveThePlane) {
     Site site;
     site.technique->setPlanes({{0.0, 0.0, 1.0, -5.0}});
-    EXPECT_TRUE(says(site.causes(), "has nothing above its plane (0 0 1 -5)",
-                     "look at the plane's place and the side its normal points to"));
+    EXPECT_TRUE(says(site.causes(), "no caster is above the plane (0 0 1 -5)",
+                     "Check where the plane lies and which way its normal points"));
     site.technique->setPlanes({groundPlane});
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -139,7 +138,7 @@ TEST(Diagnose, TellsOfAViewFromBehindThePlane) {
     Site site;
     site.scene.root->getOrCreateStateSet()->setMode(GL_CULL_FACE, osg::StateAttribute::OFF);
     site.view = perspective({0.0, -5.0, -5.0}, {0.0, 0.0, 0.0}, 64, 64);
-    EXPECT_TRUE(says(site.causes(), "is seen from behind its plane (0 0 1 0)", "turn the plane's normal round"));
+    EXPECT_TRUE(says(site.causes(), "the camera is behind the plane (0 0 1 0)", "reverse the plane's normal"));
     site.camera->setView(fromAbove(4.0, 64));
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -148,8 +147,8 @@ TEST(Diagnose, TellsOfAMissingGroup) {
     Site site;
     site.scene.group->removeChild(site.technique);
     site.scene.root->addChild(site.technique);
-    EXPECT_TRUE(says(site.causes(), "has no ShadowCasterGroup above it",
-                     "make it a child of the group that holds the casters"));
+    EXPECT_TRUE(says(site.causes(), "there is no ShadowCasterGroup above this node",
+                     "Make it a child of the group that holds the casters"));
     site.scene.root->removeChild(site.technique);
     site.scene.group->addChild(site.technique);
     EXPECT_EQ(site.causes(), Causes());
@@ -159,8 +158,8 @@ TEST(Diagnose, TellsOfAGroupWithoutTriangles) {
     Site site;
     site.scene.group->setName("town");
     site.scene.group->setCasters({site.scene.light});
-    EXPECT_TRUE(says(site.causes(), "has nothing to cast: its group 'town' holds no triangles",
-                     "add the scene to it, or look at its setCasters()"));
+    EXPECT_TRUE(says(site.causes(), "nothing casts, because the ShadowCasterGroup 'town' holds no triangles",
+                     "Add the scene to the group, or check its setCasters()"));
     site.scene.group->setCasters({});
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -172,8 +171,8 @@ TEST(Diagnose, TellsOfVerticesThatAreNotNumbers) {
     auto* vertices = static_cast<osg::Vec3Array*>(geometry->getVertexArray());
     (*vertices)[1].x() = std::numeric_limits<float>::quiet_NaN();
     site.scene.content->addChild(broken);
-    EXPECT_TRUE(says(site.causes(), "leaves out 1 triangles, the first of them in 'broken'",
-                     "give every vertex finite coordinates and every index a vertex"));
+    EXPECT_TRUE(says(site.causes(), "invalid triangles are left out: 1, the first in 'broken'",
+                     "Give every vertex finite coordinates and every index a vertex"));
     (*vertices)[1].x() = 2.0f;
     vertices->dirty();
     EXPECT_EQ(site.causes(), Causes());
@@ -184,7 +183,8 @@ TEST(Diagnose, TellsOfALightSourceThatIsNotInTheView) {
     osg::ref_ptr<osg::LightSource> stray = new osg::LightSource;
     stray->setName("stray");
     site.scene.group->addLight(stray);
-    EXPECT_TRUE(says(site.causes(), "waits for the LightSource 'stray'", "add it to the scene"));
+    EXPECT_TRUE(says(site.causes(), "the LightSource 'stray' is not in this view's scene graph",
+                     "Add it to the scene, or give it another number"));
     site.scene.group->removeLights();
     site.scene.group->addLight(site.scene.light);
     EXPECT_EQ(site.causes(), Causes());
@@ -194,7 +194,7 @@ TEST(Diagnose, TellsWhenNoLightIsOn) {
     Site site;
     site.scene.root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::OFF);
     EXPECT_TRUE(
-        says(site.causes(), "finds no light that is on in this view", "or set one with ShadowCasterGroup::addLight"));
+        says(site.causes(), "no light is on in this view", "or set a light with ShadowCasterGroup::addLight()"));
     site.scene.root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -202,8 +202,7 @@ TEST(Diagnose, TellsWhenNoLightIsOn) {
 TEST(Diagnose, TellsOfAFramebufferWithoutStencil) {
     Site site;
     site.options.stencilBits = 0;
-    EXPECT_TRUE(says(site.causes(), "finds no stencil bits in this framebuffer: ask for 8",
-                     "or by a stencil attachment of the camera"));
+    EXPECT_TRUE(says(site.causes(), "this framebuffer has no stencil bits", "or give the camera a stencil attachment"));
     site.camera = std::make_unique<Camera>(site.scene.root, site.view);
     site.causes(); // its first frame has the same number as that of the other viewer: both are views of one frame
     EXPECT_EQ(site.causes(), Causes());
@@ -211,10 +210,10 @@ TEST(Diagnose, TellsOfAFramebufferWithoutStencil) {
 
 TEST(Diagnose, TellsWhenEveryStencilBitIsReserved) {
     Site site;
-    {
-        const Reservation all(0xff);
-        EXPECT_TRUE(says(site.causes(), "finds every stencil bit reserved", "leave one to ShadowBin::reserve()"));
-    }
+    site.reserve(0xff);
+    EXPECT_TRUE(says(site.causes(), "every stencil bit is reserved",
+                     "Leave at least one out of CompositorOptions::reservedStencilBits"));
+    site.reserve(0);
     EXPECT_EQ(site.causes(), Causes());
 }
 
@@ -223,19 +222,19 @@ TEST(Diagnose, TellsWhenASecondStencilBitIsWanted) {
     osg::ref_ptr<PlanarShadowNode> beside = planar();
     beside->setName("floor");
     site.scene.group->insertChild(0, beside);
-    {
-        const Reservation butOne(0xfe);
-        EXPECT_TRUE(says(site.causes(), "needs a second stencil bit", "leave two to ShadowBin::reserve()"));
-        EXPECT_EQ(beside->diagnose(), Causes());
-    }
+    site.reserve(0xfe);
+    EXPECT_TRUE(says(site.causes(), "needs two stencil bits",
+                     "Leave at least two out of CompositorOptions::reservedStencilBits"));
+    EXPECT_EQ(beside->diagnose(), Causes());
+    site.reserve(0);
     EXPECT_EQ(site.causes(), Causes());
 }
 
 TEST(Diagnose, TellsOfLightsBeyondTheThreeThatCanBeRelit) {
     Site site;
     addLights(site.scene, 4);
-    EXPECT_TRUE(
-        says(site.causes(), "leaves light 3 unshadowed: at most 3 lights can be relit here", "blend takes any number"));
+    EXPECT_TRUE(says(site.causes(), "light 3 casts no shadow, because at most 3 lights can be relit",
+                     "Set BLEND, which takes any number of lights"));
     site.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -244,7 +243,7 @@ TEST(Diagnose, GivesEachCauseOnceHoweverManyLightsAndPlanesItHas) {
     Site site;
     addLights(site.scene, 3);
     site.technique->setPlanes({{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}});
-    EXPECT_TRUE(says(site.causes(), "whose normal is zero", "= 0"));
+    EXPECT_TRUE(says(site.causes(), "is zero or not a number", "= 0"));
     site.technique->setPlanes({{0.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}});
     EXPECT_EQ(site.causes().size(), 2u);
 }

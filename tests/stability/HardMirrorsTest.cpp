@@ -50,7 +50,7 @@ TEST(HardMirrors, PlanesThatAreNoneMirrorNothingAndSaySo) {
     const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
     for (const osg::Vec4d& plane :
          {osg::Vec4d(0, 0, 0, 1), osg::Vec4d(nan, 0, 1, 0), osg::Vec4d(0, 0, infinity, 0), osg::Vec4d(0, 0, 1, nan)})
-        expectNothing(*mirror(plane), "cannot mirror in its plane");
+        expectNothing(*mirror(plane), "the plane's normal, or a transform above the node, is zero or not a number");
 }
 
 TEST(HardMirrors, WithoutASurfaceNothingIsMirrored) {
@@ -63,7 +63,7 @@ TEST(HardMirrors, ASurfaceOfAnotherGraphIsSaid) {
     const auto node = mirror();
     const auto other = group(panels);
     node->setSurface({find(*other, "floor")});
-    expectNothing(*node, "not in this graph");
+    expectNothing(*node, "is not in this scene graph");
 }
 
 TEST(HardMirrors, ATransparentSurfaceIsSaid) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <support/DiscShadow.h>
 
-#include <gnomon/ScreenPass.h>
-#include <gnomon/SoftMarkJob.h>
+#include <gnomon/compositor/SoftMarkJob.h>
+#include <gnomon/gl/ScreenPass.h>
 #include <osg/GLExtensions>
 #include <osg/Program>
 #include <osg/State>
@@ -93,7 +93,7 @@ osg::ref_ptr<gnomon::MarkJob> markOf(const DiscShadow& disc) {
 } // namespace
 
 std::vector<osg::ref_ptr<gnomon::MarkJob>>
-DiscShadow::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight& light, const gnomon::GroupCasters&) const {
+DiscShadow::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight& light, const gnomon::FrameCasters&) const {
     if (!lights.empty() && !lights.count(light.number)) return {};
     return {inner < outer ? markOf<SoftDiscMark>(*this) : markOf<DiscMark<gnomon::MarkJob>>(*this)};
 }

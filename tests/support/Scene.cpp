@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <support/Scene.h>
 
+#include <gnomon/EffectNode.h>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/NodeVisitor>
@@ -30,6 +31,17 @@ struct Finder : osg::NodeVisitor {
     }
     std::string name;
     osg::Node* found = nullptr;
+};
+
+struct OptionsSetter : osg::NodeVisitor {
+    explicit OptionsSetter(const gnomon::CompositorOptions& all)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), options(all) {}
+    void apply(osg::Group& node) override {
+        if (auto* group = dynamic_cast<gnomon::ShadowCasterGroup*>(&node)) group->setCompositorOptions(options);
+        if (auto* effect = dynamic_cast<gnomon::EffectNode*>(&node)) effect->setCompositorOptions(options);
+        traverse(node);
+    }
+    gnomon::CompositorOptions options;
 };
 
 } // namespace
@@ -74,6 +86,24 @@ osg::ref_ptr<gnomon::PlanarShadowNode> planar(osg::Node* receiver) {
     osg::ref_ptr<gnomon::PlanarShadowNode> technique = new gnomon::PlanarShadowNode(osg::Vec4d(0.0, 0.0, 1.0, 0.0));
     if (receiver) technique->setReceiver({receiver});
     return technique;
+}
+
+osg::Node* withOptions(osg::Node* root, const gnomon::CompositorOptions& options) {
+    OptionsSetter setter(options);
+    root->accept(setter);
+    return root;
+}
+
+osg::Node* reserving(osg::Node* root, unsigned stencilBits) {
+    gnomon::CompositorOptions options;
+    options.reservedStencilBits = stencilBits;
+    return withOptions(root, options);
+}
+
+osg::Node* unfiltered(osg::Node* root) {
+    gnomon::CompositorOptions options;
+    options.filter = false;
+    return withOptions(root, options);
 }
 
 osg::Node* find(osg::Node& root, const std::string& name) {

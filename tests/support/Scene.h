@@ -35,6 +35,13 @@ Scene groundScene(const std::vector<Mesh>& casters, double half = 8.0, const osg
 /// Technique for the plane z = 0; receiver named if given.
 osg::ref_ptr<gnomon::PlanarShadowNode> planar(osg::Node* receiver = nullptr);
 
+/// Sets the options of all groups and effects at and below a node. @return the node.
+osg::Node* withOptions(osg::Node* root, const gnomon::CompositorOptions& options);
+/// The same with these stencil bits reserved, or none.
+osg::Node* reserving(osg::Node* root, unsigned stencilBits);
+/// The same with nothing left out.
+osg::Node* unfiltered(osg::Node* root);
+
 /// First node of that name; null if there is none.
 osg::Node* find(osg::Node& root, const std::string& name);
 

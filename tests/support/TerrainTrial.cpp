@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/TerrainTrial.h"
 
-#include <gnomon/BoxShadow.h>
-#include <gnomon/TerrainShadow.h>
+#include <gnomon/drape/BoxShadow.h>
+#include <gnomon/onterrain/TerrainShadow.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ConvexParts.h>
-#include <gnomon/Drape.h>
+#include <gnomon/drape/Drape.h>
+#include <gnomon/geometry/ConvexParts.h>
 
 #include <glm/vec2.hpp>
 

@@ -5,25 +5,31 @@
 
 namespace gnomon::metrics {
 
-/// M4: how far the drawn boundary of a shadow (V = 0.5) lies from the true one (T_a = 0.5), both ways. All in px.
+/// M4: distance between the drawn boundary of a shadow (V = 0.5) and the true one (T_a = 0.5), px.
 ///
-/// Every piece of at most 0.5 px of either boundary gives the distance from its middle to the nearest point of the
-/// other, and counts by its length. Pixels of a perspective view are not metres: use a nadir orthographic camera for
-/// those.
+/// Both boundaries are cut into pieces of at most 0.5 px. Each piece gives the distance from its midpoint to the
+/// nearest point of the other boundary, weighted by its length.
+/// For metres, use an orthographic camera that looks straight down: pixels of a perspective view are not metres.
 struct BoundaryDistance {
-    double mean = 0.0;
-    double p95 = 0.0;        ///< 95th percentile: the headline of accuracy.
-    double max = 0.0;        ///< the Hausdorff distance; one pixel of acne sets it: a flag of stability only.
-    double signedMean = 0.0; ///< outwards of the true shadow is +: the shadow is dilated; - eroded.
-    double drawnLength = 0.0, trueLength = 0.0;
+    double mean = 0.0;       ///< Mean distance.
+    double p95 = 0.0;        ///< 95th percentile of the distances: the headline of accuracy.
+    double max = 0.0;        ///< Greatest (Hausdorff) distance. A single pixel of acne sets it: a flag of stability.
+    double signedMean = 0.0; ///< Mean with a sign: + if the drawn shadow is too large, - if it is too small.
+    double drawnLength = 0.0, trueLength = 0.0; ///< Lengths of the two boundaries.
 };
 
-/// @param visibility  V.    @param lit  T_a.    Both finite in `within`, all of one size.
-/// @param within      R+: only squares of four such pixel centres are looked at.
-/// @return nullopt unless both boundaries exist: there is no distance to nothing.
+/// Measures M4.
 ///
-/// A hard V, 0 or 1 at pixel centres, has its boundary known to about half a pixel at each place; the mean over a
-/// slanting edge is far better. Source: Huttenlocher et al., "Comparing images using the Hausdorff distance", PAMI 1993.
+/// @param visibility  V, finite in `within`.
+/// @param lit         T_a, finite in `within`. All three have one size.
+/// @param within      R+. Only squares of four such pixel centres count.
+/// @return            nullopt unless both boundaries exist.
+///
+/// If V is hard, 0 or 1 at pixel centres, each place of its boundary is known to half a pixel. The mean over a slanting
+/// edge is much more precise.
+///
+/// Source
+/// - D. Huttenlocher et al., "Comparing images using the Hausdorff distance", PAMI 1993.
 std::optional<BoundaryDistance> boundaryDistance(const Picture& visibility, const Picture& lit, const Mask& within);
 
 } // namespace gnomon::metrics

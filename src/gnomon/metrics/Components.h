@@ -4,12 +4,13 @@
 
 namespace gnomon::metrics {
 
-/// The 8-connected parts of a set of pixels.
+/// The connected parts of a set of pixels. A pixel is connected to its 8 neighbours.
 struct Components {
-    Grid<int> part; ///< number of each pixel's part, from 0; -1 outside the set.
-    int count = 0;
+    Grid<int> part; ///< Number of each pixel's part, from 0; -1 outside the set.
+    int count = 0;  ///< Number of parts.
 };
 
+/// Finds the connected parts of a set.
 Components components(const Mask& mask);
 
 } // namespace gnomon::metrics

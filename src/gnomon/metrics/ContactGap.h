@@ -5,11 +5,14 @@
 
 namespace gnomon::metrics {
 
-/// How far shadows have come off what casts them: the mean length, in metres along the sun's azimuth on level ground, of
-/// the lit gaps `peterPanning`. Each connected gap's horizontal area, divided by its breadth across the azimuth.
+/// Measures how far shadows have come off their casters: the mean length of the lit gaps at contact, metres.
 ///
-/// nullopt without such pixels, without positions, or with the light straight up or unknown. Breadth is that of whole
-/// pixels: exact where pixels lie along the azimuth, up to a pixel too much (and the gap too short) else.
+/// The length is along the sun's azimuth on level ground. It is the gaps' horizontal area divided by their breadth
+/// across the azimuth. The breadth may be a pixel too large, unless the pixels lie along the azimuth.
+///
+/// @param peterPanning  the pixels of the gaps.
+/// @param truth         truth of the same size, with positions and the direction to the light.
+/// @return              nullopt without gaps or positions, or if the light is straight up or unknown.
 std::optional<double> contactGap(const Mask& peterPanning, const TruthMaps& truth);
 
 } // namespace gnomon::metrics

@@ -6,30 +6,36 @@
 
 namespace gnomon::metrics {
 
-/// One frame of a sequence. All of one size.
+/// One frame of a sequence. All frames and grids have one size.
 struct FlickerFrame {
-    Picture visibility;            ///< V
-    TruthMaps truth;               ///< lit, litCentre, receiver and position are used. Positions are in a frame that
-                                   ///< moves with the scene: a point of a surface keeps its own.
-    Mask facing;                   ///< R+
-    glm::dmat4 clipFromPosition{}; ///< the camera, as OpenGL's projection * modelview
+    Picture visibility;            ///< V.
+    TruthMaps truth;               ///< Uses lit, litCentre, receiver and position. A surface point must keep its
+                                   ///< position, even if the object moves.
+    Mask facing;                   ///< R+.
+    glm::dmat4 clipFromPosition{}; ///< The camera, as OpenGL's projection * modelview.
 };
 
-/// M7: what changes from frame to frame though it should not. Give it frames in order; it keeps the last one only.
+/// M7: flicker, the change between frames that the truth does not have.
 ///
-/// e(p) = max(0, |V_k(p) - V_{k-1}(p')| - max over 3 x 3 of |T_k - T_{k-1}|), where p' is the same point of the surface
-/// one frame before, fetched bilinearly; known where all fetched pixels were R+ of the same receiver. T's change is the
-/// greater of T_a's and T_c's, so that a perfect picture is still whether its edges are smooth or hard.
+/// Add the frames in order. The meter keeps only the last one.
+///
+///     e(p) = max(0, |V_k(p) - V_{k-1}(p')| - max over 3 x 3 of |T_k - T_{k-1}|)
+///
+/// p' is the same surface point one frame before, fetched bilinearly. It is known if all fetched pixels were R+ of
+/// the same receiver. The change of T is the greater one of T_a and T_c. A perfect picture therefore has no flicker,
+/// whether its edges are smooth or hard.
 class FlickerMeter {
 public:
+    /// Adds the next frame.
     void add(FlickerFrame frame);
 
+    /// Number of frames added.
     std::size_t frames() const { return _frames; }
-    /// Mean e, 0 to 1 and above; nullopt before two frames share a point.
+    /// Mean e, 0 or more. nullopt before two frames share a point.
     std::optional<double> energy() const;
-    /// Share of R+ (of all frames but the first) with e > 0.25.
+    /// Share of the pixels of R+ with e > 0.25, over all frames but the first.
     std::optional<double> share() const;
-    /// Standard deviation over frames of M4's signed mean, px; nullopt before two frames have a boundary.
+    /// Edge crawl: standard deviation over frames of M4's signed mean, px. nullopt before two frames have a boundary.
     std::optional<double> crawl() const;
 
 private:

@@ -5,23 +5,32 @@
 
 namespace gnomon::metrics {
 
-/// One value a pixel. Pixel (0, 0) is the lower left one, as in OpenGL; its centre lies at (0.5, 0.5) px.
+/// A picture of any type: one value a pixel.
+///
+/// Pixel (0, 0) is the lower left one, as in OpenGL. Its centre lies at (0.5, 0.5) px.
 template <typename T>
 struct Grid {
-    int width = 0, height = 0; ///< px
-    std::vector<T> cells;      ///< width * height of them, row after row, the lowest first.
+    int width = 0, height = 0; ///< Size, px.
+    std::vector<T> cells;      ///< width * height values, row by row, the lowest row first.
 
+    /// A grid without pixels.
     Grid() = default;
+    /// A grid with `value` at every pixel.
     Grid(int w, int h, const T& value = T())
         : width(w), height(h), cells(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
 
+    /// True if there is no pixel.
     bool empty() const { return cells.empty(); }
+    /// True if (x, y) is a pixel of the grid.
     bool holds(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
+    /// True if both grids have the same width and height.
     template <typename U>
     bool sameSize(const Grid<U>& other) const {
         return width == other.width && height == other.height;
     }
+    /// The value at pixel (x, y), which the grid must hold.
     T& at(int x, int y) { return cells[index(x, y)]; }
+    /// The value at pixel (x, y), which the grid must hold.
     const T& at(int x, int y) const { return cells[index(x, y)]; }
 
 private:
@@ -30,10 +39,12 @@ private:
     }
 };
 
+/// A picture of numbers.
 using Picture = Grid<double>;
-using Mask = Grid<unsigned char>; ///< 1 in the set, 0 outside.
+/// A set of pixels: 1 in the set, 0 outside.
+using Mask = Grid<unsigned char>;
 
-/// Pixels in the set.
+/// Number of pixels in a set.
 std::size_t count(const Mask& mask);
 
 } // namespace gnomon::metrics

@@ -5,18 +5,27 @@
 
 namespace gnomon::metrics {
 
-/// A straight piece of a line in a picture, in px; at most √2 long.
+/// A straight piece of a line in a picture, at most √2 px long.
 struct Segment {
-    glm::dvec2 from, to;
+    glm::dvec2 from, to; ///< Ends, px.
 };
 
-double length(const Segment& segment);                            ///< px
-double distance(const Segment& segment, const glm::dvec2& point); ///< px, of the nearest point of the segment
+/// Length of a segment, px.
+double length(const Segment& segment);
+/// Distance from a point to the nearest point of a segment, px.
+double distance(const Segment& segment, const glm::dvec2& point);
 
-/// Where a picture passes `level`, by marching squares between pixel centres: linear along the four sides of each
-/// square, straight within. Exact for a picture that is linear in x and y. Saddles are cut by the mean of their corners.
-/// Only squares whose four corners are in `within`; a pixel is below if its value < level. Pieces of no length are left
-/// out. Source: W. Lorensen and H. Cline, "Marching Cubes", SIGGRAPH 1987, in two dimensions.
+/// Finds the line where a picture crosses `level`, by marching squares between pixel centres.
+///
+/// The line is exact for a picture that is linear in x and y. Saddles are cut by the mean of their corners. Pieces
+/// without length are left out.
+///
+/// @param picture  values at pixel centres.
+/// @param level    a pixel is below if its value < level.
+/// @param within   only squares whose four corners are in this set count.
+///
+/// Source
+/// - W. Lorensen and H. Cline, "Marching Cubes", SIGGRAPH 1987, in two dimensions.
 std::vector<Segment> isoLine(const Picture& picture, double level, const Mask& within);
 
 } // namespace gnomon::metrics

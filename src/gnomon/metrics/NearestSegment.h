@@ -5,16 +5,22 @@
 
 namespace gnomon::metrics {
 
-/// Distance to the nearest of many short segments. Exact; about a microsecond a question, by a k-d tree of middles.
+/// Finds the exact distance from a point to the nearest of many short segments.
+///
+/// Cost
+/// - A k-d tree over the segments' midpoints; a search in it for each point.
+/// Threads
+/// - Any number may ask one object.
 class NearestSegment {
 public:
-    /// @param segments  each at most √2 px long, as isoLine() makes them. Must outlive this.
+    /// Builds the tree.
+    /// @param segments  each at most √2 px long, as isoLine() makes them. They must outlive this object.
     explicit NearestSegment(const std::vector<Segment>& segments);
     ~NearestSegment();
     NearestSegment(const NearestSegment&) = delete;
     NearestSegment& operator=(const NearestSegment&) = delete;
 
-    /// px; infinity if there is no segment.
+    /// Distance from a point to the nearest segment, px. Infinity if there is no segment.
     double distance(const glm::dvec2& point) const;
 
 private:

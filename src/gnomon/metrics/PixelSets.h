@@ -4,22 +4,25 @@
 
 namespace gnomon::metrics {
 
-/// Which pixels a metric looks at. All but droppedShare leave out pixels whose visibility is not measured.
+/// The sets of pixels that metrics look at. No set has pixels whose visibility is unmeasured.
 struct PixelSets {
-    Mask agreeing;     ///< R: the id is drawn as it is true, here and in the 4 neighbours, and theirs is the same.
-    Mask facing;       ///< R+: of R, N_g.L > 0.05.
-    Mask certain;      ///< Rc: of R+, all rays agree (T_a is 0 or 1). The headline set.
-    Mask terminator;   ///< of R, 0 < N_g.L <= 0.05: reported apart.
-    Mask selfShadowed; ///< of R+, blocked by its own object within 2 edge lengths: smooth shading's artefact.
-    double droppedShare = 0.0; ///< share of the surface's pixels that R leaves out for their ids, 0 to 1.
+    Mask agreeing;             ///< R: the pixel and its 4 neighbours are one surface, in the truth and as drawn.
+    Mask facing;               ///< R+: pixels of R with N_g.L > 0.05.
+    Mask certain;              ///< Rc: pixels of R+ whose rays all agree (T_a is 0 or 1). The headline set.
+    Mask terminator;           ///< Pixels of R with 0 < N_g.L <= 0.05. Reported apart.
+    Mask selfShadowed;         ///< Pixels of R+ that their own object blocks within 2 edge lengths. Reported apart.
+    double droppedShare = 0.0; ///< Share of surface pixels that R leaves out because of their ids, 0 … 1.
 
-    /// Whether the scene may be judged: at most 5 % dropped.
+    /// True if the picture may be judged: at most 5 % of the surface pixels are dropped.
     bool sound() const { return droppedShare <= 0.05; }
 };
 
-/// @param visibility  V, NaN where not measured. Same size as the truth.
-/// A truth without drawn ids counts as drawn truly: silhouettes alone are dropped then. Without blocker ids or edge
-/// lengths nothing is selfShadowed. N_g.L of NaN is in no set but R.
+/// Sorts the pixels of a picture into sets.
+///
+/// Without TruthMaps::drawn, only silhouettes are dropped. Without blocker ids or edge lengths, selfShadowed is empty.
+/// A pixel whose N_g.L is NaN is in R alone.
+///
+/// @param visibility  V, NaN at unmeasured pixels. Same size as the truth.
 PixelSets pixelSets(const TruthMaps& truth, const Picture& visibility);
 
 } // namespace gnomon::metrics

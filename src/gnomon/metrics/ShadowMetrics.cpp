@@ -12,7 +12,8 @@ constexpr double lostShadow = 0.2;
 template <typename T>
 void require(const Picture& visibility, const Grid<T>& grid, bool optional, const char* name) {
     if (visibility.sameSize(grid) || (optional && grid.empty())) return;
-    throw std::invalid_argument(std::string("the truth's ") + name + " is not of the pictures' size.");
+    throw std::invalid_argument(std::string("the truth's ") + name +
+                                " and the pictures differ in size. Give maps of the pictures' size.");
 }
 
 void requireSizes(const Picture& visibility, const TruthMaps& truth) {

@@ -8,33 +8,45 @@
 
 namespace gnomon::metrics {
 
-/// M8, as far as a picture shows it: counted, never averaged. Errors of OpenGL, crashes and hangs are the runner's.
+/// M8: catastrophes that a picture shows. Count them; do not average them.
+///
+/// The program that renders counts OpenGL errors, crashes and hangs.
 struct Catastrophes {
-    std::size_t notFinite = 0; ///< pixels with NaN or infinity in a picture
-    bool allShadowed = false;  ///< every pixel of R+ is shadowed, and should not be
-    bool allLit = false;       ///< every pixel of R+ is lit, and should not be
-    bool lostShadow = false;   ///< intersection over union on Rc < 0.2
+    std::size_t notFinite = 0; ///< Number of pixels with NaN or infinity in a picture.
+    bool allShadowed = false;  ///< True if every pixel of R+ is shadowed, wrongly.
+    bool allLit = false;       ///< True if every pixel of R+ is lit, wrongly.
+    bool lostShadow = false;   ///< True if the intersection over union on Rc is below 0.2.
 
+    /// True if there is a catastrophe.
     bool any() const { return notFinite > 0 || allShadowed || allLit || lostShadow; }
 };
 
-/// Everything one view of one light says: metrics M1 to M6 and M8. M7 needs a sequence: FlickerMeter.
+/// The errors of one picture with one light: metrics M1 to M6 and M8.
+///
+/// Use FlickerMeter for M7, which needs a sequence of pictures.
 struct ShadowMetrics {
-    std::size_t agreeing = 0, facing = 0, certain = 0; ///< pixels of R, R+, Rc
-    std::size_t unmeasured = 0;                        ///< lit surface's pixels without a V
-    double droppedShare = 0.0;                         ///< see PixelSets
-    bool sound = true;                                 ///< see PixelSets::sound()
-    Confusion headline, raw;                           ///< on Rc, on R+
-    Confusion terminator, selfShadowed;                ///< reported apart
-    std::optional<BoundaryDistance> boundary;
-    CauseSplit causes;
-    IntensityError pointSun, discSun; ///< the second is empty without truth.litByDisc
-    IntensityError thin;              ///< of a point sun, both filtered by 4 x 4 px
-    Catastrophes catastrophes;
+    std::size_t agreeing = 0, facing = 0, certain = 0; ///< Number of pixels in R, R+ and Rc; see PixelSets.
+    std::size_t unmeasured = 0;                        ///< Number of pixels facing the light without a V.
+    double droppedShare = 0.0;                         ///< See PixelSets::droppedShare.
+    bool sound = true;                                 ///< See PixelSets::sound().
+    Confusion headline, raw;                           ///< On Rc and on R+.
+    Confusion terminator, selfShadowed;                ///< On the sets of these names, reported apart.
+    std::optional<BoundaryDistance> boundary;          ///< M4; nullopt without both boundaries.
+    CauseSplit causes;                                 ///< M5.
+    IntensityError pointSun, discSun;                  ///< M6. The second is empty without TruthMaps::litByDisc.
+    IntensityError thin;                               ///< M6 for a point sun, after a filter of 4 x 4 px.
+    Catastrophes catastrophes;                         ///< M8.
 };
 
-/// All of it. About 0.1 s for a picture of 800 x 600; up to 2 s where half of all pixels are noise.
-/// @throws std::invalid_argument if sizes differ, or a grid that is not optional is missing.
+/// Measures one picture by all these metrics. The functions for single metrics stand in the other headers.
+///
+/// @param visibility  V, by the function visibility().
+/// @param truth       truth of the same size.
+/// @param limits      distances that sort errors by cause.
+/// @throws std::invalid_argument if sizes differ or a required grid is missing.
+///
+/// Cost
+/// - A fraction of a second for a picture of 800 x 600, and seconds if half of its pixels are noise.
 ShadowMetrics shadowMetrics(const Visibility& visibility, const TruthMaps& truth, const CauseLimits& limits = {});
 
 } // namespace gnomon::metrics

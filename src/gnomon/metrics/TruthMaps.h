@@ -5,20 +5,22 @@
 
 namespace gnomon::metrics {
 
-/// What is true at each pixel of one view of one light. All grids have one size; those called optional may be empty.
+/// The truth at each pixel of one view with one light: the input that all metrics share.
+///
+/// shadowTruth() traces one. All grids have one size. Optional grids may be empty.
 struct TruthMaps {
-    Picture lit;                  ///< T_a: share, 0 to 1, of a pixel's rays (16 in a 4 x 4 grid) that reach the light.
-    Mask litCentre;               ///< T_c: whether the ray from the pixel's centre does.
-    Picture blockerDistance;      ///< t_b: metres along the centre ray to what blocks it; anything where T_c is lit.
-    Grid<int> receiver;           ///< id of the surface at the pixel's centre; 0 is none (background).
-    Picture facing;               ///< N_g.L, -1 to 1: cosine between geometric normal and the way to the light.
-    Grid<int> drawn;              ///< optional: the same id as the renderer drew it.
-    Picture litByDisc;            ///< optional: T_a of the sun's disc, 0.533 degrees across.
-    Grid<int> blocker;            ///< optional: id of what blocks the centre ray; 0 is nothing.
-    Picture edgeLength;           ///< optional: metres, longest edge of the receiver's triangle.
-    Grid<glm::dvec3> position;    ///< optional: metres, point of the surface at the pixel's centre.
-    glm::dvec3 towardsLight{0.0}; ///< optional, any length: the way to the light; zero is unknown.
-    glm::dvec3 up{0.0, 0.0, 1.0}; ///< unit.
+    Picture lit;                  ///< T_a: share, 0 … 1, of a pixel's rays (16 in a 4 x 4 grid) that reach the light.
+    Mask litCentre;               ///< T_c: 1 if the ray from the pixel's centre reaches the light.
+    Picture blockerDistance;      ///< t_b: metres along the centre ray to its blocker. Ignored where T_c is 1.
+    Grid<int> receiver;           ///< Id of the surface at the pixel's centre; 0 is the background.
+    Picture facing;               ///< N_g.L, -1 … 1: cosine between geometric normal and direction to the light.
+    Grid<int> drawn;              ///< Optional: the receiver id as the renderer drew it.
+    Picture litByDisc;            ///< Optional: T_a for the sun's disc, 0.533 degrees across.
+    Grid<int> blocker;            ///< Optional: id of the object that blocks the centre ray; 0 is none.
+    Picture edgeLength;           ///< Optional: metres, longest edge of the receiver's triangle.
+    Grid<glm::dvec3> position;    ///< Optional: metres, surface point at the pixel's centre.
+    glm::dvec3 towardsLight{0.0}; ///< Optional: direction to the light, any length; zero is unknown.
+    glm::dvec3 up{0.0, 0.0, 1.0}; ///< Unit vector upwards.
 };
 
 } // namespace gnomon::metrics

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "ChartOptions.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr int leastFrames = 2, mostFrames = 10000;
+constexpr int mostFlickerFrames = 1000;
+constexpr int leastSide = 32; // pixels; smaller pictures have no pixel that is judged
+
+// Every technique is measured, each with its own casters and receivers, under light of the chart's own.
+constexpr std::array<const char*, 5> notOfUse{"--shadow", "--casters", "--ambient", "--diffuse", "--background"};
+
+using Text = const std::string&;
+
+void addChartOptions(Options& table, ChartOptions& into) {
+    table.push_back({"--scene", "NAME", "built-in scene, see --list", "all, if no FILE is given",
+                     [&into](Text t) { into.scenes.push_back(t); }, true});
+    table.push_back({"--technique", "TEXT", "measure only techniques whose name contains this, see --list", "all",
+                     [&into](Text t) { into.technique = t; }});
+    table.push_back({"--out", "FOLDER", "folder for results and pictures; created if missing", "chart-out",
+                     [&into](Text t) { into.out = t; }});
+    table.push_back({"--quick", "",
+                     "small pictures, few frames, narrow sweeps, and three scenes if none is named: at most five "
+                     "minutes on\n      two cores",
+                     "", [&into](Text) { into.quick = true; }});
+    table.push_back({"--frames", "N", "frames to time for each motion, 2 to 10000", "60, with --quick 12",
+                     [&into](Text t) { into.frames = readWhole(t, leastFrames, mostFrames); }});
+    table.push_back({"--flicker", "N",
+                     "frames of each of the two films that flicker is measured in, 0 to 1000; fewer than 2 leave flicker\n"
+                     "      out and save time",
+                     "16, with --quick 8", [&into](Text t) { into.flicker = readWhole(t, 0, mostFlickerFrames); }});
+    table.push_back({"--resume", "",
+                     "continue an interrupted run; scenes that are complete in FOLDER are not measured again", "",
+                     [&into](Text) { into.resume = true; }});
+    table.push_back({"--again", "FOLDER",
+                     "measure nothing; write the figures and index.html in FOLDER again from its results.json", "",
+                     [&into](Text t) { into.again = t; }});
+    table.push_back(
+        {"--list", "", "print the names of scenes and techniques", "", [&into](Text) { into.list = true; }});
+    table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
+}
+
+bool isOfUse(const Option& option) {
+    return std::find(notOfUse.begin(), notOfUse.end(), option.name) == notOfUse.end();
+}
+
+Options chartOptions(ChartOptions& into) {
+    Options table;
+    addChartOptions(table, into);
+    for (Option& option : viewOptions(into.view)) {
+        if (option.name == "--light") option.repeats = false;
+        if (option.name == "--size") option.fallback = "640x480, with --quick 320x240";
+        if (isOfUse(option)) table.push_back(option);
+    }
+    return table;
+}
+
+void setSize(ChartOptions& options, bool given) {
+    if (!given) {
+        options.view.width = options.quick ? 320 : 640;
+        options.view.height = options.quick ? 240 : 480;
+    }
+    if (std::min(options.view.width, options.view.height) < leastSide)
+        throw std::invalid_argument("--size is too small to be judged. Allowed: 32x32 pixels or more.");
+}
+
+} // namespace
+
+ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
+    ChartOptions options;
+    const bool sized = arguments.find("--size") > 0;
+    readOptions(arguments, chartOptions(options));
+    readOsgOptions(arguments);
+    if (options.help || options.list) return options;
+    takeFiles(arguments, options.view);
+    if (!options.again.empty() && !options.view.files.empty())
+        throw std::invalid_argument("--again and files exclude each other. Give one of them.");
+    if (!options.view.files.empty() && !options.scenes.empty())
+        throw std::invalid_argument("--scene and files exclude each other. Give one of them.");
+    requireConsistent(options.view);
+    setSize(options, sized);
+    return options;
+}
+
+std::string chartHelp() {
+    ChartOptions defaults;
+    return "gnomonchart [FILE...] [OPTION...]\n"
+           "Measures how fast and how wrong every shadow technique is, Gnomon's and osgShadow's in the same run: in\n"
+           "built-in scenes, or in a scene of your own. FILES form one scene, in any format that OpenSceneGraph "
+           "reads.\n\n"
+           "Writes results.json, results.csv, pictures and index.html. Ctrl-C ends the run early and keeps its "
+           "results.\n"
+           "Lengths are in the scene's unit. The z axis points up. Times are the milliseconds that shadows add to a "
+           "frame.\n\n" +
+           describeOptions(chartOptions(defaults)) + osgOptionsHelp() +
+           "\nThe options for scene, light and camera apply to FILES only.\n"
+           "\nExample: gnomonchart bunny.obj --quick --out bunny-chart\n";
+}
+
+} // namespace gnomon::examples

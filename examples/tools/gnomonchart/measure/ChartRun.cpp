@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+#include "ChartRun.h"
+#include "Complaints.h"
+#include "Contender.h"
+#include "Errors.h"
+#include "FlickerRun.h"
+#include "Machine.h"
+#include "OutputFile.h"
+#include "Overlay.h"
+#include "Pictures.h"
+#include "Progress.h"
+#include "Race.h"
+#include "ShaderCache.h"
+
+#include <gnomon/metrics/Intensity.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+// Rough costs in pictures drawn, for the time left.
+constexpr double truthWork = 40.0, filmFrameWork = 15.0, stillWork = 6.0, sweptValueWork = 5.0;
+
+/// One contender or, with a peer, the best that its sweep finds.
+struct Entry {
+    Contender contender;
+    const Peer* peer = nullptr;
+};
+
+bool isAsked(const std::string& technique, const std::string& part) { return technique.find(part) != technique.npos; }
+
+std::vector<Entry> entries(const std::string& part) {
+    std::vector<Entry> result;
+    for (const Contender& contender : gnomonContenders())
+        if (isAsked(contender.technique, part)) result.push_back({contender});
+    for (const Peer& peer : peers()) {
+        if (!isAsked(peer.name, part)) continue;
+        result.push_back({peerContender(peer, "defaults", {})});
+        if (!peer.knobs.empty()) result.push_back({peerContender(peer, "best", {}), &peer});
+    }
+    if (result.empty()) throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
+    return result;
+}
+
+double sweepWork(const Peer& peer, SweepWidth width) {
+    std::size_t values = 0;
+    for (const Knob& knob : peer.knobs) values += knob.values.size();
+    return sweptValueWork * (width == SweepWidth::WIDE ? double(values) : std::min(double(values), 6.0));
+}
+
+std::vector<std::string> scenesLeft(const ChartPlan& plan) {
+    const auto& kept = plan.kept.scenes;
+    std::vector<std::string> left;
+    for (const std::string& name : plan.scenes)
+        if (std::none_of(kept.begin(), kept.end(), [&](const auto& scene) { return scene.name == name; }))
+            left.push_back(name);
+    return left;
+}
+
+class Run {
+public:
+    Run(const ChartPlan& plan, const std::function<void(const ChartResults&)>& save, const std::function<bool()>& stops)
+        : _plan(plan),
+          _save(save),
+          _stops(stops),
+          _entries(entries(plan.technique)),
+          _scenes(scenesLeft(plan)),
+          _progress(sceneWork() * double(_scenes.size())) {
+        _results = plan.kept;
+        _results.made = plan.made;
+        for (auto& fact : machineFacts()) _results.made.push_back(fact);
+        _results.made.emplace_back("load at the start", machineLoad());
+    }
+
+    ChartResults run() {
+        _save(_results);
+        for (std::size_t i = 0; i < _scenes.size() && !_stops(); ++i) {
+            if (!hasTime(i)) {
+                leaveOut(i);
+                break;
+            }
+            _done = sceneWork() * double(i);
+            tryScene(_scenes[i]);
+        }
+        _results.made.emplace_back("load at the end", machineLoad());
+        _results.complete = !_stops();
+        _save(_results);
+        return _results;
+    }
+
+private:
+    double contenderWork(const Entry& entry) const {
+        return stillWork + 4.0 * _plan.flickerFrames + (entry.peer ? sweepWork(*entry.peer, _plan.sweep) : 0.0);
+    }
+    double raceWork() const { return 2.0 * _plan.frames * double(_entries.size() + 1); }
+    double sceneWork() const {
+        double work = truthWork + 2.0 * _plan.flickerFrames * filmFrameWork + raceWork();
+        for (const Entry& entry : _entries) work += contenderWork(entry);
+        return work;
+    }
+
+    /// Whether the next scene ends in time if it takes as long as those before took on average, and a half more.
+    bool hasTime(std::size_t scenes) const {
+        const double spent = _progress.seconds();
+        return scenes == 0 || spent + 1.5 * spent / double(scenes) <= _plan.seconds;
+    }
+
+    void leaveOut(std::size_t from) {
+        std::string names;
+        for (std::size_t i = from; i < _scenes.size(); ++i) names += (i > from ? ", " : "") + _scenes[i];
+        _results.made.emplace_back("left out for lack of time", names);
+    }
+
+    void show(const std::string& doing) { _progress.show(_done, doing); }
+
+    /// A model that is not installed, say, costs its own scene and no other.
+    void tryScene(const std::string& name) {
+        try {
+            measureScene(name);
+        } catch (const std::exception& failure) {
+            if (_plan.scenes.size() == 1) throw;
+            _results.made.emplace_back("left out: " + name, failure.what());
+        }
+    }
+
+    void measureScene(const std::string& name) {
+        show(name + ": truth");
+        const Yardstick yardstick(_plan.scene(name), _plan.disc);
+        addScene(yardstick);
+        _done += truthWork;
+        makeFilms(yardstick);
+        _field = {_results.points.size(), {}, {}};
+        for (const Entry& entry : _entries) {
+            if (_stops()) return;
+            measureContender(entry, yardstick);
+            _done += contenderWork(entry);
+            _save(_results);
+        }
+        _films.clear();
+        raceAll(yardstick.scene());
+    }
+
+    void addScene(const Yardstick& yardstick) {
+        ChartSceneResult scene;
+        yardstick.describe(scene);
+        scene.truthPicture = fileName({scene.name, "truth"}, ".png");
+        write(*bytesOf(yardstick.shaded()), scene.truthPicture);
+        _results.scenes.push_back(scene);
+    }
+
+    void makeFilms(const Yardstick& yardstick) {
+        for (const Film::Motion motion : {Film::Motion::CAMERA, Film::Motion::LIGHT}) {
+            if (_stops() || _plan.flickerFrames < 2) return;
+            show(yardstick.scene().name + ": truth of moving pictures");
+            _films.emplace_back(yardstick, motion, _plan.flickerFrames, _stops);
+            _done += _plan.flickerFrames * filmFrameWork;
+        }
+    }
+
+    void measureContender(const Entry& entry, const Yardstick& yardstick) {
+        Contender contender = entry.contender;
+        show(yardstick.scene().name + ": " + contender.technique + ", " + contender.setting);
+        if (entry.peer) contender = swept(*entry.peer, yardstick);
+        if (entry.peer && contender.settings.empty())
+            repeatDefaults();
+        else
+            addPoint(contender, yardstick);
+    }
+
+    /// The best are the defaults, which were measured just before.
+    void repeatDefaults() {
+        ChartPoint point = _results.points.back();
+        point.setting = "best";
+        _results.points.push_back(std::move(point));
+        _field.racerOf.push_back(_field.racers.size() - 1);
+    }
+
+    void addPoint(const Contender& contender, const Yardstick& yardstick) {
+        ChartPoint point = pointOf(contender, yardstick);
+        try {
+            measureErrors(contender, yardstick, point);
+        } catch (const std::exception& error) {
+            point.failure = error.what();
+        }
+        for (const std::string& said : _complaints.take()) point.notes.push_back(said);
+        _results.points.push_back(std::move(point));
+        _field.racerOf.push_back(_field.racers.size());
+        _field.racers.push_back(contender);
+    }
+
+    Contender swept(const Peer& peer, const Yardstick& yardstick) {
+        const auto goesOn = [this] { return !_stops(); };
+        const Settings best = bestSettings(peer, yardstick, _plan.sweep, goesOn);
+        _complaints.take(); // of settings that lost
+        return peerContender(peer, "best", best);
+    }
+
+    static ChartPoint pointOf(const Contender& contender, const Yardstick& yardstick) {
+        ChartPoint point;
+        point.scene = yardstick.scene().name;
+        point.kit = contender.kit;
+        point.technique = contender.technique;
+        point.setting = contender.setting;
+        point.settings = contender.settings;
+        return point;
+    }
+
+    void measureErrors(const Contender& contender, const Yardstick& yardstick, ChartPoint& point) {
+        const std::string base = fileName({point.scene, point.technique, point.setting}, "");
+        Sight sight(contender, yardstick.scene());
+        const metrics::Visibility visibility = sight.visibility();
+        point.notes = sight.diagnosis();
+        point.errors = metrics::shadowMetrics(visibility, yardstick.maps(), yardstick.limits());
+        write(*errorOverlay(visibility.value, yardstick.maps()), point.overlay = base + "-errors.png");
+        const ShadedPicture shaded = shadedPicture(contender, yardstick.scene());
+        point.shadedRmse = metrics::shadedError(shaded, yardstick.shaded(), yardstick.agreeing());
+        write(*bytesOf(shaded), point.picture = base + ".png");
+        measureFlicker(sight, point);
+    }
+
+    /// Of the two films the worse.
+    void measureFlicker(Sight& sight, ChartPoint& point) {
+        for (const Film& film : _films) {
+            const metrics::FlickerMeter meter = film.measure(sight, _stops);
+            if (_stops()) return;                                                // half a film is no measure
+            point.flickerEnergy = std::max(point.flickerEnergy, meter.energy()); // nothing is less than anything
+            point.flickerShare = std::max(point.flickerShare, meter.share());
+            point.crawl = std::max(point.crawl, meter.crawl());
+        }
+    }
+
+    void raceAll(const ChartScene& scene) {
+        if (_stops()) return;
+        show(scene.name + ": starting " + std::to_string(_field.racers.size()) + " viewers");
+        const double before = _done;
+        const RaceResults race = examples::race(scene, _field.racers, _plan.frames, _shaders, [&](int done, int all) {
+            _done = before + raceWork() * done / all;
+            show(scene.name + ": timing, round " + std::to_string(done + 1) + " of " + std::to_string(all));
+            return !_stops();
+        });
+        _complaints.take();
+        _results.scenes.back().frame = race.frame;
+        for (std::size_t i = 0; i < _field.racerOf.size(); ++i)
+            setCost(race.contenders[_field.racerOf[i]], _results.points[_field.firstPoint + i]);
+        _save(_results);
+    }
+
+    static void setCost(const RaceResult& result, ChartPoint& point) {
+        point.cost = result.cost;
+        if (point.failure.empty()) point.failure = result.failure;
+    }
+
+    void write(const osg::Image& image, const std::string& file) const {
+        OutputFile(_plan.folder + "/" + file).write(image);
+    }
+
+    /// Who races in the scene that is being measured.
+    struct Field {
+        std::size_t firstPoint = 0;
+        std::vector<Contender> racers;
+        std::vector<std::size_t> racerOf; ///< by points from firstPoint on.
+    };
+
+    const ShaderCache _shaders; // before any context
+    const ChartPlan& _plan;
+    const std::function<void(const ChartResults&)>& _save;
+    const std::function<bool()>& _stops;
+    const std::vector<Entry> _entries;
+    const std::vector<std::string> _scenes; ///< still to be measured.
+    Complaints _complaints;
+    ProgressLine _progress;
+    double _done = 0.0;
+    Field _field;
+    std::vector<Film> _films; ///< of the scene that is being measured.
+    ChartResults _results;
+};
+
+} // namespace
+
+ChartResults runChart(const ChartPlan& plan, const std::function<void(const ChartResults&)>& save,
+                      const std::function<bool()>& stops) {
+    return Run(plan, save, stops).run();
+}
+
+std::vector<std::string> chartTechniques() {
+    std::vector<std::string> names;
+    for (const Contender& contender : gnomonContenders())
+        if (names.empty() || names.back() != contender.technique) names.push_back(contender.technique);
+    for (const Peer& peer : peers()) names.push_back(peer.name);
+    return names;
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "Contender.h"
+#include "GnomonStaging.h"
+#include "PeerStaging.h"
+
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+enum class Receives { EVERYTHING, FLAT, TERRAIN }; // of ChartScene: all, receiver, terrain
+
+struct GnomonPoint {
+    const char* technique;
+    const char* setting;
+    const char* spec; ///< see gnomon::ShadowSpec.
+    Receives receives;
+};
+
+constexpr GnomonPoint gnomonPoints[] = {
+    {"planar", "relight", "planar", Receives::FLAT},
+    {"planar", "blend", "planar:composite=blend", Receives::FLAT},
+    {"box", "relight", "box", Receives::TERRAIN},
+    {"hull", "relight", "hull", Receives::TERRAIN},
+    {"hull", "blend", "hull:composite=blend", Receives::TERRAIN},
+    {"drape", "error 0.5", "drape:error=0.5", Receives::TERRAIN},
+    {"drape", "error 0.1", "drape", Receives::TERRAIN},
+    {"drape", "exact", "drape:error=0", Receives::TERRAIN},
+    {"map", "size 512", "map:size=512", Receives::EVERYTHING},
+    {"map", "size 1024", "map", Receives::EVERYTHING},
+    {"map", "size 2048", "map:size=2048", Receives::EVERYTHING},
+    {"map", "bilinear, size 1024", "map:filter=bilinear", Receives::EVERYTHING},
+    {"map", "nearest, size 1024", "map:filter=nearest", Receives::EVERYTHING},
+    {"map", "blend, nearest, size 256, one map", "map:filter=nearest,composite=blend,size=256,cascades=1",
+     Receives::EVERYTHING},
+    {"map", "blend, nearest, size 512, one map", "map:filter=nearest,composite=blend,size=512,cascades=1",
+     Receives::EVERYTHING},
+    {"map", "blend, nearest, size 1024, one map", "map:filter=nearest,composite=blend,cascades=1",
+     Receives::EVERYTHING},
+    {"map", "blend, nearest, size 512", "map:filter=nearest,composite=blend,size=512", Receives::EVERYTHING},
+    {"map", "blend, nearest, size 1024", "map:filter=nearest,composite=blend", Receives::EVERYTHING},
+    {"map", "blend, size 512", "map:composite=blend,size=512", Receives::EVERYTHING},
+    {"map", "blend, size 1024", "map:composite=blend", Receives::EVERYTHING},
+    {"map", "blend, size 2048", "map:composite=blend,size=2048", Receives::EVERYTHING},
+    {"map, smooth", "relight", "map:edges=smooth", Receives::EVERYTHING},
+    {"map, smooth", "blend, size 512", "map:edges=smooth,composite=blend,size=512", Receives::EVERYTHING},
+    {"map, smooth", "blend", "map:edges=smooth,composite=blend", Receives::EVERYTHING},
+    {"map, smooth", "blend, size 1536", "map:edges=smooth,composite=blend,size=1536", Receives::EVERYTHING},
+    {"map, smooth", "blend, size 2048", "map:edges=smooth,composite=blend,size=2048", Receives::EVERYTHING},
+    {"map, smooth", "blend, fine", "map:edges=smooth,composite=blend,filter=fine,size=4096", Receives::EVERYTHING},
+    {"map, smooth", "blend, bilinear", "map:edges=smooth,composite=blend,filter=bilinear", Receives::EVERYTHING},
+    {"map, smooth", "blend, bilinear, size 512", "map:edges=smooth,composite=blend,filter=bilinear,size=512",
+     Receives::EVERYTHING},
+    {"map, soft", "size 1024", "map:edges=soft", Receives::EVERYTHING},
+    {"map, soft", "size 2048", "map:edges=soft,size=2048", Receives::EVERYTHING},
+    {"map, soft", "blend, size 1024", "map:edges=soft,composite=blend", Receives::EVERYTHING},
+    {"map, soft", "blend, size 2048", "map:edges=soft,composite=blend,size=2048", Receives::EVERYTHING},
+    {"traced", "relight", "traced", Receives::EVERYTHING},
+    {"traced", "blend", "traced:composite=blend", Receives::EVERYTHING},
+};
+
+ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
+    ShadowSpec spec = parseShadowSpec(point.spec);
+    if (point.receives == Receives::EVERYTHING) return spec;
+    const bool flat = point.receives == Receives::FLAT;
+    spec.receiver = flat ? scene.receiver : scene.terrain;
+    if (spec.receiver.empty())
+        throw std::invalid_argument(spec.technique + " needs a " + (flat ? "flat receiver" : "terrain") +
+                                    ", but the scene names none.");
+    return spec;
+}
+
+Contender gnomonContender(const GnomonPoint& point) {
+    Contender result{"Gnomon", point.technique, point.setting, {{"--shadow", point.spec}}, {}};
+    result.stage = [point](const ChartScene& scene, Look look) {
+        return std::make_unique<GnomonStaging>(specFor(point, scene), scene, look);
+    };
+    return result;
+}
+
+} // namespace
+
+Contender plainContender() {
+    Contender result{"", "none", "", {}, {}};
+    result.stage = [](const ChartScene& scene, Look look) { return std::make_unique<PlainStaging>(scene, look); };
+    return result;
+}
+
+std::vector<Contender> gnomonContenders() {
+    std::vector<Contender> result;
+    for (const GnomonPoint& point : gnomonPoints) result.push_back(gnomonContender(point));
+    return result;
+}
+
+Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings) {
+    Contender result{"osgShadow", peer.name, setting, settings, {}};
+    result.stage = [&peer, settings](const ChartScene& scene, Look look) {
+        return std::make_unique<PeerStaging>(peer, settings, scene, look);
+    };
+    return result;
+}
+
+} // namespace gnomon::examples

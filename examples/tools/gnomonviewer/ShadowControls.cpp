@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "ShadowControls.h"
+
+#include <gnomon/PlanarShadowNode.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+const char* onOff(bool on) { return on ? "on" : "OFF"; }
+
+std::string whole(double number) { return std::to_string(std::lround(number)); }
+
+/// The same moment by day, in the night the next minute of sunshine; within the polar night the same time of the next day.
+double nextDaylight(const SunClock& clock, double day) {
+    constexpr int minutes = 24 * 60;
+    for (int i = 0; i < minutes && !(clock.at(day).elevation > 0.0); ++i) day += 1.0 / minutes;
+    return day;
+}
+
+/// 0 to 360.
+double compass(double degrees) { return degrees - 360.0 * std::floor(degrees / 360.0); }
+
+} // namespace
+
+ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : _setup(setup), _sun(options.sun) {
+    if (!options.shadows.empty()) _view = options.shadows.front().view.value_or(_view);
+    const std::string given = options.shadows.empty() ? "none" : options.shadows.front().technique;
+    for (const std::string& name : shadowTechniques()) {
+        if (name == given) _chosen = _choices.size();
+        const bool asGiven = name == given && !options.shadows.empty();
+        _choices.push_back(asGiven ? options.shadows : Specs{parseShadowSpec(name)});
+    }
+}
+
+void ShadowControls::nextTechnique() {
+    _chosen = (_chosen + 1) % _choices.size();
+    cast();
+    applySwitches();
+}
+
+void ShadowControls::cast() {
+    _refusal.clear();
+    try {
+        _setup.castAsComposed(_choices[_chosen]);
+    } catch (const std::invalid_argument& error) {
+        _refusal = error.what();
+    }
+}
+
+void ShadowControls::toggleComposite() { _setup.toggleComposite(); }
+
+void ShadowControls::turnLight(double degrees) {
+    _moved.azimuth = compass(_moved.azimuth + degrees);
+    _setup.lights->move(_moved, _setup.bounds.center());
+}
+
+void ShadowControls::raiseLight(double degrees) {
+    const auto given = _setup.lights->given(_setup.bounds.center());
+    if (!given) return;
+    _moved.elevation = std::clamp(_moved.elevation + degrees, -90.0 - given->elevation, 90.0 - given->elevation);
+    _setup.lights->move(_moved, _setup.bounds.center());
+}
+
+void ShadowControls::runSun(double seconds) {
+    const auto given = _setup.lights->given(_setup.bounds.center());
+    if (!_sun || !given) return;
+    _sun->day = nextDaylight(_sun->clock, _sun->day + seconds / 86400.0);
+    const SunPosition now = _sun->clock.at(_sun->day);
+    _moved = {compass(now.azimuth - given->azimuth), std::max(now.elevation, 0.0) - given->elevation};
+    _setup.lights->move(_moved, _setup.bounds.center());
+}
+
+void ShadowControls::toggle(bool PlanarCures::*cure) {
+    _cures.*cure = !(_cures.*cure);
+    applySwitches();
+}
+
+void ShadowControls::nextView() {
+    using Map = ShadowMapTechnique;
+    _view = _view == Map::NOTHING  ? Map::MAP
+            : _view == Map::MAP    ? Map::TEXELS
+            : _view == Map::TEXELS ? Map::CASCADES
+                                   : Map::NOTHING;
+    applySwitches();
+}
+
+void ShadowControls::applySwitches() {
+    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
+        if (auto* map = dynamic_cast<ShadowMapTechnique*>(technique.get())) map->setView(_view);
+        auto* planar = dynamic_cast<PlanarShadowNode*>(technique.get());
+        if (!planar) continue;
+        planar->setStencilCure(_cures.stencil);
+        planar->setOffsetCure(_cures.offset);
+        planar->setClipCure(_cures.clip);
+    }
+}
+
+std::vector<std::string> ShadowControls::describe() const {
+    const bool blends = _setup.blends();
+    std::vector<std::string> lines = {"shadow: " + techniqueNames(_choices[_chosen]),
+                                      std::string("composite: ") + (blends ? "blend" : "relight"),
+                                      "light: " + describeLight(), "cures: " + describeCures()};
+    lines.push_back("h shows all keys, g hides this text");
+    if (!_refusal.empty()) lines.push_back(_refusal);
+    for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
+    return lines;
+}
+
+std::string ShadowControls::describeLight() const {
+    const auto given = _setup.lights->given(_setup.bounds.center());
+    if (!given) return "the scene's own, which cannot be moved";
+    return (_sun ? momentOf(_sun->day) + ", " : "") + "azimuth " + whole(compass(given->azimuth + _moved.azimuth)) +
+           ", elevation " + whole(given->elevation + _moved.elevation) + " degrees";
+}
+
+std::string ShadowControls::describeCures() const {
+    return std::string("stencil ") + onOff(_cures.stencil) + ", offset " + onOff(_cures.offset) + ", clip " +
+           onOff(_cures.clip);
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace gnomon {
+
+/// Settings of a view's compositor: what it may use and what it may leave out.
+///
+/// Use it to keep stencil bits for the application. All groups and effects of a view share one compositor. It avoids
+/// every bit that one of them reserves, and filters only if all of them do.
+struct CompositorOptions {
+    /// Stencil bits (of 8) that belong to the application. The compositor never touches them. Default 0: none.
+    unsigned reservedStencilBits = 0;
+    /// True: draws again only the drawables that a shadow can touch, and marks only the terrain tiles in sight.
+    /// False, for comparison, gives the same picture more slowly. Default true.
+    bool filter = true;
+    /// Most triangles of terrain shadows that a view draws as exact polygons, nearest tiles first. Farther tiles are
+    /// drawn as bitmaps. Default 10000.
+    unsigned mostDecals = 10000;
+
+    /// True if all options are equal.
+    bool operator==(const CompositorOptions& other) const {
+        return reservedStencilBits == other.reservedStencilBits && filter == other.filter &&
+               mostDecals == other.mostDecals;
+    }
+    /// True if any option differs.
+    bool operator!=(const CompositorOptions& other) const { return !(*this == other); }
+
+    /// Options that suit both nodes. mostDecals stays as it is.
+    CompositorOptions with(const CompositorOptions& other) const {
+        return {reservedStencilBits | other.reservedStencilBits, filter && other.filter, mostDecals};
+    }
+};
+
+} // namespace gnomon

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <OpenThreads/Mutex>
+#include <osg/NodeVisitor>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// Why a node could not draw what it is for: the causes of the last frame, over all views.
+///
+/// Threads any number.
+class FrameDiagnosis : public osg::Referenced {
+public:
+    /// One text for each cause: what is wrong, then what to do. Empty if all is well.
+    std::vector<std::string> all() const;
+    /// Notes a cause; repeated ones count once, those of frames before the last none.
+    /// @param who  described() of the node.
+    void add(unsigned frame, const std::string& who, const std::string& cause);
+    /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
+    /// it) has been met in it before, as where nobody counts frames.
+    void begin(unsigned frame, const void* view);
+
+protected:
+    ~FrameDiagnosis() override = default;
+
+private:
+    mutable OpenThreads::Mutex _mutex;
+    std::vector<std::string> _causes;
+    unsigned _frame = 0;
+    std::set<const void*> _views; ///< met in that frame.
+};
+
+/// The frame that a traversal belongs to; where nobody counts frames, its own number.
+unsigned frameOf(const osg::NodeVisitor& visitor);
+
+/// "PlanarShadowNode 'floor'": what a cause begins with.
+std::string described(const osg::Object& node);
+
+} // namespace gnomon

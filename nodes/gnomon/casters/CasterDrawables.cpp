@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/casters/CasterExtraction.h>
+#include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/TriangleDecoder.h>
+
+#include <cmath>
+#include <unordered_map>
+
+namespace gnomon {
+namespace {
+
+/// Where a drawable's triangles are, without them.
+class DrawableBounds : public TriangleDecoder {
+public:
+    using TriangleDecoder::TriangleDecoder;
+    ~DrawableBounds() override = default;
+
+    osg::BoundingBoxd bounds;
+    std::size_t triangles = 0;
+    bool anyInvalid = false; ///< that is left out.
+
+protected:
+    void start(unsigned) override {}
+    void point(unsigned) override {}
+    void triangle(unsigned a, unsigned b, unsigned c) override {
+        osg::BoundingBoxd box = bounds;
+        for (const unsigned index : {a, b, c}) {
+            const osg::Vec3d place = isInArray(index) ? inRoot(local(index)) : osg::Vec3d(NAN, NAN, NAN);
+            anyInvalid = anyInvalid || !isUsable(place);
+            if (!isUsable(place)) return;
+            box.expandBy(place);
+        }
+        bounds = box;
+        ++triangles;
+    }
+};
+
+/// Reads pieces where they are, without the nodes above them.
+class DrawableReader : public CasterExtraction {
+public:
+    void read(const CasterDrawable& piece) {
+        _piece = &piece;
+        setRootFromVisited(piece.groupFromLocal);
+        const_cast<osg::Drawable&>(*piece.drawable).accept(*this); // which changes nothing
+    }
+
+protected:
+    std::optional<AlphaTest> alphaTest() const override { return _piece->test; }
+
+private:
+    const CasterDrawable* _piece = nullptr;
+};
+
+/// Meets casters, and knows those again that it is told of.
+class DrawableVisitor : public CasterVisitor {
+public:
+    DrawableVisitor(const Selection& casters, const CasterDrawables* known)
+        : CasterVisitor(casters), _known(known ? known->list : _none) {}
+
+    bool changed() const { return _changed || _same != _known.size(); }
+    std::uint64_t fingerprint() const { return _fingerprint.value(); }
+    /// Those that were met.
+    CasterDrawables::List take() {
+        startOwnList();
+        return std::move(_met);
+    }
+
+protected:
+    void applyCaster(osg::Drawable& drawable) override {
+        const std::optional<AlphaTest> test = alphaTest();
+        const std::uint64_t value = CasterFingerprint::of(drawable, rootFromLocal(), test);
+        _fingerprint.mix(value);
+        if (!_changed && isAt(_next, value)) {
+            ++_same;
+            ++_next;
+            return;
+        }
+        startOwnList();
+        osg::ref_ptr<const CasterDrawable> piece = find(value);
+        if (!piece) piece = make(drawable, value, test);
+        _met.push_back(piece);
+    }
+
+private:
+    bool isAt(std::size_t place, std::uint64_t value) const {
+        return place < _known.size() && _known[place]->fingerprint == value;
+    }
+
+    /// Nothing is copied as long as nothing differs.
+    void startOwnList() {
+        if (!_changed) _met.assign(_known.begin(), _known.begin() + static_cast<std::ptrdiff_t>(_same));
+        _changed = true;
+    }
+
+    /// In the old order as a rule. One that differs has changed in place, unless the one after it is met: then it is gone. If
+    /// two differ, any may be anywhere.
+    const CasterDrawable* find(std::uint64_t value) {
+        if (!isAt(_next, value) && isAt(_next + 1, value)) ++_next;
+        if (!isAt(_next, value)) {
+            const std::size_t place = _missed ? placeOf(value) : _known.size();
+            if (place == _known.size()) {
+                ++_next;
+                _missed = true;
+                return nullptr;
+            }
+            _next = place;
+        }
+        _missed = false;
+        return _known[_next++].get();
+    }
+
+    std::size_t placeOf(std::uint64_t value) {
+        if (_places.empty())
+            for (std::size_t i = 0; i < _known.size(); ++i) _places.emplace(_known[i]->fingerprint, i);
+        const auto found = _places.find(value);
+        return found == _places.end() ? _known.size() : found->second;
+    }
+
+    osg::ref_ptr<const CasterDrawable> make(osg::Drawable& drawable, std::uint64_t fingerprint,
+                                            const std::optional<AlphaTest>& test) const {
+        DrawableBounds found(rootFromLocal());
+        drawable.accept(found);
+        osg::ref_ptr<CasterDrawable> piece = new CasterDrawable;
+        piece->fingerprint = fingerprint;
+        piece->drawable = &drawable;
+        piece->groupFromLocal = rootFromLocal();
+        piece->test = test;
+        piece->triangles = found.triangles;
+        piece->bounds = found.bounds;
+        holdSources(drawable, piece->sources);
+        if (test) test->hold(drawable, piece->sources);
+        if (test || found.anyInvalid) describe(*piece);
+        return piece;
+    }
+
+    /// What is missing of it.
+    void describe(CasterDrawable& piece) const {
+        DrawableReader found;
+        for (osg::Node* node : getNodePath()) found.pushOntoNodePath(node); // for the names in it
+        found.read(piece);
+        piece.invalidTriangles = found.getInvalidTriangles();
+        piece.invalidNode = found.getInvalidNode();
+        piece.unknownTests = found.getUnknownTests();
+        piece.unknownNode = found.getUnknownNode();
+    }
+
+    const CasterDrawables::List _none, &_known;
+    CasterDrawables::List _met;
+    std::unordered_map<std::uint64_t, std::size_t> _places;
+    std::size_t _same = 0, _next = 0;
+    bool _changed = false, _missed = false;
+    Fingerprint _fingerprint;
+};
+
+} // namespace
+
+CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll)
+    : list(std::move(pieces)), fingerprint(fingerprintOfAll) {
+    for (const auto& piece : list) {
+        bounds.expandBy(piece->bounds);
+        if (invalidTriangles == 0) invalidNode = piece->invalidNode;
+        invalidTriangles += piece->invalidTriangles;
+        if (unknownTests == 0) unknownNode = piece->unknownNode;
+        unknownTests += piece->unknownTests;
+    }
+}
+
+osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const Selection& casters,
+                                                        const osg::ref_ptr<const CasterDrawables>& known) {
+    DrawableVisitor visitor(casters, known.get());
+    root.accept(visitor);
+    if (known && !visitor.changed()) return known;
+    return new CasterDrawables(visitor.take(), visitor.fingerprint());
+}
+
+osg::ref_ptr<CasterMesh> meshOf(const CasterDrawables::List& pieces, const std::optional<osg::Vec3d>& origin) {
+    DrawableReader all;
+    for (const auto& piece : pieces) all.read(*piece);
+    return new CasterMesh(all, origin);
+}
+
+} // namespace gnomon

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/casters/CasterVisitor.h>
+
+#include <osg/Referenced>
+#include <osg/Vec3>
+#include <osg/Vec3d>
+#include <osg/ref_ptr>
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// The triangles of all casters below a node, in the frame that the node stands in, in double; see VertexTraverser, which
+/// is its public side.
+///
+/// Cost    one pass over the vertices; 24 bytes a vertex, 12 a triangle, and 8 a vertex of the largest array.
+class CasterExtraction : public CasterVisitor {
+public:
+    explicit CasterExtraction(const Selection& selection = {});
+    ~CasterExtraction() override = default;
+    META_NodeVisitor(gnomon, CasterExtraction)
+
+    /// Forgets all results, for another traversal.
+    void reset() override;
+
+    /// The vertices. All are finite and within the range of float. Triangles of one drawable share them.
+    const std::vector<osg::Vec3d>& getVertices() const { return _vertices; }
+    /// The triangles: three indices each into getVertices(), counter-clockwise as seen from the drawable's front side.
+    /// A mirroring transform keeps the front side. Triangles of no area are kept unless two of their indices are equal.
+    const std::vector<unsigned>& getTriangles() const { return _triangles; }
+
+    /// A drawable that the traversal read. Its triangles end at the next drawable's first.
+    struct Drawn {
+        const osg::Drawable* drawable; ///< Identifies the drawable. Do not dereference it: the drawable may be gone.
+        std::size_t first;             ///< Index of its first corner in getTriangles().
+    };
+    /// The drawables, in traversal order.
+    const std::vector<Drawn>& getDrawn() const { return _drawn; }
+
+    /// A drawable with an alpha test, such as leaves or a fence.
+    struct Cutout {
+        std::size_t drawn;                  ///< Its index in getDrawn().
+        AlphaTest test;                     ///< The test. It has a texture.
+        unsigned firstVertex;               ///< Index of its first vertex in getVertices(). Its others follow.
+        std::vector<osg::Vec3> coordinates; ///< Texture coordinates (s, t, q), one for each of its vertices.
+    };
+    /// The drawables whose alpha test is known, in traversal order.
+    const std::vector<Cutout>& getCutouts() const { return _cutouts; }
+    /// Number of drawables whose alpha test is unknown, for example because a shader decides. They count as solid.
+    unsigned getUnknownTests() const { return _unknownTests; }
+    /// Name of the first drawable with an unknown alpha test, found as for getInvalidNode().
+    const std::string& getUnknownNode() const { return _unknownNode; }
+
+    /// Largest error from storing a vertex as float in its own array, in the root's unit. 0 for double arrays.
+    double getRounding() const { return _rounding; }
+    /// Number of triangles left out because a corner is not finite, beyond the range of float, or not in the array.
+    unsigned getInvalidTriangles() const { return _invalidTriangles; }
+    /// Name of the first drawable with an invalid triangle: its own, or that of the nearest named node above it.
+    /// Its class name if none of them has a name.
+    const std::string& getInvalidNode() const { return _invalidNode; }
+
+    /// The arrays and primitive sets that were read. Hold them to keep their addresses from being used again.
+    const std::vector<osg::ref_ptr<const osg::Referenced>>& getSources() const { return _sources; }
+
+protected:
+    void applyCaster(osg::Drawable& drawable) override;
+
+private:
+    class Collector;
+    /// Where a vertex of the current array went: its place in _vertices, if `array` is the current one's number.
+    struct Slot {
+        unsigned array = 0;
+        unsigned place = 0;
+    };
+    /// Its place in _cutouts; null if no test leaves parts of it.
+    Cutout* startCutout(const osg::Drawable& drawable);
+    std::string nameHere(const osg::Drawable& drawable) const;
+
+    std::vector<osg::Vec3d> _vertices;
+    std::vector<unsigned> _triangles;
+    std::vector<osg::ref_ptr<const osg::Referenced>> _sources;
+    std::vector<Drawn> _drawn;
+    std::vector<Cutout> _cutouts;
+    std::vector<Slot> _slots;
+    unsigned _array = 0;
+    double _rounding = 0.0;
+    unsigned _invalidTriangles = 0;
+    std::string _invalidNode;
+    unsigned _unknownTests = 0;
+    std::string _unknownNode;
+};
+
+} // namespace gnomon

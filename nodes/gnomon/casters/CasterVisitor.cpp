@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/CasterMarkers.h>
+#include <gnomon/casters/CasterVisitor.h>
+
+#include <osg/AutoTransform>
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/Geometry>
+#include <osg/LOD>
+#include <osg/MatrixTransform>
+#include <osg/PositionAttitudeTransform>
+#include <osg/Projection>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <typeinfo>
+
+namespace gnomon {
+namespace {
+
+/// By name: the kit does not link osgText for this.
+bool isText(const osg::Drawable& drawable) {
+    return !drawable.asGeometry() && std::strcmp(drawable.libraryName(), "osgText") == 0;
+}
+
+/// Nearly every Geode is a plain one: the cast is for the others.
+bool neverCasts(const osg::Geode& geode) {
+    return typeid(geode) != typeid(osg::Geode) && dynamic_cast<const NeverCasts*>(&geode);
+}
+
+bool followsTheView(const osg::Transform& transform) {
+    const osg::AutoTransform* turning = transform.asAutoTransform();
+    return turning &&
+           (turning->getAutoScaleToScreen() || turning->getAutoRotateMode() != osg::AutoTransform::NO_ROTATION);
+}
+
+/// A group that shows all its children, and does nothing else with them.
+bool showsAll(const osg::Node& node) {
+    const std::type_info& type = typeid(node);
+    if (type == typeid(osg::Group) || type == typeid(osg::MatrixTransform) ||
+        type == typeid(osg::PositionAttitudeTransform))
+        return true;
+    const auto* group = dynamic_cast<const ShowsChildren*>(&node);
+    return group && group->showsAllChildren();
+}
+
+unsigned usableChildren(const osg::LOD& lod) { return std::min(lod.getNumChildren(), lod.getNumRanges()); }
+
+bool isShownAt(const osg::LOD& lod, unsigned child, float range) {
+    return lod.getMinRange(child) <= range && range < lod.getMaxRange(child);
+}
+
+/// The range, a distance or a size in pixels, that the most detailed child begins at.
+float finestRange(const osg::LOD& lod) {
+    const bool byDistance = lod.getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT;
+    float finest = byDistance ? std::numeric_limits<float>::infinity() : -std::numeric_limits<float>::infinity();
+    for (unsigned i = 0; i < usableChildren(lod); ++i) {
+        const float start = lod.getMinRange(i);
+        if (!(start < lod.getMaxRange(i))) continue;
+        finest = byDistance ? std::min(finest, start) : std::max(finest, start);
+    }
+    return finest;
+}
+
+/// Most nodes have no state.
+bool testsAlpha(const osg::Node& node) { return node.getStateSet() && AlphaTest::isOn(node); }
+
+bool testsAlphaAbove(const osg::Node& node) {
+    for (const osg::Node* above = &node; above->getNumParents() > 0;)
+        if (testsAlpha(*(above = above->getParent(0)))) return true;
+    return false;
+}
+
+} // namespace
+
+/// While a node is on the way down.
+class CasterVisitor::OnTheWay {
+public:
+    OnTheWay(CasterVisitor& visitor, const osg::Node& node)
+        : _visitor(visitor), _entered(&node == visitor._selection.node ? 1 : 0), _alphaTests(testsAlpha(node) ? 1 : 0) {
+        _visitor._inside += _entered;
+        _visitor._alphaTests += _alphaTests;
+    }
+    ~OnTheWay() {
+        _visitor._inside -= _entered;
+        _visitor._alphaTests -= _alphaTests;
+    }
+    OnTheWay(const OnTheWay&) = delete;
+    OnTheWay& operator=(const OnTheWay&) = delete;
+
+private:
+    CasterVisitor& _visitor;
+    const int _entered, _alphaTests;
+};
+
+CasterVisitor::CasterVisitor(const Selection& selection)
+    : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _selection(selection) {
+    setTraversalMask(selection.mask);
+    CasterVisitor::reset();
+}
+
+void CasterVisitor::reset() {
+    _matrices.assign(1, osg::Matrixd::identity());
+    _inside = _selection.node ? 0 : 1;
+    findWays();
+}
+
+void CasterVisitor::findWays() {
+    if (!_selection.node) return;
+    _ways.clear();
+    std::vector<osg::Node*> reached{_selection.node.get()};
+    for (std::size_t i = 0; i < reached.size(); ++i)
+        for (osg::Group* parent : reached[i]->getParents()) {
+            const auto [way, isNew] = _ways.try_emplace(parent);
+            way->second.push_back(reached[i]);
+            if (isNew) reached.push_back(parent);
+        }
+}
+
+bool CasterVisitor::isOnTheWay(const osg::Node& node) const {
+    return _inside > 0 || &node == _selection.node || _ways.count(&node) > 0;
+}
+
+/// Of a town beside the terrain nothing need be visited to find the terrain.
+bool CasterVisitor::goesTheOnlyWays(osg::Node& node) {
+    if (_inside > 0 || !showsAll(node)) return false;
+    for (osg::Node* child : _ways[&node]) child->accept(*this);
+    return true;
+}
+
+void CasterVisitor::apply(osg::Node& node) {
+    if (!isOnTheWay(node)) return;
+    const OnTheWay here(*this, node);
+    if (!goesTheOnlyWays(node)) traverse(node);
+}
+
+void CasterVisitor::apply(osg::Drawable& drawable) {
+    const OnTheWay here(*this, drawable);
+    if (_inside > 0 && !isText(drawable)) applyCaster(drawable);
+}
+
+void CasterVisitor::apply(osg::Geode& geode) {
+    if (!neverCasts(geode)) apply(static_cast<osg::Node&>(geode));
+}
+
+void CasterVisitor::apply(osg::LOD& lod) {
+    if (!isOnTheWay(lod)) return;
+    const OnTheWay here(*this, lod);
+    const float finest = finestRange(lod);
+    for (unsigned i = 0; i < usableChildren(lod); ++i)
+        if (isShownAt(lod, i, finest)) lod.getChild(i)->accept(*this);
+}
+
+void CasterVisitor::apply(osg::Transform& transform) {
+    if (transform.getReferenceFrame() != osg::Transform::RELATIVE_RF || followsTheView(transform)) return;
+    osg::Matrixd matrix = _matrices.back();
+    transform.computeLocalToWorldMatrix(matrix, this);
+    _matrices.push_back(matrix);
+    apply(static_cast<osg::Node&>(transform));
+    _matrices.pop_back();
+}
+
+std::optional<AlphaTest> CasterVisitor::alphaTest() const {
+    if (_alphaTests == 0 && !testsAlphaAbove(*getNodePath().front())) return std::nullopt;
+    return AlphaTest::of(getNodePath());
+}
+
+const osg::Array* CasterVisitor::verticesOf(const osg::Geometry& geometry) {
+    if (geometry.getVertexArray()) return geometry.getVertexArray();
+    return geometry.getNumVertexAttribArrays() > 0 ? geometry.getVertexAttribArray(0) : nullptr;
+}
+
+void CasterVisitor::holdSources(const osg::Drawable& drawable,
+                                std::vector<osg::ref_ptr<const osg::Referenced>>& sources) {
+    if (const osg::Geometry* geometry = drawable.asGeometry()) {
+        sources.emplace_back(verticesOf(*geometry));
+        sources.insert(sources.end(), geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end());
+    } else {
+        sources.emplace_back(&drawable);
+    }
+}
+
+} // namespace gnomon

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/RayScene.h>
+#include <gnomon/casters/CasterMesh.h>
+
+#include <OpenThreads/Mutex>
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+/// The casters as rays take them, about the mesh's origin, while the mesh lives.
+inline TriangleSoup soupOf(const CasterMesh& mesh) {
+    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
+    TriangleSoup soup;
+    soup.vertices = static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
+    soup.vertexCount = mesh.vertices->size();
+    soup.indices = mesh.triangles->empty() ? nullptr : &mesh.triangles->front();
+    soup.indexCount = mesh.triangles->size();
+    return soup;
+}
+
+/// The trees over casters that a node or a query casts rays at: one a revision, kept while it is used, and one for all
+/// nodes and queries that ask for the same casters.
+///
+/// Threads any number.
+class RaySceneCache {
+public:
+    /// @param name  of whom it is, for the line of progress.
+    /// @throws std::runtime_error, see RayScene.
+    std::shared_ptr<const RayScene> of(const CasterMesh& mesh, const std::string& name);
+    /// How often none was there yet.
+    unsigned builds() const;
+
+private:
+    struct Entry {
+        osg::ref_ptr<const CasterMesh> mesh; // held, so that its address cannot be taken by the next revision
+        std::shared_ptr<const RayScene> scene;
+    };
+
+    mutable OpenThreads::Mutex _mutex;
+    std::vector<Entry> _entries; ///< used last at the end; two, so that a node under two groups builds neither again.
+    unsigned _builds = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/Compositor.h>
+#include <gnomon/compositor/SoftCompositor.h>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+/// Jobs that share a lens: what one view sees, another view that is laid over it must not take for its own.
+std::vector<Jobs> byView(const Jobs& jobs) {
+    std::vector<Jobs> views;
+    for (const ShadowJob* job : jobs) {
+        const auto same = [job](const Jobs& view) { return view.front()->isOfView(*job->projection); };
+        const auto view = std::find_if(views.begin(), views.end(), same);
+        (view == views.end() ? views.emplace_back() : *view).push_back(job);
+    }
+    return views;
+}
+
+} // namespace
+
+Compositor::Compositor(CompositorStage draw) : _draw(std::move(draw)), _lightBits(_draw.bits) {
+    if (_lightBits.size() > 1) {
+        const std::size_t lights = std::min(mostRelitLights, _draw.own - 1);
+        const auto scratch = _lightBits.begin() + static_cast<std::ptrdiff_t>(std::min(_lightBits.size() - 1, lights));
+        _scratch = *scratch;
+        _lightBits.erase(scratch);
+    }
+    _lightBits.resize(std::min({_lightBits.size(), mostRelitLights, _draw.own - 1}));
+}
+
+void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<ViewEffect>>& effects) {
+    const auto draw = [&](ViewEffect::Turn turn) {
+        for (const osg::ref_ptr<ViewEffect>& effect : effects)
+            if (effect->turn() == turn) effect->draw(_draw);
+    };
+    Jobs relit;
+    std::map<float, Jobs> blended;
+    for (const ShadowJob& job : jobs) {
+        if (job.programMarks() || !canMark(job)) continue;
+        if (job.relight)
+            relit.push_back(&job);
+        else if (job.dark < 1.0f) // a factor of 1 changes nothing
+            blended[job.dark].push_back(&job);
+    }
+    if (!relit.empty()) relightAny(relit, blended);
+    draw(ViewEffect::Turn::BeforeBlending);
+    for (const auto& [dark, group] : blended)
+        for (const Jobs& view : byView(group)) blendAny(view, dark);
+    draw(ViewEffect::Turn::Last);
+    drawViews(jobs);
+}
+
+void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
+    int drawn = 0;
+    for (const ShadowJob& job : jobs)
+        if (job.marks->hasView())
+            _draw.pass(wholeScreen,
+                       [&](ScreenPass& screen) { job.marks->drawView(_draw.renderInfo, screen, drawn++); });
+}
+
+void Compositor::blendAny(const Jobs& jobs, float dark) {
+    if (darkenDirectly(jobs, dark)) return;
+    if (areSoft(jobs))
+        SoftCompositor(_draw).blend(jobs, dark);
+    else if (!composeDirectly(jobs))
+        blend(jobs, dark);
+}
+
+/// The shortest way for a single job that can: no marks. Possible unless it has a named receiver or something of another view
+/// lies over it.
+bool Compositor::darkenDirectly(const Jobs& jobs, float dark) const {
+    const ShadowJob& job = *jobs.front();
+    if (jobs.size() > 1 || job.receiverNamed || !job.marks->canDarken() || !notOfView(job, _draw.leaves).empty())
+        return false;
+    _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
+        const std::string cause = job.marks->darken(_draw.renderInfo, screen, dark);
+        job.report(cause);
+    });
+    return true;
+}
+
+/// In the cheapest way that is right.
+void Compositor::relightAny(const Jobs& jobs, std::map<float, Jobs>& blended) {
+    const bool soft = areSoft(jobs);
+    if (!soft && composeDirectly(jobs)) return;
+    if (isModeOn(_draw.leaves, GL_STENCIL_TEST))
+        blendInstead(jobs, blended);
+    else if (soft)
+        SoftCompositor(_draw).relight(jobs);
+    else
+        relight(jobs);
+}
+
+/// True if any of them has soft edges, and the framebuffer can hold them.
+bool Compositor::areSoft(const Jobs& jobs) const {
+    bool soft = false;
+    for (const ShadowJob* job : jobs) {
+        if (!job->softMarks()) continue;
+        soft = true;
+        if (!_draw.hasAlpha)
+            job->report("this framebuffer has no alpha bits, so the shadow's edges are hard. Ask for 8 with "
+                        "osg::DisplaySettings::setMinimumNumAlphaBits(8) before the window is made.");
+    }
+    return soft && _draw.hasAlpha;
+}
+
+/// A leaf with a stencil test of its own cannot be drawn again under ours.
+void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended) {
+    for (const ShadowJob* job : jobs) {
+        if (job->marks->relightsOnly()) continue;
+        if (job->dark < 1.0f) blended[job->dark].push_back(job);
+        job->report("an opaque object in this view has a stencil test of its own, so the shadow blends "
+                    "instead of relighting. Draw that object in a bin above 8, or set BLEND.");
+    }
+}
+
+bool Compositor::canMark(const ShadowJob& job) const {
+    const std::string cause = whyNotComposed(_draw);
+    job.report(cause);
+    return cause.empty();
+}
+
+/// The short way for a single job: the leaves of its named receiver are drawn again at the depth that stands, and take
+/// the light away themselves. Possible unless some other leaf shows on a relit receiver.
+bool Compositor::composeDirectly(const Jobs& jobs) {
+    const ShadowJob& job = *jobs.front();
+    if (jobs.size() > 1 || !job.receiverNamed) return false;
+    const bool relit = job.relight;
+    const ScreenRect& bounds = job.marks->screenBounds;
+    std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, jobs, bounds);
+    PlainTest plain;
+    const auto other = [&job](const ReplayedLeaf& leaf) { return job.receivers.count(leaf.entry.leaf) == 0; };
+    const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
+    if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
+    if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfView(job, _draw.leaves).empty())) return false;
+    leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());
+    const unsigned bit = _lightBits.front();
+    _draw.clearLeftovers(bit);
+    StencilMarks(_draw, 0).addUngated(job, bit);
+    LeafReplay::Overlay overlay;
+    overlay.stencilFunction = GL_NOTEQUAL;
+    overlay.test = overlay.write = bit; // back to 0 where drawn: a pixel loses its light once
+    overlay.equalDepth = true;
+    overlay.bounds = bounds;
+    overlay.marks = job.marks.get();
+    if (!relit) {
+        overlay.color = LeafReplay::Color::Factor;
+        overlay.factor = job.dark;
+        for (ReplayedLeaf& leaf : leaves) leaf.dark = 0;
+    }
+    replay(leaves, overlay, jobs);
+    _draw.clear(bit, bounds);
+    return true;
+}
+
+void Compositor::relight(const Jobs& wanted) {
+    const std::map<int, unsigned> bitOf = assignBits(wanted);
+    Jobs jobs;
+    std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(jobs),
+                 [&bitOf](const ShadowJob* job) { return bitOf.count(job->light) > 0; });
+    unsigned lightBits = 0;
+    for (const auto& entry : bitOf) lightBits |= entry.second;
+    const ScreenRect bounds = boundsOf(jobs);
+    mark(jobs, bitOf);
+    resetMarked(lightBits, bounds);
+    for (unsigned subset = 1; subset < (1u << bitOf.size()); ++subset) {
+        const Combination combination = combine(jobs, bitOf, subset);
+        if (overlap(combination.bounds, combination.bounds)) replay(combination, lightBits);
+    }
+    _draw.clear(lightBits, bounds);
+}
+
+std::map<int, unsigned> Compositor::assignBits(const Jobs& jobs) const {
+    std::map<int, unsigned> bitOf;
+    for (const ShadowJob* job : jobs) {
+        if (bitOf.count(job->light)) continue;
+        const std::size_t used = bitOf.size();
+        if (used < _lightBits.size())
+            bitOf[job->light] = _lightBits[used];
+        else
+            job->report("light " + std::to_string(job->light) + " casts no shadow, because at most " +
+                        std::to_string(used) +
+                        " lights can be relit in this view. Set BLEND, which takes any number of lights.");
+    }
+    return bitOf;
+}
+
+Compositor::Combination Compositor::combine(const Jobs& jobs, const std::map<int, unsigned>& bitOf,
+                                            unsigned subset) const {
+    Combination combination{0, {}, wholeScreen};
+    unsigned index = 0;
+    for (const auto& [number, bit] : bitOf) {
+        if (!(subset & (1u << index++))) continue;
+        Jobs ofLight;
+        std::copy_if(jobs.begin(), jobs.end(), std::back_inserter(ofLight),
+                     [light = number](const ShadowJob* job) { return job->light == light; });
+        combination.bits |= bit;
+        combination.bounds = common(combination.bounds, boundsOf(ofLight));
+        combination.jobs.insert(combination.jobs.end(), ofLight.begin(), ofLight.end());
+    }
+    return combination;
+}
+
+void Compositor::replay(const Combination& combination, unsigned lightBits) {
+    LeafReplay::Overlay overlay;
+    overlay.stencilFunction = GL_EQUAL;
+    overlay.reference = combination.bits;
+    overlay.test = lightBits;
+    overlay.bounds = combination.bounds;
+    replay(leavesToReplay(_draw, combination.jobs, combination.bounds), overlay, combination.jobs);
+}
+
+void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs) {
+    overlay.unlit = jobs.front()->dark;
+    overlay.lightUniforms = lightUniformsOf(jobs);
+    LeafReplay replay(_draw, overlay);
+    for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.dark);
+    for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
+        for (const ShadowJob* job : jobs)
+            if (job->isReceiver(*leaf) && job->marks->canReach(*leaf))
+                job->report(
+                    "no light can be taken from '" + nameOf(*leaf) +
+                    "', because it is unlit or its program does not read gl_LightSource. Its colour is multiplied "
+                    "by setDark() instead. Light it with OpenGL, name the uniform of its light with "
+                    "ShadowCasterGroup::addLightUniform(), or leave it out of the receiver.");
+}
+
+void Compositor::blend(const Jobs& jobs, float dark) {
+    const unsigned bit = _lightBits.front();
+    const ScreenRect bounds = boundsOf(jobs);
+    std::map<int, unsigned> bitOf;
+    for (const ShadowJob* job : jobs) bitOf[job->light] = bit;
+    mark(jobs, bitOf);
+    for (const ShadowJob* job : jobs) writeWhereSeen(_draw, notOfView(*job, _draw.leaves), 0, bit, bounds);
+    _draw.pass(bounds, [&](ScreenPass& screen) {
+        screen.takeStencil(bit, bit);
+        screen.multiplyColor(dark);
+    });
+}
+
+void Compositor::mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) const {
+    unsigned used = _scratch;
+    for (const auto& entry : bitOf) used |= entry.second;
+    _draw.clearLeftovers(used);
+    const StencilMarks marks(_draw, _scratch);
+    unsigned marked = 0;
+    for (const ShadowJob* job : jobs) {
+        const unsigned bit = bitOf.at(job->light);
+        marks.add(*job, bit, !(marked & bit));
+        marked |= bit;
+    }
+}
+
+/// Before a full redraw: nothing stands where marked. A leaf that blends with nothing must find the background there.
+void Compositor::resetMarked(unsigned where, const ScreenRect& bounds) const {
+    _draw.pass(bounds, [&](ScreenPass& screen) {
+        screen.stencilAny(where);
+        const bool background = _draw.stage.getClearMask() & GL_COLOR_BUFFER_BIT;
+        const bool readBack = isModeOn(_draw.leaves, GL_BLEND) || isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP);
+        if (background && readBack) screen.writeColor(_draw.stage.getClearColor());
+        screen.writeFarDepth();
+    });
+}
+
+} // namespace gnomon

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/compositor/LeafReplay.h>
+#include <gnomon/compositor/ReplaySelection.h>
+#include <gnomon/compositor/StencilMarks.h>
+#include <gnomon/compositor/ViewEffect.h>
+
+#include <map>
+#include <vector>
+
+namespace gnomon {
+
+/// What a ShadowBin does in draw: marks, takes light away where marked, and leaves the stencil bits it used at zero.
+/// Jobs with soft edges go to the SoftCompositor.
+class Compositor {
+public:
+    explicit Compositor(CompositorStage draw);
+
+    /// @param effects  drawn in their turn.
+    void compose(const std::vector<ShadowJob>& jobs, const std::vector<osg::ref_ptr<ViewEffect>>& effects);
+
+private:
+    /// Jobs of the lights that are dark in one relight pass, and the bits that say so.
+    struct Combination {
+        unsigned bits;
+        Jobs jobs;
+        ScreenRect bounds;
+    };
+
+    bool canMark(const ShadowJob& job) const;
+    bool areSoft(const Jobs& jobs) const;
+    void relightAny(const Jobs& jobs, std::map<float, Jobs>& blended);
+    bool composeDirectly(const Jobs& jobs);
+    void relight(const Jobs& wanted);
+    static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended);
+    void drawViews(const std::vector<ShadowJob>& jobs) const;
+    void blendAny(const Jobs& jobs, float dark);
+    bool darkenDirectly(const Jobs& jobs, float dark) const;
+    void blend(const Jobs& jobs, float dark);
+
+    std::map<int, unsigned> assignBits(const Jobs& jobs) const;
+    Combination combine(const Jobs& jobs, const std::map<int, unsigned>& bitOf, unsigned subset) const;
+    void replay(const Combination& combination, unsigned lightBits);
+    void replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs);
+
+    void mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) const;
+    void resetMarked(unsigned where, const ScreenRect& bounds) const;
+
+    const CompositorStage _draw;
+    std::vector<unsigned> _lightBits;
+    unsigned _scratch = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/CompositorStage.h>
+
+#include <osgUtil/StateGraph>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+/// The lowest bits, one beside the other from bit 0 on, for OpenGL counts from there; else any single one.
+unsigned countersAmong(const std::vector<unsigned>& bits, std::size_t own) {
+    unsigned result = 0;
+    for (std::size_t i = bits.size(); i-- > own;) {
+        if (bits[i] != result + 1) break;
+        result |= bits[i];
+    }
+    return result || bits.size() <= own ? result : bits.back();
+}
+
+} // namespace
+
+CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<DrawnLeaf> before,
+                                 const CompositorOptions& asked, bool isClean, std::size_t ownBits)
+    : renderInfo(info),
+      state(*info.getState()),
+      stage(drawn),
+      leaves(std::move(before)),
+      options(asked),
+      clean(isClean),
+      own(ownBits) {
+    GLint stencil = 0, alpha = 0;
+    glGetIntegerv(GL_STENCIL_BITS, &stencil);
+    glGetIntegerv(GL_ALPHA_BITS, &alpha);
+    hasStencil = stencil > 0;
+    hasAlpha = alpha > 0;
+    for (int i = std::min(stencil, 8); i-- > 0;)
+        if (!(options.reservedStencilBits & (1u << i))) bits.push_back(1u << i);
+    counters = countersAmong(bits, own);
+}
+
+Channels CompositorStage::channels() const {
+    if (!_channels) _channels = writtenChannels(leaves);
+    return *_channels;
+}
+
+void CompositorStage::clear(unsigned stencil, const ScreenRect& bounds) const {
+    pass(bounds, [stencil](ScreenPass& screen) { screen.clearStencil(stencil); });
+}
+
+void CompositorStage::clearLeftovers(unsigned stencil) const {
+    if (!clean) clear(stencil | counters, wholeScreen);
+}
+
+void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
+    if (!previous) return;
+    osgUtil::StateGraph* pushed = previous->_parent ? previous->_parent->_parent : nullptr;
+    const auto count = static_cast<unsigned>(osgUtil::StateGraph::numToPop(pushed));
+    state.popStateSetStackToSize(static_cast<unsigned>(state.getStateSetStackSize()) - count);
+    previous = nullptr;
+}
+
+std::string whyNotComposed(const CompositorStage& draw) {
+    if (!draw.hasStencil)
+        return "this framebuffer has no stencil bits. Ask for 8 with osg::DisplaySettings::setMinimumNumStencilBits(8) "
+               "before the window is made, or give the camera a stencil attachment.";
+    if (draw.stage.getClearDepth() < 1.0)
+        return "this view's depth buffer is cleared to less than 1. Set the camera's clear depth to 1.";
+    return draw.bits.empty()
+               ? "every stencil bit is reserved. Leave at least one out of CompositorOptions::reservedStencilBits."
+               : "";
+}
+
+} // namespace gnomon

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/CompositorOptions.h>
+#include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/gl/ScreenPass.h>
+
+#include <osg/RenderInfo>
+#include <osgUtil/RenderStage>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// One stage while the compositor draws in it: what was drawn before, and what its framebuffer offers.
+class CompositorStage {
+public:
+    /// @param leaves  what the stage drew before, in order.
+    /// @param clean   the stencil buffer is known to be zero.
+    /// @param own     how many stencil bits the compositor takes for itself, 2 to 8; others are counters.
+    CompositorStage(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<DrawnLeaf> leaves,
+                    const CompositorOptions& options, bool clean, std::size_t own);
+
+    /// One step, cut to `bounds`, from and back to OpenGL's defaults.
+    template <typename Step>
+    void pass(const ScreenRect& bounds, Step step) const {
+        CleanState cleanState(state, stage.getViewport());
+        ScreenPass screen(
+            state, *stage.getViewport(), bounds, [this] { return channels(); }, counters);
+        step(screen);
+    }
+    void clear(unsigned stencil, const ScreenRect& bounds) const;
+    /// Before marks: what others left in these bits would be taken for marks wherever leaves are drawn again.
+    void clearLeftovers(unsigned stencil) const;
+
+    /// Those that the leaves write.
+    Channels channels() const;
+
+    osg::RenderInfo& renderInfo;
+    osg::State& state;
+    osgUtil::RenderStage& stage;
+    const std::vector<DrawnLeaf> leaves;
+    const CompositorOptions options;
+    const bool clean;
+    bool hasStencil = false, hasAlpha = false;
+    std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.
+    const std::size_t own;      ///< how many of them, from the first on, are the compositor's.
+    unsigned counters = 0;      ///< some of the others, see ScreenPass::counters(); 0 if there are none.
+
+private:
+    mutable std::optional<Channels> _channels; ///< once asked for.
+};
+
+/// Takes the state sets of the leaf drawn last off the stack, as osgUtil does before positional state.
+void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous);
+
+/// Why nothing can be composed in this stage, as a cause for diagnose(); empty if all is well.
+std::string whyNotComposed(const CompositorStage& draw);
+
+} // namespace gnomon

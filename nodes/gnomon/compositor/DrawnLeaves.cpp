@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/compositor/DrawnLeaves.h>
+
+#include <osg/ColorMask>
+#include <osg/Depth>
+#include <osg/Geometry>
+#include <osg/PolygonMode>
+#include <osg/Transform>
+#include <osgUtil/StateGraph>
+
+#include <algorithm>
+#include <climits>
+#include <cmath>
+#include <unordered_map>
+
+namespace gnomon {
+namespace {
+
+/// A bin draws its bins of negative number first, then its own leaves, then its other bins
+/// (osgUtil::RenderBin::drawImplementation).
+void append(osgUtil::RenderBin& bin, int before, std::vector<DrawnLeaf>& leaves) {
+    const auto& bins = bin.getRenderBinList();
+    auto next = bins.begin();
+    for (; next != bins.end() && next->first < 0; ++next) append(*next->second, INT_MAX, leaves);
+    for (osgUtil::RenderLeaf* leaf : bin.getRenderLeafList()) leaves.push_back({leaf, &bin});
+    for (osgUtil::StateGraph* graph : bin.getStateGraphList())
+        for (const auto& leaf : graph->_leaves) leaves.push_back({leaf.get(), &bin});
+    for (; next != bins.end() && next->first < before; ++next) append(*next->second, INT_MAX, leaves);
+}
+
+/// Whether a node can be reached under a selection: by some way from above, by all ways.
+struct Ways {
+    bool some = false, all = true;
+};
+
+bool nearlyEqual(const osg::Matrixd& a, const osg::Matrixd& b) {
+    double difference = 0.0, size = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        difference = std::max(difference, std::abs(a.ptr()[i] - b.ptr()[i]));
+        size = std::max(size, std::abs(a.ptr()[i]));
+    }
+    return difference <= 1e-9 * size; // the same product of doubles taken in another order
+}
+
+/// Tells the leaves of a receiver. Looks at each node and each drawable's ways once, however many leaves share them.
+class ReceiverTest {
+public:
+    ReceiverTest(const Selection& selection, const osg::Matrixd& eyeFromWorld)
+        : _selection(selection), _eyeFromWorld(eyeFromWorld) {}
+
+    bool operator()(const osgUtil::RenderLeaf& leaf) {
+        const Ways ways = waysUnder(*leaf._drawable);
+        return ways.some && (ways.all || isInstance(leaf));
+    }
+
+private:
+    /// Instances of one drawable under the selection, by the x of where they stand in eye space.
+    using Places = std::multimap<double, osg::Matrixd>;
+
+    Ways waysUnder(const osg::Node& node) {
+        const auto [known, isNew] = _ways.insert({&node, {false, false}});
+        if (!isNew || !(node.getNodeMask() & _selection.mask)) return known->second;
+        Ways ways;
+        if (&node == _selection.node)
+            ways = {true, true};
+        else if (node.getNumParents() == 0)
+            ways = {!_selection.node, !_selection.node};
+        for (unsigned i = 0; &node != _selection.node && i < node.getNumParents(); ++i) {
+            const Ways way = waysUnder(*node.getParent(i));
+            ways.some = ways.some || way.some;
+            ways.all = ways.all && way.all;
+        }
+        return _ways[&node] = ways;
+    }
+
+    /// One of several instances of a drawable: one whose way from above gives this leaf's modelview.
+    bool isInstance(const osgUtil::RenderLeaf& leaf) {
+        const auto [places, isNew] = _places.insert({leaf._drawable.get(), {}});
+        if (isNew) places->second = placesOf(*leaf._drawable);
+        const osg::Matrixd& here = *leaf._modelview;
+        const double margin = 1e-9 * (1.0 + std::abs(here(3, 0)) + std::abs(here(3, 1)) + std::abs(here(3, 2)));
+        const auto end = places->second.upper_bound(here(3, 0) + margin);
+        for (auto place = places->second.lower_bound(here(3, 0) - margin); place != end; ++place)
+            if (nearlyEqual(place->second, here)) return true;
+        return false;
+    }
+
+    Places placesOf(const osg::Drawable& drawable) const {
+        Places places;
+        for (const osg::NodePath& path : drawable.getParentalNodePaths()) {
+            bool under = !_selection.node;
+            bool visible = true;
+            for (const osg::Node* node : path) {
+                under = under || node == _selection.node;
+                visible = visible && (!under || (node->getNodeMask() & _selection.mask));
+            }
+            if (!under || !visible) continue;
+            const osg::Matrixd place = osg::computeLocalToWorld(path) * _eyeFromWorld;
+            places.insert({place(3, 0), place});
+        }
+        return places;
+    }
+
+    const Selection& _selection;
+    const osg::Matrixd& _eyeFromWorld;
+    std::unordered_map<const osg::Node*, Ways> _ways;
+    std::unordered_map<const osg::Drawable*, Places> _places;
+};
+
+/// Value of a mode after all state sets from the root to `graph`, as osg::State resolves it.
+bool resolvedMode(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool& overridden) {
+    if (!graph) return overridden = false;
+    bool on = resolvedMode(graph->_parent, mode, overridden);
+    if (!graph->getStateSet()) return on;
+    const auto value = graph->getStateSet()->getMode(mode);
+    if (value & osg::StateAttribute::INHERIT) return on;
+    if (overridden && !(value & osg::StateAttribute::PROTECTED)) return on;
+    overridden = value & osg::StateAttribute::OVERRIDE;
+    return value & osg::StateAttribute::ON;
+}
+
+/// The colour mask after all state sets from the root to `graph`; null: all channels.
+const osg::ColorMask* resolvedMask(const osgUtil::StateGraph* graph) {
+    const osg::ColorMask* found = nullptr;
+    std::vector<const osg::StateSet*> sets; // innermost first
+    for (; graph; graph = graph->_parent)
+        if (graph->getStateSet()) sets.push_back(graph->getStateSet());
+    bool overridden = false;
+    for (auto set = sets.rbegin(); set != sets.rend(); ++set) {
+        const auto* pair = (*set)->getAttributePair(osg::StateAttribute::COLORMASK);
+        if (!pair || (overridden && !(pair->second & osg::StateAttribute::PROTECTED))) continue;
+        found = static_cast<const osg::ColorMask*>(pair->first.get());
+        overridden = pair->second & osg::StateAttribute::OVERRIDE;
+    }
+    return found;
+}
+
+bool isPlainDepth(const osg::StateAttribute* attribute) {
+    const auto* depth = static_cast<const osg::Depth*>(attribute);
+    return !depth || (depth->getFunction() == osg::Depth::LESS && depth->getWriteMask() && depth->getZNear() == 0.0 &&
+                      depth->getZFar() == 1.0);
+}
+
+bool isPlainMask(const osg::StateAttribute* attribute) {
+    const auto* mask = static_cast<const osg::ColorMask*>(attribute);
+    return !mask || (mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask() && mask->getAlphaMask());
+}
+
+/// True if the set gives `mode` this value, ON or OFF.
+bool gives(const osg::StateSet& set, osg::StateAttribute::GLMode mode, unsigned value) {
+    using A = osg::StateAttribute;
+    const auto given = set.getMode(mode);
+    return !(given & A::INHERIT) && (given & A::ON) == value;
+}
+
+bool isPlainSet(const osg::StateSet& set) {
+    using A = osg::StateAttribute;
+    return !gives(set, GL_BLEND, A::ON) && !gives(set, GL_STENCIL_TEST, A::ON) &&
+           !gives(set, GL_POLYGON_OFFSET_FILL, A::ON) && !gives(set, GL_COLOR_LOGIC_OP, A::ON) &&
+           !gives(set, GL_DEPTH_TEST, A::OFF) && isPlainDepth(set.getAttribute(A::DEPTH)) &&
+           isPlainMask(set.getAttribute(A::COLORMASK));
+}
+
+bool isOpaqueSet(const osg::StateSet& set) {
+    using A = osg::StateAttribute;
+    const auto* depth = static_cast<const osg::Depth*>(set.getAttribute(A::DEPTH));
+    return !gives(set, GL_BLEND, A::ON) && !gives(set, GL_COLOR_LOGIC_OP, A::ON) &&
+           !gives(set, GL_DEPTH_TEST, A::OFF) && (!depth || depth->getWriteMask());
+}
+
+bool isFilledSet(const osg::StateSet& set) {
+    const auto* mode = static_cast<const osg::PolygonMode*>(set.getAttribute(osg::StateAttribute::POLYGONMODE));
+    return !mode || (mode->getMode(osg::PolygonMode::FRONT) == osg::PolygonMode::FILL &&
+                     mode->getMode(osg::PolygonMode::BACK) == osg::PolygonMode::FILL);
+}
+
+const osg::Node& rootOf(const osg::Node& node) { return node.getNumParents() ? rootOf(*node.getParent(0)) : node; }
+
+std::string nameOf(const osg::Node& node) {
+    for (const osg::Node* above = &node; above; above = above->getNumParents() ? above->getParent(0) : nullptr)
+        if (!above->getName().empty()) return above->getName();
+    return node.className();
+}
+
+} // namespace
+
+std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number) {
+    std::vector<DrawnLeaf> leaves;
+    append(stage, number, leaves);
+    return leaves;
+}
+
+std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
+                                                    const osg::Matrixd& eyeFromWorld) {
+    ReceiverTest isReceiver(receiver, eyeFromWorld);
+    std::set<const osgUtil::RenderLeaf*> result;
+    for (const DrawnLeaf& entry : leaves)
+        if (isReceiver(*entry.leaf)) result.insert(entry.leaf);
+    return result;
+}
+
+std::string whyMissing(const Selection& selection, const char* role, const osg::Node& from,
+                       osgUtil::RenderStage& stage) {
+    const std::vector<DrawnLeaf> all = leavesBelow(stage, INT_MAX);
+    if (!receiversAmong(all, selection, *stage.getInitialViewMatrix()).empty())
+        return std::string("the ") + role +
+               " is drawn after the shadows, in a bin above 8, as transparent objects are. Name an opaque one.";
+    if (selection.node && &rootOf(*selection.node) != &rootOf(from))
+        return std::string("the ") + role + " '" + selection.node->getName() +
+               "' is not in this scene graph. Add it to the scene.";
+    return "";
+}
+
+bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode mode) {
+    std::set<const osgUtil::StateGraph*> seen;
+    for (const DrawnLeaf& entry : leaves) {
+        if (!seen.insert(entry.leaf->_parent).second) continue;
+        bool overridden = false;
+        if (resolvedMode(entry.leaf->_parent, mode, overridden)) return true;
+    }
+    return false;
+}
+
+Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
+    Channels written;
+    std::set<const osgUtil::StateGraph*> seen;
+    for (const DrawnLeaf& entry : leaves) {
+        if (!seen.insert(entry.leaf->_parent).second) continue;
+        const osg::ColorMask* mask = resolvedMask(entry.leaf->_parent);
+        written.red = written.red || !mask || mask->getRedMask();
+        written.green = written.green || !mask || mask->getGreenMask();
+        written.blue = written.blue || !mask || mask->getBlueMask();
+    }
+    return written;
+}
+
+bool LeafTest::operator()(const osgUtil::RenderLeaf& leaf) {
+    const osgUtil::StateGraph* graph = leaf._parent;
+    const auto known = _known.find(graph);
+    if (known != _known.end()) return known->second;
+    bool holds = true;
+    for (const auto* above = graph; above && holds; above = above->_parent)
+        holds = !above->getStateSet() || _holds(*above->getStateSet());
+    return _known[graph] = holds;
+}
+
+PlainTest::PlainTest() : LeafTest(isPlainSet) {}
+
+OpaqueTest::OpaqueTest() : LeafTest(isOpaqueSet) {}
+
+std::string nameOf(const osgUtil::RenderLeaf& leaf) { return nameOf(*leaf._drawable); }
+
+FilledTest::FilledTest() : LeafTest(isFilledSet) {}
+
+bool FilledTest::operator()(const osgUtil::RenderLeaf& leaf) {
+    const osg::Geometry* geometry = leaf._drawable->asGeometry();
+    const auto hasArea = [](const auto& primitives) { return primitives->getMode() >= GL_TRIANGLES; };
+    if (geometry &&
+        !std::all_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), hasArea))
+        return false;
+    return LeafTest::operator()(leaf);
+}
+
+std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    if (!box.valid()) return wholeScreen;
+    const glm::dmat4 clipFromLocal = toGlm(*leaf._modelview * *leaf._projection);
+    std::vector<glm::dvec4> corners;
+    corners.reserve(8);
+    for (unsigned i = 0; i < 8; ++i)
+        corners.push_back(clipFromLocal * glm::dvec4(toGlm(osg::Vec3d(box.corner(i))), 1.0));
+    return screenBounds(corners);
+}
+
+bool TouchTest::operator()(const osgUtil::RenderLeaf& leaf) {
+    if (!_filled(leaf)) return true;
+    const auto place = screenBoundsOf(leaf);
+    return place && overlap(*place, _bounds);
+}
+
+} // namespace gnomon

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Selection.h>
+#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/gl/ScreenPass.h>
+
+#include <osg/StateAttribute>
+#include <osgUtil/RenderLeaf>
+#include <osgUtil/RenderStage>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A leaf that a stage draws, and the innermost bin that draws it.
+struct DrawnLeaf {
+    osgUtil::RenderLeaf* leaf;
+    osgUtil::RenderBin* bin;
+};
+
+/// Every leaf that the stage draws before bin `number`, in the order in which it is drawn. Valid from the end of sort
+/// to the end of draw.
+std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);
+
+/// Those of them that draw part of `receiver`. Reads the scene graph: call in cull.
+std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
+                                                    const osg::Matrixd& eyeFromWorld);
+
+/// Why none of the leaves that a stage draws before its ShadowBin is of `selection`, as a cause for diagnose(); empty if
+/// it merely is out of sight. @param role  what the selection is to be: "receiver". @param from  a node of the graph.
+std::string whyMissing(const Selection& selection, const char* role, const osg::Node& from,
+                       osgUtil::RenderStage& stage);
+
+/// True if any of the leaves is drawn with `mode` on.
+bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode mode);
+
+/// The colour channels that any of the leaves writes: fewer than all in anaglyph stereo, for one.
+Channels writtenChannels(const std::vector<DrawnLeaf>& leaves);
+
+/// Tells leaves by how they are drawn; asks each of their state sets once.
+class LeafTest {
+public:
+    bool operator()(const osgUtil::RenderLeaf& leaf);
+
+protected:
+    explicit LeafTest(bool (*holds)(const osg::StateSet&)) : _holds(holds) {}
+
+private:
+    bool (*_holds)(const osg::StateSet&);
+    std::map<const osgUtil::StateGraph*, bool> _known;
+};
+
+/// Drawn in the plainest way: depth test LESS with writing, no blending, offset, stencil, depth range or colour mask.
+/// Such a leaf can show only where it is nearest, and never over something drawn before it at the same depth.
+class PlainTest : public LeafTest {
+public:
+    PlainTest();
+};
+
+/// Writes depth and does not blend: where its depth stands, its colour is what one sees.
+class OpaqueTest : public LeafTest {
+public:
+    OpaqueTest();
+};
+
+/// Its drawable's name or that of the nearest named node above it, else its class.
+std::string nameOf(const osgUtil::RenderLeaf& leaf);
+
+/// Drawn as filled triangles: points and lines are wider than what they are made of.
+class FilledTest : public LeafTest {
+public:
+    FilledTest();
+    bool operator()(const osgUtil::RenderLeaf& leaf);
+};
+
+/// Where on the screen a leaf of filled triangles can draw; nullopt if nowhere.
+std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf);
+
+/// Tells whether a leaf can draw in a part of the screen.
+class TouchTest {
+public:
+    explicit TouchTest(const ScreenRect& bounds) : _bounds(bounds) {}
+    bool operator()(const osgUtil::RenderLeaf& leaf);
+
+private:
+    const ScreenRect _bounds;
+    FilledTest _filled;
+};
+
+} // namespace gnomon

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/LeafReplay.h>
+#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/gl/TriangleClusters.h>
+
+#include <osg/ColorMask>
+#include <osg/FrontFace>
+#include <osg/GLExtensions>
+#include <osg/Light>
+#include <osgUtil/StateGraph>
+
+namespace gnomon {
+namespace {
+
+constexpr int maxLights = 8;
+
+void setColors(int light, const osg::Vec4& diffuse, const osg::Vec4& specular) {
+    const GLenum name = GL_LIGHT0 + static_cast<GLenum>(light);
+    glLightfv(name, GL_DIFFUSE, diffuse.ptr());
+    glLightfv(name, GL_SPECULAR, specular.ptr());
+}
+
+/// The colours that osg::State believes the light to have; OpenGL's own defaults if no osg::Light was ever applied.
+void restoreColors(const osg::State& state, int number) {
+    const auto* light = dynamic_cast<const osg::Light*>(
+        state.getLastAppliedAttribute(osg::StateAttribute::LIGHT, static_cast<unsigned>(number)));
+    const osg::Vec4 fallback = number == 0 ? osg::Vec4(1, 1, 1, 1) : osg::Vec4(0, 0, 0, 1);
+    setColors(number, light ? light->getDiffuse() : fallback, light ? light->getSpecular() : fallback);
+}
+
+} // namespace
+
+LeafReplay::LeafReplay(const CompositorStage& draw, const Overlay& overlay)
+    : _filter(draw.options.filter),
+      _renderInfo(draw.renderInfo),
+      _state(draw.state),
+      _overlay(overlay),
+      _lights(_state, _overlay.lightUniforms),
+      _stackSize(static_cast<unsigned>(_state.getStateSetStackSize())) {}
+
+LeafReplay::~LeafReplay() {
+    _state.popStateSetStackToSize(_stackSize);
+    darken(0);
+    leaveDefaults(_state);
+    if (!_overlay.mirrored) return;
+    glFrontFace(GL_CCW);
+    _state.haveAppliedAttribute(osg::StateAttribute::FRONTFACE);
+    glDisable(mirrorClipPlane);
+    _state.haveAppliedMode(mirrorClipPlane, osg::StateAttribute::OFF);
+}
+
+void LeafReplay::draw(const DrawnLeaf& entry, unsigned dark) {
+    if (_state.getAbortRendering()) return;
+    apply(entry);
+    layOver();
+    const bool faded = dark && !_lights.canLose(dark);
+    darken(faded ? 0 : dark);
+    if (faded) return drawFaded(*entry.leaf);
+    _lights.darken(dark);
+    drawGeometry(*entry.leaf);
+    _lights.restore();
+}
+
+bool LeafReplay::canBeRelit(const DrawnLeaf& entry, unsigned dark) {
+    apply(entry);
+    return _lights.canLose(dark);
+}
+
+/// All of the leaf's own state.
+void LeafReplay::apply(const DrawnLeaf& entry) {
+    if (entry.bin != _bin) enter(entry.bin);
+    const osgUtil::RenderLeaf& leaf = *entry.leaf;
+    osgUtil::StateGraph* graph = leaf._parent;
+    _state.applyProjectionMatrix(leaf._projection.get());
+    _state.applyModelViewMatrix(leaf._modelview.get());
+    osgUtil::StateGraph::moveStateGraph(_state, _previous, graph->_parent);
+    _previous = graph->_parent;
+    _state.apply(graph->getStateSet());
+    if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
+}
+
+/// Programs may move vertices to where no cluster's box is; a restarted strip's corners do not alternate from its start.
+bool LeafReplay::canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry) {
+    constexpr GLenum vertexProgram = 0x8620, restart = 0x8F9D, restartFixedIndex = 0x8D69;
+    return _filter && _filled(leaf) && !_state.getLastAppliedProgramObject() &&
+           !_state.getLastAppliedMode(vertexProgram) && !_state.getLastAppliedMode(restart) &&
+           !_state.getLastAppliedMode(restartFixedIndex) &&
+           !_state.useVertexArrayObject(geometry.getUseVertexArrayObject());
+}
+
+void LeafReplay::drawGeometry(const osgUtil::RenderLeaf& leaf) {
+    if (_overlay.shifts.empty()) return drawOnce(leaf);
+    const osg::Viewport& view = *_state.getCurrentViewport();
+    const auto x = static_cast<GLint>(view.x()), y = static_cast<GLint>(view.y());
+    const auto width = static_cast<GLsizei>(view.width()), height = static_cast<GLsizei>(view.height());
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x, y, width, height);
+    for (const glm::ivec2& shift : _overlay.shifts) {
+        glViewport(x + shift.x, y + shift.y, width, height);
+        drawOnce(leaf);
+    }
+    glViewport(x, y, width, height);
+}
+
+void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
+    const osg::Geometry* geometry = leaf._drawable->asGeometry();
+    const bool cut = geometry && canDrawClusters(leaf, *geometry);
+    const MarkJob::BoxTest test =
+        cut && _overlay.marks ? _overlay.marks->boxTest(*leaf._modelview) : MarkJob::BoxTest();
+    if (test && !test(geometry->getBoundingBox())) return;
+    const osg::ref_ptr<const TriangleClusters> clusters = cut ? TriangleClusters::of(*geometry) : nullptr;
+    if (!clusters) return leaf._drawable->draw(_renderInfo);
+    TriangleClusters::draw(_renderInfo, *geometry,
+                           clusters->touching(_overlay.bounds, *leaf._modelview * *leaf._projection, test));
+}
+
+/// Its own colour times a factor, whatever colour stands; a leaf that itself reads what stands stays as it is.
+void LeafReplay::drawFaded(const osgUtil::RenderLeaf& leaf) {
+    _notRelit.push_back(&leaf);
+    const bool fades = _overlay.color == Color::Replace && !_state.getLastAppliedMode(GL_BLEND) &&
+                       !_state.getLastAppliedMode(GL_COLOR_LOGIC_OP);
+    if (fades) {
+        addBlended(_state, GL_CONSTANT_COLOR, GL_ZERO);
+        setBlendColor(_overlay.unlit);
+    }
+    drawGeometry(leaf);
+    if (!fades) return;
+    glDisable(GL_BLEND);
+    using A = osg::StateAttribute;
+    for (A::Type type : {A::BLENDFUNC, A::BLENDCOLOR, A::BLENDEQUATION}) _state.haveAppliedAttribute(type);
+}
+
+/// A bin may have a state set of its own, which lies under those of its leaves.
+void LeafReplay::enter(osgUtil::RenderBin* bin) {
+    _state.popStateSetStackToSize(_stackSize);
+    _previous = nullptr;
+    _bin = bin;
+    std::vector<osg::StateSet*> sets;
+    for (; bin && bin != bin->getStage(); bin = bin->getParent())
+        if (bin->getStateSet()) sets.push_back(bin->getStateSet());
+    for (auto set = sets.rbegin(); set != sets.rend(); ++set) _state.pushStateSet(*set);
+}
+
+/// The same for every leaf, so that osg::State need not know before the end.
+void LeafReplay::layOver() {
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(_overlay.stencilFunction, static_cast<GLint>(_overlay.reference), _overlay.test);
+    glStencilOp(GL_KEEP, GL_KEEP, _overlay.stencilPass);
+    glStencilMask(_overlay.write);
+    if (_overlay.equalDepth || _overlay.keepDepth) {
+        glDepthMask(GL_FALSE);
+        if (_overlay.equalDepth) glDepthFunc(GL_EQUAL);
+    }
+    if (_overlay.mirrored) layMirrorOver();
+    layColorOver();
+}
+
+void LeafReplay::layMirrorOver() {
+    const auto* front =
+        static_cast<const osg::FrontFace*>(_state.getLastAppliedAttribute(osg::StateAttribute::FRONTFACE));
+    const bool clockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
+    glFrontFace(clockwise ? GL_CCW : GL_CW);
+    glEnable(mirrorClipPlane);
+}
+
+void LeafReplay::layColorOver() {
+    const auto blend = [this](GLenum source, GLenum destination) { addBlended(_state, source, destination); };
+    switch (_overlay.color) {
+    case Color::Replace:
+        return;
+    case Color::None:
+        return glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    case Color::Factor:
+        blend(GL_ZERO, GL_CONSTANT_COLOR);
+        return setBlendColor(_overlay.factor);
+    case Color::Mix:
+        blend(GL_ONE_MINUS_DST_ALPHA, GL_DST_ALPHA);
+        return keepAlpha();
+    case Color::Add:
+        blend(GL_DST_ALPHA, GL_ONE);
+        return keepAlpha();
+    }
+}
+
+void LeafReplay::keepAlpha() {
+    const auto* mask =
+        static_cast<const osg::ColorMask*>(_state.getLastAppliedAttribute(osg::StateAttribute::COLORMASK));
+    if (mask)
+        glColorMask(mask->getRedMask(), mask->getGreenMask(), mask->getBlueMask(), GL_FALSE);
+    else
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
+}
+
+void LeafReplay::setBlendColor(float grey) { _state.get<osg::GLExtensions>()->glBlendColor(grey, grey, grey, 1.0f); }
+
+/// Again for each leaf: its own state may have set the light's colours.
+void LeafReplay::darken(unsigned lights) {
+    const osg::Vec4 black(0, 0, 0, 1);
+    for (int i = 0; i < maxLights; ++i) {
+        if (lights & (1u << i))
+            setColors(i, black, black);
+        else if (_dark & (1u << i))
+            restoreColors(_state, i);
+    }
+    _dark = lights;
+}
+
+} // namespace gnomon

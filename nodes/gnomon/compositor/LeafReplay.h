@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/ProgramLightUse.h>
+#include <gnomon/geometry/ScreenBounds.h>
+
+#include <osg/State>
+
+#include <glm/vec2.hpp>
+
+#include <vector>
+
+namespace gnomon {
+
+/// Draws render leaves of the frame once more, with what the compositor wants of stencil, depth and lights laid over
+/// each leaf's own state.
+///
+/// Whatever a leaf's state sets, PROTECTED or not, what is laid over holds: it goes to OpenGL after the leaf's state
+/// and before its draw. At the end osg::State is told what it can no longer take for granted. Of a big geometry only the
+/// clusters that can touch `Overlay::bounds` are drawn, if neither a program nor a vertex array object draws it.
+class LeafReplay {
+public:
+    /// What becomes of a leaf's colour.
+    enum class Color {
+        Replace, ///< as the leaf itself would have it.
+        None,    ///< not written.
+        Factor,  ///< what stands is multiplied by `Overlay::factor`.
+        Mix,     ///< what stands times destination alpha, and the leaf's colour times the rest; alpha stays.
+        Add      ///< the leaf's colour times destination alpha is added to what stands; alpha stays.
+    };
+
+    /// What is laid over each leaf.
+    struct Overlay {
+        GLenum stencilFunction = GL_ALWAYS; ///< compares (reference & test) with (stencil & test).
+        unsigned reference = 0, test = 0;
+        unsigned write = 0;              ///< bits that become those of `reference` where drawn.
+        bool equalDepth = false;         ///< only where the leaf's depth is the one that stands; depth is not written.
+        bool keepDepth = false;          ///< depth is not written.
+        GLenum stencilPass = GL_REPLACE; ///< what becomes of the bits of `write`.
+        bool mirrored = false;           ///< fronts are seen as backs, and OpenGL's last clip plane cuts.
+        std::vector<glm::ivec2> shifts;  ///< pixels by which it is drawn, once each, cut to the viewport; empty: once.
+        Color color = Color::Replace;
+        float factor = 1.0f;
+        float unlit =
+            0.5f; ///< Replace: a leaf that should lose a light and cannot is drawn in its own colour times this.
+        ScreenRect bounds = wholeScreen;         ///< nothing need be drawn outside.
+        const MarkJob* marks = nullptr;          ///< nothing need be drawn where it marks nothing.
+        std::vector<LightUniform> lightUniforms; ///< by which programs read lights.
+    };
+
+    /// The last clip plane that every OpenGL has; scenes rarely use it.
+    static constexpr GLenum mirrorClipPlane = GL_CLIP_PLANE5;
+
+    LeafReplay(const CompositorStage& draw, const Overlay& overlay);
+    ~LeafReplay(); ///< puts lights and state back; the stack of state sets is as it was.
+    LeafReplay(const LeafReplay&) = delete;
+    LeafReplay& operator=(const LeafReplay&) = delete;
+
+    /// @param dark  bit i: draw it without the diffuse and specular of OpenGL light i.
+    void draw(const DrawnLeaf& entry, unsigned dark = 0);
+
+    /// True if the leaf can lose all lights of `dark`, see ProgramLightUse. Draws nothing.
+    bool canBeRelit(const DrawnLeaf& entry, unsigned dark);
+
+    /// Leaves drawn so far that could not lose a light.
+    const std::vector<const osgUtil::RenderLeaf*>& notRelit() const { return _notRelit; }
+
+private:
+    void apply(const DrawnLeaf& entry);
+    void enter(osgUtil::RenderBin* bin);
+    void layOver();
+    void layMirrorOver();
+    void layColorOver();
+    void keepAlpha();
+    void setBlendColor(float grey);
+    void darken(unsigned lights);
+    bool canDrawClusters(const osgUtil::RenderLeaf& leaf, const osg::Geometry& geometry);
+    void drawGeometry(const osgUtil::RenderLeaf& leaf);
+    void drawOnce(const osgUtil::RenderLeaf& leaf);
+    void drawFaded(const osgUtil::RenderLeaf& leaf);
+
+    const bool _filter;
+    osg::RenderInfo& _renderInfo;
+    osg::State& _state;
+    const Overlay _overlay;
+    ProgramLightUse _lights;
+    const unsigned _stackSize;
+    unsigned _dark = 0; ///< lights that are dark in OpenGL now.
+    FilledTest _filled;
+    std::vector<const osgUtil::RenderLeaf*> _notRelit;
+    osgUtil::RenderBin* _bin = nullptr;
+    osgUtil::StateGraph* _previous = nullptr; ///< whose state sets are on the stack.
+};
+
+} // namespace gnomon

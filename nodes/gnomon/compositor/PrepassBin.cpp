@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/compositor/PrepassBin.h>
+#include <gnomon/compositor/ProgramVisibilityJob.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr int lowestNumber = std::numeric_limits<int>::min();
+constexpr const char* binName = "gnomon::PrepassBin";
+constexpr const char* stateName = "gnomon programs";
+
+const bool registered = [] {
+    osgUtil::RenderBin::addRenderBinPrototype(binName, new PrepassBin);
+    return true;
+}();
+
+PrepassBin& binOf(osgUtil::RenderStage& stage) {
+    for (int number = lowestNumber;; ++number) {
+        auto* bin = dynamic_cast<PrepassBin*>(stage.find_or_insert(number, binName));
+        if (bin) return *bin;
+    }
+}
+
+/// OpenGL's programs keep uniforms: that nothing is to be found must be said, too.
+osg::ref_ptr<osg::StateSet> nothingInstead(const osg::StateSet& shown) {
+    osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+    state->setName(stateName);
+    state->addUniform(new osg::Uniform("gnomon_maps", 0));
+    const osg::Uniform* unit = shown.getUniform("gnomon_map");
+    if (unit) state->addUniform(new osg::Uniform(*unit)); // a sampler of another kind than that of unit 0
+    return state;
+}
+
+} // namespace
+
+/// With a stage that is reset or goes; nobody else may say that its techniques are gone.
+PrepassBin::~PrepassBin() {
+    osgUtil::RenderStage* stage = _job.marks ? getStage() : nullptr;
+    if (!stage || stage->referenceCount() == 0) return;
+    const osg::StateSet* shown = _job.programMarks()->state.get();
+    if (stage->getStateSet() == shown) stage->setStateSet(nothingInstead(*shown));
+}
+
+void PrepassBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& stage) {
+    const auto isFor = [](const ShadowJob& job) { return job.programMarks() != nullptr; };
+    const auto job = std::find_if(jobs.begin(), jobs.end(), isFor);
+    if (job == jobs.end()) return;
+    const osg::StateSet* before = stage.getStateSet();
+    const bool isFree = !before || before->getName() == stateName;
+    if (!isFree)
+        return job->report("programs cannot read the maps, because the render stage has a state set of its "
+                           "own. Remove it with osgUtil::RenderBin::setStateSet(nullptr).");
+    if (std::any_of(job + 1, jobs.end(), isFor))
+        job->report("programs can read the maps of one light only. Name that light with "
+                    "ShadowCasterGroup::setLights() or setLightSources().");
+    osg::StateSet* state = job->programMarks()->state.get();
+    state->setName(stateName);
+    stage.setStateSet(state);
+    binOf(stage)._job = *job;
+}
+
+void PrepassBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
+    if (_job.marks) {
+        popLeafState(*renderInfo.getState(), previous);
+        const CleanState clean(*renderInfo.getState(), getStage()->getViewport());
+        const std::string cause = _job.programMarks()->drawAhead(renderInfo);
+        _job.report(cause);
+    }
+    osgUtil::RenderBin::drawImplementation(renderInfo, previous);
+}
+
+} // namespace gnomon

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/LeafReplay.h>
+#include <gnomon/compositor/SoftCompositor.h>
+#include <gnomon/compositor/SoftMarkJob.h>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+template <typename Lights>
+unsigned bitsOf(const Lights& lights) {
+    unsigned bits = 0;
+    for (const auto& light : lights) bits |= light.bits();
+    return bits;
+}
+
+template <typename Lights>
+Jobs jobsOf(const Lights& lights) {
+    Jobs jobs;
+    for (const auto& light : lights) {
+        jobs.insert(jobs.end(), light.hard.begin(), light.hard.end());
+        if (light.soft) jobs.push_back(light.soft);
+    }
+    return jobs;
+}
+
+void report(const Jobs& jobs, const std::string& cause) {
+    for (const ShadowJob* job : jobs) job->report(cause);
+}
+
+} // namespace
+
+SoftCompositor::SoftCompositor(const CompositorStage& draw) : _draw(draw) {
+    for (const unsigned bit : draw.bits)
+        if (!(bit & draw.counters)) _lightBits.push_back(bit);
+    const auto take = [this] {
+        if (_lightBits.size() < 2) return 0u;
+        const unsigned bit = _lightBits.back();
+        _lightBits.pop_back();
+        return bit;
+    };
+    _scratch = take();
+    _faded = take();
+}
+
+void SoftCompositor::relight(const Jobs& wanted) const {
+    const Lights lights = lightsOf(wanted);
+    const Jobs jobs = jobsOf(lights);
+    if (jobs.empty()) return;
+    const ScreenRect bounds = boundsOf(jobs);
+    const bool weighsAtOnce = lights.size() == 1 && lights.front().isSoftOnly();
+    if (weighsAtOnce) _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
+    mark(lights, weighsAtOnce ? StencilMarks::Soft::Weighed : StencilMarks::Soft::Touched);
+    Leaves leaves = leavesToReplay(_draw, jobs, bounds);
+    const Leaves aside = setAside(leaves, jobs);
+    if (!aside.empty()) darkenAside(aside, lights, jobs);
+    mix(leaves, lights, jobs, weighsAtOnce && aside.empty());
+    _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
+    _draw.clear(bitsOf(lights), bounds);
+}
+
+SoftCompositor::Lights SoftCompositor::lightsOf(const Jobs& wanted) const {
+    Lights lights;
+    for (const ShadowJob* job : wanted) {
+        auto light = std::find_if(lights.begin(), lights.end(),
+                                  [job](const Light& known) { return known.number == job->light; });
+        if (light == lights.end()) {
+            lights.emplace_back().number = job->light;
+            light = lights.end() - 1;
+        }
+        if (!job->softMarks())
+            light->hard.push_back(job);
+        else if (!light->soft)
+            light->soft = job;
+        else {
+            light->hard.push_back(job);
+            report({job}, "another technique has soft edges for the same light, so these edges are hard. Use one "
+                          "technique with soft edges for each light.");
+        }
+    }
+    for (; lights.size() > mostRelitLights; lights.pop_back())
+        report(jobsOf(Lights{lights.back()}), "light " + std::to_string(lights.back().number) +
+                                                  " casts no shadow, because at most 3 lights can be relit in this "
+                                                  "view. Set BLEND, which takes any number of lights.");
+    std::vector<unsigned> unused = _lightBits;
+    lights.erase(std::remove_if(lights.begin(), lights.end(), [&](Light& light) { return !assignBits(light, unused); }),
+                 lights.end());
+    return lights;
+}
+
+bool SoftCompositor::assignBits(Light& light, std::vector<unsigned>& unused) const {
+    const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.soft ? 1u : 0u);
+    if (unused.size() < needed) {
+        report(jobsOf(Lights{light}),
+               "light " + std::to_string(light.number) +
+                   " casts no shadow, because too few stencil bits are left. Leave more out of "
+                   "CompositorOptions::reservedStencilBits, or set BLEND, which takes any number of lights.");
+        return false;
+    }
+    const auto take = [&unused] {
+        const unsigned bit = unused.front();
+        unused.erase(unused.begin());
+        return bit;
+    };
+    if (!light.hard.empty()) light.hardBit = take();
+    if (light.soft) light.softBit = take();
+    return true;
+}
+
+void SoftCompositor::mark(const Lights& lights, StencilMarks::Soft soft) const {
+    const StencilMarks marks(_draw, _scratch);
+    _draw.clearLeftovers(bitsOf(lights) | _scratch | _faded);
+    for (const Light& light : lights) {
+        for (const ShadowJob* job : light.hard) marks.add(*job, light.hardBit, job == light.hard.front());
+        if (light.soft) marks.add(*light.soft, light.softBit, true, soft);
+    }
+}
+
+/// Takes out of `leaves` those that cannot be mixed. What receives nothing and is not drawn over others stays as it is.
+SoftCompositor::Leaves SoftCompositor::setAside(Leaves& leaves, const Jobs& jobs) const {
+    LeafReplay::Overlay overlay;
+    overlay.lightUniforms = lightUniformsOf(jobs);
+    LeafReplay judge(_draw, overlay);
+    OpaqueTest opaque;
+    Leaves aside, mixed;
+    for (const ReplayedLeaf& leaf : leaves) {
+        const auto ofView = [&leaf](const ShadowJob* job) { return job->isOfView(*leaf.entry.leaf); };
+        const bool laidOver = leaf.dark == 0 && !std::all_of(jobs.begin(), jobs.end(), ofView);
+        if (!opaque(*leaf.entry.leaf) || laidOver)
+            aside.push_back(leaf);
+        else if (leaf.dark)
+            (judge.canBeRelit(leaf.entry, leaf.dark) ? mixed : aside).push_back(leaf);
+    }
+    leaves = mixed;
+    return aside;
+}
+
+/// What cannot be mixed keeps its colour, times the factor where it lost light; no light bit stays set there.
+void SoftCompositor::darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const {
+    const ScreenRect bounds = boundsOf(jobs);
+    Leaves kept, darkened;
+    for (const ReplayedLeaf& leaf : aside) (leaf.dark && _faded ? darkened : kept).push_back(leaf);
+    if (!kept.empty()) writeWhereSeen(_draw, kept, 0, bitsOf(lights), bounds);
+    if (darkened.empty()) return;
+    writeWhereSeen(_draw, darkened, _faded, _faded, bounds);
+    multiplyByFactor(lights, jobs.front()->dark, bounds);
+    for (const ReplayedLeaf& leaf : darkened)
+        report(jobs,
+               "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +
+                   "', because it is unlit, blends, writes no depth or its program does not read gl_LightSource. Its "
+                   "colour is multiplied by setDark() instead. Light it with OpenGL, or leave it out of the receiver.");
+}
+
+void SoftCompositor::multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const {
+    weigh(lights, 0, bounds);
+    _draw.pass(bounds, [&](ScreenPass& screen) {
+        screen.stencilAny(_faded);
+        screen.fadeAlpha(factor);
+        screen.takeStencil(_faded, bitsOf(lights) | _faded);
+        screen.multiplyColorByAlpha();
+    });
+}
+
+/// @param weighed  alpha is already the share of the one light there is.
+void SoftCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs, bool weighed) const {
+    if (lights.size() > 1) {
+        weigh(lights, 0, boundsOf(jobs));
+        _draw.pass(boundsOf(jobs), [&](ScreenPass& screen) {
+            screen.stencilAny(bitsOf(lights));
+            screen.multiplyColorByAlpha();
+        });
+    }
+    for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) {
+        const ScreenRect bounds = boundsWithout(lights, lost);
+        if (!overlap(bounds, bounds)) continue;
+        if (!weighed) weigh(lights, lights.size() == 1 ? 0 : lost, bounds);
+        replay(leaves, lights, lost, bounds, jobs);
+    }
+}
+
+/// Adds what the leaves look like without the lights of `lost` (bit i: lights[i]); of one light, mixes it in.
+void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned lost, const ScreenRect& bounds,
+                            const Jobs& jobs) const {
+    LeafReplay::Overlay overlay;
+    overlay.bounds = bounds;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if ((lost & (1u << i)) && !lights[i].isMixed()) overlay.test |= lights[i].bits();
+    overlay.stencilFunction =
+        overlay.test ? GL_EQUAL : GL_NOTEQUAL; // every light of `lost`, as far as one test can tell
+    overlay.reference = overlay.test;
+    if (!overlay.test) overlay.test = bitsOf(lights);
+    overlay.equalDepth = true;
+    overlay.color = lights.size() == 1 ? LeafReplay::Color::Mix : LeafReplay::Color::Add;
+    overlay.lightUniforms = lightUniformsOf(jobs);
+    LeafReplay replay(_draw, overlay);
+    unsigned dark = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (lost & (1u << i)) dark |= 1u << lights[i].number;
+    TouchTest touches(bounds);
+    for (const ReplayedLeaf& leaf : leaves)
+        if (!_draw.options.filter || touches(*leaf.entry.leaf)) replay.draw(leaf.entry, leaf.dark & dark);
+}
+
+/// Where pixels can lose all of these lights; with a light of two bits in use, which one stencil test cannot ask for,
+/// where they can lose any of all lights.
+ScreenRect SoftCompositor::boundsWithout(const Lights& lights, unsigned lost) const {
+    if (std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.isMixed(); }))
+        return boundsOf(jobsOf(lights));
+    ScreenRect bounds = wholeScreen;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (lost & (1u << i)) bounds = common(bounds, boundsOf(jobsOf(Lights{lights[i]})));
+    return bounds;
+}
+
+/// Alpha becomes the share of each pixel that sees all lights but those of `lost`.
+void SoftCompositor::weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const {
+    _draw.pass(bounds, [&](ScreenPass& screen) {
+        screen.setAlpha(1.0f);
+        for (std::size_t i = 0; i < lights.size(); ++i) weighOne(lights[i], lost & (1u << i), screen);
+    });
+}
+
+void SoftCompositor::weighOne(const Light& light, bool lost, ScreenPass& screen) const {
+    if (light.soft) {
+        screen.stencilEqual(light.softBit, light.bits(), 0);
+        multiplyShare(*light.soft, lost, screen);
+    }
+    if (lost)
+        screen.stencilEqual(0, light.bits(), 0);
+    else if (light.hardBit)
+        screen.stencilAny(light.hardBit);
+    if (lost || light.hardBit) screen.setAlpha(0.0f);
+}
+
+/// Cut to the pass's bounds, not to the job's own: outside those its bit is not set.
+void SoftCompositor::multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const {
+    screen.multiplyAlpha();
+    const std::string cause = job.softMarks()->drawShare(
+        _draw.renderInfo, screen, blocked ? SoftMarkJob::Share::Blocked : SoftMarkJob::Share::Arriving);
+    job.report(cause);
+}
+
+/// Multiplies alpha by the job's share.
+void SoftCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
+    const StencilMarks marks(_draw, _scratch);
+    const Leaves others = notOfView(job, _draw.leaves);
+    if (job.softMarks() && !job.receiverNamed && others.empty())
+        return marks.add(job, bit, true, StencilMarks::Soft::Weighed);
+    marks.add(job, bit, true, StencilMarks::Soft::Touched);
+    writeWhereSeen(_draw, others, 0, bit, job.marks->screenBounds);
+    _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
+        screen.stencilAny(bit);
+        if (job.softMarks())
+            multiplyShare(job, false, screen);
+        else
+            screen.setAlpha(0.0f);
+    });
+}
+
+void SoftCompositor::blend(const Jobs& jobs, float dark) const {
+    const ScreenRect bounds = boundsOf(jobs);
+    const unsigned bit = _lightBits.front();
+    _draw.clearLeftovers(bit | _scratch);
+    _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
+    for (const ShadowJob* job : jobs) {
+        addBlended(*job, bit);
+        _draw.clear(bit, job->marks->screenBounds);
+    }
+    _draw.pass(bounds, [&](ScreenPass& screen) {
+        screen.fadeAlpha(dark);
+        screen.multiplyColorByAlpha();
+        screen.setAlpha(1.0f);
+    });
+}
+
+} // namespace gnomon

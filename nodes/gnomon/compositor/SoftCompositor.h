@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/compositor/ReplaySelection.h>
+#include <gnomon/compositor/StencilMarks.h>
+
+#include <vector>
+
+namespace gnomon {
+
+/// Composes jobs of which one at least has soft edges: visibility goes through destination alpha, which is 1 afterwards.
+///
+/// Relight: a pixel's colour is the sum of what it would be under each set of lights, weighted by the share of it that
+/// sees just these; with one light that is one mix. Each leaf is drawn again at the depth that stands. A leaf that blends,
+/// writes no depth or cannot lose its light is darkened by the factor instead, and reported.
+class SoftCompositor {
+public:
+    /// @param draw  with alpha bits and at least one stencil bit; must outlive this.
+    explicit SoftCompositor(const CompositorStage& draw);
+
+    void relight(const Jobs& wanted) const;
+    void blend(const Jobs& jobs, float dark) const;
+
+private:
+    /// The jobs of one light. Hard marks and touched pixels have a bit each.
+    struct Light {
+        int number = 0;
+        Jobs hard;
+        const ShadowJob* soft = nullptr;
+        unsigned hardBit = 0, softBit = 0;
+        unsigned bits() const { return hardBit | softBit; }
+        bool isMixed() const { return hardBit && softBit; }
+        bool isSoftOnly() const { return soft && hard.empty(); }
+    };
+    using Lights = std::vector<Light>;
+    using Leaves = std::vector<ReplayedLeaf>;
+
+    Lights lightsOf(const Jobs& wanted) const;
+    bool assignBits(Light& light, std::vector<unsigned>& unused) const;
+    void mark(const Lights& lights, StencilMarks::Soft soft) const;
+    Leaves setAside(Leaves& leaves, const Jobs& jobs) const;
+    void darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const;
+    void multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const;
+    void mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs, bool weighed) const;
+    void replay(const Leaves& leaves, const Lights& lights, unsigned lost, const ScreenRect& bounds,
+                const Jobs& jobs) const;
+    ScreenRect boundsWithout(const Lights& lights, unsigned lost) const;
+    void addBlended(const ShadowJob& job, unsigned bit) const;
+    void weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const;
+    void weighOne(const Light& light, bool lost, ScreenPass& screen) const;
+    void multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const;
+
+    const CompositorStage& _draw;
+    std::vector<unsigned> _lightBits;
+    unsigned _scratch = 0, _faded = 0;
+};
+
+} // namespace gnomon

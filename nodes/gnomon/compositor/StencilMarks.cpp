@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/LeafReplay.h>
+#include <gnomon/compositor/SoftMarkJob.h>
+#include <gnomon/compositor/StencilMarks.h>
+
+namespace gnomon {
+
+ScreenRect boundsOf(const Jobs& jobs) {
+    ScreenRect all = jobs.front()->marks->screenBounds;
+    for (const ShadowJob* job : jobs) all = united(all, job->marks->screenBounds);
+    return all;
+}
+
+std::vector<LightUniform> lightUniformsOf(const Jobs& jobs) {
+    std::vector<LightUniform> all;
+    for (const ShadowJob* job : jobs) all.insert(all.end(), job->lightUniforms.begin(), job->lightUniforms.end());
+    return all;
+}
+
+void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, unsigned reference,
+                    unsigned write, const ScreenRect& bounds) {
+    OpaqueTest opaque;
+    for (const bool equal : {false, true}) {
+        LeafReplay::Overlay overlay;
+        overlay.reference = reference;
+        overlay.write = write;
+        overlay.color = LeafReplay::Color::None;
+        overlay.equalDepth = equal;
+        overlay.keepDepth = true;
+        overlay.bounds = bounds;
+        LeafReplay replay(draw, overlay);
+        for (const ReplayedLeaf& leaf : leaves)
+            if (opaque(*leaf.entry.leaf) == equal) replay.draw(leaf.entry);
+    }
+}
+
+/// The first job of a light without a named receiver marks its bit directly; any other goes through the scratch bit.
+void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Soft soft) const {
+    if (fresh && !job.receiverNamed) return addUngated(job, bit, soft);
+    if (!_scratch) {
+        job.report("a named receiver, or a second technique for the same light, needs two stencil bits, but "
+                   "only one is left. Leave at least two out of CompositorOptions::reservedStencilBits.");
+        return;
+    }
+    addUngated(job, _scratch, soft);
+    if (job.receiverNamed)
+        gate(job, bit);
+    else
+        transfer(job, bit);
+    _draw.clear(_scratch, job.marks->screenBounds);
+}
+
+void StencilMarks::addUngated(const ShadowJob& job, unsigned bit, Soft soft) const {
+    _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
+        const auto* softMarks = soft == Soft::Half ? nullptr : job.softMarks();
+        if (softMarks && soft == Soft::Weighed) screen.multiplyAlpha();
+        const std::string cause = softMarks ? softMarks->markTouched(_draw.renderInfo, screen, bit)
+                                            : job.marks->mark(_draw.renderInfo, screen, bit);
+        job.report(cause);
+    });
+}
+
+/// Hands marks on where the receiver is what one sees: its own leaves, drawn again, pass only at the depth that stands.
+void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
+    LeafReplay::Overlay overlay;
+    overlay.stencilFunction = GL_EQUAL;
+    overlay.reference = _scratch | bit;
+    overlay.test = _scratch;
+    overlay.write = bit;
+    overlay.equalDepth = true;
+    overlay.color = LeafReplay::Color::None;
+    overlay.bounds = job.marks->screenBounds;
+    overlay.marks = job.marks.get();
+    LeafReplay replay(_draw, overlay);
+    TouchTest touches(job.marks->screenBounds);
+    for (const DrawnLeaf& entry : _draw.leaves)
+        if (job.receivers.count(entry.leaf) && touches(*entry.leaf)) replay.draw(entry);
+}
+
+void StencilMarks::transfer(const ShadowJob& job, unsigned bit) const {
+    _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
+        screen.stencilEqual(_scratch | bit, _scratch, bit);
+        screen.drawQuad();
+    });
+}
+
+} // namespace gnomon

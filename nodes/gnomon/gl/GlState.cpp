@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/gl/GlState.h>
+
+#include <osg/GLExtensions>
+#include <osg/State>
+
+#include <algorithm>
+
+namespace gnomon {
+
+CleanState::CleanState(osg::State& state, osg::Viewport* viewport) : _state(state), _set(new osg::StateSet) {
+    _set->setAttribute(viewport);
+    _set->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    _state.pushStateSet(_set.get());
+    _state.apply();
+}
+
+CleanState::~CleanState() { _state.popStateSet(); }
+
+/// osg::State sets an attribute again only if it ever had one of its type: so OpenGL itself is set, too.
+void leaveDefaults(osg::State& state) {
+    using A = osg::StateAttribute;
+    for (GLenum mode : {GLenum(GL_SCISSOR_TEST), GLenum(GL_STENCIL_TEST), GLenum(GL_DEPTH_TEST), GLenum(GL_BLEND),
+                        GLenum(GL_ALPHA_TEST), depthClamp}) {
+        glDisable(mode);
+        state.haveAppliedMode(mode, A::OFF);
+    }
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glAlphaFunc(GL_ALWAYS, 0.0f);
+    glStencilFunc(GL_ALWAYS, 0, ~0u);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    glStencilMask(~0u);
+    glBlendFunc(GL_ONE, GL_ZERO);
+    state.get<osg::GLExtensions>()->glBlendColor(0.0f, 0.0f, 0.0f, 0.0f);
+    if (const osg::Viewport* viewport = state.getCurrentViewport()) // as osgUtil::RenderStage leaves it
+        glScissor(static_cast<GLint>(viewport->x()), static_cast<GLint>(viewport->y()),
+                  static_cast<GLsizei>(viewport->width()), static_cast<GLsizei>(viewport->height()));
+    for (A::Type type :
+         {A::SCISSOR, A::STENCIL, A::BLENDFUNC, A::BLENDCOLOR, A::BLENDEQUATION, A::DEPTH, A::ALPHAFUNC, A::COLORMASK})
+        state.haveAppliedAttribute(type);
+}
+
+PixelRect pixelsInScissor(const osg::Viewport& viewport) {
+    GLint box[4];
+    glGetIntegerv(GL_SCISSOR_BOX, box);
+    const GLint left = std::max({0, box[0], static_cast<GLint>(viewport.x())});
+    const GLint low = std::max({0, box[1], static_cast<GLint>(viewport.y())});
+    const GLint right = std::min(box[0] + box[2], static_cast<GLint>(viewport.x() + viewport.width()));
+    const GLint high = std::min(box[1] + box[3], static_cast<GLint>(viewport.y() + viewport.height()));
+    return {left, low, right - left, high - low};
+}
+
+void addBlended(const osg::State& state, GLenum source, GLenum destination) {
+    glEnable(GL_BLEND);
+    glBlendFunc(source, destination);
+    state.get<osg::GLExtensions>()->glBlendEquation(GL_FUNC_ADD);
+}
+
+void drawQuad(osg::State& state, double atCenter, double slopeX, double slopeY) {
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
+    glBegin(GL_TRIANGLE_STRIP);
+    for (const double y : {-1.0, 1.0})
+        for (const double x : {-1.0, 1.0}) glVertex3d(x, y, atCenter + x * slopeX + y * slopeY);
+    glEnd();
+}
+
+void drawPolygon(osg::State& state, const std::vector<glm::dvec2>& corners, double depth) {
+    if (corners.empty()) return drawQuad(state, depth);
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
+    glBegin(GL_TRIANGLE_FAN);
+    for (const glm::dvec2& corner : corners) glVertex3d(corner.x, corner.y, depth);
+    glEnd();
+}
+
+} // namespace gnomon

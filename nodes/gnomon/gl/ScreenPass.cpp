@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/gl/ScreenPass.h>
+
+#include <osg/GLExtensions>
+#include <osg/State>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+struct Interval {
+    GLint first;
+    GLsizei count;
+};
+
+/// Pixels whose centres lie in [low, high] of a side of the viewport, one more on either side against rounding.
+Interval pixels(double low, double high, double start, double size) {
+    const double first = std::max(0.0, std::floor((low + 1.0) / 2.0 * size) - 1.0);
+    const double last = std::min(size, std::ceil((high + 1.0) / 2.0 * size) + 1.0);
+    return {static_cast<GLint>(start + first), static_cast<GLsizei>(std::max(0.0, last - first))};
+}
+
+} // namespace
+
+ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
+                       std::function<Channels()> written, unsigned counters)
+    : _state(state), _written(std::move(written)), _counters(counters) {
+    const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
+    const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(x.first, y.first, x.count, y.count);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glDepthMask(GL_FALSE);
+}
+
+ScreenPass::~ScreenPass() { leaveDefaults(_state); }
+
+void ScreenPass::clearStencil(unsigned bits) {
+    glStencilMask(bits);
+    glClearStencil(0);
+    glClear(GL_STENCIL_BUFFER_BIT);
+}
+
+void ScreenPass::stencilEqual(unsigned reference, unsigned test, unsigned write) {
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(test ? GL_EQUAL : GL_ALWAYS, static_cast<GLint>(reference), test);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilMask(write);
+}
+
+void ScreenPass::stencilAny(unsigned test) {
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_NOTEQUAL, 0, test);
+    glStencilMask(0);
+}
+
+void ScreenPass::stencilAtLeast(unsigned least, unsigned test) {
+    stencilAny(test);
+    glStencilFunc(GL_LEQUAL, static_cast<GLint>(least), test);
+}
+
+void ScreenPass::takeStencil(unsigned test, unsigned bits) {
+    stencilAny(test);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
+    glStencilMask(bits);
+}
+
+/// Source: W. Bilodeau and M. Songy; C. Everitt and M. Kilgard, "Practical and Robust Stenciled Shadow Volumes", 2002.
+void ScreenPass::countHolding(unsigned bits) {
+    const bool single = (bits & (bits - 1)) == 0;
+    const auto& gl = *_state.get<osg::GLExtensions>();
+    testDepth(GL_LESS);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_ALWAYS, 0, ~0u);
+    gl.glStencilOpSeparate(GL_BACK, GL_KEEP, GLenum(single ? GL_INVERT : GL_INCR_WRAP), GL_KEEP);
+    gl.glStencilOpSeparate(GL_FRONT, GL_KEEP, GLenum(single ? GL_INVERT : GL_DECR_WRAP), GL_KEEP);
+    glStencilMask(bits);
+}
+
+void ScreenPass::takeCount(unsigned bits, unsigned mark) {
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(GL_NOTEQUAL, static_cast<GLint>(mark & ~bits), bits);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilMask(bits | mark);
+    drawQuad();
+}
+
+void ScreenPass::writeFarDepth() {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    drawQuad(1.0);
+}
+
+void ScreenPass::writeColor(const osg::Vec4& color) {
+    glDisable(GL_BLEND);
+    openChannels(GL_TRUE);
+    drawColor(color);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+}
+
+void ScreenPass::beginBlend() {
+    openChannels(GL_FALSE);
+    addBlended(_state, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void ScreenPass::blendColor(const osg::Vec3& color, float opacity) {
+    beginBlend();
+    drawColor({color, opacity});
+    glDisable(GL_BLEND);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+}
+
+void ScreenPass::multiplyColor(float factor) {
+    beginMultiply(factor);
+    drawQuad();
+}
+
+void ScreenPass::beginMultiply(float factor) {
+    openChannels(GL_FALSE);
+    addBlended(_state, GL_ZERO, GL_CONSTANT_COLOR);
+    _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
+}
+
+void ScreenPass::beginMultiplyByColor() {
+    openChannels(GL_FALSE);
+    addBlended(_state, GL_ZERO, GL_SRC_COLOR);
+}
+
+void ScreenPass::beginMix(const osg::Vec3& kept) {
+    const auto& gl = *_state.get<osg::GLExtensions>();
+    openChannels(GL_TRUE);
+    addBlended(_state, GL_ONE_MINUS_CONSTANT_COLOR, GL_CONSTANT_COLOR);
+    gl.glBlendFuncSeparate(GL_ONE_MINUS_CONSTANT_COLOR, GL_CONSTANT_COLOR, GL_ONE, GL_ZERO);
+    gl.glBlendColor(kept.x(), kept.y(), kept.z(), 0.0f);
+}
+
+void ScreenPass::endMix() {
+    glDisable(GL_BLEND);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+}
+
+void ScreenPass::setAlpha(float value) {
+    glDisable(GL_BLEND);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    drawColor({0.0f, 0.0f, 0.0f, value});
+}
+
+void ScreenPass::fadeAlpha(float factor) {
+    addBlended(_state, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    drawColor({0.0f, 0.0f, 0.0f, factor});
+}
+
+void ScreenPass::multiplyAlpha() {
+    addBlended(_state, GL_ZERO, GL_SRC_ALPHA);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+}
+
+void ScreenPass::multiplyColorByAlpha() {
+    addBlended(_state, GL_ZERO, GL_DST_ALPHA);
+    openChannels(GL_FALSE);
+    drawQuad();
+}
+
+/// Fewer than all in anaglyph stereo, for one.
+void ScreenPass::openChannels(GLboolean alpha) const {
+    const Channels channels = _written();
+    glColorMask(channels.red, channels.green, channels.blue, alpha);
+}
+
+void ScreenPass::drawColor(const osg::Vec4& color) {
+    GLfloat current[4];
+    glGetFloatv(GL_CURRENT_COLOR, current);
+    glColor4fv(color.ptr());
+    drawQuad();
+    glColor4fv(current);
+}
+
+void ScreenPass::testDepth(GLenum function, bool clamp) {
+    glEnable(GL_DEPTH_TEST);
+    clamp ? glEnable(depthClamp) : glDisable(depthClamp);
+    glDepthFunc(function);
+}
+
+void ScreenPass::testAlpha() {
+    glEnable(GL_ALPHA_TEST);
+    glAlphaFunc(GL_LESS, 1.0f);
+}
+
+void ScreenPass::drawQuad(double atCenter, double slopeX, double slopeY) {
+    gnomon::drawQuad(_state, atCenter, slopeX, slopeY);
+}
+
+} // namespace gnomon

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/gl/GlState.h>
+
+#include <osg/Vec3>
+#include <osg/Vec4>
+#include <osg/Viewport>
+
+#include <functional>
+
+namespace gnomon {
+
+/// Colour channels.
+struct Channels {
+    bool red = false, green = false, blue = false;
+};
+
+/// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
+/// Puts everything back at its end.
+class ScreenPass {
+public:
+    /// @param written   asked when colours are written: to these channels only.
+    /// @param counters  see counters().
+    ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
+               std::function<Channels()> written, unsigned counters);
+    ~ScreenPass();
+    ScreenPass(const ScreenPass&) = delete;
+    ScreenPass& operator=(const ScreenPass&) = delete;
+
+    void clearStencil(unsigned bits);
+    /// Pass where (stencil & test) == (reference & test), then set the bits of `write` to those of `reference`.
+    void stencilEqual(unsigned reference, unsigned test, unsigned write);
+    /// Pass where any bit of `test` is set.
+    void stencilAny(unsigned test);
+    /// Pass where the number that the bits of `test` make, from bit 0 on, is `least` or more.
+    void stencilAtLeast(unsigned least, unsigned test);
+    /// Pass where any bit of `test` is set, and set `bits` to 0.
+    void takeStencil(unsigned test, unsigned bits);
+    /// Stencil bits that nobody else uses, 0 before and after each step: several are the lowest ones, from bit 0 on, so
+    /// that they count; one may be any and tells odd from even; 0 if there is none.
+    unsigned counters() const { return _counters; }
+    /// What is drawn next, closed surfaces, counts in `bits`, one or several as counters() has them, how many of them hold
+    /// what stands in the depth buffer, modulo the bits' range (z-fail).
+    void countHolding(unsigned bits);
+    /// Sets `mark` wherever any of `bits` is set, and those to 0.
+    void takeCount(unsigned bits, unsigned mark);
+    void writeFarDepth();
+    void writeColor(const osg::Vec4& color);
+    /// opacity · color + (1 - opacity) · what stands; alpha stays.
+    void blendColor(const osg::Vec3& color, float opacity);
+    /// What is drawn next is blended in by its own alpha; that of the frame stays.
+    void beginBlend();
+    void multiplyColor(float factor);
+    /// What is drawn next multiplies what stands by the factor, whatever its own colour.
+    void beginMultiply(float factor);
+    /// What is drawn next multiplies what stands by its own colour; alpha stays.
+    void beginMultiplyByColor();
+    /// What is drawn next and what stands are mixed: (1 - kept) of the one, kept of the other, a channel each. Alpha is
+    /// that of what is drawn.
+    void beginMix(const osg::Vec3& kept);
+    void endMix();
+    /// Alpha alone: set; alpha = factor + (1 - factor) alpha.
+    void setAlpha(float value);
+    void fadeAlpha(float factor);
+    /// What is drawn next multiplies alpha by its own, and writes nothing else.
+    void multiplyAlpha();
+    void multiplyColorByAlpha();
+    /// Passes where what is drawn next compares so with the depth that stands.
+    /// @param clamp  what is nearer than the near plane, or beyond the far one, is taken for as far as that; else it is cut off.
+    void testDepth(GLenum function, bool clamp = true);
+    /// Passes where the alpha of what is drawn next is less than 1: what a program may say in place of `discard`, which costs
+    /// where shaders run on the processor (llvmpipe skips blocks of which nothing passes, but no block of a program with
+    /// `discard`).
+    void testAlpha();
+
+    /// See gnomon::drawQuad().
+    void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
+
+private:
+    void openChannels(GLboolean alpha) const;
+    void drawColor(const osg::Vec4& color);
+
+    osg::State& _state;
+    const std::function<Channels()> _written;
+    const unsigned _counters;
+};
+
+} // namespace gnomon

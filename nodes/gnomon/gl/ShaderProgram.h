@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <osg/State>
+#include <osg/StateSet>
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// State that draws geometry as marks: a program that takes each vertex to clip space by the uniform clipFromCaster alone,
+/// made in double. GLSL 1.30. It belongs to a node, so that it is released with the node's other OpenGL objects.
+/// @param defines  "#define CLIP\n": it writes clip distances to the uniform planes abovePlane and belowLight, too.
+///                 "#define CUTOUT\n": it leaves out what the texture `cutout` says, by the uniform alphaTest.
+///                 "#define BITMAP\n": it leaves out what a ShadowBitmap says, see TileBitmap.
+osg::ref_ptr<osg::StateSet> shaderProgram(const std::string& defines = "");
+/// State with a program for ScreenPass::drawQuad(): a fragment shader for each pixel. GLSL 1.30.
+osg::ref_ptr<osg::StateSet> quadProgram(const char* name, const std::string& defines, const char* fragmentShader);
+
+/// False if the program that was applied last could not be built.
+bool hasProgram(const osg::State& state);
+constexpr const char* noProgram =
+    "the shader program cannot be built in this context. Use OpenGL 3.0 with GLSL 1.30, or later.";
+
+/// Uniforms of the program that was applied last.
+void setUniform(const osg::State& state, const char* name, const glm::dvec4& value);
+void setUniform(const osg::State& state, const char* name, const glm::dmat4& value);
+void setUniform(const osg::State& state, const char* name, const glm::dvec2& value);
+void setUniform(const osg::State& state, const char* name, int value); ///< a sampler's texture unit.
+/// Of an array.
+void setUniform(const osg::State& state, const char* name, const std::vector<glm::dvec4>& values);
+
+} // namespace gnomon

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Convert.h>
+#include <gnomon/ShadowLight.h>
+#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/mapfit/SpotCone.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <osg/io_utils>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A light about `origin`, with a w of 0 and a direction of length 1, or a w of 1; nullopt if it is nowhere.
+inline std::optional<glm::dvec4> localLight(const osg::Vec4d& inGroup, const osg::Vec3d& origin) {
+    const glm::dvec4 given = toGlm(inGroup);
+    const glm::dvec4 light = given.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(given)), 0.0)
+                                            : glm::dvec4(glm::dvec3(given) / given.w - toGlm(origin), 1.0);
+    if (!(std::isfinite(given.w) && std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z)))
+        return std::nullopt;
+    return light;
+}
+
+/// Of a lamp that is a spot; nullopt of all others.
+inline std::optional<SpotCone> spotOf(const ShadowLight& light) {
+    const glm::dvec3 axis = glm::normalize(toGlm(light.direction));
+    if (light.inGroup.w() == 0.0 || !(light.cutoff >= 0.0 && light.cutoff <= 90.0) ||
+        !std::isfinite(axis.x + axis.y + axis.z))
+        return std::nullopt;
+    return SpotCone{axis, osg::DegreesToRadians(light.cutoff)};
+}
+
+/// The cause for ShadowTechnique::report() where there is none.
+inline std::string notUsable(const osg::Vec4d& light) {
+    std::ostringstream cause;
+    cause << "the light at (" << light << ") has no finite position or direction. Set the light's position.";
+    return cause.str();
+}
+
+/// The casters' box and everything behind it as a usable light sees it: each corner, and where its shadow goes. Nullopt
+/// if nothing of it is in sight.
+inline std::optional<ScreenRect> shadowBounds(const CasterMesh& mesh, const glm::dmat4& clipFromScene,
+                                              const glm::dvec4& light) {
+    std::vector<glm::dvec4> points;
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner = toGlm(mesh.bounds.corner(i) - mesh.origin), at(light);
+        points.push_back(clipFromScene * glm::dvec4(corner, 1.0));
+        points.push_back(clipFromScene * glm::dvec4(light.w == 0.0 ? -at : corner - at, 0.0));
+    }
+    return screenBounds(points);
+}
+
+} // namespace gnomon

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowTechnique.h>
+#include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/ShadowJob.h>
+#include <gnomon/compositor/ViewEffect.h>
+#include <gnomon/group/FrameCasters.h>
+
+#include <osgUtil/RenderBin>
+#include <osgUtil/RenderStage>
+
+#include <vector>
+
+namespace gnomon {
+
+/// A technique met in the cull of one stage, and what it needs to know of the view.
+struct EnlistedTechnique {
+    osg::ref_ptr<const ShadowTechnique> technique;
+    osg::ref_ptr<const ShadowCasterGroup> group;
+    osg::Matrixd eyeFromGroup;
+    osg::Matrixd groupFromTechnique;
+    osg::ref_ptr<osg::RefMatrix> projection; ///< shared with the leaves: near and far are set in it after the cull.
+    unsigned frameNumber = 0;
+};
+
+/// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
+///
+/// It runs after all opaque bins of the stage and before the transparent ones. Lights and leaves are asked for after the
+/// whole cull, so their order in the graph does not matter; nothing is kept from frame to frame or view to view.
+///
+/// Cost    scissored to where marks can fall: the marks, a stencil clear, and the leaves that the marks can touch, once
+///         more, big ones in part (TriangleClusters). One job with a named receiver that nothing else shows on: its leaves
+///         alone, at equal depth. Soft edges: a few more steps, and each set of lights that are gone once more.
+/// Needs   one stencil bit a relit light, one more for several jobs or for receivers that others show on. A stage that
+///         clears depth clears stencil too, unless bits are reserved. For soft edges alpha bits; alpha is 1 afterwards
+///         within the marks' bounds. Without them edges are hard.
+/// Limits  three relit lights; the others stay unshadowed. Unlit receivers, and those whose program reads no OpenGL
+///         light's colour, take a factor; where an opaque leaf has a stencil test of its own all is blended; under soft
+///         edges what blends or writes no depth takes the factor. diagnose() says so.
+///         Under soft edges opaque layers at the very same depth are mixed one after the other. A leaf that sets no
+///         colour of its own and takes that of the leaf before it may take another. Reversed depth is refused.
+///         What is in bin 8 is drawn after the shadows: transparent things and whatever shall not receive belong there
+///         or higher.
+/// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
+class ShadowBin : public osgUtil::RenderBin {
+public:
+    ShadowBin() = default;
+    ShadowBin(const ShadowBin& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)
+        : osgUtil::RenderBin(other, copyOp) {}
+    osg::Object* cloneType() const override { return new ShadowBin; }
+    osg::Object* clone(const osg::CopyOp& copyOp) const override { return new ShadowBin(*this, copyOp); }
+    const char* libraryName() const override { return "gnomon"; }
+    const char* className() const override { return "ShadowBin"; }
+
+    /// The bin of `stage`, made if it has none: number 8, or the next lower one that another kind of bin has not taken.
+    static ShadowBin& of(osgUtil::RenderStage* stage);
+
+    /// Also lets the stage clear its stencil buffer, if it clears depth and no bits are reserved: the two together cost
+    /// less than a clear of our bits later.
+    void enlist(const EnlistedTechnique& technique);
+    /// The same for what is no shadow: mirror images and halos.
+    void enlist(ViewEffect& effect, const CompositorOptions& options);
+
+    void reset() override;
+    void sortImplementation() override;
+    void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
+    unsigned computeNumberOfDynamicRenderLeaves() const override;
+
+protected:
+    ~ShadowBin() override = default;
+
+private:
+    bool isIdle() const { return _jobs.empty() && _effects.empty(); }
+    void suit(const CompositorOptions& options);
+    void clearWithStage();
+    void sortAsAsked();
+    void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const FrameCasters& casters,
+                 const std::vector<DrawnLeaf>& leaves);
+
+    std::vector<EnlistedTechnique> _enlisted;
+    std::vector<ShadowJob> _jobs;
+    std::vector<osg::ref_ptr<ViewEffect>> _effects;
+    CompositorOptions _options; ///< of all that were enlisted.
+    bool _stageClears = false;
+    bool _addsClear = false; ///< it is this bin alone that wants the stage to clear stencil.
+};
+
+} // namespace gnomon

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/CompositorOptions.h>
+
+#include <osg/Matrixd>
+#include <osg/Vec2d>
+#include <osgUtil/RenderLeaf>
+
+#include <set>
+#include <vector>
+
+namespace gnomon {
+
+class ShadowCasterGroup;
+
+/// One view in one frame, as a technique sees it after cull. OSG's convention: row vectors, eye = group * eyeFromGroup.
+struct ViewFrame {
+    osg::Matrixd eyeFromGroup;       ///< modelview of the ShadowCasterGroup.
+    osg::Matrixd groupFromTechnique; ///< identity unless a transform stands between group and technique.
+    osg::Matrixd projection;         ///< as drawn, near and far included.
+    osg::Vec2d pixels;               ///< of the viewport.
+    const ShadowCasterGroup* group = nullptr;
+    float dark = 0.5f;         ///< of the ShadowCasterGroup.
+    CompositorOptions options; ///< of the ShadowCasterGroup.
+    unsigned frameNumber = 0;
+    const void* stage = nullptr; ///< whose view it is: tells views apart.
+    const std::set<const osgUtil::RenderLeaf*>* receivers =
+        nullptr;                                  ///< leaves of the named receiver; null if none is named.
+    std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
+};
+
+} // namespace gnomon

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/group/ViewLights.h>
+
+#include <osg/Light>
+#include <osgUtil/PositionalStateContainer>
+
+#include <limits>
+#include <map>
+
+namespace gnomon {
+namespace {
+
+/// A light as the stage will apply it.
+struct StageLight {
+    const osg::Light* light = nullptr;
+    osg::Vec4d inEye;
+    osg::Vec3d direction; ///< of a spot, in eye space.
+
+    ShadowLight in(const osg::Matrixd& groupFromEye) const {
+        return {light->getLightNum(), inEye * groupFromEye, osg::Matrixd::transform3x3(direction, groupFromEye),
+                double{light->getSpotCutoff()}};
+    }
+};
+
+void collect(osgUtil::PositionalStateContainer* container, const osg::Matrixd& eyeFromContainer,
+             std::map<int, StageLight>& lights) {
+    if (!container) return;
+    for (const auto& [attribute, containerFromLight] : container->getAttrMatrixList()) {
+        const auto* light = dynamic_cast<const osg::Light*>(attribute.get());
+        if (!light) continue;
+        const osg::Vec4d given(light->getPosition());
+        const osg::Vec4d position = containerFromLight ? given * *containerFromLight : given;
+        const osg::Vec3d way(light->getDirection());
+        const osg::Vec3d direction = containerFromLight ? osg::Matrixd::transform3x3(way, *containerFromLight) : way;
+        lights[light->getLightNum()] = {light, position * eyeFromContainer, // as in GL, the last one holds
+                                        osg::Matrixd::transform3x3(direction, eyeFromContainer)};
+    }
+}
+
+std::map<int, StageLight> lightsIn(osgUtil::RenderStage& stage) {
+    std::map<int, StageLight> lights;
+    collect(stage.getInheritedPositionalStateContainer(), stage.getInheritedPositionalStateContainerMatrix(), lights);
+    collect(stage.getPositionalStateContainer(), osg::Matrixd(), lights);
+    return lights;
+}
+
+std::string notOpenGL(int number) {
+    return "light " + std::to_string(number) +
+           " is left out, because OpenGL's lights are 0 to 7. Give it another number.";
+}
+
+void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight>& inStage,
+                  const osg::Matrixd& groupFromEye, GroupLights& result) {
+    result.lights = group.getLights();
+    for (const auto& source : group.getLightSources()) {
+        const osg::Light* light = source->getLight();
+        if (light && (light->getLightNum() < 0 || light->getLightNum() > 7)) {
+            result.causes.push_back(notOpenGL(light->getLightNum()));
+            continue;
+        }
+        const auto found = light ? inStage.find(light->getLightNum()) : inStage.end();
+        if (found != inStage.end() && found->second.light == light)
+            result.lights.push_back(found->second.in(groupFromEye));
+        else
+            result.causes.push_back("the LightSource '" + source->getName() +
+                                    "' is not in this view's scene graph, or another light has its number. Add it to "
+                                    "the scene, or give it another number.");
+    }
+}
+
+} // namespace
+
+GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFromGroup, osgUtil::RenderStage& stage) {
+    const std::map<int, StageLight> inStage = lightsIn(stage);
+    const osg::Matrixd groupFromEye = osg::Matrixd::inverse(eyeFromGroup);
+    GroupLights result;
+    if (!group.getLights().empty() || !group.getLightSources().empty()) {
+        addSetLights(group, inStage, groupFromEye, result);
+        return result;
+    }
+    const std::vector<DrawnLeaf> leaves = leavesBelow(stage, std::numeric_limits<int>::max());
+    for (const auto& [number, light] : inStage)
+        if (number < 0 || number > 7)
+            result.causes.push_back(notOpenGL(number));
+        else if (isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(number)))
+            result.lights.push_back(light.in(groupFromEye));
+    if (result.lights.empty() && (inStage.empty() || !leaves.empty())) // with nothing in sight, nobody can tell
+        result.causes.push_back("no light is on in this view. Add an osg::LightSource and switch its mode on, or set a "
+                                "light with ShadowCasterGroup::addLight().");
+    return result;
+}
+
+} // namespace gnomon

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/gl/SavedFramebuffers.h>
+#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/gl/ShaderProgram.h>
+#include <gnomon/gl/UncomparedSampler.h>
+#include <gnomon/map/DepthMap.h>
+
+#include <OpenThreads/ScopedLock>
+#include <osg/ContextData>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+osg::ref_ptr<osg::Texture2D> mapTexture(const glm::ivec2& size, osg::Texture::FilterMode filter) {
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+    texture->setTextureSize(size.x, size.y);
+    texture->setInternalFormat(GL_DEPTH_COMPONENT24);
+    texture->setSourceFormat(GL_DEPTH_COMPONENT);
+    texture->setSourceType(GL_UNSIGNED_INT);
+    texture->setResizeNonPowerOfTwoHint(false);
+    texture->setShadowComparison(true);
+    texture->setShadowCompareFunc(osg::Texture::LEQUAL);
+    for (const auto which : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER}) texture->setFilter(which, filter);
+    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T})
+        texture->setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
+    return texture;
+}
+
+constexpr const char* noSamplers =
+    "the penumbras are no wider than the filter, because this context has no sampler objects. Use OpenGL 3.3 or later.";
+
+/// OpenGL as a map is drawn under; put back at its end.
+class MapState {
+public:
+    explicit MapState(double slopeOffset) {
+        glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
+                     GL_STENCIL_BUFFER_BIT);
+        for (const GLenum mode : {GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
+        for (const GLenum mode :
+             {GLenum(GL_SCISSOR_TEST), GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)})
+            glEnable(mode);
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_TRUE);
+        glDepthRange(0.0, 1.0);
+        glClearDepth(1.0);
+        glPolygonOffset(static_cast<GLfloat>(slopeOffset), 0.0f);
+    }
+    ~MapState() { glPopAttrib(); }
+    MapState(const MapState&) = delete;
+    MapState& operator=(const MapState&) = delete;
+};
+
+/// Parts that no tile is in, too.
+void clearAll() {
+    glDisable(GL_SCISSOR_TEST);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+}
+
+PixelRect wholeOf(const MapPicture::Tile& tile, int size) { return {tile.corner.x, tile.corner.y, size, size}; }
+
+/// What is drawn next goes there.
+void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size, const PixelRect& texels) {
+    glViewport(tile.corner.x, tile.corner.y, size, size);
+    glScissor(texels.x, texels.y, texels.width, texels.height);
+    setUniform(state, "clipFromCaster", tile.clipFromCaster);
+}
+
+/// Depths, to the bit, between framebuffers of one size.
+void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::vector<PixelRect>& parts) {
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, from);
+    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, to);
+    glDisable(GL_SCISSOR_TEST);
+    for (const PixelRect& part : parts) {
+        const GLint endX = part.x + part.width, endY = part.y + part.height;
+        gl.glBlitFramebuffer(part.x, part.y, endX, endY, part.x, part.y, endX, endY, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    }
+    glEnable(GL_SCISSOR_TEST);
+}
+
+/// Binds a framebuffer, made where it is 0, with that texture for its depths. @return false if OpenGL cannot draw to it.
+bool bindFramebuffer(const osg::State& state, GLuint& framebuffer, const osg::Texture::TextureObject& texture) {
+    const auto& gl = *state.get<osg::GLExtensions>();
+    if (!framebuffer) gl.glGenFramebuffers(1, &framebuffer);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
+    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, GL_TEXTURE_2D, texture.id(), 0);
+    glDrawBuffer(GL_NONE);
+    glReadBuffer(GL_NONE);
+    return gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
+}
+
+constexpr const char* noTarget = "this context cannot render into a depth texture, so there is no map. Use OpenGL 3.0 "
+                                 "or later, with framebuffer objects.";
+
+} // namespace
+
+bool MapPicture::Layer::operator==(const Layer& other) const {
+    const auto alike = [](const auto& a, const auto& b) { return a.geometry == b.geometry; };
+    return casters == other.casters && outside == other.outside &&
+           std::equal(cutouts.begin(), cutouts.end(), other.cutouts.begin(), other.cutouts.end(), alike);
+}
+
+const MapPicture::Tile* MapPicture::findStill(const Tile& tile, const MapPicture& other) const {
+    if (!(still == other.still && size == other.size && slopeOffset == other.slopeOffset)) return nullptr;
+    const auto found = std::find_if(tiles.begin(), tiles.end(), [&tile](const Tile& own) {
+        return own.corner == tile.corner && own.clipFromCaster == tile.clipFromCaster;
+    });
+    return found == tiles.end() ? nullptr : &*found;
+}
+
+DepthMap::DepthMap(const glm::ivec2& texels, osg::Texture::FilterMode filter)
+    : size(texels), _texture(mapTexture(texels, filter)) {}
+
+DepthMap::~DepthMap() { release(nullptr); }
+
+std::string DepthMap::show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn) {
+    osg::State& state = *renderInfo.getState();
+    const GLint most = glInteger(GL_MAX_TEXTURE_SIZE);
+    if (std::max(size.x, size.y) > most)
+        return "a map of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
+               " texels cannot be made, because this OpenGL allows at most " + std::to_string(most) +
+               " on a side. Set a smaller size.";
+    Target& target = targetOf(state.getContextID());
+    const auto* texture = _texture->getTextureObject(state.getContextID());
+    if (texture && target.shown == &picture && target.texture == texture) return "";
+    if (target.texture != texture) target.shown = nullptr;
+    const std::string cause = draw(renderInfo, target, picture, drawn);
+    state.apply(); // ResolvedDepth draws by what it finds, and finds a program otherwise
+    return cause;
+}
+
+std::string DepthMap::updateBlocks(osg::State& state, const osg::StateSet& program) {
+    if (!UncomparedSampler::isSupported(state)) return noSamplers;
+    Target& target = targetOf(state.getContextID());
+    if (target.inBlocks) return "";
+    {
+        Lock lock(_mutex);
+        if (!_blocks) _blocks = new MinDepthPyramid(size);
+    }
+    const std::string cause = _blocks->update(state, program, *_texture);
+    target.inBlocks = cause.empty();
+    return cause;
+}
+
+void DepthMap::bind(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _texture); }
+
+/// @return false if OpenGL cannot draw to it.
+bool DepthMap::bindTarget(osg::State& state, Target& target) const {
+    bind(state, 0); // which makes it
+    target.texture = _texture->getTextureObject(state.getContextID());
+    return bindFramebuffer(state, target.framebuffer, *target.texture);
+}
+
+std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn) {
+    osg::State& state = *renderInfo.getState();
+    const auto& gl = *state.get<osg::GLExtensions>();
+    if (!gl.isFrameBufferObjectSupported) return noTarget;
+    const SavedFramebuffers bound(gl);
+    if (!bindTarget(state, target)) return noTarget;
+    const MapState mapState(picture.slopeOffset);
+    const bool sameMoving = target.shown && target.shown->moving == picture.moving;
+    std::vector<Due> due;
+    for (const MapPicture::Tile& tile : picture.tiles) {
+        const MapPicture::Tile* shown =
+            target.shown && gl.glBlitFramebuffer ? target.shown->findStill(tile, picture) : nullptr;
+        const bool same = shown && (sameMoving || (shown->movers.empty() && tile.movers.empty()));
+        if (!same) due.push_back({&tile, shown});
+    }
+    std::string cause = drawStill(renderInfo, target, picture, due);
+    if (cause.empty()) cause = drawMoving(renderInfo, target, picture, due);
+    if (cause.empty()) drawn += static_cast<unsigned>(due.size());
+    target.shown = cause.empty() ? &picture : nullptr;
+    if (!due.empty()) target.inBlocks = false;
+    return cause;
+}
+
+std::string DepthMap::drawStill(osg::RenderInfo& renderInfo, const Target& target, const MapPicture& picture,
+                                const std::vector<Due>& due) const {
+    std::vector<Part> parts;
+    for (const Due& each : due)
+        if (!each.shown) parts.push_back({each.tile, wholeOf(*each.tile, picture.size)});
+    if (target.shown)
+        for (const Part& part : parts) {
+            glScissor(part.texels.x, part.texels.y, part.texels.width, part.texels.height);
+            glClear(GL_DEPTH_BUFFER_BIT);
+        }
+    else
+        clearAll();
+    return drawLayer(renderInfo, picture, picture.still, parts);
+}
+
+std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
+                                 const std::vector<Due>& due) {
+    std::vector<PixelRect> hidden;
+    std::vector<Part> parts;
+    for (const Due& each : due) {
+        if (each.shown && !each.shown->movers.empty()) hidden.push_back(each.shown->movers);
+        if (!each.tile->movers.empty()) parts.push_back({each.tile, each.tile->movers});
+    }
+    if (hidden.empty() && parts.empty()) return "";
+    osg::State& state = *renderInfo.getState();
+    const auto& gl = *state.get<osg::GLExtensions>();
+    if (!gl.glBlitFramebuffer) return drawLayer(renderInfo, picture, picture.moving, parts); // all is drawn each time
+    const osg::ref_ptr<osg::Texture2D> saved = savedTexture();
+    state.applyTextureAttribute(0, saved); // which makes it
+    if (!bindFramebuffer(state, target.saved, *saved->getTextureObject(state.getContextID()))) return noTarget;
+    copyDepths(gl, target.saved, target.framebuffer, hidden);
+    std::vector<PixelRect> toHide;
+    for (const Part& part : parts) toHide.push_back(part.texels);
+    copyDepths(gl, target.framebuffer, target.saved, toHide);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, target.framebuffer);
+    return drawLayer(renderInfo, picture, picture.moving, parts);
+}
+
+std::string DepthMap::drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
+                                const std::vector<Part>& parts) const {
+    if (parts.empty()) return "";
+    osg::State& state = *renderInfo.getState();
+    if (layer.casters) {
+        state.apply(picture.program.get());
+        if (!hasProgram(state)) return noProgram;
+        for (const Part& part : parts) {
+            drawInto(state, *part.tile, picture.size, part.texels);
+            layer.casters->draw(renderInfo, part.tile->clipFromCaster, layer.outside);
+        }
+    }
+    if (layer.cutouts.empty()) return "";
+    state.apply(picture.cutoutProgram.get());
+    if (!hasProgram(state)) return noProgram;
+    setUniform(state, "cutout", 0);
+    for (const CasterLayer::Cutout& cutout : layer.cutouts) {
+        state.applyTextureAttribute(0, cutout.texture);
+        setUniform(state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
+        for (const Part& part : parts) {
+            drawInto(state, *part.tile, picture.size, part.texels);
+            cutout.geometry->draw(renderInfo);
+        }
+    }
+    return "";
+}
+
+osg::ref_ptr<osg::Texture2D> DepthMap::savedTexture() {
+    Lock lock(_mutex);
+    if (!_saved) _saved = mapTexture(size, osg::Texture::NEAREST);
+    return _saved;
+}
+
+DepthMap::Target& DepthMap::targetOf(unsigned context) {
+    Lock lock(_mutex);
+    return _targets[context];
+}
+
+void DepthMap::resizeGLObjectBuffers(unsigned maxSize) {
+    _texture->resizeGLObjectBuffers(maxSize);
+    Lock lock(_mutex);
+    if (_saved) _saved->resizeGLObjectBuffers(maxSize);
+    if (_blocks) _blocks->resizeGLObjectBuffers(maxSize);
+}
+
+void DepthMap::release(osg::State* state) {
+    _texture->releaseGLObjects(state);
+    Lock lock(_mutex);
+    if (_saved) _saved->releaseGLObjects(state);
+    if (_blocks) _blocks->release(state);
+    for (auto entry = _targets.begin(); entry != _targets.end();) {
+        const bool meant = !state || state->getContextID() == entry->first;
+        for (const GLuint framebuffer : {entry->second.framebuffer, entry->second.saved})
+            if (meant && framebuffer)
+                osg::get<osg::GLFrameBufferObjectManager>(entry->first)->scheduleGLObjectForDeletion(framebuffer);
+        entry = meant ? _targets.erase(entry) : std::next(entry);
+    }
+}
+
+} // namespace gnomon

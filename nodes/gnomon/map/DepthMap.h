@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/map/CasterLayer.h>
+#include <gnomon/map/MinDepthPyramid.h>
+
+#include <OpenThreads/Mutex>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <osg/RenderInfo>
+#include <osg/StateSet>
+#include <osg/Texture2D>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What one light's maps are to show. Never changed once made, so that a frame that is still drawn keeps its own.
+struct MapPicture : public osg::Referenced {
+    /// A square part of the texture, and what is drawn there.
+    struct Tile {
+        glm::ivec2 corner{0};
+        glm::dmat4 clipFromCaster{1.0}; ///< caster: about their origin.
+        PixelRect movers;               ///< texels outside which nothing moves.
+    };
+    /// What is drawn of a layer of the casters.
+    struct Layer {
+        osg::ref_ptr<const CullableFaces> casters; ///< whole ones; null if there are none.
+        CullableFaces::Outside outside;            ///< where the light is.
+        std::vector<CasterLayer::Cutout> cutouts;  ///< those that textures cut out.
+
+        bool operator==(const Layer& other) const;
+    };
+    Layer still, moving;
+    osg::ref_ptr<const osg::StateSet> program;       ///< see shaderProgram().
+    osg::ref_ptr<const osg::StateSet> cutoutProgram; ///< the same with CUTOUT.
+    int size = 0;                                    ///< of a tile's side, texels.
+    double slopeOffset = 0.0; ///< how many texels of each surface's own slope it is drawn deeper.
+    std::vector<Tile> tiles;
+
+    /// The tile here that shows, of what stands still, the same as one of another picture; null if there is none.
+    const Tile* findStill(const Tile& tile, const MapPicture& other) const;
+
+protected:
+    ~MapPicture() override = default;
+};
+
+/// A depth texture that pictures are drawn into, in every context that asks for them.
+///
+/// Where something moves, the depths of what stands still are saved before it is drawn over them, in a texture of the same
+/// size that is made when first something moves; and put back before it is drawn elsewhere.
+///
+/// Threads one a context.
+class DepthMap : public osg::Referenced {
+public:
+    /// @param filter  GL_LINEAR compares 2 × 2 texels at once, GL_NEAREST one.
+    DepthMap(const glm::ivec2& size, osg::Texture::FilterMode filter);
+
+    const glm::ivec2 size; ///< texels.
+
+    /// Makes the texture of this context show the picture, unless it does.
+    /// @param drawn  counts tiles in which anything is drawn.
+    /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
+    std::string show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn);
+    void bind(osg::State& state, unsigned unit) const;
+    osg::Texture2D* texture() const { return _texture.get(); }
+
+    /// Makes the blocks of this context those of what it shows, unless they are. After show().
+    /// @return as MinDepthPyramid::update().
+    std::string updateBlocks(osg::State& state, const osg::StateSet& program);
+    void bindBlocks(osg::State& state, unsigned unit) const { _blocks->bind(state, unit); }
+
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void release(osg::State* state);
+
+protected:
+    ~DepthMap() override;
+
+private:
+    struct Target {
+        GLuint framebuffer = 0, saved = 0;                    ///< the latter's texture holds what movers hide.
+        const osg::Texture::TextureObject* texture = nullptr; ///< attached to it.
+        osg::ref_ptr<const MapPicture> shown;
+        bool inBlocks = false; ///< its blocks are those of what it shows.
+    };
+    /// A tile that is to be drawn, and the one that is shown there; null if that has something else that stands still.
+    struct Due {
+        const MapPicture::Tile *tile, *shown;
+    };
+    /// A tile, and what of it is drawn.
+    struct Part {
+        const MapPicture::Tile* tile;
+        PixelRect texels;
+    };
+    Target& targetOf(unsigned context);
+    osg::ref_ptr<osg::Texture2D> savedTexture();
+    bool bindTarget(osg::State& state, Target& target) const;
+    std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn);
+    std::string drawStill(osg::RenderInfo& renderInfo, const Target& target, const MapPicture& picture,
+                          const std::vector<Due>& due) const;
+    std::string drawMoving(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
+                           const std::vector<Due>& due);
+    std::string drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
+                          const std::vector<Part>& parts) const;
+
+    osg::ref_ptr<osg::Texture2D> _texture;
+    osg::ref_ptr<osg::Texture2D> _saved;   ///< null until something moves.
+    osg::ref_ptr<MinDepthPyramid> _blocks; ///< null until they are asked for.
+    OpenThreads::Mutex _mutex;
+    std::map<unsigned, Target> _targets; ///< by context.
+};
+
+} // namespace gnomon

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/map/LightFrames.h>
+#include <gnomon/map/LightShadowMaps.h>
+#include <gnomon/mapfit/CascadeSplits.h>
+#include <gnomon/mapfit/TexelDensity.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+constexpr double reserve = 1.0 / 16.0; // of a map's sides
+constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
+constexpr double fewestSoft = 256.0;  // texels of soft edges: with fewer, what 128 of them reach would be most of a map
+constexpr double border = 3.0;        // texels: what a comparison reaches over, and one against rounding
+constexpr int largestTexture = 16384; // texels on a side: what OpenGL has in most places
+constexpr double sameLight = 1e-7;    // of the distance: what OSG's matrices and floats make of a light at rest
+
+bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
+    return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
+}
+
+bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) {
+    if (!a || !b) return a.has_value() == b.has_value();
+    return a->cutoff == b->cutoff && glm::distance(a->axis, b->axis) <= sameLight;
+}
+
+} // namespace
+
+void LightShadowMaps::setCause(const MapRequest& cause) {
+    const MapRequest& old = _cause;
+    const bool sameMaps = old.wish == cause.wish;
+    if (old.casters && old.casters->origin == cause.casters->origin && old.flats == cause.flats && sameMaps &&
+        isSame(cause.cone, old.cone) && isSame(cause.light, old.light, glm::length(cause.casters->reach)) &&
+        (old.casters == cause.casters ||
+         areSame(_frames, framesOf(old.light, old.cone, *cause.casters, old.wish.size))))
+        return takeCasters(*cause.casters);
+    if (!sameMaps) _map = nullptr;
+    _cause = cause;
+    _picture = nullptr;
+    _faces.clear();
+    _splits.clear();
+    _cascades = cause.wish.cascades;
+    if (!_map) _texels = cause.wish.size;
+    _frames = framesOf(cause.light, cause.cone, *cause.casters, cause.wish.size);
+    for (const LightFrame& frame : _frames) addFaces(frame);
+}
+
+/// As seen from the same light.
+void LightShadowMaps::takeCasters(const CasterLayers& casters) {
+    if (_cause.casters == &casters) return;
+    const bool sameStill = _cause.casters->still == casters.still;
+    _cause.casters = &casters;
+    _picture = nullptr;
+    const MapSlice* before = nullptr; // of the same frame
+    for (MapSlice& face : _faces) {
+        if (face.part > 0) {
+            face.still = before->still;
+            face.blockers = before->blockers;
+        } else {
+            if (!sameStill) face.takeStill(_cause);
+            face.takeBlockers(_cause);
+        }
+        before = &face;
+    }
+}
+
+void LightShadowMaps::addFaces(const LightFrame& frame) {
+    MapSlice face(frame, _cause);
+    const int wanted = _cause.wish.cascades, most = 2 * _cause.wish.size <= largestTexture ? mostCascades : 1;
+    const std::size_t parts = frame.sun ? std::size_t(wanted ? wanted : most) : 1;
+    for (; face.part < parts; ++face.part) _faces.push_back(face);
+}
+
+/// On a side of a texel, were there one map, at a distance along the line of sight, of a view that is `width` pixels wide.
+double LightShadowMaps::pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const {
+    const auto side = [&](int axis) { return 2.0 * distance / glm::length(glm::dvec3(glm::row(clipFromScene, axis))); };
+    const MapSlice& face = _faces.front();
+    MapOutline all(face.frame);
+    for (const MapBlocker& blocker : face.blockers) all.merge(blocker.outline);
+    const glm::dvec2 most = fitMap(face.frame, all, all, 0.0, 0.0, 1.0).size;
+    const double covered = std::min(std::max(most.x, most.y), std::max(side(0), side(1)));
+    return covered / _cause.wish.size / (side(0) / width);
+}
+
+void LightShadowMaps::findSplits(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
+                                 double width) {
+    if (!(_faces.size() > 1 && _faces.front().frame.sun)) return;
+    SeenRange seen(clipFromScene);
+    for (const MapBlocker& blocker : _faces.front().blockers) {
+        std::vector<glm::dvec4> halfSpaces = viewPart(clipFromScene, {}, 0);
+        for (const auto& more : {blocker.halfSpaces, blocker.outline.sides()})
+            halfSpaces.insert(halfSpaces.end(), more.begin(), more.end());
+        for (const MapReceiver& receiver : receivers)
+            seen.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+    }
+    if (!_cause.wish.cascades && !seen.empty())
+        _cascades = cascadesFor(seen, pixelsATexel(seen.farthest, clipFromScene, width), _cascades);
+    _splits = cascadeSplits(seen, std::max(_cascades, 1));
+}
+
+std::vector<glm::dvec4> LightShadowMaps::find(const std::vector<MapReceiver>& receivers,
+                                              const glm::dmat4& clipFromScene, const glm::dvec2& pixels) {
+    findSplits(receivers, clipFromScene, pixels.x);
+    std::vector<glm::dvec4> points;
+    for (MapSlice& face : _faces) {
+        if (face.part > _splits.size()) {
+            face.clear();
+            continue;
+        }
+        face.find(_cause, receivers, viewPart(clipFromScene, _splits, face.part),
+                  TexelDensity(face.frame, clipFromScene, pixels), _texels);
+        for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);
+    }
+    return points;
+}
+
+/// On a side of the map that needs most.
+double LightShadowMaps::texelsWanted() const {
+    double wanted = 0.0;
+    for (const MapSlice& face : _faces) {
+        if (face.needed.empty()) continue;
+        if (_cause.isWide(face.frame)) wanted = std::max(wanted, fewestSoft);
+        const glm::dvec2 size = holds(face) ? face.fit->size : fitOf(face).size;
+        wanted = std::max(wanted, std::max(size.x, size.y) / (_cause.wish.pixels * face.texel));
+    }
+    return wanted;
+}
+
+/// On a side of a map: all that are beside one another are one texture.
+int LightShadowMaps::mostTexels() const {
+    const auto needed = [](const MapSlice& face) { return !face.needed.empty(); };
+    const auto maps = static_cast<int>(std::count_if(_faces.begin(), _faces.end(), needed));
+    return std::min(_cause.wish.size, largestTexture / std::clamp(maps, 1, columns()));
+}
+
+/// Takes other texels than before if need be, fewer only where a map is to be drawn anyway: none holds what it must then.
+void LightShadowMaps::resize() {
+    constexpr int rounds = 8; // what soft edges reach depends on how wide texels are
+    int before = _map ? _texels : 0;
+    for (int round = 0; round < rounds; ++round) {
+        const int texels = texelsFor(texelsWanted(), mostTexels(), before);
+        if (texels == before || (texels < before && !anyDue())) return;
+        before = _texels = texels;
+        for (MapSlice& face : _faces) {
+            face.fit = std::nullopt;
+            face.findHeld(_cause, _texels);
+        }
+    }
+}
+
+bool LightShadowMaps::anyDue() const {
+    return std::any_of(_faces.begin(), _faces.end(),
+                       [this](const MapSlice& face) { return !face.needed.empty() && !holds(face); });
+}
+
+/// True if the face's map is not to be drawn again.
+bool LightShadowMaps::holds(const MapSlice& face) const {
+    if (!face.fit || !face.fit->covers(face.held, (border - 1.0) / _texels)) return false;
+    return face.fit->area() <= mostWaste * fitOf(face).area();
+}
+
+/// What moves will be beside what casters can darken now.
+MapFit LightShadowMaps::fitOf(const MapSlice& face) const {
+    MapOutline most = face.reach;
+    if (!_cause.casters->moving->pieces.empty()) {
+        most.merge(face.held);
+        most.grow(reserve * face.held.length());
+    }
+    return fitMap(face.frame, face.held, most, reserve, border / _texels, glm::length(_cause.casters->reach) / 64.0);
+}
+
+/// Without its tiles. @param due  some are to be drawn from the first.
+osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources, bool due) {
+    osg::ref_ptr<MapPicture> picture = new MapPicture;
+    const bool stillAgain = _drawnStill == _cause.casters->still, movingAgain = _drawnMoving == _cause.casters->moving;
+    if (!stillAgain || due) _still = drawnOf(*_cause.casters->still, stillAgain);
+    picture->still = _still;
+    picture->moving = drawnOf(*_cause.casters->moving, movingAgain);
+    _drawnStill = _cause.casters->still;
+    _drawnMoving = _cause.casters->moving;
+    picture->program = resources.casterProgram;
+    picture->cutoutProgram = resources.cutoutProgram;
+    picture->size = _texels;
+    picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
+    return picture;
+}
+
+MapPicture::Layer LightShadowMaps::drawnOf(const CasterLayer& layer, bool again) const {
+    MapPicture::Layer drawn{layer.faces(_cause.flats, again), {}, {}};
+    if (drawn.casters) drawn.outside = drawn.casters->outside(_cause.light);
+    for (const CasterLayer::Cutout& cutout : layer.cutouts)
+        if (_cause.flats || !cutout.flat) drawn.cutouts.push_back(cutout);
+    return drawn;
+}
+
+/// Texels of a tile that what moves may cover.
+PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const {
+    const CasterLayer& moving = *_cause.casters->moving;
+    glm::dvec2 low(1.0), high(-1.0);
+    const auto add = [&](const CasterLayer::Box& box) {
+        const auto corners = boxCorners(box.low, box.high, tile.clipFromCaster);
+        const auto bounds = screenBounds({corners.begin(), corners.end()});
+        if (!bounds) return;
+        low = glm::min(low, bounds->low);
+        high = glm::max(high, bounds->high);
+    };
+    std::for_each(moving.bodyBoxes.begin(), moving.bodyBoxes.end(), add);
+    if (_cause.flats) std::for_each(moving.flatBoxes.begin(), moving.flatBoxes.end(), add);
+    if (!(low.x <= high.x && low.y <= high.y)) return {};
+    const double more = 1.0 + std::max(errors.nearest.texels, errors.farthest.texels), size = _texels;
+    const auto texel = [size](const glm::dvec2& place) { return glm::ivec2(glm::clamp(place, 0.0, size)); };
+    const glm::ivec2 first = texel(glm::floor((low + 1.0) / 2.0 * size - more)),
+                     end = texel(glm::ceil((high + 1.0) / 2.0 * size + more));
+    return {tile.corner.x + first.x, tile.corner.y + first.y, end.x - first.x, end.y - first.y};
+}
+
+MapLookUp LightShadowMaps::lookUpOf(const MapSlice& face) const {
+    const double radius = _cause.wish.soft ? _cause.wish.soft->radius : 0.0;
+    return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, _cause.casters->reach, _texels),
+            mapSpread(face.frame, *face.fit, _cause.lightRadius(face.frame), radius, _texels)};
+}
+
+/// The finest map comes first, for pixels take the first that holds them.
+void LightShadowMaps::update(const MapPrograms& resources) {
+    resize();
+    const bool due = anyDue();
+    if (_picture && !due) return;
+    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due);
+    std::vector<std::pair<const MapSlice*, glm::ivec2>> tiles;
+    for (MapSlice& face : _faces) {
+        if (face.needed.empty())
+            face.fit = std::nullopt;
+        else if (!holds(face))
+            face.fit = fitOf(face);
+        const int tile = static_cast<int>(tiles.size());
+        if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % columns(), tile / columns()));
+    }
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const auto& a, const auto& b) { return a.first->fit->area() < b.first->fit->area(); });
+    _lookUps.clear();
+    glm::ivec2 end(0);
+    const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
+    for (const auto& [face, corner] : tiles) {
+        _lookUps.push_back(lookUpOf(*face));
+        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene, {}});
+        picture->tiles.back().movers = moversIn(picture->tiles.back(), _lookUps.back().errors);
+        end = glm::max(end, corner + picture->size);
+    }
+    if (!_map || _map->size != end) _map = new DepthMap(end, _cause.wish.compare);
+    _picture = picture;
+}
+
+MapLookupPass LightShadowMaps::quad(const glm::dmat4& clipFromScene) const {
+    MapLookupPass quad;
+    quad.map = _map;
+    quad.picture = _picture;
+    quad.lookUps = _lookUps;
+    quad.clipFromScene = clipFromScene;
+    quad.defines = _cause.wish.defines;
+    quad.cascades = _faces.front().frame.sun && _lookUps.size() > 1;
+    quad.smooth = _cause.wish.smooth;
+    quad.soft = _cause.wish.soft.has_value();
+    quad.penumbra = _cause.lightRadius(_faces.front().frame) > 0.0;
+    return quad;
+}
+
+void LightShadowMaps::resizeGLObjectBuffers(unsigned maxSize) {
+    if (_map) _map->resizeGLObjectBuffers(maxSize);
+    if (_cause.casters) _cause.casters->resizeGLObjectBuffers(maxSize);
+}
+
+void LightShadowMaps::release(osg::State* state) {
+    if (_map) _map->release(state);
+    if (_cause.casters) _cause.casters->releaseGLObjects(state);
+}
+
+} // namespace gnomon

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/gl/SavedFramebuffers.h>
+#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/gl/ShaderProgram.h>
+#include <gnomon/gl/UncomparedSampler.h>
+#include <gnomon/map/MapLookupPass.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+constexpr unsigned seenUnit = 0, mapUnit = 1, rawUnit = 2, blocksUnit = 3;
+constexpr GLenum maxVaryingComponents = 0x8B4B; // GL_MAX_VARYING_COMPONENTS
+constexpr double border = 2.0;                  // texels at a tile's sides that a comparison may reach over
+
+struct Span {
+    int from, to;
+};
+
+/// Pixels of a viewport along one axis. One that begins left of the window has no pixels there.
+Span seenSpan(double origin, double size) { return {std::max(int(origin), 0), int(origin + size)}; }
+
+/// Whole quads of pixels, which OpenGL shades together, as far as they are in view.
+Span wholeQuads(int from, int size, const Span& view) {
+    return {std::max(from & ~1, view.from), std::min((from + size + 1) & ~1, view.to)};
+}
+
+PixelRect wholeQuads(const PixelRect& pixels, const osg::Viewport& viewport) {
+    const Span x = wholeQuads(pixels.x, pixels.width, seenSpan(viewport.x(), viewport.width()));
+    const Span y = wholeQuads(pixels.y, pixels.height, seenSpan(viewport.y(), viewport.height()));
+    return {x.from, y.from, x.to - x.from, y.to - y.from};
+}
+
+glm::dvec4 placeOf(const MapPicture::Tile& tile, int texels) {
+    return {glm::dvec2(tile.corner), texels, border / texels};
+}
+
+glm::dvec4 errorOf(const MapError& error, double last) { return {error.depth, error.texels, error.steepest, last}; }
+
+void addColumns(const glm::dmat4& matrix, int count, std::vector<glm::dvec4>& columns) {
+    for (int i = 0; i < count; ++i) columns.push_back(matrix[i]);
+}
+
+bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p.height)) & 1) != 0; }
+
+} // namespace
+
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
+    const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);
+    const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
+    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
+}
+
+std::string MapLookupPass::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, const Wanted& wanted) const {
+    osg::State& state = *renderInfo.getState();
+    const osg::Viewport& viewport = *state.getCurrentViewport();
+    const PixelRect marked = pixelsInScissor(viewport);
+    if (marked.empty()) return "";
+    const PixelRect pixels = wholeQuads(marked, viewport);
+    const std::string cause = showMap(renderInfo);
+    if (!cause.empty()) return cause;
+    const FrameDepthCopy::Copy copy = resources->seen.copy(state, pixels);
+    if (!copy.cause.empty()) return copy.cause;
+    const std::string lack = penumbra ? map->updateBlocks(state, *resources->blocksProgram) : "";
+    const bool wide = penumbra && lack.empty();
+    state.apply(resources->program(definesOf(pixels, wide)).get());
+    if (!hasProgram(state)) return noProgram;
+    map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
+    setUniform(state, "maps", int(mapUnit));
+    setUniform(state, "mapCount", int(lookUps.size()));
+    setConstants(state, copy, wanted, pixels);
+    wide ? drawWide(state, pass) : drawFragments(state, pass);
+    state.apply();
+    return lack;
+}
+
+std::string MapLookupPass::showMap(osg::RenderInfo& renderInfo) const {
+    unsigned drawn = 0;
+    const std::string cause = map->show(renderInfo, *picture, drawn);
+    resources->passes += drawn;
+    return cause;
+}
+
+/// Where something is seen, and is wanted.
+void MapLookupPass::drawFragments(osg::State& state, ScreenPass& pass) const {
+    pass.testDepth(GL_GREATER);
+    pass.testAlpha();
+    drawPolygon(state, outline, 1.0);
+    glDisable(GL_ALPHA_TEST);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void MapLookupPass::drawWide(osg::State& state, ScreenPass& pass) const {
+    map->bindBlocks(state, blocksUnit);
+    map->bind(state, rawUnit);
+    const UncomparedSampler raw(state, rawUnit);
+    setUniform(state, "blocks", int(blocksUnit));
+    setUniform(state, "depths", int(rawUnit));
+    drawFragments(state, pass);
+}
+
+std::string MapLookupPass::definesOf(const PixelRect& pixels, bool wide) const {
+    std::string text = mapDefines();
+    text += soft ? "#define SOFT\n" : smooth ? "#define SMOOTH\n" : "#define HALVES\n";
+    if (wide) text += "#define PENUMBRA\n";
+    if (isOdd(pixels)) text += "#define ODD\n";
+    return text;
+}
+
+std::string MapLookupPass::mapDefines() const {
+    const std::size_t all = sharedConstants() + constantsOfMap() * lookUps.size();
+    const bool flat = 4 * all <= static_cast<std::size_t>(glInteger(maxVaryingComponents));
+    const auto define = [](const char* name, std::size_t value) {
+        return "#define " + (name + (" " + std::to_string(value))) + "\n";
+    };
+    return defines + (cascades ? "#define CASCADES\n" : "") + (coneFromScene ? "#define CONE\n" : "") +
+           (flat ? "#define FLAT\n" : "") + define("MAPS", lookUps.size()) + define("SHARED", sharedConstants()) +
+           define("EACH", constantsOfMap()) + define("CONSTANTS", all);
+}
+
+std::vector<glm::dvec4> MapLookupPass::places() const {
+    std::vector<glm::dvec4> result;
+    for (const MapPicture::Tile& tile : picture->tiles) result.push_back(placeOf(tile, picture->size));
+    return result;
+}
+
+std::vector<glm::dvec4> MapLookupPass::errors(MapError MapErrors::*which) const {
+    std::vector<glm::dvec4> result;
+    for (const MapLookUp& lookUp : lookUps) result.push_back(errorOf(lookUp.errors.*which, 0.0));
+    return result;
+}
+
+std::size_t MapLookupPass::sharedConstants() const { return coneFromScene ? 8 : 4; }
+
+std::size_t MapLookupPass::constantsOfMap() const { return soft ? 11 : 10; }
+
+void MapLookupPass::setConstants(osg::State& state, const FrameDepthCopy::Copy& copy, const Wanted& wanted,
+                                 const PixelRect& pixels) const {
+    const glm::dmat4 sceneFromPixel = glm::inverse(clipFromScene) * clipFromPixel(*state.getCurrentViewport());
+    std::vector<glm::dvec4> constants{copy.error,
+                                      glm::dvec4(1.0 / glm::dvec2(map->size), copy.rows),
+                                      {wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, fades() ? 1.0 : 0.0},
+                                      {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1}};
+    if (coneFromScene) addColumns(*coneFromScene * sceneFromPixel, 4, constants);
+    for (std::size_t i = 0; i < lookUps.size(); ++i) addMap(i, sceneFromPixel, constants);
+    resources->seen.bind(state, seenUnit);
+    setUniform(state, "seen", int(seenUnit));
+    setUniform(state, "constants", constants);
+}
+
+void MapLookupPass::addMap(std::size_t i, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const {
+    const MapLookUp& lookUp = lookUps[i];
+    const glm::dmat4 mapFromPixel = lookUp.mapFromScene * sceneFromPixel;
+    addColumns(mapFromPixel, 4, constants);
+    constants.push_back(placeOf(picture->tiles[i], picture->size));
+    addColumns(glm::inverse(mapFromPixel), 3, constants);
+    const MapSpread& spread = lookUp.spread;
+    constants.push_back(errorOf(lookUp.errors.nearest, spread.penumbra.x));
+    constants.push_back(errorOf(lookUp.errors.farthest, spread.penumbra.y));
+    if (soft) constants.emplace_back(spread.nearest, spread.farthest);
+}
+
+} // namespace gnomon

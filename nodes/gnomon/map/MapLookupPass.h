@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/map/DepthMap.h>
+#include <gnomon/map/MapPrograms.h>
+#include <gnomon/mapfit/MapFit.h>
+
+#include <glm/mat4x4.hpp>
+#include <osg/Viewport>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// From window coordinates x and y, and 1 - depth.
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport);
+
+/// One map of a light, as pixels look it up.
+struct MapLookUp {
+    glm::dmat4 mapFromScene{1.0}; ///< see MapFit; the scene is about the casters' origin.
+    MapErrors errors;
+    MapSpread spread;
+};
+
+/// How pixels of one view find what share of one light reaches them: by what the depth buffer says is seen there, and the
+/// light's maps.
+struct MapLookupPass {
+    osg::ref_ptr<MapPrograms> resources;
+    osg::ref_ptr<DepthMap> map;
+    osg::ref_ptr<const MapPicture> picture;
+    std::vector<MapLookUp> lookUps;          ///< one a tile of the picture.
+    std::vector<glm::dvec2> outline;         ///< of where less than all of the light can arrive: see drawPolygon().
+    glm::dmat4 clipFromScene{1.0};           ///< as drawn.
+    std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no fragments.
+    std::string defines;                     ///< of the fragment shader: how it compares.
+    bool cascades = false;                   ///< the finer of them hold part of what is seen only.
+    bool smooth = false;                     ///< edges are a pixel wide.
+    bool soft = false;                       ///< wider than the filter, see MapSpread.
+    bool penumbra = false;                   ///< and as wide as what blocks the light is far away.
+
+    /// True if pixels may have a part of the light.
+    bool fades() const { return smooth || soft; }
+
+    /// Which fragments are drawn, and what they hold.
+    struct Wanted {
+        double below;  ///< those of pixels that less than this share of the light reaches.
+        bool blocked;  ///< alpha is the share that does not arrive, else that which does.
+        double factor; ///< colour of a pixel that none of it reaches; all: 1.
+    };
+    /// Draws them; draws the map first, if that is due. The pass's stencil test, blending and colour mask stand.
+    /// @return why that is not possible, or not as it should be, as a cause for ShadowTechnique::report(); empty if all is
+    ///         well.
+    std::string draw(osg::RenderInfo& renderInfo, ScreenPass& pass, const Wanted& wanted) const;
+    /// Makes the map show its picture, unless it does.
+    /// @return as draw().
+    std::string showMap(osg::RenderInfo& renderInfo) const;
+    /// Of map_place.frag.
+    std::string mapDefines() const;
+    /// Those and the frame's depths, for map_place.frag.
+    void setConstants(osg::State& state, const FrameDepthCopy::Copy& copy, const Wanted& wanted,
+                      const PixelRect& pixels) const;
+    std::vector<glm::dvec4> places() const;
+    /// Of those nearest or farthest, as map.frag has them.
+    std::vector<glm::dvec4> errors(MapError MapErrors::*which) const;
+
+private:
+    std::string definesOf(const PixelRect& pixels, bool wide) const;
+    void drawFragments(osg::State& state, ScreenPass& pass) const;
+    void drawWide(osg::State& state, ScreenPass& pass) const;
+    /// How many vectors map_place.frag has there.
+    std::size_t sharedConstants() const;
+    std::size_t constantsOfMap() const;
+    void addMap(std::size_t map, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const;
+};
+
+} // namespace gnomon

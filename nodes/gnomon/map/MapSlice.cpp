@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/map/MapSlice.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace gnomon {
+namespace {
+
+constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
+
+/// True of what the light sees edge-on, and of triangles of no area: hard edges have nothing between them.
+bool isThin(const LightFrame& frame, const MapOutline& outline) {
+    const glm::dvec2 size = fitMap(frame, outline, outline, 0.0, 0.0, 1.0).size;
+    return std::min(size.x, size.y) <= 2e-6 * std::max(size.x, size.y); // fitMap() makes no side less than half of that
+}
+
+LayerOutlines outlinesOf(const MapRequest& cause, const CasterLayer& layer, const LightFrame& frame) {
+    LayerOutlines outlines{MapOutline(frame), {}};
+    for (const CasterLayer::Box& box : layer.bodyBoxes) outlines.bodies.addBox(box.low, box.high, glm::dmat4(1.0));
+    if (!cause.flats) return outlines;
+    for (const CasterLayer::Box& box : layer.flatBoxes) {
+        outlines.flats.emplace_back(frame);
+        outlines.flats.back().addBox(box.low, box.high, glm::dmat4(1.0));
+    }
+    return outlines;
+}
+
+} // namespace
+
+double MapRequest::lightRadius(const LightFrame& frame) const {
+    if (!wish.soft) return 0.0;
+    if (!frame.sun) return wish.soft->lamp;
+    return light.w == 0.0 ? wish.soft->sun : wish.soft->lamp / glm::length(glm::dvec3(light));
+}
+
+bool MapRequest::isWide(const LightFrame& frame) const {
+    return lightRadius(frame) > 0.0 || (wish.soft && wish.soft->radius > 0.0);
+}
+
+double MapRequest::softness(const LightFrame& frame, MapOutline blocker, double farthest) const {
+    blocker.limitNearest();
+    return softReach(frame, blocker.nearest, farthest, lightRadius(frame), wish.soft->radius);
+}
+
+std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
+    const glm::dmat4 sceneFromEye = glm::inverse(eyeFromScene);
+    std::vector<MapReceiver> result;
+    for (const osgUtil::RenderLeaf* leaf : view.seen) {
+        const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+        if (!box.valid()) continue;
+        MapReceiver receiver{toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)),
+                             sceneFromEye * toGlm(*leaf->_modelview), 0.0};
+        receiver.size = glm::length(glm::dvec3(receiver.sceneFromBox * glm::dvec4(receiver.high - receiver.low, 0.0)));
+        result.push_back(receiver);
+    }
+    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.size > b.size; });
+    return result;
+}
+
+glm::dvec4 beyond(const CasterLayer::Box& flat, const glm::dvec4& light, const glm::dvec3& reach) {
+    const glm::dvec3 size = flat.high - flat.low;
+    const int axis = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : 2;
+    const double level = flat.low[axis], side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
+    glm::dvec4 result(0.0, 0.0, 0.0, side * level - 1e-6 * glm::length(reach)); // what eye space makes of a place in it
+    result[axis] = -side;
+    return result;
+}
+
+MapSlice::MapSlice(const LightFrame& given, const MapRequest& cause)
+    : frame(given), still(outlinesOf(cause, *cause.casters->still, given)), reach(given), needed(given), held(given) {
+    takeBlockers(cause);
+}
+
+void MapSlice::clear() { reach = needed = held = MapOutline(frame); }
+
+void MapSlice::takeStill(const MapRequest& cause) { still = outlinesOf(cause, *cause.casters->still, frame); }
+
+/// Of those that are empty none, and none of what is flat and behind the bodies: it darkens nothing that they may not, but
+/// widens edges where it is far from where they are.
+void MapSlice::takeBlockers(const MapRequest& cause) {
+    blockers.clear();
+    const bool wide = cause.isWide(frame);
+    const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
+        if (!outline.empty() && (wide || !isThin(frame, outline))) blockers.push_back({outline, halfSpaces});
+    };
+    const auto addFlats = [&](const LayerOutlines& outlines, const CasterLayer& layer, const MapOutline& bodies) {
+        for (std::size_t i = 0; i < outlines.flats.size(); ++i)
+            if (wide || !bodies.isBefore(outlines.flats[i]))
+                add(outlines.flats[i], {beyond(layer.flatBoxes[i], cause.light, cause.casters->reach)});
+    };
+    const LayerOutlines moving = outlinesOf(cause, *cause.casters->moving, frame);
+    MapOutline bodies = still.bodies;
+    bodies.merge(moving.bodies);
+    add(bodies, {});
+    addFlats(still, *cause.casters->still, bodies);
+    addFlats(moving, *cause.casters->moving, bodies);
+}
+
+void MapSlice::find(const MapRequest& cause, const std::vector<MapReceiver>& receivers,
+                    const std::vector<glm::dvec4>& halfSpaces, TexelDensity pixels, int texels) {
+    clear();
+    for (const MapBlocker& blocker : blockers) {
+        std::vector<glm::dvec4> all = halfSpaces;
+        all.insert(all.end(), blocker.halfSpaces.begin(), blocker.halfSpaces.end());
+        addNeeded(cause, blocker, receivers, std::move(all), pixels);
+    }
+    texel = pixels.side;
+    needed.limitNearest();
+    findHeld(cause, texels);
+}
+
+/// Of edges that are wider than the filter: what is about each place, too, and how far away what blocks the light is.
+void MapSlice::findHeld(const MapRequest& cause, int texels) {
+    held = needed;
+    if (!cause.isWide(frame) || needed.empty()) return;
+    const double most = 1.5 * widestSpread / texels * needed.length(); // a map so much larger has wider texels
+    MapOutline blocking = reach;
+    blocking.nearest = nearestBlocker;
+    held.grow(std::min(cause.softness(frame, blocking, needed.farthest), most));
+    held.cut(reach);
+    held.nearest = std::min(held.nearest, nearestBlocker);
+    held.limitNearest();
+}
+
+/// What of what one of them can darken is seen.
+void MapSlice::addNeeded(const MapRequest& cause, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
+                         std::vector<glm::dvec4> halfSpaces, TexelDensity& pixels) {
+    const auto add = [&](MapOutline& to) {
+        for (const MapReceiver& receiver : receivers)
+            to.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+    };
+    MapOutline dark = blocker.outline, seen(frame);
+    if (cause.isWide(frame)) {
+        MapOutline all(frame);
+        add(all);
+        if (all.empty()) return;
+        dark.grow(cause.softness(frame, blocker.outline, all.farthest));
+    }
+    if (frame.sun) // a lamp's have sides of their own
+        for (const glm::dvec4& side : dark.sides()) halfSpaces.push_back(side);
+    add(seen);
+    seen.cut(dark);
+    if (seen.empty()) return;
+    for (const MapReceiver& receiver : receivers)
+        pixels.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+    nearestBlocker = needed.empty() ? blocker.outline.nearest : std::min(nearestBlocker, blocker.outline.nearest);
+    needed.merge(seen);
+    reach.merge(dark);
+}
+
+} // namespace gnomon

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/group/ViewFrame.h>
+#include <gnomon/map/CasterLayers.h>
+#include <gnomon/map/MapSettings.h>
+#include <gnomon/mapfit/MapFit.h>
+#include <gnomon/mapfit/SpotCone.h>
+#include <gnomon/mapfit/TexelDensity.h>
+
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+/// What the maps of one light are of.
+struct MapRequest {
+    glm::dvec4 light{0.0};
+    std::optional<SpotCone> cone;
+    osg::ref_ptr<const CasterLayers> casters;
+    bool flats = false; ///< those that are flat cast, too.
+    MapSettings wish;
+
+    /// See softReach().
+    double lightRadius(const LightFrame& frame) const;
+    /// True if edges are wider than the filter makes them.
+    bool isWide(const LightFrame& frame) const;
+    /// How far edges of what blocks the light are spread where it is as far as that from the light.
+    double softness(const LightFrame& frame, MapOutline blocker, double farthest) const;
+};
+
+/// The box of something that is seen.
+struct MapReceiver {
+    glm::dvec3 low, high;
+    glm::dmat4 sceneFromBox;
+    double size; ///< of its diagonal, scene.
+};
+/// Those of a view, the largest first.
+std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene);
+
+/// What darkens the same places: all bodies, or something flat, a ground for one.
+struct MapBlocker {
+    MapOutline outline;                 ///< of what it can darken, were all edges hard.
+    std::vector<glm::dvec4> halfSpaces; ///< that hold what it can darken: what is flat darkens what is beyond it.
+};
+
+/// Half-space of what something flat can darken: what is beyond it, seen from the light.
+glm::dvec4 beyond(const CasterLayer::Box& flat, const glm::dvec4& light, const glm::dvec3& reach);
+
+/// What a layer of the casters can darken.
+struct LayerOutlines {
+    MapOutline bodies;             ///< all together.
+    std::vector<MapOutline> flats; ///< one by one, as in CasterLayer::flatBoxes; none where they do not cast.
+};
+
+/// One direction that a light looks in, and one part of what is seen.
+struct MapSlice {
+    MapSlice(const LightFrame& given, const MapRequest& cause);
+
+    /// Of those that stand still: they changed.
+    void takeStill(const MapRequest& cause);
+    /// Of all: some changed.
+    void takeBlockers(const MapRequest& cause);
+    /// Nothing of it is needed.
+    void clear();
+    /// Finds what of its part is needed now. @param texels  on a side of its map.
+    void find(const MapRequest& cause, const std::vector<MapReceiver>& receivers,
+              const std::vector<glm::dvec4>& halfSpaces, TexelDensity pixels, int texels);
+    /// Finds `held` anew, for other texels.
+    void findHeld(const MapRequest& cause, int texels);
+
+    LightFrame frame;
+    std::size_t part = 0; ///< see viewPart().
+    LayerOutlines still;
+    std::vector<MapBlocker> blockers;
+    MapOutline reach, needed;    ///< what they can darken; what of that is seen.
+    MapOutline held;             ///< what a map must hold for that.
+    double nearestBlocker = 0.0; ///< depth of the nearest of what darkens any of it.
+    double texel = 0.0;          ///< side of the largest that is no larger than any pixel of it, see TexelDensity.
+    std::optional<MapFit> fit;   ///< of the map that is drawn.
+
+private:
+    void addNeeded(const MapRequest& cause, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
+                   std::vector<glm::dvec4> halfSpaces, TexelDensity& pixels);
+};
+
+} // namespace gnomon

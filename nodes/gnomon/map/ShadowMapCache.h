@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowLight.h>
+#include <gnomon/map/LightShadowMaps.h>
+#include <gnomon/map/SpotMark.h>
+
+#include <OpenThreads/Mutex>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+/// A technique's maps: of each light in each view those drawn last, and whether they still do.
+///
+/// Threads any number.
+class ShadowMapCache {
+public:
+    ShadowMapCache();
+    ~ShadowMapCache();
+
+    /// The casters as maps draw them; made once for all views and lights.
+    osg::ref_ptr<const CasterLayers> castersOf(const ShadowCasterGroup& group, const CasterDrawables& pieces);
+    /// @param light  about the casters' origin, see localLight().
+    /// @param cone   of a lamp that is a spot: nothing outside it is marked.
+    /// @return the marks of a light; null if none of its shadow can be seen.
+    osg::ref_ptr<MarkJob> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
+                               const std::optional<SpotCone>& cone, const CasterLayers& casters,
+                               const MapSettings& wish);
+    /// Marks of all that is seen outside a spot's cone.
+    osg::ref_ptr<SpotMark> around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
+                                  const CasterLayers& casters) const;
+
+    const MapPrograms& resources() const { return *_resources; }
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void release(osg::State* state);
+
+private:
+    /// Those of a group that were asked for last.
+    struct Known {
+        const ShadowCasterGroup* group;
+        osg::ref_ptr<const CasterLayers> casters;
+        unsigned lastCall;
+    };
+    LightShadowMaps& find(const void* stage, int lightNumber);
+
+    const osg::ref_ptr<MapPrograms> _resources;
+    OpenThreads::Mutex _mutex;
+    std::vector<std::unique_ptr<LightShadowMaps>> _maps; ///< used last at the end.
+    std::vector<Known> _casters;
+    unsigned _calls = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/Plane.h>
+#include <gnomon/casters/CullableFaces.h>
+#include <gnomon/planar/PlanarCasters.h>
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+glm::dvec3 vertexAt(const CasterMesh& mesh, unsigned index) { return toGlm(osg::Vec3d((*mesh.vertices)[index])); }
+
+std::vector<double> heightsAbove(const CasterMesh& mesh, const glm::dvec4& plane) {
+    std::vector<double> heights(mesh.vertices->size());
+    for (unsigned i = 0; i < heights.size(); ++i) heights[i] = distance(plane, vertexAt(mesh, i));
+    return heights;
+}
+
+/// A vertex this near to the plane lies in it: four steps of the floats it is kept in and of those it came from.
+double thicknessOf(const CasterMesh& mesh) {
+    const double reach = (mesh.bounds._max - mesh.bounds._min).length() / 2.0;
+    return 4.0 * (reach * std::numeric_limits<float>::epsilon() / 2.0 + mesh.rounding);
+}
+
+} // namespace
+
+PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under, bool findSolids)
+    : plane(groupPlane.x, groupPlane.y, groupPlane.z, distance(groupPlane, toGlm(mesh.origin))),
+      low(std::numeric_limits<double>::infinity()),
+      high(-low),
+      thickness(thicknessOf(mesh)),
+      _mesh(&mesh),
+      _groupPlane(groupPlane),
+      _under(under),
+      _knowsSolids(findSolids) {
+    const std::vector<double> heights = heightsAbove(mesh, plane);
+    const osg::DrawElementsUInt& all = *mesh.triangles;
+    const ClosedParts closed = findSolids ? closedPartsOf(mesh, all) : ClosedParts();
+    osg::ref_ptr<osg::DrawElementsUInt> lists[2][2]; // [crossing][solid]
+    for (auto& row : lists)
+        for (auto& list : row) list = noTriangles();
+    for (unsigned i = 0; i + 2 < all.size(); i += 3) {
+        const auto [lowest, top] = std::minmax({heights[all[i]], heights[all[i + 1]], heights[all[i + 2]]});
+        if (!(top > thickness || (under && lowest < -thickness))) continue;
+        osg::DrawElementsUInt& list = *lists[lowest < -thickness][findSolids && closed.closed[i / 3]];
+        for (unsigned corner = i; corner < i + 3; ++corner) {
+            list.push_back(findSolids ? closed.welded[all[corner]] : all[corner]);
+            low = glm::min(low, vertexAt(mesh, all[corner]));
+            high = glm::max(high, vertexAt(mesh, all[corner]));
+        }
+        highest = std::max(highest, top);
+    }
+    for (const bool crossing : {false, true})
+        for (const bool solid : {false, true})
+            if (!lists[crossing][solid]->empty())
+                parts.push_back({casterGeometry(mesh, lists[crossing][solid]), crossing, solid});
+    crosses = !parts.empty() && parts.back().crossing;
+}
+
+void PlanarCasters::resizeGLObjectBuffers(unsigned maxSize) {
+    for (const Part& part : parts) part.geometry->resizeGLObjectBuffers(maxSize);
+}
+
+void PlanarCasters::releaseGLObjects(osg::State* state) const {
+    for (const Part& part : parts) part.geometry->releaseGLObjects(state);
+}
+
+} // namespace gnomon

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/Plane.h>
+#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/gl/ShaderProgram.h>
+#include <gnomon/planar/PlanarMark.h>
+
+#include <osg/State>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr GLenum clipAbovePlane = GL_CLIP_PLANE0; // the same value as GL_CLIP_DISTANCE0
+constexpr GLenum clipBelowLight = GL_CLIP_PLANE1;
+
+/// How far from the plane's, in window depth, what lies in it may be drawn.
+///
+/// A rasteriser interpolates depth in float: on llvmpipe 32 steps of the depth buffer hold that, but for a ground of
+/// many kilometres under a near plane of decimetres (tests/render/PlanarBandTest.cpp). And it snaps vertices to a part
+/// of a pixel, which OpenGL lets be as coarse as a sixteenth: an eighth of a pixel's slope. A larger margin would reach
+/// up walls that stand in the plane.
+double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
+    GLint depthBits = 24;
+    glGetIntegerv(GL_DEPTH_BITS, &depthBits);
+    const double slope = std::abs(depth.x) / viewport.width() + std::abs(depth.y) / viewport.height(); // a pixel
+    return slope / 8.0 + 32.0 * std::ldexp(1.0, -std::min(depthBits, 24));
+}
+
+} // namespace
+
+PlanarPrograms::PlanarPrograms() : plain(shaderProgram()), clipping(shaderProgram("#define CLIP\n")) {}
+
+bool PlanarMark::canReach(const osgUtil::RenderLeaf& leaf) const {
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    const auto plane = normalizedPlane(glm::transpose(toGlm(*leaf._modelview)) * eyePlane);
+    if (!box.valid() || !plane) return true;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (unsigned i = 0; i < 8; ++i) {
+        const double height = distance(*plane, toGlm(osg::Vec3d(box.corner(i))));
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+    }
+    const double margin = 0.01 * (box._max - box._min).length();
+    return lowest <= margin && highest >= -margin;
+}
+
+std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+    osg::State& state = *renderInfo.getState();
+    pass.stencilEqual(bit, 0, bit);
+    if (!cures.offset) fightReceiver();
+    const bool drawn = drawParts(renderInfo);
+    if (cutToPlane) cut(state, pass, bit);
+    if (!cures.stencil) darken(renderInfo, pass, bit);
+    return drawn ? "" : noProgram;
+}
+
+/// @return false if some program is not to be had.
+bool PlanarMark::drawParts(osg::RenderInfo& renderInfo) const {
+    bool drawn = true;
+    for (const PlanarCasters::Part& part : casters->parts) drawn = drawPart(renderInfo, part) && drawn;
+    renderInfo.getState()->apply();
+    return drawn;
+}
+
+/// @return false if the program is not to be had.
+bool PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const {
+    osg::State& state = *renderInfo.getState();
+    const bool clips = cures.clip && (part.crossing || reachesLight);
+    // A solid cut by the light's height may lack its upper faces; without the stencil cure each face darkens for itself.
+    const bool culls = part.solid && !reachesLight && cures.stencil;
+    state.apply((clips ? programs->clipping : programs->plain).get());
+    if (!hasProgram(state)) return false;
+    setUniform(state, "clipFromCaster", clipFromCaster);
+    if (clips) {
+        setUniform(state, "abovePlane", abovePlane);
+        setUniform(state, "belowLight", belowLight);
+    }
+    if (clips && part.crossing) glEnable(clipAbovePlane);
+    if (clips && reachesLight) glEnable(clipBelowLight);
+    if (culls) glEnable(GL_CULL_FACE);
+    glFrontFace(mirrored ? GL_CW : GL_CCW);
+    part.geometry->draw(renderInfo);
+    if (!cures.clip && reachesLight) {
+        setUniform(state, "clipFromCaster", -clipFromCaster); // the same map: OpenGL draws only the half with w > 0
+        part.geometry->draw(renderInfo);
+    }
+    glFrontFace(GL_CCW);
+    for (const GLenum mode : {clipAbovePlane, clipBelowLight, GLenum(GL_CULL_FACE)}) glDisable(mode);
+    return true;
+}
+
+/// Without the offset cure: what is drawn must be nearer than what stands there, at the depth that rounding gives both.
+void PlanarMark::fightReceiver() const {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+}
+
+/// Without the stencil cure: each triangle darkens for itself where marked; then no marks are left.
+void PlanarMark::darken(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+    pass.stencilAny(bit);
+    glDisable(GL_DEPTH_TEST);
+    if (!cures.offset) fightReceiver();
+    pass.beginMultiply(dark);
+    drawParts(renderInfo);
+    pass.clearStencil(bit);
+}
+
+/// Takes the marks back where what stands in the depth buffer is behind the plane, and where it is before it.
+void PlanarMark::cut(const osg::State& state, ScreenPass& pass, unsigned bit) const {
+    const double margin = 2.0 * tolerance(*state.getCurrentViewport(), depth); // in normalised device coordinates
+    pass.stencilEqual(0, 0, bit);
+    pass.testDepth(GL_LEQUAL);
+    pass.drawQuad(depth.z + margin, depth.x, depth.y);
+    pass.testDepth(GL_GREATER);
+    pass.drawQuad(depth.z - margin, depth.x, depth.y);
+}
+
+} // namespace gnomon

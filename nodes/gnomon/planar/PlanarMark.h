@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/PlanarCures.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/planar/PlanarCasters.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <osg/StateSet>
+
+namespace gnomon {
+
+/// The programs that flatten. They belong to a node, so that they are released with the node's other OpenGL objects.
+struct PlanarPrograms : public osg::Referenced {
+    PlanarPrograms();
+    osg::ref_ptr<osg::StateSet> plain;    ///< flattens only.
+    osg::ref_ptr<osg::StateSet> clipping; ///< and writes clip distances, which costs a third more a vertex on llvmpipe.
+};
+
+/// Marks of one plane and light in one view: the flattened casters, cut where need be to the pixels whose depth is the
+/// plane's.
+class PlanarMark : public MarkJob {
+public:
+    osg::ref_ptr<const PlanarCasters> casters;
+    osg::ref_ptr<const PlanarPrograms> programs;
+    glm::dmat4 clipFromCaster{1.0}; ///< flattened and projected.
+    glm::dvec4 abovePlane{0.0};     ///< see planarClipPlanes(); about the mesh's origin.
+    glm::dvec4 belowLight{0.0};
+    bool reachesLight = false; ///< some caster is as high as the light.
+    bool mirrored = false;     ///< the view turns the sense of triangles round.
+    bool cutToPlane = true;    ///< marks hold only where what one sees lies in the plane.
+    PlanarCures cures;
+    float dark = 0.5f; ///< factor that each triangle takes of what it covers; without the stencil cure only.
+    /// The plane on the screen, normalised device coordinates: z = depth.x·x + depth.y·y + depth.z.
+    glm::dvec3 depth{0.0};
+
+    glm::dvec4 eyePlane{0.0}; ///< unit normal.
+
+    /// True if the leaf's box comes to the plane but for a hundredth of its size.
+    bool canReach(const osgUtil::RenderLeaf& leaf) const override;
+    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+
+protected:
+    ~PlanarMark() override = default;
+
+private:
+    bool drawParts(osg::RenderInfo& renderInfo) const;
+    bool drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const;
+    void darken(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
+    void fightReceiver() const;
+    void cut(const osg::State& state, ScreenPass& pass, unsigned bit) const;
+};
+
+} // namespace gnomon

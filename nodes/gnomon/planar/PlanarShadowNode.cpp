@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/PlanarShadow.h>
+#include <gnomon/PlanarShadowNode.h>
+#include <gnomon/Plane.h>
+#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/group/FrameCasters.h>
+#include <gnomon/group/ShadowProbe.h>
+#include <gnomon/group/ViewFrame.h>
+#include <gnomon/planar/PlanarCasters.h>
+#include <gnomon/planar/PlanarMark.h>
+
+#include <OpenThreads/ScopedLock>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <osg/io_utils>
+#include <osgUtil/RenderLeaf>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+std::string sentence(const char* start, const osg::Vec4d& what, const char* rest) {
+    std::ostringstream text;
+    text << start << " (" << what << ") " << rest;
+    return text.str();
+}
+
+bool isFinite(const glm::dvec4& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+/// The plane as a function on the screen, z = x·a + y·b + c in normalised device coordinates; nullopt if it is seen
+/// edge on.
+std::optional<glm::dvec3> depthOnScreen(const glm::dvec4& plane, const glm::dmat4& clipFromFrame) {
+    const glm::dvec4 onScreen = glm::transpose(glm::inverse(clipFromFrame)) * plane;
+    const glm::dvec3 depth = glm::dvec3(onScreen.x, onScreen.y, onScreen.w) / -onScreen.z;
+    if (!(std::isfinite(depth.x) && std::isfinite(depth.y) && std::isfinite(depth.z))) return std::nullopt;
+    return depth;
+}
+
+/// True if all of a leaf lies in the plane, as its bounding box tells: exact for a box that is flat in its own frame.
+bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    const auto plane = normalizedPlane(glm::transpose(toGlm(*leaf._modelview)) * eyePlane);
+    if (!box.valid() || !plane) return false;
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner = toGlm(osg::Vec3d(box.corner(i)));
+        const double rounding =
+            4.0 * std::numeric_limits<float>::epsilon() * (glm::length(corner) + std::abs(plane->w)) / 2.0;
+        if (!(std::abs(distance(*plane, corner)) <= rounding)) return false;
+    }
+    return true;
+}
+
+/// True if the view turns round the sense in which a triangle's corners follow each other on the screen.
+bool isMirrored(const ViewFrame& view) {
+    return glm::determinant(glm::dmat3(toGlm(view.eyeFromGroup))) * view.projection(0, 0) * view.projection(1, 1) < 0.0;
+}
+
+bool receiverLiesIn(const ViewFrame& view, const glm::dvec4& eyePlane) {
+    if (!view.receivers) return false;
+    return std::all_of(view.receivers->begin(), view.receivers->end(),
+                       [&](const osgUtil::RenderLeaf* leaf) { return liesIn(*leaf, eyePlane); });
+}
+
+/// Height above the plane from which on PlanarClipPlanes::belowLight cuts; infinite for a sun.
+double heightLimit(const PlanarClipPlanes& clip, const glm::dvec4& plane) {
+    const glm::dvec3 normal(plane);
+    const double fall = -glm::dot(glm::dvec3(clip.belowLight), normal);
+    const double onPlane = glm::dot(clip.belowLight, glm::dvec4(-plane.w * normal, 1.0));
+    return fall > 0.0 ? onPlane / fall : std::numeric_limits<double>::infinity();
+}
+
+/// Where on the screen the flattened casters can lie.
+std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
+    if (!mark.cures.clip) return wholeScreen;
+    std::vector<glm::dvec4> halfSpaces;
+    if (mark.casters->crosses) halfSpaces.push_back(mark.abovePlane);
+    if (mark.reachesLight) halfSpaces.push_back(mark.belowLight);
+    std::vector<glm::dvec4> corners;
+    for (const glm::dvec3& corner : cutBox(mark.casters->low, mark.casters->high, halfSpaces))
+        corners.push_back(mark.clipFromCaster * glm::dvec4(corner, 1.0));
+    return screenBounds(corners);
+}
+
+} // namespace
+
+PlanarShadowNode::PlanarShadowNode() : _programs(new PlanarPrograms) {}
+
+PlanarShadowNode::PlanarShadowNode(const osg::Vec4d& plane) : PlanarShadowNode() { addPlane(plane); }
+
+PlanarShadowNode::PlanarShadowNode(const PlanarShadowNode& other, const osg::CopyOp& copyOp)
+    : ShadowTechnique(other, copyOp), _planes(other._planes), _cures(other._cures), _programs(new PlanarPrograms) {}
+
+PlanarShadowNode::~PlanarShadowNode() = default;
+
+void PlanarShadowNode::addPlane(const osg::Vec4d& plane) { _planes.push_back(plane); }
+
+void PlanarShadowNode::setPlanes(const std::vector<osg::Vec4d>& planes) { _planes = planes; }
+
+std::vector<osg::ref_ptr<MarkJob>> PlanarShadowNode::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                             const FrameCasters& casters) const {
+    std::vector<osg::ref_ptr<MarkJob>> jobs;
+    if (_planes.empty()) report(view.frameNumber, "no plane is set, so there is no shadow. Set one with addPlane().");
+    for (unsigned i = 0; i < _planes.size(); ++i) {
+        const auto plane = transformedPlane(toGlm(view.groupFromTechnique), toGlm(_planes[i]));
+        if (!plane)
+            report(view.frameNumber,
+                   sentence("the normal of the plane", _planes[i],
+                            "is zero or not a number. Give (a, b, c, d) of the plane a x + b y + c z + d = 0."));
+        else if (osg::ref_ptr<MarkJob> job = prepareOne(view, light, casters.mesh(), i, *plane))
+            jobs.push_back(job);
+    }
+    return jobs;
+}
+
+osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light,
+                                                   const CasterMesh& mesh, unsigned index,
+                                                   const glm::dvec4& groupPlane) const {
+    const auto refuse = [&](const char* start, const osg::Vec4d& what, const char* rest) {
+        report(view.frameNumber, sentence(start, what, rest));
+        return nullptr;
+    };
+    const osg::ref_ptr<PlanarCasters> casters = castersAbove(mesh, groupPlane, view.frameNumber);
+    if (casters->parts.empty())
+        return refuse("no caster is above the plane", _planes[index],
+                      "on the side of its normal. Check where the plane lies and which way its normal points.");
+    if (!isFinite(toGlm(light.inGroup)))
+        return refuse("the light at", light.inGroup, "has a coordinate that is not finite. Set the light's position.");
+    const glm::dvec3 origin = toGlm(mesh.origin);
+    const glm::dvec4 lightHere(glm::dvec3(toGlm(light.inGroup)) - light.inGroup.w() * origin, light.inGroup.w());
+    const auto flatten = planarShadowMatrix(casters->plane, lightHere);
+    if (!flatten)
+        return refuse("the light at", light.inGroup,
+                      "lies in the plane or behind it, so there is no shadow. Move the light to the side that the "
+                      "plane's normal points to.");
+    const glm::dmat4 clipFromMesh = glm::translate(toGlm(view.eyeFromGroup * view.projection), origin);
+    if (!(glm::dot(casters->plane, eyeIn(clipFromMesh)) > 0.0))
+        return refuse("the camera is behind the plane", _planes[index],
+                      "and sees the side that the light does not reach. If that side is the lit one, reverse the "
+                      "plane's normal.");
+
+    osg::ref_ptr<PlanarMark> mark = new PlanarMark;
+    const PlanarClipPlanes clip = planarClipPlanes(casters->plane, lightHere);
+    mark->casters = casters;
+    mark->programs = _programs;
+    mark->clipFromCaster = clipFromMesh * *flatten;
+    mark->abovePlane = clip.abovePlane - glm::dvec4(0.0, 0.0, 0.0, casters->thickness);
+    mark->belowLight = clip.belowLight;
+    mark->reachesLight = heightLimit(clip, casters->plane) < casters->highest;
+    mark->mirrored = isMirrored(view);
+    mark->cures = _cures;
+    mark->dark = view.dark;
+    const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
+    const auto bounds = boundsOf(*mark);
+    const auto depth = depthOnScreen(casters->plane, clipFromMesh);
+    if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
+    mark->eyePlane = *eyePlane;
+    mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);
+    mark->screenBounds = *bounds;
+    mark->depth = *depth;
+    return mark;
+}
+
+/// A ray from the foot of the point in the plane, lifted off it: what lies in the plane never casts.
+bool PlanarShadowNode::isLit(const ShadowProbe& probe, const glm::dvec3& point) const {
+    const auto shadows = [&](const osg::Vec4d& given) {
+        const auto inGroup = transformedPlane(toGlm(probe.groupFromTechnique), toGlm(given));
+        if (!inGroup) return false;
+        const glm::dvec3 normal(*inGroup);
+        const glm::dvec4 plane(normal, distance(*inGroup, toGlm(probe.origin)));
+        const double height = distance(plane, point);
+        if (!(std::abs(height) <= 1e-5 * probe.casters.reach())) return false;
+        if (!planarShadowMatrix(plane, probe.light)) return false;
+        return !probe.reaches(probe.casters.lifted(point - height * normal, normal));
+    };
+    return std::none_of(_planes.begin(), _planes.end(), shadows);
+}
+
+/// From the cache, which keeps what was used last: two meshes a plane, so that a node under two groups makes neither again.
+osg::ref_ptr<PlanarCasters> PlanarShadowNode::castersAbove(const CasterMesh& mesh, const glm::dvec4& plane,
+                                                           unsigned frame) const {
+    Lock lock(_cacheMutex);
+    const auto found = std::find_if(_cache.begin(), _cache.end(),
+                                    [&](const auto& entry) { return entry->madeFrom(mesh, plane, !_cures.clip); });
+    osg::ref_ptr<PlanarCasters> casters = found == _cache.end() ? nullptr : *found;
+    if (casters) _cache.erase(found);
+    const bool keptStill = casters && casters->firstFrame != frame; // then the search for solids pays from now on
+    if (!casters || (keptStill && !casters->knowsSolids())) {
+        casters = new PlanarCasters(mesh, plane, !_cures.clip, keptStill);
+        casters->firstFrame = frame;
+    }
+    _cache.push_back(casters);
+    if (_cache.size() > 2 * _planes.size()) _cache.erase(_cache.begin());
+    return casters;
+}
+
+void PlanarShadowNode::resizeGLObjectBuffers(unsigned maxSize) {
+    ShadowTechnique::resizeGLObjectBuffers(maxSize);
+    for (const auto& program : {_programs->plain, _programs->clipping}) program->resizeGLObjectBuffers(maxSize);
+    Lock lock(_cacheMutex);
+    for (const auto& casters : _cache) casters->resizeGLObjectBuffers(maxSize);
+}
+
+void PlanarShadowNode::releaseGLObjects(osg::State* state) const {
+    ShadowTechnique::releaseGLObjects(state);
+    for (const auto& program : {_programs->plain, _programs->clipping}) program->releaseGLObjects(state);
+    Lock lock(_cacheMutex);
+    for (const auto& casters : _cache) casters->releaseGLObjects(state);
+}
+
+} // namespace gnomon

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/onterrain/PackedParts.h>
+#include <gnomon/terrain/CasterParts.h>
+
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+namespace gnomon {
+
+/// What casts on a ground, in tiles of neighbours.
+///
+/// Drawables that share a corner are one unit, so that walls and a roof drawn apart are one house. A change of the casters
+/// is found again for the units that it touches alone.
+///
+/// Cost  of a change: the units that changed, and a look at the bounds of all pieces.
+class CasterTiles {
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+public:
+    static constexpr std::size_t mostInTile = 256;
+
+    /// Convex parts, or objects, that stand near one another.
+    struct Tile {
+        std::uint64_t revision = 0; ///< another with each change, never used twice.
+        PackedParts parts;
+        std::vector<ObjectPoints> objects;
+        std::vector<unsigned> units;               ///< whose they are.
+        glm::dvec3 low{infinite}, high{-infinite}; ///< bounds of all, group frame.
+        std::size_t size() const { return units.size(); }
+    };
+
+    /// @param asBoxes  takes objects, else parts.
+    explicit CasterTiles(bool asBoxes) : _asBoxes(asBoxes) {}
+
+    /// @param terrain  drawables that do not cast.
+    void take(const CasterDrawables& casters, const std::set<const osg::Drawable*>& terrain);
+    const std::vector<Tile>& tiles() const { return _tiles; }
+    bool asBoxes() const { return _asBoxes; }
+    /// Near the casters, group frame: shadows are floats about it. Another one only when most tiles are, too.
+    const glm::dvec3& origin() const { return _origin; }
+
+private:
+    struct Unit {
+        CasterDrawables::List pieces;
+        std::vector<unsigned> tiles;
+    };
+    /// Where a piece is, and how often it is among the casters.
+    struct Place {
+        unsigned unit;
+        int times;
+    };
+    /// A cut of plan across an axis, or a leaf.
+    struct Cut {
+        int axis = -1; ///< -1: a leaf.
+        double at = 0.0;
+        unsigned low = 0, high = 0;  ///< cuts on either side.
+        std::vector<unsigned> tiles; ///< of a leaf.
+    };
+    struct Found; // of a unit, before it is put into tiles
+
+    CasterDrawables::List changesTo(const CasterDrawables& casters, const std::set<const osg::Drawable*>& terrain);
+    void dissolve(unsigned unit, CasterDrawables::List& loose);
+    std::vector<CasterDrawables::List> weld(CasterDrawables::List loose);
+    Found find(CasterDrawables::List pieces) const;
+    void add(Found found);
+    bool isOutgrown(std::size_t size) const;
+    std::vector<Found> takeAll();
+    void cutAnew(const std::vector<Found>& units);
+    unsigned cut(std::vector<glm::dvec2>& places, std::size_t from, std::size_t to);
+    unsigned tileAt(const glm::dvec2& place);
+    unsigned changed(unsigned tile);
+
+    const bool _asBoxes;
+    osg::ref_ptr<const CasterDrawables> _casters;
+    std::set<const osg::Drawable*> _terrain;
+    std::unordered_map<const CasterDrawable*, Place> _places;
+    std::unordered_map<unsigned, Unit> _units;
+    std::vector<Tile> _tiles;
+    std::vector<Cut> _cuts; ///< the last one is the root.
+    std::size_t _size = 0, _sizeWhenCut = 0;
+    unsigned _lastUnit = 0;
+    std::uint64_t _lastRevision = 0;
+    glm::dvec3 _origin{0.0};
+    double _reach = 0.0; ///< of the casters about the origin when it was chosen.
+};
+
+} // namespace gnomon

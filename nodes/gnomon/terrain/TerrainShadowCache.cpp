@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/ground/GroundIntersection.h>
+#include <gnomon/terrain/TerrainShadowCache.h>
+#include <gnomon/terrain/TileVisibility.h>
+
+#include <OpenThreads/ScopedLock>
+#include <glm/matrix.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+constexpr std::size_t mostTowns = 2;   // groups above one node
+constexpr double secondsAFrame = 2e-3; // on what may wait: an eighth of a frame at 60 Hz
+// Of a shadow's diameter, beyond the ground under it: a coarser level of detail may lie that far off.
+constexpr double marginOfLevels = 0.5;
+constexpr double marginOfGround = 0.05; // for what a depth buffer and floats leave of heights
+
+TileGround groundOf(const GroundRevision& drawn) {
+    const bool isAsFound = !drawn.hasLevels && !drawn.hasQuads;
+    const auto* grid = isAsFound ? dynamic_cast<const HeightPyramid*>(drawn.ground.get()) : nullptr;
+    return {*drawn.ground, grid, drawn.hasLevels ? marginOfLevels : marginOfGround};
+}
+
+/// The eye is over ground without holes: to see some of it from below, a line of sight would have to go through it first, or a
+/// clip plane through the ground, near ones included, would have to open it.
+bool isFromAbove(const ViewFrame& view, const TileGround& ground) {
+    if (!ground.drawn || !std::isfinite(ground.drawn->steepest())) return false;
+    const glm::dmat4 clipFromGroup = toGlm(view.eyeFromGroup * view.projection);
+    const glm::dvec4 eye = eyeIn(clipFromGroup);
+    if (!(eye.w > 0.0 && glm::determinant(clipFromGroup) < 0.0))
+        return false; // a mirrored view's determinant is above 0
+    const glm::dvec3 place = glm::dvec3(eye) / eye.w;
+    const auto height = ground.drawn->height(place.x, place.y);
+    return height && place.z > *height;
+}
+
+bool isInside(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::dvec3& p) {
+    const double sides[] = {doubleArea(a, b, p), doubleArea(b, c, p), doubleArea(c, a, p)};
+    return std::all_of(sides, sides + 3, [](double side) { return side >= 0.0; }) ||
+           std::all_of(sides, sides + 3, [](double side) { return side <= 0.0; });
+}
+
+bool covers(const PackedShadow& shadow, const glm::dvec3& p) {
+    const glm::vec3* corners = shadow.corners;
+    for (std::size_t i = 2; shadow.isFan() && i < shadow.cornerCount; ++i)
+        if (isInside(corners[0], corners[i - 1], corners[i], p)) return true;
+    for (std::size_t i = 0; i + 2 < shadow.indexCount; i += 3)
+        if (isInside(corners[shadow.indices[i]], corners[shadow.indices[i + 1]], corners[shadow.indices[i + 2]], p))
+            return true;
+    return false;
+}
+
+bool covers(const TileShadows& tile, const glm::dvec3& p) {
+    if (!(tile.low.x <= p.x && p.x <= tile.high.x && tile.low.y <= p.y && p.y <= tile.high.y)) return false;
+    for (std::size_t i = 0; i < tile.found.size(); ++i)
+        if (covers(tile.found[i], p)) return true;
+    return false;
+}
+
+} // namespace
+
+bool TerrainAnswer::covers(const glm::dvec2& place) const {
+    const glm::dvec3 local(place - glm::dvec2(origin), 0.0);
+    return std::any_of(tiles.begin(), tiles.end(), [&](const auto& tile) { return gnomon::covers(*tile, local); });
+}
+
+TerrainShadowCache::Town& TerrainShadowCache::townOf(const ShadowCasterGroup& group, const CasterDrawables& casters,
+                                                     const TerrainPlace& place, bool asBoxes) {
+    const auto known = std::find_if(_towns.begin(), _towns.end(), [&](const auto& town) {
+        return town->group == &group && town->casters.asBoxes() == asBoxes;
+    });
+    if (known != _towns.end()) {
+        std::rotate(known, known + 1, _towns.end());
+    } else {
+        if (_towns.size() >= mostTowns) {
+            for (const auto& [number, tiles] : _towns.front()->lights) _foundByOthers += tiles.found();
+            _towns.erase(_towns.begin());
+        }
+        _towns.emplace_back(new Town{&group, nullptr, CasterTiles(asBoxes), {}});
+    }
+    Town& town = *_towns.back();
+    const osg::ref_ptr<const GroundRevision> drawn = place.drawn(town.drawn);
+    if (drawn != town.drawn)
+        for (auto& [number, tiles] : town.lights) tiles.groundChanged();
+    town.drawn = drawn;
+    town.casters.take(casters, drawn->drawables);
+    return town;
+}
+
+TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawables& casters, const TerrainPlace& place,
+                                       int number, const glm::dvec4& light, const TerrainSettings& settings) {
+    Lock lock(_mutex);
+    Town& town = townOf(*view.group, casters, place, settings.asBoxes);
+    TileUpdates& tiles = town.lights[number];
+    const TileVisibility seen(view, town.casters.origin());
+    const TileGround ground = groundOf(*town.drawn);
+    tiles.update(town.casters, ground, light, settings, seen, secondsAFrame);
+    return {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
+            isFromAbove(view, ground)};
+}
+
+osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterGroup& group,
+                                                             const CasterDrawables& casters, const TerrainPlace& place,
+                                                             const glm::dvec4& light, const TerrainSettings& settings) {
+    Lock lock(_mutex);
+    const Town& town = townOf(group, casters, place, settings.asBoxes);
+    osg::ref_ptr<TerrainAnswer> answer = new TerrainAnswer;
+    answer->drawn = town.drawn;
+    answer->origin = town.casters.origin();
+    const auto& tiles = town.casters.tiles();
+    answer->tiles.resize(tiles.size());
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+        const osg::ref_ptr<TileShadows> shadows = new TileShadows;
+        findShadows(groundOf(*town.drawn), tiles[i], light, settings, answer->origin, *shadows);
+        answer->tiles[i] = shadows;
+    });
+    return answer;
+}
+
+unsigned TerrainShadowCache::found() const {
+    Lock lock(_mutex);
+    unsigned sum = _foundByOthers;
+    for (const auto& town : _towns)
+        for (const auto& [number, tiles] : town->lights) sum += tiles.found();
+    return sum;
+}
+
+void TerrainShadowCache::resizeGLObjectBuffers(unsigned maxSize) {
+    Lock lock(_mutex);
+    for (const auto& town : _towns)
+        for (auto& [number, tiles] : town->lights) tiles.resizeGLObjectBuffers(maxSize);
+}
+
+void TerrainShadowCache::releaseGLObjects(osg::State* state) const {
+    Lock lock(_mutex);
+    for (const auto& town : _towns)
+        for (const auto& [number, tiles] : town->lights) tiles.releaseGLObjects(state);
+}
+
+} // namespace gnomon

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/drape/Drape.h>
+
+#include <functional>
+#include <glm/vec2.hpp>
+
+namespace gnomon {
+
+/// What the bounding-box method knows of a caster.
+struct BoxCaster {
+    glm::dvec3 low{0.0}, high{0.0}; ///< its bounding box, along the axes of the world.
+    /// The caster's own vertex nearest in plan to a corner of the box.
+    std::function<glm::dvec2(const glm::dvec2& corner)> nearestVertex;
+};
+
+/// How far the published method lifts its mesh, scene's unit. Kept, so that what it errs by can be seen.
+struct BoxLifts {
+    double projected = 0.05; ///< points that rays meet.
+    double between = 0.1;    ///< midpoints and interior points.
+};
+
+/// Quadrant, 1 to 4, of the light's azimuth as seen from a caster; north, where two meet, is 1.
+/// @param away  in plan, from the light to the caster, any length.
+int boxQuadrant(const glm::dvec2& away);
+
+/// The bounding-box method as published: five vertices of the box by quadrant, moved to the caster's nearest own vertices,
+/// three rays, a pentagon of twelve triangles that lie on the ground at eleven points. Its printed mistakes are not
+/// repeated; what the method itself cannot do is kept: always a box, a flat roof, twelve triangles.
+///
+/// @param light  homogeneous: w = 0 the way towards a sun, w > 0 a lamp.
+/// @return 12 triangles, three corners each; nullopt if a ray or a corner meets no ground, as published.
+///
+/// Source: ARL-TN-156, "Real-Time Shadows for Terrain Objects by the Bounding-Box Method".
+std::optional<Drape> boxShadow(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light,
+                               const BoxLifts& lifts = {});
+
+} // namespace gnomon

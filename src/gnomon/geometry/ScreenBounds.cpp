@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/geometry/ConvexHull2D.h>
+#include <gnomon/geometry/ScreenBounds.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+using Points = std::vector<glm::dvec3>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+bool isFinite(const glm::dvec4& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+double side(const glm::dvec4& halfSpace, const glm::dvec3& point) {
+    return glm::dot(halfSpace, glm::dvec4(point, 1.0));
+}
+
+/// Sutherland and Hodgman's cut of a convex polygon by one half-space. An edge is always cut from its kept end, so that
+/// two faces cut their common edge at the same point.
+Points clipped(const Points& polygon, const glm::dvec4& halfSpace) {
+    Points kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        glm::dvec3 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+        double fromSide = side(halfSpace, from), toSide = side(halfSpace, to);
+        if (fromSide >= 0.0) kept.push_back(from);
+        if ((fromSide >= 0.0) == (toSide >= 0.0)) continue;
+        if (fromSide < 0.0) {
+            std::swap(from, to);
+            std::swap(fromSide, toSide);
+        }
+        kept.push_back(from + (to - from) * (fromSide / (fromSide - toSide)));
+    }
+    return kept;
+}
+
+Points clipped(Points polygon, const std::vector<glm::dvec4>& halfSpaces) {
+    for (const glm::dvec4& halfSpace : halfSpaces) polygon = clipped(polygon, halfSpace);
+    return polygon;
+}
+
+std::vector<glm::dvec4> sidesOfBox(const glm::dvec3& low, const glm::dvec3& high) {
+    return {{1, 0, 0, -low.x},  {0, 1, 0, -low.y},  {0, 0, 1, -low.z},
+            {-1, 0, 0, high.x}, {0, -1, 0, high.y}, {0, 0, -1, high.z}};
+}
+
+/// The two faces of a box across `axis`.
+void addFaces(const glm::dvec3& low, const glm::dvec3& high, int axis, std::vector<Points>& faces) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const double level : {low[axis], high[axis]}) {
+        Points face(4);
+        for (std::size_t i = 0; i < 4; ++i) {
+            face[i][axis] = level;
+            face[i][u] = i == 1 || i == 2 ? high[u] : low[u];
+            face[i][v] = i >= 2 ? high[v] : low[v];
+        }
+        faces.push_back(face);
+    }
+}
+
+/// A square in the boundary of `halfSpace`, large enough to cover the box's section. Empty if it has no boundary.
+Points section(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& halfSpace) {
+    const double size = glm::length(glm::dvec3(halfSpace));
+    if (!(size > 0.0)) return {};
+    const glm::dvec3 normal = glm::dvec3(halfSpace) / size, centre = 0.5 * (low + high);
+    const glm::dvec3 thin = glm::abs(normal);
+    const glm::dvec3 axis = thin.x <= thin.y && thin.x <= thin.z ? glm::dvec3(1, 0, 0)
+                            : thin.y <= thin.z                   ? glm::dvec3(0, 1, 0)
+                                                                 : glm::dvec3(0, 0, 1);
+    const double reach = 2.0 * glm::length(high - low);
+    const glm::dvec3 u = glm::normalize(glm::cross(normal, axis)), v = glm::cross(normal, u);
+    const glm::dvec3 foot = centre - normal * (side(halfSpace, centre) / size);
+    return {foot + reach * (u + v), foot + reach * (u - v), foot - reach * (u + v), foot - reach * (u - v)};
+}
+
+bool lexicographic(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+void append(Points& all, const Points& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+/// Limits of x/w (axis 0) or y/w (axis 1) over the part of a hull with w > 0.
+struct Limits {
+    double low = infinity, high = -infinity;
+    double lowBehind = infinity, highBehind = -infinity; ///< of x/w over the points with w < 0.
+
+    void add(double x, double w) {
+        const double slope = x / w;
+        double& least = w > 0.0 ? low : lowBehind;
+        double& most = w > 0.0 ? high : highBehind;
+        least = std::min(least, slope);
+        most = std::max(most, slope);
+    }
+
+    /// An edge from (x, w > 0) to (x', w' < 0) meets w = 0 at the sign of x/w - x'/w', and x/w tends to that infinity.
+    /// Equal slopes (x = 0 at both ends, say) keep x/w as it is; equal but for rounding count as unequal.
+    void passBehindTheEye() {
+        if (lowBehind > highBehind) return; // nothing is behind
+        if (high > lowBehind - 8.0 * epsilon * std::abs(lowBehind)) high = infinity;
+        if (low < highBehind + 8.0 * epsilon * std::abs(highBehind)) low = -infinity;
+    }
+};
+
+Limits limitsAlong(const std::vector<glm::dvec4>& points, int axis) {
+    Limits limits;
+    for (const glm::dvec4& point : points)
+        if (point.w > 0.0 || point.w < 0.0) limits.add(point[axis], point.w);
+    limits.passBehindTheEye();
+    for (const glm::dvec4& point : points) { // w = 0 itself: an end at infinity
+        if (point.w == 0.0 && point[axis] > 0.0) limits.high = infinity;
+        if (point.w == 0.0 && point[axis] < 0.0) limits.low = -infinity;
+    }
+    return limits;
+}
+
+} // namespace
+
+std::array<glm::dvec4, 8> boxCorners(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& frameFromBox) {
+    std::array<glm::dvec4, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        corners[i] =
+            frameFromBox * glm::dvec4(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z, 1.0);
+    return corners;
+}
+
+std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high,
+                               const std::vector<glm::dvec4>& halfSpaces) {
+    const bool finite =
+        isFinite({low, 0.0}) && isFinite({high, 0.0}) && std::all_of(halfSpaces.begin(), halfSpaces.end(), isFinite);
+    if (!finite || !glm::all(glm::lessThanEqual(low, high))) return {};
+    std::vector<Points> faces;
+    for (int axis = 0; axis < 3; ++axis) addFaces(low, high, axis, faces);
+    Points corners;
+    for (const Points& face : faces) append(corners, clipped(face, halfSpaces));
+    for (std::size_t i = 0; i < halfSpaces.size(); ++i) {
+        std::vector<glm::dvec4> others = sidesOfBox(low, high);
+        for (std::size_t j = 0; j < halfSpaces.size(); ++j)
+            if (j != i) others.push_back(halfSpaces[j]);
+        append(corners, clipped(section(low, high, halfSpaces[i]), others));
+    }
+    std::sort(corners.begin(), corners.end(), lexicographic);
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return corners;
+}
+
+std::optional<ScreenRect> screenBounds(const std::vector<glm::dvec4>& clipPoints) {
+    if (!std::all_of(clipPoints.begin(), clipPoints.end(), isFinite)) return ScreenRect{{-1.0, -1.0}, {1.0, 1.0}};
+    const auto inFront = [](const glm::dvec4& point) { return point.w > 0.0; };
+    if (std::none_of(clipPoints.begin(), clipPoints.end(), inFront)) return std::nullopt;
+    const Limits x = limitsAlong(clipPoints, 0), y = limitsAlong(clipPoints, 1);
+    const glm::dvec2 low = glm::max(glm::dvec2(x.low, y.low), -1.0), high = glm::min(glm::dvec2(x.high, y.high), 1.0);
+    if (!glm::all(glm::lessThanEqual(low, high))) return std::nullopt;
+    return ScreenRect{low, high};
+}
+
+std::vector<glm::dvec2> screenOutline(const std::vector<glm::dvec4>& clipPoints, const glm::dvec2& by) {
+    std::vector<glm::dvec2> points;
+    for (const glm::dvec4& point : clipPoints) {
+        points.push_back(glm::dvec2(point) / point.w);
+        const glm::dvec2& last = points.back();
+        if (!(point.w > 0.0 && std::abs(last.x) < 1e6 && std::abs(last.y) < 1e6)) return {};
+    }
+    return grownOutline(points, by);
+}
+
+glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame) {
+    return glm::inverse(clipFromFrame) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
+}
+
+ScreenRect united(const ScreenRect& a, const ScreenRect& b) {
+    return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
+}
+
+ScreenRect common(const ScreenRect& a, const ScreenRect& b) {
+    return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
+}
+
+bool overlap(const ScreenRect& a, const ScreenRect& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+} // namespace gnomon

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/geometry/ConvexHull2D.h>
+#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/mapfit/MapFit.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+using Polygon = std::vector<glm::dvec2>;
+
+constexpr double thinnest = 1e-6;              // of a rectangle's sides, the shorter to the longer
+constexpr double steps = 1.0 / (1 << 19);      // of depth, as tests/render/PlanarBandTest.cpp measured
+constexpr double floatError = 8.0 / (1 << 24); // of a matrix of floats times a vector of floats
+constexpr double edgeOn = 20.0;                // tangent: the cosine of surface and light is 0.05
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+glm::dvec3 anyAcross(const glm::dvec3& axis) {
+    const glm::dvec3 thin = glm::abs(axis);
+    const glm::dvec3 other = thin.x <= thin.y && thin.x <= thin.z ? glm::dvec3(1, 0, 0)
+                             : thin.y <= thin.z                   ? glm::dvec3(0, 1, 0)
+                                                                  : glm::dvec3(0, 0, 1);
+    return glm::normalize(glm::cross(axis, other));
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+double areaOf(const Polygon& polygon) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i + 2 < polygon.size(); ++i)
+        twice += cross(polygon[i + 1] - polygon[0], polygon[i + 2] - polygon[0]);
+    return twice / 2.0;
+}
+
+/// What of a polygon is on the left of the line from `a` to `b`.
+Polygon leftOf(const Polygon& polygon, const glm::dvec2& a, const glm::dvec2& b) {
+    Polygon kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+        const double atFrom = cross(b - a, from - a), atTo = cross(b - a, to - a);
+        if (atFrom >= 0.0) kept.push_back(from);
+        if ((atFrom >= 0.0) != (atTo >= 0.0)) kept.push_back(from + (to - from) * (atFrom / (atFrom - atTo)));
+    }
+    return kept;
+}
+
+/// A rectangle's way along one side, unit, and what it holds along that and across.
+struct Rectangle {
+    glm::dvec2 along{1.0, 0.0}, low{infinity}, high{-infinity};
+
+    glm::dvec2 across() const { return {-along.y, along.x}; }
+    void add(const glm::dvec2& point) {
+        const glm::dvec2 at(glm::dot(along, point), glm::dot(across(), point));
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    double area() const { return (high.x - low.x) * (high.y - low.y); }
+};
+
+Rectangle rectangleAlong(const glm::dvec2& along, const Polygon& polygon) {
+    Rectangle result;
+    result.along = along;
+    for (const glm::dvec2& point : polygon) result.add(point);
+    return result;
+}
+
+Rectangle smallestAbout(const Polygon& polygon) {
+    Rectangle best = rectangleAlong({1.0, 0.0}, polygon);
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+        if (!(glm::dot(edge, edge) > 0.0)) continue;
+        const Rectangle next = rectangleAlong(glm::normalize(edge), polygon);
+        if (next.area() < best.area()) best = next;
+    }
+    return best;
+}
+
+/// No side is nothing.
+void widen(Rectangle& rectangle) {
+    const glm::dvec2 size = rectangle.high - rectangle.low;
+    const double least = std::max(thinnest * std::max(size.x, size.y), std::numeric_limits<double>::min());
+    for (int i = 0; i < 2; ++i) {
+        const double missing = std::max(0.0, least - size[i]) / 2.0;
+        rectangle.low[i] -= missing;
+        rectangle.high[i] += missing;
+    }
+}
+
+/// Rows that take a homogeneous place of the light's to 0 … 1.
+glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double farthest) {
+    const glm::dvec2 size = rectangle.high - rectangle.low, across = rectangle.across();
+    const double range = farthest - nearest;
+    glm::dmat4 result(0.0);
+    result = glm::row(result, 0, glm::dvec4(rectangle.along / size.x, 0.0, -rectangle.low.x / size.x));
+    result = glm::row(result, 1, glm::dvec4(across / size.y, 0.0, -rectangle.low.y / size.y));
+    result = glm::row(result, 2, glm::dvec4(0.0, 0.0, 1.0 / range, -nearest / range));
+    return glm::row(result, 3, glm::dvec4(0.0, 0.0, 0.0, 1.0));
+}
+
+} // namespace
+
+std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
+                                      const std::vector<glm::dvec4>& halfSpaces) {
+    const auto all = boxCorners(low, high, sceneFromBox);
+    std::vector<glm::dvec4> corners(all.begin(), all.end());
+    std::vector<glm::dvec4> cutting; // by the others the box is not changed
+    for (const glm::dvec4& half : halfSpaces) {
+        const auto outside = [&half](const glm::dvec4& corner) { return glm::dot(half, corner) < 0.0; };
+        const auto count = std::count_if(corners.begin(), corners.end(), outside);
+        if (count == 8) return {};
+        if (count > 0) cutting.push_back(half * sceneFromBox);
+    }
+    if (cutting.empty()) return corners;
+    corners.clear();
+    for (const glm::dvec3& corner : cutBox(low, high, cutting))
+        corners.push_back(sceneFromBox * glm::dvec4(corner, 1.0));
+    return corners;
+}
+
+LightFrame sunFrame(const glm::dvec3& towardsSun) {
+    const glm::dvec3 away = -towardsSun, right = anyAcross(away), up = glm::cross(away, right);
+    LightFrame frame;
+    frame.lightFromScene = glm::dmat4(glm::transpose(glm::dmat3(right, up, away)));
+    return frame;
+}
+
+LightFrame lampFrame(const glm::dvec3& lamp, const glm::dvec3& axis, double spread) {
+    const glm::dvec3 right = anyAcross(axis), up = glm::cross(axis, right);
+    const auto along = [&lamp](const glm::dvec3& way) { return glm::dvec4(way, -glm::dot(way, lamp)); };
+    LightFrame frame;
+    frame.sun = false;
+    frame.lightFromScene =
+        glm::transpose(glm::dmat4(along(right), along(up), glm::dvec4(0.0, 0.0, 0.0, -1.0), along(axis)));
+    for (const glm::dvec3& side : {right, -right, up, -up}) frame.halfSpaces.push_back(along(spread * axis + side));
+    return frame;
+}
+
+bool MapOutline::surrounds(const glm::dvec2& at) const {
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        if (!(cross(corners[(i + 1) % corners.size()] - corners[i], at - corners[i]) >= 0.0)) return false;
+    return corners.size() >= 3;
+}
+
+bool MapOutline::covers(const glm::dvec4& p) const {
+    const double depth = p.z / p.w;
+    return p.w > 0.0 && depth >= nearest && depth <= farthest && surrounds(glm::dvec2(p) / p.w);
+}
+
+bool MapOutline::isBefore(const MapOutline& other) const {
+    return !empty() && (other.empty() || nearest <= other.nearest) &&
+           std::all_of(other.corners.begin(), other.corners.end(), [this](const auto& at) { return surrounds(at); });
+}
+
+void MapOutline::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
+                        const std::vector<glm::dvec4>& given) {
+    const std::vector<glm::dvec4> all = cornersWithin(low, high, sceneFromBox, {});
+    const auto known = [this](const glm::dvec4& corner) { return covers(_frame.lightFromScene * corner); };
+    if (std::all_of(all.begin(), all.end(), known)) return;
+    std::vector<glm::dvec4> halfSpaces = given;
+    halfSpaces.insert(halfSpaces.end(), _frame.halfSpaces.begin(), _frame.halfSpaces.end());
+    for (const glm::dvec4& corner : cornersWithin(low, high, sceneFromBox, halfSpaces)) {
+        const glm::dvec4 p = _frame.lightFromScene * corner;
+        if (!(p.w > 0.0)) continue; // the lamp's own place
+        const double depth = p.z / p.w;
+        nearest = corners.empty() ? depth : std::min(nearest, depth);
+        farthest = corners.empty() ? depth : std::max(farthest, depth);
+        corners.push_back(glm::dvec2(p) / p.w);
+    }
+    corners = convexHull2D(std::move(corners));
+}
+
+void MapOutline::merge(const MapOutline& other) {
+    if (other.empty()) return;
+    nearest = empty() ? other.nearest : std::min(nearest, other.nearest);
+    farthest = empty() ? other.farthest : std::max(farthest, other.farthest);
+    corners.insert(corners.end(), other.corners.begin(), other.corners.end());
+    corners = convexHull2D(std::move(corners));
+}
+
+void MapOutline::cut(const MapOutline& other) {
+    const Polygon& edges = other.corners;
+    if (edges.empty()) corners.clear();
+    if (!(areaOf(edges) > 0.0)) return;
+    for (std::size_t i = 0; i < edges.size(); ++i) corners = leftOf(corners, edges[i], edges[(i + 1) % edges.size()]);
+}
+
+void MapOutline::limitNearest() {
+    if (!_frame.sun) nearest = std::max(nearest, 64.0 * farthest);
+}
+
+void MapOutline::grow(double by) { corners = grownOutline(corners, glm::dvec2(by)); }
+
+double MapOutline::length() const {
+    const Rectangle rectangle = smallestAbout(corners);
+    return std::max(rectangle.high.x - rectangle.low.x, rectangle.high.y - rectangle.low.y);
+}
+
+std::vector<glm::dvec4> MapOutline::sides() const {
+    Rectangle rectangle = smallestAbout(corners);
+    widen(rectangle);
+    const glm::dvec2 more = 1e-3 * (rectangle.high - rectangle.low); // cutBox() minds planes that are nearly one
+    rectangle.low -= more;
+    rectangle.high += more;
+    std::vector<glm::dvec4> result;
+    for (int axis = 0; axis < 2; ++axis) {
+        const glm::dvec2 way = axis ? rectangle.across() : rectangle.along;
+        result.push_back(glm::dvec4(way, 0.0, -rectangle.low[axis]) * _frame.lightFromScene);
+        result.push_back(glm::dvec4(-way, 0.0, rectangle.high[axis]) * _frame.lightFromScene);
+    }
+    return result;
+}
+
+std::vector<glm::dvec4> MapOutline::body() const {
+    const glm::dmat4 sceneFromLight = glm::inverse(_frame.lightFromScene);
+    std::vector<glm::dvec4> points;
+    for (const glm::dvec2& corner : corners)
+        for (const double depth : {nearest, farthest}) { // a lamp's in proportion to its distance, so that w is 1
+            const double scale = _frame.sun ? 1.0 : -1.0 / depth;
+            points.push_back(sceneFromLight * (scale * glm::dvec4(corner, depth, 1.0)));
+        }
+    return points;
+}
+
+bool MapFit::covers(const MapOutline& outline, double margin) const {
+    const auto inside = [&](const glm::dvec2& corner) {
+        const glm::dvec4 at = mapFromLight * glm::dvec4(corner, nearest, 1.0);
+        return std::min(at.x, at.y) >= margin * at.w && std::max(at.x, at.y) <= (1.0 - margin) * at.w;
+    };
+    return outline.nearest >= nearest && outline.farthest <= farthest &&
+           std::all_of(outline.corners.begin(), outline.corners.end(), inside);
+}
+
+MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutline& most, double reserve, double margin,
+              double thick) {
+    Rectangle rectangle = smallestAbout(convexHull2D(outline.corners));
+    const Rectangle limit = rectangleAlong(rectangle.along, most.corners);
+    const glm::dvec2 around = reserve * (rectangle.high - rectangle.low);
+    rectangle.low = glm::min(rectangle.low, glm::max(rectangle.low - around, limit.low));
+    rectangle.high = glm::max(rectangle.high, glm::min(rectangle.high + around, limit.high));
+    widen(rectangle);
+    const glm::dvec2 border = margin / (1.0 - 2.0 * margin) * (rectangle.high - rectangle.low);
+    rectangle.low -= border;
+    rectangle.high += border;
+    MapFit fit;
+    const double least = frame.sun ? thick : thick * outline.farthest * outline.farthest; // d(-1/w) is dw/w²
+    const double more = 0.125 * std::max(outline.farthest - outline.nearest, 4.0 * least);
+    fit.nearest = outline.nearest - more;
+    fit.farthest = frame.sun ? outline.farthest + more : std::min(0.0, outline.farthest + more);
+    fit.size = rectangle.high - rectangle.low;
+    fit.mapFromLight = unitFromLight(rectangle, fit.nearest, fit.farthest);
+    fit.mapFromScene = fit.mapFromLight * frame.lightFromScene;
+    return fit;
+}
+
+double softReach(const LightFrame& frame, double nearest, double farthest, double lightRadius, double radius) {
+    const double perUnit = frame.sun ? 1.0 : -nearest;
+    return lightRadius * std::max(0.0, farthest - nearest) + radius * perUnit;
+}
+
+MapSpread mapSpread(const LightFrame& frame, const MapFit& fit, double lightRadius, double radius, int texels) {
+    const glm::dvec2 texelsAUnit = double(texels) / fit.size; // of x/w and y/w
+    MapSpread spread;
+    spread.penumbra = lightRadius * (fit.farthest - fit.nearest) * texelsAUnit;
+    spread.nearest = radius * (frame.sun ? 1.0 : -fit.nearest) * texelsAUnit;
+    spread.farthest = radius * (frame.sun ? 1.0 : -fit.farthest) * texelsAUnit;
+    return spread;
+}
+
+MapErrors mapErrors(const LightFrame& frame, const MapFit& fit, const glm::dvec3& reach, int texels) {
+    const auto rounding = [&](int axis) {
+        const glm::dvec4 row = glm::abs(glm::row(fit.mapFromScene, axis));
+        return floatError * (glm::dot(glm::dvec3(row), reach) + row.w);
+    };
+    const double range = fit.farthest - fit.nearest, texel = std::max(fit.size.x, fit.size.y) / texels;
+    const auto at = [&](double depth) {
+        const double perW = frame.sun ? 1.0 : -depth;
+        return MapError{steps + 2.0 * floatError + rounding(2) * perW,
+                        texels * std::max(rounding(0), rounding(1)) * perW, edgeOn * texel / range * perW};
+    };
+    return {at(fit.nearest), at(fit.farthest)};
+}
+
+} // namespace gnomon
