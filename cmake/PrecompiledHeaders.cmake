@@ -2,9 +2,9 @@
 # once a file. KIND is
 #   maths       the standard library and GLM
 #   osg         these and OpenSceneGraph
-#   program     these, osgViewer and nlohmann::json
+#   program     these and osgViewer
 #   maths_test  the standard library, GLM and GoogleTest, for targets that link it
-#   test        these, OpenSceneGraph, osgViewer and nlohmann::json
+#   test        these, OpenSceneGraph and osgViewer
 # A kind with more headers costs each file more: templates that a header names are compiled anew for it.
 # Call it after all that is said of how the target is compiled. gnomon_precompile_folder(KIND) does so for all targets of
 # this folder and those below that have no kind yet.
@@ -20,13 +20,13 @@ set(gnomon_headers_osg
   ${gnomon_headers_maths}
   <osg/Geode> <osg/Geometry> <osg/GLExtensions> <osg/LightSource> <osg/Material> <osg/MatrixTransform> <osg/Program>
   <osg/State> <osg/Texture2D> <osgUtil/CullVisitor>)
-set(gnomon_headers_program ${gnomon_headers_osg} <filesystem> <osgDB/ReadFile> <osgViewer/Viewer> <nlohmann/json.hpp>)
+set(gnomon_headers_program ${gnomon_headers_osg} <filesystem> <osgDB/ReadFile> <osgViewer/Viewer>)
 set(gnomon_headers_test ${gnomon_headers_program} <gtest/gtest.h>)
 set(gnomon_headers_libraries_maths glm::glm)
 set(gnomon_headers_libraries_maths_test glm::glm GTest::gtest)
 set(gnomon_headers_libraries_osg glm::glm osg::osgUtil osg::osg)
 set(gnomon_headers_libraries_program
-  glm::glm osg::osgViewer osg::osgGA osg::osgUtil osg::osgDB osg::osg nlohmann_json::nlohmann_json)
+  glm::glm osg::osgViewer osg::osgGA osg::osgUtil osg::osgDB osg::osg)
 set(gnomon_headers_libraries_test ${gnomon_headers_libraries_program} GTest::gtest)
 
 # What is compiled once suits a target only if both are compiled alike: these properties are its, too, and name it.
