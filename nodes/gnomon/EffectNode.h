@@ -40,7 +40,7 @@ public:
     /// @param cause  the end of a sentence that begins with class and name.
     void report(unsigned frame, const std::string& cause) const;
 
-    /// What report() does in one frame. For effects, which outlive the frame's cull.
+    /// A reporter for one frame, for effects, which outlive the frame's cull. It does as report().
     FrameReport reportIn(unsigned frame) const;
 
     /// Traverses the children. In a cull traversal it registers the effect with the compositor, too.

@@ -3,7 +3,7 @@
 
 namespace gnomon {
 
-/// What a HeadlessContext is to be.
+/// Size and buffers of a HeadlessContext.
 struct HeadlessOptions {
     int width = 800;         ///< Pixels, 1 … 16384, or up to the driver's limit if lower.
     int height = 600;        ///< Pixels, same range.

@@ -85,7 +85,7 @@ public:
     /// Forgets the causes of earlier frames. A frame begins when `frame` changes, or when `view` comes a second time.
     /// @param view  any address that identifies the view.
     void beginFrame(unsigned frame, const void* view) const;
-    /// What report() does in one frame. For jobs that outlive the frame's cull.
+    /// A reporter for one frame, for jobs that outlive the frame's cull. It does as report().
     FrameReport reportIn(unsigned frame) const;
     /// Class and name, for messages: "PlanarShadowNode 'floor'".
     std::string describe() const;

@@ -95,6 +95,25 @@ TEST_P(SceneFile, KeepsUniformsOfLights) {
     EXPECT_EQ(copy->getLightUniforms(), uniforms);
 }
 
+TEST_P(SceneFile, KeepsWhatTheCompositorMayUse) {
+    const gnomon::CompositorOptions options{0xa5, false, 77};
+    osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
+    group->setCompositorOptions(options);
+    const auto copy = test::throughFile(*group, kind());
+    ASSERT_TRUE(copy);
+    EXPECT_EQ(copy->getCompositorOptions(), options);
+    osg::ref_ptr<gnomon::HaloNode> halo = new gnomon::HaloNode;
+    halo->setCompositorOptions(options);
+    const auto ring = test::throughFile(*halo, kind());
+    ASSERT_TRUE(ring);
+    EXPECT_EQ(ring->getCompositorOptions(), options);
+    osg::ref_ptr<gnomon::PlanarReflectionNode> mirror = new gnomon::PlanarReflectionNode;
+    mirror->setCompositorOptions(options);
+    const auto image = test::throughFile(*mirror, kind());
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->getCompositorOptions(), options);
+}
+
 TEST_P(SceneFile, KeepsNumbersAndPlacesOfLights) {
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
     group->setLights({{7, delicate[0]}, {0, delicate[1]}, {3, delicate[2]}});

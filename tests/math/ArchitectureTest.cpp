@@ -273,6 +273,22 @@ TEST(Architecture, ProgramsAndWrappersIncludeOnlyPublicHeaders) {
     EXPECT_GT(files, 50);
 }
 
+/// Rows "| `room` | holds | may include | tested by |".
+TEST(Architecture, ThePageNamesTheSameArrows) {
+    std::ifstream page(std::string(GNOMON_ROOT) + "/docs/architecture.md");
+    Graph drawn;
+    for (std::string line; std::getline(page, line);) {
+        if (line.rfind("| `", 0) != 0) continue;
+        std::istringstream row(line);
+        std::string empty, room, holds, includes;
+        for (std::string* cell : {&empty, &room, &holds, &includes}) std::getline(row, *cell, '|');
+        Names others = words(includes);
+        others.erase("nothing");
+        drawn[room.substr(2, room.size() - 4)] = others;
+    }
+    EXPECT_EQ(drawn, mayInclude());
+}
+
 TEST(Architecture, NothingIsIncludedThatIsNotThere) {
     for (const File& file : house().files)
         for (const std::string& path : file.includes)
