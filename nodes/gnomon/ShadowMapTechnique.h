@@ -92,10 +92,13 @@ public:
     using Filter = ShadowMapOptions::Filter; ///< See ShadowMapOptions::Filter.
     using Edges = ShadowMapOptions::Edges;   ///< See ShadowMapOptions::Edges.
     using View = ShadowMapOptions::View;     ///< See ShadowMapOptions::View.
+    /// The same values, by shorter names.
     static constexpr Filter NEAREST = ShadowMapOptions::NEAREST, BILINEAR = ShadowMapOptions::BILINEAR,
                             BICUBIC = ShadowMapOptions::BICUBIC, FINE = ShadowMapOptions::FINE;
+    /// The same values, by shorter names.
     static constexpr Edges HARD = ShadowMapOptions::HARD, SMOOTH = ShadowMapOptions::SMOOTH,
                            SOFT = ShadowMapOptions::SOFT;
+    /// The same values, by shorter names.
     static constexpr View NOTHING = ShadowMapOptions::NOTHING, MAP = ShadowMapOptions::MAP,
                           TEXELS = ShadowMapOptions::TEXELS, CASCADES = ShadowMapOptions::CASCADES;
 
@@ -105,8 +108,8 @@ public:
     ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowMapTechnique)
 
-    /// Sets all properties at once. Values that cannot be used change as ShadowMapOptions::usable() says. So do those
-    /// of the setters below.
+    /// Sets all properties at once. Each setter below sets one. ShadowMapOptions::usable() says what becomes of values
+    /// out of range.
     void setOptions(const ShadowMapOptions& options) { _options = options.usable(); }
     /// See setOptions().
     const ShadowMapOptions& getOptions() const { return _options; }
@@ -147,6 +150,7 @@ public:
     void setProgramUnit(int unit) { change(_options.programUnit, unit); }
     /// See ShadowMapOptions::programUnit.
     int getProgramUnit() const { return _options.programUnit; }
+
     /// GLSL 1.30 source of the lookup function for setProgramUnit(). Add it to a program as another fragment shader.
     /// It returns the share of the light that arrives. Edges follow the filter; there are no penumbras.
     ///
@@ -175,7 +179,7 @@ protected:
 private:
     void reportUnknownTests(unsigned frame, const CasterDrawables& pieces) const;
     template <typename Value>
-    void change(Value& option, Value to) {
+    void change(Value& option, Value to) { // to a usable one
         option = to;
         setOptions(_options);
     }

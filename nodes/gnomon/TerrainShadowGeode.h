@@ -91,6 +91,7 @@ struct TerrainShadows;
 class GNOMON_EXPORT TerrainShadowGeode : public ShadowTechnique {
 public:
     using Method = TerrainShadowOptions::Method; ///< See TerrainShadowOptions::Method.
+    /// The same values, by shorter names.
     static constexpr Method BOX = TerrainShadowOptions::BOX, HULL = TerrainShadowOptions::HULL,
                             DRAPE = TerrainShadowOptions::DRAPE;
 

@@ -118,8 +118,7 @@ std::vector<SpecKey> mapKeys() {
         numberKey({"size", "most texels on a side of a shadow map", "setSize()", "texels"}, ofMap(&Map::size),
                   Map::leastSize, Map::mostSize),
         wordKey(
-            {"filter", "texels compared: 1, 2 x 2 or 4 x 4; fine: 16 times 2 x 2 with edges=smooth", "setFilter()"},
-            ofMap(&Map::filter),
+            {"filter", "texels compared: 1, 2 x 2, 4 x 4; fine: the most", "setFilter()"}, ofMap(&Map::filter),
             {{"nearest", Map::NEAREST}, {"bilinear", Map::BILINEAR}, {"bicubic", Map::BICUBIC}, {"fine", Map::FINE}}),
         wordKey(numberKey({"cascades", "most shadow maps of a sun, each for a part of the view", "setCascades()"},
                           ofMap(&Map::cascades), 1, Map::mostCascades),
@@ -131,7 +130,7 @@ std::vector<SpecKey> mapKeys() {
         numberKey({"lamp-size", "with edges=soft: diameter of lamps and spots; 0 is a point", "setLampSize()",
                    "scene's unit"},
                   ofMap(&Map::lampSize), 0.0, Map::mostLength),
-        numberKey({"radius", "with edges=soft: least radius of the blurred edge; 0 is the filter's own", "setRadius()",
+        numberKey({"radius", "with edges=soft: blur radius of all edges; 0 is the filter alone", "setRadius()",
                    "scene's unit"},
                   ofMap(&Map::radius), 0.0, Map::mostLength),
         wordKey({"view", "debug view drawn over the picture", "setView()"}, ofMap(&Map::view),
@@ -152,7 +151,7 @@ std::string receiversByDefault() {
 
 std::vector<SpecKey> sharedKeys(const std::string& receiver) {
     return {
-        wordKey({"composite", "remove exactly the blocked light, or multiply the colour by dark",
+        wordKey({"composite", "removes the blocked light, or multiplies the colour by dark",
                  "ShadowCasterGroup::setComposite()"},
                 composite(), {{"relight", ShadowCasterGroup::RELIGHT}, {"blend", ShadowCasterGroup::BLEND}}),
         numberKey({"dark", "with composite=blend: factor for the colour in shadow", "ShadowCasterGroup::setDark()"},
