@@ -20,7 +20,7 @@ struct FrameReport;
 
 /// Base class of groups that draw an effect of their children, as HaloNode and PlanarReflectionNode do.
 ///
-/// Derive from it to add an effect. The children are drawn as usual. The compositor of each view draws the effect.
+/// A new effect derives from it inside Gnomon. The children are drawn as usual. The compositor of each view draws the effect.
 class GNOMON_EXPORT EffectNode : public osg::Group {
 public:
     /// A group without children.

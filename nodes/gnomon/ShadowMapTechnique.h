@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ShadowMapOptions.h>
 #include <gnomon/ShadowTechnique.h>
 
 #include <memory>
@@ -9,7 +10,6 @@ namespace gnomon {
 
 class CasterDrawables;
 class ShadowMapCache;
-struct MapSettings;
 
 /// Casts shadows onto everything visible, by depth maps. Choose it first for general scenes.
 ///
@@ -34,7 +34,7 @@ struct MapSettings;
 /// - SMOOTH and SOFT edges: alpha bits, unless a single light blends.
 /// - Penumbras: OpenGL 3.3 or its sampler objects.
 /// Limits
-/// - An edge is off by a fraction of a texel, see Filter.
+/// - An edge is off by a fraction of a texel, see ShadowMapOptions::Filter.
 /// - An object loses its shadow if it is less than about a texel off the receiver, measured along the light.
 /// - A lamp inside a closed box may light single pixels along the box's edges.
 /// - A penumbra is that of one straight edge at the blockers' mean distance. Overlapping edges at several distances are
@@ -89,31 +89,18 @@ struct MapSettings;
 ///     }
 class GNOMON_EXPORT ShadowMapTechnique : public ShadowTechnique {
 public:
-    /// How many texels of the map a pixel is compared with. Later filters are more accurate in general, and slower.
-    enum Filter : int {
-        NEAREST,  ///< One texel: stepped edges.
-        BILINEAR, ///< 2 × 2 texels, weighted.
-        BICUBIC,  ///< 4 × 4 texels, weighted by cubic B-splines: rounded edges. SMOOTH edges: 4 times 2 × 2 texels,
-                  ///< spread over the pixel.
-        FINE      ///< SMOOTH edges: 16 times 2 × 2 texels, in maps of twice the resolution, within setSize(). Other
-                  ///< edges: as BICUBIC.
-    };
-
-    /// How much of a light a pixel at a shadow's edge gets.
-    enum Edges : int {
-        HARD,   ///< All or nothing: nothing if less than half of the light arrives.
-        SMOOTH, ///< The lit share of the pixel: a hard edge without steps. With NEAREST as HARD.
-        SOFT    ///< The share of the light that arrives: penumbras. See setSunAngle(), setLampSize() and setRadius().
-    };
-
-    /// Debug views, drawn over the finished picture.
-    enum View : int {
-        NOTHING, ///< No debug view.
-        MAP,     ///< Each light's maps in the lower left corner. Near casters are bright, empty texels blue.
-        TEXELS,  ///< Width of the first light's texels: blue ¼ pixel, green 1, yellow 3, red 8 or more. A chequerboard
-                 ///< shows texels wider than two pixels.
-        CASCADES ///< The map of the first light that answers: red (the finest), green, blue, yellow, purple or cyan.
-    };
+    using Filter = ShadowMapOptions::Filter; ///< See ShadowMapOptions::Filter.
+    using Edges = ShadowMapOptions::Edges;   ///< See ShadowMapOptions::Edges.
+    using View = ShadowMapOptions::View;     ///< See ShadowMapOptions::View.
+    /// The same values, by shorter names.
+    static constexpr Filter NEAREST = ShadowMapOptions::NEAREST, BILINEAR = ShadowMapOptions::BILINEAR,
+                            BICUBIC = ShadowMapOptions::BICUBIC, FINE = ShadowMapOptions::FINE;
+    /// The same values, by shorter names.
+    static constexpr Edges HARD = ShadowMapOptions::HARD, SMOOTH = ShadowMapOptions::SMOOTH,
+                           SOFT = ShadowMapOptions::SOFT;
+    /// The same values, by shorter names.
+    static constexpr View NOTHING = ShadowMapOptions::NOTHING, MAP = ShadowMapOptions::MAP,
+                          TEXELS = ShadowMapOptions::TEXELS, CASCADES = ShadowMapOptions::CASCADES;
 
     /// A technique with the default properties.
     ShadowMapTechnique();
@@ -121,59 +108,49 @@ public:
     ShadowMapTechnique(const ShadowMapTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, ShadowMapTechnique)
 
-    /// Most texels on a side of a map, 16 … 16384. Default 1024. Clamped.
-    /// A map has fewer if the view cannot show more. Above OpenGL's limit there is no shadow, and diagnose() says so.
-    void setSize(int texels);
-    /// See setSize().
-    int getSize() const { return _size; }
+    /// Sets all properties at once. Each setter below sets one. ShadowMapOptions::usable() says what becomes of values
+    /// out of range.
+    void setOptions(const ShadowMapOptions& options) { _options = options.usable(); }
+    /// See setOptions().
+    const ShadowMapOptions& getOptions() const { return _options; }
 
-    /// Filter of the comparisons. Default BICUBIC, which also replaces any unknown value.
-    void setFilter(Filter filter) { _filter = filter >= NEAREST && filter <= FINE ? filter : BICUBIC; }
-    /// See setFilter().
-    Filter getFilter() const { return _filter; }
+    /// See ShadowMapOptions::size.
+    void setSize(int texels) { change(_options.size, texels); }
+    /// See ShadowMapOptions::size.
+    int getSize() const { return _options.size; }
+    /// See ShadowMapOptions::filter.
+    void setFilter(Filter filter) { change(_options.filter, filter); }
+    /// See ShadowMapOptions::filter.
+    Filter getFilter() const { return _options.filter; }
+    /// See ShadowMapOptions::cascades.
+    void setCascades(int maps) { change(_options.cascades, maps); }
+    /// See ShadowMapOptions::cascades.
+    int getCascades() const { return _options.cascades; }
+    /// See ShadowMapOptions::edges.
+    void setEdges(Edges edges) { change(_options.edges, edges); }
+    /// See ShadowMapOptions::edges.
+    Edges getEdges() const { return _options.edges; }
+    /// See ShadowMapOptions::sunAngle.
+    void setSunAngle(double degrees) { change(_options.sunAngle, degrees); }
+    /// See ShadowMapOptions::sunAngle.
+    double getSunAngle() const { return _options.sunAngle; }
+    /// See ShadowMapOptions::lampSize.
+    void setLampSize(double diameter) { change(_options.lampSize, diameter); }
+    /// See ShadowMapOptions::lampSize.
+    double getLampSize() const { return _options.lampSize; }
+    /// See ShadowMapOptions::radius.
+    void setRadius(double radius) { change(_options.radius, radius); }
+    /// See ShadowMapOptions::radius.
+    double getRadius() const { return _options.radius; }
+    /// See ShadowMapOptions::view.
+    void setView(View view) { change(_options.view, view); }
+    /// See ShadowMapOptions::view.
+    View getView() const { return _options.view; }
+    /// See ShadowMapOptions::programUnit.
+    void setProgramUnit(int unit) { change(_options.programUnit, unit); }
+    /// See ShadowMapOptions::programUnit.
+    int getProgramUnit() const { return _options.programUnit; }
 
-    /// Most cascades (maps) of a sun, 0 … 4. Default 0: as many as keep texels within six pixels. Clamped.
-    /// Cascades divide a view that reaches from near to far, such as a street or a landscape. Their depths grow by a
-    /// constant ratio. A ratio below two gives fewer cascades. Orthographic views and lamps have one.
-    void setCascades(int maps);
-    /// See setCascades().
-    int getCascades() const { return _cascades; }
-
-    /// Kind of edges. Default HARD, which also replaces any unknown value.
-    void setEdges(Edges edges) { _edges = edges == SMOOTH || edges == SOFT ? edges : HARD; }
-    /// See setEdges().
-    Edges getEdges() const { return _edges; }
-
-    /// SOFT edges: angular diameter of suns, degrees, 0 (a point) … 20. Default 0.533, the sun as seen from the earth.
-    /// Clamped. NaN becomes 0.
-    void setSunAngle(double degrees);
-    /// See setSunAngle().
-    double getSunAngle() const { return _sunAngle; }
-
-    /// SOFT edges: diameter of lamps and spots, scene's unit, 0 (a point) … 1e6. Default 0. Clamped. NaN becomes 0.
-    void setLampSize(double diameter);
-    /// See setLampSize().
-    double getLampSize() const { return _lampSize; }
-
-    /// SOFT edges: blur radius, scene's unit, 0 (the filter alone) … 1e6. Default 0. Clamped. NaN becomes 0.
-    /// It averages a disc across the light's direction. Every edge then has the same width, for looks.
-    void setRadius(double radius);
-    /// See setRadius().
-    double getRadius() const { return _radius; }
-
-    /// Debug view. Default NOTHING, which also replaces any unknown value.
-    /// MAP needs the OpenGL that penumbras need. Pixels without a map stay unchanged. With setProgramUnit() there is no
-    /// debug view.
-    void setView(View view) { _view = view == MAP || view == TEXELS || view == CASCADES ? view : NOTHING; }
-    /// See setView().
-    View getView() const { return _view; }
-
-    /// Texture unit, 0 … 31, where the scene's own shader programs find the maps of the first light. Default -1: off.
-    /// Other values become -1. With a unit, the technique marks no pixels: only programs with programFunction() show
-    /// shadows. Give other drawables a technique of their own.
-    void setProgramUnit(int unit) { _programUnit = unit >= 0 && unit < 32 ? unit : -1; }
-    /// See setProgramUnit().
-    int getProgramUnit() const { return _programUnit; }
     /// GLSL 1.30 source of the lookup function for setProgramUnit(). Add it to a program as another fragment shader.
     /// It returns the share of the light that arrives. Edges follow the filter; there are no penumbras.
     ///
@@ -201,16 +178,13 @@ protected:
 
 private:
     void reportUnknownTests(unsigned frame, const CasterDrawables& pieces) const;
-    MapSettings wish() const;
+    template <typename Value>
+    void change(Value& option, Value to) { // to a usable one
+        option = to;
+        setOptions(_options);
+    }
 
-    int _size = 1024;
-    Filter _filter = BICUBIC;
-    int _cascades = 0;
-    Edges _edges = HARD;
-    double _sunAngle = 0.533;
-    double _lampSize = 0.0, _radius = 0.0;
-    View _view = NOTHING;
-    int _programUnit = -1;
+    ShadowMapOptions _options;
     std::unique_ptr<ShadowMapCache> _maps;
 };
 

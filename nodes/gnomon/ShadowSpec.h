@@ -2,8 +2,10 @@
 #pragma once
 #include <gnomon/Export.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowMapOptions.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowTechnique.h>
+#include <gnomon/TerrainShadowOptions.h>
 
 #include <optional>
 #include <string>
@@ -22,22 +24,15 @@ namespace gnomon {
 struct ShadowSpec {
     std::string text;                                      ///< The string as given.
     std::string technique = "none";                        ///< One of shadowTechniques().
-    std::optional<ShadowCasterGroup::Composite> composite; ///< Default RELIGHT.
-    std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default 0.5.
-    std::optional<double> error;                           ///< hull, drape: see TerrainShadowGeode::setError().
-    std::optional<int> size;                               ///< map: see ShadowMapTechnique::setSize().
-    std::optional<ShadowMapTechnique::Filter> filter;      ///< map: see ShadowMapTechnique::setFilter().
-    std::optional<int> cascades;                           ///< map: see ShadowMapTechnique::setCascades().
-    std::optional<ShadowMapTechnique::Edges> edges;        ///< map: see ShadowMapTechnique::setEdges().
-    std::optional<double> sunAngle;                        ///< map: see ShadowMapTechnique::setSunAngle().
-    std::optional<double> lampSize;                        ///< map: see ShadowMapTechnique::setLampSize().
-    std::optional<double> radius;                          ///< map: see ShadowMapTechnique::setRadius().
-    std::optional<ShadowMapTechnique::View> view;          ///< map: see ShadowMapTechnique::setView().
+    std::optional<ShadowCasterGroup::Composite> composite; ///< Default: that of a fresh ShadowCasterGroup.
+    std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default: the group's.
+    ShadowMapOptions map;                                  ///< Settings of map.
+    TerrainShadowOptions terrain;                          ///< Settings of hull and drape. The name decides the method.
     /// Name of the node that receives. Default, empty: everything for map and traced, else the node named "ground".
     std::string receiver;
 };
 
-/// Parses a specification string. Keys that it leaves out stay empty and take their defaults.
+/// Parses a specification string. Settings that it leaves out have their defaults.
 /// @throws std::invalid_argument with one sentence that names the mistake and lists what is allowed.
 GNOMON_EXPORT ShadowSpec parseShadowSpec(const std::string& text);
 

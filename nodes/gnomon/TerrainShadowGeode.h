@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowTechnique.h>
+#include <gnomon/TerrainShadowOptions.h>
 
 #include <osg/BoundingBox>
 #include <osg/StateSet>
@@ -89,12 +90,10 @@ struct TerrainShadows;
 ///     }
 class GNOMON_EXPORT TerrainShadowGeode : public ShadowTechnique {
 public:
-    /// How a caster's shadow is computed.
-    enum Method : int {
-        BOX,  ///< The bounding-box method as published: 12 triangles a caster.
-        HULL, ///< Rays from the silhouettes of the caster's convex parts: four triangles for a house.
-        DRAPE ///< The ground's own triangles, cut by the shadow: exact if setError() is 0.
-    };
+    using Method = TerrainShadowOptions::Method; ///< See TerrainShadowOptions::Method.
+    /// The same values, by shorter names.
+    static constexpr Method BOX = TerrainShadowOptions::BOX, HULL = TerrainShadowOptions::HULL,
+                            DRAPE = TerrainShadowOptions::DRAPE;
 
     /// A technique with the default properties.
     TerrainShadowGeode();
@@ -102,16 +101,19 @@ public:
     TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, TerrainShadowGeode)
 
-    /// Method. Default HULL, which also replaces any unknown value.
-    void setMethod(Method method) { _method = method == BOX || method == DRAPE ? method : HULL; }
-    /// See setMethod().
-    Method getMethod() const { return _method; }
+    /// Sets method and error at once, as the setters below do.
+    void setOptions(const TerrainShadowOptions& options);
+    /// See setOptions().
+    const TerrainShadowOptions& getOptions() const { return _options; }
 
-    /// Largest error of a draped edge in plan, group's unit, 0 (exact) or more. Default 0.1.
-    /// A negative or non-finite value is refused with a warning.
+    /// See TerrainShadowOptions::method. An unknown value becomes the default.
+    void setMethod(Method method);
+    /// See TerrainShadowOptions::method.
+    Method getMethod() const { return _options.method; }
+    /// See TerrainShadowOptions::error. A negative or non-finite value is refused with a warning.
     void setError(double error);
-    /// See setError().
-    double getError() const { return _error; }
+    /// See TerrainShadowOptions::error.
+    double getError() const { return _options.error; }
 
     /// Without a group: the object that casts. Default null.
     void setObjectGraphic(osg::Node* object) { _object = object; }
@@ -179,8 +181,7 @@ private:
     osg::ref_ptr<const CasterMesh> meshOf(std::uint64_t object) const;
     void show();
 
-    Method _method = HULL;
-    double _error = 0.1;
+    TerrainShadowOptions _options;
     osg::ref_ptr<osg::Node> _object;
     osg::Vec3d _position;
     double _heading = 0.0;

@@ -4,12 +4,15 @@
 #include <gnomon/Selection.h>
 
 #include <osgDB/InputStream>
+#include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 #include <osgDB/Serializer>
 
 #include <charconv>
+#include <initializer_list>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /// What the wrappers share: numbers, lists and selections in files.
@@ -125,5 +128,14 @@ template <typename Class, typename Number>
 using ExactNumber = Exact<Class, Number, osgDB::PropByValSerializer<Class, Number>>;
 template <typename Class, typename Vector>
 using ExactVector = Exact<Class, Vector, osgDB::PropByRefSerializer<Class, Vector>>;
+
+/// A property whose values have names.
+template <typename Class, typename Value>
+void addEnum(osgDB::ObjectWrapper& wrapper, const char* property, Value byDefault, Value (Class::*get)() const,
+             void (Class::*set)(Value), std::initializer_list<std::pair<const char*, Value>> names) {
+    osg::ref_ptr serializer = new osgDB::EnumSerializer<Class, Value, void>(property, byDefault, get, set);
+    for (const auto& [name, value] : names) serializer->add(name, value);
+    wrapper.addSerializer(serializer, osgDB::BaseSerializer::RW_ENUM);
+}
 
 } // namespace gnomon::fields

@@ -21,12 +21,8 @@ static bool writeCompositorOptions(osgDB::OutputStream& out, const HaloNode& nod
 REGISTER_OBJECT_WRAPPER(gnomon_HaloNode, new gnomon::HaloNode, gnomon::HaloNode,
                         "osg::Object osg::Node osg::Group gnomon::HaloNode") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    osg::ref_ptr shape = new osgDB::EnumSerializer<MyClass, MyClass::Shape, void>(
-        "Shape", fresh->getShape(), &MyClass::getShape, &MyClass::setShape);
-    shape->add("WHOLE", MyClass::WHOLE);
-    shape->add("PARTS", MyClass::PARTS);
-    shape->add("PIXELS", MyClass::PIXELS);
-    wrapper->addSerializer(shape, osgDB::BaseSerializer::RW_ENUM);
+    fields::addEnum(*wrapper, "Shape", fresh->getShape(), &MyClass::getShape, &MyClass::setShape,
+                    {{"WHOLE", MyClass::WHOLE}, {"PARTS", MyClass::PARTS}, {"PIXELS", MyClass::PIXELS}});
     wrapper->addSerializer(
         new fields::ExactNumber<MyClass, double>("Scale", fresh->getScale(), &MyClass::getScale, &MyClass::setScale),
         osgDB::BaseSerializer::RW_DOUBLE);

@@ -112,11 +112,8 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup,
                         "osg::Object osg::Node osg::Group gnomon::ShadowCasterGroup") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     ADD_USER_SERIALIZER(Casters);
-    osg::ref_ptr composite = new osgDB::EnumSerializer<MyClass, MyClass::Composite, void>(
-        "Composite", fresh->getComposite(), &MyClass::getComposite, &MyClass::setComposite);
-    composite->add("RELIGHT", MyClass::RELIGHT);
-    composite->add("BLEND", MyClass::BLEND);
-    wrapper->addSerializer(composite, osgDB::BaseSerializer::RW_ENUM);
+    fields::addEnum(*wrapper, "Composite", fresh->getComposite(), &MyClass::getComposite, &MyClass::setComposite,
+                    {{"RELIGHT", MyClass::RELIGHT}, {"BLEND", MyClass::BLEND}});
     wrapper->addSerializer(
         new fields::ExactNumber<MyClass, float>("Dark", fresh->getDark(), &MyClass::getDark, &MyClass::setDark),
         osgDB::BaseSerializer::RW_FLOAT);

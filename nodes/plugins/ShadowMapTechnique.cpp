@@ -12,18 +12,14 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
                         "gnomon::ShadowMapTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     ADD_INT_SERIALIZER(Size, fresh->getSize());
-    BEGIN_ENUM_SERIALIZER(Filter, BICUBIC);
-    ADD_ENUM_VALUE(NEAREST);
-    ADD_ENUM_VALUE(BILINEAR);
-    ADD_ENUM_VALUE(BICUBIC);
-    ADD_ENUM_VALUE(FINE);
-    END_ENUM_SERIALIZER();
+    fields::addEnum(*wrapper, "Filter", fresh->getFilter(), &MyClass::getFilter, &MyClass::setFilter,
+                    {{"NEAREST", MyClass::NEAREST},
+                     {"BILINEAR", MyClass::BILINEAR},
+                     {"BICUBIC", MyClass::BICUBIC},
+                     {"FINE", MyClass::FINE}});
     ADD_INT_SERIALIZER(Cascades, fresh->getCascades());
-    BEGIN_ENUM_SERIALIZER(Edges, HARD);
-    ADD_ENUM_VALUE(HARD);
-    ADD_ENUM_VALUE(SMOOTH);
-    ADD_ENUM_VALUE(SOFT);
-    END_ENUM_SERIALIZER();
+    fields::addEnum(*wrapper, "Edges", fresh->getEdges(), &MyClass::getEdges, &MyClass::setEdges,
+                    {{"HARD", MyClass::HARD}, {"SMOOTH", MyClass::SMOOTH}, {"SOFT", MyClass::SOFT}});
     wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("SunAngle", fresh->getSunAngle(),
                                                                     &MyClass::getSunAngle, &MyClass::setSunAngle),
                            osgDB::BaseSerializer::RW_DOUBLE);
@@ -34,10 +30,9 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechniqu
                                                                     &MyClass::setRadius),
                            osgDB::BaseSerializer::RW_DOUBLE);
     ADD_INT_SERIALIZER(ProgramUnit, fresh->getProgramUnit());
-    BEGIN_ENUM_SERIALIZER(View, NOTHING);
-    ADD_ENUM_VALUE(NOTHING);
-    ADD_ENUM_VALUE(MAP);
-    ADD_ENUM_VALUE(TEXELS);
-    ADD_ENUM_VALUE(CASCADES);
-    END_ENUM_SERIALIZER();
+    fields::addEnum(*wrapper, "View", fresh->getView(), &MyClass::getView, &MyClass::setView,
+                    {{"NOTHING", MyClass::NOTHING},
+                     {"MAP", MyClass::MAP},
+                     {"TEXELS", MyClass::TEXELS},
+                     {"CASCADES", MyClass::CASCADES}});
 }

@@ -41,11 +41,8 @@ REGISTER_OBJECT_WRAPPER(gnomon_TerrainShadowGeode, new gnomon::TerrainShadowGeod
                         "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
                         "gnomon::TerrainShadowGeode") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    BEGIN_ENUM_SERIALIZER(Method, HULL);
-    ADD_ENUM_VALUE(BOX);
-    ADD_ENUM_VALUE(HULL);
-    ADD_ENUM_VALUE(DRAPE);
-    END_ENUM_SERIALIZER();
+    fields::addEnum(*wrapper, "Method", fresh->getMethod(), &MyClass::getMethod, &MyClass::setMethod,
+                    {{"BOX", MyClass::BOX}, {"HULL", MyClass::HULL}, {"DRAPE", MyClass::DRAPE}});
     wrapper->addSerializer(
         new fields::ExactNumber<MyClass, double>("Error", fresh->getError(), &MyClass::getError, &MyClass::setError),
         osgDB::BaseSerializer::RW_DOUBLE);

@@ -92,11 +92,11 @@ TEST_F(BadInput, TruncatedFile) {
     }
 }
 
-/// One of these cuts crashes OSG 3.6.5's reader.
+/// The cut at 7 parts of 40 crashes OSG 3.6.5's reader.
 TEST_F(BadInput, ReaderThatCrashes) {
     osgDB::writeNodeFile(*osgDB::readRefNodeFile(scene), (folder.path() / "whole.osgb").string());
     const std::string bytes = readFile(folder.path() / "whole.osgb");
-    for (std::size_t part = 1; part < 40; ++part) {
+    for (std::size_t part = 1; part < 40; part += 6) {
         folder.write("cut.osgb", bytes.substr(0, bytes.size() * part / 40));
         const Ending ending = runGnomonshot({"cut.osgb", "--out", "o.png"}, folder.path());
         if (ending.status == 0) continue;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 
 namespace gnomon::testing {
 
@@ -44,10 +43,15 @@ void ExampleProgram::open(const Arguments& arguments) {
     command.insert(command.end(), arguments.begin(), arguments.end());
     window = std::make_unique<ChildProcess>(command, folder.path(), Arguments{"DISPLAY=" + desktop->name()});
     desktop->useWindow(std::filesystem::path(_program).filename());
-    desktop->pictureWhere("something is drawn", [](const Screenshot& p) {
-        return std::any_of(p.pixels.begin(), p.pixels.end(), [&](auto pixel) { return pixel != p.pixels[0]; });
+    int same = 0; // a picture that changes by itself is none of g's
+    Screenshot before;
+    desktop->pictureWhere("something is drawn and stands still", [&](const Screenshot& p) {
+        const bool drawn =
+            std::any_of(p.pixels.begin(), p.pixels.end(), [&](auto pixel) { return pixel != p.pixels[0]; });
+        same = drawn && p == before ? same + 1 : 0;
+        before = p;
+        return same >= 15; // a third of a second
     });
-    std::this_thread::sleep_for(std::chrono::milliseconds(500)); // a picture that changes by itself is none of g's
     first = pressed("g");
 }
 

@@ -11,6 +11,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -109,6 +110,30 @@ bool savesAs(const osgDB::ObjectWrapper& wrapper, const std::string& name) {
                        [&](const auto& associate) { return associate._name == "gnomon::" + name; });
 }
 
+/// Fields of the struct that a property takes, by the names of their own properties: "sunAngle" is SunAngle. None if
+/// it takes no struct with a public header.
+Names fieldsOf(const Declaration& type, const std::string& property) {
+    static const std::regex field("    [A-Za-z]+ ([a-z])([A-Za-z]*)( = [^;()]+)?;");
+    std::smatch match;
+    if (!std::regex_search(type.publicPart, match, std::regex("void set" + property + "\\(const ([A-Za-z]+)&")))
+        return {};
+    std::ifstream header(std::string(GNOMON_NODES) + "/" + match[1].str() + ".h");
+    Names names;
+    for (std::string line; std::getline(header, line);)
+        if (std::regex_match(line, match, field))
+            names.push_back(std::string(1, char(std::toupper(match[1].str()[0]))) + match[2].str());
+    return names;
+}
+
+/// True if files keep a property: by its own serializer, or its fields one by one.
+bool keeps(osgDB::ObjectWrapper& wrapper, const Declaration& type, const std::string& property) {
+    const Names fields = fieldsOf(type, property);
+    return wrapper.getSerializer(property) ||
+           (!fields.empty() && std::all_of(fields.begin(), fields.end(), [&](const std::string& field) {
+               return wrapper.getSerializer(field) != nullptr;
+           }));
+}
+
 /// What files would lose: one line a class without a wrapper, a property without a serializer, a base left out.
 Names lostInFiles(const std::vector<Declaration>& kit) {
     Names lost;
@@ -119,7 +144,7 @@ Names lostInFiles(const std::vector<Declaration>& kit) {
             continue;
         }
         for (const std::string& property : propertiesOf(type))
-            if (!wrapper->getSerializer(property)) lost.push_back(type.name + "::" + property + " has no serializer");
+            if (!keeps(*wrapper, type, property)) lost.push_back(type.name + "::" + property + " has no serializer");
         for (const Declaration& base : kit)
             if ((contains(type.bases + " ", "public " + base.name + " ") || base.name == type.name) &&
                 !savesAs(*wrapper, base.name))
@@ -185,6 +210,15 @@ TEST_F(Wrappers, AreMissedWhereAPropertyHasNone) {
                                 "    // void setIdea(int idea);\n"
                                 "private:\n    void setUp();\n};\n")),
               Names{"PlanarShadowNode::Offset has no serializer"});
+}
+
+TEST_F(Wrappers, MayKeepTheFieldsOfAStructOneByOneButAllOfThem) {
+    const std::string begin = "\nclass GNOMON_EXPORT ",
+                      options = " : public ShadowTechnique {\npublic:\n    META_Node(gnomon, ";
+    const std::string end = ")\n    void setOptions(const ShadowMapOptions& options);\n};\n";
+    EXPECT_EQ(lostInFiles(kitOf(begin + "ShadowMapTechnique" + options + "ShadowMapTechnique" + end)), Names());
+    EXPECT_EQ(lostInFiles(kitOf(begin + "TerrainShadowGeode" + options + "TerrainShadowGeode" + end)),
+              Names{"TerrainShadowGeode::Options has no serializer"});
 }
 
 TEST_F(Wrappers, AreMissedWhereTheyLeaveOutABase) {

@@ -122,7 +122,9 @@ private:
         static const std::map<std::string, std::string> headerOnly = {{"Ground", "ground"},
                                                                       {"CompositorOptions", "compositor"},
                                                                       {"HeadlessOptions", "headless"},
-                                                                      {"PlanarCures", "planar"}};
+                                                                      {"PlanarCures", "planar"},
+                                                                      {"ShadowSpec", "spec"},
+                                                                      {"TerrainShadowOptions", "terrain"}};
         const auto found = headerOnly.find(name);
         return found == headerOnly.end() ? "base" : found->second;
     }

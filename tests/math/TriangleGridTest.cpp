@@ -7,6 +7,8 @@
 #include <gnomon/ground/GridFromTriangles.h>
 
 #include <algorithm>
+#include <ostream>
+#include <string>
 
 using gnomon::CellCut;
 using gnomon::gridOf;
@@ -123,47 +125,80 @@ TEST(TriangleGrid, LeavesSkirtsOut) {
     EXPECT_EQ(grid->height(0.5, 0.0), 0.0);
 }
 
-TEST(TriangleGrid, IsNoneWhereTrianglesMakeNoGrid) {
-    const std::vector<GroundTriangle> good = small();
-    EXPECT_TRUE(gridIn(good));
-    EXPECT_FALSE(gridIn({}));
-    const auto with = [&](auto... more) {
-        std::vector<GroundTriangle> all = good;
-        (all.push_back(more), ...);
-        return gridIn(all);
-    };
-    EXPECT_FALSE(with(good.front())) << "one half twice";
-    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(0, 0, 5), glm::dvec3(1, 0, 5), glm::dvec3(0, 1, 5)}))
-        << "one over another";
-    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 0, 5)}))
-        << "a wall that stands up";
-    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(0.5, 0, 0), glm::dvec3(0.5, 1, 0), glm::dvec3(0.5, 0, -5)}))
-        << "a wall between posts";
-    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(2, 0, 0), glm::dvec3(4, 0, 0), glm::dvec3(4, 1, 0)},
-                      GroundTriangle{glm::dvec3(2, 0, 0), glm::dvec3(4, 1, 0), glm::dvec3(2, 1, 0)}))
-        << "a wide cell";
-    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(2, 0, 1), glm::dvec3(3, 0, 1), glm::dvec3(3, 1, 1)},
-                      GroundTriangle{glm::dvec3(2, 0, 1), glm::dvec3(3, 1, 1), glm::dvec3(2, 1, 1)}))
-        << "a step";
-    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(2, 0, 0), glm::dvec3(3, 0, 0), glm::dvec3(2, 1, 0)})) << "half a cell";
-    EXPECT_FALSE(with(GroundTriangle{glm::dvec3(1e7, 0, 0), glm::dvec3(1e7 + 1, 0, 0), glm::dvec3(1e7, 1, 0)}))
-        << "mostly holes";
-    std::vector<GroundTriangle> fewer = good, moved = good, turned = good;
+TEST(TriangleGrid, IsFoundInTheTrianglesThatNoGridSpoils) { EXPECT_TRUE(gridIn(small())); }
+
+namespace {
+
+/// Triangles in which no grid is to be found, by what is wrong with them.
+struct Spoilt {
+    std::string name;
+    std::vector<GroundTriangle> triangles;
+    double tolerance = 1e-6;
+};
+void PrintTo(const Spoilt& spoilt, std::ostream* out) { *out << spoilt.name; }
+
+std::vector<GroundTriangle> smallWith(const std::vector<GroundTriangle>& more) {
+    std::vector<GroundTriangle> all = small();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+std::vector<GroundTriangle> smallWithoutItsLast() {
+    std::vector<GroundTriangle> fewer = small();
     fewer.pop_back();
-    EXPECT_FALSE(gridIn(fewer));
-    moved[3][1].x += 0.01;
-    EXPECT_FALSE(gridIn(moved, 1.0)) << "1/1000 of a step at most, whatever the tolerance";
+    return fewer;
+}
+
+std::vector<GroundTriangle> smallWithACornerOffBy(double distance) {
+    std::vector<GroundTriangle> moved = small();
+    moved[3][1].x += distance;
+    return moved;
+}
+
+std::vector<GroundTriangle> smallTurned() {
+    std::vector<GroundTriangle> turned = small();
     for (GroundTriangle& t : turned)
         for (glm::dvec3& corner : t)
             corner = {0.8 * corner.x - 0.6 * corner.y, 0.6 * corner.x + 0.8 * corner.y, corner.z};
-    EXPECT_FALSE(gridIn(turned));
-    const LooseTriangles loose(good);
-    EXPECT_FALSE(gridOf(loose.vertices, {0, 1, 99}, 1e-6)) << "an index out of the vertices";
-    std::vector<glm::dvec3> broken = loose.vertices;
-    broken[4].y = gnomon::test::notANumber;
-    EXPECT_FALSE(gridOf(broken, loose.indices, 1e-6));
-    broken[4].y = gnomon::test::infinite;
-    EXPECT_FALSE(gridOf(broken, loose.indices, 1e-6));
+    return turned;
+}
+
+class NoGrid : public testing::TestWithParam<Spoilt> {};
+INSTANTIATE_TEST_SUITE_P(
+    TriangleGrid, NoGrid,
+    testing::Values(
+        Spoilt{"NoTriangles", {}}, Spoilt{"OneHalfOfACellTwice", smallWith({small().front()})},
+        Spoilt{"OneOverAnother", smallWith({{glm::dvec3(0, 0, 5), glm::dvec3(1, 0, 5), glm::dvec3(0, 1, 5)}})},
+        Spoilt{"AWallThatStandsUp", smallWith({{glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 0, 5)}})},
+        Spoilt{"AWallBetweenPosts",
+               smallWith({{glm::dvec3(0.5, 0, 0), glm::dvec3(0.5, 1, 0), glm::dvec3(0.5, 0, -5)}})},
+        Spoilt{"AWideCell", smallWith({{glm::dvec3(2, 0, 0), glm::dvec3(4, 0, 0), glm::dvec3(4, 1, 0)},
+                                       {glm::dvec3(2, 0, 0), glm::dvec3(4, 1, 0), glm::dvec3(2, 1, 0)}})},
+        Spoilt{"AStep", smallWith({{glm::dvec3(2, 0, 1), glm::dvec3(3, 0, 1), glm::dvec3(3, 1, 1)},
+                                   {glm::dvec3(2, 0, 1), glm::dvec3(3, 1, 1), glm::dvec3(2, 1, 1)}})},
+        Spoilt{"HalfACellMore", smallWith({{glm::dvec3(2, 0, 0), glm::dvec3(3, 0, 0), glm::dvec3(2, 1, 0)}})},
+        Spoilt{"MostlyHoles", smallWith({{glm::dvec3(1e7, 0, 0), glm::dvec3(1e7 + 1, 0, 0), glm::dvec3(1e7, 1, 0)}})},
+        Spoilt{"HalfACellLess", smallWithoutItsLast()},
+        // 1/1000 of a step is allowed at most, whatever the tolerance.
+        Spoilt{"ACornerBesideItsPost", smallWithACornerOffBy(0.01), 1.0}, Spoilt{"ATurnedGrid", smallTurned()}),
+    [](const auto& one) { return one.param.name; });
+
+} // namespace
+
+TEST_P(NoGrid, IsFound) { EXPECT_FALSE(gridIn(GetParam().triangles, GetParam().tolerance)); }
+
+TEST(TriangleGrid, IsNoneWithAnIndexOutOfTheVertices) {
+    const LooseTriangles loose(small());
+    EXPECT_FALSE(gridOf(loose.vertices, {0, 1, 99}, 1e-6));
+}
+
+TEST(TriangleGrid, IsNoneWithAVertexThatIsNotFinite) {
+    const LooseTriangles loose(small());
+    for (const double broken : {gnomon::test::notANumber, gnomon::test::infinite}) {
+        std::vector<glm::dvec3> vertices = loose.vertices;
+        vertices[4].y = broken;
+        EXPECT_FALSE(gridOf(vertices, loose.indices, 1e-6)) << broken;
+    }
 }
 
 TEST(HeightField, NeedsACutForEachCellOrNone) {

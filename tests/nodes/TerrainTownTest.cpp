@@ -100,7 +100,9 @@ struct Hills {
         update(azimuth, TerrainMethod::hull, view, seconds);
     }
     void update(double azimuth, TerrainMethod method, const gnomon::ViewFrame& view, double seconds) {
-        tiles.update(town, {ground, &ground, 0.05}, sunAt(azimuth, elevation), {false, method, error, {}},
+        using Options = gnomon::TerrainShadowOptions;
+        const Options options{method == TerrainMethod::drape ? Options::DRAPE : Options::HULL, error};
+        tiles.update(town, {ground, &ground, 0.05}, sunAt(azimuth, elevation), options,
                      gnomon::TileVisibility(view, town.origin()), seconds);
     }
     /// How many tiles' shadows are those of this sun.

@@ -315,7 +315,9 @@ TEST(MapSoft, FlatGroundsAreFreeOfAcne) {
 }
 
 TEST(MapSoft, IsNearerToRaysAtTheSunsDiscThanHardEdgesAre) {
-    for (const TracedCase& given : {test::labEight(), test::townOfHouses()})
+    for (TracedCase given : {test::labEight(), test::townOfHouses()}) {
+        given.view.width /= 2; // enough pixels, for rays to a disc are many
+        given.view.height /= 2;
         for (const double angle : {0.533, 4.0}) {
             const gnomon::TruthImage truth = test::truthOf(given.meshes, given.light, given.view, angle);
             Scene lit = given.build(), dark = given.build();
@@ -335,6 +337,7 @@ TEST(MapSoft, IsNearerToRaysAtTheSunsDiscThanHardEdgesAre) {
             EXPECT_LT(atDisc, hardly * 0.7) << given.name << ", " << angle;
             EXPECT_LE(atDisc, atPoint * 1.02) << given.name << ", " << angle;
         }
+    }
 }
 
 TEST(MapSoft, TakesNumbersOnlyThatItHas) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is changed between two frames is seen in the next one, be it the 2nd or the 500th.
+// What is changed between two frames is seen in the next one, be it the 2nd, the 20th or the 500th.
 #include "Trial.h"
 
 #include <osg/MatrixTransform>
@@ -23,13 +23,13 @@ osg::Vec3Array& verticesOf(osg::Node& node) {
     return static_cast<osg::Vec3Array&>(*node.asGeode()->getDrawable(0)->asGeometry()->getVertexArray());
 }
 
-/// `change` between frames 499 and 500 of a scene with the caster `left`: frame 500 shows the shadow of `casters`.
-void expectSeenInFrame500(const std::function<void(Scene&)>& change, const std::vector<Mesh>& casters) {
+/// `change` just before a frame of a scene with the caster `left`: that frame shows the shadow of `casters`.
+void expectSeenInFrame(int number, const std::function<void(Scene&)>& change, const std::vector<Mesh>& casters) {
     Scene scene = casting({left}).buildWithShadow();
     const View view = fromAbove(4.0, 64);
     Camera camera(scene.root, view);
-    Picture before;
-    for (int frame = 1; frame < 500; ++frame) before = camera.frame();
+    for (int frame = 1; frame < number - 1; ++frame) camera.viewer().frame();
+    const Picture before = camera.frame();
     EXPECT_TRUE(shows(before, truthOf(casting({left}))));
     EXPECT_EQ(scene.group->revision(), 1u);
     change(scene);
@@ -41,43 +41,44 @@ void expectSeenInFrame500(const std::function<void(Scene&)>& change, const std::
     EXPECT_EQ(scene.group->revision(), 2u);
 }
 
+/// Moves the caster from `left` to `right`.
+void putATransformOver(Scene& scene) {
+    osg::ref_ptr<osg::MatrixTransform> over = new osg::MatrixTransform(osg::Matrixd::translate(3.0, 0.0, 0.0));
+    osg::ref_ptr<osg::Node> caster = find(*scene.root, "caster");
+    scene.content->replaceChild(caster, over);
+    over->addChild(caster);
+}
+
+GNOMON_BY_TECHNIQUE(Frame20);
 GNOMON_BY_TECHNIQUE(Frame500);
 GNOMON_BY_TECHNIQUE(MovedTransform);
 
 } // namespace
 
-TEST_P(Frame500, SeesAnArrayThatWasChangedAndDirtied) {
-    expectSeenInFrame500(
-        [](Scene& scene) {
-            osg::Vec3Array& vertices = verticesOf(*find(*scene.root, "caster"));
-            for (osg::Vec3& vertex : vertices) vertex.x() += 3.0f;
-            vertices.dirty();
-            find(*scene.root, "caster")->asGeode()->getDrawable(0)->dirtyGLObjects();
-        },
-        {right});
+TEST_P(Frame20, SeesAnArrayThatWasChangedAndDirtied) {
+    expectSeenInFrame(20,
+                      [](Scene& scene) {
+                          osg::Vec3Array& vertices = verticesOf(*find(*scene.root, "caster"));
+                          for (osg::Vec3& vertex : vertices) vertex.x() += 3.0f;
+                          vertices.dirty();
+                          find(*scene.root, "caster")->asGeode()->getDrawable(0)->dirtyGLObjects();
+                      },
+                      {right});
 }
 
-TEST_P(Frame500, SeesATransformPutOverACaster) {
-    expectSeenInFrame500(
-        [](Scene& scene) {
-            osg::ref_ptr<osg::MatrixTransform> over = new osg::MatrixTransform(osg::Matrixd::translate(3.0, 0.0, 0.0));
-            osg::ref_ptr<osg::Node> caster = find(*scene.root, "caster");
-            scene.content->replaceChild(caster, over);
-            over->addChild(caster);
-        },
-        {right});
+TEST_P(Frame20, SeesATransformPutOverACaster) { expectSeenInFrame(20, putATransformOver, {right}); }
+TEST_P(Frame500, SeesATransformPutOverACaster) { expectSeenInFrame(500, putATransformOver, {right}); }
+
+TEST_P(Frame20, SeesANewChild) {
+    expectSeenInFrame(20, [](Scene& scene) { scene.content->addChild(node(right)); }, {left, right});
 }
 
-TEST_P(Frame500, SeesANewChild) {
-    expectSeenInFrame500([](Scene& scene) { scene.content->addChild(node(right)); }, {left, right});
+TEST_P(Frame20, SeesThatAChildIsGone) {
+    expectSeenInFrame(20, [](Scene& scene) { scene.content->removeChild(find(*scene.root, "caster")); }, {});
 }
 
-TEST_P(Frame500, SeesThatAChildIsGone) {
-    expectSeenInFrame500([](Scene& scene) { scene.content->removeChild(find(*scene.root, "caster")); }, {});
-}
-
-TEST_P(Frame500, SeesAMaskThatHidesACaster) {
-    expectSeenInFrame500([](Scene& scene) { find(*scene.root, "caster")->setNodeMask(0); }, {});
+TEST_P(Frame20, SeesAMaskThatHidesACaster) {
+    expectSeenInFrame(20, [](Scene& scene) { find(*scene.root, "caster")->setNodeMask(0); }, {});
 }
 
 TEST_P(MovedTransform, IsFollowedInEveryFrame) {

@@ -5,7 +5,9 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <list>
 #include <ostream>
 
 namespace test {
@@ -28,20 +30,51 @@ bool counts(const gnomon::TruthImage& truth, int x, int y) {
 
 double red(std::uint32_t color) { return color & 0xffu; }
 
+/// All that a truth image depends on.
+struct Asked {
+    Mesh mesh;
+    osg::Vec4d light;
+    osg::Matrixd clip;
+    int width, height;
+    double sunAngle;
+
+    bool operator==(const Asked& other) const {
+        return mesh == other.mesh && light == other.light && clip == other.clip && width == other.width &&
+               height == other.height && sunAngle == other.sunAngle;
+    }
+};
+
+/// Rays take seconds, and cases of one program often ask for the same.
+struct Traced {
+    Asked asked;
+    gnomon::TruthImage truth;
+};
+
+gnomon::TruthImage trace(const Asked& asked) {
+    const std::vector<glm::vec3> vertices(asked.mesh.begin(), asked.mesh.end());
+    std::vector<unsigned> indices;
+    for (unsigned i = 0; i < vertices.size(); ++i) indices.push_back(i);
+    const gnomon::RayScene scene({vertices.data(), vertices.size(), indices.data(), indices.size(), glm::dvec3(0.0)});
+    const gnomon::TruthView seen{gnomon::toGlm(asked.clip), asked.width, asked.height, gnomon::toGlm(asked.light)};
+    constexpr int strata = 4;
+    return asked.sunAngle > 0.0 ? gnomon::softShadowTruth(scene, scene, seen, asked.sunAngle, strata)
+                                : gnomon::shadowTruth(scene, scene, seen);
+}
+
 } // namespace
 
 gnomon::TruthImage truthOf(const std::vector<Mesh>& meshes, const osg::Vec4d& light, const View& view,
                            double sunAngle) {
-    const Mesh all = joined(meshes);
-    std::vector<glm::vec3> vertices(all.begin(), all.end());
-    std::vector<unsigned> indices;
-    for (unsigned i = 0; i < all.size(); ++i) indices.push_back(i);
-    const gnomon::RayScene scene({vertices.data(), vertices.size(), indices.data(), indices.size(), glm::dvec3(0.0)});
-    const gnomon::TruthView seen{gnomon::toGlm(view.view * view.projection), view.width, view.height,
-                                 gnomon::toGlm(light)};
-    constexpr int strata = 4;
-    return sunAngle > 0.0 ? gnomon::softShadowTruth(scene, scene, seen, sunAngle, strata)
-                          : gnomon::shadowTruth(scene, scene, seen);
+    constexpr std::size_t most = 4; // of some 20 MB
+    static std::list<Traced> known; // the last asked for is the first
+    const Asked asked{joined(meshes), light, view.view * view.projection, view.width, view.height, sunAngle};
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Traced& one) { return one.asked == asked; });
+    if (found != known.end())
+        known.splice(known.begin(), known, found);
+    else
+        known.push_front({asked, trace(asked)});
+    if (known.size() > most) known.pop_back();
+    return known.front().truth;
 }
 
 std::ostream& operator<<(std::ostream& out, const TruthComparison& r) {

@@ -89,6 +89,7 @@ public:
 
     void prepare(const HeadlessOptions& options) override {
         if (needsFramebuffer(options)) addFramebuffer(options);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT); // else it holds another's picture
     }
 
 private:

@@ -36,20 +36,20 @@ bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) 
 
 void LightShadowMaps::setCause(const MapRequest& cause) {
     const MapRequest& old = _cause;
-    const bool sameMaps = old.wish == cause.wish;
+    const bool sameMaps = old.settings == cause.settings;
     if (old.casters && old.casters->origin == cause.casters->origin && old.flats == cause.flats && sameMaps &&
         isSame(cause.cone, old.cone) && isSame(cause.light, old.light, glm::length(cause.casters->reach)) &&
         (old.casters == cause.casters ||
-         areSame(_frames, framesOf(old.light, old.cone, *cause.casters, old.wish.size))))
+         areSame(_frames, framesOf(old.light, old.cone, *cause.casters, old.settings.size))))
         return takeCasters(*cause.casters);
     if (!sameMaps) _map = nullptr;
     _cause = cause;
     _picture = nullptr;
     _faces.clear();
     _splits.clear();
-    _cascades = cause.wish.cascades;
-    if (!_map) _texels = cause.wish.size;
-    _frames = framesOf(cause.light, cause.cone, *cause.casters, cause.wish.size);
+    _cascades = cause.settings.cascades;
+    if (!_map) _texels = cause.settings.size;
+    _frames = framesOf(cause.light, cause.cone, *cause.casters, cause.settings.size);
     for (const LightFrame& frame : _frames) addFaces(frame);
 }
 
@@ -74,7 +74,7 @@ void LightShadowMaps::takeCasters(const CasterLayers& casters) {
 
 void LightShadowMaps::addFaces(const LightFrame& frame) {
     MapSlice face(frame, _cause);
-    const int wanted = _cause.wish.cascades, most = 2 * _cause.wish.size <= largestTexture ? mostCascades : 1;
+    const int wanted = _cause.settings.cascades, most = 2 * _cause.settings.size <= largestTexture ? mostCascades : 1;
     const std::size_t parts = frame.sun ? std::size_t(wanted ? wanted : most) : 1;
     for (; face.part < parts; ++face.part) _faces.push_back(face);
 }
@@ -87,7 +87,7 @@ double LightShadowMaps::pixelsATexel(double distance, const glm::dmat4& clipFrom
     for (const MapBlocker& blocker : face.blockers) all.merge(blocker.outline);
     const glm::dvec2 most = fitMap(face.frame, all, all, 0.0, 0.0, 1.0).size;
     const double covered = std::min(std::max(most.x, most.y), std::max(side(0), side(1)));
-    return covered / _cause.wish.size / (side(0) / width);
+    return covered / _cause.settings.size / (side(0) / width);
 }
 
 void LightShadowMaps::findSplits(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
@@ -101,7 +101,7 @@ void LightShadowMaps::findSplits(const std::vector<MapReceiver>& receivers, cons
         for (const MapReceiver& receiver : receivers)
             seen.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
     }
-    if (!_cause.wish.cascades && !seen.empty())
+    if (!_cause.settings.cascades && !seen.empty())
         _cascades = cascadesFor(seen, pixelsATexel(seen.farthest, clipFromScene, width), _cascades);
     _splits = cascadeSplits(seen, std::max(_cascades, 1));
 }
@@ -129,7 +129,7 @@ double LightShadowMaps::texelsWanted() const {
         if (face.needed.empty()) continue;
         if (_cause.isWide(face.frame)) wanted = std::max(wanted, fewestSoft);
         const glm::dvec2 size = holds(face) ? face.fit->size : fitOf(face).size;
-        wanted = std::max(wanted, std::max(size.x, size.y) / (_cause.wish.pixels * face.texel));
+        wanted = std::max(wanted, std::max(size.x, size.y) / (_cause.settings.pixels * face.texel));
     }
     return wanted;
 }
@@ -138,7 +138,7 @@ double LightShadowMaps::texelsWanted() const {
 int LightShadowMaps::mostTexels() const {
     const auto needed = [](const MapSlice& face) { return !face.needed.empty(); };
     const auto maps = static_cast<int>(std::count_if(_faces.begin(), _faces.end(), needed));
-    return std::min(_cause.wish.size, largestTexture / std::clamp(maps, 1, columns()));
+    return std::min(_cause.settings.size, largestTexture / std::clamp(maps, 1, columns()));
 }
 
 /// Takes other texels than before if need be, fewer only where a map is to be drawn anyway: none holds what it must then.
@@ -223,7 +223,7 @@ PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile, const MapError
 }
 
 MapLookUp LightShadowMaps::lookUpOf(const MapSlice& face) const {
-    const double radius = _cause.wish.soft ? _cause.wish.soft->radius : 0.0;
+    const double radius = _cause.settings.softness ? _cause.settings.softness->radius : 0.0;
     return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, _cause.casters->reach, _texels),
             mapSpread(face.frame, *face.fit, _cause.lightRadius(face.frame), radius, _texels)};
 }
@@ -254,7 +254,7 @@ void LightShadowMaps::update(const MapPrograms& resources) {
         picture->tiles.back().movers = moversIn(picture->tiles.back(), _lookUps.back().errors);
         end = glm::max(end, corner + picture->size);
     }
-    if (!_map || _map->size != end) _map = new DepthMap(end, _cause.wish.compare);
+    if (!_map || _map->size != end) _map = new DepthMap(end, _cause.settings.compare);
     _picture = picture;
 }
 
@@ -264,10 +264,10 @@ MapLookupPass LightShadowMaps::quad(const glm::dmat4& clipFromScene) const {
     quad.picture = _picture;
     quad.lookUps = _lookUps;
     quad.clipFromScene = clipFromScene;
-    quad.defines = _cause.wish.defines;
+    quad.defines = _cause.settings.defines;
     quad.cascades = _faces.front().frame.sun && _lookUps.size() > 1;
-    quad.smooth = _cause.wish.smooth;
-    quad.soft = _cause.wish.soft.has_value();
+    quad.smooth = _cause.settings.smooth;
+    quad.soft = _cause.settings.softness.has_value();
     quad.penumbra = _cause.lightRadius(_faces.front().frame) > 0.0;
     return quad;
 }

@@ -30,20 +30,20 @@ void drawPicture(const MapLookupPass& quad, osg::State& state, ScreenPass& pass,
 
 } // namespace
 
-void drawMapView(const MapLookupPass& quad, MapDebugView view, osg::RenderInfo& renderInfo, ScreenPass& pass,
+void drawMapView(const MapLookupPass& quad, ShadowMapOptions::View view, osg::RenderInfo& renderInfo, ScreenPass& pass,
                  int before) {
     constexpr const char* defines[] = {"", "#define PICTURE\n", "#define TEXELS\n", ""};
     osg::State& state = *renderInfo.getState();
-    if (view == MapDebugView::Nothing || (view != MapDebugView::Map && before > 0)) return;
+    if (view == ShadowMapOptions::NOTHING || (view != ShadowMapOptions::MAP && before > 0)) return;
     if (!quad.showMap(renderInfo).empty()) return; // which marking has said
     FrameDepthCopy::Copy copy;
-    if (view != MapDebugView::Map)
+    if (view != ShadowMapOptions::MAP)
         copy = quad.resources->seen.copy(state, pixelsInScissor(*state.getCurrentViewport()));
     if (!copy.cause.empty()) return; // the same
     state.apply(quad.resources->viewProgram(defines[int(view)] + quad.mapDefines()).get());
     if (!hasProgram(state)) return;
     pass.beginBlend();
-    if (view == MapDebugView::Map) {
+    if (view == ShadowMapOptions::MAP) {
         drawPicture(quad, state, pass, before);
     } else {
         quad.setConstants(state, copy, {0.0, false, 1.0}, {});

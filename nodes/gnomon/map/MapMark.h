@@ -12,7 +12,7 @@ template <class Job>
 class MapMarkOf : public Job {
 public:
     MapLookupPass quad;
-    MapDebugView view = MapDebugView::Nothing;
+    ShadowMapOptions::View view = ShadowMapOptions::NOTHING;
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override {
         return markBelow(0.5, renderInfo, pass, bit);
@@ -22,7 +22,7 @@ public:
         pass.beginMultiplyByColor();
         return quad.draw(renderInfo, pass, {quad.fades() ? allOfIt : 0.5, false, factor});
     }
-    bool hasView() const override { return view != MapDebugView::Nothing; }
+    bool hasView() const override { return view != ShadowMapOptions::NOTHING; }
     void drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int before) const override {
         drawMapView(quad, view, renderInfo, pass, before);
     }

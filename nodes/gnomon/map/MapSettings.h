@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/map/MapDebugView.h>
+#include <gnomon/ShadowMapOptions.h>
 
 #include <osg/Texture>
 
@@ -20,23 +20,24 @@ struct MapSoftness {
     }
 };
 
-/// How a technique wants its maps.
-struct MapSettings {
-    int size = 1024;     ///< texels on a side of a tile, at most.
-    double pixels = 1.0; ///< on a side of a texel, where it is widest; fewer only with more texels than `size`.
-    int cascades = 0;    ///< of a sun: how many of them at most; 0: see cascadesFor().
-    osg::Texture::FilterMode compare = osg::Texture::LINEAR;
-    std::string defines;                       ///< see MapLookupPass.
-    bool smooth = false;                       ///< edges, where they are not soft; else they are hard.
-    std::optional<MapSoftness> soft;           ///< edges.
-    MapDebugView view = MapDebugView::Nothing; ///< no part of the maps.
-    int unit = -1;                             ///< no part of them either: see ShadowMapTechnique::setProgramUnit().
+/// A technique's options, and what follows from them for its maps.
+struct MapSettings : ShadowMapOptions {
+    MapSettings(const ShadowMapOptions& options = {});
 
-    /// True if its maps are the same.
+    double pixels;                    ///< on a side of a texel, where it is widest; fewer only with more than `size`.
+    osg::Texture::FilterMode compare; ///< of OpenGL, within each comparison.
+    std::string defines;              ///< see MapLookupPass.
+    bool smooth;                      ///< edges, where they are not soft; else they are hard.
+    std::optional<MapSoftness> softness; ///< of edges.
+
+    /// True if its maps are the same, whatever the view and the unit.
     bool operator==(const MapSettings& other) const {
         return size == other.size && pixels == other.pixels && cascades == other.cascades && compare == other.compare &&
-               defines == other.defines && smooth == other.smooth && soft == other.soft;
+               defines == other.defines && smooth == other.smooth && softness == other.softness;
     }
 };
+
+/// How the shaders compare.
+std::string definesOf(ShadowMapOptions::Filter filter);
 
 } // namespace gnomon

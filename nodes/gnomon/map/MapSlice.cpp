@@ -33,18 +33,18 @@ LayerOutlines outlinesOf(const MapRequest& cause, const CasterLayer& layer, cons
 } // namespace
 
 double MapRequest::lightRadius(const LightFrame& frame) const {
-    if (!wish.soft) return 0.0;
-    if (!frame.sun) return wish.soft->lamp;
-    return light.w == 0.0 ? wish.soft->sun : wish.soft->lamp / glm::length(glm::dvec3(light));
+    if (!settings.softness) return 0.0;
+    if (!frame.sun) return settings.softness->lamp;
+    return light.w == 0.0 ? settings.softness->sun : settings.softness->lamp / glm::length(glm::dvec3(light));
 }
 
 bool MapRequest::isWide(const LightFrame& frame) const {
-    return lightRadius(frame) > 0.0 || (wish.soft && wish.soft->radius > 0.0);
+    return lightRadius(frame) > 0.0 || (settings.softness && settings.softness->radius > 0.0);
 }
 
 double MapRequest::softness(const LightFrame& frame, MapOutline blocker, double farthest) const {
     blocker.limitNearest();
-    return softReach(frame, blocker.nearest, farthest, lightRadius(frame), wish.soft->radius);
+    return softReach(frame, blocker.nearest, farthest, lightRadius(frame), settings.softness->radius);
 }
 
 std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {

@@ -18,7 +18,7 @@ struct MapRequest {
     std::optional<SpotCone> cone;
     osg::ref_ptr<const CasterLayers> casters;
     bool flats = false; ///< those that are flat cast, too.
-    MapSettings wish;
+    MapSettings settings;
 
     /// See softReach().
     double lightRadius(const LightFrame& frame) const;

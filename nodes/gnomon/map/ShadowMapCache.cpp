@@ -47,7 +47,7 @@ bool anyIsBetween(const CasterLayers& casters, const glm::dvec4& light, const st
 }
 
 template <class Mark>
-osg::ref_ptr<MarkJob> markOf(const MapLookupPass& quad, const ScreenRect& bounds, MapDebugView view) {
+osg::ref_ptr<MarkJob> markOf(const MapLookupPass& quad, const ScreenRect& bounds, ShadowMapOptions::View view) {
     osg::ref_ptr<Mark> mark = new Mark;
     mark->quad = quad;
     mark->screenBounds = bounds;
@@ -71,25 +71,26 @@ osg::ref_ptr<SpotMark> ShadowMapCache::around(const ViewFrame& view, const glm::
 
 osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
                                            const std::optional<SpotCone>& cone, const CasterLayers& casters,
-                                           const MapSettings& wish) {
+                                           const MapSettings& settings) {
     const SceneView scene(view, casters);
     Lock lock(_mutex);
     LightShadowMaps& map = find(view.stage, lightNumber);
     const std::vector<MapReceiver> receivers = receiversOf(view, scene.eyeFromScene);
-    map.setCause({light, cone, &casters, anyIsBetween(casters, light, receivers), wish});
+    map.setCause({light, cone, &casters, anyIsBetween(casters, light, receivers), settings});
     const std::vector<glm::dvec4> corners =
         map.find(receivers, scene.clipFromScene, {view.pixels.x(), view.pixels.y()});
     const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
-    const bool forPrograms = wish.unit >= 0;
-    if (!bounds) return forPrograms ? new ProgramMaps(unsigned(wish.unit)) : nullptr;
+    const bool forPrograms = settings.programUnit >= 0;
+    if (!bounds) return forPrograms ? new ProgramMaps(unsigned(settings.programUnit)) : nullptr;
     map.update(*_resources);
     MapLookupPass quad = map.quad(scene.clipFromScene);
     quad.resources = _resources;
     quad.outline =
         screenOutline(corners, 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y())); // two pixels more, against rounding
-    if (forPrograms) return new ProgramMaps(quad, glm::inverse(scene.eyeFromScene), unsigned(wish.unit));
+    if (forPrograms) return new ProgramMaps(quad, glm::inverse(scene.eyeFromScene), unsigned(settings.programUnit));
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
-    return quad.fades() ? markOf<SoftMapMark>(quad, *bounds, wish.view) : markOf<MapMark>(quad, *bounds, wish.view);
+    return quad.fades() ? markOf<SoftMapMark>(quad, *bounds, settings.view)
+                        : markOf<MapMark>(quad, *bounds, settings.view);
 }
 
 osg::ref_ptr<const CasterLayers> ShadowMapCache::castersOf(const ShadowCasterGroup& group,

@@ -27,7 +27,7 @@ public:
     /// @return the marks of a light; null if none of its shadow can be seen.
     osg::ref_ptr<MarkJob> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
                                const std::optional<SpotCone>& cone, const CasterLayers& casters,
-                               const MapSettings& wish);
+                               const MapSettings& settings);
     /// Marks of all that is seen outside a spot's cone.
     osg::ref_ptr<SpotMark> around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
                                   const CasterLayers& casters) const;

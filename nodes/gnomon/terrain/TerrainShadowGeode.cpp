@@ -97,11 +97,6 @@ osg::ref_ptr<osg::Geometry> transparent(const std::vector<osg::Vec3d>& triangles
     return geometry;
 }
 
-TerrainSettings settingsOf(TerrainShadowGeode::Method method, double error, const osg::BoundingBoxd& box = {}) {
-    const bool drapes = method == TerrainShadowGeode::DRAPE;
-    return {method == TerrainShadowGeode::BOX, drapes ? TerrainMethod::drape : TerrainMethod::hull, error, box};
-}
-
 } // namespace
 
 struct TerrainShadowGeode::Request {
@@ -116,8 +111,7 @@ TerrainShadowGeode::TerrainShadowGeode()
 
 TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const osg::CopyOp& copyOp)
     : ShadowTechnique(other, copyOp), // its geometry, too
-      _method(other._method),
-      _error(other._error),
+      _options(other._options),
       _object(other._object),
       _position(other._position),
       _heading(other._heading),
@@ -129,9 +123,18 @@ TerrainShadowGeode::TerrainShadowGeode(const TerrainShadowGeode& other, const os
 
 TerrainShadowGeode::~TerrainShadowGeode() = default;
 
+void TerrainShadowGeode::setOptions(const TerrainShadowOptions& options) {
+    setMethod(options.method);
+    setError(options.error);
+}
+
+void TerrainShadowGeode::setMethod(Method method) {
+    _options.method = method >= BOX && method <= DRAPE ? method : TerrainShadowOptions().method;
+}
+
 void TerrainShadowGeode::setError(double error) {
     if (error >= 0.0 && std::isfinite(error))
-        _error = error;
+        _options.error = error;
     else
         OSG_WARN << "gnomon: " << describe() << ": an error of " << error
                  << " is refused. Give a length of 0 or more, in the scene's unit." << std::endl;
@@ -150,7 +153,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     if (!usable) return refuse("the light has no finite position or direction. Set the light's position.");
     const TerrainFrame frame =
         _cache->frame(view, casters.drawables(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
-                      *usable, settingsOf(_method, _error));
+                      *usable, _options);
     const TileVisibility seen(view, frame.origin);
     for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
@@ -171,7 +174,7 @@ osg::ref_ptr<const osg::Referenced> TerrainShadowGeode::answersFor(const ShadowP
     if (!hasReceiver()) return nullptr;
     const glm::dvec4 light(glm::dvec3(probe.light) + probe.light.w * toGlm(probe.origin), probe.light.w);
     return _cache->answer(probe.group, *probe.group.drawables(), TerrainPlace::inFrameOf(probe.group, getReceiver()),
-                          light, settingsOf(_method, _error));
+                          light, _options);
 }
 
 bool TerrainShadowGeode::isLit(const ShadowProbe& probe, const glm::dvec3& point) const {
@@ -217,7 +220,7 @@ TerrainShadowGeode::Request TerrainShadowGeode::requestFor(const osg::Vec4d& lig
     if (box.valid()) box._min += _position, box._max += _position;
     const osg::ref_ptr<osg::Node> object = placedObject();
     result.light = *usable;
-    result.settings = settingsOf(_method, _error, box);
+    result.settings = TerrainSettings(_options, box);
     result.object = TerrainPlace{*object, Selection(), osg::Matrixd::identity()}.revision();
     return result;
 }
@@ -267,7 +270,7 @@ void TerrainShadowGeode::show() {
 }
 
 void TerrainShadowGeode::print(std::ostream& out) const {
-    out << describe() << ": " << nameOf(_method) << ", error " << _error << "\n";
+    out << describe() << ": " << nameOf(_options.method) << ", error " << _options.error << "\n";
     out << "  object at " << _position << ", heading " << _heading << " degrees\n";
     if (_shown)
         out << "  light " << osg::Vec4d(_shown->light.x, _shown->light.y, _shown->light.z, _shown->light.w) << "\n";

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/spec/SpecTable.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon {
+namespace {
+
+using Map = ShadowMapOptions;
+
+constexpr const char* ground = "ground"; // receives where nothing is named and not everything can
+constexpr double mostError = 1e6;        // setError() has no limit: this one is against slips of the keyboard
+
+/// What a key sets: its default, and how it is put into a specification.
+template <typename Value>
+struct Option {
+    Value byDefault;
+    std::function<void(ShadowSpec&, Value)> set;
+};
+
+template <typename Value>
+Option<Value> ofMap(Value ShadowMapOptions::*option) {
+    return {ShadowMapOptions().*option, [option](ShadowSpec& spec, Value value) { spec.map.*option = value; }};
+}
+
+Option<double> terrainError() {
+    return {TerrainShadowOptions().error, [](ShadowSpec& spec, double value) { spec.terrain.error = value; }};
+}
+
+Option<ShadowCasterGroup::Composite> composite() {
+    const osg::ref_ptr<ShadowCasterGroup> fresh = new ShadowCasterGroup;
+    return {fresh->getComposite(), [](ShadowSpec& spec, auto value) { spec.composite = value; }};
+}
+
+Option<float> dark() {
+    const osg::ref_ptr<ShadowCasterGroup> fresh = new ShadowCasterGroup;
+    return {fresh->getDark(), [](ShadowSpec& spec, float value) { spec.dark = value; }};
+}
+
+/// The shortest text that reads back as the same number: "0.533", "1e6".
+template <typename Number>
+std::string textOf(Number number) {
+    char text[32];
+    std::string result(text, std::to_chars(text, text + sizeof text, number).ptr);
+    const std::size_t exponent = result.find("e+0");
+    return exponent == std::string::npos ? result : result.erase(exponent + 1, 2);
+}
+
+/// The whole text as a number; nullopt if it is none, or not within the limits.
+template <typename Number>
+std::optional<Number> numberIn(const std::string& text, Number low, Number high) {
+    Number number{};
+    const char* end = text.data() + text.size();
+    const std::from_chars_result read = std::from_chars(text.data(), end, number);
+    if (read.ec != std::errc() || read.ptr != end || !(number >= low && number <= high)) return std::nullopt;
+    return number;
+}
+
+template <typename Number>
+SpecKey numberKey(SpecKey key, const Option<Number>& option, Number least, Number most) {
+    key.range = textOf(least) + " to " + textOf(most);
+    key.byDefault = textOf(option.byDefault);
+    key.take = [=](ShadowSpec& spec, const std::string& value) {
+        const std::optional<Number> number = numberIn(value, least, most);
+        if (number) option.set(spec, *number);
+        return number.has_value();
+    };
+    return key;
+}
+
+template <typename Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+
+/// Takes one of these words, or else what the key takes already.
+template <typename Value>
+SpecKey wordKey(SpecKey key, const Option<Value>& option, const Words<Value>& words) {
+    for (const auto& [word, value] : words) {
+        key.words.push_back(word);
+        if (value == option.byDefault) key.byDefault = word;
+    }
+    key.take = [=, other = key.take](ShadowSpec& spec, const std::string& text) {
+        for (const auto& [word, value] : words) {
+            if (word != text) continue;
+            option.set(spec, value);
+            return true;
+        }
+        return other && other(spec, text);
+    };
+    return key;
+}
+
+bool takeReceiver(ShadowSpec& spec, const std::string& value) {
+    spec.receiver = value;
+    return !value.empty();
+}
+
+SpecKey receiverKey(const std::string& byDefault) {
+    return {"receiver",  "node that receives the shadow", "setReceiver()", "", {}, "a node's name", byDefault,
+            takeReceiver};
+}
+
+std::string receiverOf(const SpecTechnique& technique) {
+    return technique.receiver.empty() ? "everything" : technique.receiver;
+}
+
+SpecKey errorKey() {
+    return numberKey({"error", "largest error of a draped edge in plan; 0 is exact", "setError()", "scene's unit"},
+                     terrainError(), 0.0, mostError);
+}
+
+std::vector<SpecKey> mapKeys() {
+    return {
+        numberKey({"size", "most texels on a side of a shadow map", "setSize()", "texels"}, ofMap(&Map::size),
+                  Map::leastSize, Map::mostSize),
+        wordKey(
+            {"filter", "texels compared: 1, 2 x 2, 4 x 4; fine: the most", "setFilter()"}, ofMap(&Map::filter),
+            {{"nearest", Map::NEAREST}, {"bilinear", Map::BILINEAR}, {"bicubic", Map::BICUBIC}, {"fine", Map::FINE}}),
+        wordKey(numberKey({"cascades", "most shadow maps of a sun, each for a part of the view", "setCascades()"},
+                          ofMap(&Map::cascades), 1, Map::mostCascades),
+                ofMap(&Map::cascades), {{"auto", 0}}),
+        wordKey({"edges", "lit or unlit; smooth over one pixel; or penumbras", "setEdges()"}, ofMap(&Map::edges),
+                {{"hard", Map::HARD}, {"smooth", Map::SMOOTH}, {"soft", Map::SOFT}}),
+        numberKey({"sun-angle", "with edges=soft: angular diameter of a sun; 0 is a point", "setSunAngle()", "degrees"},
+                  ofMap(&Map::sunAngle), 0.0, Map::mostAngle),
+        numberKey({"lamp-size", "with edges=soft: diameter of lamps and spots; 0 is a point", "setLampSize()",
+                   "scene's unit"},
+                  ofMap(&Map::lampSize), 0.0, Map::mostLength),
+        numberKey({"radius", "with edges=soft: blur radius of all edges; 0 is the filter alone", "setRadius()",
+                   "scene's unit"},
+                  ofMap(&Map::radius), 0.0, Map::mostLength),
+        wordKey({"view", "debug view drawn over the picture", "setView()"}, ofMap(&Map::view),
+                {{"nothing", Map::NOTHING}, {"map", Map::MAP}, {"texels", Map::TEXELS}, {"cascades", Map::CASCADES}}),
+    };
+}
+
+SpecTechnique planned(const char* name) { return {name, "", "", {}, false}; }
+
+/// "map, traced: everything; else: ground".
+std::string receiversByDefault() {
+    std::vector<std::string> everywhere;
+    for (const SpecTechnique& technique : specTechniques())
+        if (technique.isBuilt && technique.receiver.empty() && technique.name != "none")
+            everywhere.push_back(technique.name);
+    return listed(everywhere) + ": everything; else: " + ground;
+}
+
+std::vector<SpecKey> sharedKeys(const std::string& receiver) {
+    return {
+        wordKey({"composite", "removes the blocked light, or multiplies the colour by dark",
+                 "ShadowCasterGroup::setComposite()"},
+                composite(), {{"relight", ShadowCasterGroup::RELIGHT}, {"blend", ShadowCasterGroup::BLEND}}),
+        numberKey({"dark", "with composite=blend: factor for the colour in shadow", "ShadowCasterGroup::setDark()"},
+                  dark(), 0.0f, 1.0f),
+        receiverKey(receiver),
+    };
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void describeKeys(std::ostream& out, const std::vector<SpecKey>& keys) {
+    for (const SpecKey& key : keys)
+        out << "    " << key.name << "=  " << key.meaning << "; allowed " << key.allowed() << ", default "
+            << key.byDefault << "\n";
+}
+
+} // namespace
+
+std::string SpecKey::allowed() const {
+    std::vector<std::string> parts = words;
+    for (const std::string& part : {range, unit})
+        if (!part.empty()) parts.push_back(part);
+    return listed(parts);
+}
+
+const std::vector<SpecTechnique>& specTechniques() {
+    static const std::vector<SpecTechnique> table = {
+        {"none", "no shadow"},
+        {"planar", "flattens the casters onto the receiver's planes; exact on flat receivers", ground},
+        {"box", "bounding-box method of ARL-TN-156 on terrain, as published", ground},
+        {"hull",
+         "polygons on terrain: silhouettes of the casters' convex parts, one ray for each corner",
+         ground,
+         {errorKey()}},
+        {"drape", "the terrain's triangles, cut by the casters' shadows to within error", ground, {errorKey()}},
+        {"map", "shadow maps; on every visible surface", "", mapKeys()},
+        planned("volume"),
+        {"traced", "one ray for each pixel by Embree; exact on every visible surface"},
+        planned("auto"),
+    };
+    return table;
+}
+
+const SpecTechnique& requireTechnique(const std::string& name) {
+    const std::string allowed = " Allowed: " + listed(shadowTechniques()) + ".";
+    for (const SpecTechnique& technique : specTechniques()) {
+        if (name != technique.name) continue;
+        if (!technique.isBuilt) throw std::invalid_argument("\"" + name + "\" is not built yet." + allowed);
+        return technique;
+    }
+    throw std::invalid_argument("\"" + name + "\" is not a shadow technique." + allowed);
+}
+
+std::vector<SpecKey> sharedKeys() { return sharedKeys(receiversByDefault()); }
+
+std::vector<SpecKey> keysOf(const SpecTechnique& technique) {
+    std::vector<SpecKey> keys = technique.keys;
+    for (const SpecKey& key : sharedKeys(receiverOf(technique))) keys.push_back(key);
+    return keys;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+std::vector<std::string> shadowTechniques() {
+    std::vector<std::string> names;
+    for (const SpecTechnique& technique : specTechniques())
+        if (technique.isBuilt) names.push_back(technique.name);
+    return names;
+}
+
+std::string shadowSpecHelp(const std::vector<std::string>& names) {
+    std::ostringstream out;
+    for (const SpecTechnique& technique : specTechniques()) {
+        if (!technique.isBuilt || !has(names, technique.name)) continue;
+        out << "  " << technique.name << "  " << technique.meaning << "\n";
+        describeKeys(out, technique.keys);
+    }
+    out << "  keys of every technique, as NAME:key=value,key=value\n";
+    describeKeys(out, sharedKeys());
+    return out.str();
+}
+
+} // namespace gnomon
