@@ -27,7 +27,7 @@ double compass(double degrees) { return degrees - 360.0 * std::floor(degrees / 3
 } // namespace
 
 ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : _setup(setup), _sun(options.sun) {
-    if (!options.shadows.empty()) _view = options.shadows.front().view.value_or(_view);
+    if (!options.shadows.empty()) _view = options.shadows.front().map.view;
     const std::string given = options.shadows.empty() ? "none" : options.shadows.front().technique;
     for (const std::string& name : shadowTechniques()) {
         if (name == given) _chosen = _choices.size();
