@@ -127,10 +127,10 @@ public:
     /// True for the class itself, whose traversal visits all children.
     bool showsAllChildren() const override;
 
-    /// The casters as one mesh. They are extracted again only if something changed since the last call.
+    /// For the techniques, whose types are internal: the casters as one mesh. They are extracted again only if something changed since the last call.
     /// Call it where the graph may be read: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
-    /// The casters, drawable by drawable. Only changed drawables are read again. Call it as casters().
+    /// For the techniques, whose types are internal: the casters, drawable by drawable. Only changed drawables are read again. Call it as casters().
     osg::ref_ptr<const CasterDrawables> drawables() const;
     /// Number of changes that casters() and drawables() have found. 0 before the first call of either.
     unsigned revision() const;

@@ -173,7 +173,7 @@ protected:
     ~TerrainShadowGeode() override;
 
 private:
-    struct Request; // what compute() was request for
+    struct Request; // of a shadow by compute()
     Request requestFor(const osg::Vec4d& light) const;
     bool compute(const Request& with);
     osg::ref_ptr<osg::Node> placedObject() const;

@@ -50,6 +50,10 @@ class GNOMON_EXPORT VertexTraverser : public osg::NodeVisitor {
 public:
     /// @param selection  the part of the visited subgraph to extract. Default: all of it.
     explicit VertexTraverser(const Selection& selection = {});
+    /// Not to be copied: it holds what it has found.
+    VertexTraverser(const VertexTraverser&) = delete;
+    /// Not to be copied.
+    VertexTraverser& operator=(const VertexTraverser&) = delete;
     ~VertexTraverser() override;
     META_NodeVisitor(gnomon, VertexTraverser)
 

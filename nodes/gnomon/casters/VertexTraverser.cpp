@@ -15,12 +15,16 @@ VertexTraverser::~VertexTraverser() = default;
 
 void VertexTraverser::reset() { _found->reset(); }
 
-/// Of the root alone: the extraction goes down itself.
+/// Of the root alone: the extraction goes down itself. It knows what is above the root on the way that led here.
 void VertexTraverser::apply(osg::Node& root) {
+    const osg::NodePath& way = getNodePath();
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) _found->pushOntoNodePath(way[i]);
+    _found->setFrameStamp(const_cast<osg::FrameStamp*>(getFrameStamp())); // which only hands it on
     _found->setTraversalMask(getTraversalMask());
     _found->setNodeMaskOverride(getNodeMaskOverride());
     _found->setTraversalMode(getTraversalMode());
     root.accept(*_found);
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) _found->popFromNodePath();
 }
 
 const std::vector<osg::Vec3d>& VertexTraverser::getVertices() const { return _found->getVertices(); }

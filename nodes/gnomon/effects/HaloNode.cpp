@@ -102,7 +102,7 @@ osg::ref_ptr<ViewEffect> HaloNode::makeEffect(osgUtil::CullVisitor& cull) {
     effect->children =
         new SubgraphCull(cull, *this, eyeFromNode, SubgraphCull::Keep::All); // out of sight, its rim may be in
     effect->report = reportIn(frameOf(cull));
-    effect->width = _width;
+    effect->width = _shape == PIXELS ? _width : 0;
     effect->color = _color;
     effect->stencilCure = _stencilCure;
     if (_shape == PIXELS) return effect;

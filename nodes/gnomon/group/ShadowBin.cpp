@@ -169,6 +169,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
         return;
     }
     view.stage = getStage();
+    view.options.filter = _options.filter; // as all who share this bin want it
     for (const DrawnLeaf& leaf : leaves)
         if (view.receivers ? receivers.count(leaf.leaf) > 0 : isSameLens(*leaf.leaf->_projection, *entry.projection))
             view.seen.push_back(leaf.leaf);

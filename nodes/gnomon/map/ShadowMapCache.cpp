@@ -98,7 +98,7 @@ osg::ref_ptr<const CasterLayers> ShadowMapCache::castersOf(const ShadowCasterGro
     Lock lock(_mutex);
     _casters.dropWhile([this](const Known& known) { return _calls - known.lastCall > keptCalls; });
     Known* known = _casters.find([&](const Known& entry) { return entry.group == &group; });
-    if (!known) known = &_casters.add({&group, nullptr, 0});
+    if (!known) known = &_casters.add({&group, nullptr, _calls});
     known->casters = CasterLayers::of(pieces, known->casters);
     known->lastCall = _calls;
     return known->casters;

@@ -28,7 +28,7 @@ struct TerrainShadows : public osg::Referenced {
     TerrainSettings settings;
     glm::dvec4 light{0.0};
     std::vector<Drape> shadows;      ///< of each part, or object; empty where there is none.
-    std::vector<std::string> causes; ///< why some are missing, or not of the method that was request for.
+    std::vector<std::string> causes; ///< why some are missing, or not of the method that was requested.
 
     /// @param known  may be null. @return `known` itself if it is these.
     static osg::ref_ptr<const TerrainShadows> of(const CasterMesh& mesh, const TerrainPlace& place,

@@ -29,9 +29,9 @@ bool reachesUnder(const glm::dvec3* triangle, const ConvexShadow& beneath, doubl
 }
 
 /// What lies straight below a part.
-ConvexShadow beneath(const Ground& ground, const PackedParts& parts, std::size_t part) {
+ConvexShadow beneath(const TerrainRequest& request, const PackedParts& parts, std::size_t part) {
     FanBatch batch;
-    batch.begin(ground, {0.0, 0.0, 1.0, 0.0});
+    batch.begin(request.ground, {0.0, 0.0, 1.0, 0.0}, request.kernel);
     batch.take(parts, part, part + 1);
     return batch.isThere(0) ? batch.shadow(0) : ConvexShadow();
 }
@@ -47,7 +47,7 @@ bool isBuried(const FanBatch& batch, std::size_t i, const TerrainRequest& reques
     if (!isUnder(batch.top(i)) || !isUnder(glm::dvec3(0.0))) return false;
     for (unsigned k = 0; k + 1 < parts.topology(part).corners; ++k)
         if (!isUnder(glm::dvec3(parts.others(part)[k]))) return false;
-    const ConvexShadow below = beneath(request.ground, parts, part);
+    const ConvexShadow below = beneath(request, parts, part);
     const Drape under = below.planes.empty() ? Drape() : drape(request.ground, below, 0.0);
     for (std::size_t k = 0; k + 2 < under.size(); k += 3)
         if (reachesUnder(&under[k], below, margin)) return false;

@@ -22,7 +22,7 @@ void findTogether(FanBatch& batch, const TerrainRequest& request, const PackedPa
 /// What becomes of one of a batch's, and its triangles about its anchor if it is no fan.
 struct PartShadow {
     TerrainOutcome outcome;
-    const DrapeMesh* drape = nullptr; ///< until the next one is request for.
+    const DrapeMesh* drape = nullptr; ///< until the next one is requested.
 };
 
 PartShadow partShadow(FanBatch& batch, std::size_t i, const TerrainRequest& request, const PackedParts& parts,

@@ -11,8 +11,8 @@ enum class TerrainMethod {
 /// What became of a part's shadow.
 enum class TerrainOutcome : unsigned char {
     fan,    ///< one polygon.
-    draped, ///< as request.
-    // As drape although hull was request for:
+    draped, ///< as requested.
+    // As drape although hull was requested:
     steep,       ///< rays graze the ground.
     rough,       ///< the ground between the corners' rays is not where the polygon is.
     noFan,       ///< a ray meets no ground, or the polygon overlaps itself.
