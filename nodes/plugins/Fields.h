@@ -90,6 +90,21 @@ Selection readSelection(osgDB::InputStream& in);
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options);
 CompositorOptions readOptions(osgDB::InputStream& in);
 
+/// Keeps a class's getCompositorOptions(), where they are not the defaults.
+template <typename Class>
+void addCompositorOptions(osgDB::ObjectWrapper& wrapper) {
+    const auto check = [](const Class& node) { return node.getCompositorOptions() != CompositorOptions(); };
+    const auto read = [](osgDB::InputStream& in, Class& node) {
+        node.setCompositorOptions(readOptions(in));
+        return true;
+    };
+    const auto write = [](osgDB::OutputStream& out, const Class& node) {
+        return writeOptions(out, node.getCompositorOptions());
+    };
+    wrapper.addSerializer(new osgDB::UserSerializer<Class>("CompositorOptions", check, read, write),
+                          osgDB::BaseSerializer::RW_USER);
+}
+
 /// A property that keeps every bit in text as well.
 template <typename Class, typename Value, typename Base>
 class Exact : public Base {

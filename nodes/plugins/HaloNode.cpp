@@ -7,17 +7,6 @@
 
 using namespace gnomon;
 
-static bool checkCompositorOptions(const HaloNode& node) { return node.getCompositorOptions() != CompositorOptions(); }
-
-static bool readCompositorOptions(osgDB::InputStream& in, HaloNode& node) {
-    node.setCompositorOptions(fields::readOptions(in));
-    return true;
-}
-
-static bool writeCompositorOptions(osgDB::OutputStream& out, const HaloNode& node) {
-    return fields::writeOptions(out, node.getCompositorOptions());
-}
-
 REGISTER_OBJECT_WRAPPER(gnomon_HaloNode, new gnomon::HaloNode, gnomon::HaloNode,
                         "osg::Object osg::Node osg::Group gnomon::HaloNode") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
@@ -31,5 +20,5 @@ REGISTER_OBJECT_WRAPPER(gnomon_HaloNode, new gnomon::HaloNode, gnomon::HaloNode,
                                                                         &MyClass::setColor),
                            osgDB::BaseSerializer::RW_VEC4F);
     ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
-    ADD_USER_SERIALIZER(CompositorOptions);
+    fields::addCompositorOptions<MyClass>(*wrapper);
 }

@@ -18,19 +18,6 @@ static bool writeSurface(osgDB::OutputStream& out, const PlanarReflectionNode& n
     return fields::writeSelection(out, node.getSurface());
 }
 
-static bool checkCompositorOptions(const PlanarReflectionNode& node) {
-    return node.getCompositorOptions() != CompositorOptions();
-}
-
-static bool readCompositorOptions(osgDB::InputStream& in, PlanarReflectionNode& node) {
-    node.setCompositorOptions(fields::readOptions(in));
-    return true;
-}
-
-static bool writeCompositorOptions(osgDB::OutputStream& out, const PlanarReflectionNode& node) {
-    return fields::writeOptions(out, node.getCompositorOptions());
-}
-
 REGISTER_OBJECT_WRAPPER(gnomon_PlanarReflectionNode, new gnomon::PlanarReflectionNode, gnomon::PlanarReflectionNode,
                         "osg::Object osg::Node osg::Group gnomon::PlanarReflectionNode") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
@@ -43,5 +30,5 @@ REGISTER_OBJECT_WRAPPER(gnomon_PlanarReflectionNode, new gnomon::PlanarReflectio
                                                                         &MyClass::setReflectance),
                            osgDB::BaseSerializer::RW_VEC3F);
     ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
-    ADD_USER_SERIALIZER(CompositorOptions);
+    fields::addCompositorOptions<MyClass>(*wrapper);
 }

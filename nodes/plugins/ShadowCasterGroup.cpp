@@ -95,19 +95,6 @@ static bool writeLightUniforms(osgDB::OutputStream& out, const ShadowCasterGroup
     });
 }
 
-static bool checkCompositorOptions(const ShadowCasterGroup& group) {
-    return group.getCompositorOptions() != CompositorOptions();
-}
-
-static bool readCompositorOptions(osgDB::InputStream& in, ShadowCasterGroup& group) {
-    group.setCompositorOptions(fields::readOptions(in));
-    return true;
-}
-
-static bool writeCompositorOptions(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
-    return fields::writeOptions(out, group.getCompositorOptions());
-}
-
 REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup, gnomon::ShadowCasterGroup,
                         "osg::Object osg::Node osg::Group gnomon::ShadowCasterGroup") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
@@ -121,5 +108,5 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup,
     ADD_USER_SERIALIZER(Lights);
     ADD_USER_SERIALIZER(Spots);
     ADD_USER_SERIALIZER(LightUniforms);
-    ADD_USER_SERIALIZER(CompositorOptions);
+    fields::addCompositorOptions<MyClass>(*wrapper);
 }
