@@ -81,8 +81,8 @@ void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d
 SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group)
     : _group(&group), _scene(lightsIn(group)) {
     for (const osg::Vec4d& place : options.lights) add(place, root);
-    if (count() == 0) add(sunAt(sunAzimuth, sunElevation), root);
-    root.getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
+    if (count() == 0 && !options.keepLights) add(sunAt(sunAzimuth, sunElevation), root);
+    if (!_own.empty() || !options.keepLights) root.getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
     for (const Own& own : _own) own.source->setStateSetModes(*root.getOrCreateStateSet(), osg::StateAttribute::ON);
     colour(options);
     if (options.ambient) {

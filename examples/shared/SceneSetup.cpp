@@ -106,22 +106,31 @@ void SceneSetup::toggleComposite() {
     group->setComposite(blends() ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
 }
 
-SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {
+SceneSetup groupScene(const ViewOptions& options, osg::Node& files) {
     SceneSetup setup;
     setup.root = new osg::Group;
     setup.group = new ShadowCasterGroup;
-    osg::ref_ptr<osg::Node> scene = upright(files, options.yUp);
-    setup.bounds = sceneBounds(*scene);
-    setup.group->addChild(scene);
-    const double side = groundSide(options, *scene, setup.bounds);
-    osg::ref_ptr<osg::Node> ground = side > 0.0 ? makeGround(setup.bounds, side) : nullptr;
-    if (ground) setup.group->addChild(ground);
+    setup.group->addChild(upright(files, options.yUp));
     setup.root->addChild(setup.group);
-    setup.lights = std::make_unique<SceneLights>(options, *setup.root, *setup.group);
-    if (ground) setup.lights->shineOn(*ground);
-    setup.group->setCasters(selectCasters(options.casters, *setup.group));
-    setup.receiver = options.receiver;
-    setup.cast(options.shadows);
+    return setup;
+}
+
+void SceneSetup::furnish(const ViewOptions& options) {
+    osg::Node& scene = *group->getChild(0);
+    bounds = sceneBounds(scene);
+    const double side = groundSide(options, scene, bounds);
+    osg::ref_ptr<osg::Node> ground = side > 0.0 ? makeGround(bounds, side) : nullptr;
+    if (ground) group->addChild(ground);
+    lights = std::make_unique<SceneLights>(options, *root, *group);
+    if (ground) lights->shineOn(*ground);
+    group->setCasters(selectCasters(options.casters, *group));
+    receiver = options.receiver;
+    cast(options.shadows);
+}
+
+SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {
+    SceneSetup setup = groupScene(options, files);
+    setup.furnish(options);
     return setup;
 }
 

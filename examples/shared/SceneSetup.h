@@ -25,6 +25,8 @@ struct SceneSetup {
     osg::BoundingBoxd bounds; ///< of the files, without the ground put under them; world.
     std::string receiver;     ///< for every shadow that names none itself.
 
+    /// Adds ground, lights and shadows as the options ask, for the scene as it is now. @throws as setUpScene().
+    void furnish(const ViewOptions& options);
     /// Puts these in the place of the shadows so far. @throws as setUpScene(); there are no shadows then.
     void cast(std::vector<ShadowSpec> specs);
 
@@ -42,6 +44,9 @@ struct SceneSetup {
 
 /// Why shadows were missing in the last frame: each cause once, whichever of these techniques names it.
 std::vector<std::string> diagnoses(const std::vector<osg::ref_ptr<ShadowTechnique>>& techniques);
+
+/// The scene below root and group, and nothing else yet.
+SceneSetup groupScene(const ViewOptions& options, osg::Node& files);
 
 /// @throws std::invalid_argument, one sentence, if a name is not in the scene or a specification does not suit it.
 SceneSetup setUpScene(const ViewOptions& options, osg::Node& files);

@@ -77,35 +77,9 @@ void takeSize(ViewOptions& into, Text text) {
     if (into.height == 0) refuse("Allowed: WIDTHxHEIGHT from 1x1 to 16384x16384 pixels.");
 }
 
-void addSceneOptions(Options& table, ViewOptions& into) {
-    table.push_back({"--shadow", "SPEC", "shadow technique and its keys, see SPEC below", "none",
-                     [&into](Text t) { into.shadows.push_back(parseShadowSpec(t)); }, true});
-    table.push_back({"--receiver", "NODENAME", "node that receives shadows, if SPEC names none", "ground",
-                     [&into](Text t) { into.receiver = t; }});
-    table.push_back(
-        {"--casters", "all|none|NODENAME", "nodes that cast shadows", "all", [&into](Text t) { into.casters = t; }});
-    table.push_back(
-        {"--ground", "auto|none|SIZE",
-         "white square ground at the scene's lowest point, if no node is named ground; SIZE is its side in\n"
-         "      the scene's unit, auto is 4 times the scene's radius",
-         "auto", [&into](Text t) { into.ground = readGround(t); }});
+void addUpOption(Options& table, ViewOptions& into) {
     table.push_back({"--up", "y|z", "up axis of the files; y turns them by 90 degrees about x, so that z is up", "z",
                      [&into](Text t) { into.yUp = readUp(t); }});
-}
-
-void addLightOptions(Options& table, ViewOptions& into) {
-    table.push_back({"--light", "x,y,z,w",
-                     "light; w = 0: direction towards a sun; w = 1: position of a lamp, scene's unit",
-                     "the scene's lights, else a sun at azimuth 135, elevation 45 degrees; azimuth from north = +y "
-                     "through east = +x",
-                     [&into](Text t) { into.lights.push_back(readLight(t)); }, true});
-    table.push_back({"--sun", "MOMENT,LAT,LON",
-                     "sun as a light: UTC as 2026-06-21T15:00:00Z, degrees north and east; x is east, y north, z up",
-                     "none", [&into](Text t) { shine(into, readSun(t)); }});
-    table.push_back({"--ambient", "A", "ambient light of the scene, 0 to 10; sets the lights' own ambient part to 0",
-                     "0.2, OSG's", [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
-    table.push_back({"--diffuse", "D", "diffuse part of each light, 0 to 10", "0.8, OSG's",
-                     [&into](Text t) { into.diffuse = readNumber(t, 0.0, 10.0); }});
 }
 
 void addCameraOptions(Options& table, ViewOptions& into) {
@@ -144,6 +118,35 @@ void requireDepthRange(const ViewOptions& o) {
 
 } // namespace
 
+void addShadowOptions(Options& table, ViewOptions& into) {
+    table.push_back({"--shadow", "SPEC", "shadow technique and its keys, see SPEC below", "none",
+                     [&into](Text t) { into.shadows.push_back(parseShadowSpec(t)); }, true});
+    table.push_back({"--receiver", "NODENAME", "node that receives shadows, if SPEC names none", "ground",
+                     [&into](Text t) { into.receiver = t; }});
+    table.push_back(
+        {"--casters", "all|none|NODENAME", "nodes that cast shadows", "all", [&into](Text t) { into.casters = t; }});
+    table.push_back(
+        {"--ground", "auto|none|SIZE",
+         "white square ground at the scene's lowest point, if no node is named ground; SIZE is its side in\n"
+         "      the scene's unit, auto is 4 times the scene's radius",
+         into.ground, [&into](Text t) { into.ground = readGround(t); }});
+}
+
+void addLightOptions(Options& table, ViewOptions& into) {
+    table.push_back({"--light", "x,y,z,w",
+                     "light; w = 0: direction towards a sun; w = 1: position of a lamp, scene's unit",
+                     "the scene's lights, else a sun at azimuth 135, elevation 45 degrees; azimuth from north = +y "
+                     "through east = +x",
+                     [&into](Text t) { into.lights.push_back(readLight(t)); }, true});
+    table.push_back({"--sun", "MOMENT,LAT,LON",
+                     "sun as a light: UTC as 2026-06-21T15:00:00Z, degrees north and east; x is east, y north, z up",
+                     "none", [&into](Text t) { shine(into, readSun(t)); }});
+    table.push_back({"--ambient", "A", "ambient light of the scene, 0 to 10; sets the lights' own ambient part to 0",
+                     "0.2, OSG's", [&into](Text t) { into.ambient = readNumber(t, 0.0, 10.0); }});
+    table.push_back({"--diffuse", "D", "diffuse part of each light, 0 to 10", "0.8, OSG's",
+                     [&into](Text t) { into.diffuse = readNumber(t, 0.0, 10.0); }});
+}
+
 void addSize(Options& table, ViewOptions& into) {
     table.push_back({"--size", "WxH", "size of the picture, 1x1 to 16384x16384 pixels",
                      std::to_string(into.width) + "x" + std::to_string(into.height),
@@ -152,7 +155,8 @@ void addSize(Options& table, ViewOptions& into) {
 
 Options viewOptions(ViewOptions& into) {
     Options table;
-    addSceneOptions(table, into);
+    addShadowOptions(table, into);
+    addUpOption(table, into);
     addLightOptions(table, into);
     addCameraOptions(table, into);
     return table;

@@ -32,6 +32,7 @@ struct ViewOptions {
     std::string casters = "all"; ///< all, none, or a node's name.
     std::string ground = "auto"; ///< auto, none, or the side's length.
     bool yUp = false;
+    bool keepLights = false; ///< no sun where there is no light, and lighting as the scene has it.
     std::optional<osg::Vec3d> eye;
     std::optional<osg::Vec3d> center;
     std::optional<osg::Vec3d> viewUp;
@@ -46,6 +47,10 @@ struct ViewOptions {
 
 /// The options of `into`, as a table.
 Options viewOptions(ViewOptions& into);
+
+/// Those of shadows, and those of lights, alone.
+void addShadowOptions(Options& table, ViewOptions& into);
+void addLightOptions(Options& table, ViewOptions& into);
 
 /// Adds the option of the picture's size.
 void addSize(Options& table, ViewOptions& into);

@@ -5,7 +5,7 @@
 
 namespace gnomon::examples {
 
-/// gnomonviewer's own keys.
+/// The keys of Gnomon's own, of gnomonviewer and gnomonrun.
 const std::vector<Key<ShadowControls>>& shadowKeys();
 
 } // namespace gnomon::examples

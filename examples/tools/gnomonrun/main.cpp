@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// gnomonrun: a program that somebody else built, with shadows.
+#include "OutputFile.h"
+#include "RunOptions.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+
+using namespace gnomon::examples;
+
+using Words = std::vector<std::string>;
+
+constexpr int notStarted = 127; // as a shell has it
+
+/// A file that the program's library writes to; gone with this.
+class ReportFile {
+public:
+    ReportFile() {
+        char name[] = "/tmp/gnomonrun.XXXXXX";
+        const int file = mkstemp(name);
+        if (file < 0) throw std::runtime_error("no file can be made in /tmp. Make room there.");
+        close(file);
+        _name = name;
+    }
+    ~ReportFile() { unlink(_name.c_str()); }
+    ReportFile(const ReportFile&) = delete;
+    ReportFile& operator=(const ReportFile&) = delete;
+
+    const std::string& name() const { return _name; }
+    std::set<std::string> lines() const {
+        std::set<std::string> result;
+        std::ifstream in(_name);
+        for (std::string line; std::getline(in, line);) result.insert(line);
+        return result;
+    }
+
+private:
+    std::string _name;
+};
+
+void preload() {
+    const char* before = std::getenv("LD_PRELOAD");
+    const std::string library = GNOMON_PRELOAD;
+    setenv("LD_PRELOAD", (before && *before ? library + ":" + before : library).c_str(), 1);
+}
+
+[[noreturn]] void become(const Words& command) {
+    std::vector<char*> words;
+    for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str())); // exec changes nothing
+    words.push_back(nullptr);
+    execvp(words.front(), words.data());
+    std::cerr << "gnomonrun: " << command.front() << " cannot be started: " << std::strerror(errno) << "." << std::endl;
+    _exit(notStarted);
+}
+
+/// @return its exit status; 128 + signal if one ended it.
+int runProgram(const Words& command, const Words& options, const ReportFile& report) {
+    const pid_t id = fork();
+    if (id < 0) throw std::runtime_error(std::string("no process can be started: ") + std::strerror(errno) + ".");
+    if (id == 0) {
+        setenv(optionsVariable, joined(options).c_str(), 1);
+        setenv(reportVariable, report.name().c_str(), 1);
+        preload();
+        become(command);
+    }
+    std::signal(SIGINT, SIG_IGN); // it is the program's
+    int status = 0;
+    while (waitpid(id, &status, 0) < 0 && errno == EINTR) {
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Why no shadow can have been seen; empty if frames were drawn.
+std::string whyUnreached(const std::string& program, const std::set<std::string>& met) {
+    if (met.count(metFrame) && met.count(metScene)) return "";
+    if (!met.count(metProgram))
+        return program + " cannot be reached: it is linked statically, or runs with the rights of another user.";
+    if (!met.count(metScene))
+        return program + " gave no scene to osgViewer::View::setSceneData(), so there was nothing to shadow.";
+    return program + " ended before it drew a frame.";
+}
+
+int run(const Words& options, const Words& command) {
+    const ReportFile report;
+    const int status = runProgram(command, options, report);
+    const std::string cause = status == notStarted ? "" : whyUnreached(command.front(), report.lines());
+    if (!cause.empty()) std::cerr << "gnomonrun: " << cause << std::endl;
+    return status == 0 && !cause.empty() ? 1 : status;
+}
+
+int start(const Words& words) {
+    const auto border = std::find(words.begin(), words.end(), "--");
+    const Words options(words.begin(), border);
+    const Words command(border == words.end() ? border : border + 1, words.end());
+    const RunOptions read = readRunOptions(options);
+    if (read.help) {
+        std::cout << runHelp();
+        return 0;
+    }
+    if (command.empty())
+        throw std::invalid_argument("no program is given. Write gnomonrun OPTION... -- PROGRAM ARGUMENT...");
+    if (!read.out.empty()) OutputFile(read.out).requireImage();
+    return run(options, command);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return start(Words(argv, argv + argc));
+    } catch (const std::exception& error) {
+        std::cerr << "gnomonrun: " << error.what() << std::endl;
+        return 1;
+    }
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Stands before osgViewer in a program that gnomonrun started: these two functions are called in the place of osgViewer's of
+// the same name, and call them in turn.
+#include "ProgramRun.h"
+
+#include <osgViewer/View>
+#include <osgViewer/ViewerBase>
+
+#include <dlfcn.h>
+
+using gnomon::examples::ProgramRun;
+
+namespace {
+
+/// The same function in the next library. @param name  as compilers write it for the linker.
+template <typename Function>
+Function next(const char* name) {
+    return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+/// Says that the library is in, whatever the program then does.
+const bool isIn = [] {
+    ProgramRun::ofProcess();
+    return true;
+}();
+
+} // namespace
+
+void osgViewer::View::setSceneData(osg::Node* node) {
+    static const auto osgs =
+        next<void (*)(osgViewer::View*, osg::Node*)>("_ZN9osgViewer4View12setSceneDataEPN3osg4NodeE");
+    ProgramRun* run = ProgramRun::ofProcess();
+    osgs(this, run ? run->shadowed(node) : node);
+}
+
+void osgViewer::ViewerBase::renderingTraversals() {
+    static const auto osgs = next<void (*)(osgViewer::ViewerBase*)>("_ZN9osgViewer10ViewerBase19renderingTraversalsEv");
+    ProgramRun* run = ProgramRun::ofProcess();
+    if (run) run->beforeFrame(*this);
+    osgs(this);
+    if (run) run->afterFrame(*this);
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// A box on a ground, lit by a sun, seen straight from above: 0.025 of the scene's unit a pixel.
+#include <osg/Geode>
+#include <osg/LightSource>
+#include <osg/ShapeDrawable>
+#include <osgViewer/Viewer>
+
+int main() {
+    osg::ref_ptr<osg::Geode> boxes = new osg::Geode;
+    boxes->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, -0.5f), 20, 20, 1)));
+    boxes->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, 0.5f), 1, 1, 1)));
+    osg::ref_ptr<osg::LightSource> sun = new osg::LightSource;
+    sun->getLight()->setPosition(osg::Vec4(2, -1, 2, 0));
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(sun);
+    root->addChild(boxes);
+    osgViewer::Viewer viewer;
+    viewer.setLightingMode(osg::View::NO_LIGHT);
+    viewer.setUpViewInWindow(0, 0, 320, 240);
+    viewer.getCamera()->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+    viewer.getCamera()->setProjectionMatrixAsOrtho(-4, 4, -3, 3, 1, 20);
+    viewer.getCamera()->setViewMatrixAsLookAt(osg::Vec3d(0, 0, 10), osg::Vec3d(), osg::Vec3d(0, 1, 0));
+    root->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
+    root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
+    viewer.setSceneData(root);
+    while (!viewer.done()) viewer.frame();
+    return 0;
+}
