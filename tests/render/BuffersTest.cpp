@@ -4,6 +4,8 @@
 #include "IntoTexture.h"
 #include "TwoGrounds.h"
 
+#include <osg/ClearNode>
+#include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/Stencil>
 
@@ -198,6 +200,34 @@ TEST_P(Buffers, StencilClearedToAnotherValue) {
     trial.set(camera);
     const Frames actual = frames(camera), lit = unshadowed(GetParam(), trial, false),
                  dark = unshadowed(GetParam(), trial, true);
+    EXPECT_TRUE(judge(actual.first, lit.first, dark.first, GetParam().mask()));
+    EXPECT_TRUE(judge(actual.third, lit.third, dark.third, GetParam().mask()));
+}
+
+// It sets the stage's clear mask anew during the cull, after the group; what a later bin leaves in the stencil buffer stays
+// for the next frame.
+TEST_P(Buffers, ClearNodeAfterTheGroup) {
+    Trial trial;
+    trial.change = [](Scene& scene) {
+        const osg::ref_ptr<osg::ClearNode> clear = new osg::ClearNode;
+        clear->setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
+        scene.root->addChild(clear);
+        const osg::ref_ptr<osg::Geode> marks = node(square(6.0, 0.01));
+        osg::StateSet* set = marks->getOrCreateStateSet();
+        osg::ref_ptr<osg::Stencil> ones = new osg::Stencil;
+        ones->setFunction(osg::Stencil::ALWAYS, 0xff, ~0u);
+        ones->setOperation(osg::Stencil::KEEP, osg::Stencil::KEEP, osg::Stencil::REPLACE);
+        set->setAttributeAndModes(ones);
+        set->setAttributeAndModes(new osg::ColorMask(false, false, false, false));
+        set->setRenderBinDetails(12, "RenderBin");
+        scene.root->addChild(marks);
+    };
+    const Frames lit = unshadowed(GetParam(), trial, false), dark = unshadowed(GetParam(), trial, true);
+    Scene scene = GetParam().build();
+    GetParam().addShadow(scene);
+    trial.change(scene); // after the group
+    Camera camera(scene.root, GetParam().view);
+    const Frames actual = frames(camera);
     EXPECT_TRUE(judge(actual.first, lit.first, dark.first, GetParam().mask()));
     EXPECT_TRUE(judge(actual.third, lit.third, dark.third, GetParam().mask()));
 }

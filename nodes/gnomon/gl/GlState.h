@@ -27,6 +27,22 @@ private:
     osg::ref_ptr<osg::StateSet> _set;
 };
 
+/// Pixels to which OpenGL confines whatever is drawn, by a stencil test that osg::State knows nothing of: those of one eye
+/// in OSG's interlaced stereo, which has 0 in the stencil buffer for the left eye's and 1 for the right eye's.
+struct StencilPattern {
+    unsigned bit = 0;   ///< that holds it; 0 if there is none.
+    unsigned value = 0; ///< of that bit, in those pixels.
+
+    /// The one that stands now. Call where no state set is on the stack.
+    static StencilPattern read(osg::State& state);
+    /// Puts the test back as OSG has it.
+    void restore(osg::State& state) const;
+
+    /// As glStencilFunc(), switched on, and in those pixels only. Where a test asks for NOTEQUAL or LEQUAL, what it asks
+    /// for has been written in those pixels only, so that it holds of itself.
+    void test(GLenum function, unsigned reference, unsigned mask) const;
+};
+
 /// Puts OpenGL's stencil, depth, blending, scissor and colour mask to their defaults and tells osg::State so.
 void leaveDefaults(osg::State& state);
 

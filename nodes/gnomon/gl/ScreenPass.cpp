@@ -25,14 +25,15 @@ Interval pixels(double low, double high, double start, double size) {
 } // namespace
 
 ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
-                       std::function<Channels()> written, unsigned counters)
-    : _state(state), _written(std::move(written)), _counters(counters) {
+                       std::function<Channels()> written, unsigned counters, const StencilPattern& pattern)
+    : _state(state), _written(std::move(written)), _counters(counters), _pattern(pattern) {
     const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
     const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
     glEnable(GL_SCISSOR_TEST);
     glScissor(x.first, y.first, x.count, y.count);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glDepthMask(GL_FALSE);
+    if (_pattern.bit) stencilEqual(0, 0, 0);
 }
 
 ScreenPass::~ScreenPass() { leaveDefaults(_state); }
@@ -44,21 +45,19 @@ void ScreenPass::clearStencil(unsigned bits) {
 }
 
 void ScreenPass::stencilEqual(unsigned reference, unsigned test, unsigned write) {
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(test ? GL_EQUAL : GL_ALWAYS, static_cast<GLint>(reference), test);
+    _pattern.test(test ? GL_EQUAL : GL_ALWAYS, reference, test);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glStencilMask(write);
 }
 
 void ScreenPass::stencilAny(unsigned test) {
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_NOTEQUAL, 0, test);
+    _pattern.test(GL_NOTEQUAL, 0, test);
     glStencilMask(0);
 }
 
 void ScreenPass::stencilAtLeast(unsigned least, unsigned test) {
     stencilAny(test);
-    glStencilFunc(GL_LEQUAL, static_cast<GLint>(least), test);
+    _pattern.test(GL_LEQUAL, least, test);
 }
 
 void ScreenPass::takeStencil(unsigned test, unsigned bits) {
@@ -72,8 +71,7 @@ void ScreenPass::countHolding(unsigned bits) {
     const bool single = (bits & (bits - 1)) == 0;
     const auto& gl = *_state.get<osg::GLExtensions>();
     testDepth(GL_LESS);
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_ALWAYS, 0, ~0u);
+    _pattern.test(GL_ALWAYS, 0, ~0u);
     gl.glStencilOpSeparate(GL_BACK, GL_KEEP, GLenum(single ? GL_INVERT : GL_INCR_WRAP), GL_KEEP);
     gl.glStencilOpSeparate(GL_FRONT, GL_KEEP, GLenum(single ? GL_INVERT : GL_DECR_WRAP), GL_KEEP);
     glStencilMask(bits);
@@ -81,8 +79,7 @@ void ScreenPass::countHolding(unsigned bits) {
 
 void ScreenPass::takeCount(unsigned bits, unsigned mark) {
     glDisable(GL_DEPTH_TEST);
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_NOTEQUAL, static_cast<GLint>(mark & ~bits), bits);
+    _pattern.test(GL_NOTEQUAL, mark & ~bits, bits);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glStencilMask(bits | mark);
     drawQuad();

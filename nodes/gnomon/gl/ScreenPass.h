@@ -22,8 +22,9 @@ class ScreenPass {
 public:
     /// @param written   asked when colours are written: to these channels only.
     /// @param counters  see counters().
+    /// @param pattern   nothing is written but in its pixels.
     ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
-               std::function<Channels()> written, unsigned counters);
+               std::function<Channels()> written, unsigned counters, const StencilPattern& pattern);
     ~ScreenPass();
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;
@@ -45,6 +46,8 @@ public:
     void countHolding(unsigned bits);
     /// Sets `mark` wherever any of `bits` is set, and those to 0.
     void takeCount(unsigned bits, unsigned mark);
+    /// True if the pixels beside one may be of another picture: the other eye's.
+    bool isInterlaced() const { return _pattern.bit != 0; }
     void writeFarDepth();
     void writeColor(const osg::Vec4& color);
     /// opacity · color + (1 - opacity) · what stands; alpha stays.
@@ -84,6 +87,7 @@ private:
     osg::State& _state;
     const std::function<Channels()> _written;
     const unsigned _counters;
+    const StencilPattern _pattern;
 };
 
 } // namespace gnomon

@@ -67,7 +67,8 @@ std::string MapLookupPass::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, c
     if (!copy.cause.empty()) return copy.cause;
     const std::string lack = penumbra ? map->updateBlocks(state, *resources->blocksProgram) : "";
     const bool wide = penumbra && lack.empty();
-    state.apply(resources->program(definesOf(pixels, wide)).get());
+    const std::string interlaced = pass.isInterlaced() ? "#define INTERLACED\n" : "";
+    state.apply(resources->program(definesOf(pixels, wide) + interlaced).get());
     if (!hasProgram(state)) return noProgram;
     map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
     setUniform(state, "maps", int(mapUnit));
