@@ -148,7 +148,7 @@ void MapLookupPass::setConstants(osg::State& state, const FrameDepthCopy::Copy& 
                                       {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1}};
     if (coneFromScene) addColumns(*coneFromScene * sceneFromPixel, 4, constants);
     for (std::size_t i = 0; i < lookUps.size(); ++i) addMap(i, sceneFromPixel, constants);
-    resources->seen.bind(state, seenUnit);
+    state.applyTextureAttribute(seenUnit, copy.texture);
     setUniform(state, "seen", int(seenUnit));
     setUniform(state, "constants", constants);
 }
