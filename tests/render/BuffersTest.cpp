@@ -143,6 +143,18 @@ TEST_P(Buffers, FourSamplesSmoothTheShadowsEdges) {
     EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
 }
 
+// The colours from before the frame, which a receiver that blends must find again, cannot be read there.
+TEST_P(Buffers, FourSamplesWhoseColorsAreNotClearedAndBlendedWithAreDarkenedAndSaidSo) {
+    const Target target{GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, 4};
+    Rtt shadowed(GetParam(), target, Shadowed);
+    shadowed.into->into->setClearMask(GL_DEPTH_BUFFER_BIT);
+    shadowed.into->into->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    shadowed.camera->frame();
+    ASSERT_FALSE(shadowed.technique->diagnose().empty());
+    EXPECT_NE(shadowed.technique->diagnose()[0].find("colours that the camera does not clear"), std::string::npos);
+    EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
+}
+
 // A quad in a higher bin that draws only where all stencil bits are zero.
 TEST_P(Buffers, StencilOfALaterBinFindsZeros) {
     Trial trial;

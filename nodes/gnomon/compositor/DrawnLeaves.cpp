@@ -222,6 +222,10 @@ bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode 
     return false;
 }
 
+bool readsBack(const std::vector<DrawnLeaf>& leaves) {
+    return isModeOn(leaves, GL_BLEND) || isModeOn(leaves, GL_COLOR_LOGIC_OP);
+}
+
 Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
     Channels written;
     std::set<const osgUtil::StateGraph*> seen;

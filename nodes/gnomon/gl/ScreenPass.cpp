@@ -92,9 +92,13 @@ void ScreenPass::writeFarDepth() {
     drawQuad(1.0);
 }
 
-void ScreenPass::writeColor(const osg::Vec4& color) {
+void ScreenPass::beginReplace() {
     glDisable(GL_BLEND);
     openChannels(GL_TRUE);
+}
+
+void ScreenPass::writeColor(const osg::Vec4& color) {
+    beginReplace();
     drawColor(color);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }

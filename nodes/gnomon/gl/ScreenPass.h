@@ -50,6 +50,8 @@ public:
     bool isInterlaced() const { return _pattern.bit != 0; }
     void writeFarDepth();
     void writeColor(const osg::Vec4& color);
+    /// What is drawn next replaces what stands; ends with endMix().
+    void beginReplace();
     /// opacity · color + (1 - opacity) · what stands; alpha stays.
     void blendColor(const osg::Vec3& color, float opacity);
     /// What is drawn next is blended in by its own alpha; that of the frame stays.

@@ -142,6 +142,9 @@ void ShadowBin::sortImplementation() {
     PrepassBin::show(_jobs, *getStage());
     for (const osg::ref_ptr<ViewEffect>& effect : _effects) effect->prepare(*getStage(), leaves);
     if (!isIdle()) clearWithStage();
+    const bool relights = std::any_of(_jobs.begin(), _jobs.end(), [](const auto& job) { return job.relight; });
+    if (relights && !(getStage()->getClearMask() & GL_COLOR_BUFFER_BIT) && readsBack(leaves))
+        PrepassBin::saveColors(*getStage());
     sortAsAsked();
     osgUtil::RenderBin::sortImplementation();
 }
