@@ -17,6 +17,23 @@ CleanState::CleanState(osg::State& state, osg::Viewport* viewport) : _state(stat
 
 CleanState::~CleanState() { _state.popStateSet(); }
 
+FirstColorBuffer::FirstColorBuffer(const osg::State& state) : _state(state) {
+    constexpr GLenum maxDrawBuffers = 0x8824, drawBuffer = 0x8825; // GL_MAX_DRAW_BUFFERS, GL_DRAW_BUFFER0
+    GLint most = 1;
+    glGetIntegerv(maxDrawBuffers, &most);
+    for (GLint i = most; i-- > 0;) {
+        GLint buffer = GL_NONE;
+        glGetIntegerv(drawBuffer + static_cast<GLenum>(i), &buffer);
+        if (_all.empty() && (i == 0 || buffer == GL_NONE)) continue;
+        _all.insert(_all.begin(), static_cast<GLenum>(buffer));
+    }
+    if (!_all.empty()) _state.get<osg::GLExtensions>()->glDrawBuffers(1, _all.data());
+}
+
+FirstColorBuffer::~FirstColorBuffer() {
+    if (!_all.empty()) _state.get<osg::GLExtensions>()->glDrawBuffers(static_cast<GLsizei>(_all.size()), _all.data());
+}
+
 StencilPattern StencilPattern::read(osg::State& state) {
     state.apply(); // what is on now is on in spite of osg::State
     if (!glIsEnabled(GL_STENCIL_TEST)) return {};

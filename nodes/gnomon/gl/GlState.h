@@ -43,6 +43,19 @@ struct StencilPattern {
     void test(GLenum function, unsigned reference, unsigned mask) const;
 };
 
+/// While it lives, of several colour buffers only the first is drawn to: normals, IDs and the like in the others stay.
+class FirstColorBuffer {
+public:
+    explicit FirstColorBuffer(const osg::State& state);
+    ~FirstColorBuffer();
+    FirstColorBuffer(const FirstColorBuffer&) = delete;
+    FirstColorBuffer& operator=(const FirstColorBuffer&) = delete;
+
+private:
+    const osg::State& _state;
+    std::vector<GLenum> _all; ///< empty if there are not several.
+};
+
 /// Puts OpenGL's stencil, depth, blending, scissor and colour mask to their defaults and tells osg::State so.
 void leaveDefaults(osg::State& state);
 

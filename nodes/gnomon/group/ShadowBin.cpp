@@ -193,7 +193,10 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
         std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), getBinNum());
         const bool clean = isStencilClean(leaves);
         const CompositorStage draw(renderInfo, *getStage(), std::move(leaves), _options, clean, ownBits(_jobs));
-        Compositor(draw).compose(_jobs, _effects);
+        {
+            const FirstColorBuffer colors(draw.state);
+            Compositor(draw).compose(_jobs, _effects);
+        }
         draw.pattern.restore(draw.state);
         draw.state.decrementDynamicObjectCount();
     }

@@ -40,6 +40,7 @@ struct EnlistedTechnique {
 ///         edges what blends or writes no depth takes the factor. diagnose() says so.
 ///         Under soft edges opaque layers at the very same depth are mixed one after the other. A leaf that sets no
 ///         colour of its own and takes that of the leaf before it may take another. Reversed depth is refused.
+///         Of several colour attachments the first alone is shadowed; the others stay as the leaves have drawn them.
 ///         What is in bin 8 is drawn after the shadows: transparent things and whatever shall not receive belong there
 ///         or higher.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
