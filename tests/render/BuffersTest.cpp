@@ -155,6 +155,28 @@ TEST_P(Buffers, FourSamplesWhoseColorsAreNotClearedAndBlendedWithAreDarkenedAndS
     EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
 }
 
+// The window shows what is decoded: light, of which the factor is one, whichever way the shadow is composed.
+TEST_P(Buffers, EncodedColorsAreMultipliedAsLight) {
+    constexpr GLenum encoded = 0x8C43, encodes = 0x8DB9; // GL_SRGB8_ALPHA8, GL_FRAMEBUFFER_SRGB
+    Rtt lit(GetParam(), {encoded}, Lit), shadowed(GetParam(), {encoded}, Shadowed);
+    for (Rtt* each : {&lit, &shadowed})
+        each->into->into->getOrCreateStateSet()->setMode(encodes, osg::StateAttribute::ON);
+    auto& group = dynamic_cast<gnomon::ShadowCasterGroup&>(*shadowed.technique->getParent(0));
+    group.setComposite(gnomon::ShadowCasterGroup::BLEND);
+    group.setDark(0.5f);
+    const Picture is = frames(*shadowed.camera).third, was = frames(*lit.camera).third;
+    const Mask mask = GetParam().mask();
+    int wrong = 0;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x)
+            for (int shift = 0; shift < 24 && !mask.atEdge(x, y); shift += 8) {
+                const int one = (is.at(x, y) >> shift) & 0xff, whole = (was.at(x, y) >> shift) & 0xff;
+                wrong += std::abs((mask.at(x, y) == Seen::ShadowedReceiver ? 2 : 1) * one - whole) > 4;
+            }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
+}
+
 // A quad in a higher bin that draws only where all stencil bits are zero.
 TEST_P(Buffers, StencilOfALaterBinFindsZeros) {
     Trial trial;

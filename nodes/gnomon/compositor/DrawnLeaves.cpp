@@ -236,6 +236,7 @@ Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
         written.green = written.green || !mask || mask->getGreenMask();
         written.blue = written.blue || !mask || mask->getBlueMask();
     }
+    written.encoded = isModeOn(leaves, framebufferSrgb);
     return written;
 }
 

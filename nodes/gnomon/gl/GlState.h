@@ -10,7 +10,8 @@
 
 namespace gnomon {
 
-constexpr GLenum depthClamp = 0x864F; ///< GL_DEPTH_CLAMP: in OpenGL 3.2, not in OSG's headers of 3.6.
+constexpr GLenum framebufferSrgb = 0x8DB9; ///< GL_FRAMEBUFFER_SRGB.
+constexpr GLenum depthClamp = 0x864F;      ///< GL_DEPTH_CLAMP: in OpenGL 3.2, not in OSG's headers of 3.6.
 
 /// OpenGL as OSG leaves it after an empty scene, with the depth test off: no program, texture, blending or culling, and
 /// the stage's viewport. Holds from construction to destruction; state sets that lay on the stack must have been popped

@@ -36,7 +36,10 @@ ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const S
     if (_pattern.bit) stencilEqual(0, 0, 0);
 }
 
-ScreenPass::~ScreenPass() { leaveDefaults(_state); }
+ScreenPass::~ScreenPass() {
+    leaveDefaults(_state);
+    if (_encodes) glDisable(framebufferSrgb); // osg::State, which knows it off, need not be told
+}
 
 void ScreenPass::clearStencil(unsigned bits) {
     glStencilMask(bits);
@@ -121,13 +124,13 @@ void ScreenPass::multiplyColor(float factor) {
 }
 
 void ScreenPass::beginMultiply(float factor) {
-    openChannels(GL_FALSE);
+    openToMultiply();
     addBlended(_state, GL_ZERO, GL_CONSTANT_COLOR);
     _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
 }
 
 void ScreenPass::beginMultiplyByColor() {
-    openChannels(GL_FALSE);
+    openToMultiply();
     addBlended(_state, GL_ZERO, GL_SRC_COLOR);
 }
 
@@ -163,7 +166,7 @@ void ScreenPass::multiplyAlpha() {
 
 void ScreenPass::multiplyColorByAlpha() {
     addBlended(_state, GL_ZERO, GL_DST_ALPHA);
-    openChannels(GL_FALSE);
+    openToMultiply();
     drawQuad();
 }
 
@@ -171,6 +174,13 @@ void ScreenPass::multiplyColorByAlpha() {
 void ScreenPass::openChannels(GLboolean alpha) const {
     const Channels channels = _written();
     glColorMask(channels.red, channels.green, channels.blue, alpha);
+}
+
+/// A factor is one of light: where the leaves' colours are encoded, what stands is decoded first.
+void ScreenPass::openToMultiply() {
+    openChannels(GL_FALSE);
+    _encodes = _encodes || _written().encoded;
+    if (_encodes) glEnable(framebufferSrgb);
 }
 
 void ScreenPass::drawColor(const osg::Vec4& color) {

@@ -14,6 +14,7 @@ namespace gnomon {
 /// Colour channels.
 struct Channels {
     bool red = false, green = false, blue = false;
+    bool encoded = false; ///< written as sRGB: what is blended is linear.
 };
 
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
@@ -84,12 +85,14 @@ public:
 
 private:
     void openChannels(GLboolean alpha) const;
+    void openToMultiply();
     void drawColor(const osg::Vec4& color);
 
     osg::State& _state;
     const std::function<Channels()> _written;
     const unsigned _counters;
     const StencilPattern _pattern;
+    bool _encodes = false;
 };
 
 } // namespace gnomon
