@@ -44,6 +44,8 @@ class CasterFingerprint;
 /// - RELIGHT falls back to BLEND if an opaque drawable has a stencil test of its own.
 /// - Reversed depth is refused.
 /// - A technique's diagnose() reports each of the four cases above.
+/// - RELIGHT, and a named receiver, draw drawables again. Their draw callbacks then run more than once a frame.
+/// - Only the first of several colour attachments receives shadows. The others stay as they are.
 /// - Transparent drawables receive no shadow, nor does anything in render bin 8 or higher.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast.

@@ -13,6 +13,14 @@ const float kernel = 0.75;
 // wanted: pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0; colour of a pixel that
 //         nothing reaches; 1, if other pixels are between that and white. All others get an alpha of 1.
 
+// INTERLACED: every other pixel along one axis, or both, is of another picture and has nothing to say here.
+#ifdef INTERLACED
+#define ODD
+const int reach = 2; // to the next pixel
+#else
+const int reach = 1;
+#endif
+
 #if defined(ODD) || !defined(HALVES)
 // From `here` to its neighbour in a direction, or, of that nothing is known, to the one on the other side.
 ivec2 known(ivec2 here, ivec2 step) {
@@ -23,13 +31,13 @@ ivec2 known(ivec2 here, ivec2 step) {
 
 float changeTo(ivec2 to, float e, ivec2 here) {
     ivec2 way = to - here;
-    return (1.0 - seenDepth(to) - e) * float(way.x + way.y);
+    return (1.0 - seenDepth(to) - e) / float(way.x + way.y);
 }
 
 // Change of e a pixel along an axis, to the other pixel of the quad or, `beyond`, to that on its other side.
 float changeIn(float e, ivec2 here, ivec2 axis, bool beyond) {
-    ivec2 at = here * axis;
-    return changeTo(known(here, (((at.x + at.y) & 1) == 0) != beyond ? axis : -axis), e, here);
+    ivec2 at = here * axis, way = reach * axis;
+    return changeTo(known(here, (((at.x + at.y) & 1) == 0) != beyond ? way : -way), e, here);
 }
 
 float smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
@@ -131,7 +139,12 @@ float texelsAcross(vec2 change) {
 // it wider than a pixel it is made as wide.
 float ofPixel(float arrives) {
     const float least = 1.0 / 64.0; // of a pixel that is no texels wide, too
-    float width = clamp(texelsAcross(vec2(dFdx(arrives), dFdy(arrives))) / fewest, least, 1.0);
+#ifdef INTERLACED
+    vec2 change = vec2(0.0);
+#else
+    vec2 change = vec2(dFdx(arrives), dFdy(arrives));
+#endif
+    float width = clamp(texelsAcross(change) / fewest, least, 1.0);
     return clamp(0.5 + (arrives - 0.5) / width, 0.0, 1.0);
 }
 #endif

@@ -4,6 +4,8 @@
 #include "IntoTexture.h"
 #include "TwoGrounds.h"
 
+#include <osg/ClearNode>
+#include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/Stencil>
 
@@ -141,6 +143,40 @@ TEST_P(Buffers, FourSamplesSmoothTheShadowsEdges) {
     EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
 }
 
+// The colours from before the frame, which a receiver that blends must find again, cannot be read there.
+TEST_P(Buffers, FourSamplesWhoseColorsAreNotClearedAndBlendedWithAreDarkenedAndSaidSo) {
+    const Target target{GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, 4};
+    Rtt shadowed(GetParam(), target, Shadowed);
+    shadowed.into->into->setClearMask(GL_DEPTH_BUFFER_BIT);
+    shadowed.into->into->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    shadowed.camera->frame();
+    ASSERT_FALSE(shadowed.technique->diagnose().empty());
+    EXPECT_NE(shadowed.technique->diagnose()[0].find("colours that the camera does not clear"), std::string::npos);
+    EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
+}
+
+// The window shows what is decoded: light, of which the factor is one, whichever way the shadow is composed.
+TEST_P(Buffers, EncodedColorsAreMultipliedAsLight) {
+    constexpr GLenum encoded = 0x8C43, encodes = 0x8DB9; // GL_SRGB8_ALPHA8, GL_FRAMEBUFFER_SRGB
+    Rtt lit(GetParam(), {encoded}, Lit), shadowed(GetParam(), {encoded}, Shadowed);
+    for (Rtt* each : {&lit, &shadowed})
+        each->into->into->getOrCreateStateSet()->setMode(encodes, osg::StateAttribute::ON);
+    auto& group = dynamic_cast<gnomon::ShadowCasterGroup&>(*shadowed.technique->getParent(0));
+    group.setComposite(gnomon::ShadowCasterGroup::BLEND);
+    group.setDark(0.5f);
+    const Picture is = frames(*shadowed.camera).third, was = frames(*lit.camera).third;
+    const Mask mask = GetParam().mask();
+    int wrong = 0;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x)
+            for (int shift = 0; shift < 24 && !mask.atEdge(x, y); shift += 8) {
+                const int one = (is.at(x, y) >> shift) & 0xff, whole = (was.at(x, y) >> shift) & 0xff;
+                wrong += std::abs((mask.at(x, y) == Seen::ShadowedReceiver ? 2 : 1) * one - whole) > 4;
+            }
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
+}
+
 // A quad in a higher bin that draws only where all stencil bits are zero.
 TEST_P(Buffers, StencilOfALaterBinFindsZeros) {
     Trial trial;
@@ -198,6 +234,34 @@ TEST_P(Buffers, StencilClearedToAnotherValue) {
     trial.set(camera);
     const Frames actual = frames(camera), lit = unshadowed(GetParam(), trial, false),
                  dark = unshadowed(GetParam(), trial, true);
+    EXPECT_TRUE(judge(actual.first, lit.first, dark.first, GetParam().mask()));
+    EXPECT_TRUE(judge(actual.third, lit.third, dark.third, GetParam().mask()));
+}
+
+// It sets the stage's clear mask anew during the cull, after the group; what a later bin leaves in the stencil buffer stays
+// for the next frame.
+TEST_P(Buffers, ClearNodeAfterTheGroup) {
+    Trial trial;
+    trial.change = [](Scene& scene) {
+        const osg::ref_ptr<osg::ClearNode> clear = new osg::ClearNode;
+        clear->setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
+        scene.root->addChild(clear);
+        const osg::ref_ptr<osg::Geode> marks = node(square(6.0, 0.01));
+        osg::StateSet* set = marks->getOrCreateStateSet();
+        osg::ref_ptr<osg::Stencil> ones = new osg::Stencil;
+        ones->setFunction(osg::Stencil::ALWAYS, 0xff, ~0u);
+        ones->setOperation(osg::Stencil::KEEP, osg::Stencil::KEEP, osg::Stencil::REPLACE);
+        set->setAttributeAndModes(ones);
+        set->setAttributeAndModes(new osg::ColorMask(false, false, false, false));
+        set->setRenderBinDetails(12, "RenderBin");
+        scene.root->addChild(marks);
+    };
+    const Frames lit = unshadowed(GetParam(), trial, false), dark = unshadowed(GetParam(), trial, true);
+    Scene scene = GetParam().build();
+    GetParam().addShadow(scene);
+    trial.change(scene); // after the group
+    Camera camera(scene.root, GetParam().view);
+    const Frames actual = frames(camera);
     EXPECT_TRUE(judge(actual.first, lit.first, dark.first, GetParam().mask()));
     EXPECT_TRUE(judge(actual.third, lit.third, dark.third, GetParam().mask()));
 }

@@ -4,7 +4,9 @@
 #include "GlSnapshot.h"
 #include "TwoGrounds.h"
 
+#include <osg/BlendFunc>
 #include <osg/CullFace>
+#include <osg/Material>
 #include <osg/PolygonMode>
 #include <osg/Program>
 #include <osg/Scissor>
@@ -63,6 +65,21 @@ void grid(Scene& scene) {
     osg::Group* grounds = find(*scene.root, "grounds")->asGroup();
     grounds->replaceChild(find(*scene.root, "left"), node(joined(tiles), "left"));
 }
+
+/// Stripes, before anything is drawn.
+class Backdrop : public osg::Camera::DrawCallback {
+public:
+    void operator()(osg::RenderInfo& renderInfo) const override {
+        glEnable(GL_SCISSOR_TEST);
+        for (int i = 0; i < 30; ++i) {
+            glScissor(10 * i, 0, 10, 1000);
+            glClearColor(i % 2 ? 0.9f : 0.1f, 0.05f * static_cast<float>(i % 20), 0.3f, 1.0f);
+            glClear(GL_COLOR_BUFFER_BIT);
+        }
+        glDisable(GL_SCISSOR_TEST);
+        renderInfo.getState()->haveAppliedMode(GL_SCISSOR_TEST, osg::StateAttribute::OFF);
+    }
+};
 
 /// Half of the colour, rounded either way.
 bool isHalf(std::uint32_t actual, std::uint32_t whole) {
@@ -168,6 +185,24 @@ TEST_P(CameraState, Wireframe) {
 TEST_P(CameraState, ClearsDepthAlone) {
     Trial trial;
     trial.set = [](Camera& viewer) { cameraOf(viewer).setClearMask(GL_DEPTH_BUFFER_BIT); };
+    EXPECT_TRUE(isExact(GetParam(), trial));
+}
+
+// As the nearer of the cameras that a scene is drawn by when its depth is partitioned; what stands there is no single colour.
+TEST_P(CameraState, ClearsNoColorUnderReceiversThatBlend) {
+    Trial trial;
+    trial.set = [](Camera& viewer) {
+        cameraOf(viewer).setClearMask(GL_DEPTH_BUFFER_BIT);
+        cameraOf(viewer).setPreDrawCallback(new Backdrop);
+    };
+    trial.change = [](Scene& scene) {
+        osg::StateSet* set = find(*scene.root, "grounds")->getOrCreateStateSet();
+        set->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
+        const osg::ref_ptr<osg::Material> half = new osg::Material;
+        half->setAmbient(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, 0.5f});
+        half->setDiffuse(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, 0.5f});
+        set->setAttribute(half);
+    };
     EXPECT_TRUE(isExact(GetParam(), trial));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/Compositor.h>
+#include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/SoftCompositor.h>
 
 #include <algorithm>
@@ -86,7 +87,14 @@ void Compositor::relightAny(const Jobs& jobs, std::map<float, Jobs>& blended) {
     const bool soft = areSoft(jobs);
     if (!soft && composeDirectly(jobs)) return;
     if (isModeOn(_draw.leaves, GL_STENCIL_TEST))
-        blendInstead(jobs, blended);
+        blendInstead(jobs, blended,
+                     "an opaque object in this view has a stencil test of its own, so the shadow blends "
+                     "instead of relighting. Draw that object in a bin above 8, or set BLEND.");
+    else if (!soft && !isBackgroundKnown() && readsBack(_draw.leaves))
+        blendInstead(jobs, blended,
+                     "an opaque object in this view blends over colours that the camera does not clear, in a "
+                     "multisampled framebuffer object, so the shadow blends instead of relighting. Draw that object in "
+                     "a bin above 8, or set BLEND.");
     else if (soft)
         SoftCompositor(_draw).relight(jobs);
     else
@@ -106,13 +114,12 @@ bool Compositor::areSoft(const Jobs& jobs) const {
     return soft && _draw.hasAlpha;
 }
 
-/// A leaf with a stencil test of its own cannot be drawn again under ours.
-void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended) {
+/// A leaf with a stencil test of its own cannot be drawn again under ours, nor can one that blends with what is not known.
+void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, const std::string& cause) {
     for (const ShadowJob* job : jobs) {
         if (job->marks->relightsOnly()) continue;
         if (job->dark < 1.0f) blended[job->dark].push_back(job);
-        job->report("an opaque object in this view has a stencil test of its own, so the shadow blends "
-                    "instead of relighting. Draw that object in a bin above 8, or set BLEND.");
+        job->report(cause);
     }
 }
 
@@ -253,13 +260,26 @@ void Compositor::mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) co
     }
 }
 
+void Compositor::writeBackground(ScreenPass& screen) const {
+    if (FrameColorCopy* saved = PrepassBin::savedColors(_draw.stage)) {
+        screen.beginReplace();
+        saved->draw(_draw.state);
+        screen.endMix();
+    } else
+        screen.writeColor(_draw.stage.getClearColor());
+}
+
+/// Interlaced stereo clears colours once for both eyes.
+bool Compositor::isBackgroundKnown() const {
+    return (_draw.stage.getClearMask() & GL_COLOR_BUFFER_BIT) || _draw.pattern.value ||
+           PrepassBin::savedColors(_draw.stage);
+}
+
 /// Before a full redraw: nothing stands where marked. A leaf that blends with nothing must find the background there.
 void Compositor::resetMarked(unsigned where, const ScreenRect& bounds) const {
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.stencilAny(where);
-        const bool background = _draw.stage.getClearMask() & GL_COLOR_BUFFER_BIT;
-        const bool readBack = isModeOn(_draw.leaves, GL_BLEND) || isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP);
-        if (background && readBack) screen.writeColor(_draw.stage.getClearColor());
+        if (readsBack(_draw.leaves)) writeBackground(screen);
         screen.writeFarDepth();
     });
 }

@@ -33,7 +33,7 @@ private:
     void relightAny(const Jobs& jobs, std::map<float, Jobs>& blended);
     bool composeDirectly(const Jobs& jobs);
     void relight(const Jobs& wanted);
-    static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended);
+    static void blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, const std::string& cause);
     void drawViews(const std::vector<ShadowJob>& jobs) const;
     void blendAny(const Jobs& jobs, float dark);
     bool darkenDirectly(const Jobs& jobs, float dark) const;
@@ -46,6 +46,8 @@ private:
 
     void mark(const Jobs& jobs, const std::map<int, unsigned>& bitOf) const;
     void resetMarked(unsigned where, const ScreenRect& bounds) const;
+    void writeBackground(ScreenPass& screen) const;
+    bool isBackgroundKnown() const;
 
     const CompositorStage _draw;
     std::vector<unsigned> _lightBits;

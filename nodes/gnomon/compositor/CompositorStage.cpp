@@ -28,6 +28,7 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& dr
       leaves(std::move(before)),
       options(asked),
       clean(isClean),
+      pattern(StencilPattern::read(state)),
       own(ownBits) {
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
@@ -35,7 +36,7 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& dr
     hasStencil = stencil > 0;
     hasAlpha = alpha > 0;
     for (int i = std::min(stencil, 8); i-- > 0;)
-        if (!(options.reservedStencilBits & (1u << i))) bits.push_back(1u << i);
+        if (!((options.reservedStencilBits | pattern.bit) & (1u << i))) bits.push_back(1u << i);
     counters = countersAmong(bits, own);
 }
 

@@ -27,7 +27,7 @@ public:
     void pass(const ScreenRect& bounds, Step step) const {
         CleanState cleanState(state, stage.getViewport());
         ScreenPass screen(
-            state, *stage.getViewport(), bounds, [this] { return channels(); }, counters);
+            state, *stage.getViewport(), bounds, [this] { return channels(); }, counters, pattern);
         step(screen);
     }
     void clear(unsigned stencil, const ScreenRect& bounds) const;
@@ -43,8 +43,9 @@ public:
     const std::vector<DrawnLeaf> leaves;
     const CompositorOptions options;
     const bool clean;
+    const StencilPattern pattern; ///< its bit is not among `bits`.
     bool hasStencil = false, hasAlpha = false;
-    std::vector<unsigned> bits; ///< of the stencil buffer, those that are not reserved, the highest first.
+    std::vector<unsigned> bits; ///< of the stencil buffer, those that are free, the highest first.
     const std::size_t own;      ///< how many of them, from the first on, are the compositor's.
     unsigned counters = 0;      ///< some of the others, see ScreenPass::counters(); 0 if there are none.
 

@@ -222,6 +222,10 @@ bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode 
     return false;
 }
 
+bool readsBack(const std::vector<DrawnLeaf>& leaves) {
+    return isModeOn(leaves, GL_BLEND) || isModeOn(leaves, GL_COLOR_LOGIC_OP);
+}
+
 Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
     Channels written;
     std::set<const osgUtil::StateGraph*> seen;
@@ -232,6 +236,7 @@ Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
         written.green = written.green || !mask || mask->getGreenMask();
         written.blue = written.blue || !mask || mask->getBlueMask();
     }
+    written.encoded = isModeOn(leaves, framebufferSrgb);
     return written;
 }
 

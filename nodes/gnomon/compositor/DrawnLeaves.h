@@ -38,6 +38,9 @@ std::string whyMissing(const Selection& selection, const char* role, const osg::
 /// True if any of the leaves is drawn with `mode` on.
 bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode mode);
 
+/// True if any of them is drawn by what stands there: blends, or has a logic operation.
+bool readsBack(const std::vector<DrawnLeaf>& leaves);
+
 /// The colour channels that any of the leaves writes: fewer than all in anaglyph stereo, for one.
 Channels writtenChannels(const std::vector<DrawnLeaf>& leaves);
 

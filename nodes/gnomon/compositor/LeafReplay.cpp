@@ -32,6 +32,7 @@ void restoreColors(const osg::State& state, int number) {
 
 LeafReplay::LeafReplay(const CompositorStage& draw, const Overlay& overlay)
     : _filter(draw.options.filter),
+      _pattern(draw.pattern),
       _renderInfo(draw.renderInfo),
       _state(draw.state),
       _overlay(overlay),
@@ -143,8 +144,7 @@ void LeafReplay::enter(osgUtil::RenderBin* bin) {
 
 /// The same for every leaf, so that osg::State need not know before the end.
 void LeafReplay::layOver() {
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(_overlay.stencilFunction, static_cast<GLint>(_overlay.reference), _overlay.test);
+    _pattern.test(_overlay.stencilFunction, _overlay.reference, _overlay.test);
     glStencilOp(GL_KEEP, GL_KEEP, _overlay.stencilPass);
     glStencilMask(_overlay.write);
     if (_overlay.equalDepth || _overlay.keepDepth) {

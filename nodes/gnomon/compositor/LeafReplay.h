@@ -81,6 +81,7 @@ private:
     void drawFaded(const osgUtil::RenderLeaf& leaf);
 
     const bool _filter;
+    const StencilPattern _pattern;
     osg::RenderInfo& _renderInfo;
     osg::State& _state;
     const Overlay _overlay;

@@ -63,7 +63,20 @@ void PrepassBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& 
     binOf(stage)._job = *job;
 }
 
+void PrepassBin::saveColors(osgUtil::RenderStage& stage) { binOf(stage)._colors = std::make_unique<FrameColorCopy>(); }
+
+FrameColorCopy* PrepassBin::savedColors(osgUtil::RenderStage& stage) {
+    for (const auto& [number, bin] : stage.getRenderBinList())
+        if (const auto* prepass = dynamic_cast<const PrepassBin*>(bin.get())) return prepass->_colors.get();
+    return nullptr;
+}
+
 void PrepassBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
+    if (_colors) {
+        popLeafState(*renderInfo.getState(), previous);
+        const CleanState clean(*renderInfo.getState(), getStage()->getViewport());
+        if (!_colors->save(*renderInfo.getState(), *getStage()->getViewport())) _colors.reset();
+    }
     if (_job.marks) {
         popLeafState(*renderInfo.getState(), previous);
         const CleanState clean(*renderInfo.getState(), getStage()->getViewport());

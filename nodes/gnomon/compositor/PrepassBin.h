@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/ShadowJob.h>
+#include <gnomon/gl/FrameColorCopy.h>
 
 #include <osgUtil/RenderBin>
 
+#include <memory>
+
 namespace gnomon {
 
-/// The first bin of a stage whose drawables' programs look up shadows: draws what these need.
+/// The first bin of a stage: draws what drawables' programs need to look up shadows, and saves the colours that the stage is
+/// drawn over.
 class PrepassBin : public osgUtil::RenderBin {
 public:
     PrepassBin() = default;
@@ -20,6 +24,11 @@ public:
     /// Lets the programs of a stage find the first of the jobs that are for them, until the stage is reset.
     static void show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& stage);
 
+    /// Lets the stage's colours be saved before anything is drawn, until it is reset.
+    static void saveColors(osgUtil::RenderStage& stage);
+    /// Those colours; null if they were not asked for, or OpenGL cannot read them: a framebuffer object of several samples.
+    static FrameColorCopy* savedColors(osgUtil::RenderStage& stage);
+
     void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
 
 protected:
@@ -27,6 +36,7 @@ protected:
 
 private:
     ShadowJob _job;
+    std::unique_ptr<FrameColorCopy> _colors; ///< null if they are not to be saved.
 };
 
 } // namespace gnomon

@@ -4,8 +4,6 @@
 
 #include <OpenThreads/ScopedLock>
 
-#include <osg/ContextData>
-
 #include <algorithm>
 #include <cmath>
 
@@ -43,15 +41,6 @@ public:
     PlainTransfer& operator=(const PlainTransfer&) = delete;
 };
 
-void attach(const osg::GLExtensions& gl, GLuint& framebuffer, GLuint texture) {
-    if (!framebuffer) gl.glGenFramebuffers(1, &framebuffer);
-    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
-    for (const GLenum part : {GL_DEPTH_ATTACHMENT_EXT, GL_STENCIL_ATTACHMENT_EXT})
-        gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, part, GL_TEXTURE_2D, texture, 0);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-}
-
 /// From the window to what is bound for drawing, `height` rows high.
 void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint height) {
     const GLint right = pixels.x + pixels.width, top = pixels.y + pixels.height;
@@ -77,7 +66,9 @@ FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pi
     result.error.y = snapsOff * std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
     const PlainTransfer plain;
     const bool resolves = ResolvedDepth::isNeeded(state), packed = !resolves && isPacked();
-    const auto read = [&] { result.rows = transfer(state, pixels, packed); };
+    Target& target = targetFor(state, pixels, packed);
+    result.texture = target.texture;
+    const auto read = [&] { result.rows = transfer(state, target, pixels); };
     if (resolves) {
         const auto place = _resolved.read(state, pixels.x, pixels.y, pixels.width, pixels.height, read);
         if (!place) return {unresolvedDepth};
@@ -91,10 +82,10 @@ FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pi
 }
 
 /// @return Copy::rows.
-glm::dvec2 FrameDepthCopy::transfer(osg::State& state, const PixelRect& pixels, bool packed) {
-    Target& target = targetFor(state, pixels, packed);
+glm::dvec2 FrameDepthCopy::transfer(osg::State& state, Target& target, const PixelRect& pixels) {
     state.applyTextureAttribute(0, target.texture);
-    if (packed && target.mirrors && mirror(state, target, pixels)) return {target.texture->getTextureHeight() - 1, -1};
+    if (target.packed && target.mirrors && mirror(state, target, pixels))
+        return {target.texture->getTextureHeight() - 1, -1};
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
     return {0.0, 1.0};
 }
@@ -106,31 +97,26 @@ bool FrameDepthCopy::mirror(osg::State& state, Target& target, const PixelRect& 
     const auto& gl = *state.get<osg::GLExtensions>();
     const bool isWindow = glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT) == 0 && glInteger(GL_SAMPLES) == 0;
     if (!gl.glBlitFramebuffer || !isWindow) return false;
-    const SavedFramebuffers bound(gl);
+    const ScratchFramebuffer framebuffer(gl);
     const osg::Texture::TextureObject* texture = target.texture->getTextureObject(state.getContextID());
-    const bool first = target.attached != texture;
-    if (first) attach(gl, target.framebuffer, texture->id());
-    target.attached = texture;
+    framebuffer.attachDepth(*texture);
+    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_STENCIL_ATTACHMENT_EXT, GL_TEXTURE_2D, texture->id(), 0);
+    const bool first = target.tried != texture;
+    target.tried = texture;
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, 0);
-    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, target.framebuffer);
     if (first) glGetError(); // somebody else's
     blitMirrored(gl, pixels, target.texture->getTextureHeight());
     if (first) target.mirrors = glGetError() == GL_NO_ERROR;
     return target.mirrors;
 }
 
-void FrameDepthCopy::bind(osg::State& state, unsigned unit) {
-    Lock lock(_mutex);
-    state.applyTextureAttribute(unit, _targets.at(state.getContextID()).texture);
-}
-
 FrameDepthCopy::Target& FrameDepthCopy::targetFor(const osg::State& state, const PixelRect& pixels, bool packed) {
     const osg::Viewport& viewport = *state.getCurrentViewport();
     Lock lock(_mutex);
-    Target& target = _targets[state.getContextID()];
+    Target& target = _targets[{state.getContextID(), packed}];
+    target.packed = packed;
     osg::ref_ptr<osg::Texture2D>& texture = target.texture;
-    const GLint format = packed ? GL_DEPTH24_STENCIL8_EXT : GL_DEPTH_COMPONENT24;
-    if (!texture || texture->getInternalFormat() != format) texture = depthTexture(packed);
+    if (!texture) texture = depthTexture(packed);
     // As the viewport, not as the pixels: these grow with a shadow that moves, and each time another texture would be made.
     const int width =
         std::max({texture->getTextureWidth(), pixels.x + pixels.width, endOf(viewport.x(), viewport.width())});
@@ -147,10 +133,8 @@ void FrameDepthCopy::release(osg::State* state) {
     _resolved.release(state);
     Lock lock(_mutex);
     for (auto entry = _targets.begin(); entry != _targets.end();) {
-        const bool meant = !state || state->getContextID() == entry->first;
+        const bool meant = !state || state->getContextID() == entry->first.first;
         if (meant) entry->second.texture->releaseGLObjects(state);
-        if (const GLuint framebuffer = entry->second.framebuffer; meant && framebuffer)
-            osg::get<osg::GLFrameBufferObjectManager>(entry->first)->scheduleGLObjectForDeletion(framebuffer);
         entry = meant ? _targets.erase(entry) : std::next(entry);
     }
 }

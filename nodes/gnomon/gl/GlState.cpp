@@ -17,6 +17,50 @@ CleanState::CleanState(osg::State& state, osg::Viewport* viewport) : _state(stat
 
 CleanState::~CleanState() { _state.popStateSet(); }
 
+FirstColorBuffer::FirstColorBuffer(const osg::State& state) : _state(state) {
+    constexpr GLenum maxDrawBuffers = 0x8824, drawBuffer = 0x8825; // GL_MAX_DRAW_BUFFERS, GL_DRAW_BUFFER0
+    GLint most = 1;
+    glGetIntegerv(maxDrawBuffers, &most);
+    for (GLint i = most; i-- > 0;) {
+        GLint buffer = GL_NONE;
+        glGetIntegerv(drawBuffer + static_cast<GLenum>(i), &buffer);
+        if (_all.empty() && (i == 0 || buffer == GL_NONE)) continue;
+        _all.insert(_all.begin(), static_cast<GLenum>(buffer));
+    }
+    if (!_all.empty()) _state.get<osg::GLExtensions>()->glDrawBuffers(1, _all.data());
+}
+
+FirstColorBuffer::~FirstColorBuffer() {
+    if (!_all.empty()) _state.get<osg::GLExtensions>()->glDrawBuffers(static_cast<GLsizei>(_all.size()), _all.data());
+}
+
+StencilPattern StencilPattern::read(osg::State& state) {
+    state.apply(); // what is on now is on in spite of osg::State
+    if (!glIsEnabled(GL_STENCIL_TEST)) return {};
+    GLint function = 0, reference = 0;
+    glGetIntegerv(GL_STENCIL_FUNC, &function);
+    glGetIntegerv(GL_STENCIL_REF, &reference);
+    if (reference != 0 || (function != GL_EQUAL && function != GL_NOTEQUAL)) return {};
+    return {1u, function == GL_EQUAL ? 0u : 1u};
+}
+
+void StencilPattern::restore(osg::State& state) const {
+    if (!bit) return;
+    state.apply(); // or it would do away with it later
+    glEnable(GL_STENCIL_TEST);
+    glStencilFunc(value ? GL_NOTEQUAL : GL_EQUAL, 0, ~0u);
+}
+
+void StencilPattern::test(GLenum function, unsigned reference, unsigned mask) const {
+    glEnable(GL_STENCIL_TEST);
+    if (bit && function == GL_ALWAYS)
+        glStencilFunc(GL_EQUAL, static_cast<GLint>(reference | value), bit);
+    else if (bit && function == GL_EQUAL)
+        glStencilFunc(GL_EQUAL, static_cast<GLint>(reference | value), mask | bit);
+    else
+        glStencilFunc(function, static_cast<GLint>(reference), mask);
+}
+
 /// osg::State sets an attribute again only if it ever had one of its type: so OpenGL itself is set, too.
 void leaveDefaults(osg::State& state) {
     using A = osg::StateAttribute;

@@ -10,7 +10,8 @@
 
 namespace gnomon {
 
-constexpr GLenum depthClamp = 0x864F; ///< GL_DEPTH_CLAMP: in OpenGL 3.2, not in OSG's headers of 3.6.
+constexpr GLenum framebufferSrgb = 0x8DB9; ///< GL_FRAMEBUFFER_SRGB.
+constexpr GLenum depthClamp = 0x864F;      ///< GL_DEPTH_CLAMP: in OpenGL 3.2, not in OSG's headers of 3.6.
 
 /// OpenGL as OSG leaves it after an empty scene, with the depth test off: no program, texture, blending or culling, and
 /// the stage's viewport. Holds from construction to destruction; state sets that lay on the stack must have been popped
@@ -25,6 +26,35 @@ public:
 private:
     osg::State& _state;
     osg::ref_ptr<osg::StateSet> _set;
+};
+
+/// Pixels to which OpenGL confines whatever is drawn, by a stencil test that osg::State knows nothing of: those of one eye
+/// in OSG's interlaced stereo, which has 0 in the stencil buffer for the left eye's and 1 for the right eye's.
+struct StencilPattern {
+    unsigned bit = 0;   ///< that holds it; 0 if there is none.
+    unsigned value = 0; ///< of that bit, in those pixels.
+
+    /// The one that stands now. Call where no state set is on the stack.
+    static StencilPattern read(osg::State& state);
+    /// Puts the test back as OSG has it.
+    void restore(osg::State& state) const;
+
+    /// As glStencilFunc(), switched on, and in those pixels only. Where a test asks for NOTEQUAL or LEQUAL, what it asks
+    /// for has been written in those pixels only, so that it holds of itself.
+    void test(GLenum function, unsigned reference, unsigned mask) const;
+};
+
+/// While it lives, of several colour buffers only the first is drawn to: normals, IDs and the like in the others stay.
+class FirstColorBuffer {
+public:
+    explicit FirstColorBuffer(const osg::State& state);
+    ~FirstColorBuffer();
+    FirstColorBuffer(const FirstColorBuffer&) = delete;
+    FirstColorBuffer& operator=(const FirstColorBuffer&) = delete;
+
+private:
+    const osg::State& _state;
+    std::vector<GLenum> _all; ///< empty if there are not several.
 };
 
 /// Puts OpenGL's stencil, depth, blending, scissor and colour mask to their defaults and tells osg::State so.

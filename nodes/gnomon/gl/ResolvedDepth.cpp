@@ -25,14 +25,6 @@ GLint attachedDepth(GLenum what) {
     return value;
 }
 
-/// Depths alone, bound for both.
-void attach(const osg::GLExtensions& extensions, GLuint framebuffer, GLuint depth) {
-    extensions.glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
-    extensions.glFramebufferRenderbuffer(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, GL_RENDERBUFFER_EXT, depth);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-}
-
 /// The format of the depths that are drawn to: only between equal ones does OpenGL resolve. 0 if they are in no
 /// renderbuffer.
 GLenum depthFormat(const osg::GLExtensions& extensions) {
@@ -58,12 +50,12 @@ void resolve(const osg::GLExtensions& extensions, GLuint from, GLuint to, GLint 
 /// One pixel of several samples; bound for drawing while it lives.
 class Pixel {
 public:
-    Pixel(const osg::GLExtensions& extensions, GLenum format, GLint samples) : _extensions(extensions) {
-        extensions.glGenFramebuffers(1, &framebuffer);
+    Pixel(const osg::GLExtensions& extensions, GLenum format, GLint samples)
+        : framebuffer(extensions), _extensions(extensions) {
         extensions.glGenRenderbuffers(1, &_depth);
         extensions.glBindRenderbuffer(GL_RENDERBUFFER_EXT, _depth);
         extensions.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, samples, format, 1, 1);
-        attach(extensions, framebuffer, _depth);
+        framebuffer.attachDepth(_depth);
         glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_SCISSOR_BIT);
         glViewport(0, 0, 1, 1);
         for (const GLenum mode : {GL_SCISSOR_TEST, GL_STENCIL_TEST}) glDisable(mode);
@@ -73,13 +65,12 @@ public:
     }
     ~Pixel() {
         glPopAttrib();
-        _extensions.glDeleteFramebuffers(1, &framebuffer);
         _extensions.glDeleteRenderbuffers(1, &_depth);
     }
     Pixel(const Pixel&) = delete;
     Pixel& operator=(const Pixel&) = delete;
 
-    GLuint framebuffer = 0;
+    const ScratchFramebuffer framebuffer;
 
 private:
     const osg::GLExtensions& _extensions;
@@ -102,10 +93,13 @@ std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, GLint x, GLint 
         own.samples = samples;
         fit(own, extensions, x + width, y + height);
     }
-    extensions.glBindFramebuffer(GL_FRAMEBUFFER_EXT, own.framebuffer);
-    if (extensions.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) != GL_FRAMEBUFFER_COMPLETE_EXT) return std::nullopt;
-    if (!known) own.place = {placeOnSlope(own, state, false), placeOnSlope(own, state, true)};
-    resolve(extensions, bound.draw, own.framebuffer, x, y, width, height);
+    const ScratchFramebuffer framebuffer(extensions);
+    framebuffer.attachDepth(own.depth);
+    if (!framebuffer.isComplete()) return std::nullopt;
+    if (!known)
+        own.place = {placeOnSlope(own, framebuffer.name, state, false),
+                     placeOnSlope(own, framebuffer.name, state, true)};
+    resolve(extensions, bound.draw, framebuffer.name, x, y, width, height);
     readOut();
     return own.place;
 }
@@ -116,24 +110,20 @@ ResolvedDepth::Buffers& ResolvedDepth::of(unsigned context) {
 }
 
 void ResolvedDepth::fit(Buffers& buffers, const osg::GLExtensions& extensions, GLsizei width, GLsizei height) {
-    if (!buffers.framebuffer) {
-        extensions.glGenFramebuffers(1, &buffers.framebuffer);
-        extensions.glGenRenderbuffers(1, &buffers.depth);
-    }
+    if (!buffers.depth) extensions.glGenRenderbuffers(1, &buffers.depth);
     buffers.width = std::max(buffers.width, width);
     buffers.height = std::max(buffers.height, height);
     extensions.glBindRenderbuffer(GL_RENDERBUFFER_EXT, buffers.depth);
     extensions.glRenderbufferStorage(GL_RENDERBUFFER_EXT, buffers.format, buffers.width, buffers.height);
-    attach(extensions, buffers.framebuffer, buffers.depth);
 }
 
 /// Over a pixel whose depth rises from 0 to 1, the resolved depth is the place.
-double ResolvedDepth::placeOnSlope(const Buffers& buffers, osg::State& state, bool upwards) {
+double ResolvedDepth::placeOnSlope(const Buffers& buffers, GLuint into, osg::State& state, bool upwards) {
     const auto& extensions = *state.get<osg::GLExtensions>();
     const Pixel pixel(extensions, buffers.format, buffers.samples);
     drawQuad(state, 0.0, upwards ? 0.0 : 1.0, upwards ? 1.0 : 0.0);
     float place = 0.5f;
-    resolve(extensions, pixel.framebuffer, buffers.framebuffer, 0, 0, 1, 1);
+    resolve(extensions, pixel.framebuffer.name, into, 0, 0, 1, 1);
     glReadPixels(0, 0, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &place);
     return static_cast<double>(place);
 }
@@ -153,8 +143,7 @@ void ResolvedDepth::release(const osg::State* state) {
 }
 
 void ResolvedDepth::letGo(unsigned context, const Buffers& buffers) {
-    if (!buffers.framebuffer) return;
-    osg::get<osg::GLFrameBufferObjectManager>(context)->scheduleGLObjectForDeletion(buffers.framebuffer);
+    if (!buffers.depth) return;
     osg::get<osg::GLRenderBufferManager>(context)->scheduleGLObjectForDeletion(buffers.depth);
 }
 

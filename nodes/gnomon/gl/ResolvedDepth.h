@@ -21,7 +21,7 @@ constexpr const char* noDepth =
 constexpr const char* unresolvedDepth = "the depth of this multisampled framebuffer object cannot be resolved. Attach "
                                         "a renderbuffer for depth instead of a texture.";
 
-/// Reads depths of multisampled framebuffer objects, which glReadPixels() refuses to: resolved into a framebuffer without
+/// Reads depths of multisampled framebuffer objects, which glReadPixels() refuses to: resolved into a renderbuffer without
 /// samples first, one a context, kept from frame to frame. Which of a pixel's samples counts is the driver's choice: where
 /// it lies is found out by resolving a slope.
 ///
@@ -47,7 +47,7 @@ public:
 
 private:
     struct Buffers {
-        GLuint framebuffer = 0, depth = 0;
+        GLuint depth = 0; ///< a renderbuffer.
         GLenum format = 0;
         GLint samples = 0;
         GLsizei width = 0, height = 0;
@@ -55,7 +55,7 @@ private:
     };
     Buffers& of(unsigned context);
     static void fit(Buffers& buffers, const osg::GLExtensions& extensions, GLsizei width, GLsizei height);
-    static double placeOnSlope(const Buffers& buffers, osg::State& state, bool upwards);
+    static double placeOnSlope(const Buffers& buffers, GLuint into, osg::State& state, bool upwards);
     static void letGo(unsigned context, const Buffers& buffers);
 
     OpenThreads::Mutex _mutex;

@@ -2,6 +2,7 @@
 #pragma once
 #include <osg/FrameBufferObject>
 #include <osg/GLExtensions>
+#include <osg/Texture>
 
 namespace gnomon {
 
@@ -31,6 +32,53 @@ private:
     const osg::GLExtensions& _extensions;
     const GLuint _read = bound(GL_READ_FRAMEBUFFER_BINDING_EXT);
     const GLuint _renderbuffer = bound(GL_RENDERBUFFER_BINDING_EXT);
+};
+
+/// A framebuffer object that is bound while it lives, and gone at its end; then what was bound before is so again.
+///
+/// None is kept: contexts that share textures and buffers, and OSG's ID of a context, share no framebuffer objects.
+class ScratchFramebuffer {
+public:
+    explicit ScratchFramebuffer(const osg::GLExtensions& extensions)
+        : _bound(extensions), _extensions(extensions), name(make(extensions)) {
+        bind();
+    }
+    ~ScratchFramebuffer() { _extensions.glDeleteFramebuffers(1, &name); }
+    ScratchFramebuffer(const ScratchFramebuffer&) = delete;
+    ScratchFramebuffer& operator=(const ScratchFramebuffer&) = delete;
+
+    /// For drawing and reading.
+    void bind() const { _extensions.glBindFramebuffer(GL_FRAMEBUFFER_EXT, name); }
+    /// While it is bound: has depths alone.
+    void attachDepth(const osg::Texture::TextureObject& texture) const {
+        _extensions.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, GL_TEXTURE_2D, texture.id(), 0);
+        useNoColors();
+    }
+    void attachDepth(GLuint renderbuffer) const {
+        _extensions.glFramebufferRenderbuffer(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, GL_RENDERBUFFER_EXT,
+                                              renderbuffer);
+        useNoColors();
+    }
+    bool isComplete() const {
+        return _extensions.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
+    }
+
+private:
+    static GLuint make(const osg::GLExtensions& extensions) {
+        GLuint made = 0;
+        extensions.glGenFramebuffers(1, &made);
+        return made;
+    }
+    static void useNoColors() {
+        glDrawBuffer(GL_NONE);
+        glReadBuffer(GL_NONE);
+    }
+
+    const SavedFramebuffers _bound;
+    const osg::GLExtensions& _extensions;
+
+public:
+    const GLuint name;
 };
 
 } // namespace gnomon

@@ -25,17 +25,21 @@ Interval pixels(double low, double high, double start, double size) {
 } // namespace
 
 ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
-                       std::function<Channels()> written, unsigned counters)
-    : _state(state), _written(std::move(written)), _counters(counters) {
+                       std::function<Channels()> written, unsigned counters, const StencilPattern& pattern)
+    : _state(state), _written(std::move(written)), _counters(counters), _pattern(pattern) {
     const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
     const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
     glEnable(GL_SCISSOR_TEST);
     glScissor(x.first, y.first, x.count, y.count);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glDepthMask(GL_FALSE);
+    if (_pattern.bit) stencilEqual(0, 0, 0);
 }
 
-ScreenPass::~ScreenPass() { leaveDefaults(_state); }
+ScreenPass::~ScreenPass() {
+    leaveDefaults(_state);
+    if (_encodes) glDisable(framebufferSrgb); // osg::State, which knows it off, need not be told
+}
 
 void ScreenPass::clearStencil(unsigned bits) {
     glStencilMask(bits);
@@ -44,21 +48,19 @@ void ScreenPass::clearStencil(unsigned bits) {
 }
 
 void ScreenPass::stencilEqual(unsigned reference, unsigned test, unsigned write) {
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(test ? GL_EQUAL : GL_ALWAYS, static_cast<GLint>(reference), test);
+    _pattern.test(test ? GL_EQUAL : GL_ALWAYS, reference, test);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glStencilMask(write);
 }
 
 void ScreenPass::stencilAny(unsigned test) {
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_NOTEQUAL, 0, test);
+    _pattern.test(GL_NOTEQUAL, 0, test);
     glStencilMask(0);
 }
 
 void ScreenPass::stencilAtLeast(unsigned least, unsigned test) {
     stencilAny(test);
-    glStencilFunc(GL_LEQUAL, static_cast<GLint>(least), test);
+    _pattern.test(GL_LEQUAL, least, test);
 }
 
 void ScreenPass::takeStencil(unsigned test, unsigned bits) {
@@ -72,8 +74,7 @@ void ScreenPass::countHolding(unsigned bits) {
     const bool single = (bits & (bits - 1)) == 0;
     const auto& gl = *_state.get<osg::GLExtensions>();
     testDepth(GL_LESS);
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_ALWAYS, 0, ~0u);
+    _pattern.test(GL_ALWAYS, 0, ~0u);
     gl.glStencilOpSeparate(GL_BACK, GL_KEEP, GLenum(single ? GL_INVERT : GL_INCR_WRAP), GL_KEEP);
     gl.glStencilOpSeparate(GL_FRONT, GL_KEEP, GLenum(single ? GL_INVERT : GL_DECR_WRAP), GL_KEEP);
     glStencilMask(bits);
@@ -81,8 +82,7 @@ void ScreenPass::countHolding(unsigned bits) {
 
 void ScreenPass::takeCount(unsigned bits, unsigned mark) {
     glDisable(GL_DEPTH_TEST);
-    glEnable(GL_STENCIL_TEST);
-    glStencilFunc(GL_NOTEQUAL, static_cast<GLint>(mark & ~bits), bits);
+    _pattern.test(GL_NOTEQUAL, mark & ~bits, bits);
     glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
     glStencilMask(bits | mark);
     drawQuad();
@@ -95,9 +95,13 @@ void ScreenPass::writeFarDepth() {
     drawQuad(1.0);
 }
 
-void ScreenPass::writeColor(const osg::Vec4& color) {
+void ScreenPass::beginReplace() {
     glDisable(GL_BLEND);
     openChannels(GL_TRUE);
+}
+
+void ScreenPass::writeColor(const osg::Vec4& color) {
+    beginReplace();
     drawColor(color);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
@@ -120,13 +124,13 @@ void ScreenPass::multiplyColor(float factor) {
 }
 
 void ScreenPass::beginMultiply(float factor) {
-    openChannels(GL_FALSE);
+    openToMultiply();
     addBlended(_state, GL_ZERO, GL_CONSTANT_COLOR);
     _state.get<osg::GLExtensions>()->glBlendColor(factor, factor, factor, 1.0f);
 }
 
 void ScreenPass::beginMultiplyByColor() {
-    openChannels(GL_FALSE);
+    openToMultiply();
     addBlended(_state, GL_ZERO, GL_SRC_COLOR);
 }
 
@@ -162,7 +166,7 @@ void ScreenPass::multiplyAlpha() {
 
 void ScreenPass::multiplyColorByAlpha() {
     addBlended(_state, GL_ZERO, GL_DST_ALPHA);
-    openChannels(GL_FALSE);
+    openToMultiply();
     drawQuad();
 }
 
@@ -170,6 +174,13 @@ void ScreenPass::multiplyColorByAlpha() {
 void ScreenPass::openChannels(GLboolean alpha) const {
     const Channels channels = _written();
     glColorMask(channels.red, channels.green, channels.blue, alpha);
+}
+
+/// A factor is one of light: where the leaves' colours are encoded, what stands is decoded first.
+void ScreenPass::openToMultiply() {
+    openChannels(GL_FALSE);
+    _encodes = _encodes || _written().encoded;
+    if (_encodes) glEnable(framebufferSrgb);
 }
 
 void ScreenPass::drawColor(const osg::Vec4& color) {

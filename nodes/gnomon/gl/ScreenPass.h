@@ -14,6 +14,7 @@ namespace gnomon {
 /// Colour channels.
 struct Channels {
     bool red = false, green = false, blue = false;
+    bool encoded = false; ///< written as sRGB: what is blended is linear.
 };
 
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
@@ -22,8 +23,9 @@ class ScreenPass {
 public:
     /// @param written   asked when colours are written: to these channels only.
     /// @param counters  see counters().
+    /// @param pattern   nothing is written but in its pixels.
     ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
-               std::function<Channels()> written, unsigned counters);
+               std::function<Channels()> written, unsigned counters, const StencilPattern& pattern);
     ~ScreenPass();
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;
@@ -45,8 +47,12 @@ public:
     void countHolding(unsigned bits);
     /// Sets `mark` wherever any of `bits` is set, and those to 0.
     void takeCount(unsigned bits, unsigned mark);
+    /// True if the pixels beside one may be of another picture: the other eye's.
+    bool isInterlaced() const { return _pattern.bit != 0; }
     void writeFarDepth();
     void writeColor(const osg::Vec4& color);
+    /// What is drawn next replaces what stands; ends with endMix().
+    void beginReplace();
     /// opacity · color + (1 - opacity) · what stands; alpha stays.
     void blendColor(const osg::Vec3& color, float opacity);
     /// What is drawn next is blended in by its own alpha; that of the frame stays.
@@ -79,11 +85,14 @@ public:
 
 private:
     void openChannels(GLboolean alpha) const;
+    void openToMultiply();
     void drawColor(const osg::Vec4& color);
 
     osg::State& _state;
     const std::function<Channels()> _written;
     const unsigned _counters;
+    const StencilPattern _pattern;
+    bool _encodes = false;
 };
 
 } // namespace gnomon

@@ -4,9 +4,13 @@
 #include <gnomon_shaders.h>
 
 #include <glm/gtc/type_ptr.hpp>
+#include <osg/ContextData>
 #include <osg/CullFace>
 #include <osg/GLExtensions>
 #include <osg/Program>
+
+#include <mutex>
+#include <vector>
 
 namespace gnomon {
 namespace {
@@ -23,12 +27,63 @@ GLint placeOfArray(const osg::State& state, const char* name) {
     return state.get<osg::GLExtensions>()->glGetUniformLocation(program, name);
 }
 
+/// Keeps for good what has names of a context that is gone: its destructor would have them deleted in the next context of the
+/// same ID, where they are somebody else's.
+void bury(const osg::ref_ptr<osg::Referenced>& objects) {
+    static std::mutex mutex;
+    static auto& all = *new std::vector<osg::ref_ptr<osg::Referenced>>;
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (objects) all.push_back(objects);
+}
+
+class OwnShader : public osg::Shader {
+public:
+    using osg::Shader::Shader;
+    void forget(unsigned context) {
+        bury(_pcsList[context].get());
+        _pcsList[context] = nullptr;
+    }
+};
+
+/// A program that knows a context from one that had its ID before. OSG does not: where a program is in no graph when a window
+/// closes, it would go by names of that window in the next.
+class OwnProgram : public osg::Program {
+public:
+    OwnProgram(const std::string& vertex, const std::string& fragment)
+        : _shaders{new OwnShader(osg::Shader::VERTEX, vertex), new OwnShader(osg::Shader::FRAGMENT, fragment)} {
+        for (const auto& shader : _shaders) addShader(shader);
+    }
+
+    void apply(osg::State& state) const override {
+        const unsigned context = state.getContextID();
+        const osg::ref_ptr<osg::ContextData> now = osg::getContextData(context);
+        if (_contexts[context] != now) forget(context);
+        _contexts[context] = now;
+        osg::Program::apply(state);
+    }
+    void resizeGLObjectBuffers(unsigned maxSize) override {
+        osg::Program::resizeGLObjectBuffers(maxSize);
+        _contexts.resize(maxSize);
+    }
+
+protected:
+    ~OwnProgram() override = default;
+
+private:
+    void forget(unsigned context) const {
+        bury(_pcpList[context].get());
+        _pcpList[context] = nullptr;
+        for (const auto& shader : _shaders) shader->forget(context);
+    }
+
+    const std::vector<osg::ref_ptr<OwnShader>> _shaders;
+    mutable osg::buffered_value<osg::ref_ptr<osg::ContextData>> _contexts; ///< that its names are of, by ID.
+};
+
 /// A program and no more; with back faces in the set, whether they are culled is the caller's.
 osg::ref_ptr<osg::StateSet> programState(const char* name, const std::string& vertex, const std::string& fragment) {
-    osg::ref_ptr<osg::Program> program = new osg::Program;
+    const osg::ref_ptr<osg::Program> program = new OwnProgram(version + vertex, version + fragment);
     program->setName(name);
-    program->addShader(new osg::Shader(osg::Shader::VERTEX, version + vertex));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, version + fragment));
     osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
     set->setAttribute(program);
     set->setAttribute(new osg::CullFace(osg::CullFace::BACK));

@@ -96,26 +96,27 @@ ShadowBin& ShadowBin::of(osgUtil::RenderStage* stage) {
 
 void ShadowBin::enlist(const EnlistedTechnique& technique) {
     _enlisted.push_back(technique);
-    suit(technique.group->getCompositorOptions());
+    _options = _options.with(technique.group->getCompositorOptions());
 }
 
 void ShadowBin::enlist(ViewEffect& effect, const CompositorOptions& options) {
     _effects.push_back(&effect);
-    suit(options);
-}
-
-void ShadowBin::suit(const CompositorOptions& options) {
     _options = _options.with(options);
-    clearWithStage();
 }
 
+/// After the whole cull, in which an osg::ClearNode sets the mask anew. In draw it may change once more: interlaced stereo
+/// takes the bit out again, for it keeps a pattern in the stencil buffer.
 void ShadowBin::clearWithStage() {
-    constexpr GLbitfield stencil = GL_STENCIL_BUFFER_BIT;
     osgUtil::RenderStage& stage = *getStage();
-    const GLbitfield own = _addsClear ? stage.getClearMask() & ~stencil : stage.getClearMask();
-    _stageClears = _options.reservedStencilBits == 0 && (own & GL_DEPTH_BUFFER_BIT) && stage.getClearStencil() == 0;
-    _addsClear = _stageClears && !(own & stencil);
-    stage.setClearMask(_stageClears ? own | stencil : own);
+    if (_options.reservedStencilBits == 0 && (stage.getClearMask() & GL_DEPTH_BUFFER_BIT) &&
+        stage.getClearStencil() == 0)
+        stage.setClearMask(stage.getClearMask() | GL_STENCIL_BUFFER_BIT);
+}
+
+/// As the stage draws. @param leaves  drawn since.
+bool ShadowBin::isStencilClean(const std::vector<DrawnLeaf>& leaves) const {
+    return (getStage()->getClearMask() & GL_STENCIL_BUFFER_BIT) && getStage()->getClearStencil() == 0 &&
+           !isModeOn(leaves, GL_STENCIL_TEST);
 }
 
 void ShadowBin::reset() {
@@ -125,7 +126,6 @@ void ShadowBin::reset() {
     _jobs.clear();
     _effects.clear();
     _options = {};
-    _stageClears = _addsClear = false;
 }
 
 void ShadowBin::sortImplementation() {
@@ -141,6 +141,10 @@ void ShadowBin::sortImplementation() {
     }
     PrepassBin::show(_jobs, *getStage());
     for (const osg::ref_ptr<ViewEffect>& effect : _effects) effect->prepare(*getStage(), leaves);
+    if (!isIdle()) clearWithStage();
+    const bool relights = std::any_of(_jobs.begin(), _jobs.end(), [](const auto& job) { return job.relight; });
+    if (relights && !(getStage()->getClearMask() & GL_COLOR_BUFFER_BIT) && readsBack(leaves))
+        PrepassBin::saveColors(*getStage());
     sortAsAsked();
     osgUtil::RenderBin::sortImplementation();
 }
@@ -187,10 +191,14 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
     if (!isIdle()) {
         popLeafState(*renderInfo.getState(), previous);
         std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), getBinNum());
-        const bool clean = _stageClears && !isModeOn(leaves, GL_STENCIL_TEST);
-        Compositor(CompositorStage(renderInfo, *getStage(), std::move(leaves), _options, clean, ownBits(_jobs)))
-            .compose(_jobs, _effects);
-        renderInfo.getState()->decrementDynamicObjectCount();
+        const bool clean = isStencilClean(leaves);
+        const CompositorStage draw(renderInfo, *getStage(), std::move(leaves), _options, clean, ownBits(_jobs));
+        {
+            const FirstColorBuffer colors(draw.state);
+            Compositor(draw).compose(_jobs, _effects);
+        }
+        draw.pattern.restore(draw.state);
+        draw.state.decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);
 }

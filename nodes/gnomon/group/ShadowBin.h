@@ -33,13 +33,14 @@ struct EnlistedTechnique {
 ///         more, big ones in part (TriangleClusters). One job with a named receiver that nothing else shows on: its leaves
 ///         alone, at equal depth. Soft edges: a few more steps, and each set of lights that are gone once more.
 /// Needs   one stencil bit a relit light, one more for several jobs or for receivers that others show on. A stage that
-///         clears depth clears stencil too, unless bits are reserved. For soft edges alpha bits; alpha is 1 afterwards
+///         clears depth clears stencil too, unless bits are reserved. Interlaced stereo keeps its stencil bit. For soft edges alpha bits; alpha is 1 afterwards
 ///         within the marks' bounds. Without them edges are hard.
 /// Limits  three relit lights; the others stay unshadowed. Unlit receivers, and those whose program reads no OpenGL
 ///         light's colour, take a factor; where an opaque leaf has a stencil test of its own all is blended; under soft
 ///         edges what blends or writes no depth takes the factor. diagnose() says so.
 ///         Under soft edges opaque layers at the very same depth are mixed one after the other. A leaf that sets no
 ///         colour of its own and takes that of the leaf before it may take another. Reversed depth is refused.
+///         Of several colour attachments the first alone is shadowed; the others stay as the leaves have drawn them.
 ///         What is in bin 8 is drawn after the shadows: transparent things and whatever shall not receive belong there
 ///         or higher.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
@@ -56,13 +57,13 @@ public:
     /// The bin of `stage`, made if it has none: number 8, or the next lower one that another kind of bin has not taken.
     static ShadowBin& of(osgUtil::RenderStage* stage);
 
-    /// Also lets the stage clear its stencil buffer, if it clears depth and no bits are reserved: the two together cost
-    /// less than a clear of our bits later.
     void enlist(const EnlistedTechnique& technique);
     /// The same for what is no shadow: mirror images and halos.
     void enlist(ViewEffect& effect, const CompositorOptions& options);
 
     void reset() override;
+    /// Also lets the stage clear its stencil buffer, if it clears depth and no bits are reserved: the two together cost
+    /// less than a clear of our bits later.
     void sortImplementation() override;
     void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
     unsigned computeNumberOfDynamicRenderLeaves() const override;
@@ -72,8 +73,8 @@ protected:
 
 private:
     bool isIdle() const { return _jobs.empty() && _effects.empty(); }
-    void suit(const CompositorOptions& options);
     void clearWithStage();
+    bool isStencilClean(const std::vector<DrawnLeaf>& leaves) const;
     void sortAsAsked();
     void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const FrameCasters& casters,
                  const std::vector<DrawnLeaf>& leaves);
@@ -82,8 +83,6 @@ private:
     std::vector<ShadowJob> _jobs;
     std::vector<osg::ref_ptr<ViewEffect>> _effects;
     CompositorOptions _options; ///< of all that were enlisted.
-    bool _stageClears = false;
-    bool _addsClear = false; ///< it is this bin alone that wants the stage to clear stencil.
 };
 
 } // namespace gnomon

@@ -6,7 +6,6 @@
 #include <gnomon/map/DepthMap.h>
 
 #include <OpenThreads/ScopedLock>
-#include <osg/ContextData>
 
 #include <algorithm>
 
@@ -82,17 +81,6 @@ void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::
     glEnable(GL_SCISSOR_TEST);
 }
 
-/// Binds a framebuffer, made where it is 0, with that texture for its depths. @return false if OpenGL cannot draw to it.
-bool bindFramebuffer(const osg::State& state, GLuint& framebuffer, const osg::Texture::TextureObject& texture) {
-    const auto& gl = *state.get<osg::GLExtensions>();
-    if (!framebuffer) gl.glGenFramebuffers(1, &framebuffer);
-    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
-    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, GL_TEXTURE_2D, texture.id(), 0);
-    glDrawBuffer(GL_NONE);
-    glReadBuffer(GL_NONE);
-    return gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) == GL_FRAMEBUFFER_COMPLETE_EXT;
-}
-
 constexpr const char* noTarget = "this context cannot render into a depth texture, so there is no map. Use OpenGL 3.0 "
                                  "or later, with framebuffer objects.";
 
@@ -149,18 +137,19 @@ std::string DepthMap::updateBlocks(osg::State& state, const osg::StateSet& progr
 void DepthMap::bind(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _texture); }
 
 /// @return false if OpenGL cannot draw to it.
-bool DepthMap::bindTarget(osg::State& state, Target& target) const {
+bool DepthMap::attach(osg::State& state, Target& target, const ScratchFramebuffer& framebuffer) const {
     bind(state, 0); // which makes it
     target.texture = _texture->getTextureObject(state.getContextID());
-    return bindFramebuffer(state, target.framebuffer, *target.texture);
+    framebuffer.attachDepth(*target.texture);
+    return framebuffer.isComplete();
 }
 
 std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn) {
     osg::State& state = *renderInfo.getState();
     const auto& gl = *state.get<osg::GLExtensions>();
     if (!gl.isFrameBufferObjectSupported) return noTarget;
-    const SavedFramebuffers bound(gl);
-    if (!bindTarget(state, target)) return noTarget;
+    const ScratchFramebuffer framebuffer(gl);
+    if (!attach(state, target, framebuffer)) return noTarget;
     const MapState mapState(picture.slopeOffset);
     const bool sameMoving = target.shown && target.shown->moving == picture.moving;
     std::vector<Due> due;
@@ -171,7 +160,7 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
         if (!same) due.push_back({&tile, shown});
     }
     std::string cause = drawStill(renderInfo, target, picture, due);
-    if (cause.empty()) cause = drawMoving(renderInfo, target, picture, due);
+    if (cause.empty()) cause = drawMoving(renderInfo, framebuffer, picture, due);
     if (cause.empty()) drawn += static_cast<unsigned>(due.size());
     target.shown = cause.empty() ? &picture : nullptr;
     if (!due.empty()) target.inBlocks = false;
@@ -193,8 +182,8 @@ std::string DepthMap::drawStill(osg::RenderInfo& renderInfo, const Target& targe
     return drawLayer(renderInfo, picture, picture.still, parts);
 }
 
-std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
-                                 const std::vector<Due>& due) {
+std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, const ScratchFramebuffer& framebuffer,
+                                 const MapPicture& picture, const std::vector<Due>& due) {
     std::vector<PixelRect> hidden;
     std::vector<Part> parts;
     for (const Due& each : due) {
@@ -205,14 +194,16 @@ std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, Target& target, co
     osg::State& state = *renderInfo.getState();
     const auto& gl = *state.get<osg::GLExtensions>();
     if (!gl.glBlitFramebuffer) return drawLayer(renderInfo, picture, picture.moving, parts); // all is drawn each time
-    const osg::ref_ptr<osg::Texture2D> saved = savedTexture();
-    state.applyTextureAttribute(0, saved); // which makes it
-    if (!bindFramebuffer(state, target.saved, *saved->getTextureObject(state.getContextID()))) return noTarget;
-    copyDepths(gl, target.saved, target.framebuffer, hidden);
+    const osg::ref_ptr<osg::Texture2D> texture = savedTexture();
+    state.applyTextureAttribute(0, texture); // which makes it
+    const ScratchFramebuffer saved(gl);
+    saved.attachDepth(*texture->getTextureObject(state.getContextID()));
+    if (!saved.isComplete()) return noTarget;
+    copyDepths(gl, saved.name, framebuffer.name, hidden);
     std::vector<PixelRect> toHide;
     for (const Part& part : parts) toHide.push_back(part.texels);
-    copyDepths(gl, target.framebuffer, target.saved, toHide);
-    gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, target.framebuffer);
+    copyDepths(gl, framebuffer.name, saved.name, toHide);
+    framebuffer.bind();
     return drawLayer(renderInfo, picture, picture.moving, parts);
 }
 
@@ -268,9 +259,6 @@ void DepthMap::release(osg::State* state) {
     if (_blocks) _blocks->release(state);
     for (auto entry = _targets.begin(); entry != _targets.end();) {
         const bool meant = !state || state->getContextID() == entry->first;
-        for (const GLuint framebuffer : {entry->second.framebuffer, entry->second.saved})
-            if (meant && framebuffer)
-                osg::get<osg::GLFrameBufferObjectManager>(entry->first)->scheduleGLObjectForDeletion(framebuffer);
         entry = meant ? _targets.erase(entry) : std::next(entry);
     }
 }

@@ -18,6 +18,8 @@
 
 namespace gnomon {
 
+class ScratchFramebuffer;
+
 /// What one light's maps are to show. Never changed once made, so that a frame that is still drawn keeps its own.
 struct MapPicture : public osg::Referenced {
     /// A square part of the texture, and what is drawn there.
@@ -81,8 +83,7 @@ protected:
 
 private:
     struct Target {
-        GLuint framebuffer = 0, saved = 0;                    ///< the latter's texture holds what movers hide.
-        const osg::Texture::TextureObject* texture = nullptr; ///< attached to it.
+        osg::ref_ptr<const osg::Texture::TextureObject> texture; ///< that shows it.
         osg::ref_ptr<const MapPicture> shown;
         bool inBlocks = false; ///< its blocks are those of what it shows.
     };
@@ -97,12 +98,12 @@ private:
     };
     Target& targetOf(unsigned context);
     osg::ref_ptr<osg::Texture2D> savedTexture();
-    bool bindTarget(osg::State& state, Target& target) const;
+    bool attach(osg::State& state, Target& target, const ScratchFramebuffer& framebuffer) const;
     std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn);
     std::string drawStill(osg::RenderInfo& renderInfo, const Target& target, const MapPicture& picture,
                           const std::vector<Due>& due) const;
-    std::string drawMoving(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
-                           const std::vector<Due>& due);
+    std::string drawMoving(osg::RenderInfo& renderInfo, const ScratchFramebuffer& framebuffer,
+                           const MapPicture& picture, const std::vector<Due>& due);
     std::string drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
                           const std::vector<Part>& parts) const;
 

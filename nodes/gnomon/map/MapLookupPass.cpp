@@ -67,7 +67,8 @@ std::string MapLookupPass::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, c
     if (!copy.cause.empty()) return copy.cause;
     const std::string lack = penumbra ? map->updateBlocks(state, *resources->blocksProgram) : "";
     const bool wide = penumbra && lack.empty();
-    state.apply(resources->program(definesOf(pixels, wide)).get());
+    const std::string interlaced = pass.isInterlaced() ? "#define INTERLACED\n" : "";
+    state.apply(resources->program(definesOf(pixels, wide) + interlaced).get());
     if (!hasProgram(state)) return noProgram;
     map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
     setUniform(state, "maps", int(mapUnit));
@@ -147,7 +148,7 @@ void MapLookupPass::setConstants(osg::State& state, const FrameDepthCopy::Copy& 
                                       {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1}};
     if (coneFromScene) addColumns(*coneFromScene * sceneFromPixel, 4, constants);
     for (std::size_t i = 0; i < lookUps.size(); ++i) addMap(i, sceneFromPixel, constants);
-    resources->seen.bind(state, seenUnit);
+    state.applyTextureAttribute(seenUnit, copy.texture);
     setUniform(state, "seen", int(seenUnit));
     setUniform(state, "constants", constants);
 }

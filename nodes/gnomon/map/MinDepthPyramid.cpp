@@ -48,23 +48,6 @@ public:
     ValueState& operator=(const ValueState&) = delete;
 };
 
-/// A framebuffer that is gone at its end.
-class Framebuffer {
-public:
-    explicit Framebuffer(const osg::GLExtensions& gl) : _bound(gl), _gl(gl) {
-        _gl.glGenFramebuffers(1, &_name);
-        _gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, _name);
-    }
-    ~Framebuffer() { _gl.glDeleteFramebuffers(1, &_name); }
-    Framebuffer(const Framebuffer&) = delete;
-    Framebuffer& operator=(const Framebuffer&) = delete;
-
-private:
-    const SavedFramebuffers _bound;
-    const osg::GLExtensions& _gl;
-    GLuint _name = 0;
-};
-
 void readLevels(GLint first, GLint last) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, first);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, last);
@@ -80,7 +63,7 @@ std::string MinDepthPyramid::update(osg::State& state, const osg::StateSet& prog
     bind(state, 0);
     if (!made) gl.glGenerateMipmap(GL_TEXTURE_2D); // room for all levels
     const ValueState values;
-    const Framebuffer framebuffer(gl);
+    const ScratchFramebuffer framebuffer(gl);
     state.apply(&program);
     if (!hasProgram(state)) return noProgram;
     setUniform(state, "finer", 0);

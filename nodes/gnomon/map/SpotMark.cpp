@@ -17,7 +17,7 @@ std::string SpotMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsign
     if (!copy.cause.empty()) return copy.cause;
     state.apply(resources->coneProgram.get());
     if (!hasProgram(state)) return noProgram;
-    resources->seen.bind(state, seenUnit);
+    state.applyTextureAttribute(seenUnit, copy.texture);
     setUniform(state, "seen", int(seenUnit));
     setUniform(state, "rows", copy.rows);
     setUniform(state, "depthError", copy.error);
