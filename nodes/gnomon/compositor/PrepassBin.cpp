@@ -64,7 +64,9 @@ void PrepassBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& 
 }
 
 void PrepassBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
-    if (_job.marks) {
+    if (_job.marks && isCoreProfile(*renderInfo.getState()))
+        _job.report(coreProfileRefused);
+    else if (_job.marks) {
         popLeafState(*renderInfo.getState(), previous);
         const CleanState clean(*renderInfo.getState(), getStage()->getViewport());
         const std::string cause = _job.programMarks()->drawAhead(renderInfo);

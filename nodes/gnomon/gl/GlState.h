@@ -27,6 +27,9 @@ private:
     osg::ref_ptr<osg::StateSet> _set;
 };
 
+/// True in a core profile, which has neither OpenGL's matrices and lights nor what CleanState draws with.
+bool isCoreProfile(const osg::State& state);
+
 /// Puts OpenGL's stencil, depth, blending, scissor and colour mask to their defaults and tells osg::State so.
 void leaveDefaults(osg::State& state);
 
