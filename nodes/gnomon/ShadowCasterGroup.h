@@ -45,7 +45,7 @@ class CasterFingerprint;
 /// - Reversed depth and core profile contexts are refused.
 /// - Depth that a program sets, and vertices that a program moves, are not followed.
 /// - A technique's diagnose() reports each of the five cases above.
-/// - What is drawn in render bin 8 or higher receives where it writes depth and its alpha is 1.
+/// - A drawable in render bin 8 or higher receives where it writes depth, has bounds and an alpha of 1.
 /// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast.

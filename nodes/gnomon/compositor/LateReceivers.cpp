@@ -55,8 +55,10 @@ float mostAlpha(const osgUtil::RenderLeaf& leaf) {
     return std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a());
 }
 
+/// What has no bounds draws something else than surfaces: a user interface, for one, which must not be drawn twice.
 bool canReceive(const osgUtil::RenderLeaf& leaf) {
     const osgUtil::StateGraph* graph = leaf._parent;
+    if (!leaf._drawable->getBoundingBox().valid()) return false;
     if (!writesDepth(graph) || isOn(graph, GL_COLOR_LOGIC_OP)) return false;
     return !isOn(graph, GL_BLEND) || (alphaHides(graph) && mostAlpha(leaf) >= opaqueAlpha);
 }

@@ -6,7 +6,7 @@ namespace gnomon {
 
 /// Leaves of a stage that are drawn after its opaque bins and receive all the same.
 ///
-/// They write depth, and no constant alpha lets what is behind shine through all of them. Loaders put whatever has a
+/// They have bounds and write depth, and no constant alpha lets what is behind shine through all of them. Loaders put whatever has a
 /// texture with an alpha channel among the transparent things.
 struct LateReceivers {
     std::vector<DrawnLeaf> leaves;
