@@ -42,11 +42,13 @@ class CasterFingerprint;
 /// - RELIGHT shadows three lights. BLEND shadows any number, but darkens a pixel only once.
 /// - RELIGHT darkens unlit receivers by setDark(), and receivers whose program reads no light it knows.
 /// - RELIGHT falls back to BLEND if an opaque drawable has a stencil test of its own.
-/// - Reversed depth is refused.
-/// - A technique's diagnose() reports each of the four cases above.
+/// - Reversed depth and core profile contexts are refused.
+/// - Depth that a program sets, and vertices that a program moves, are not followed.
+/// - A technique's diagnose() reports each of the five cases above.
 /// - RELIGHT, and a named receiver, draw drawables again. Their draw callbacks then run more than once a frame.
 /// - Only the first of several colour attachments receives shadows. The others stay as they are.
-/// - Transparent drawables receive no shadow, nor does anything in render bin 8 or higher.
+/// - A drawable in render bin 8 or higher receives where it writes depth, has bounds and an alpha of 1.
+/// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast.
 /// Threads

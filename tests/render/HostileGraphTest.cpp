@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <osg/ColorMask>
+#include <osg/Depth>
 #include <osg/MatrixTransform>
 #include <osg/Stencil>
 
@@ -69,7 +70,9 @@ TEST(HostileGraph, BlendKeepsToTheChannelsThatTheSceneWrites) {
 
 TEST(HostileGraph, ReceiverThatCannotReceiveIsNamedAsTheCause) {
     Scene transparent = boxScene();
-    find(*transparent.root, "ground")->getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    osg::StateSet& late = *find(*transparent.root, "ground")->getOrCreateStateSet();
+    late.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    late.setAttribute(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
     const auto above = planar(find(*transparent.root, "ground"));
     transparent.addShadow(above);
     render(transparent.root, slanted);

@@ -5,6 +5,7 @@
 #include <support/Scene.h>
 
 #include <gtest/gtest.h>
+#include <osg/Depth>
 #include <osg/Program>
 #include <osg/Uniform>
 
@@ -51,10 +52,11 @@ TEST_P(LightUniforms, NamedOneIsZeroWhereTheLightIsGoneAndNowhereElse) {
     const Case& given = GetParam();
     Scene lit = build(given, given.uniform), gone = build(given, given.black), shadowed = build(given, given.uniform);
     gone.takeLightAway();
-    // The same program and uniform, drawn after the shadows: transparent, so that it receives nothing.
+    // The same program and uniform, drawn after the shadows without depth, so that it receives nothing.
     osg::ref_ptr<osg::Geode> late = node(quad({-4.0, -6.0, 0.1}, {8.0, 0.0, 0.0}, {0.0, 1.0, 0.0}), "late");
     late->setStateSet(new osg::StateSet(*find(*lit.root, "ground")->getStateSet()));
     late->getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    late->getStateSet()->setAttribute(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
     const auto technique = planar(given.named ? find(*shadowed.root, "ground") : nullptr);
     shadowed.addShadow(technique);
     shadowed.group->addLightUniform({0, "sunColor"});

@@ -3,6 +3,7 @@
 #include "Trial.h"
 
 #include <gnomon/group/ShadowBin.h>
+#include <osg/Fog>
 #include <osg/LightModel>
 
 #include <limits>
@@ -236,6 +237,17 @@ TEST(Diagnose, TellsOfLightsBeyondTheThreeThatCanBeRelit) {
     EXPECT_TRUE(says(site.causes(), "light 3 casts no shadow, because at most 3 lights can be relit",
                      "Set BLEND, which takes any number of lights"));
     site.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    EXPECT_EQ(site.causes(), Causes());
+}
+
+TEST(Diagnose, TellsOfFogThatBlendDarkens) {
+    Site site;
+    site.scene.root->getOrCreateStateSet()->setAttributeAndModes(new osg::Fog);
+    EXPECT_EQ(site.causes(), Causes());
+    site.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    EXPECT_TRUE(says(site.causes(), "fog is on, and BLEND darkens it", "Set RELIGHT, or switch GL_FOG off"));
+    site.scene.root->getStateSet()->removeAttribute(osg::StateAttribute::FOG);
+    site.scene.root->getStateSet()->removeMode(GL_FOG);
     EXPECT_EQ(site.causes(), Causes());
 }
 

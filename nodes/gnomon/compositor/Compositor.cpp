@@ -50,7 +50,7 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     for (const auto& [dark, group] : blended)
         for (const Jobs& view : byView(group)) blendAny(view, dark);
     draw(ViewEffect::Turn::Last);
-    drawViews(jobs);
+    if (!_draw.isCore) drawViews(jobs);
 }
 
 void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
@@ -150,6 +150,7 @@ bool Compositor::composeDirectly(const Jobs& jobs) {
     overlay.stencilFunction = GL_NOTEQUAL;
     overlay.test = overlay.write = bit; // back to 0 where drawn: a pixel loses its light once
     overlay.equalDepth = true;
+    overlay.hidingOnly = job.hidingOnly;
     overlay.bounds = bounds;
     overlay.marks = job.marks.get();
     if (!relit) {
@@ -221,6 +222,7 @@ void Compositor::replay(const Combination& combination, unsigned lightBits) {
 
 void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Overlay overlay, const Jobs& jobs) {
     overlay.unlit = jobs.front()->dark;
+    overlay.onHiding = jobs.front()->hidingOnly;
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
     for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.dark);

@@ -29,7 +29,9 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& dr
       options(asked),
       clean(isClean),
       pattern(StencilPattern::read(state)),
+      isCore(isCoreProfile(state)),
       own(ownBits) {
+    if (isCore) return;
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
     glGetIntegerv(GL_ALPHA_BITS, &alpha);
@@ -62,6 +64,7 @@ void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
 }
 
 std::string whyNotComposed(const CompositorStage& draw) {
+    if (draw.isCore) return coreProfileRefused;
     if (!draw.hasStencil)
         return "this framebuffer has no stencil bits. Ask for 8 with osg::DisplaySettings::setMinimumNumStencilBits(8) "
                "before the window is made, or give the camera a stencil attachment.";

@@ -44,6 +44,7 @@ public:
     const CompositorOptions options;
     const bool clean;
     const StencilPattern pattern; ///< its bit is not among `bits`.
+    const bool isCore; ///< see isCoreProfile(): nothing may be drawn.
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are free, the highest first.
     const std::size_t own;      ///< how many of them, from the first on, are the compositor's.
@@ -55,6 +56,11 @@ private:
 
 /// Takes the state sets of the leaf drawn last off the stack, as osgUtil does before positional state.
 void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous);
+
+/// The cause for diagnose() in a core profile.
+constexpr const char* coreProfileRefused =
+    "this is a core profile context, in which nothing is drawn. Ask for a compatibility profile; with GLX, leave "
+    "osg::GraphicsContext::Traits::glContextVersion at 1.0.";
 
 /// Why nothing can be composed in this stage, as a cause for diagnose(); empty if all is well.
 std::string whyNotComposed(const CompositorStage& draw);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/ResolvedState.h>
 
 #include <osg/ColorMask>
 #include <osg/Depth>
@@ -108,34 +109,6 @@ private:
     std::unordered_map<const osg::Drawable*, Places> _places;
 };
 
-/// Value of a mode after all state sets from the root to `graph`, as osg::State resolves it.
-bool resolvedMode(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool& overridden) {
-    if (!graph) return overridden = false;
-    bool on = resolvedMode(graph->_parent, mode, overridden);
-    if (!graph->getStateSet()) return on;
-    const auto value = graph->getStateSet()->getMode(mode);
-    if (value & osg::StateAttribute::INHERIT) return on;
-    if (overridden && !(value & osg::StateAttribute::PROTECTED)) return on;
-    overridden = value & osg::StateAttribute::OVERRIDE;
-    return value & osg::StateAttribute::ON;
-}
-
-/// The colour mask after all state sets from the root to `graph`; null: all channels.
-const osg::ColorMask* resolvedMask(const osgUtil::StateGraph* graph) {
-    const osg::ColorMask* found = nullptr;
-    std::vector<const osg::StateSet*> sets; // innermost first
-    for (; graph; graph = graph->_parent)
-        if (graph->getStateSet()) sets.push_back(graph->getStateSet());
-    bool overridden = false;
-    for (auto set = sets.rbegin(); set != sets.rend(); ++set) {
-        const auto* pair = (*set)->getAttributePair(osg::StateAttribute::COLORMASK);
-        if (!pair || (overridden && !(pair->second & osg::StateAttribute::PROTECTED))) continue;
-        found = static_cast<const osg::ColorMask*>(pair->first.get());
-        overridden = pair->second & osg::StateAttribute::OVERRIDE;
-    }
-    return found;
-}
-
 bool isPlainDepth(const osg::StateAttribute* attribute) {
     const auto* depth = static_cast<const osg::Depth*>(attribute);
     return !depth || (depth->getFunction() == osg::Depth::LESS && depth->getWriteMask() && depth->getZNear() == 0.0 &&
@@ -191,6 +164,12 @@ std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number) {
     return leaves;
 }
 
+std::vector<DrawnLeaf> leavesIn(osgUtil::RenderBin& bin) {
+    std::vector<DrawnLeaf> leaves;
+    append(bin, INT_MAX, leaves);
+    return leaves;
+}
+
 std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
                                                     const osg::Matrixd& eyeFromWorld) {
     ReceiverTest isReceiver(receiver, eyeFromWorld);
@@ -216,8 +195,7 @@ bool isModeOn(const std::vector<DrawnLeaf>& leaves, osg::StateAttribute::GLMode 
     std::set<const osgUtil::StateGraph*> seen;
     for (const DrawnLeaf& entry : leaves) {
         if (!seen.insert(entry.leaf->_parent).second) continue;
-        bool overridden = false;
-        if (resolvedMode(entry.leaf->_parent, mode, overridden)) return true;
+        if (isOn(entry.leaf->_parent, mode)) return true;
     }
     return false;
 }
@@ -231,7 +209,7 @@ Channels writtenChannels(const std::vector<DrawnLeaf>& leaves) {
     std::set<const osgUtil::StateGraph*> seen;
     for (const DrawnLeaf& entry : leaves) {
         if (!seen.insert(entry.leaf->_parent).second) continue;
-        const osg::ColorMask* mask = resolvedMask(entry.leaf->_parent);
+        const auto* mask = resolved<osg::ColorMask>(entry.leaf->_parent, osg::StateAttribute::COLORMASK);
         written.red = written.red || !mask || mask->getRedMask();
         written.green = written.green || !mask || mask->getGreenMask();
         written.blue = written.blue || !mask || mask->getBlueMask();

@@ -26,6 +26,9 @@ struct DrawnLeaf {
 /// to the end of draw.
 std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);
 
+/// The same of one bin.
+std::vector<DrawnLeaf> leavesIn(osgUtil::RenderBin& bin);
+
 /// Those of them that draw part of `receiver`. Reads the scene graph: call in cull.
 std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
                                                     const osg::Matrixd& eyeFromWorld);

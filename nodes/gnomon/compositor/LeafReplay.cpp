@@ -58,7 +58,10 @@ void LeafReplay::draw(const DrawnLeaf& entry, unsigned dark) {
     darken(faded ? 0 : dark);
     if (faded) return drawFaded(*entry.leaf);
     _lights.darken(dark);
+    const bool tested = _overlay.hidingOnly && _state.getLastAppliedMode(GL_BLEND);
+    if (tested) layAlphaOver();
     drawGeometry(*entry.leaf);
+    if (tested) forgetAlpha();
     _lights.restore();
 }
 
@@ -118,7 +121,8 @@ void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
 /// Its own colour times a factor, whatever colour stands; a leaf that itself reads what stands stays as it is.
 void LeafReplay::drawFaded(const osgUtil::RenderLeaf& leaf) {
     _notRelit.push_back(&leaf);
-    const bool fades = _overlay.color == Color::Replace && !_state.getLastAppliedMode(GL_BLEND) &&
+    const bool fades = _overlay.color == Color::Replace &&
+                       (_overlay.onHiding || !_state.getLastAppliedMode(GL_BLEND)) &&
                        !_state.getLastAppliedMode(GL_COLOR_LOGIC_OP);
     if (fades) {
         addBlended(_state, GL_CONSTANT_COLOR, GL_ZERO);
@@ -153,6 +157,19 @@ void LeafReplay::layOver() {
     }
     if (_overlay.mirrored) layMirrorOver();
     layColorOver();
+}
+
+/// An alpha that a framebuffer of eight bits takes for 1.
+void LeafReplay::layAlphaOver() {
+    glEnable(GL_ALPHA_TEST);
+    glAlphaFunc(GL_GEQUAL, 1.0f - 0.5f / 255.0f);
+}
+
+void LeafReplay::forgetAlpha() {
+    glDisable(GL_ALPHA_TEST);
+    glAlphaFunc(GL_ALWAYS, 0.0f);
+    _state.haveAppliedMode(GL_ALPHA_TEST, osg::StateAttribute::OFF);
+    _state.haveAppliedAttribute(osg::StateAttribute::ALPHAFUNC);
 }
 
 void LeafReplay::layMirrorOver() {

@@ -72,6 +72,11 @@ FrameColorCopy* PrepassBin::savedColors(osgUtil::RenderStage& stage) {
 }
 
 void PrepassBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
+    if (isCoreProfile(*renderInfo.getState())) {
+        if (_job.marks) _job.report(coreProfileRefused);
+        osgUtil::RenderBin::drawImplementation(renderInfo, previous);
+        return;
+    }
     if (_colors) {
         popLeafState(*renderInfo.getState(), previous);
         const CleanState clean(*renderInfo.getState(), getStage()->getViewport());

@@ -28,7 +28,8 @@ struct ShadowJob {
     osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
     bool receiverNamed = false;
     std::set<const osgUtil::RenderLeaf*> receivers; ///< the leaves of the named receiver.
-    std::vector<LightUniform> lightUniforms;        ///< of the group.
+    bool hidingOnly = false; ///< a receiver loses the light only where it hides what is behind, see LateReceivers.
+    std::vector<LightUniform> lightUniforms; ///< of the group.
 
     /// The marks, if their edges are soft; else null.
     const SoftMarkJob* softMarks() const;

@@ -127,7 +127,8 @@ SoftCompositor::Leaves SoftCompositor::setAside(Leaves& leaves, const Jobs& jobs
     for (const ReplayedLeaf& leaf : leaves) {
         const auto ofView = [&leaf](const ShadowJob* job) { return job->isOfView(*leaf.entry.leaf); };
         const bool laidOver = leaf.dark == 0 && !std::all_of(jobs.begin(), jobs.end(), ofView);
-        if (!opaque(*leaf.entry.leaf) || laidOver)
+        const bool hides = opaque(*leaf.entry.leaf) || (leaf.dark && jobs.front()->hidingOnly);
+        if (!hides || laidOver)
             aside.push_back(leaf);
         else if (leaf.dark)
             (judge.canBeRelit(leaf.entry, leaf.dark) ? mixed : aside).push_back(leaf);

@@ -69,6 +69,7 @@ void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
     overlay.write = bit;
     overlay.equalDepth = true;
     overlay.color = LeafReplay::Color::None;
+    overlay.hidingOnly = job.hidingOnly;
     overlay.bounds = job.marks->screenBounds;
     overlay.marks = job.marks.get();
     LeafReplay replay(_draw, overlay);

@@ -61,6 +61,14 @@ void StencilPattern::test(GLenum function, unsigned reference, unsigned mask) co
         glStencilFunc(function, static_cast<GLint>(reference), mask);
 }
 
+bool isCoreProfile(const osg::State& state) {
+    constexpr GLenum profileMask = 0x9126;
+    constexpr GLint core = 1;
+    GLint profile = 0;
+    if (state.get<osg::GLExtensions>()->glVersion >= 3.2f) glGetIntegerv(profileMask, &profile);
+    return profile & core;
+}
+
 /// osg::State sets an attribute again only if it ever had one of its type: so OpenGL itself is set, too.
 void leaveDefaults(osg::State& state) {
     using A = osg::StateAttribute;

@@ -57,6 +57,9 @@ private:
     std::vector<GLenum> _all; ///< empty if there are not several.
 };
 
+/// True in a core profile, which has neither OpenGL's matrices and lights nor what CleanState draws with.
+bool isCoreProfile(const osg::State& state);
+
 /// Puts OpenGL's stencil, depth, blending, scissor and colour mask to their defaults and tells osg::State so.
 void leaveDefaults(osg::State& state);
 

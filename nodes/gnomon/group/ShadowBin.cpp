@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/Compositor.h>
 #include <gnomon/compositor/PrepassBin.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/SoftMarkJob.h>
 #include <gnomon/group/ShadowBin.h>
 #include <gnomon/group/ViewFrame.h>
@@ -12,11 +13,13 @@
 
 #include <algorithm>
 #include <map>
+#include <typeinfo>
 
 namespace gnomon {
 namespace {
 
-constexpr int highestNumber = 8; // below 9, where osg::OcclusionQueryNode draws, and 10, the transparent bin
+constexpr int highestNumber = 8;    // below 9, where osg::OcclusionQueryNode draws, and 10, the transparent bin
+constexpr int lateNumber = 1 << 30; // below another bin, after all others there
 constexpr const char* binName = "gnomon::ShadowBin";
 
 /// Makes the bin known to osgUtil, which creates bins by name.
@@ -70,9 +73,117 @@ ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     job.relight = entry.group->getComposite() == ShadowCasterGroup::RELIGHT;
     job.dark = entry.group->getDark();
     job.projection = entry.projection;
-    job.receiverNamed = entry.technique->hasReceiver();
     job.lightUniforms = entry.group->getLightUniforms();
     return job;
+}
+
+/// Those of the leaves that receive from a technique: its named receiver's, or all that its lens sees.
+std::vector<const osgUtil::RenderLeaf*> receivingOf(const EnlistedTechnique& entry,
+                                                    const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
+    const bool named = entry.technique->hasReceiver();
+    std::set<const osgUtil::RenderLeaf*> receivers;
+    if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
+    std::vector<const osgUtil::RenderLeaf*> receiving;
+    for (const DrawnLeaf& leaf : leaves)
+        if (named ? receivers.count(leaf.leaf) > 0 : isSameLens(*leaf.leaf->_projection, *entry.projection))
+            receiving.push_back(leaf.leaf);
+    return receiving;
+}
+
+/// True if a shadow could be expected on what is drawn so, unlike on a sky.
+bool isShaded(const osgUtil::RenderLeaf& leaf) {
+    return isOn(leaf._parent, GL_LIGHTING) || resolvedAttribute(leaf._parent, osg::StateAttribute::PROGRAM);
+}
+
+/// Shadows are found by the depths that stand.
+void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUtil::RenderLeaf*>& receiving) {
+    const auto hasDepth = [](const auto* leaf) { return writesDepth(leaf->_parent); };
+    const auto shaded = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(*leaf); });
+    if (shaded == receiving.end() || std::any_of(receiving.begin(), receiving.end(), hasDepth)) return;
+    entry.technique->report(entry.frameNumber,
+                            "no receiver in this view writes depth, so there is no shadow; the first is '" +
+                                nameOf(**shaded) + "'. Switch GL_DEPTH_TEST and the mask of osg::Depth on.");
+}
+
+/// Where leaves can be seen.
+std::optional<ScreenRect> boundsOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
+    std::optional<ScreenRect> all;
+    FilledTest filled;
+    for (const osgUtil::RenderLeaf* leaf : leaves)
+        if (const std::optional<ScreenRect> place = filled(*leaf) ? screenBoundsOf(*leaf) : wholeScreen)
+            all = all ? united(*all, *place) : *place;
+    return all;
+}
+
+/// A factor is for what is seen, fog and all.
+void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
+    if (entry.group->getComposite() == ShadowCasterGroup::BLEND &&
+        (isModeOn(drawn.early, GL_FOG) || isModeOn(drawn.late.leaves, GL_FOG)))
+        entry.technique->report(entry.frameNumber, "fog is on, and BLEND darkens it with the surface behind it. Set "
+                                                   "RELIGHT, or switch GL_FOG off.");
+}
+
+/// Leaves whose depths belong together. What all lies at one depth, as a sky does, receives nothing.
+std::map<DepthPlacement, Leaves> byPlacement(const Leaves& leaves,
+                                             const std::map<const osgUtil::RenderLeaf*, DepthPlacement>& displaced) {
+    std::map<DepthPlacement, Leaves> parts;
+    if (displaced.empty()) {
+        parts[DepthPlacement()] = leaves;
+        return parts;
+    }
+    for (const osgUtil::RenderLeaf* leaf : leaves) {
+        const auto found = displaced.find(leaf);
+        const DepthPlacement placement = found == displaced.end() ? DepthPlacement() : found->second;
+        if (placement.nearest != placement.farthest) parts[placement].push_back(leaf);
+    }
+    return parts;
+}
+
+/// A depth range, as a part of the projection.
+osg::Matrixd rangeOf(const DepthPlacement& placement) {
+    return osg::Matrixd::scale(1.0, 1.0, placement.farthest - placement.nearest) *
+           osg::Matrixd::translate(0.0, 0.0, placement.farthest + placement.nearest - 1.0);
+}
+
+/// What a technique is asked for in one view.
+struct Preparation {
+    const EnlistedTechnique& entry;
+    const std::vector<ShadowLight>& lights;
+    const FrameCasters& casters;
+    ViewFrame view;
+    const std::vector<const osgUtil::RenderLeaf*>& receiving;
+    std::optional<ScreenRect> within = wholeScreen; ///< where those are; nullopt: nowhere.
+};
+
+/// @param alone  what receives is not all that the view sees.
+std::vector<ShadowJob> jobsFor(Preparation asked, bool alone) {
+    std::vector<ShadowJob> jobs;
+    std::set<const osgUtil::RenderLeaf*> receivers;
+    if (alone) receivers = {asked.receiving.begin(), asked.receiving.end()};
+    asked.view.receivers = alone ? &receivers : nullptr;
+    asked.view.seen = asked.receiving;
+    for (const ShadowLight& light : asked.lights) {
+        ShadowJob job = jobFor(asked.entry, light);
+        job.receiverNamed = alone;
+        job.receivers = receivers;
+        for (const osg::ref_ptr<MarkJob>& marks : asked.entry.technique->prepare(asked.view, light, asked.casters)) {
+            job.marks = marks;
+            marks->screenBounds = common(marks->screenBounds, *asked.within);
+            if (job.programMarks() || overlap(marks->screenBounds, marks->screenBounds)) jobs.push_back(job);
+        }
+    }
+    return jobs;
+}
+
+/// The bin that composes what the bin `last` of the stage draws, right after it: a bin below it, or else beside it.
+ShadowBin& binAfter(osgUtil::RenderBin& last) {
+    const bool drawsBinsBelow = typeid(last) == typeid(osgUtil::RenderBin) || typeid(last) == typeid(ShadowBin);
+    const bool below = drawsBinsBelow && !last.getStateSet();
+    osgUtil::RenderBin& parent = below ? last : *last.getStage();
+    for (int number = below ? lateNumber : last.getBinNum() + 1;; ++number) {
+        auto* bin = dynamic_cast<ShadowBin*>(parent.find_or_insert(number, binName));
+        if (bin) return *bin;
+    }
 }
 
 /// Stencil bits that the compositor takes: one a light, and a scratch bit; one more for lights that fade.
@@ -124,29 +235,46 @@ void ShadowBin::reset() {
     setSortMode(getDefaultRenderBinSortMode());
     _enlisted.clear();
     _jobs.clear();
+    _lateJobs.clear();
+    _composesBelow.reset();
     _effects.clear();
     _options = {};
 }
 
 void ShadowBin::sortImplementation() {
+    if (!_composesBelow) prepareAll();
+    sortAsAsked();
+    osgUtil::RenderBin::sortImplementation();
+}
+
+void ShadowBin::prepareAll() {
     _jobs.clear();
     std::map<const ShadowCasterGroup*, FrameCasters> groups;
-    const std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), getBinNum());
+    const StageLeaves drawn(*getStage(), getBinNum(), !_enlisted.empty());
     for (const EnlistedTechnique& entry : _enlisted) {
         const FrameCasters& casters = groups.try_emplace(entry.group.get(), *entry.group).first->second;
         if (!hasCasters(entry, casters)) continue;
         const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
         for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
-        prepare(entry, found.lights, casters, leaves);
+        prepare(entry, found.lights, casters, drawn);
     }
     PrepassBin::show(_jobs, *getStage());
-    for (const osg::ref_ptr<ViewEffect>& effect : _effects) effect->prepare(*getStage(), leaves);
-    if (!isIdle()) clearWithStage();
-    const bool relights = std::any_of(_jobs.begin(), _jobs.end(), [](const auto& job) { return job.relight; });
-    if (relights && !(getStage()->getClearMask() & GL_COLOR_BUFFER_BIT) && readsBack(leaves))
-        PrepassBin::saveColors(*getStage());
-    sortAsAsked();
-    osgUtil::RenderBin::sortImplementation();
+    PrepassBin::show(_lateJobs, *getStage());
+    for (const osg::ref_ptr<ViewEffect>& effect : _effects) effect->prepare(*getStage(), drawn.early);
+    if (!isIdle() || !_lateJobs.empty()) clearWithStage();
+    saveColorsIfBlended(drawn);
+    handOnLateJobs(drawn.late.last);
+}
+
+/// What is relit is drawn anew, and leaves that blend need the colours from before the stage, where it clears none.
+void ShadowBin::saveColorsIfBlended(const StageLeaves& drawn) {
+    const auto relights = [](const std::vector<ShadowJob>& jobs) {
+        return std::any_of(jobs.begin(), jobs.end(), [](const ShadowJob& job) { return job.relight; });
+    };
+    if (getStage()->getClearMask() & GL_COLOR_BUFFER_BIT) return;
+    const bool blended = relights(_lateJobs) ? readsBack(leavesBelow(*getStage(), drawn.late.last->getBinNum() + 1))
+                                             : relights(_jobs) && readsBack(drawn.early);
+    if (blended) PrepassBin::saveColors(*getStage());
 }
 
 /// Leaves that asked for a bin of this number got this one, which must sort as the kind they named.
@@ -161,36 +289,53 @@ void ShadowBin::sortAsAsked() {
 }
 
 void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
-                        const FrameCasters& casters, const std::vector<DrawnLeaf>& leaves) {
+                        const FrameCasters& casters, const StageLeaves& drawn) {
+    const auto receiving = receivingOf(entry, drawn.early, *getStage());
+    const auto lateOnes = receivingOf(entry, drawn.late.leaves, *getStage());
+    drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, receiving, lateOnes);
+    if (entry.technique->hasReceiver() && receiving.empty() && lateOnes.empty())
+        return reportNoReceiver(entry, *getStage());
+    if (lateOnes.empty()) reportNoDepth(entry, receiving);
+    reportFog(entry, drawn);
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
-    std::set<const osgUtil::RenderLeaf*> receivers;
-    if (entry.technique->hasReceiver()) {
-        receivers = receiversAmong(leaves, entry.technique->getReceiver(), *getStage()->getInitialViewMatrix());
-        view.receivers = &receivers;
-    }
-    if (view.receivers && receivers.empty()) {
-        reportNoReceiver(entry, *getStage());
-        return;
-    }
-    view.stage = getStage();
     view.options.filter = _options.filter; // as all who share this bin want it
-    for (const DrawnLeaf& leaf : leaves)
-        if (view.receivers ? receivers.count(leaf.leaf) > 0 : isSameLens(*leaf.leaf->_projection, *entry.projection))
-            view.seen.push_back(leaf.leaf);
-    for (const ShadowLight& light : lights) {
-        ShadowJob job = jobFor(entry, light);
-        job.receivers = receivers;
-        for (const osg::ref_ptr<MarkJob>& marks : entry.technique->prepare(view, light, casters)) {
-            job.marks = marks;
-            _jobs.push_back(job);
+    const auto add = [&](auto& to, const Leaves& those, std::optional<ScreenRect> within, bool alone, bool programs) {
+        for (ShadowJob& job : jobsFor({entry, lights, casters, view, those, within}, alone))
+            if (programs || !job.programMarks()) to.push_back(std::move(job));
+    };
+    int index = 0;
+    bool programs = true; // are served once
+    const auto addAll = [&](const Leaves& all, bool late) {
+        const auto parts = byPlacement(all, drawn.displaced);
+        for (const auto& [placement, those] : parts) {
+            view.stage = reinterpret_cast<const char*>(getStage()) + index++; // to a technique's caches another view
+            view.projection = *entry.projection * rangeOf(placement);
+            view.pushedBack = {placement.pixels, placement.steps};
+            const bool part = parts.size() > 1;
+            const std::optional<ScreenRect> within = part || late ? boundsOf(those) : wholeScreen;
+            const bool named = part || late || entry.technique->hasReceiver();
+            if (within) add(late ? _lateJobs : _jobs, those, within, named, programs);
+            programs = false;
         }
-    }
+    };
+    if (!receiving.empty() || lateOnes.empty()) addAll(receiving, false);
+    addAll(lateOnes, true);
+}
+
+/// To a bin of its own, after the last one that draws what receives late.
+void ShadowBin::handOnLateJobs(osgUtil::RenderBin* last) {
+    if (_lateJobs.empty()) return;
+    ShadowBin& late = binAfter(*last);
+    for (ShadowJob& job : _lateJobs) job.hidingOnly = true;
+    late._jobs = std::move(_lateJobs);
+    late._options = _options;
+    late._composesBelow = last->getBinNum() + 1;
 }
 
 void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (!isIdle()) {
         popLeafState(*renderInfo.getState(), previous);
-        std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), getBinNum());
+        std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
         const bool clean = isStencilClean(leaves);
         const CompositorStage draw(renderInfo, *getStage(), std::move(leaves), _options, clean, ownBits(_jobs));
         {

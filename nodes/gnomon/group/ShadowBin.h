@@ -6,10 +6,12 @@
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/group/FrameCasters.h>
+#include <gnomon/group/StageLeaves.h>
 
 #include <osgUtil/RenderBin>
 #include <osgUtil/RenderStage>
 
+#include <optional>
 #include <vector>
 
 namespace gnomon {
@@ -28,6 +30,7 @@ struct EnlistedTechnique {
 ///
 /// It runs after all opaque bins of the stage and before the transparent ones. Lights and leaves are asked for after the
 /// whole cull, so their order in the graph does not matter; nothing is kept from frame to frame or view to view.
+/// Where leaves of later bins receive too (LateReceivers), a second bin of this class runs after the last of them.
 ///
 /// Cost    scissored to where marks can fall: the marks, a stencil clear, and the leaves that the marks can touch, once
 ///         more, big ones in part (TriangleClusters). One job with a named receiver that nothing else shows on: its leaves
@@ -41,8 +44,8 @@ struct EnlistedTechnique {
 ///         Under soft edges opaque layers at the very same depth are mixed one after the other. A leaf that sets no
 ///         colour of its own and takes that of the leaf before it may take another. Reversed depth is refused.
 ///         Of several colour attachments the first alone is shadowed; the others stay as the leaves have drawn them.
-///         What is in bin 8 is drawn after the shadows: transparent things and whatever shall not receive belong there
-///         or higher.
+///         What is drawn in bin 8 or later receives where it writes depth and its alpha is 1. What lets anything shine
+///         through receives nothing there; nor does what is seen through it, if it writes depth and both are late.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
 class ShadowBin : public osgUtil::RenderBin {
 public:
@@ -76,11 +79,16 @@ private:
     void clearWithStage();
     bool isStencilClean(const std::vector<DrawnLeaf>& leaves) const;
     void sortAsAsked();
+    void prepareAll();
+    void saveColorsIfBlended(const StageLeaves& drawn);
     void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const FrameCasters& casters,
-                 const std::vector<DrawnLeaf>& leaves);
+                 const StageLeaves& drawn);
+    void handOnLateJobs(osgUtil::RenderBin* last);
 
     std::vector<EnlistedTechnique> _enlisted;
     std::vector<ShadowJob> _jobs;
+    std::vector<ShadowJob> _lateJobs;  ///< for the bin that composes what is drawn later.
+    std::optional<int> _composesBelow; ///< set of that bin: what the stage draws before this number.
     std::vector<osg::ref_ptr<ViewEffect>> _effects;
     CompositorOptions _options; ///< of all that were enlisted.
 };

@@ -19,6 +19,8 @@ struct ViewFrame {
     osg::Matrixd groupFromTechnique; ///< identity unless a transform stands between group and technique.
     osg::Matrixd projection;         ///< as drawn, near and far included.
     osg::Vec2d pixels;               ///< of the viewport.
+    osg::Vec2d
+        pushedBack; ///< what receives, by polygon offset: in pixels of its slope, and in steps of the depth buffer.
     const ShadowCasterGroup* group = nullptr;
     float dark = 0.5f;         ///< of the ShadowCasterGroup.
     CompositorOptions options; ///< of the ShadowCasterGroup.

@@ -63,8 +63,10 @@ std::string MapLookupPass::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, c
     const PixelRect pixels = wholeQuads(marked, viewport);
     const std::string cause = showMap(renderInfo);
     if (!cause.empty()) return cause;
-    const FrameDepthCopy::Copy copy = resources->seen.copy(state, pixels);
+    FrameDepthCopy::Copy copy = resources->seen.copy(state, pixels);
     if (!copy.cause.empty()) return copy.cause;
+    copy.error.x *= 1.0 + pushedBack.y;
+    copy.error.y += pushedBack.x;
     const std::string lack = penumbra ? map->updateBlocks(state, *resources->blocksProgram) : "";
     const bool wide = penumbra && lack.empty();
     const std::string interlaced = pass.isInterlaced() ? "#define INTERLACED\n" : "";

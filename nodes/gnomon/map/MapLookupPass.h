@@ -33,6 +33,7 @@ struct MapLookupPass {
     std::vector<MapLookUp> lookUps;          ///< one a tile of the picture.
     std::vector<glm::dvec2> outline;         ///< of where less than all of the light can arrive: see drawPolygon().
     glm::dmat4 clipFromScene{1.0};           ///< as drawn.
+    glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
     std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no fragments.
     std::string defines;                     ///< of the fragment shader: how it compares.
     bool cascades = false;                   ///< the finer of them hold part of what is seen only.

@@ -85,6 +85,7 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
     map.update(*_resources);
     MapLookupPass quad = map.quad(scene.clipFromScene);
     quad.resources = _resources;
+    quad.pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
     quad.outline =
         screenOutline(corners, 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y())); // two pixels more, against rounding
     if (forPrograms) return new ProgramMaps(quad, glm::inverse(scene.eyeFromScene), unsigned(settings.programUnit));

@@ -5,6 +5,7 @@
 #include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/compositor/ReplaySelection.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/LocalLight.h>
@@ -154,6 +155,10 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     const TerrainFrame frame =
         _cache->frame(view, casters.drawables(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
                       *usable, _options);
+    const auto inFront = [](const osgUtil::RenderLeaf* leaf) { return isPulledForward(leaf->_parent); };
+    if (std::any_of(view.seen.begin(), view.seen.end(), inFront))
+        report(view.frameNumber, "a polygon offset pulls the terrain in front of its shadow. Give a positive offset to "
+                                 "what lies under it instead.");
     const TileVisibility seen(view, frame.origin);
     for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;

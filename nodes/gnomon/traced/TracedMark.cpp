@@ -107,6 +107,8 @@ std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     DepthPicture part = partInScissor(*state.getCurrentViewport());
     if (part.width <= 0 || part.height <= 0) return "";
     if (!readDepth(state, *resolved, part)) return unresolvedDepth;
+    part.offPlace += pushedBack.x;
+    part.step *= 1.0 + pushedBack.y; // of which depthBufferShadow() allows for a few
     pass.stencilEqual(bit, 0, bit);
     const std::vector<std::uint8_t> bits = depthBufferShadow(*scene, part, clipFromScene, light);
     (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, bits);

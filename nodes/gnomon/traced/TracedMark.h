@@ -17,6 +17,7 @@ public:
     std::shared_ptr<const RayScene> scene;   ///< casters, about their mesh's origin.
     std::shared_ptr<ResolvedDepth> resolved; ///< the technique's, for framebuffers with several samples.
     glm::dmat4 clipFromScene{1.0};           ///< as drawn.
+    glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
     glm::dvec4 light{0.0};                   ///< about the same origin; w is 0 or 1.
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;

@@ -31,6 +31,7 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
     mark->light = *usable;
     mark->resolved = _resolved;
     mark->clipFromScene = scene.clipFromScene(view);
+    mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
     const auto bounds = shadowBounds(mesh, mark->clipFromScene, *usable);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;

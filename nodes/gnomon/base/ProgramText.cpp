@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/base/ProgramText.h>
+
+#include <OpenThreads/Mutex>
+#include <OpenThreads/ScopedLock>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+namespace {
+
+using Tokens = std::vector<std::string>;
+
+bool contains(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
+
+bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool isName(const std::string& token) {
+    return isWord(token[0]) && !std::isdigit(static_cast<unsigned char>(token[0]));
+}
+
+/// Past a comment or a preprocessor's line that begins at `at`; `at` if none does.
+std::size_t pastComment(const std::string& text, std::size_t at) {
+    const auto past = [&](const char* end, std::size_t length) {
+        const std::size_t found = text.find(end, at);
+        return found == std::string::npos ? text.size() : found + length;
+    };
+    if (text.compare(at, 2, "//") == 0 || text[at] == '#') return past("\n", 1);
+    return text.compare(at, 2, "/*") == 0 ? past("*/", 2) : at;
+}
+
+/// Names and numbers, and every other sign by itself.
+Tokens tokensOf(const std::string& text) {
+    Tokens tokens;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t past = pastComment(text, at);
+        std::size_t end = at + 1;
+        if (past > at)
+            end = past;
+        else if (isWord(text[at])) {
+            const bool number = std::isdigit(static_cast<unsigned char>(text[at]));
+            while (end < text.size() && (isWord(text[end]) || (number && text[end] == '.'))) ++end;
+            tokens.push_back(text.substr(at, end - at));
+        } else if (!std::isspace(static_cast<unsigned char>(text[at])))
+            tokens.emplace_back(1, text[at]);
+        at = end;
+    }
+    return tokens;
+}
+
+/// Follows the vertex from its attribute to gl_Position through products with matrices. A statement of any other kind
+/// makes its target something else.
+class VertexWay {
+public:
+    VertexWay(const Tokens& tokens, const osg::Program& program) {
+        for (const auto& [name, index] : program.getAttribBindingList())
+            if (index == 0) _vertex.insert(name);
+        Tokens statement;
+        for (const std::string& token : tokens)
+            if (token == ";" || token == "{" || token == "}") {
+                take(statement);
+                statement.clear();
+            } else
+                statement.push_back(token);
+    }
+
+    bool arrives() const { return _vertex.count("gl_Position") > 0; }
+
+private:
+    void take(const Tokens& statement) {
+        if (statement.size() < 2) return;
+        declare(statement);
+        const auto equals = std::find(statement.begin(), statement.end(), "=");
+        if (equals == statement.end() || equals == statement.begin()) return;
+        const Tokens left(statement.begin(), equals), right(equals + 1, statement.end());
+        const auto dot = std::find(left.begin(), left.end(), ".");
+        if (dot != left.end()) { // x and y tell where it is
+            if (*(dot + 1) != "z") stop(*(dot - 1));
+        } else if (!isName(left.back())) { // an element, or an operation in place
+            stop(left.front());
+        } else if (keeps(right))
+            _vertex.insert(left.back());
+        else
+            stop(left.back());
+    }
+
+    /// Matrices that are uniforms, and the attribute of location 0.
+    void declare(const Tokens& statement) {
+        const auto has = [&statement](const char* word) {
+            return std::find(statement.begin(), statement.end(), word) != statement.end();
+        };
+        const std::string& name = statement.back();
+        if (has("uniform") && has("mat4") && isName(name)) _matrices.insert(name);
+        const auto location = std::find(statement.begin(), statement.end(), "location");
+        if (has("in") && statement.end() - location > 2 && *(location + 2) == "0") _vertex.insert(name);
+    }
+
+    bool keeps(const Tokens& right) const {
+        bool vertex = false, member = false;
+        for (const std::string& token : right) {
+            const bool known = _vertex.count(token) > 0 || token == "ftransform";
+            const bool allowed = known || isMatrix(token) || isPlain(token) || (member && isAll(token));
+            if (!allowed) return false;
+            vertex = vertex || known;
+            member = token == ".";
+        }
+        return vertex;
+    }
+
+    bool isMatrix(const std::string& token) const {
+        const bool builtIn = token.compare(0, 3, "gl_") == 0 || token.compare(0, 4, "osg_") == 0;
+        return _matrices.count(token) > 0 || (builtIn && contains(token, "Matrix"));
+    }
+    static bool isPlain(const std::string& token) {
+        static const std::set<std::string> plain{"*", "(", ")", ",", ".", "vec3", "vec4", "1", "1.", "1.0", "1.0f"};
+        return plain.count(token) > 0;
+    }
+    static bool isAll(const std::string& token) { return token == "xyz" || token == "xyzw" || token == "w"; }
+    void stop(const std::string& name) { _vertex.erase(name); }
+
+    std::set<std::string> _vertex{"gl_Vertex", "osg_Vertex"}, _matrices;
+};
+
+/// An assignment to a z, by a logarithm somewhere.
+bool bendsDepth(const std::string& text, const Tokens& tokens) {
+    const auto isAssigned = [&tokens](std::size_t at) { return at < tokens.size() && tokens[at] == "="; };
+    for (std::size_t i = 0; i + 1 < tokens.size(); ++i)
+        if (tokens[i] == "." && tokens[i + 1] == "z" && (isAssigned(i + 2) || isAssigned(i + 3)))
+            return contains(text, "log2") || contains(text, "log(") || contains(text, "log (");
+    return false;
+}
+
+/// A fragment's own depth is taken for OpenGL's where its text speaks of how that is made.
+bool replacesDepth(const std::string& text) {
+    if (!contains(text, "gl_FragDepth")) return false;
+    const bool asOpenGl =
+        contains(text, "gl_DepthRange") || contains(text, "ProjectionMatrix") || contains(text, "gl_FragCoord.z");
+    return contains(text, "log") || !asOpenGl;
+}
+
+ProgramPlaces found(const osg::Program& program, const std::string& vertex, const std::string& fragment) {
+    const Tokens tokens = tokensOf(vertex);
+    ProgramPlaces places;
+    places.movesVertices = !vertex.empty() && !VertexWay(tokens, program).arrives();
+    places.ownDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment);
+    return places;
+}
+
+} // namespace
+
+ProgramPlaces placesOf(const osg::Program& program) {
+    std::string vertex, fragment;
+    bool others = false;
+    for (unsigned i = 0; i < program.getNumShaders(); ++i) {
+        const osg::Shader& shader = *program.getShader(i);
+        const bool isVertex = shader.getType() == osg::Shader::VERTEX,
+                   isFragment = shader.getType() == osg::Shader::FRAGMENT;
+        if (isVertex) vertex += shader.getShaderSource() + "\n";
+        if (isFragment) fragment += shader.getShaderSource() + "\n";
+        others = others || !(isVertex || isFragment);
+    }
+    static OpenThreads::Mutex mutex;
+    static std::map<std::size_t, ProgramPlaces> known;
+    std::string all = vertex + '\0' + fragment;
+    for (const auto& [name, index] : program.getAttribBindingList()) all += '\0' + name + std::to_string(index);
+    const std::size_t key = std::hash<std::string>()(all);
+    const OpenThreads::ScopedLock<OpenThreads::Mutex> lock(mutex);
+    if (known.size() > 1000) known.clear(); // texts that are made anew in each frame
+    const auto [entry, isNew] = known.try_emplace(key);
+    if (isNew) entry->second = found(program, vertex, fragment);
+    ProgramPlaces places = entry->second;
+    places.movesVertices = places.movesVertices || others;
+    return places;
+}
+
+} // namespace gnomon

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/Program>
+
+namespace gnomon {
+
+/// What the GLSL text of a program says of where it draws.
+///
+/// A reader of text can be deceived: by functions, branches and uniforms. It is for diagnose(), not for pictures.
+struct ProgramPlaces {
+    /// Vertices may go elsewhere than OpenGL's matrices take them: by instance, bone, displacement, or in another stage.
+    bool movesVertices = false;
+    /// The depth is not the one that the projection gives: a logarithm, or a gl_FragDepth of its own.
+    bool ownDepth = false;
+};
+
+/// Threads any number. What was found is kept, by the text.
+ProgramPlaces placesOf(const osg::Program& program);
+
+} // namespace gnomon

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/StateAttribute>
+#include <osg/StateSet>
+#include <osgUtil/StateGraph>
+
+#include <tuple>
+
+namespace gnomon {
+
+/// True if a mode is on after all state sets from the root to `graph`, as osg::State resolves it.
+/// @param unset  where no state set gives the mode.
+bool isOn(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool unset = false);
+
+/// An attribute after all state sets from the root to `graph`; null if none of them has it.
+const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type);
+
+template <typename Attribute>
+const Attribute* resolved(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type) {
+    return static_cast<const Attribute*>(resolvedAttribute(graph, type));
+}
+
+/// True if what is drawn so leaves its depth: depth test and depth mask are on.
+bool writesDepth(const osgUtil::StateGraph* graph);
+
+/// Where a state puts depths, besides where the projection does.
+struct DepthPlacement {
+    double nearest = 0.0, farthest = 1.0; ///< osg::Depth's range.
+    double pixels = 0.0; ///< pushed back by what the depth changes over so many pixels: osg::PolygonOffset's factor.
+    double steps = 0.0;  ///< and by so many steps of the depth buffer: its units.
+
+    bool isPlain() const { return *this == DepthPlacement(); }
+    bool operator==(const DepthPlacement& other) const { return key() == other.key(); }
+    bool operator<(const DepthPlacement& other) const { return key() < other.key(); }
+
+private:
+    std::tuple<double, double, double, double> key() const { return {nearest, farthest, pixels, steps}; }
+};
+
+/// What an offset brings nearer to the eye counts as in its place: shadows find it all the same.
+DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph);
+
+/// True if a polygon offset brings what is drawn so nearer to the eye.
+bool isPulledForward(const osgUtil::StateGraph* graph);
+
+} // namespace gnomon

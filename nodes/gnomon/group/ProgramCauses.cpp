@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/base/ProgramText.h>
+#include <gnomon/group/ProgramCauses.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace gnomon {
+namespace {
+
+ProgramPlaces placesIn(const osgUtil::StateGraph* graph) {
+    const auto* program = resolved<osg::Program>(graph, osg::StateAttribute::PROGRAM);
+    return program ? placesOf(*program) : ProgramPlaces();
+}
+
+/// The leaf that casts and comes first; null if none does.
+const osgUtil::RenderLeaf* firstCaster(const ShadowCasterGroup& group, const std::vector<DrawnLeaf>& leaves,
+                                       const osg::Matrixd& eyeFromWorld) {
+    Selection all;
+    all.node = const_cast<ShadowCasterGroup*>(&group);
+    const auto below = receiversAmong(leaves, all, eyeFromWorld);
+    const auto casting = receiversAmong(leaves, group.getCasters(), eyeFromWorld);
+    const auto casts = [&](const DrawnLeaf& entry) { return below.count(entry.leaf) && casting.count(entry.leaf); };
+    const auto found = std::find_if(leaves.begin(), leaves.end(), casts);
+    return found == leaves.end() ? nullptr : found->leaf;
+}
+
+} // namespace
+
+ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage.getInitialViewMatrix()) {
+    std::map<const osgUtil::StateGraph*, ProgramPlaces> known;
+    for (const DrawnLeaf& entry : leavesBelow(stage, std::numeric_limits<int>::max())) {
+        const auto [places, isNew] = known.try_emplace(entry.leaf->_parent);
+        if (isNew) places->second = placesIn(entry.leaf->_parent);
+        if (places->second.movesVertices) _moving.push_back(entry);
+        if (places->second.ownDepth) _ownDepths.insert(entry.leaf);
+    }
+}
+
+void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
+                           const Leaves& receivingLate) const {
+    for (const Leaves* leaves : {&receiving, &receivingLate}) {
+        if (_ownDepths.empty()) break;
+        const auto bends = [this](const auto* leaf) { return _ownDepths.count(leaf) > 0; };
+        const auto bent = std::find_if(leaves->begin(), leaves->end(), bends);
+        if (bent == leaves->end()) continue;
+        report("the program of '" + nameOf(**bent) +
+               "' replaces OpenGL's depth, so its shadow is missing or wrong. Leave gl_Position.z and gl_FragDepth to "
+               "the projection, or leave the node out of the receiver.");
+        break;
+    }
+    const osgUtil::RenderLeaf* moved = _moving.empty() ? nullptr : firstCaster(group, _moving, _eyeFromWorld);
+    if (moved)
+        report("the program of '" + nameOf(*moved) +
+               "' moves its vertices, but it casts where its arrays stand. Take it out of setCasters() by its node "
+               "mask, and let a node that is never drawn cast in its place.");
+}
+
+} // namespace gnomon

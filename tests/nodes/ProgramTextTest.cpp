@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// What the text of a program says of where its vertices and its depths go.
+#include <gnomon/base/ProgramText.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+osg::ref_ptr<osg::Program> programOf(const std::string& vertex, const std::string& fragment = "") {
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    if (!vertex.empty()) program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
+    if (!fragment.empty()) program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragment));
+    return program;
+}
+
+bool moves(const std::string& vertex) { return gnomon::placesOf(*programOf(vertex)).movesVertices; }
+bool bends(const std::string& vertex, const std::string& fragment = "") {
+    return gnomon::placesOf(*programOf(vertex, fragment)).ownDepth;
+}
+
+} // namespace
+
+TEST(ProgramText, MatricesLeaveVerticesInTheirPlace) {
+    EXPECT_FALSE(moves("void main() { gl_Position = ftransform(); }"));
+    EXPECT_FALSE(moves("void main() { gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex; }"));
+    EXPECT_FALSE(moves("#version 130\nin vec4 osg_Vertex; uniform mat4 osg_ModelViewProjectionMatrix;\n"
+                       "void main() { gl_Position = osg_ModelViewProjectionMatrix * vec4(osg_Vertex.xyz, 1.0); }"));
+    EXPECT_FALSE(moves("varying vec3 at; void main() { vec4 eye = gl_ModelViewMatrix * gl_Vertex; at = eye.xyz;\n"
+                       "gl_Position = gl_ProjectionMatrix * eye; gl_TexCoord[0] = gl_MultiTexCoord0; }"));
+    EXPECT_FALSE(moves("#version 330\nlayout(location = 0) in vec3 place; uniform mat4 clipFromLocal;\n"
+                       "void main() { gl_Position = clipFromLocal * vec4(place, 1.0); }"));
+    EXPECT_FALSE(gnomon::placesOf(*programOf("", "void main() { gl_FragColor = vec4(1.0); }")).movesVertices);
+}
+
+TEST(ProgramText, InstancesBonesAndWavesMoveThem) {
+    EXPECT_TRUE(moves("#version 140\nvoid main() { vec4 v = gl_Vertex; v.x += 3.0 * float(gl_InstanceID);\n"
+                      "gl_Position = gl_ModelViewProjectionMatrix * v; }"));
+    EXPECT_TRUE(moves("uniform mat4 matrixPalette[8]; attribute vec4 bones;\n"
+                      "void main() { vec4 v = matrixPalette[int(bones.x)] * gl_Vertex;\n"
+                      "gl_Position = gl_ModelViewProjectionMatrix * v; }"));
+    EXPECT_TRUE(moves("uniform float time; void main() {\n"
+                      "gl_Position = gl_ModelViewProjectionMatrix * (gl_Vertex + vec4(0, 0, sin(time), 0)); }"));
+}
+
+TEST(ProgramText, AnotherStageMayMoveThem) {
+    const osg::ref_ptr<osg::Program> program = programOf("void main() { gl_Position = ftransform(); }");
+    program->addShader(new osg::Shader(osg::Shader::GEOMETRY, "void main() {}"));
+    EXPECT_TRUE(gnomon::placesOf(*program).movesVertices);
+}
+
+TEST(ProgramText, ALogarithmOrAnOwnFragmentDepthReplacesOpenGLs) {
+    const std::string plain = "void main() { gl_Position = ftransform(); }";
+    const std::string log = "uniform float far; void main() { gl_Position = ftransform();\n"
+                            "gl_Position.z = log2(max(1e-6, gl_Position.w + 1.0)) * 2.0 / log2(far + 1.0) - 1.0;\n"
+                            "gl_Position.z *= gl_Position.w; }";
+    EXPECT_TRUE(bends(log));
+    EXPECT_FALSE(moves(log));
+    EXPECT_TRUE(bends(plain, "varying float w; void main() { gl_FragDepth = log2(w) * 0.1; }"));
+    EXPECT_TRUE(bends(plain, "varying float z; void main() { gl_FragDepth = z / 1000.0; }"));
+    EXPECT_FALSE(bends(plain));
+    EXPECT_FALSE(bends("void main() { gl_Position = ftransform(); gl_Position.z = gl_Position.w; }")); // a sky
+    EXPECT_FALSE(bends(plain, "varying vec4 eye; void main() { vec4 c = gl_ProjectionMatrix * eye;\n"
+                              "gl_FragDepth = 0.5 * c.z / c.w + 0.5; }"));
+}
+
+TEST(ProgramText, CommentsSayNothing) {
+    EXPECT_FALSE(moves("// v.x += gl_InstanceID;\nvoid main() { /* gl_Position = x; */ gl_Position = ftransform(); }"));
+}

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// What writes depth and hides what is behind it receives, in whichever bin it is drawn.
+#include "Trial.h"
+
+#include <osg/BlendFunc>
+#include <osg/Depth>
+#include <osg/Image>
+#include <osg/Texture2D>
+
+using namespace test;
+
+namespace {
+
+GNOMON_BY_TECHNIQUE(AnyBin);
+
+using Change = std::function<void(Scene&)>;
+
+Trial houseTrial() { return {{house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0)}}; }
+
+void useBin(osg::Node& node, int number, const std::string& name = "RenderBin") {
+    node.getOrCreateStateSet()->setRenderBinDetails(number, name);
+}
+
+/// As loaders leave what has, or might have, an alpha of less than 1.
+void blendLate(osg::Node& node) {
+    node.getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    node.getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+}
+
+/// Frames with the change show what rays choose of the two pictures that OpenGL draws with it and without shadows.
+::testing::AssertionResult isRightWith(const Change& change, bool blended = true) {
+    const Trial trial = houseTrial();
+    Scene lit = trial.build(), dark = trial.build(), shadowed = trial.buildWithShadow();
+    dark.takeLightAway();
+    for (Scene* scene : {&lit, &dark, &shadowed}) change(*scene);
+    const Truth truth{render(lit.root, trial.view), render(dark.root, trial.view),
+                      castRays(square(trial.half), trial.casters, trial.light, trial.view), 2};
+    if (blended) return isRight(shadowed, trial.view, truth);
+    Camera camera(shadowed.root, trial.view);
+    camera.frame();
+    return shows(camera.frame(), truth);
+}
+
+/// A pane over house, ground and shadow.
+osg::ref_ptr<osg::Geode> pane(float alpha, bool depth) {
+    osg::ref_ptr<osg::Geode> geode = node(quad({-2.0, -2.0, 1.5}, {6.0, 0.0, 0.0}, {0.0, 4.0, 0.0}), "pane");
+    auto* colors = static_cast<osg::Vec4Array*>(geode->getDrawable(0)->asGeometry()->getColorArray());
+    colors->front() = {0.2f, 0.6f, 1.0f, alpha};
+    geode->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    blendLate(*geode);
+    if (!depth) geode->getStateSet()->setAttribute(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
+    return geode;
+}
+
+/// White, with this alpha in its left and in its right half.
+osg::ref_ptr<osg::Texture2D> halves(unsigned char left, unsigned char right) {
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (unsigned i = 0; i < 8; ++i) image->data()[i] = i == 3 ? left : i == 7 ? right : 255;
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    return texture;
+}
+
+} // namespace
+
+TEST_P(AnyBin, AWholeSceneInABinAboveTheShadowsReceives) {
+    EXPECT_TRUE(isRightWith([](Scene& scene) { useBin(*scene.content, 11); }));
+}
+
+TEST_P(AnyBin, AGroundInTheShadowsOwnBinReceives) {
+    EXPECT_TRUE(isRightWith([](Scene& scene) { useBin(*find(*scene.root, "ground"), 8); }));
+}
+
+TEST_P(AnyBin, ASceneThatBlendsWithAnAlphaOf1Receives) {
+    EXPECT_TRUE(isRightWith([](Scene& scene) { blendLate(*scene.content); }));
+}
+
+TEST_P(AnyBin, AGroundAloneThatBlendsWithAnAlphaOf1Receives) {
+    EXPECT_TRUE(isRightWith([](Scene& scene) { blendLate(*find(*scene.root, "ground")); }));
+}
+
+TEST_P(AnyBin, ANestedAndSortedBinReceives) {
+    EXPECT_TRUE(isRightWith([](Scene& scene) {
+        useBin(*scene.content, 12);
+        useBin(*find(*scene.root, "ground"), 3, "DepthSortedBin");
+    }));
+}
+
+TEST_P(AnyBin, WhatIsDrawnOverTheLastReceiverStaysOverIt) {
+    EXPECT_TRUE(isRightWith(
+        [](Scene& scene) {
+            useBin(*scene.content, 9);
+            scene.root->addChild(pane(0.5f, false));
+        },
+        false));
+}
+
+TEST_P(AnyBin, WhatLetsTheGroundShineThroughReceivesNothingAndLeavesTheGroundItsShadow) {
+    EXPECT_TRUE(isRightWith([](Scene& scene) { scene.root->addChild(pane(0.5f, true)); }, false));
+}
+
+/// A receiver that is named keeps others from receiving, in the late bins too.
+TEST_P(AnyBin, AnotherReceiverThanTheNamedOneReceivesNothing) {
+    if (GetParam() == By::Planar) return; // names none here
+    EXPECT_TRUE(isRightWith([](Scene& scene) { scene.root->addChild(pane(1.0f, true)); }, false));
+}
+
+/// The half of the ground with the alpha of 1 receives, the other half lets the background shine through.
+TEST_P(AnyBin, ATextureReceivesWhereItsAlphaIs1) {
+    const Trial trial = houseTrial();
+    const auto build = [&trial](Scene scene) {
+        osg::Node& ground = *find(*scene.root, "ground");
+        osg::Geometry& geometry = *ground.asGeode()->getDrawable(0)->asGeometry();
+        osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+        for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray()))
+            places->push_back({vertex.x() / 16.0f + 0.5f, 0.5f});
+        geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
+        ground.getOrCreateStateSet()->setTextureAttributeAndModes(0, halves(100, 255));
+        blendLate(ground);
+        return scene;
+    };
+    Scene lit = build(trial.build()), dark = build(trial.build()), shadowed = build(trial.buildWithShadow());
+    dark.takeLightAway();
+    const Picture litPicture = render(lit.root, trial.view);
+    Truth truth{litPicture, render(dark.root, trial.view),
+                castRays(square(trial.half), trial.casters, trial.light, trial.view), 2};
+    for (int y = 0; y < litPicture.height; ++y)
+        for (int x = 0; x < litPicture.width / 2; ++x) {
+            const auto at = static_cast<std::size_t>(y * litPicture.width + x);
+            truth.dark.pixels[at] = litPicture.pixels[at];
+        }
+    EXPECT_TRUE(shows(render(shadowed.root, trial.view), truth));
+}
+
+TEST_P(AnyBin, ASceneThatWritesNoDepthIsNamedAsTheCause) {
+    const Trial trial = houseTrial();
+    Scene scene = trial.build();
+    const auto technique =
+        castingTechnique(GetParam() == By::Hull || GetParam() == By::Drape ? find(*scene.root, "ground") : nullptr);
+    scene.addShadow(technique);
+    scene.content->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+    Camera camera(scene.root, trial.view);
+    camera.frame();
+    ASSERT_EQ(technique->diagnose().size(), 1u);
+    EXPECT_NE(technique->diagnose()[0].find("no receiver in this view writes depth"), std::string::npos) << technique->diagnose()[0];
+    scene.content->getStateSet()->removeMode(GL_DEPTH_TEST);
+    camera.frame();
+    EXPECT_TRUE(technique->diagnose().empty());
+}

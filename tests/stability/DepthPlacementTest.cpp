@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Receivers with a depth range or a polygon offset of their own: a shadow is where their surface is, not their depth.
+#include "Trial.h"
+
+#include <osg/Depth>
+#include <osg/PolygonOffset>
+
+using namespace test;
+
+namespace {
+
+GNOMON_BY_TECHNIQUE(DepthPlacements);
+
+/// What is pushed back hides nothing that it did not hide before.
+::testing::AssertionResult isRightWith(const char* name, osg::StateAttribute* attribute) {
+    Trial trial{{house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0)}};
+    trial.view = perspective({-6.0, -10.0, 6.0}, {0.0, 0.0, 0.0}, 200, 150);
+    Scene lit = trial.build(), dark = trial.build(), shadowed = trial.buildWithShadow();
+    dark.takeLightAway();
+    for (Scene* scene : {&lit, &dark, &shadowed})
+        (*name ? find(*scene->root, name) : scene->root.get())->getOrCreateStateSet()->setAttributeAndModes(attribute);
+    const Truth truth{render(lit.root, trial.view), render(dark.root, trial.view),
+                      castRays(square(trial.half), trial.casters, trial.light, trial.view), 2};
+    return isRight(shadowed, trial.view, truth);
+}
+
+} // namespace
+
+TEST_P(DepthPlacements, AGroundInADepthRangeOfItsOwn) {
+    EXPECT_TRUE(isRightWith("ground", new osg::Depth(osg::Depth::LESS, 0.2, 1.0)));
+}
+
+TEST_P(DepthPlacements, AGroundThatIsPushedBack) {
+    EXPECT_TRUE(isRightWith("ground", new osg::PolygonOffset(1.0f, 1.0f)));
+    if (GetParam() == By::Drape) return; // its edges move with the offset
+    EXPECT_TRUE(isRightWith("ground", new osg::PolygonOffset(2.0f, 40.0f)));
+}
+
+TEST_P(DepthPlacements, AGroundThatIsPulledForwardIsRightOrTheCauseIsSaid) {
+    osg::ref_ptr<osg::PolygonOffset> offset = new osg::PolygonOffset(-1.0f, -1.0f);
+    if (GetParam() == By::Traced || GetParam() == By::Map) {
+        EXPECT_TRUE(isRightWith("ground", offset));
+    }
+    if (GetParam() != By::Hull && GetParam() != By::Drape) return;
+    Scene scene = groundScene({box({-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0})});
+    osg::Node* ground = find(*scene.root, "ground");
+    ground->getOrCreateStateSet()->setAttributeAndModes(offset);
+    const auto technique = castingTechnique(ground);
+    scene.addShadow(technique);
+    render(scene.root, fromAbove(4.0, 64));
+    ASSERT_EQ(technique->diagnose().size(), 1u);
+    EXPECT_NE(technique->diagnose()[0].find("in front of its shadow"), std::string::npos);
+}
+
+TEST_P(DepthPlacements, AWholeSceneInHalfOfTheDepths) {
+    EXPECT_TRUE(isRightWith("", new osg::Depth(osg::Depth::LESS, 0.0, 0.5)));
+}
