@@ -34,6 +34,7 @@ class ShadowMapCache;
 /// - SMOOTH and SOFT edges: alpha bits, unless a single light blends.
 /// - Penumbras: OpenGL 3.3 or its sampler objects.
 /// Limits
+/// - A caster 10⁷ m from the others costs all of them their shadow. Up to 10⁶ m it does not.
 /// - An edge is off by a fraction of a texel, see ShadowMapOptions::Filter.
 /// - An object loses its shadow if it is less than about a texel off the receiver, measured along the light.
 /// - A lamp inside a closed box may light single pixels along the box's edges.
@@ -67,7 +68,7 @@ class ShadowMapCache;
 /// - A caster that changes joins the moving layer, at the cost of one full redraw. After that, it is drawn alone.
 /// Bias
 /// - There is none to set. Both the caster's and the receiver's slope within the compared texels are allowed for, and
-///   the rounding of both depths.
+///   the rounding of both depths. So is what OpenGL loses of large coordinates in vertices.
 /// Spots
 /// - A light with a cutoff (osg::Light::setSpotCutoff(), ShadowLight::cutoff) of up to 75 degrees has one map. A wider
 ///   spot has a lamp's maps.

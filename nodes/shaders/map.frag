@@ -154,7 +154,8 @@ void main() {
     float e = 1.0 - seenDepth(here);
     vec2 slope = changeOf(e, here);
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
-    float nearer = e + depthError.x + depthError.y * (abs(slope.x) + abs(slope.y));
+    float slopes = abs(slope.x) + abs(slope.y), drawn = max(drawnError.x + e * drawnError.y, 0.0);
+    float nearer = e + depthError.x + drawn + (depthError.y + drawnError.z * drawn) * slopes;
     vec2 at = gl_FragCoord.xy + depthError.zw;
     float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
 #ifdef SMOOTH

@@ -19,7 +19,8 @@ mat4 matrixAt(int first) { return mat4(constant[first], constant[first + 1], con
 #define rows constant[1].zw           // of `seen`: see FrameDepthCopy
 #define wanted constant[2]           // see map.frag
 #define seenPixels constant[3]       // first and last pixel that `seen` holds: x, y; x, y
-#define coneFromPixel matrixAt(4)    // see cone.frag
+#define drawnError constant[4]       // how far off a surface may be drawn, in depth, divided by w: x + e y; in pixels to z times that
+#define coneFromPixel matrixAt(5)    // see cone.frag
 #define ofMap(i, k) constant[SHARED + EACH * (i) + k]
 #define mapFromPixel(i) matrixAt(SHARED + EACH * (i))
 #define place(i) ofMap(i, 4)         // in the texture: corner, and texels on a side; share of it that is border

@@ -62,7 +62,7 @@ struct TruthImage {
 /// Needs
 /// - No OpenGL.
 /// Limits
-/// - Loses objects thinner than 2·10⁻⁵ of the coordinates about the scene's origin, or nearer than that to a surface.
+/// - Loses objects thinner than 10⁻⁶ of the coordinates about the scene's origin, or nearer than that to a surface.
 /// - Normals are geometric: a facet near the terminator may shadow itself where smooth shading would light it.
 /// Threads
 /// - Uses all cores.

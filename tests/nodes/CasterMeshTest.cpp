@@ -45,15 +45,15 @@ float ulp(float value) { return std::nextafter(std::abs(value), INFINITY) - std:
 
 } // namespace
 
-TEST(CasterMesh, VerticesAreAboutTheCentreOfTheBounds) {
+TEST(CasterMesh, VerticesAreAboutTheMiddleCorner) {
     const osg::ref_ptr<CasterMesh> mesh =
         meshOf(*geometryOf(vec3s({{2, 0, 0}, {6, 0, 0}, {2, 8, 1}}), new osg::DrawArrays(Mode::TRIANGLES, 0, 3)));
     EXPECT_EQ(mesh->bounds._min, osg::Vec3d(2, 0, 0));
     EXPECT_EQ(mesh->bounds._max, osg::Vec3d(6, 8, 1));
-    EXPECT_EQ(mesh->origin, osg::Vec3d(4, 4, 0.5));
-    EXPECT_EQ((*mesh->vertices)[0], osg::Vec3(-2, -4, -0.5f));
-    EXPECT_EQ((*mesh->vertices)[1], osg::Vec3(2, -4, -0.5f));
-    EXPECT_EQ((*mesh->vertices)[2], osg::Vec3(-2, 4, 0.5f));
+    EXPECT_EQ(mesh->origin, osg::Vec3d(2, 0, 0));
+    EXPECT_EQ((*mesh->vertices)[0], osg::Vec3(0, 0, 0));
+    EXPECT_EQ((*mesh->vertices)[1], osg::Vec3(4, 0, 0));
+    EXPECT_EQ((*mesh->vertices)[2], osg::Vec3(0, 8, 1));
 }
 
 TEST(CasterMesh, PointsAndLinesAreNeitherInTheMeshNorInItsBounds) {

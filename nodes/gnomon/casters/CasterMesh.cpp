@@ -16,6 +16,22 @@ osg::BoundingBoxd boundsOf(const CasterExtraction& casters) {
     return bounds;
 }
 
+/// The middle one of the corners along each axis: near most of them, however far a few are. Floats are fine about it.
+osg::Vec3d middleOf(const CasterExtraction& casters) {
+    const std::vector<unsigned>& corners = casters.getTriangles();
+    const std::size_t every = corners.size() / 1000 + 1;
+    osg::Vec3d middle;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> places;
+        for (std::size_t i = 0; i < corners.size(); i += every)
+            places.push_back(casters.getVertices()[corners[i]][axis]);
+        const auto half = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+        std::nth_element(places.begin(), half, places.end());
+        middle[axis] = *half;
+    }
+    return middle;
+}
+
 constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
 
 /// @param places  where each vertex went, if it is used; those of a drawable still follow one another.
@@ -47,7 +63,7 @@ CasterMesh::CasterMesh(const CasterExtraction& casters, const std::optional<osg:
     // Attached here, for the first geometry to use the array would do so, perhaps in one of several threads.
     vertices->setVertexBufferObject(new osg::VertexBufferObject);
     triangles->setElementBufferObject(new osg::ElementBufferObject);
-    if (about || bounds.valid()) origin = about ? *about : bounds.center();
+    if (about || bounds.valid()) origin = about ? *about : middleOf(casters);
     std::vector<unsigned> places(casters.getVertices().size(), nowhere);
     triangles->reserve(casters.getTriangles().size());
     for (unsigned index : casters.getTriangles()) {

@@ -31,7 +31,7 @@ class RayScene;
 class CasterMesh : public osg::Referenced {
 public:
     /// Copies the extracted triangles.
-    /// @param about  the mesh's origin, group frame. Default: the centre of the bounds.
+    /// @param about  the mesh's origin, group frame. Default: in the midst of most corners.
     explicit CasterMesh(const CasterExtraction& casters, const std::optional<osg::Vec3d>& about = {});
 
     /// True if there is no triangle.

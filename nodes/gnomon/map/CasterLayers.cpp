@@ -3,8 +3,13 @@
 #include <gnomon/map/CasterLayers.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <unordered_set>
+#include <utility>
+#include <vector>
 
 namespace gnomon {
 namespace {
@@ -13,6 +18,33 @@ constexpr unsigned restAfter = 60; // changes of others: a second of a scene tha
 
 osg::ref_ptr<const CasterLayer> layerOf(CasterDrawables::List pieces, const CasterLayers& casters) {
     return new CasterLayer(std::move(pieces), casters.origin);
+}
+
+/// The middle one of a measure of the drawables, each as often as it has triangles.
+template <class Measure>
+double middleOf(const CasterDrawables& pieces, Measure measure) {
+    std::vector<std::pair<double, std::size_t>> all;
+    std::size_t triangles = 0;
+    for (const auto& piece : pieces.list) {
+        if (!piece->bounds.valid()) continue;
+        all.emplace_back(measure(*piece), piece->triangles);
+        triangles += piece->triangles;
+    }
+    std::sort(all.begin(), all.end());
+    std::size_t before = 0;
+    for (const auto& [value, count] : all)
+        if (2 * (before += count) >= triangles) return value;
+    return 0.0;
+}
+
+/// As CasterExtraction::getRounding() has it.
+double roundingOf(const CasterDrawable& piece) {
+    const osg::BoundingBox& box = piece.drawable->getBoundingBox();
+    if (!box.valid()) return 0.0;
+    const glm::dmat3 axes(toGlm(piece.groupFromLocal));
+    const glm::dvec3 step = glm::max(glm::abs(toGlm(osg::Vec3d(box._min))), glm::abs(toGlm(osg::Vec3d(box._max)))) *
+                            (std::numeric_limits<float>::epsilon() / 2.0);
+    return glm::length(glm::abs(axes[0]) * step.x + glm::abs(axes[1]) * step.y + glm::abs(axes[2]) * step.z);
 }
 
 } // namespace
@@ -27,7 +59,7 @@ osg::ref_ptr<const CasterLayers> CasterLayers::of(const CasterDrawables& pieces,
 }
 
 void CasterLayers::begin() {
-    origin = pieces->bounds.center();
+    origin = middle();
     CasterDrawables::List all;
     for (const auto& piece : pieces->list)
         if (piece->bounds.valid()) all.push_back(piece);
@@ -70,14 +102,27 @@ void CasterLayers::divideAnew(const CasterLayers& before) {
         if (stands) _since.erase(piece.get());
     }
     _wasted = 0;
-    if (!isNear(origin)) origin = pieces->bounds.center();
+    if (!isNear(origin)) origin = middle();
     still = layerOf(std::move(standing), *this);
     moving = layerOf(std::move(others), *this);
 }
 
-/// Whether floats about a place are as fine, but for a bit, as about the middle of all.
+/// The middle one of the triangles along each axis, as their drawables stand: near most of them, however far a few are.
+osg::Vec3d CasterLayers::middle() const {
+    osg::Vec3d result;
+    for (int axis = 0; axis < 3; ++axis)
+        result[axis] = middleOf(*pieces, [axis](const CasterDrawable& piece) { return piece.bounds.center()[axis]; });
+    return result;
+}
+
+/// Whether floats about a place are as fine, but for a bit, as about the middle of most.
 bool CasterLayers::isNear(const osg::Vec3d& place) const {
-    return pieces->empty() || (place - pieces->bounds.center()).length() <= pieces->bounds.radius();
+    if (pieces->empty()) return true;
+    const osg::Vec3d about = middle();
+    const double most = middleOf(*pieces, [&about](const CasterDrawable& piece) {
+        return (piece.bounds.center() - about).length() + piece.bounds.radius();
+    });
+    return (place - about).length() <= 2.0 * most;
 }
 
 bool CasterLayers::isAtRest(const CasterDrawable* piece) const {
@@ -91,6 +136,11 @@ void CasterLayers::measure() {
     low = scene.point(pieces->bounds._min);
     high = scene.point(pieces->bounds._max);
     reach = glm::max(glm::abs(low), glm::abs(high));
+    for (const auto& piece : pieces->list) {
+        if (!piece->bounds.valid()) continue;
+        widest = std::max(widest, 2.0 * piece->bounds.radius());
+        rounding = std::max(rounding, roundingOf(*piece));
+    }
 }
 
 void CasterLayers::resizeGLObjectBuffers(unsigned maxSize) const {

@@ -28,6 +28,8 @@ struct CasterLayers : public osg::Referenced {
     osg::Vec3d origin;              ///< group frame; all positions are about it, and it stays where it is near.
     glm::dvec3 low{0.0}, high{0.0}; ///< bounds of all, about the origin.
     glm::dvec3 reach{0.0};          ///< half sides of a box about the origin that holds all.
+    double widest = 0.0;            ///< diameter of a drawable.
+    double rounding = 0.0;          ///< of the vertices by their own floats, at most.
     osg::ref_ptr<const CasterLayer> still, moving; ///< never null.
 
     void resizeGLObjectBuffers(unsigned maxSize) const;
@@ -42,6 +44,7 @@ private:
     void follow(const CasterLayers& before);
     void divideAnew(const CasterLayers& before);
     void measure();
+    osg::Vec3d middle() const;
     bool isNear(const osg::Vec3d& place) const;
     bool isAtRest(const CasterDrawable* moving) const;
 

@@ -174,7 +174,14 @@ MapFit LightShadowMaps::fitOf(const MapSlice& face) const {
         most.merge(face.held);
         most.grow(reserve * face.held.length());
     }
-    return fitMap(face.frame, face.held, most, reserve, border / _texels, glm::length(_cause.casters->reach) / 64.0);
+    return fitMap(face.frame, face.held, most, reserve, border / _texels, glm::length(reachOf(face)) / 64.0);
+}
+
+/// Half sides of a box about the origin that holds what its map draws: no further than the map and the widest drawable.
+glm::dvec3 LightShadowMaps::reachOf(const MapSlice& face) const {
+    glm::dvec3 result(0.0);
+    for (const glm::dvec4& point : face.held.body()) result = glm::max(result, glm::abs(glm::dvec3(point) / point.w));
+    return glm::min(_cause.casters->reach, result + _cause.casters->widest);
 }
 
 /// Without its tiles. @param due  some are to be drawn from the first.
@@ -224,7 +231,7 @@ PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile, const MapError
 
 MapLookUp LightShadowMaps::lookUpOf(const MapSlice& face) const {
     const double radius = _cause.settings.softness ? _cause.settings.softness->radius : 0.0;
-    return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, _cause.casters->reach, _texels),
+    return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, reachOf(face), _texels),
             mapSpread(face.frame, *face.fit, _cause.lightRadius(face.frame), radius, _texels)};
 }
 
@@ -263,6 +270,7 @@ MapLookupPass LightShadowMaps::quad(const glm::dmat4& clipFromScene) const {
     quad.map = _map;
     quad.picture = _picture;
     quad.lookUps = _lookUps;
+    quad.rounding = _cause.casters->rounding;
     quad.clipFromScene = clipFromScene;
     quad.defines = _cause.settings.defines;
     quad.cascades = _faces.front().frame.sun && _lookUps.size() > 1;

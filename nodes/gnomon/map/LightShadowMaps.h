@@ -44,6 +44,7 @@ private:
     void resize();
     bool holds(const MapSlice& face) const;
     MapFit fitOf(const MapSlice& face) const;
+    glm::dvec3 reachOf(const MapSlice& face) const;
     osg::ref_ptr<MapPicture> pictureOf(const MapPrograms& resources, bool due);
     MapPicture::Layer drawnOf(const CasterLayer& layer, bool again) const;
     MapLookUp lookUpOf(const MapSlice& face) const;

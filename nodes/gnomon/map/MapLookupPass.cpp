@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/gl/UncomparedSampler.h>
 #include <gnomon/map/MapLookupPass.h>
 
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
@@ -137,7 +140,7 @@ std::vector<glm::dvec4> MapLookupPass::errors(MapError MapErrors::*which) const 
     return result;
 }
 
-std::size_t MapLookupPass::sharedConstants() const { return coneFromScene ? 8 : 4; }
+std::size_t MapLookupPass::sharedConstants() const { return coneFromScene ? 9 : 5; }
 
 std::size_t MapLookupPass::constantsOfMap() const { return soft ? 11 : 10; }
 
@@ -147,12 +150,24 @@ void MapLookupPass::setConstants(osg::State& state, const FrameDepthCopy::Copy& 
     std::vector<glm::dvec4> constants{copy.error,
                                       glm::dvec4(1.0 / glm::dvec2(map->size), copy.rows),
                                       {wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, fades() ? 1.0 : 0.0},
-                                      {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1}};
+                                      {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1},
+                                      drawnErrorOf(*state.getCurrentViewport(), sceneFromPixel)};
     if (coneFromScene) addColumns(*coneFromScene * sceneFromPixel, 4, constants);
     for (std::size_t i = 0; i < lookUps.size(); ++i) addMap(i, sceneFromPixel, constants);
     state.applyTextureAttribute(seenUnit, copy.texture);
     setUniform(state, "seen", int(seenUnit));
     setUniform(state, "constants", constants);
+}
+
+/// 1 / w is that row of the matrix times a pixel's place: of most projections it depends on e alone.
+glm::dvec4 MapLookupPass::drawnErrorOf(const osg::Viewport& viewport, const glm::dmat4& sceneFromPixel) const {
+    const DrawnError off = drawnError(clipFromScene, viewport.width(), rounding, 0.0);
+    const glm::dvec4 row = off.depth * glm::row(sceneFromPixel, 3);
+    const auto most = [](double change, double start, double size) {
+        return std::max(change * start, change * (start + size));
+    };
+    const double beside = most(row.x, viewport.x(), viewport.width()) + most(row.y, viewport.y(), viewport.height());
+    return {row.w + beside, row.z, off.depth > 0.0 ? off.pixels / off.depth : 0.0, 0.0};
 }
 
 void MapLookupPass::addMap(std::size_t i, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const {

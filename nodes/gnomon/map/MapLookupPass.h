@@ -34,6 +34,7 @@ struct MapLookupPass {
     std::vector<glm::dvec2> outline;         ///< of where less than all of the light can arrive: see drawPolygon().
     glm::dmat4 clipFromScene{1.0};           ///< as drawn.
     glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
+    double rounding = 0.0;                   ///< of the vertices that are drawn, see DrawnError.
     std::optional<glm::dmat4> coneFromScene; ///< of a spot: what is not in its cone gets no fragments.
     std::string defines;                     ///< of the fragment shader: how it compares.
     bool cascades = false;                   ///< the finer of them hold part of what is seen only.
@@ -73,6 +74,7 @@ private:
     /// How many vectors map_place.frag has there.
     std::size_t sharedConstants() const;
     std::size_t constantsOfMap() const;
+    glm::dvec4 drawnErrorOf(const osg::Viewport& viewport, const glm::dmat4& sceneFromPixel) const;
     void addMap(std::size_t map, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const;
 };
 

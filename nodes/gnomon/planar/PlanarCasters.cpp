@@ -6,6 +6,7 @@
 #include <gnomon/planar/PlanarCasters.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,16 +18,20 @@ namespace {
 
 glm::dvec3 vertexAt(const CasterMesh& mesh, unsigned index) { return toGlm(osg::Vec3d((*mesh.vertices)[index])); }
 
-std::vector<double> heightsAbove(const CasterMesh& mesh, const glm::dvec4& plane) {
-    std::vector<double> heights(mesh.vertices->size());
-    for (unsigned i = 0; i < heights.size(); ++i) heights[i] = distance(plane, vertexAt(mesh, i));
-    return heights;
+/// A vertex this near to the plane lies in it: four steps of the floats it is kept in and of those it came from.
+double thicknessAt(const CasterMesh& mesh, const glm::dvec3& vertex) {
+    return 4.0 * (glm::length(vertex) * std::numeric_limits<float>::epsilon() / 2.0 + mesh.rounding);
 }
 
-/// A vertex this near to the plane lies in it: four steps of the floats it is kept in and of those it came from.
-double thicknessOf(const CasterMesh& mesh) {
-    const double reach = (mesh.bounds._max - mesh.bounds._min).length() / 2.0;
-    return 4.0 * (reach * std::numeric_limits<float>::epsilon() / 2.0 + mesh.rounding);
+/// 0 of what lies in the plane.
+std::vector<double> heightsAbove(const CasterMesh& mesh, const glm::dvec4& plane) {
+    std::vector<double> heights(mesh.vertices->size());
+    for (unsigned i = 0; i < heights.size(); ++i) {
+        const glm::dvec3 vertex = vertexAt(mesh, i);
+        const double height = distance(plane, vertex);
+        if (!(std::abs(height) <= thicknessAt(mesh, vertex))) heights[i] = height;
+    }
+    return heights;
 }
 
 } // namespace
@@ -35,7 +40,6 @@ PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlan
     : plane(SceneFrame(mesh.origin).plane(groupPlane)),
       low(std::numeric_limits<double>::infinity()),
       high(-low),
-      thickness(thicknessOf(mesh)),
       _mesh(&mesh),
       _groupPlane(groupPlane),
       _under(under),
@@ -48,12 +52,13 @@ PlanarCasters::PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlan
         for (auto& list : row) list = noTriangles();
     for (unsigned i = 0; i + 2 < all.size(); i += 3) {
         const auto [lowest, top] = std::minmax({heights[all[i]], heights[all[i + 1]], heights[all[i + 2]]});
-        if (!(top > thickness || (under && lowest < -thickness))) continue;
-        osg::DrawElementsUInt& list = *lists[lowest < -thickness][findSolids && closed.closed[i / 3]];
+        if (!(top > 0.0 || (under && lowest < 0.0))) continue;
+        osg::DrawElementsUInt& list = *lists[lowest < 0.0][findSolids && closed.closed[i / 3]];
         for (unsigned corner = i; corner < i + 3; ++corner) {
             list.push_back(findSolids ? closed.welded[all[corner]] : all[corner]);
             low = glm::min(low, vertexAt(mesh, all[corner]));
             high = glm::max(high, vertexAt(mesh, all[corner]));
+            if (lowest < 0.0) thickness = std::max(thickness, thicknessAt(mesh, vertexAt(mesh, all[corner])));
         }
         highest = std::max(highest, top);
     }

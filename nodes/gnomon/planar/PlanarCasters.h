@@ -41,7 +41,7 @@ public:
     glm::dvec3 low, high;   ///< bounds of all parts, in the scene.
     bool crosses = false;   ///< some part crosses the plane.
     double highest = 0.0;   ///< greatest height above the plane.
-    double thickness = 0.0; ///< height up to which a vertex counts as lying in the plane.
+    double thickness = 0.0; ///< height up to which vertices of what crosses the plane count as lying in it.
 
 protected:
     ~PlanarCasters() override = default;

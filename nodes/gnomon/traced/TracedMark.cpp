@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/rays/DepthBufferShadow.h>
@@ -109,6 +110,9 @@ std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     if (!readDepth(state, *resolved, part)) return unresolvedDepth;
     part.offPlace += pushedBack.x;
     part.step *= 1.0 + pushedBack.y; // of which depthBufferShadow() allows for a few
+    const DrawnError drawn = drawnError(clipFromScene, part.viewportWidth, rounding, scene->longestSide());
+    part.drawnDepth = drawn.depth;
+    part.drawnPixels = drawn.pixels;
     pass.stencilEqual(bit, 0, bit);
     const std::vector<std::uint8_t> bits = depthBufferShadow(*scene, part, clipFromScene, light);
     (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, bits);

@@ -16,6 +16,7 @@ class TracedMark : public MarkJob {
 public:
     std::shared_ptr<const RayScene> scene;   ///< casters, about their mesh's origin.
     std::shared_ptr<ResolvedDepth> resolved; ///< the technique's, for framebuffers with several samples.
+    double rounding = 0.0;                   ///< of the casters' vertices.
     glm::dmat4 clipFromScene{1.0};           ///< as drawn.
     glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
     glm::dvec4 light{0.0};                   ///< about the same origin; w is 0 or 1.

@@ -30,6 +30,7 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
     osg::ref_ptr<TracedMark> mark = new TracedMark;
     mark->light = *usable;
     mark->resolved = _resolved;
+    mark->rounding = mesh.rounding;
     mark->clipFromScene = scene.clipFromScene(view);
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
     const auto bounds = shadowBounds(mesh, mark->clipFromScene, *usable);

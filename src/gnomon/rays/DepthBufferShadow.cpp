@@ -15,6 +15,12 @@ constexpr double stepsOff = 4.0;
 constexpr double snapsOff = 2.0;
 constexpr double coarse = 0.125; // of a pixel: depths that are off by more show at edges
 
+/// How far a depth may be from that of the surface, in depth.
+struct DepthError {
+    double least = 0.0; ///< by the buffer's steps and the rasteriser's places.
+    double most = 0.0;  ///< by the floats of the vertices, too.
+};
+
 class DepthTracer {
 public:
     DepthTracer(const RayScene& scene, const DepthPicture& picture, const glm::dmat4& clipFromScene,
@@ -36,6 +42,7 @@ private:
     double slope(int x, int y, int dx, int dy) const;
     /// Homogeneous, scene: a point of a pixel's ray. In these coordinates all of the ray is linear in depth.
     glm::dvec4 unproject(int x, int y, double depth) const;
+    DepthError error(int x, int y, double perDistance) const;
     glm::dvec3 start(int x, int y) const;
 
     const RayScene& _scene;
@@ -64,23 +71,33 @@ glm::dvec4 DepthTracer::unproject(int x, int y, double depth) const {
 
 glm::dvec3 cartesian(const glm::dvec4& point) { return glm::dvec3(point) * (1.0 / point.w); }
 
+/// @param perDistance  1 / w in clip space.
+DepthError DepthTracer::error(int x, int y, double perDistance) const {
+    const double slopes = slope(x, y, 1, 0) + slope(x, y, 0, 1);
+    DepthError result;
+    result.least = stepsOff * _picture.step + (snapsOff * _picture.subpixel + _picture.offPlace) * slopes;
+    result.most = result.least + (_picture.drawnDepth + _picture.drawnPixels * slopes) * std::abs(perDistance);
+    return result;
+}
+
 /// Where a pixel's ray to the light starts: as far before the surface as its depth may be wrong, or on the surface that
 /// is found there where that is too far.
 glm::dvec3 DepthTracer::start(int x, int y) const {
-    const double moved = snapsOff * _picture.subpixel + _picture.offPlace;
-    const double off = stepsOff * _picture.step + moved * (slope(x, y, 1, 0) + slope(x, y, 0, 1));
     const double seen = depth(x, y);
     const glm::dvec4 surface = unproject(x, y, seen), deeper = 2.0 * _sceneFromClip[2];
-    const glm::dvec3 nearer = cartesian(surface - std::min(off, seen) * deeper);
-    const glm::dvec3 farther = cartesian(surface + std::min(off, 1.0 - seen) * deeper); // beyond 1: behind the eye
+    const DepthError off = error(x, y, surface.w);
+    const auto nearerBy = [&](double by) { return cartesian(surface - std::min(by, seen) * deeper); };
+    const glm::dvec3 nearer = nearerBy(off.most);
+    const glm::dvec3 farther = cartesian(surface + std::min(off.most, 1.0 - seen) * deeper); // beyond 1: behind the eye
     const glm::dvec3 along = farther - nearer, pixel = cartesian(surface + _across) - cartesian(surface);
-    if (glm::dot(along, along) > coarse * coarse * glm::dot(pixel, pixel)) {
-        const RayHit hit = _scene.closest({nearer, along, 1.0});
-        if (hit)
-            return _scene.lifted(nearer + hit.distance * along,
-                                 glm::dot(hit.normal, along) < 0.0 ? hit.normal : -hit.normal);
-    }
-    return nearer - _scene.margin(nearer) * glm::normalize(along);
+    if (!(glm::dot(along, along) > coarse * coarse * glm::dot(pixel, pixel)))
+        return nearer - _scene.margin(nearer) * glm::normalize(along);
+    const RayHit hit = _scene.closest({nearer, along, 1.0});
+    if (hit)
+        return _scene.lifted(nearer + hit.distance * along,
+                             glm::dot(hit.normal, along) < 0.0 ? hit.normal : -hit.normal);
+    const glm::dvec3 before = nearerBy(off.least); // what is seen does not cast
+    return before - _scene.margin(before) * glm::normalize(along);
 }
 
 bool DepthTracer::blocked(int x, int y) const {

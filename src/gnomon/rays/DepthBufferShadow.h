@@ -19,18 +19,20 @@ struct DepthPicture {
     double subpixel = 1.0 / (1 << 8); ///< part of a pixel to which the rasteriser snaps corners.
     glm::dvec2 place{0.5};            ///< where in its pixel a depth was taken, 0 … 1.
     double offPlace = 0.0;            ///< how far from there it may have been, pixels along either axis.
+    double drawnDepth = 0.0;          ///< how far off a surface may be drawn, in depth: see DrawnError.
+    double drawnPixels = 0.0;         ///< the same along either axis.
 };
 
 /// Which pixels a light does not reach: where the depth buffer says a surface is, one ray to the light.
 ///
-/// A depth is not exact. Here it is taken to be right to 4 steps of the buffer and to what twice the rasteriser's
-/// snapping moves it and a sample's place, by its slope to the nearer of the neighbours on either side. The ray starts as
-/// much nearer to the eye, and a few steps of a float more (RayScene::margin()). Between surface and eye nothing can be,
-/// or it would be seen: so the start is never behind a thing, nothing leaks at contacts, and needs no normal; and it is
-/// always on the seen side of its own surface, so that what is flat does not shadow itself. What faces away from the
-/// light shadows itself, as it must. How far the start moves: with 24 bits 2.4·10⁻⁷·z²/near, that is 2.4 mm at 100 m
-/// under a near plane of 1 m. Where that is more than an eighth of a pixel, as over kilometres of terrain, one more ray
-/// finds the caster's surface between the two ends of what the depth may mean, and the ray to the light starts there.
+/// A depth is not exact. It is taken to be right to 4 steps of the buffer, to what twice the rasteriser's snapping moves it
+/// and a sample's place, by its slope to the nearer of the neighbours on either side, and to DrawnError. The ray starts as much nearer to the eye, and a few steps of a float more (RayScene::margin()). Between surface
+/// and eye nothing can be, or it would be seen: so the start is never behind a thing, nothing leaks at contacts, and needs
+/// no normal; and it is always on the seen side of its own surface, so that what is flat does not shadow itself. What faces
+/// away from the light shadows itself, as it must. Where the start would move by more than an eighth of a pixel, one more
+/// ray finds the caster's surface between the two ends of what the depth may mean, and the ray to the light starts there.
+/// That is so over kilometres of terrain, on a quad of more than 1,200 near planes, and where large coordinates are in the
+/// vertices. Where no caster is found there, what is seen does not cast, and cannot shadow itself.
 ///
 /// @param clipFromScene  of the picture, as drawn; scene is the frame of the rays.
 /// @param light          homogeneous, w = 0 the way towards a sun, w = 1 a lamp's position.
@@ -39,8 +41,7 @@ struct DepthPicture {
 ///
 /// Cost    a ray a pixel that shows anything, on all cores: of one core 0.11 µs over a sphere, 0.19 in a town of 400 boxes,
 ///         0.22 to 0.28 in one of 3,000,000 triangles, 0.35 on a terrain of as many (AMD EPYC, 2026).
-/// Limits  a ground of many kilometres under a near plane of decimetres, where rasterisers err by more. Depths drawn
-///         with an offset or a depth range of their own are taken for what they say.
+/// Limits  depths drawn with an offset or a depth range of their own are taken for what they say.
 std::vector<std::uint8_t> depthBufferShadow(const RayScene& scene, const DepthPicture& picture,
                                             const glm::dmat4& clipFromScene, const glm::dvec4& light);
 

@@ -17,7 +17,9 @@
 namespace gnomon {
 namespace {
 
-constexpr int liftSteps = 256;
+constexpr int liftSteps = 8;
+constexpr double exact = 1.0 / (1LL << 42); // of the scene's size: what doubles leave of a place on a plane
+constexpr double inPlane = 1.0 / (1 << 20); // of the coordinates: eight steps of a float
 
 [[noreturn]] void fail(const char* what, RTCError error) {
     const std::string why = error == RTC_ERROR_OUT_OF_MEMORY     ? "there is not enough memory"
@@ -70,23 +72,33 @@ double stepsAbove(float value, int steps) {
     return static_cast<double>(moved) - static_cast<double>(value);
 }
 
-RTCIntersectContext context() {
-    RTCIntersectContext result;
-    rtcInitIntersectContext(&result);
-    return result;
-}
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// What the filter knows of the ray that is cast, in double.
+struct Cast : RTCIntersectContext {
+    Cast(const Ray& ray, const glm::dvec3& origin) : start(ray.start - origin), along(ray.along), reach(ray.reach) {
+        rtcInitIntersectContext(this);
+    }
+
+    const glm::dvec3 start, along;
+    const double reach;
+    bool overEnd = false; ///< meets a surface on which it ends, too.
+};
 
 } // namespace
 
 struct RayScene::Embree {
     ~Embree() { rtcReleaseScene(scene); }
 
-    static void passThroughHoles(const RTCFilterFunctionNArguments* arguments);
+    static void filter(const RTCFilterFunctionNArguments* arguments);
 
     void take(const TriangleSoup& soup);
     void commit(const ProgressLine& progress);
+    void measure();
     RTCRay ray(const Ray& ray) const;
+    bool meets(const Cast& cast, unsigned primitive) const;
     RayHit refined(const Ray& ray, unsigned primitive) const;
+    double step(double coordinate) const;
     glm::dvec3 corner(std::size_t primitive, int i) const { return glm::dvec3(vertices[indices[3 * primitive + i]]); }
 
     RTCScene scene = nullptr;
@@ -97,14 +109,31 @@ struct RayScene::Embree {
     std::function<bool(unsigned, double, double)> solidAt;
     std::size_t leftOut = 0;
     double reach = 0.0;
+    double size = 0.0; ///< how far from the origin the middle one of the triangles is: what is far off does not count.
+    double longest = 0.0; ///< a triangle's side.
 };
 
 /// Embree asks it of each hit that it finds; single rays only are cast, so that N is 1.
-void RayScene::Embree::passThroughHoles(const RTCFilterFunctionNArguments* arguments) {
+void RayScene::Embree::filter(const RTCFilterFunctionNArguments* arguments) {
     const Embree& self = *static_cast<const Embree*>(arguments->geometryUserPtr);
-    const unsigned triangle = self.kept[RTCHitN_primID(arguments->hit, arguments->N, 0)];
+    const unsigned primitive = RTCHitN_primID(arguments->hit, arguments->N, 0);
+    if (!self.meets(*static_cast<const Cast*>(arguments->context), primitive)) arguments->valid[0] = 0;
+    if (!self.solidAt || !arguments->valid[0]) return;
     const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
-    if (!self.solidAt(triangle, double(u), double(v))) arguments->valid[0] = 0;
+    if (!self.solidAt(self.kept[primitive], double(u), double(v))) arguments->valid[0] = 0;
+}
+
+/// Whether the triangle's plane is between the ray's ends, in double. Embree's floats are off by steps of the triangle's
+/// size, which may be kilometres where the ray starts millimetres above it.
+bool RayScene::Embree::meets(const Cast& cast, unsigned primitive) const {
+    const glm::dvec3 a = corner(primitive, 0);
+    const glm::dvec3 normal = glm::cross(corner(primitive, 1) - a, corner(primitive, 2) - a);
+    const double ahead = glm::dot(a - cast.start, normal), speed = glm::dot(cast.along, normal);
+    const double distance = ahead / speed;
+    if (!(distance > 0.0 && distance <= cast.reach)) return false;
+    if (cast.overEnd || std::isinf(cast.reach)) return true;
+    const double reached = std::max(largest(a), largest(cast.start + cast.reach * cast.along));
+    return std::abs(ahead - cast.reach * speed) > inPlane * reached * glm::length(normal);
 }
 
 /// Copies what is usable.
@@ -127,11 +156,9 @@ void RayScene::Embree::take(const TriangleSoup& soup) {
             std::copy_n(soup.indices + 3 * std::size_t{kept[i]}, 3, corners + 3 * i);
         vertices = points;
         indices = corners;
-        if (solidAt) {
-            rtcSetGeometryUserData(geometry, this);
-            rtcSetGeometryIntersectFilterFunction(geometry, passThroughHoles);
-            rtcSetGeometryOccludedFilterFunction(geometry, passThroughHoles);
-        }
+        rtcSetGeometryUserData(geometry, this);
+        rtcSetGeometryIntersectFilterFunction(geometry, filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, filter);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry);
     }
@@ -151,13 +178,30 @@ void RayScene::Embree::commit(const ProgressLine& progress) {
     reach = std::max({double(box.upper_x) - double(box.lower_x), double(box.upper_y) - double(box.lower_y),
                       double(box.upper_z) - double(box.lower_z)}) /
             2.0;
+    measure();
 }
 
-/// Embree's ray: a direction of length 1, so that no length over- or underflows a float.
+void RayScene::Embree::measure() {
+    std::vector<double> distances;
+    const std::size_t every = kept.size() / 1000 + 1;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const glm::dvec3 a = corner(i, 0), b = corner(i, 1), c = corner(i, 2);
+        longest = std::max({longest, glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+        if (i % every == 0) distances.push_back(std::max({largest(a), largest(b), largest(c)}));
+    }
+    longest = std::sqrt(longest);
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    size = *middle;
+}
+
+/// Embree's ray: a direction of length 1, so that no length over- or underflows a float. It starts earlier and ends later
+/// than the given one by as much as floats may be off.
 RTCRay RayScene::Embree::ray(const Ray& given) const {
-    const glm::vec3 start(given.start - origin);
     const double length = glm::length(given.along);
-    const glm::vec3 along(given.along / length);
+    const glm::dvec3 local = given.start - origin, unit = given.along / length;
+    const double more = inPlane * (largest(local) + longest);
+    const glm::vec3 start(local - more * unit), along(unit);
     const bool usable = isUsable(start) && isUsable(along) && length < 1e150 && given.reach > 0.0;
     RTCRay result{};
     result.org_x = start.x;
@@ -166,8 +210,8 @@ RTCRay RayScene::Embree::ray(const Ray& given) const {
     result.dir_x = usable ? along.x : 0.0f;
     result.dir_y = usable ? along.y : 0.0f;
     result.dir_z = usable ? along.z : 1.0f;
-    result.tfar =
-        usable ? static_cast<float>(given.reach * length) : -1.0f; // below 0 for no ray, which Embree must not see
+    result.tfar = usable ? static_cast<float>(given.reach * length + 2.0 * more)
+                         : -1.0f; // below 0 for no ray, which Embree must not see
     result.mask = ~0u;
     return result;
 }
@@ -196,7 +240,8 @@ RayHit RayScene::closest(const Ray& given) const {
     RTCRayHit query{_embree->ray(given), {}};
     if (query.ray.tfar < 0.0f) return {};
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext how = context();
+    Cast how(given, _embree->origin);
+    how.overEnd = true;
     rtcIntersect1(_embree->scene, &how, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return _embree->refined(given, query.hit.primID);
@@ -205,7 +250,7 @@ RayHit RayScene::closest(const Ray& given) const {
 bool RayScene::blocked(const Ray& given) const {
     RTCRay query = _embree->ray(given);
     if (query.tfar < 0.0f) return false;
-    RTCIntersectContext how = context();
+    Cast how(given, _embree->origin);
     rtcOccluded1(_embree->scene, &how, &query);
     return query.tfar < 0.0f;
 }
@@ -223,21 +268,22 @@ void RayScene::blocked(const Ray* rays, std::size_t count, std::uint8_t* answers
     });
 }
 
-double RayScene::margin(const glm::dvec3& point) const {
-    const glm::dvec3 local = glm::abs(point - _embree->origin);
-    return stepsAbove(static_cast<float>(std::max({local.x, local.y, local.z, _embree->reach / 16.0})), liftSteps);
+double RayScene::Embree::step(double coordinate) const {
+    const double least = std::max(size / 16.0, double{std::numeric_limits<float>::min()});
+    return std::max(stepsAbove(static_cast<float>(std::max(std::abs(coordinate), least)), liftSteps), exact * reach);
 }
+
+double RayScene::margin(const glm::dvec3& point) const { return _embree->step(largest(point - _embree->origin)); }
 
 glm::dvec3 RayScene::lifted(const glm::dvec3& point, const glm::dvec3& normal) const {
     glm::dvec3 result = point;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double size = std::max(std::abs(point[axis] - _embree->origin[axis]), _embree->reach / 16.0);
-        result[axis] += normal[axis] * stepsAbove(static_cast<float>(size), liftSteps);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        result[axis] += normal[axis] * _embree->step(point[axis] - _embree->origin[axis]);
     return result;
 }
 
 std::size_t RayScene::leftOut() const { return _embree->leftOut; }
 double RayScene::reach() const { return _embree->reach; }
+double RayScene::longestSide() const { return _embree->longest; }
 
 } // namespace gnomon

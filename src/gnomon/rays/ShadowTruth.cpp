@@ -105,7 +105,7 @@ void Tracer::fillCentre(TruthPixel& pixel, const Place& place) const {
     pixel.normal = place.normal;
     pixel.facing = glm::dot(place.normal, glm::normalize(towards));
     const Ray ray = rayToLight(place, towards);
-    const RayHit hit = _casters.closest(ray);
+    const RayHit hit = _casters.blocked(ray) ? _casters.closest(ray) : RayHit(); // a lamp may lie on a surface
     pixel.litCentre = pixel.facing > 0.0 && !hit;
     if (!hit) return;
     pixel.blocker = hit.triangle;

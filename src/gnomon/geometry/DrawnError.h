@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <glm/mat4x4.hpp>
+
+namespace gnomon {
+
+/// How far OpenGL may draw a surface from its place: at w = 1 in clip space, elsewhere divided by w.
+struct DrawnError {
+    double depth = 0.0;  ///< of 0 … 1.
+    double pixels = 0.0; ///< along either axis.
+};
+
+/// OpenGL takes vertices to clip space in floats, and cuts polygons there: a clip coordinate is off by steps of a float as
+/// large as the vertices' own coordinates and as the polygon. Measured with llvmpipe: a tenth of what is allowed here for
+/// sides, a third of what is allowed for coordinates.
+/// @param width        of the viewport, pixels.
+/// @param rounding     of the vertices by their own floats, see CasterExtraction::getRounding().
+/// @param longestSide  of the polygons.
+DrawnError drawnError(const glm::dmat4& clipFromScene, double width, double rounding, double longestSide);
+
+} // namespace gnomon

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+// Shadows where numbers are large: wide grounds, long views, coordinates far from the origin, casters far from the rest.
+// Every pixel that is no edge is right, by rays in double at what the floats of the vertices say.
+#include <support/Oracle.h>
+#include <support/Scene.h>
+
+#include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/TracedShadowTechnique.h>
+#include <gtest/gtest.h>
+#include <osg/Material>
+#include <osg/MatrixTransform>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+using test::Mesh;
+
+namespace {
+
+/// A ground that receives, and what stands on it.
+struct Case {
+    Mesh ground;
+    std::vector<Mesh> casters;
+    osg::Vec4d light;
+    test::View view;
+    osg::ref_ptr<osg::Node> stray{}; ///< one more caster, which is not seen, nor its shadow.
+
+    /// @param black  casters are.
+    test::Scene build(bool black = false) const {
+        test::Scene result = test::scene(light);
+        result.content->addChild(test::node(ground, "ground"));
+        osg::ref_ptr<osg::Group> group = new osg::Group;
+        result.content->addChild(group);
+        for (const Mesh& caster : casters) group->addChild(test::node(caster));
+        osg::ref_ptr<osg::Material> material = new osg::Material;
+        material->setAmbient(osg::Material::FRONT_AND_BACK, {0.0f, 0.0f, 0.0f, 1.0f});
+        material->setDiffuse(osg::Material::FRONT_AND_BACK, {0.0f, 0.0f, 0.0f, 1.0f});
+        if (black) group->getOrCreateStateSet()->setAttribute(material);
+        if (stray) result.content->addChild(stray);
+        return result;
+    }
+};
+
+using Technique = std::function<osg::ref_ptr<gnomon::ShadowTechnique>()>;
+
+osg::ref_ptr<gnomon::ShadowTechnique> traced() { return new gnomon::TracedShadowTechnique; }
+osg::ref_ptr<gnomon::ShadowTechnique> planar() { return test::planar(); }
+osg::ref_ptr<gnomon::ShadowTechnique> map() {
+    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
+    technique->setSize(2048);
+    return technique;
+}
+
+/// What is wrong away from edges, of a picture in which there is a shadow. Pixels do not count in which OpenGL draws the
+/// ground before a caster's foot, or the other way round, for want of depths.
+/// @param reach  pixels from an edge that count as at the edge, see Mask::atEdge().
+int wrong(const Case& given, const Technique& technique, int reach = 1) {
+    test::Scene shadowed = given.build();
+    shadowed.addShadow(technique());
+    test::Scene dark = given.build();
+    dark.takeLightAway();
+    const auto drawn = [&given](test::Scene scene) { return test::render(scene.root, given.view); };
+    const test::Picture actual = drawn(shadowed), unlit = drawn(dark), lit = drawn(given.build()),
+                        blackened = drawn(given.build(true));
+    const test::Mask mask = test::castRays(given.ground, given.casters, given.light, given.view);
+    EXPECT_GT(mask.count(test::Seen::ShadowedReceiver), 100) << "or this shows nothing";
+    int result = 0;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x) {
+            const test::Seen seen = mask.at(x, y);
+            const bool casterDrawn = blackened.at(x, y) == test::grey(0);
+            if (mask.atEdge(x, y, reach) || casterDrawn != (seen == test::Seen::Caster)) continue;
+            result += actual.at(x, y) != (seen == test::Seen::ShadowedReceiver ? unlit : lit).at(x, y);
+        }
+    return result;
+}
+
+/// As the vertices of a node have them.
+Mesh asFloats(Mesh mesh) {
+    for (glm::dvec3& corner : mesh) corner = glm::dvec3(glm::vec3(corner));
+    return mesh;
+}
+
+const osg::Vec4d sun(1.0, 0.3, 0.8, 0.0);
+
+/// A box of 2 m on a level quad, seen from some distance.
+Case boxOnAQuad(double side, double distance, double near, double far) {
+    return {test::square(side / 2.0),
+            {test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})},
+            sun,
+            test::perspective({-0.5 * distance, -0.8 * distance, 0.3 * distance}, {0.0, 0.0, 0.0}, 320, 240,
+                              distance > 50.0 ? 8.0 : 40.0, near, far)};
+}
+
+TEST(Scales, TracedShadowsNothingFalselyOnQuadsOfKilometres) {
+    for (const double side : {200.0, 600.0, 2e3, 4e4, 1e6})
+        for (const double distance : {4.0, 10.0, 60.0})
+            for (const glm::dvec2& planes : {glm::dvec2(0.1, 1e3), glm::dvec2(0.1, 1e5), glm::dvec2(1.0, 1e4)}) {
+                const int found = wrong(boxOnAQuad(side, distance, planes.x, planes.y), traced);
+                EXPECT_EQ(found, 0) << "a quad of " << side << " from " << distance << " m, near " << planes.x
+                                    << ", far " << planes.y;
+            }
+}
+
+/// Houses of 6 to 20 m that stand far from one another, along a view to the horizon.
+Case longView(double side, double near, double far) {
+    Case result{test::square(side / 2.0),
+                {},
+                sun,
+                test::perspective({0.0, -30.0, 6.0}, {0.0, 100.0, 0.0}, 320, 240, 40.0, near, far)};
+    for (int i = 0; i < 12; ++i) {
+        const double away = 10.0 * std::pow(1.6, i), size = 6.0 + 0.15 * away;
+        result.casters.push_back(test::box({-0.3 * away, away, 0.0}, {-0.3 * away + size, away + size, size}));
+    }
+    return result;
+}
+
+TEST(Scales, TracedShadowsNothingFalselyInLongViews) {
+    for (const double side : {2e4, 2e5})
+        for (const double near : {0.1, 0.5})
+            EXPECT_EQ(wrong(longView(side, near, 1e5), traced), 0) << side << ", near " << near;
+}
+
+/// A scene of 100 m with its offset in its vertices, as files in national grids have it.
+/// @param far  plane of the view.
+Case baked(const glm::dvec3& offset, bool lamp, double far) {
+    const auto at = [&offset](const Mesh& mesh) { return asFloats(test::moved(mesh, offset)); };
+    Case result;
+    result.ground = at(test::square(50.0));
+    for (const glm::dvec2& place : {glm::dvec2(0.0, 0.0), glm::dvec2(20.0, 8.0), glm::dvec2(-15.0, 25.0)})
+        result.casters.push_back(
+            at(test::box({place.x - 4.0, place.y - 4.0, 0.0}, {place.x + 4.0, place.y + 4.0, 6.0})));
+    const osg::Vec3d by(offset.x, offset.y, offset.z);
+    result.light = lamp ? osg::Vec4d(osg::Vec4(osg::Vec3(osg::Vec3d(-14.0, 6.0, 18.0) + by), 1.0f)) : sun;
+    result.view = test::perspective(osg::Vec3d(-20.0, -50.0, 30.0) + by, osg::Vec3d(0.0, 5.0, 0.0) + by, 320, 240, 50.0,
+                                    1.0, far);
+    return result;
+}
+
+const std::vector<glm::dvec3> places{{0.0, 0.0, 0.0}, {5e3, 0.0, 0.0}, {5e3, 5e3, 100.0}, {-2e4, 3e3, 0.0}};
+
+TEST(Scales, TracedIsRightWhereLargeCoordinatesAreInTheVertices) {
+    for (const glm::dvec3& place : places)
+        for (const bool lamp : {false, true})
+            for (const double far : {200.0, 1e3})
+                EXPECT_EQ(wrong(baked(place, lamp, far), traced), 0)
+                    << place.x << (lamp ? ", a lamp, " : ", a sun, ") << far;
+}
+
+TEST(Scales, MapIsRightWhereLargeCoordinatesAreInTheVertices) {
+    for (const glm::dvec3& place : places)
+        for (const bool lamp : {false, true})
+            for (const double far : {200.0, 1e3})
+                EXPECT_EQ(wrong(baked(place, lamp, far), map, 2), 0)
+                    << place.x << (lamp ? ", a lamp, " : ", a sun, ") << far;
+}
+
+/// A transform that takes a box far away.
+osg::ref_ptr<osg::Node> strayAt(const osg::Vec3d& place) {
+    const osg::ref_ptr<osg::MatrixTransform> result = new osg::MatrixTransform(osg::Matrixd::translate(place));
+    result->addChild(test::node(test::box({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0})));
+    return result;
+}
+
+Case withStray(double distance, double size) {
+    Case result{test::square(10.0 * size),
+                {test::box({-size, -size, 0.0}, {size, size, 2.0 * size}),
+                 test::box({3.0 * size, 2.0 * size, 0.0}, {4.0 * size, 3.0 * size, size})},
+                sun,
+                test::perspective({-6.0 * size, -10.0 * size, 7.0 * size}, {0.0, 0.0, 0.0}, 320, 240, 40.0, size,
+                                  100.0 * size)};
+    if (distance > 0.0) result.stray = strayAt({distance, 0.3 * distance, 0.0});
+    return result;
+}
+
+TEST(Scales, ACasterFarAwayDoesNotShiftTheShadowsOfTheOthers) {
+    for (const Technique& technique : {Technique(traced), Technique(map), Technique(planar)})
+        for (const double distance : {0.0, 1e4, 1e5, 1e6})
+            EXPECT_EQ(wrong(withStray(distance, 1.0), technique), 0) << technique()->className() << " " << distance;
+    for (const Technique& technique : {Technique(traced), Technique(planar)})
+        EXPECT_EQ(wrong(withStray(1e7, 1.0), technique), 0) << technique()->className();
+}
+
+TEST(Scales, TracedShadowsOfCentimetresAreRightOnAGroundOfKilometres) {
+    for (const double place : {0.0, 1e3, 4e3})
+        for (const double size : {0.01, 0.05, 1.0}) {
+            Case given = withStray(0.0, size);
+            const glm::dvec3 by(place, 0.4 * place, 0.0);
+            given.ground = asFloats(test::moved(test::square(5e3), -by)); // so that vertices of the small ones are fine
+            EXPECT_EQ(wrong(given, traced), 0) << size << " m, from the middle " << place;
+        }
+}
+
+/// A room of 8 × 8 × 4 m with a box in it, its walls single sheets that are seen from inside; lit by a lamp at a place.
+Case roomWith(const osg::Vec4d& lamp, const glm::dvec3& offset) {
+    const auto at = [&offset](const Mesh& mesh) { return asFloats(test::moved(mesh, offset)); };
+    const osg::Vec3d by(offset.x, offset.y, offset.z);
+    Case result;
+    result.ground = at(test::square(4.0));
+    const Mesh room = test::insideOut(test::box({-4.0, -4.0, 0.0}, {4.0, 4.0, 4.0}));
+    result.casters = {at(room), at(test::box({0.5, 0.0, 0.5}, {1.5, 1.0, 1.5}))};
+    result.light = osg::Vec4d(osg::Vec4(osg::Vec3(osg::Vec3d(lamp.x(), lamp.y(), lamp.z()) + by), 1.0f));
+    result.view =
+        test::perspective(osg::Vec3d(-3.0, -3.5, 3.0) + by, osg::Vec3d(1.0, 1.0, 0.0) + by, 320, 240, 60.0, 0.1, 30.0);
+    return result;
+}
+
+/// By rays against the box alone, which walls that the lamp lies in do not change.
+int wrongInRoom(const osg::Vec4d& lamp, const Technique& technique, const glm::dvec3& offset) {
+    const Case given = roomWith(lamp, offset);
+    test::Scene shadowed = given.build(), dark = given.build(), lit = given.build();
+    shadowed.addShadow(technique());
+    dark.takeLightAway();
+    const test::Mask mask = test::castRays(given.ground, {given.casters[1]}, given.light, given.view);
+    const test::Mask hidden = test::castRays(given.ground, given.casters, given.light, given.view);
+    const test::Picture actual = test::render(shadowed.root, given.view), unlit = test::render(dark.root, given.view),
+                        all = test::render(lit.root, given.view);
+    EXPECT_GT(mask.count(test::Seen::ShadowedReceiver), 100) << "or this shows nothing";
+    int result = 0;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x) {
+            const test::Seen seen = mask.at(x, y);
+            const bool floor = hidden.at(x, y) != test::Seen::Caster && hidden.at(x, y) != test::Seen::Nothing;
+            if (!floor || mask.atEdge(x, y)) continue;
+            result += actual.at(x, y) != (seen == test::Seen::ShadowedReceiver ? unlit : all).at(x, y);
+        }
+    return result;
+}
+
+TEST(Scales, ALampOnASurfaceIsNotBlockedByIt) {
+    for (const Technique& technique : {Technique(traced), Technique(map)})
+        for (const glm::dvec3& offset : {glm::dvec3(0.0), glm::dvec3(3.3, 700.7, 12.1)})
+            for (const osg::Vec4d& lamp : {osg::Vec4d(0.3, -1.0, 4.0, 1.0), osg::Vec4d(4.0, 0.3, 2.5, 1.0),
+                                           osg::Vec4d(4.0, 0.3, 4.0, 1.0), osg::Vec4d(0.3, -1.0, 4.0 - 1e-6, 1.0)})
+                EXPECT_EQ(wrongInRoom(lamp, technique, offset), 0)
+                    << technique()->className() << " " << offset.x << ": " << lamp.x() << " " << lamp.z();
+}
+
+} // namespace
