@@ -11,7 +11,9 @@
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
-#include <map>
+#include <deque>
+#include <memory>
+#include <set>
 
 namespace gnomon {
 namespace {
@@ -61,6 +63,16 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
     view.options = entry.group->getCompositorOptions();
     view.frameNumber = entry.frameNumber;
     return view;
+}
+
+/// Asked for once for all techniques that share a group and a view of it.
+const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderStage& stage,
+                              std::deque<FrameCasters>& known) {
+    const CasterView view{entry.eyeFromGroup, *entry.projection, stage.getViewport(),
+                          entry.viewPoint,    entry.lodScale,    &stage};
+    const auto found = std::find_if(known.begin(), known.end(),
+                                    [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
+    return found == known.end() ? known.emplace_back(*entry.group, view) : *found;
 }
 
 ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
@@ -130,10 +142,10 @@ void ShadowBin::reset() {
 
 void ShadowBin::sortImplementation() {
     _jobs.clear();
-    std::map<const ShadowCasterGroup*, FrameCasters> groups;
+    std::deque<FrameCasters> known;
     const std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), getBinNum());
     for (const EnlistedTechnique& entry : _enlisted) {
-        const FrameCasters& casters = groups.try_emplace(entry.group.get(), *entry.group).first->second;
+        const FrameCasters& casters = castersOf(entry, *getStage(), known);
         if (!hasCasters(entry, casters)) continue;
         const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
         for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
@@ -159,19 +171,20 @@ void ShadowBin::sortAsAsked() {
 void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
                         const FrameCasters& casters, const std::vector<DrawnLeaf>& leaves) {
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
-    std::set<const osgUtil::RenderLeaf*> receivers;
+    std::shared_ptr<const LeafSet> receivers;
     if (entry.technique->hasReceiver()) {
-        receivers = receiversAmong(leaves, entry.technique->getReceiver(), *getStage()->getInitialViewMatrix());
-        view.receivers = &receivers;
+        receivers = std::make_shared<const LeafSet>(
+            receiversAmong(leaves, entry.technique->getReceiver(), *getStage()->getInitialViewMatrix()));
+        view.receivers = receivers.get();
     }
-    if (view.receivers && receivers.empty()) {
+    if (receivers && receivers->empty()) {
         reportNoReceiver(entry, *getStage());
         return;
     }
     view.stage = getStage();
     view.options.filter = _options.filter; // as all who share this bin want it
     for (const DrawnLeaf& leaf : leaves)
-        if (view.receivers ? receivers.count(leaf.leaf) > 0 : isSameLens(*leaf.leaf->_projection, *entry.projection))
+        if (view.receivers ? receivers->count(leaf.leaf) > 0 : isSameLens(*leaf.leaf->_projection, *entry.projection))
             view.seen.push_back(leaf.leaf);
     for (const ShadowLight& light : lights) {
         ShadowJob job = jobFor(entry, light);
