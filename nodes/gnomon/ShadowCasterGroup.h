@@ -47,6 +47,7 @@ struct CasterView;
 /// - Transparent drawables receive no shadow, nor does anything in render bin 8 or higher.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast.
+/// - An LOD casts as its view shows it. A cull callback that chooses among children is not asked.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
 ///

@@ -45,7 +45,7 @@ public:
 
 CasterView viewFrom(const osg::Vec3d& eye, const void* key = nullptr) {
     CasterView view;
-    view.eyeFromGroup = osg::Matrixd::lookAt(eye, osg::Vec3d(), osg::Vec3d(0, 0, 1));
+    view.eyeFromGroup = osg::Matrixd::lookAt(eye, osg::Vec3d(), osg::Vec3d(0, 1, 0));
     view.projection = osg::Matrixd::perspective(40.0, 4.0 / 3.0, 1.0, 1000.0);
     view.viewport = new osg::Viewport(0, 0, 400, 300);
     view.key = key;
