@@ -7,18 +7,18 @@
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 
-#include <OpenThreads/Mutex>
 #include <osg/Group>
 #include <osg/LightSource>
 
-#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace gnomon {
 
 class CasterMesh;
 class CasterDrawables;
-class CasterFingerprint;
+class CasterRevisions;
+struct CasterView;
 
 /// Group whose subgraph casts shadows. Every scene with Gnomon's shadows has one.
 ///
@@ -51,6 +51,7 @@ class CasterFingerprint;
 /// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast.
+/// - An LOD casts as its view shows it. A cull callback that chooses among children is not asked.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
 ///
@@ -131,19 +132,20 @@ public:
     /// True for the class itself, whose traversal visits all children.
     bool showsAllChildren() const override;
 
-    /// For the techniques, whose types are internal: the casters as one mesh. They are extracted again only if something changed since the last call.
+    /// For the techniques, whose types are internal: the casters as one mesh. They are extracted again only if something changed.
     /// Call it where the graph may be read: in update, event or cull.
-    osg::ref_ptr<const CasterMesh> casters() const;
+    /// @param view  whose levels of detail cast. Default: the finest cast.
+    osg::ref_ptr<const CasterMesh> casters(const CasterView* view = nullptr) const;
     /// For the techniques, whose types are internal: the casters, drawable by drawable. Only changed drawables are read again. Call it as casters().
-    osg::ref_ptr<const CasterDrawables> drawables() const;
+    osg::ref_ptr<const CasterDrawables> drawables(const CasterView* view = nullptr) const;
     /// Number of changes that casters() and drawables() have found. 0 before the first call of either.
+    /// A choice of levels of detail that no view had lately is a change.
     unsigned revision() const;
 
 protected:
     ~ShadowCasterGroup() override;
 
 private:
-    void noteRevision(std::uint64_t fingerprint) const;
     /// In a deep copy, what casts, shines and receives are the copy's own nodes.
     void followCopies(const ShadowCasterGroup& original);
 
@@ -155,12 +157,7 @@ private:
     std::vector<LightUniform> _lightUniforms;
     CompositorOptions _options;
 
-    mutable OpenThreads::Mutex _mutex;
-    osg::ref_ptr<CasterFingerprint> _watch;
-    mutable osg::ref_ptr<const CasterMesh> _mesh;
-    mutable osg::ref_ptr<const CasterDrawables> _pieces;
-    mutable std::uint64_t _fingerprint = 0, _meshFingerprint = 0;
-    mutable unsigned _revision = 0;
+    const std::unique_ptr<CasterRevisions> _casters;
 };
 
 } // namespace gnomon

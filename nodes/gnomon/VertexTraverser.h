@@ -27,9 +27,9 @@ class CasterExtraction;
 ///
 /// Reads
 /// - Every primitive mode, with and without indices, and ShapeDrawables.
-/// - Float and double vertex arrays of 2, 3 or 4 components.
+/// - Float, double and integer vertex arrays of 2, 3 or 4 components; integers normalised if their array says so.
 /// - Nested and mirrored transforms, switches, sequences and node masks.
-/// - The most detailed loaded children of an LOD, so that all views see the same casters.
+/// - The most detailed loaded children of an LOD, for there is no view that chooses.
 /// - Points and lines as vertices without triangles.
 /// Cost
 /// - One pass over the vertices.
@@ -39,7 +39,7 @@ class CasterExtraction;
 /// Limits
 /// - Leaves out cameras, projections, text, shadow techniques and absolute transforms.
 /// - Leaves out billboards, and AutoTransforms that turn or scale with the view.
-/// - Leaves out integer vertex arrays, as all of OpenSceneGraph's functors do.
+/// - Leaves out drawables that hand out no triangles, such as particles.
 /// - Leaves out vertices that no primitive uses.
 /// - Counts instanced primitives once, and ignores displacement by vertex shaders.
 /// Threads

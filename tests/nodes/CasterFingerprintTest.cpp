@@ -165,7 +165,10 @@ TEST(CasterRevisionChanges, WithTheShapeOfAShapeDrawable) {
 }
 
 TEST(CasterRevisionChanges, WithTheBoundsOfADrawableThatIsNoGeometry) {
-    class Unknown : public osg::Drawable {};
+    class Unknown : public osg::Drawable {
+    public:
+        bool supports(const osg::PrimitiveFunctor&) const override { return true; }
+    };
     const osg::ref_ptr<Unknown> unknown = new Unknown;
     Watched watched(unknown.get());
     EXPECT_FALSE(watched.changed());
@@ -205,6 +208,14 @@ TEST(CasterRevisionChanges, WithWhatAnAlphaTestGoesBy) {
     EXPECT_FALSE(watched.changed());
     test->setFunction(osg::AlphaFunc::ALWAYS);
     EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionStays, WhenADrawableWithoutTrianglesChangesItsBounds) {
+    class Particles : public osg::Drawable {};
+    const osg::ref_ptr<Particles> particles = new Particles;
+    Watched watched(particles.get());
+    particles->setInitialBound(osg::BoundingBox(0, 0, 0, 1, 1, 1));
+    EXPECT_FALSE(watched.changed());
 }
 
 TEST(CasterRevisionStays, WhenWhatDoesNotCastChanges) {

@@ -42,6 +42,7 @@ public:
         static_cast<const osg::Drawable&>(*_letters).accept(functor);
     }
     using osg::Drawable::accept;
+    bool supports(const osg::PrimitiveFunctor&) const override { return true; }
     const char* _library = "osgText";
 
 private:

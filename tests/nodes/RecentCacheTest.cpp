@@ -139,3 +139,9 @@ TEST(RecentCache, FreesWhatItDrops) {
     EXPECT_TRUE(first.expired());
     EXPECT_FALSE(second.expired());
 }
+
+TEST(RecentCache, DropsAllThatAreOldWhereverTheyStand) {
+    Cache cache = cacheOf("abcd");
+    cache.dropIf([](const Entry& entry) { return entry.key == 'b' || entry.key == 'd'; });
+    EXPECT_EQ(keysOf(cache), "ac");
+}

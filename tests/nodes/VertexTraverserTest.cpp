@@ -162,6 +162,33 @@ TEST(VertexTraverserArrays, AllFloatAndDoubleArraysAreRead) {
     EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3dArray>({1, 2, 3})), osg::Vec3d(1, 2, 3));
 }
 
+TEST(VertexTraverserArrays, IntegerArraysAreReadAsTheyAre) {
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec2sArray>({1, -2})), osg::Vec3d(1, -2, 0));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3sArray>({1, -2, 300})), osg::Vec3d(1, -2, 300));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3bArray>({1, -2, 3})), osg::Vec3d(1, -2, 3));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3ubArray>({1, 2, 200})), osg::Vec3d(1, 2, 200));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3usArray>({1, 2, 60000})), osg::Vec3d(1, 2, 60000));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3iArray>({1, -2, 70000})), osg::Vec3d(1, -2, 70000));
+    EXPECT_EQ(lastVertexOf(threeVertices<osg::Vec3uiArray>({1, 2, 70000})), osg::Vec3d(1, 2, 70000));
+    const auto weighed = arrayOf<osg::Vec4sArray>({{0, 0, 0, 1}, {1, 0, 0, 1}, {2, 4, 6, 2}});
+    EXPECT_EQ(lastVertexOf(weighed), osg::Vec3d(1, 2, 3));
+}
+
+/// As the OpenGL specification has it, 2.3.5 of 4.2.
+TEST(VertexTraverserArrays, NormalisedIntegersOfAnAttributeEndAtOne) {
+    const auto last = [](osg::Array* array) {
+        array->setNormalize(true);
+        const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexAttribArray(0, array, osg::Array::BIND_PER_VERTEX);
+        geometry->addPrimitiveSet(new osg::DrawArrays(Mode::TRIANGLES, 0, 3));
+        VertexTraverser casters;
+        geometry->accept(casters);
+        return casters.getVertices().size() == 3 ? casters.getVertices().back() : osg::Vec3d(9, 9, 9);
+    };
+    EXPECT_EQ(last(threeVertices<osg::Vec3sArray>({32767, -32767, -32768}).get()), osg::Vec3d(1, -1, -1));
+    EXPECT_EQ(last(threeVertices<osg::Vec3ubArray>({255, 0, 51}).get()), osg::Vec3d(1, 0, 0.2f));
+}
+
 TEST(VertexTraverserArrays, TheFourthCoordinateDivides) {
     const auto floats = arrayOf<osg::Vec4Array>({{0, 0, 0, 1}, {1, 0, 0, 1}, {2, 4, 6, 2}});
     const auto doubles = arrayOf<osg::Vec4dArray>({{0, 0, 0, 1}, {1, 0, 0, 1}, {2, 4, 6, 2}});

@@ -5,8 +5,6 @@
 #include <osg/FrameStamp>
 #include <osg/Notify>
 
-#include <algorithm>
-
 namespace gnomon {
 namespace {
 
@@ -23,7 +21,7 @@ void FrameDiagnosis::add(unsigned frame, const std::string& who, const std::stri
     Lock lock(_mutex);
     if (frame != _frame) return;
     const std::string sentence = who + ": " + cause;
-    if (std::find(_causes.begin(), _causes.end(), sentence) != _causes.end()) return;
+    if (!_known.insert(sentence).second) return;
     _causes.push_back(sentence);
     OSG_INFO << "gnomon: " << sentence << std::endl;
 }
@@ -33,6 +31,7 @@ void FrameDiagnosis::begin(unsigned frame, const void* view) {
     if (frame != _frame || _views.count(view)) {
         _frame = frame;
         _causes.clear();
+        _known.clear();
         _views.clear();
     }
     _views.insert(view);

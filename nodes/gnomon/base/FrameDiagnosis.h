@@ -6,6 +6,7 @@
 
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace gnomon {
@@ -30,6 +31,7 @@ protected:
 private:
     mutable OpenThreads::Mutex _mutex;
     std::vector<std::string> _causes;
+    std::unordered_set<std::string> _known; ///< the same.
     unsigned _frame = 0;
     std::set<const void*> _views; ///< met in that frame.
 };

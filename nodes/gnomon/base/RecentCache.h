@@ -9,7 +9,7 @@ namespace gnomon {
 
 /// Results that are dear to make, in the order of their use: the most recently used one stands last.
 ///
-/// Ask find() first. Make what it does not find, and add() it. The two drop functions bound how many are kept.
+/// Ask find() first. Make what it does not find, and add() it. The drop functions bound how many are kept.
 /// Pointers and references to entries hold until the next call.
 ///
 /// Cost
@@ -43,6 +43,12 @@ public:
     template <class Test>
     void dropWhile(const Test& isOld) {
         _entries.erase(_entries.begin(), std::find_if_not(_entries.begin(), _entries.end(), isOld));
+    }
+
+    /// Drops all entries that `isOld` accepts.
+    template <class Test>
+    void dropIf(const Test& isOld) {
+        _entries.erase(std::remove_if(_entries.begin(), _entries.end(), isOld), _entries.end());
     }
 
     /// The least recently used entry.

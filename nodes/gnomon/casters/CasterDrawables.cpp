@@ -3,13 +3,17 @@
 #include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/CasterMesh.h>
-#include <gnomon/casters/TriangleDecoder.h>
+#include <gnomon/casters/DrawableTriangles.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <unordered_map>
 
 namespace gnomon {
 namespace {
+
+constexpr std::size_t mostUnseen = 1000000; // triangles of levels that no view has now
 
 /// Where a drawable's triangles are, without them.
 class DrawableBounds : public TriangleDecoder {
@@ -41,6 +45,7 @@ protected:
 class DrawableReader : public CasterExtraction {
 public:
     void read(const CasterDrawable& piece) {
+        if (piece.kept) return append(*piece.kept);
         _piece = &piece;
         setRootFromVisited(piece.groupFromLocal);
         const_cast<osg::Drawable&>(*piece.drawable).accept(*this); // which changes nothing
@@ -56,8 +61,8 @@ private:
 /// Meets casters, and knows those again that it is told of.
 class DrawableVisitor : public CasterVisitor {
 public:
-    DrawableVisitor(const Selection& casters, const CasterDrawables* known)
-        : CasterVisitor(casters), _known(known ? known->list : _none) {}
+    DrawableVisitor(const Selection& casters, const CasterDrawables* known, LevelPieces* levels)
+        : CasterVisitor(casters), _known(known ? known->list : _none), _levels(levels) {}
 
     bool changed() const { return _changed || _same != _known.size(); }
     std::uint64_t fingerprint() const { return _fingerprint.value(); }
@@ -79,6 +84,7 @@ protected:
         }
         startOwnList();
         osg::ref_ptr<const CasterDrawable> piece = find(value);
+        if (!piece && _levels && isOfLevels()) piece = _levels->find(value);
         if (!piece) piece = make(drawable, value, test);
         _met.push_back(piece);
     }
@@ -121,7 +127,7 @@ private:
     osg::ref_ptr<const CasterDrawable> make(osg::Drawable& drawable, std::uint64_t fingerprint,
                                             const std::optional<AlphaTest>& test) const {
         DrawableBounds found(rootFromLocal());
-        drawable.accept(found);
+        if (!isOfLevels()) readTriangles(drawable, found);
         osg::ref_ptr<CasterDrawable> piece = new CasterDrawable;
         piece->fingerprint = fingerprint;
         piece->drawable = &drawable;
@@ -131,22 +137,28 @@ private:
         piece->bounds = found.bounds;
         holdSources(drawable, piece->sources);
         if (test) test->hold(drawable, piece->sources);
-        if (test || found.anyInvalid) describe(*piece);
+        if (isOfLevels() || test || found.anyInvalid) describe(*piece);
         return piece;
     }
 
-    /// What is missing of it.
+    /// What is missing of it. Under an LOD it keeps all that is not.
     void describe(CasterDrawable& piece) const {
-        DrawableReader found;
-        for (osg::Node* node : getNodePath()) found.pushOntoNodePath(node); // for the names in it
-        found.read(piece);
-        piece.invalidTriangles = found.getInvalidTriangles();
-        piece.invalidNode = found.getInvalidNode();
-        piece.unknownTests = found.getUnknownTests();
-        piece.unknownNode = found.getUnknownNode();
+        const osg::ref_ptr<DrawableReader> found = new DrawableReader;
+        for (osg::Node* node : getNodePath()) found->pushOntoNodePath(node); // for the names in it
+        found->read(piece);
+        found->trim();
+        piece.invalidTriangles = found->getInvalidTriangles();
+        piece.invalidNode = found->getInvalidNode();
+        piece.unknownTests = found->getUnknownTests();
+        piece.unknownNode = found->getUnknownNode();
+        if (!isOfLevels()) return;
+        piece.kept = found;
+        piece.triangles = found->getTriangles().size() / 3;
+        for (const unsigned index : found->getTriangles()) piece.bounds.expandBy(found->getVertices()[index]);
     }
 
     const CasterDrawables::List _none, &_known;
+    LevelPieces* const _levels;
     CasterDrawables::List _met;
     std::unordered_map<std::uint64_t, std::size_t> _places;
     std::size_t _same = 0, _next = 0;
@@ -156,8 +168,8 @@ private:
 
 } // namespace
 
-CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll)
-    : list(std::move(pieces)), fingerprint(fingerprintOfAll) {
+CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, std::uint64_t choiceOfAll)
+    : list(std::move(pieces)), fingerprint(fingerprintOfAll), choice(choiceOfAll) {
     for (const auto& piece : list) {
         bounds.expandBy(piece->bounds);
         if (invalidTriangles == 0) invalidNode = piece->invalidNode;
@@ -168,11 +180,50 @@ CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll)
 }
 
 osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const Selection& casters,
-                                                        const osg::ref_ptr<const CasterDrawables>& known) {
-    DrawableVisitor visitor(casters, known.get());
+                                                        const osg::ref_ptr<const CasterDrawables>& known,
+                                                        const CasterView* view, LevelPieces* levels) {
+    DrawableVisitor visitor(casters, known.get(), levels);
+    if (view) visitor.setView(*view);
+    if (levels) levels->startVisit();
     root.accept(visitor);
     if (known && !visitor.changed()) return known;
-    return new CasterDrawables(visitor.take(), visitor.fingerprint());
+    const osg::ref_ptr<CasterDrawables> met =
+        new CasterDrawables(visitor.take(), visitor.fingerprint(), visitor.choice());
+    for (const auto& piece : met->list)
+        if (levels && piece->kept) levels->add(*piece);
+    return met;
+}
+
+const CasterDrawable* LevelPieces::find(std::uint64_t fingerprint) {
+    const auto known = _known.find(fingerprint);
+    return known == _known.end() ? nullptr : known->second.piece.get();
+}
+
+void LevelPieces::add(const CasterDrawable& piece) { _known[piece.fingerprint] = {&piece, _visit}; }
+
+void LevelPieces::prune() {
+    std::unordered_map<const osg::Drawable*, int> held; // by pieces
+    std::size_t seen = 0, unseen = 0;
+    for (const auto& [fingerprint, known] : _known) {
+        held[known.piece->drawable.get()] += known.piece->drawable->asGeometry() ? 1 : 3; // its sources are itself
+        (known.lastVisit == _visit ? seen : unseen) += known.piece->triangles;
+    }
+    std::vector<std::pair<unsigned, std::uint64_t>> old; // by age
+    for (auto entry = _known.begin(); entry != _known.end();) {
+        const auto& [piece, lastVisit] = entry->second;
+        const bool isGone = lastVisit != _visit && piece->drawable->referenceCount() <= held[piece->drawable.get()];
+        if (isGone) unseen -= piece->triangles;
+        if (!isGone && lastVisit != _visit) old.emplace_back(lastVisit, entry->first);
+        entry = isGone ? _known.erase(entry) : std::next(entry);
+    }
+    const std::size_t most = std::max(3 * seen, mostUnseen);
+    if (unseen <= most) return;
+    std::sort(old.begin(), old.end());
+    for (std::size_t i = 0; i < old.size() && unseen > most; ++i) {
+        const auto entry = _known.find(old[i].second);
+        unseen -= entry->second.piece->triangles;
+        _known.erase(entry);
+    }
 }
 
 osg::ref_ptr<CasterMesh> meshOf(const CasterDrawables::List& pieces, const std::optional<osg::Vec3d>& origin) {

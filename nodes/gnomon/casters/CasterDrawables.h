@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/Selection.h>
 #include <gnomon/casters/AlphaTest.h>
+#include <gnomon/casters/CasterView.h>
 
 #include <osg/BoundingBox>
 #include <osg/Drawable>
@@ -9,15 +10,19 @@
 #include <osg/Referenced>
 #include <osg/ref_ptr>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace gnomon {
 
+class CasterExtraction;
 class CasterMesh;
+class LevelPieces;
 
 /// A drawable that casts, at one place in the graph, in one revision. A piece never changes.
 ///
@@ -34,6 +39,8 @@ struct CasterDrawable : public osg::Referenced {
     unsigned unknownTests = 0;                  ///< See CasterExtraction::getUnknownTests().
     std::string unknownNode;                    ///< See CasterExtraction::getUnknownNode().
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
+    osg::ref_ptr<const CasterExtraction>
+        kept; ///< Its triangles, if it is under an LOD: it may go and come back. Else null.
 
 protected:
     ~CasterDrawable() override = default;
@@ -45,7 +52,7 @@ protected:
 /// Use CasterMesh to treat all casters alike.
 ///
 /// Cost
-/// - 600 bytes a drawable. Triangles are not kept; meshOf() extracts them.
+/// - 600 bytes a drawable. meshOf() extracts the triangles; those under an LOD are kept.
 /// Limits
 /// - VertexTraverser lists what is left out.
 /// Threads
@@ -55,13 +62,17 @@ public:
     /// Pieces, one for each drawable and path.
     using List = std::vector<osg::ref_ptr<const CasterDrawable>>;
     /// Sums up the pieces.
-    CasterDrawables(List pieces, std::uint64_t fingerprint);
+    CasterDrawables(List pieces, std::uint64_t fingerprint, std::uint64_t choice = 0);
 
     /// True if there is no triangle.
     bool empty() const { return !bounds.valid(); }
+    /// No view will ask for these any more: caches may let them go.
+    void retire() const { _retired = true; }
+    bool isRetired() const { return _retired; }
 
     const List list;                 ///< In traversal order.
     const std::uint64_t fingerprint; ///< Changes with any piece.
+    const std::uint64_t choice;      ///< Stands for the drawables under LODs, wherever they are.
     osg::BoundingBoxd bounds;        ///< Bounds of all triangles, group frame. Invalid without triangles.
     unsigned invalidTriangles = 0;   ///< Sum over the pieces.
     std::string invalidNode;         ///< Name of the first drawable with an invalid triangle.
@@ -69,21 +80,52 @@ public:
     std::string unknownNode;         ///< Name of the first drawable with an unknown alpha test.
 
     /// Finds the casters below a node. Reads the graph as a cull traversal does.
-    /// @param known  an earlier result, whose unchanged pieces are used again; may be null.
-    /// @return       `known` itself if nothing changed.
+    /// @param known   an earlier result, whose unchanged pieces are used again; may be null.
+    /// @param view    whose levels of detail are taken; null: the finest.
+    /// @param levels  pieces under LODs that were met before, and gets those that are met now; may be null.
+    /// @return        `known` itself if nothing changed.
     ///
     /// Cost
     /// - One visit of the nodes, and an extraction of each new piece.
     static osg::ref_ptr<const CasterDrawables> of(osg::Node& root, const Selection& casters,
-                                               const osg::ref_ptr<const CasterDrawables>& known);
+                                                  const osg::ref_ptr<const CasterDrawables>& known,
+                                                  const CasterView* view = nullptr, LevelPieces* levels = nullptr);
 
 protected:
     ~CasterDrawables() override = default;
+
+private:
+    mutable std::atomic<bool> _retired{false};
+};
+
+/// The pieces under LODs that were met lately, so that a level that comes back is not extracted again.
+///
+/// Cost
+/// - The triangles of levels that no view has now: as many as three times those that are seen, or a million.
+/// Threads
+/// - One at a time. The owner locks.
+class LevelPieces {
+public:
+    /// Null if it is not known.
+    const CasterDrawable* find(std::uint64_t fingerprint);
+    void add(const CasterDrawable& piece);
+    /// A visit of the graph begins.
+    void startVisit() { ++_visit; }
+    /// Drops what is in no graph any more, and what was met longest ago if there is too much.
+    void prune();
+    void clear() { _known.clear(); }
+
+private:
+    struct Known {
+        osg::ref_ptr<const CasterDrawable> piece;
+        unsigned lastVisit;
+    };
+    std::unordered_map<std::uint64_t, Known> _known;
+    unsigned _visit = 0;
 };
 
 /// Joins pieces into one mesh. It reads the graph: call it in the traversal that found the pieces.
 /// @param origin  the mesh's origin, as CasterMesh takes it.
-osg::ref_ptr<CasterMesh> meshOf(const CasterDrawables::List& pieces,
-                                              const std::optional<osg::Vec3d>& origin = {});
+osg::ref_ptr<CasterMesh> meshOf(const CasterDrawables::List& pieces, const std::optional<osg::Vec3d>& origin = {});
 
 } // namespace gnomon

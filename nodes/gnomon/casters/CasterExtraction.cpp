@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/CasterExtraction.h>
-#include <gnomon/casters/TriangleDecoder.h>
+#include <gnomon/casters/DrawableTriangles.h>
 
 #include <osg/Geometry>
 
@@ -108,10 +108,36 @@ void CasterExtraction::applyCaster(osg::Drawable& drawable) {
     const unsigned invalidBefore = _invalidTriangles;
     _drawn.push_back({&drawable, _triangles.size()});
     Collector collector(*this, rootFromLocal(), startCutout(drawable));
-    drawable.accept(collector);
+    readTriangles(drawable, collector);
     _rounding = std::max(_rounding, collector.rounding());
     if (invalidBefore == 0 && _invalidTriangles > 0) _invalidNode = nameHere(drawable);
     holdSources(drawable, _sources);
+}
+
+void CasterExtraction::append(const CasterExtraction& other) {
+    const auto firstVertex = static_cast<unsigned>(_vertices.size());
+    const std::size_t firstCorner = _triangles.size(), firstDrawn = _drawn.size();
+    _vertices.insert(_vertices.end(), other._vertices.begin(), other._vertices.end());
+    for (const unsigned index : other._triangles) _triangles.push_back(index + firstVertex);
+    for (const Drawn& drawn : other._drawn) _drawn.push_back({drawn.drawable, drawn.first + firstCorner});
+    for (const Cutout& cutout : other._cutouts) {
+        _cutouts.push_back(cutout);
+        _cutouts.back().drawn += firstDrawn;
+        _cutouts.back().firstVertex += firstVertex;
+    }
+    _sources.insert(_sources.end(), other._sources.begin(), other._sources.end());
+    _rounding = std::max(_rounding, other._rounding);
+    if (_invalidTriangles == 0) _invalidNode = other._invalidNode;
+    _invalidTriangles += other._invalidTriangles;
+    if (_unknownTests == 0) _unknownNode = other._unknownNode;
+    _unknownTests += other._unknownTests;
+}
+
+void CasterExtraction::trim() {
+    while (!getNodePath().empty()) popFromNodePath(); // whose nodes nobody holds
+    _slots = {};
+    _vertices.shrink_to_fit();
+    _triangles.shrink_to_fit();
 }
 
 CasterExtraction::Cutout* CasterExtraction::startCutout(const osg::Drawable& drawable) {

@@ -24,6 +24,10 @@ public:
 
     /// Forgets all results, for another traversal.
     void reset() override;
+    /// Adds what another traversal found, in the same frame.
+    void append(const CasterExtraction& other);
+    /// Lets go what only another traversal would need: this one is to be kept.
+    void trim();
 
     /// The vertices. All are finite and within the range of float. Triangles of one drawable share them.
     const std::vector<osg::Vec3d>& getVertices() const { return _vertices; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/DrawableTriangles.h>
 
 #include <osg/Geometry>
 #include <osg/PrimitiveSet>
@@ -12,7 +13,10 @@ std::uint64_t word(unsigned high, unsigned low) { return std::uint64_t{high} << 
 
 void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, Fingerprint& into) {
     into.mix(static_cast<const void*>(vertices));
-    if (vertices) into.mix(word(vertices->getModifiedCount(), vertices->getNumElements()));
+    if (vertices) {
+        into.mix(word(vertices->getModifiedCount(), vertices->getNumElements()));
+        into.mix(std::uint64_t{vertices->getNormalize()});
+    }
     into.mix(std::uint64_t{geometry.getNumPrimitiveSets()});
     for (const auto& primitives : geometry.getPrimitiveSetList()) {
         const bool listed = primitives->getDrawElements() != nullptr; // then a look at the first would touch the list

@@ -9,6 +9,7 @@
 #include <osg/Referenced>
 #include <osg/ref_ptr>
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,13 +47,23 @@ public:
     std::vector<CasterExtraction::Cutout> cutouts; ///< Alpha-tested drawables. `firstVertex` indexes `vertices`.
     unsigned invalidTriangles = 0;                 ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
     std::string invalidNode;                       ///< Name of the first drawable with an invalid triangle.
-    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
+    mutable std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
+
+    /// No view will ask for this mesh any more: caches may let it go. Whoever holds it longer holds no source.
+    void retire() const {
+        _retired = true;
+        sources.clear();
+    }
+    bool isRetired() const { return _retired; }
 
     /// The tree of rays over this mesh, as long as anyone holds it. RaySceneCache alone uses it, under its lock.
     mutable std::weak_ptr<const RayScene> tree;
 
 protected:
     ~CasterMesh() override = default;
+
+private:
+    mutable std::atomic<bool> _retired{false};
 };
 
 /// Makes a drawable of some triangles of a mesh. It has positions only, and shares the mesh's buffers.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/casters/CasterVisitor.h>
+#include <gnomon/casters/DrawableTriangles.h>
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
@@ -104,6 +105,8 @@ CasterVisitor::CasterVisitor(const Selection& selection)
 void CasterVisitor::reset() {
     _matrices.assign(1, osg::Matrixd::identity());
     _inside = _selection.node ? 0 : 1;
+    _metLevels = false;
+    _choice = Fingerprint();
     findWays();
 }
 
@@ -138,7 +141,12 @@ void CasterVisitor::apply(osg::Node& node) {
 
 void CasterVisitor::apply(osg::Drawable& drawable) {
     const OnTheWay here(*this, drawable);
-    if (_inside > 0 && !isText(drawable)) applyCaster(drawable);
+    if (_inside == 0 || isText(drawable) || !hasTriangles(drawable)) return;
+    if (_atLevels > 0) {
+        _metLevels = true;
+        _choice.mix(static_cast<const void*>(&drawable));
+    }
+    applyCaster(drawable);
 }
 
 void CasterVisitor::apply(osg::Geode& geode) {
@@ -148,9 +156,73 @@ void CasterVisitor::apply(osg::Geode& geode) {
 void CasterVisitor::apply(osg::LOD& lod) {
     if (!isOnTheWay(lod)) return;
     const OnTheWay here(*this, lod);
-    const float finest = finestRange(lod);
-    for (unsigned i = 0; i < usableChildren(lod); ++i)
-        if (isShownAt(lod, i, finest)) lod.getChild(i)->accept(*this);
+    ++_atLevels;
+    visitLevels(lod);
+    --_atLevels;
+}
+
+void CasterVisitor::visitLevels(osg::LOD& lod) {
+    if (_levels == Levels::All) {
+        for (unsigned i = 0; i < lod.getNumChildren(); ++i) lod.getChild(i)->accept(*this);
+    } else if (!_view) {
+        const float finest = finestRange(lod);
+        for (unsigned i = 0; i < usableChildren(lod); ++i)
+            if (isShownAt(lod, i, finest)) lod.getChild(i)->accept(*this);
+    } else if (lod.getRangeMode() == osg::LOD::PIXEL_SIZE_ON_SCREEN && _view->viewport) {
+        visitPixelLevels(lod);
+    } else {
+        traverse(lod);
+    }
+}
+
+void CasterVisitor::visitPixelLevels(osg::LOD& lod) {
+    if (!_cullStack) {
+        _cullStack = std::make_unique<osg::CullStack>();
+        _cullStack->setLODScale(_view->lodScale);
+        _cullStack->pushViewport(_view->viewport);
+        _cullStack->pushProjectionMatrix(new osg::RefMatrix(_view->projection));
+    }
+    _cullStack->pushModelViewMatrix(new osg::RefMatrix(eyeFromHere()), osg::Transform::RELATIVE_RF);
+    ++_atPixelLevels;
+    traverse(lod);
+    --_atPixelLevels;
+    _cullStack->popModelViewMatrix();
+}
+
+void CasterVisitor::setView(const CasterView& view) {
+    _view = view;
+    _cullStack = nullptr;
+}
+
+/// Multiplied in the cull's order, for a view may stand where a level begins.
+osg::Matrixd CasterVisitor::eyeFromHere() const {
+    osg::Matrixd matrix = _view->eyeFromGroup;
+    for (const osg::Node* node : getNodePath())
+        if (const osg::Transform* transform = node->asTransform())
+            transform->computeLocalToWorldMatrix(matrix, const_cast<CasterVisitor*>(this)); // which changes nothing
+    return matrix;
+}
+
+osg::Vec3 CasterVisitor::getEyePoint() const {
+    return _view ? osg::Vec3(osg::Matrixd::inverse(eyeFromHere()).getTrans()) : osg::NodeVisitor::getEyePoint();
+}
+
+osg::Vec3 CasterVisitor::getViewPoint() const {
+    return _view ? _view->viewPoint * osg::Matrixd::inverse(eyeFromHere()) : osg::NodeVisitor::getViewPoint();
+}
+
+float CasterVisitor::getDistanceToEyePoint(const osg::Vec3& place, bool useLODScale) const {
+    return _view ? (place - getEyePoint()).length() * (useLODScale ? _view->lodScale : 1.0f) : 0.0f;
+}
+
+float CasterVisitor::getDistanceToViewPoint(const osg::Vec3& place, bool useLODScale) const {
+    return _view ? (place - getViewPoint()).length() * (useLODScale ? _view->lodScale : 1.0f) : 0.0f;
+}
+
+float CasterVisitor::getDistanceFromEyePoint(const osg::Vec3& place, bool useLODScale) const {
+    if (!_view) return 0.0f;
+    const auto depth = static_cast<float>(-(osg::Vec3d(place) * eyeFromHere()).z());
+    return useLODScale ? depth * _view->lodScale : depth;
 }
 
 void CasterVisitor::apply(osg::Transform& transform) {
@@ -165,11 +237,6 @@ void CasterVisitor::apply(osg::Transform& transform) {
 std::optional<AlphaTest> CasterVisitor::alphaTest() const {
     if (_alphaTests == 0 && !testsAlphaAbove(*getNodePath().front())) return std::nullopt;
     return AlphaTest::of(getNodePath());
-}
-
-const osg::Array* CasterVisitor::verticesOf(const osg::Geometry& geometry) {
-    if (geometry.getVertexArray()) return geometry.getVertexArray();
-    return geometry.getNumVertexAttribArrays() > 0 ? geometry.getVertexAttribArray(0) : nullptr;
 }
 
 void CasterVisitor::holdSources(const osg::Drawable& drawable,

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Selection.h>
+#include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/AlphaTest.h>
+#include <gnomon/casters/CasterView.h>
 
+#include <osg/CullStack>
 #include <osg/Matrixd>
 #include <osg/NodeVisitor>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
-
-namespace osg {
-class Array;
-}
 
 namespace gnomon {
 
@@ -22,11 +22,19 @@ namespace gnomon {
 /// a caster is.
 ///
 /// Cost    a visit of what is above and below the selected node; of all nodes where none is.
+/// Limits  a cull callback that chooses what is shown is not asked.
 ///
-/// Of an LOD it takes the children shown at the nearest range that a loaded child has (by pixels: the largest), not
-/// those that one view shows. The first matrix is that of the root: its own transform counts, its parents' do not.
+/// For a view, an LOD and any other node chooses its children as in that view's cull: the visitor answers as a
+/// CullVisitor would. Without a view, an LOD gives the children shown at the nearest range that a loaded child has (by
+/// pixels: the largest). The first matrix is that of the root: its own transform counts, its parents' do not.
 class CasterVisitor : public osg::NodeVisitor {
 public:
+    /// Which children of an LOD are visited.
+    enum class Levels {
+        Chosen, ///< those that the view shows; without a view the finest.
+        All
+    };
+
     void reset() override;
     void apply(osg::Node& node) override;
     void apply(osg::Drawable& drawable) override;
@@ -39,6 +47,22 @@ public:
 
     /// The frame that is meant by the root's, where that is not the one that the visited node stands in. Default identity.
     void setRootFromVisited(const osg::Matrixd& matrix) { _matrices.assign(1, matrix); }
+    /// Takes levels of detail as a view does, whose group is the root. Default: no view.
+    void setView(const CasterView& view);
+    /// Default Levels::Chosen.
+    void setLevels(Levels levels) { _levels = levels; }
+    /// True if a caster was met under an LOD.
+    bool metLevels() const { return _metLevels; }
+    /// Stands for the drawables that were met under LODs, wherever they are.
+    std::uint64_t choice() const { return _choice.value(); }
+
+    osg::CullStack* asCullStack() override { return _atPixelLevels > 0 ? _cullStack.get() : nullptr; }
+    const osg::CullStack* asCullStack() const override { return _atPixelLevels > 0 ? _cullStack.get() : nullptr; }
+    osg::Vec3 getEyePoint() const override;
+    osg::Vec3 getViewPoint() const override;
+    float getDistanceToEyePoint(const osg::Vec3& place, bool useLODScale) const override;
+    float getDistanceFromEyePoint(const osg::Vec3& place, bool useLODScale) const override;
+    float getDistanceToViewPoint(const osg::Vec3& place, bool useLODScale) const override;
 
 protected:
     explicit CasterVisitor(const Selection& selection);
@@ -50,8 +74,8 @@ protected:
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
     /// Of the drawable being visited: nullopt, at no cost, if no state on the way to it switches one on.
     virtual std::optional<AlphaTest> alphaTest() const;
-    /// What OpenSceneGraph's functors take for the vertices of a geometry; null if it has none.
-    static const osg::Array* verticesOf(const osg::Geometry& geometry);
+    /// True while the drawable being visited is under an LOD: it may go and come back.
+    bool isOfLevels() const { return _atLevels > 0; }
     /// Adds the arrays and primitive sets of a drawable that are read; the drawable itself if it is no geometry.
     static void holdSources(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources);
 
@@ -61,9 +85,19 @@ private:
     void findWays();
     bool isOnTheWay(const osg::Node& node) const;
     bool goesTheOnlyWays(osg::Node& node);
+    void visitLevels(osg::LOD& lod);
+    void visitPixelLevels(osg::LOD& lod);
+    osg::Matrixd eyeFromHere() const;
 
     Selection _selection;
     std::vector<osg::Matrixd> _matrices;
+    Levels _levels = Levels::Chosen;
+    std::optional<CasterView> _view;
+    std::unique_ptr<osg::CullStack> _cullStack; ///< of the view; null until an LOD by pixels is met.
+    int _atPixelLevels = 0;                     ///< how many of them are on the way down.
+    int _atLevels = 0;                          ///< how many LODs are on the way down.
+    bool _metLevels = false;
+    Fingerprint _choice;
     int _inside = 0;     ///< how often the selected node is on the way down.
     int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.
     /// Of what is above the selected node, the children that lead to it; once for each of its places among them.

@@ -40,7 +40,8 @@ std::shared_ptr<const RayScene> RaySceneCache::of(const CasterMesh& mesh, const 
     Lock lock(_mutex);
     if (const Entry* known = _entries.find([&](const Entry& entry) { return entry.mesh == &mesh; }))
         return known->scene;
-    _entries.dropOldestBeyond(1); // before building, for both would be in memory
+    _entries.dropIf([](const Entry& entry) { return entry.mesh->isRetired(); });
+    _entries.dropOldestBeyond(most - 1); // before building, for all would be in memory
     const Found found = findOrBuild(mesh, name);
     _builds += found.built;
     return _entries.add({&mesh, found.scene}).scene;

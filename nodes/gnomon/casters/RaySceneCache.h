@@ -40,8 +40,11 @@ private:
         std::shared_ptr<const RayScene> scene;
     };
 
+    /// A node under two groups builds neither again, nor do views of different levels of detail.
+    static constexpr std::size_t most = 4;
+
     mutable OpenThreads::Mutex _mutex;
-    RecentCache<Entry> _entries; ///< Two at most: a node under two groups builds neither again.
+    RecentCache<Entry> _entries;
     unsigned _builds = 0;
 };
 

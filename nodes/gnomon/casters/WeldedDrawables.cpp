@@ -39,10 +39,10 @@ struct Corner {
 
 void addCorners(const CasterDrawable& piece, const osg::BoundingBoxd& within, std::size_t index,
                 std::vector<Corner>& corners) {
-    CasterExtraction found;
-    found.setRootFromVisited(piece.groupFromLocal);
-    const_cast<osg::Drawable&>(*piece.drawable).accept(found); // which changes nothing
-    for (const osg::Vec3d& vertex : found.getVertices()) {
+    CasterExtraction read;
+    read.setRootFromVisited(piece.groupFromLocal);
+    if (!piece.kept) const_cast<osg::Drawable&>(*piece.drawable).accept(read); // which changes nothing
+    for (const osg::Vec3d& vertex : (piece.kept ? *piece.kept : read).getVertices()) {
         if (!within.contains(vertex)) continue;
         Fingerprint place;
         for (int i = 0; i < 3; ++i) place.mix(vertex[i] + 0.0); // -0 and 0 are one place

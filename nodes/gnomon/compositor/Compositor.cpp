@@ -138,7 +138,7 @@ bool Compositor::composeDirectly(const Jobs& jobs) {
     const ScreenRect& bounds = job.marks->screenBounds;
     std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, jobs, bounds);
     PlainTest plain;
-    const auto other = [&job](const ReplayedLeaf& leaf) { return job.receivers.count(leaf.entry.leaf) == 0; };
+    const auto other = [&job](const ReplayedLeaf& leaf) { return !job.isNamed(leaf.entry.leaf); };
     const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
     if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
     if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfView(job, _draw.leaves).empty())) return false;

@@ -170,10 +170,10 @@ std::vector<DrawnLeaf> leavesIn(osgUtil::RenderBin& bin) {
     return leaves;
 }
 
-std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
-                                                    const osg::Matrixd& eyeFromWorld) {
+LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
+                       const osg::Matrixd& eyeFromWorld) {
     ReceiverTest isReceiver(receiver, eyeFromWorld);
-    std::set<const osgUtil::RenderLeaf*> result;
+    LeafSet result;
     for (const DrawnLeaf& entry : leaves)
         if (isReceiver(*entry.leaf)) result.insert(entry.leaf);
     return result;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace gnomon {
@@ -29,9 +30,12 @@ std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);
 /// The same of one bin.
 std::vector<DrawnLeaf> leavesIn(osgUtil::RenderBin& bin);
 
+/// Leaves, to be asked for by address.
+using LeafSet = std::unordered_set<const osgUtil::RenderLeaf*>;
+
 /// Those of them that draw part of `receiver`. Reads the scene graph: call in cull.
-std::set<const osgUtil::RenderLeaf*> receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
-                                                    const osg::Matrixd& eyeFromWorld);
+LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
+                       const osg::Matrixd& eyeFromWorld);
 
 /// Why none of the leaves that a stage draws before its ShadowBin is of `selection`, as a cause for diagnose(); empty if
 /// it merely is out of sight. @param role  what the selection is to be: "receiver". @param from  a node of the graph.

@@ -111,7 +111,7 @@ void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
     const bool cut = geometry && canDrawClusters(leaf, *geometry);
     const MarkJob::BoxTest test =
         cut && _overlay.marks ? _overlay.marks->boxTest(*leaf._modelview) : MarkJob::BoxTest();
-    if (test && !test(geometry->getBoundingBox())) return;
+    if (test && geometry->getBoundingBox().valid() && !test(geometry->getBoundingBox())) return;
     const osg::ref_ptr<const TriangleClusters> clusters = cut ? TriangleClusters::of(*geometry) : nullptr;
     if (!clusters) return leaf._drawable->draw(_renderInfo);
     TriangleClusters::draw(_renderInfo, *geometry,

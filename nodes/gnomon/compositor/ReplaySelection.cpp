@@ -7,8 +7,7 @@ namespace gnomon {
 namespace {
 
 bool isReceiver(const std::vector<const ShadowJob*>& jobs, const osgUtil::RenderLeaf* leaf) {
-    return std::any_of(jobs.begin(), jobs.end(),
-                       [leaf](const ShadowJob* job) { return job->receivers.count(leaf) > 0; });
+    return std::any_of(jobs.begin(), jobs.end(), [leaf](const ShadowJob* job) { return job->isNamed(leaf); });
 }
 
 unsigned lightsLostBy(const osgUtil::RenderLeaf* leaf, const std::vector<const ShadowJob*>& jobs) {

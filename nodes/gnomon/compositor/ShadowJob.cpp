@@ -19,7 +19,7 @@ const ProgramVisibilityJob* ShadowJob::programMarks() const {
 }
 
 bool ShadowJob::isReceiver(const osgUtil::RenderLeaf& leaf) const {
-    return receiverNamed ? receivers.count(&leaf) > 0 : isOfView(leaf);
+    return receiverNamed ? isNamed(&leaf) : isOfView(leaf);
 }
 
 } // namespace gnomon

@@ -2,11 +2,12 @@
 #pragma once
 #include <gnomon/LightUniform.h>
 #include <gnomon/base/FrameReport.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/MarkJob.h>
 
 #include <osgUtil/RenderLeaf>
 
-#include <set>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,12 @@ struct ShadowJob {
     float dark = 1.0f;
     osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
     bool receiverNamed = false;
-    std::set<const osgUtil::RenderLeaf*> receivers; ///< the leaves of the named receiver.
+    std::shared_ptr<const LeafSet> receivers; ///< the leaves of the named receiver, for all jobs; null: none is named.
     bool hidingOnly = false; ///< a receiver loses the light only where it hides what is behind, see LateReceivers.
     std::vector<LightUniform> lightUniforms; ///< of the group.
 
+    /// True if the leaf is of the named receiver.
+    bool isNamed(const osgUtil::RenderLeaf* leaf) const { return receivers && receivers->count(leaf) > 0; }
     /// The marks, if their edges are soft; else null.
     const SoftMarkJob* softMarks() const;
     /// The job, if it is for programs alone; else null.

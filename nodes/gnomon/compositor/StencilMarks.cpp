@@ -75,7 +75,7 @@ void StencilMarks::gate(const ShadowJob& job, unsigned bit) const {
     LeafReplay replay(_draw, overlay);
     TouchTest touches(job.marks->screenBounds);
     for (const DrawnLeaf& entry : _draw.leaves)
-        if (job.receivers.count(entry.leaf) && touches(*entry.leaf)) replay.draw(entry);
+        if (job.isNamed(entry.leaf) && touches(*entry.leaf)) replay.draw(entry);
 }
 
 void StencilMarks::transfer(const ShadowJob& job, unsigned bit) const {

@@ -3,27 +3,38 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterView.h>
+
+#include <utility>
 
 namespace gnomon {
 
-/// What casts below a group as one view has it: asked for once, in the form that each technique takes.
+/// What casts below a group as one view has it, with the levels of detail that it shows: asked for once, in the form that
+/// each technique takes.
 class FrameCasters {
 public:
-    explicit FrameCasters(const ShadowCasterGroup& group) : _group(&group) {}
+    FrameCasters(const ShadowCasterGroup& group, CasterView view) : _group(&group), _view(std::move(view)) {}
+
+    /// True if these are of the group, as the view has it.
+    bool areOf(const ShadowCasterGroup& group, const CasterView& view) const {
+        return _group == &group && _view.eyeFromGroup == view.eyeFromGroup && _view.projection == view.projection &&
+               _view.lodScale == view.lodScale && _view.viewPoint == view.viewPoint;
+    }
 
     /// All in one.
     const CasterMesh& mesh() const {
-        if (!_mesh) _mesh = _group->casters();
+        if (!_mesh) _mesh = _group->casters(&_view);
         return *_mesh;
     }
     /// Drawable by drawable.
     const CasterDrawables& drawables() const {
-        if (!_pieces) _pieces = _group->drawables();
+        if (!_pieces) _pieces = _group->drawables(&_view);
         return *_pieces;
     }
 
 private:
     osg::ref_ptr<const ShadowCasterGroup> _group;
+    const CasterView _view;
     mutable osg::ref_ptr<const CasterMesh> _mesh;
     mutable osg::ref_ptr<const CasterDrawables> _pieces;
 };

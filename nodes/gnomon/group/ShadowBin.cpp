@@ -12,7 +12,9 @@
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
+#include <deque>
 #include <map>
+#include <memory>
 #include <typeinfo>
 
 namespace gnomon {
@@ -66,6 +68,16 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
     return view;
 }
 
+/// Asked for once for all techniques that share a group and a view of it.
+const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderStage& stage,
+                              std::deque<FrameCasters>& known) {
+    const CasterView view{entry.eyeFromGroup, *entry.projection, stage.getViewport(),
+                          entry.viewPoint,    entry.lodScale,    &stage};
+    const auto found = std::find_if(known.begin(), known.end(),
+                                    [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
+    return found == known.end() ? known.emplace_back(*entry.group, view) : *found;
+}
+
 ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     ShadowJob job;
     job.report = entry.technique->reportIn(entry.frameNumber);
@@ -81,7 +93,7 @@ ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
 std::vector<const osgUtil::RenderLeaf*> receivingOf(const EnlistedTechnique& entry,
                                                     const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
     const bool named = entry.technique->hasReceiver();
-    std::set<const osgUtil::RenderLeaf*> receivers;
+    LeafSet receivers;
     if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
     std::vector<const osgUtil::RenderLeaf*> receiving;
     for (const DrawnLeaf& leaf : leaves)
@@ -158,9 +170,9 @@ struct Preparation {
 /// @param alone  what receives is not all that the view sees.
 std::vector<ShadowJob> jobsFor(Preparation asked, bool alone) {
     std::vector<ShadowJob> jobs;
-    std::set<const osgUtil::RenderLeaf*> receivers;
-    if (alone) receivers = {asked.receiving.begin(), asked.receiving.end()};
-    asked.view.receivers = alone ? &receivers : nullptr;
+    std::shared_ptr<const LeafSet> receivers;
+    if (alone) receivers = std::make_shared<const LeafSet>(asked.receiving.begin(), asked.receiving.end());
+    asked.view.receivers = receivers.get();
     asked.view.seen = asked.receiving;
     for (const ShadowLight& light : asked.lights) {
         ShadowJob job = jobFor(asked.entry, light);
@@ -249,10 +261,10 @@ void ShadowBin::sortImplementation() {
 
 void ShadowBin::prepareAll() {
     _jobs.clear();
-    std::map<const ShadowCasterGroup*, FrameCasters> groups;
+    std::deque<FrameCasters> known;
     const StageLeaves drawn(*getStage(), getBinNum(), !_enlisted.empty());
     for (const EnlistedTechnique& entry : _enlisted) {
-        const FrameCasters& casters = groups.try_emplace(entry.group.get(), *entry.group).first->second;
+        const FrameCasters& casters = castersOf(entry, *getStage(), known);
         if (!hasCasters(entry, casters)) continue;
         const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
         for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);

@@ -23,6 +23,8 @@ struct EnlistedTechnique {
     osg::Matrixd eyeFromGroup;
     osg::Matrixd groupFromTechnique;
     osg::ref_ptr<osg::RefMatrix> projection; ///< shared with the leaves: near and far are set in it after the cull.
+    osg::Vec3 viewPoint;                     ///< eye space, see CasterView.
+    float lodScale = 1.0f;                   ///< of the cull.
     unsigned frameNumber = 0;
 };
 

@@ -2,12 +2,8 @@
 #include <gnomon/NamesNodes.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/base/CopiedNodes.h>
-#include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/casters/CasterExtraction.h>
-#include <gnomon/casters/CasterFingerprint.h>
-#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterRevisions.h>
 
-#include <OpenThreads/ScopedLock>
 #include <osg/Notify>
 
 #include <algorithm>
@@ -16,8 +12,6 @@
 
 namespace gnomon {
 namespace {
-
-using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 /// Warns otherwise.
 bool isLightNumber(int number, const char* method) {
@@ -29,7 +23,7 @@ bool isLightNumber(int number, const char* method) {
 
 } // namespace
 
-ShadowCasterGroup::ShadowCasterGroup() : _watch(new CasterFingerprint) {}
+ShadowCasterGroup::ShadowCasterGroup() : _casters(new CasterRevisions) {}
 
 ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp)
     : osg::Group(other, copyOp),
@@ -40,7 +34,7 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _lights(other._lights),
       _lightUniforms(other._lightUniforms),
       _options(other._options),
-      _watch(new CasterFingerprint(other._selection)) {
+      _casters(new CasterRevisions) {
     followCopies(other);
 }
 
@@ -59,12 +53,8 @@ void ShadowCasterGroup::followCopies(const ShadowCasterGroup& original) {
 bool ShadowCasterGroup::showsAllChildren() const { return typeid(*this) == typeid(ShadowCasterGroup); }
 
 void ShadowCasterGroup::setCasters(const Selection& casters) {
-    Lock lock(_mutex);
     _selection = casters;
-    _watch = new CasterFingerprint(casters);
-    _mesh = nullptr;
-    _pieces = nullptr;
-    _fingerprint = 0;
+    _casters->clear();
 }
 
 void ShadowCasterGroup::setDark(float factor) {
@@ -109,36 +99,16 @@ void ShadowCasterGroup::removeLights() {
     _lights.clear();
 }
 
-osg::ref_ptr<const CasterMesh> ShadowCasterGroup::casters() const {
+osg::ref_ptr<const CasterMesh> ShadowCasterGroup::casters(const CasterView* view) const {
     auto* self = const_cast<ShadowCasterGroup*>(this); // a visitor asks for a mutable node, and changes nothing
-    Lock lock(_mutex);
-    _watch->reset();
-    self->accept(*_watch);
-    noteRevision(_watch->value());
-    if (_mesh && _watch->value() == _meshFingerprint) return _mesh;
-    osg::ref_ptr<CasterExtraction> traverser = new CasterExtraction(_selection);
-    self->accept(*traverser);
-    _mesh = new CasterMesh(*traverser);
-    _meshFingerprint = _watch->value();
-    return _mesh;
+    return _casters->mesh(*self, _selection, view);
 }
 
-void ShadowCasterGroup::noteRevision(std::uint64_t fingerprint) const {
-    if (_revision > 0 && fingerprint == _fingerprint) return;
-    _fingerprint = fingerprint;
-    ++_revision;
+osg::ref_ptr<const CasterDrawables> ShadowCasterGroup::drawables(const CasterView* view) const {
+    auto* self = const_cast<ShadowCasterGroup*>(this); // as above
+    return _casters->drawables(*self, _selection, view);
 }
 
-osg::ref_ptr<const CasterDrawables> ShadowCasterGroup::drawables() const {
-    Lock lock(_mutex);
-    _pieces = CasterDrawables::of(*const_cast<ShadowCasterGroup*>(this), _selection, _pieces); // which changes nothing
-    noteRevision(_pieces->fingerprint);
-    return _pieces;
-}
-
-unsigned ShadowCasterGroup::revision() const {
-    Lock lock(_mutex);
-    return _revision;
-}
+unsigned ShadowCasterGroup::revision() const { return _casters->count(); }
 
 } // namespace gnomon

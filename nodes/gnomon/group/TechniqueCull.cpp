@@ -51,6 +51,8 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     entry.groupFromTechnique = above.groupFromTechnique;
     entry.eyeFromGroup = osg::Matrixd::inverse(above.groupFromTechnique) * *cull.getModelViewMatrix();
     entry.projection = cull.getProjectionMatrix();
+    entry.viewPoint = cull.getReferenceViewPoint();
+    entry.lodScale = cull.getLODScale();
     entry.frameNumber = frame;
     ShadowBin::of(stage).enlist(entry);
 }

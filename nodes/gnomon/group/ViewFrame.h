@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/CompositorOptions.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 
 #include <osg/Matrixd>
 #include <osg/Vec2d>
 #include <osgUtil/RenderLeaf>
 
-#include <set>
 #include <vector>
 
 namespace gnomon {
@@ -25,9 +25,8 @@ struct ViewFrame {
     float dark = 0.5f;         ///< of the ShadowCasterGroup.
     CompositorOptions options; ///< of the ShadowCasterGroup.
     unsigned frameNumber = 0;
-    const void* stage = nullptr; ///< whose view it is: tells views apart.
-    const std::set<const osgUtil::RenderLeaf*>* receivers =
-        nullptr;                                  ///< leaves of the named receiver; null if none is named.
+    const void* stage = nullptr;                  ///< whose view it is: tells views apart.
+    const LeafSet* receivers = nullptr;           ///< leaves of the named receiver; null if none is named.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
 };
 

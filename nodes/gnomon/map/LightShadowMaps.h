@@ -15,7 +15,7 @@ public:
 
     const void* const stage;
     const int lightNumber;
-    unsigned lastCall = 0;
+    unsigned lastRound = 0; ///< of its cache, that asked for it.
 
     /// Starts anew if anything but the casters differs from what they are of; maps stay as they lie where those move.
     void setCause(const MapRequest& cause);

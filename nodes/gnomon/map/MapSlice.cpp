@@ -2,10 +2,12 @@
 #include <gnomon/Convert.h>
 #include <gnomon/map/MapSlice.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace gnomon {
@@ -17,6 +19,19 @@ constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
 bool isThin(const LightFrame& frame, const MapOutline& outline) {
     const glm::dvec2 size = fitMap(frame, outline, outline, 0.0, 0.0, 1.0).size;
     return std::min(size.x, size.y) <= 2e-6 * std::max(size.x, size.y); // fitMap() makes no side less than half of that
+}
+
+/// What a drawable of unknown bounds is taken for: it may be anywhere in the view.
+MapReceiver wholeView(const ViewFrame& view, const glm::dmat4& sceneFromEye) {
+    const glm::dmat4 eyeFromClip = glm::inverse(toGlm(view.projection));
+    MapReceiver receiver{glm::dvec3(std::numeric_limits<double>::infinity()), {}, sceneFromEye, 0.0};
+    receiver.high = -receiver.low;
+    for (const glm::dvec4& corner : boxCorners(glm::dvec3(-1.0), glm::dvec3(1.0), eyeFromClip)) {
+        receiver.low = glm::min(receiver.low, glm::dvec3(corner) / corner.w);
+        receiver.high = glm::max(receiver.high, glm::dvec3(corner) / corner.w);
+    }
+    receiver.size = glm::distance(receiver.low, receiver.high);
+    return receiver;
 }
 
 LayerOutlines outlinesOf(const MapRequest& cause, const CasterLayer& layer, const LightFrame& frame) {
@@ -50,14 +65,17 @@ double MapRequest::softness(const LightFrame& frame, MapOutline blocker, double 
 std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
     const glm::dmat4 sceneFromEye = glm::inverse(eyeFromScene);
     std::vector<MapReceiver> result;
+    bool anywhere = false;
     for (const osgUtil::RenderLeaf* leaf : view.seen) {
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+        anywhere = anywhere || !box.valid();
         if (!box.valid()) continue;
         MapReceiver receiver{toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)),
                              sceneFromEye * toGlm(*leaf->_modelview), 0.0};
         receiver.size = glm::length(glm::dvec3(receiver.sceneFromBox * glm::dvec4(receiver.high - receiver.low, 0.0)));
         result.push_back(receiver);
     }
+    if (anywhere) result.push_back(wholeView(view, sceneFromEye));
     std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.size > b.size; });
     return result;
 }

@@ -17,7 +17,8 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-constexpr unsigned keptCalls = 256; // maps that nobody asked for since are let go
+constexpr unsigned keptRounds = 60;    // maps that nobody asked for since are let go, however many there are
+constexpr std::size_t mostCasters = 8; // groups above one node, and views of different levels of detail
 
 /// A view's two matrices. Clip space is the projection of eye space to the last bit.
 struct SceneView {
@@ -74,7 +75,7 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
                                            const MapSettings& settings) {
     const SceneView scene(view, casters);
     Lock lock(_mutex);
-    LightShadowMaps& map = find(view.stage, lightNumber);
+    LightShadowMaps& map = find(view, lightNumber);
     const std::vector<MapReceiver> receivers = receiversOf(view, scene.eyeFromScene);
     map.setCause({light, cone, &casters, anyIsBetween(casters, light, receivers), settings});
     const std::vector<glm::dvec4> corners =
@@ -94,24 +95,42 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
                         : markOf<MapMark>(quad, *bounds, settings.view);
 }
 
-osg::ref_ptr<const CasterLayers> ShadowMapCache::castersOf(const ShadowCasterGroup& group,
-                                                           const CasterDrawables& pieces) {
+osg::ref_ptr<const CasterLayers> ShadowMapCache::castersOf(const ViewFrame& view, const CasterDrawables& pieces) {
     Lock lock(_mutex);
-    _casters.dropWhile([this](const Known& known) { return _calls - known.lastCall > keptCalls; });
-    Known* known = _casters.find([&](const Known& entry) { return entry.group == &group; });
-    if (!known) known = &_casters.add({&group, nullptr, _calls});
-    known->casters = CasterLayers::of(pieces, known->casters);
-    known->lastCall = _calls;
+    Known* known = _casters.find([&](const Known& entry) { return entry.casters->pieces == &pieces; });
+    if (!known) {
+        const osg::ref_ptr<const CasterLayers> now = CasterLayers::of(pieces, formerOf(view));
+        _casters.dropIf([](const Known& entry) { return entry.casters->pieces->isRetired(); });
+        _casters.dropOldestBeyond(mostCasters - 1);
+        known = &_casters.add({view.group, view.stage, now});
+    }
+    known->stage = view.stage;
     return known->casters;
 }
 
-LightShadowMaps& ShadowMapCache::find(const void* stage, int lightNumber) {
-    ++_calls;
-    _maps.dropWhile([this](const auto& map) { return _calls - map->lastCall > keptCalls; });
-    const auto* known =
-        _maps.find([&](const auto& map) { return map->stage == stage && map->lightNumber == lightNumber; });
-    LightShadowMaps& map = known ? **known : *_maps.add(std::make_unique<LightShadowMaps>(stage, lightNumber));
-    map.lastCall = _calls;
+/// Those that the view's were made from: its own, or what any view of the group had.
+osg::ref_ptr<const CasterLayers> ShadowMapCache::formerOf(const ViewFrame& view) {
+    osg::ref_ptr<const CasterLayers> former;
+    bool isOwn = false;
+    for (const Known& entry : _casters) {
+        if (entry.group != view.group || (isOwn && entry.stage != view.stage)) continue;
+        former = entry.casters;
+        isOwn = entry.stage == view.stage;
+    }
+    return former;
+}
+
+/// A map that is asked for twice begins a round as well, for views may count no frames.
+LightShadowMaps& ShadowMapCache::find(const ViewFrame& view, int lightNumber) {
+    auto* known =
+        _maps.find([&](const auto& map) { return map->stage == view.stage && map->lightNumber == lightNumber; });
+    LightShadowMaps& map = known ? **known : *_maps.add(std::make_unique<LightShadowMaps>(view.stage, lightNumber));
+    if (view.frameNumber != _frame || (known && map.lastRound == _round)) {
+        _frame = view.frameNumber;
+        ++_round;
+    }
+    map.lastRound = _round;
+    _maps.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
     return map;
 }
 

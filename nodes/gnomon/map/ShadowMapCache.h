@@ -20,8 +20,8 @@ public:
     ShadowMapCache();
     ~ShadowMapCache();
 
-    /// The casters as maps draw them; made once for all views and lights.
-    osg::ref_ptr<const CasterLayers> castersOf(const ShadowCasterGroup& group, const CasterDrawables& pieces);
+    /// The casters as maps draw them; made once for all lights, and for all views of the same levels of detail.
+    osg::ref_ptr<const CasterLayers> castersOf(const ViewFrame& view, const CasterDrawables& pieces);
     /// @param light  in the scene about the casters' origin, see localLight().
     /// @param cone   of a lamp that is a spot: nothing outside it is marked.
     /// @return the marks of a light; null if none of its shadow can be seen.
@@ -37,19 +37,20 @@ public:
     void release(osg::State* state);
 
 private:
-    /// Those of a group that were asked for last.
+    /// Those of a group that a view had last.
     struct Known {
         const ShadowCasterGroup* group;
+        const void* stage;
         osg::ref_ptr<const CasterLayers> casters;
-        unsigned lastCall;
     };
-    LightShadowMaps& find(const void* stage, int lightNumber);
+    LightShadowMaps& find(const ViewFrame& view, int lightNumber);
+    osg::ref_ptr<const CasterLayers> formerOf(const ViewFrame& view);
 
     const osg::ref_ptr<MapPrograms> _resources;
     OpenThreads::Mutex _mutex;
     RecentCache<std::unique_ptr<LightShadowMaps>> _maps;
     RecentCache<Known> _casters;
-    unsigned _calls = 0;
+    unsigned _round = 0, _frame = 0; ///< a round is a frame, as views count them.
 };
 
 } // namespace gnomon

@@ -20,6 +20,7 @@ osg::ref_ptr<PlanarCasters> PlanarCasterCache::of(const CasterMesh& mesh, const 
     };
     osg::ref_ptr<PlanarCasters>* entry =
         _entries.find([&](const auto& known) { return known->madeFrom(mesh, groupPlane, under); });
+    if (!entry) _entries.dropIf([](const auto& known) { return known->isRetired(); });
     if (!entry)
         entry = &_entries.add(make(false));
     else if ((*entry)->firstFrame != frame && !(*entry)->knowsSolids())

@@ -31,6 +31,8 @@ public:
     bool madeFrom(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under) const {
         return _mesh == &mesh && _groupPlane == groupPlane && _under == under;
     }
+    /// True if no view will ask for these any more.
+    bool isRetired() const { return _mesh->isRetired(); }
     bool knowsSolids() const { return _knowsSolids; }
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;

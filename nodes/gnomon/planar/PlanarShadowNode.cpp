@@ -130,7 +130,7 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
         report(view.frameNumber, sentence(start, what, rest));
         return nullptr;
     };
-    const std::size_t most = 2 * _planes.size(); // two meshes a plane: a node under two groups makes neither again
+    const std::size_t most = 4 * _planes.size(); // meshes: of two groups, or of views of different levels of detail
     const osg::ref_ptr<PlanarCasters> casters = _casters->of(mesh, groupPlane, !_cures.clip, view.frameNumber, most);
     if (casters->parts.empty())
         return refuse("no caster is above the plane", _planes[index],

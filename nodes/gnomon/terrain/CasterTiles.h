@@ -39,6 +39,10 @@ public:
 
     /// @param terrain  drawables that do not cast.
     void take(const CasterDrawables& casters, const std::set<const osg::Drawable*>& terrain);
+    /// True if these were taken last.
+    bool are(const CasterDrawables& casters) const { return _casters == &casters; }
+    /// True if no view will ask for those taken last any more.
+    bool areRetired() const { return !_casters || _casters->isRetired(); }
     const std::vector<Tile>& tiles() const { return _tiles; }
     bool asBoxes() const { return _asBoxes; }
     /// Near the casters, group frame: shadows are floats about it. Another one only when most tiles are, too.

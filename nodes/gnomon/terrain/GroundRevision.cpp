@@ -20,10 +20,10 @@ bool isOfQuads(const osg::Drawable& drawable) {
            std::any_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), isQuads);
 }
 
-/// The terrain's drawables, and what they are made of.
+/// The terrain's drawables at all levels of detail, for views may show any, and what they are made of.
 class TerrainVisitor : public CasterVisitor {
 public:
-    explicit TerrainVisitor(const Selection& terrain) : CasterVisitor(terrain) {}
+    explicit TerrainVisitor(const Selection& terrain) : CasterVisitor(terrain) { setLevels(Levels::All); }
     using CasterVisitor::apply;
     void apply(osg::LOD& lod) override {
         const unsigned before = _met;
@@ -69,6 +69,7 @@ TerrainPlace TerrainPlace::inFrameOf(const osg::Node& group, const Selection& te
 
 std::uint64_t TerrainPlace::revision() const {
     CasterFingerprint revision(terrain);
+    revision.setLevels(CasterVisitor::Levels::All);
     revision.setRootFromVisited(groundFromRoot);
     root.accept(revision);
     return revision.value();

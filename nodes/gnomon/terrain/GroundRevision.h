@@ -16,7 +16,7 @@ namespace gnomon {
 /// The ground in one revision.
 struct GroundRevision : public osg::Referenced {
     std::uint64_t revision = 0;
-    std::set<const osg::Drawable*> drawables;                 ///< to be told apart from others only.
+    std::set<const osg::Drawable*> drawables; ///< of all levels of detail; to be told apart from others only.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see CasterExtraction::getSources().
     bool hasLevels = false; ///< what is drawn may be coarser than this ground, for there are levels of detail.
     bool hasQuads = false;  ///< which a driver cuts into triangles by its own rule.

@@ -16,7 +16,7 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-constexpr std::size_t mostTowns = 2;   // groups above one node
+constexpr std::size_t mostTowns = 4;   // groups above one node, and views of different levels of detail
 constexpr double secondsAFrame = 2e-3; // on what may wait: an eighth of a frame at 60 Hz
 // Of a shadow's diameter, beyond the ground under it: a coarser level of detail may lie that far off.
 constexpr double marginOfLevels = 0.5;
@@ -71,15 +71,30 @@ bool TerrainAnswer::covers(const glm::dvec2& place) const {
     return std::any_of(tiles.begin(), tiles.end(), [&](const auto& tile) { return gnomon::covers(*tile, local); });
 }
 
+/// That of these casters; else one whose casters are gone, or that was this view's: it takes little to follow. Null if
+/// there is none.
+TerrainShadowCache::Town* TerrainShadowCache::findTown(const ShadowCasterGroup& group, const CasterDrawables& casters,
+                                                       const void* stage, bool asBoxes) {
+    const auto find = [&](auto isWanted) {
+        const auto* known = _towns.find([&](const auto& town) {
+            return town->group == &group && town->casters.asBoxes() == asBoxes && isWanted(*town);
+        });
+        return known ? known->get() : nullptr;
+    };
+    if (Town* town = find([&](const Town& known) { return known.casters.are(casters); })) return town;
+    if (Town* town = find([&](const Town& known) { return known.stage == stage; })) return town;
+    return find([&](const Town& known) { return known.casters.areRetired(); });
+}
+
 TerrainShadowCache::Town& TerrainShadowCache::townOf(const ShadowCasterGroup& group, const CasterDrawables& casters,
-                                                     const TerrainPlace& place, bool asBoxes) {
-    const auto isWanted = [&](const auto& town) { return town->group == &group && town->casters.asBoxes() == asBoxes; };
-    std::unique_ptr<Town>* known = _towns.find(isWanted);
+                                                     const void* stage, const TerrainPlace& place, bool asBoxes) {
+    Town* known = findTown(group, casters, stage, asBoxes);
     if (!known) {
         _towns.dropOldestBeyond(mostTowns - 1); // before adding, for all would be in memory
-        known = &_towns.add(std::unique_ptr<Town>(new Town{&group, nullptr, CasterTiles(asBoxes), {}}));
+        known = _towns.add(std::unique_ptr<Town>(new Town{&group, stage, nullptr, CasterTiles(asBoxes), {}})).get();
     }
-    Town& town = **known;
+    Town& town = *known;
+    town.stage = stage;
     const osg::ref_ptr<const GroundRevision> drawn = place.drawn(town.drawn);
     if (drawn != town.drawn)
         for (auto& [number, tiles] : town.lights) tiles.groundChanged();
@@ -91,7 +106,7 @@ TerrainShadowCache::Town& TerrainShadowCache::townOf(const ShadowCasterGroup& gr
 TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawables& casters, const TerrainPlace& place,
                                        int number, const glm::dvec4& light, const TerrainSettings& settings) {
     Lock lock(_mutex);
-    Town& town = townOf(*view.group, casters, place, settings.asBoxes);
+    Town& town = townOf(*view.group, casters, view.stage, place, settings.asBoxes);
     TileUpdates& tiles = town.lights[number];
     const TileVisibility seen(view, town.casters.origin());
     const TileGround ground = groundOf(*town.drawn);
@@ -106,7 +121,7 @@ osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterG
                                                              const CasterDrawables& casters, const TerrainPlace& place,
                                                              const glm::dvec4& light, const TerrainSettings& settings) {
     Lock lock(_mutex);
-    const Town& town = townOf(group, casters, place, settings.asBoxes);
+    const Town& town = townOf(group, casters, nullptr, place, settings.asBoxes);
     osg::ref_ptr<TerrainAnswer> answer = new TerrainAnswer;
     answer->drawn = town.drawn;
     answer->origin = town.casters.origin();

@@ -58,12 +58,14 @@ public:
 private:
     struct Town {
         const ShadowCasterGroup* group; ///< to be told apart from others only.
+        const void* stage;              ///< of the view that had it last; null for a query.
         osg::ref_ptr<const GroundRevision> drawn;
         CasterTiles casters;
         std::map<int, TileUpdates> lights;
     };
-    Town& townOf(const ShadowCasterGroup& group, const CasterDrawables& casters, const TerrainPlace& place,
-                 bool asBoxes);
+    Town* findTown(const ShadowCasterGroup& group, const CasterDrawables& casters, const void* stage, bool asBoxes);
+    Town& townOf(const ShadowCasterGroup& group, const CasterDrawables& casters, const void* stage,
+                 const TerrainPlace& place, bool asBoxes);
 
     mutable OpenThreads::Mutex _mutex;
     RecentCache<std::unique_ptr<Town>> _towns;

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/CasterRevisions.h>
+
+#include <OpenThreads/ScopedLock>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+constexpr std::size_t mostChoices = 4; // of levels: those of some views, or of a way to and fro
+constexpr unsigned keptCalls = 240;    // choices that nobody asked for since are let go
+constexpr unsigned pruneEvery = 60;    // calls: levels may leave the graph unseen
+
+const void* keyOf(const CasterView* view) { return view ? view->key : nullptr; }
+
+osg::ref_ptr<const CasterMesh> extracted(osg::Node& root, const Selection& casters) {
+    const osg::ref_ptr<CasterExtraction> found = new CasterExtraction(casters);
+    root.accept(*found);
+    return new CasterMesh(*found);
+}
+
+osg::ref_ptr<const CasterMesh> joined(const CasterDrawables& pieces) {
+    const osg::ref_ptr<CasterMesh> mesh = meshOf(pieces.list);
+    mesh->invalidNode = pieces.invalidNode; // which the pieces alone know
+    return mesh;
+}
+
+} // namespace
+
+void CasterRevisions::clear() {
+    Lock lock(_mutex);
+    _choices.dropIf([](const Choice&) { return true; });
+    _levels.clear();
+}
+
+unsigned CasterRevisions::count() const {
+    Lock lock(_mutex);
+    return _count;
+}
+
+/// The entry of a choice. Whatever it held of another revision is gone.
+CasterRevisions::Choice& CasterRevisions::take(std::uint64_t choice, std::uint64_t fingerprint,
+                                               const CasterView* view) {
+    ++_calls;
+    _choices.dropIf([this](const Choice& entry) { return _calls - entry.lastCall > keptCalls; });
+    Choice* known = _choices.find([choice](const Choice& entry) { return entry.choice == choice; });
+    if (!known || known->fingerprint != fingerprint) ++_count;
+    if (!known) {
+        _choices.dropOldestBeyond(mostChoices - 1); // before adding, for all would be in memory
+        known = &_choices.add({choice, fingerprint, nullptr, 0, {}, {}});
+    }
+    if (known->fingerprint != fingerprint) {
+        known->mesh.set(nullptr);
+        known->pieces.set(nullptr);
+    }
+    known->fingerprint = fingerprint;
+    known->view = keyOf(view);
+    known->lastCall = _calls;
+    if (_calls % pruneEvery == 0) _levels.prune();
+    return *known;
+}
+
+osg::ref_ptr<const CasterMesh> CasterRevisions::mesh(osg::Node& root, const Selection& casters,
+                                                     const CasterView* view) {
+    Lock lock(_mutex);
+    const osg::ref_ptr<CasterFingerprint> watch = new CasterFingerprint(casters);
+    if (view) watch->setView(*view);
+    root.accept(*watch);
+    Choice& known = take(watch->choice(), watch->value(), view);
+    if (known.mesh.get()) return known.mesh.get();
+    if (!watch->metLevels()) {
+        known.mesh.set(extracted(root, casters));
+        return known.mesh.get();
+    }
+    Choice& pieces = findDrawables(root, casters, view);
+    pieces.mesh.set(joined(*pieces.pieces.get()));
+    return pieces.mesh.get();
+}
+
+osg::ref_ptr<const CasterDrawables> CasterRevisions::drawables(osg::Node& root, const Selection& casters,
+                                                               const CasterView* view) {
+    Lock lock(_mutex);
+    return findDrawables(root, casters, view).pieces.get();
+}
+
+CasterRevisions::Choice& CasterRevisions::findDrawables(osg::Node& root, const Selection& casters,
+                                                        const CasterView* view) {
+    const osg::ref_ptr<const CasterDrawables> before = knownTo(view),
+                                              now = CasterDrawables::of(root, casters, before, view, &_levels);
+    Choice& known = take(now->choice, now->fingerprint, view);
+    if (known.pieces.get()) return known;
+    known.pieces.set(now);
+    _levels.prune();
+    return known;
+}
+
+/// The drawables that a view had last, or any that are known.
+osg::ref_ptr<const CasterDrawables> CasterRevisions::knownTo(const CasterView* view) {
+    osg::ref_ptr<const CasterDrawables> known;
+    for (const Choice& entry : _choices) {
+        if (!entry.pieces.get()) continue;
+        known = entry.pieces.get();
+        if (entry.view == keyOf(view)) break;
+    }
+    return known;
+}
+
+} // namespace gnomon

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/Matrixd>
+#include <osg/Vec3>
+#include <osg/Viewport>
+#include <osg/ref_ptr>
+
+namespace gnomon {
+
+/// The view that nodes choose by what they show: levels of detail by its eye, scale and pixels.
+struct CasterView {
+    osg::Matrixd eyeFromGroup;            ///< modelview at the ShadowCasterGroup.
+    osg::Matrixd projection;              ///< near and far do not matter.
+    osg::ref_ptr<osg::Viewport> viewport; ///< null: nothing is chosen by pixels.
+    osg::Vec3 viewPoint;                  ///< eye space; elsewhere than the eye where a camera inherits it.
+    float lodScale = 1.0f;                ///< of the cull.
+    const void* key = nullptr;            ///< any address that tells views apart.
+};
+
+} // namespace gnomon

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/casters/TriangleDecoder.h>
+
+#include <osg/Array>
+#include <osg/Drawable>
+#include <osg/Geometry>
+
+namespace gnomon {
+
+/// Reads a drawable's triangles, of integer vertex arrays as well, which OpenSceneGraph's functors leave out.
+///
+/// An attribute array on place 0 is read as OpenGL reads it: normalised if it says so. So is a vertex array that says so,
+/// which holds under vertex attribute aliasing alone.
+void readTriangles(const osg::Drawable& drawable, TriangleDecoder& into);
+
+/// The vertices that OpenSceneGraph's functors take of a geometry; null if it has none.
+const osg::Array* verticesOf(const osg::Geometry& geometry);
+
+/// True if OpenSceneGraph can hand out the drawable's triangles: not those of particles, for one.
+bool hasTriangles(const osg::Drawable& drawable);
+
+} // namespace gnomon
