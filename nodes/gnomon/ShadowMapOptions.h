@@ -51,7 +51,7 @@ struct GNOMON_EXPORT ShadowMapOptions {
     int size = 1024;
     /// Filter of the comparisons. Default BICUBIC: the most accurate one that does not need larger maps.
     Filter filter = BICUBIC;
-    /// Most cascades (maps) of a sun, 0 … 4. Default 0: as many as keep texels within six pixels.
+    /// Most cascades (maps) of a sun, 0 … 4. Default 0: as many as keep texels within three pixels.
     /// Cascades divide a view that reaches from near to far, such as a street or a landscape. Their depths grow by a
     /// constant ratio. A ratio below two gives fewer cascades. Orthographic views and lamps have one.
     int cascades = 0;

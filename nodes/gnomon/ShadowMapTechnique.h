@@ -41,7 +41,7 @@ class ShadowMapCache;
 /// - A penumbra is that of one straight edge at the blockers' mean distance. Overlapping edges at several distances are
 ///   only estimated.
 /// - Penumbras are streaky where a caster is nearer to the lamp than the lamp is wide.
-/// - Penumbras end at 128 texels, and at the borders of a lamp's six maps.
+/// - Penumbras end at 128 texels, and at the borders of a lamp's maps.
 /// - Blended casters cast as if they were solid.
 /// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.
 /// - Multisampled framebuffers are shadowed by pixel, from one sample.

@@ -1,8 +1,8 @@
 // What share of the light reaches a place, for programs of one's own: see ShadowMapTechnique::setProgramUnit().
 uniform int gnomon_maps; // how many there are; 0: all of the light arrives
-uniform mat4 gnomon_mapFromEye[6];
-uniform vec4 gnomon_mapPlace[6]; // in the texture: corner, and texels on a side; share of it that is border
-uniform vec4 gnomon_mapNear[6], gnomon_mapFar[6]; // see map.frag; of the second w is 1 if depths must be within the map's
+uniform mat4 gnomon_mapFromEye[12];
+uniform vec4 gnomon_mapPlace[12]; // in the texture: corner, and texels on a side; share of it that is border
+uniform vec4 gnomon_mapNear[12], gnomon_mapFar[12]; // see map.frag; of the second w is 1 if depths must be within the map's
 
 vec3 gnomon_placeIn(int map, vec3 eye, out bool before) {
     vec4 at = gnomon_mapFromEye[map] * vec4(eye, 1.0);

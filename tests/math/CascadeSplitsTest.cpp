@@ -57,22 +57,22 @@ TEST(CascadeSplits, HoldForWhatIsAtTheEyeItself) {
 }
 
 // From 1 to 1000: one part if it may be 1000 times as far at its end, two if 31.6 times, three if 10 times.
-TEST(Cascades, AreAsManyAsKeepTexelsToSixPixels) {
+TEST(Cascades, AreAsManyAsKeepTexelsToThreePixels) {
     const SeenRange seen = rangeOf(1.0, 1000.0);
-    EXPECT_EQ(cascadesFor(seen, 6.0 / 1001.0, 0), 1);
-    EXPECT_EQ(cascadesFor(seen, 6.0 / 999.0, 0), 2);
-    EXPECT_EQ(cascadesFor(seen, 6.0 / 31.0, 0), 3); // 31² is less than 1000
-    EXPECT_EQ(cascadesFor(seen, 6.0 / 32.0, 0), 2);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 1001.0, 0), 1);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 999.0, 0), 2);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 31.0, 0), 3); // 31² is less than 1000
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 32.0, 0), 2);
     EXPECT_EQ(cascadesFor(seen, 100.0, 0), 4);
     EXPECT_EQ(cascadesFor(rangeOf(1.0, 1.0), 1.0, 0), 1);
 }
 
 TEST(Cascades, StayAsManyAsTheyWereWhereAnotherCountHardlyMatters) {
     const SeenRange seen = rangeOf(1.0, 1000.0);
-    for (const double pixels : {6.0 / 31.0, 6.0 / 32.0})
+    for (const double pixels : {3.0 / 31.0, 3.0 / 32.0})
         for (const int before : {2, 3}) EXPECT_EQ(cascadesFor(seen, pixels, before), before);
-    EXPECT_EQ(cascadesFor(seen, 6.0 / 31.0, 1), 3);
-    EXPECT_EQ(cascadesFor(seen, 6.0 / 32.0, 4), 2);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 31.0, 1), 3);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 32.0, 4), 2);
 }
 
 // A ray to the lower edge of such a picture falls as far as it goes: it meets the ground 2 ahead.

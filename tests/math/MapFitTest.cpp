@@ -118,6 +118,22 @@ TEST(MapOutline, IsBeforeWhatItHidesFromTheLightAndNothingElse) {
     EXPECT_FALSE(none.isBefore(box));
 }
 
+TEST(MapOutline, OfALampIsDividedOnlyWhereOneMapWouldBeTooCoarse) {
+    const LightFrame frame = lampFrame({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 1.0);
+    EXPECT_EQ(outlineOf(frame, {1.0, 0.0, 0.0}, {255.0, 1.0, 1.0}).split(), 0.0);
+    EXPECT_EQ(outlineOf(sunFrame({1.0, 0.0, 0.0}), {1.0, 0.0, 0.0}, {9000.0, 1.0, 1.0}).split(), 0.0);
+    EXPECT_EQ(outlineOf(frame, {0.25, 0.0, 0.0}, {1024.0, 1.0, 1.0}).split(), 16.0); // 64 times as far, either way
+    EXPECT_EQ(MapOutline(frame).split(), 0.0);
+}
+
+TEST(MapOutline, IsNearerOrFartherThanADistanceAlongALampsAxis) {
+    const LightFrame frame = lampFrame({5.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 1.0);
+    for (const double x : {5.5, 6.9, 7.1, 30.0}) {
+        EXPECT_EQ(glm::dot(nearerThan(frame, 2.0), glm::dvec4(x, 3.0, 4.0, 1.0)) > 0.0, x < 7.0) << x;
+        EXPECT_EQ(glm::dot(fartherThan(frame, 2.0), glm::dvec4(x, 3.0, 4.0, 1.0)) > 0.0, x > 7.0) << x;
+    }
+}
+
 TEST(MapOutline, GrownIsAsMuchLargerOnEachSide) {
     MapOutline outline = outlineOf(sunFrame({0.0, 0.0, 1.0}), {0.0, 0.0, 0.0}, {5.0, 1.0, 1.0});
     outline.grow(0.5);

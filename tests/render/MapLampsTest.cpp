@@ -59,4 +59,30 @@ TEST(MapLamps, AmongCastersAndBelowTheirTopsAreWrongInNoMoreThanAHalfPercentAway
     }
 }
 
+/// A box 6 m from a lamp that hangs 6 m up, and a stick 0.2 m from it, on a ground so long.
+TracedCase onALargeGround(double half) {
+    return {"large ground",
+            {square(half), box({5.0, -1.0, 0.0}, {6.0, 1.0, 2.0}), box({-0.2, -0.05, 4.0}, {-0.1, 0.05, 6.5}),
+             box({-2.0, -3.0, 0.0}, {-1.0, -2.0, 5.5})},
+            {0.0, 0.0, 6.0, 1.0},
+            perspective({-6.0, -12.0, 5.0}, {3.0, 6.0, 2.0}, 400, 300, 50.0, 1.0, 4.0 * half)};
+}
+
+// A ground that is seen far away is in the same maps as what is near the lamp.
+TEST(MapLamps, KeepTheShadowsOfWhatIsNearThemHoweverLargeTheGroundIs) {
+    for (const double half : {10.0, 400.0, 1000.0, 1500.0}) {
+        const TracedCase given = onALargeGround(half);
+        Scene lit = given.build(), dark = given.build(), shadowed = given.build();
+        dark.takeLightAway();
+        const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+        shadowed.addShadow(technique);
+        const TruthComparison found = compare(render(shadowed.root, given.view), render(lit.root, given.view),
+                                              render(dark.root, given.view), given.truth());
+        std::cout << "ground of " << 2.0 * half << " m: " << found << "\n";
+        EXPECT_LE(found.certain, mostWrong * found.shadowed) << half;
+        EXPECT_GT(found.shadowed, 3000) << half;
+        EXPECT_EQ(technique->diagnose(), std::vector<std::string>()) << half;
+    }
+}
+
 } // namespace

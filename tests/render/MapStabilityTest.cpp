@@ -123,4 +123,33 @@ TEST(MapStability, ATowerOfTwoHundredMetresHalfAKilometreUpTheSunCastsIntoAViewT
     }
 }
 
+// What is kept of maps goes by the frames before; where nothing moves any more, nothing is.
+TEST(MapStability, APictureOfAStillSceneIsTheSameWhateverWasDrawnBefore) {
+    for (const TracedCase& given : {test::townOfHouses(), test::longStreet(45.0)}) {
+        const auto begun = [&given] {
+            Scene scene = given.build();
+            scene.addShadow(new ShadowMapTechnique);
+            return scene;
+        };
+        Scene fresh = begun(), used = begun();
+        const Picture first = test::render(fresh.root, given.view);
+        test::Camera camera(used.root, given.view);
+        const osg::ref_ptr<osg::Light> light = used.light->getLight();
+        const osg::Vec4d place = light->getPosition();
+        light->setPosition({0.2f, -0.6f, 1.0f, 0.0f});
+        test::View close = given.view;
+        close.view.postMultTranslate(osg::Vec3d(0.0, 0.0, 9.0));
+        close.projection = osg::Matrixd::perspective(12.0, 4.0 / 3.0, 0.5, 4000.0);
+        camera.setView(close);
+        for (int i = 0; i < 3; ++i) camera.frame();
+        light->setPosition(place);
+        camera.frame();
+        camera.setView(given.view);
+        const Picture moved = camera.frame();
+        for (int i = 0; i < 8; ++i) camera.frame();
+        const Picture still = camera.frame();
+        EXPECT_EQ(still.different(first), 0) << given.name << ", before it has come to rest " << moved.different(first);
+    }
+}
+
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/geometry/TriangleDistance.h>
 #include <gnomon/map/CasterLayer.h>
 
 #include <glm/common.hpp>
@@ -135,6 +136,16 @@ osg::ref_ptr<const CullableFaces> CasterLayer::faces(bool flats, bool again) con
     if (!known) drawn.faces = new CullableFaces(*_mesh, drawn.triangles, again);
     drawn.knowsSolids = drawn.knowsSolids || again;
     return drawn.faces;
+}
+
+double CasterLayer::distanceTo(const glm::dvec3& place) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    if (!_mesh) return nearest;
+    const auto& corners = *_mesh->triangles;
+    const auto from = [&](std::size_t i) { return toGlm(osg::Vec3d((*_mesh->vertices)[corners[i]])) - place; };
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+        nearest = std::min(nearest, triangleDistance(from(i), from(i + 1), from(i + 2)));
+    return nearest;
 }
 
 void CasterLayer::resizeGLObjectBuffers(unsigned maxSize) const {

@@ -41,6 +41,9 @@ struct CasterLayer : public osg::Referenced {
     /// @param again  it has been drawn before, and so may be drawn often: its solids are told apart.
     osg::ref_ptr<const CullableFaces> faces(bool flats, bool again) const;
 
+    /// From a place about the origin to the nearest triangle; infinite if there is none. Takes as long as there are triangles.
+    double distanceTo(const glm::dvec3& place) const;
+
     void resizeGLObjectBuffers(unsigned maxSize) const;
     void releaseGLObjects(osg::State* state) const;
 

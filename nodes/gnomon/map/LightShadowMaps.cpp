@@ -23,6 +23,14 @@ constexpr double border = 3.0;        // texels: what a comparison reaches over,
 constexpr int largestTexture = 16384; // texels on a side: what OpenGL has in most places
 constexpr double sameLight = 1e-7;    // of the distance: what OSG's matrices and floats make of a light at rest
 
+/// All faces, as in a light's first picture: where only those turned to it are drawn, single texels at rims differ.
+constexpr CullableFaces::Outside wholly{false, false};
+
+bool isWhole(const MapPicture::Layer& layer) {
+    const CullableFaces* casters = layer.casters;
+    return !casters || ((!casters->solids || !layer.outside.solids) && (!casters->holed || !layer.outside.holed));
+}
+
 bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
     return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
 }
@@ -35,6 +43,8 @@ bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) 
 } // namespace
 
 void LightShadowMaps::setCause(const MapRequest& cause) {
+    _light = cause.light;
+    _cone = cause.cone;
     const MapRequest& old = _cause;
     const bool sameMaps = old.settings == cause.settings;
     if (old.casters && old.casters->origin == cause.casters->origin && old.flats == cause.flats && sameMaps &&
@@ -45,17 +55,56 @@ void LightShadowMaps::setCause(const MapRequest& cause) {
     if (!sameMaps) _map = nullptr;
     _cause = cause;
     _picture = nullptr;
+    begin();
+    if (!_map) _texels = cause.settings.size;
+}
+
+void LightShadowMaps::begin() {
+    _clear = std::nullopt;
     _faces.clear();
     _splits.clear();
-    _cascades = cause.settings.cascades;
-    if (!_map) _texels = cause.settings.size;
-    _frames = framesOf(cause.light, cause.cone, *cause.casters, cause.settings.size);
+    _cascades = _cause.settings.cascades;
+    _frames = framesOf(_cause.light, _cause.cone, *_cause.casters, _cause.settings.size);
     for (const LightFrame& frame : _frames) addFaces(frame);
+}
+
+/// From a lamp to the nearest caster: nothing that is nearer is dark.
+double LightShadowMaps::clearance() {
+    const glm::dvec3 lamp(_cause.light);
+    if (!_clear) _clear = std::min(_cause.casters->still->distanceTo(lamp), _cause.casters->moving->distanceTo(lamp));
+    return *_clear;
+}
+
+/// Where nothing changes any more, finds all anew, for what is kept of maps goes by frames before. That is as dear as a
+/// change, so that it waits longer and longer where a scene rests for a few frames each time.
+void LightShadowMaps::settle(const glm::dmat4& clipFromScene, const glm::dvec2& pixels,
+                             const std::vector<MapReceiver>& receivers) {
+    constexpr int longest = 64;
+    if (_seen.clipFromScene == clipFromScene && _seen.pixels == pixels && _seen.receivers == receivers &&
+        _seen.light == _light && _seen.casters == _cause.casters) {
+        ++_rest;
+        if (_settled || _rest < _patience) return;
+        _settled = _anew = _again = true;
+        _cause.light = _light;
+        _cause.cone = _cone;
+        _texels = _cause.settings.size;
+        begin();
+        return;
+    }
+    if (_rest >= longest)
+        _patience = fewestAtRest;
+    else if (_again)
+        _patience = std::min(2 * _patience, longest);
+    _settled = !_seen.casters; // the first frame
+    _again = false;
+    _rest = 0;
+    _seen = {clipFromScene, pixels, receivers, _light, _cause.casters};
 }
 
 /// As seen from the same light.
 void LightShadowMaps::takeCasters(const CasterLayers& casters) {
     if (_cause.casters == &casters) return;
+    _clear = std::nullopt;
     const bool sameStill = _cause.casters->still == casters.still;
     _cause.casters = &casters;
     _picture = nullptr;
@@ -75,7 +124,7 @@ void LightShadowMaps::takeCasters(const CasterLayers& casters) {
 void LightShadowMaps::addFaces(const LightFrame& frame) {
     MapSlice face(frame, _cause);
     const int wanted = _cause.settings.cascades, most = 2 * _cause.settings.size <= largestTexture ? mostCascades : 1;
-    const std::size_t parts = frame.sun ? std::size_t(wanted ? wanted : most) : 1;
+    const std::size_t parts = frame.sun ? std::size_t(wanted ? wanted : most) : 2;
     for (; face.part < parts; ++face.part) _faces.push_back(face);
 }
 
@@ -86,7 +135,7 @@ double LightShadowMaps::pixelsATexel(double distance, const glm::dmat4& clipFrom
     MapOutline all(face.frame);
     for (const MapBlocker& blocker : face.blockers) all.merge(blocker.outline);
     const glm::dvec2 most = fitMap(face.frame, all, all, 0.0, 0.0, 1.0).size;
-    const double covered = std::min(std::max(most.x, most.y), std::max(side(0), side(1)));
+    const double covered = std::min(std::max(most.x, most.y), std::max({side(0), side(1), distance}));
     return covered / _cause.settings.size / (side(0) / width);
 }
 
@@ -108,18 +157,43 @@ void LightShadowMaps::findSplits(const std::vector<MapReceiver>& receivers, cons
 
 std::vector<glm::dvec4> LightShadowMaps::find(const std::vector<MapReceiver>& receivers,
                                               const glm::dmat4& clipFromScene, const glm::dvec2& pixels) {
+    settle(clipFromScene, pixels, receivers);
     findSplits(receivers, clipFromScene, pixels.x);
-    std::vector<glm::dvec4> points;
-    for (MapSlice& face : _faces) {
-        if (face.part > _splits.size()) {
-            face.clear();
-            continue;
+    if (_faces.front().frame.sun)
+        for (MapSlice& face : _faces) {
+            if (face.part <= _splits.size())
+                face.find(_cause, receivers, viewPart(clipFromScene, _splits, face.part),
+                          TexelDensity(face.frame, clipFromScene, pixels), _texels);
+            else
+                face.clear();
         }
-        face.find(_cause, receivers, viewPart(clipFromScene, _splits, face.part),
-                  TexelDensity(face.frame, clipFromScene, pixels), _texels);
+    else
+        for (std::size_t i = 0; i < _faces.size(); i += 2)
+            findLamp(_faces[i], _faces[i + 1], receivers, clipFromScene, pixels);
+    std::vector<glm::dvec4> points;
+    for (const MapSlice& face : _faces)
         for (const glm::dvec4& point : face.needed.body()) points.push_back(clipFromScene * point);
-    }
     return points;
+}
+
+/// Divides between two maps what one would hold too coarsely.
+void LightShadowMaps::findLamp(MapSlice& far, MapSlice& near, const std::vector<MapReceiver>& receivers,
+                               const glm::dmat4& clipFromScene, const glm::dvec2& pixels) {
+    const auto find = [&](MapSlice& face, const std::vector<glm::dvec4>& more) {
+        std::vector<glm::dvec4> halfSpaces = viewPart(clipFromScene, {}, 0);
+        halfSpaces.insert(halfSpaces.end(), more.begin(), more.end());
+        face.find(_cause, receivers, halfSpaces, TexelDensity(face.frame, clipFromScene, pixels), _texels);
+    };
+    find(far, {});
+    near.clear();
+    if (!(far.needed.split() > 0.0)) return;
+    constexpr double corner = 1.8; // of a cube's face and what it is larger by: the way to it to its distance
+    const glm::dvec4 beyondClear = fartherThan(far.frame, clearance() / corner);
+    find(far, {beyondClear});
+    const double split = far.needed.split();
+    if (!(split > 0.0)) return;
+    find(near, {beyondClear, nearerThan(near.frame, split)});
+    find(far, {fartherThan(far.frame, split)});
 }
 
 /// On a side of the map that needs most.
@@ -134,17 +208,24 @@ double LightShadowMaps::texelsWanted() const {
     return wanted;
 }
 
+int LightShadowMaps::mapsNeeded() const {
+    const auto needed = [](const MapSlice& face) { return !face.needed.empty(); };
+    return static_cast<int>(std::count_if(_faces.begin(), _faces.end(), needed));
+}
+
+/// No fewer than rows.
+int LightShadowMaps::columns() const { return mapsNeeded() > 6 ? 4 : mapsNeeded() > 4 ? 3 : 2; }
+
 /// On a side of a map: all that are beside one another are one texture.
 int LightShadowMaps::mostTexels() const {
-    const auto needed = [](const MapSlice& face) { return !face.needed.empty(); };
-    const auto maps = static_cast<int>(std::count_if(_faces.begin(), _faces.end(), needed));
-    return std::min(_cause.settings.size, largestTexture / std::clamp(maps, 1, columns()));
+    return std::min(_cause.settings.size, largestTexture / std::clamp(mapsNeeded(), 1, columns()));
 }
 
 /// Takes other texels than before if need be, fewer only where a map is to be drawn anyway: none holds what it must then.
 void LightShadowMaps::resize() {
     constexpr int rounds = 8; // what soft edges reach depends on how wide texels are
-    int before = _map ? _texels : 0;
+    int before = _map && !_anew ? _texels : 0;
+    _anew = false;
     for (int round = 0; round < rounds; ++round) {
         const int texels = texelsFor(texelsWanted(), mostTexels(), before);
         if (texels == before || (texels < before && !anyDue())) return;
@@ -170,7 +251,7 @@ bool LightShadowMaps::holds(const MapSlice& face) const {
 /// What moves will be beside what casters can darken now.
 MapFit LightShadowMaps::fitOf(const MapSlice& face) const {
     MapOutline most = face.reach;
-    if (!_cause.casters->moving->pieces.empty()) {
+    if (!_settled && !_cause.casters->moving->pieces.empty()) {
         most.merge(face.held);
         most.grow(reserve * face.held.length());
     }
@@ -202,7 +283,7 @@ osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources
 
 MapPicture::Layer LightShadowMaps::drawnOf(const CasterLayer& layer, bool again) const {
     MapPicture::Layer drawn{layer.faces(_cause.flats, again), {}, {}};
-    if (drawn.casters) drawn.outside = drawn.casters->outside(_cause.light);
+    if (drawn.casters) drawn.outside = _settled ? wholly : drawn.casters->outside(_cause.light);
     for (const CasterLayer::Cutout& cutout : layer.cutouts)
         if (_cause.flats || !cutout.flat) drawn.cutouts.push_back(cutout);
     return drawn;
@@ -235,18 +316,33 @@ MapLookUp LightShadowMaps::lookUpOf(const MapSlice& face) const {
             mapSpread(face.frame, *face.fit, _cause.lightRadius(face.frame), radius, _texels)};
 }
 
+/// True if the last picture is of the same maps, and drawn in the same way if that is settled.
+bool LightShadowMaps::isShown() const {
+    const auto tiles = std::count_if(_faces.begin(), _faces.end(), [](const MapSlice& face) { return bool(face.fit); });
+    const auto shows = [this](const MapSlice& face) {
+        const auto same = [&face](const MapLookUp& lookUp) { return lookUp.mapFromScene == face.fit->mapFromScene; };
+        return !face.fit || std::any_of(_lookUps.begin(), _lookUps.end(), same);
+    };
+    if (_settled && !(isWhole(_picture->still) && isWhole(_picture->moving))) return false;
+    return _picture->size == _texels && std::size_t(tiles) == _lookUps.size() &&
+           std::all_of(_faces.begin(), _faces.end(), shows);
+}
+
 /// The finest map comes first, for pixels take the first that holds them.
 void LightShadowMaps::update(const MapPrograms& resources) {
     resize();
     const bool due = anyDue();
     if (_picture && !due) return;
-    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due);
-    std::vector<std::pair<const MapSlice*, glm::ivec2>> tiles;
     for (MapSlice& face : _faces) {
         if (face.needed.empty())
             face.fit = std::nullopt;
         else if (!holds(face))
             face.fit = fitOf(face);
+    }
+    if (_picture && isShown()) return;
+    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due);
+    std::vector<std::pair<const MapSlice*, glm::ivec2>> tiles;
+    for (const MapSlice& face : _faces) {
         const int tile = static_cast<int>(tiles.size());
         if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % columns(), tile / columns()));
     }
@@ -265,6 +361,12 @@ void LightShadowMaps::update(const MapPrograms& resources) {
     _picture = picture;
 }
 
+/// True if several maps may hold a place of their light's frame, but not its depth.
+bool LightShadowMaps::isDivided() const {
+    const auto further = [](const MapSlice& face) { return face.part > 0 && face.fit; };
+    return _lookUps.size() > 1 && std::any_of(_faces.begin(), _faces.end(), further);
+}
+
 MapLookupPass LightShadowMaps::quad(const glm::dmat4& clipFromScene) const {
     MapLookupPass quad;
     quad.map = _map;
@@ -273,7 +375,7 @@ MapLookupPass LightShadowMaps::quad(const glm::dmat4& clipFromScene) const {
     quad.rounding = _cause.casters->rounding;
     quad.clipFromScene = clipFromScene;
     quad.defines = _cause.settings.defines;
-    quad.cascades = _faces.front().frame.sun && _lookUps.size() > 1;
+    quad.cascades = isDivided();
     quad.smooth = _cause.settings.smooth;
     quad.soft = _cause.settings.softness.has_value();
     quad.penumbra = _cause.lightRadius(_faces.front().frame) > 0.0;

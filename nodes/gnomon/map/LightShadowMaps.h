@@ -33,12 +33,20 @@ public:
     void release(osg::State* state);
 
 private:
+    void begin();
     void addFaces(const LightFrame& frame);
+    double clearance();
+    void settle(const glm::dmat4& clipFromScene, const glm::dvec2& pixels, const std::vector<MapReceiver>& receivers);
+    bool isShown() const;
     void takeCasters(const CasterLayers& casters);
     double pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const;
     void findSplits(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene, double width);
     bool anyDue() const;
-    int columns() const { return _faces.size() > 4 ? 3 : 2; }
+    void findLamp(MapSlice& far, MapSlice& near, const std::vector<MapReceiver>& receivers,
+                  const glm::dmat4& clipFromScene, const glm::dvec2& pixels);
+    bool isDivided() const;
+    int mapsNeeded() const;
+    int columns() const;
     int mostTexels() const;
     double texelsWanted() const;
     void resize();
@@ -50,9 +58,27 @@ private:
     MapLookUp lookUpOf(const MapSlice& face) const;
     PixelRect moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const;
 
+    static constexpr int fewestAtRest = 8; ///< frames: what moves in every second one is not found anew each time.
+    /// What a frame's maps are found by, beside the casters and the light.
+    struct Seen {
+        glm::dmat4 clipFromScene{0.0};
+        glm::dvec2 pixels{0.0};
+        std::vector<MapReceiver> receivers;
+        glm::dvec4 light{0.0};
+        osg::ref_ptr<const CasterLayers> casters;
+    };
+
     MapRequest _cause;
+    glm::dvec4 _light{0.0}; ///< as it was asked for last, and the cone; see isSame().
+    std::optional<SpotCone> _cone;
+    std::optional<double> _clear;            ///< see clearance().
+    Seen _seen;                              ///< in the last frame.
+    int _rest = 0, _patience = fewestAtRest; ///< frames since anything changed; after how many all is found anew.
+    bool _settled = true;                    ///< maps are as if there had been no frames before.
+    bool _anew = true;                       ///< they are to be found so.
+    bool _again = false;                     ///< they have been found anew since anything changed.
     std::vector<LightFrame> _frames;
-    std::vector<MapSlice> _faces; ///< of each frame one a part.
+    std::vector<MapSlice> _faces; ///< of each frame one a part; of a lamp's frame two.
     int _cascades = 0;            ///< maps that a sun is to have; 0 until that is known.
     std::vector<double> _splits;  ///< of what is seen: see cascadeSplits().
     int _texels = 0;              ///< on a side of a tile, of those drawn last.

@@ -13,6 +13,8 @@
 namespace gnomon {
 namespace {
 
+constexpr double mostRatio = 1e6;      // of a lamp's distances: what is nearer is at the lamp itself
+constexpr double widestRatio = 64.0;   // the same of what softens edges: by what is nearer they are as wide
 constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
 
 /// True of what the light sees edge-on, and of triangles of no area: hard edges have nothing between them.
@@ -58,7 +60,7 @@ bool MapRequest::isWide(const LightFrame& frame) const {
 }
 
 double MapRequest::softness(const LightFrame& frame, MapOutline blocker, double farthest) const {
-    blocker.limitNearest();
+    blocker.limitNearest(widestRatio);
     return softReach(frame, blocker.nearest, farthest, lightRadius(frame), settings.softness->radius);
 }
 
@@ -128,7 +130,7 @@ void MapSlice::find(const MapRequest& cause, const std::vector<MapReceiver>& rec
         addNeeded(cause, blocker, receivers, std::move(all), pixels);
     }
     texel = pixels.side;
-    needed.limitNearest();
+    needed.limitNearest(mostRatio);
     findHeld(cause, texels);
 }
 
@@ -141,8 +143,9 @@ void MapSlice::findHeld(const MapRequest& cause, int texels) {
     blocking.nearest = nearestBlocker;
     held.grow(std::min(cause.softness(frame, blocking, needed.farthest), most));
     held.cut(reach);
-    held.nearest = std::min(held.nearest, nearestBlocker);
-    held.limitNearest();
+    blocking.farthest = needed.farthest;
+    blocking.limitNearest(widestRatio);
+    held.nearest = std::min(held.nearest, blocking.nearest);
 }
 
 /// What of what one of them can darken is seen.

@@ -33,6 +33,10 @@ struct MapReceiver {
     glm::dvec3 low, high;
     glm::dmat4 sceneFromBox;
     double size; ///< of its diagonal, scene.
+
+    bool operator==(const MapReceiver& other) const {
+        return low == other.low && high == other.high && sceneFromBox == other.sceneFromBox;
+    }
 };
 /// Those of a view, the largest first.
 std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene);
@@ -69,7 +73,7 @@ struct MapSlice {
     void findHeld(const MapRequest& cause, int texels);
 
     LightFrame frame;
-    std::size_t part = 0; ///< see viewPart().
+    std::size_t part = 0; ///< of a sun see viewPart(); of a lamp 1 is what is near it, if one map cannot hold all.
     LayerOutlines still;
     std::vector<MapBlocker> blockers;
     MapOutline reach, needed;    ///< what they can darken; what of that is seen.

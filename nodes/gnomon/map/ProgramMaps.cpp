@@ -8,7 +8,7 @@
 namespace gnomon {
 namespace {
 
-constexpr unsigned mostMaps = 6; // as visibility.glsl has it
+constexpr unsigned mostMaps = 12; // as visibility.glsl has it
 
 osg::Vec4f vec4(const glm::dvec4& v) { return {float(v.x), float(v.y), float(v.z), float(v.w)}; }
 

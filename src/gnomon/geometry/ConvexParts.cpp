@@ -4,6 +4,7 @@
 #include <gnomon/geometry/ConvexParts.h>
 #include <gnomon/geometry/ConvexPolygons.h>
 #include <gnomon/geometry/ConvexSolid.h>
+#include <gnomon/geometry/NearWeld.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -62,7 +63,8 @@ Corners sameAs(Corners t, bool closed) {
 class PieceBuilder {
 public:
     explicit PieceBuilder(bool closed) { _piece.closed = closed; }
-    void add(const glm::vec3* positions, const Corners& welded) {
+    template <class Point>
+    void add(const Point* positions, const Corners& welded) {
         Corners t;
         for (std::size_t i = 0; i < 3; ++i) t[i] = place(positions, welded[i]);
         if (_seen.insert(sameAs(t, _piece.closed)).second) _piece.triangles.push_back(t);
@@ -70,7 +72,8 @@ public:
     Piece take() { return std::move(_piece); }
 
 private:
-    unsigned place(const glm::vec3* positions, unsigned vertex) {
+    template <class Point>
+    unsigned place(const Point* positions, unsigned vertex) {
         const auto [at, isNew] = _places.emplace(vertex, static_cast<unsigned>(_piece.points.size()));
         if (!isNew) return at->second;
         const glm::dvec3 point(positions[vertex]);
@@ -112,6 +115,17 @@ std::map<std::pair<unsigned, unsigned>, int> edgeSums(const Triangles& triangles
             sums[std::minmax(from, to)] += from < to ? 1 : -1;
         }
     return sums;
+}
+
+/// The piece with points that rounding alone keeps apart as one, as at the poles of a ball.
+Piece rounded(const Piece& piece) {
+    const std::vector<unsigned> first = nearlyTheSame(piece.points, 4.0 * piece.flatness());
+    PieceBuilder builder(true); // of a ball no triangle is there twice
+    for (const Corners& t : piece.triangles) {
+        const Corners to{first[t[0]], first[t[1]], first[t[2]]};
+        if (to[0] != to[1] && to[1] != to[2] && to[2] != to[0]) builder.add(piece.points.data(), to);
+    }
+    return builder.take();
 }
 
 /// The planes of a hull, those that differ by rounding alone as one, found by the height of their normals.
@@ -183,6 +197,14 @@ bool isFlat(const Piece& piece) {
     });
 }
 
+/// The hull, if the piece is a ball, a cone, a capsule and so on, with or without a level floor.
+std::optional<ConvexHull> asRound(const Piece& given) {
+    const Piece piece = given.closed ? given : rounded(given);
+    if (!bendsOutwards(piece.points, piece.triangles, piece.flatness())) return std::nullopt;
+    std::optional<ConvexHull> hull = convexHull(piece.points);
+    return hull && areOnHull(piece.points, *hull, piece.flatness()) ? hull : std::nullopt;
+}
+
 /// The hull, if the piece covers it but for its floor.
 ///
 /// The triangles in the hull's faces, turned outwards, cover a face the same number of times all over if no edge inside
@@ -193,6 +215,7 @@ std::optional<ConvexHull> asHull(const Piece& piece) {
         if (auto solid = convexSolid(piece.points, piece.triangles, piece.flatness())) return solid;
     std::optional<ConvexHull> hull = convexHull(piece.points);
     if (!hull) return std::nullopt;
+    if (auto round = asRound(piece)) return round;
     HullPlanes planes(*hull, piece.flatness());
     Triangles outside;
     for (Corners t : piece.triangles) {

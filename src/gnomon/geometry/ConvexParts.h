@@ -23,6 +23,7 @@ bool isTurnedAway(const ConvexPart& part, const glm::dvec4& light);
 /// Of each part that is connected over vertices at one place:
 /// - its hull, if its faces are the hull's, but for those that look straight down (a box with or without floor, a gabled
 ///   house, a tank);
+/// - its hull, if it is round (a ball, a cone, a capsule), points that rounding alone keeps apart taken as one;
 /// - pieces of its footprint, as high as it is, if it is an upright prism with or without floor (an L, a courtyard);
 /// - else each of its flat faces as convex plates. Those of a closed part have a front, those that look down are left out.
 ///

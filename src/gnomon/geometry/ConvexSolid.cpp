@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
 
 namespace gnomon {
 namespace {
@@ -54,6 +57,11 @@ private:
     std::vector<int> _planesAt;
 };
 
+double lowest(const Points& points) {
+    const auto isLower = [](const glm::dvec3& a, const glm::dvec3& b) { return a.z < b.z; };
+    return std::min_element(points.begin(), points.end(), isLower)->z;
+}
+
 } // namespace
 
 std::optional<ConvexHull> convexSolid(const Points& points, const std::vector<Triangle>& triangles, double flatness) {
@@ -67,6 +75,39 @@ std::optional<ConvexHull> convexSolid(const Points& points, const std::vector<Tr
         hull.faces.push_back({{t.begin(), t.end()}, *plane});
     }
     return planes.areAllCorners() ? std::optional(std::move(hull)) : std::nullopt;
+}
+
+bool bendsOutwards(const Points& points, const std::vector<Triangle>& triangles, double flatness) {
+    std::map<std::pair<unsigned, unsigned>, const Triangle*> leftOf; // of an edge one way
+    for (const Triangle& t : triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (!leftOf.emplace(std::pair(t[i], t[(i + 1) % 3]), &t).second) return false;
+    const double floor = lowest(points) + flatness;
+    std::size_t rim = 0;
+    for (const auto& [edge, triangle] : leftOf) {
+        const auto other = leftOf.find({edge.second, edge.first});
+        if (other == leftOf.end()) {
+            if (std::max(points[edge.first].z, points[edge.second].z) > floor) return false;
+            ++rim;
+            continue;
+        }
+        const glm::dvec4 plane = planeOf(points, *triangle);
+        for (const unsigned corner : *other->second)
+            if (!(distance(plane, points[corner]) <= flatness)) return false;
+    }
+    // Euler's formula, as above; without a floor the surface has one rim.
+    return triangles.size() + rim + (rim ? 2 : 4) == 2 * points.size();
+}
+
+bool areOnHull(const Points& points, const ConvexHull& hull, double flatness) {
+    const auto lessAt = [](const glm::dvec3& a, const glm::dvec3& b) {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    };
+    const std::set<glm::dvec3, decltype(lessAt)> corners(hull.vertices.begin(), hull.vertices.end(), lessAt);
+    return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
+        const auto isIn = [&](const auto& face) { return distance(face.plane, point) >= -flatness; };
+        return corners.count(point) > 0 || std::any_of(hull.faces.begin(), hull.faces.end(), isIn);
+    });
 }
 
 } // namespace gnomon

@@ -20,4 +20,18 @@ namespace gnomon {
 std::optional<ConvexHull> convexSolid(const std::vector<glm::dvec3>& points,
                                       const std::vector<std::array<unsigned, 3>>& triangles, double flatness);
 
+/// Whether a mesh is convex about each of its edges, to within `flatness`, as balls and cones are, whose faces are many and lie
+/// nearly in one plane. It may have no floor, which is level. Where areOnHull() holds, too, it is its own hull.
+///
+/// @param triangles  as above, or with one rim.
+///
+/// Cost  sorts the edges.
+bool bendsOutwards(const std::vector<glm::dvec3>& points, const std::vector<std::array<unsigned, 3>>& triangles,
+                   double flatness);
+
+/// Whether none of the points, which the hull is of, is further inside than `flatness`.
+///
+/// Cost  for each point that is no corner of the hull, as many steps as that has faces.
+bool areOnHull(const std::vector<glm::dvec3>& points, const ConvexHull& hull, double flatness);
+
 } // namespace gnomon

@@ -14,7 +14,7 @@ namespace {
 constexpr double leastRatio = 2.0; // of a part's end to its beginning
 constexpr double mostRatio = 1e6;  // of all: what is nearer than that is a rounded zero
 
-constexpr double mostPixels = 6.0; // on a side of a texel where it is widest
+constexpr double mostPixels = 3.0; // on a side of a texel where it is widest
 
 /// Of the farthest to the nearest.
 double ratioOf(const SeenRange& seen) {

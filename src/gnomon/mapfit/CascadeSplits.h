@@ -29,8 +29,9 @@ private:
 
 constexpr int mostCascades = 4;
 
-/// How many maps are worth while, 1 … mostCascades: so that where each part begins a texel of its map is at most six pixels
-/// wide. That is where it is widest; of all edges 95 % are then within about a pixel, in a street of 2 km as on mountains.
+/// How many maps are worth while, 1 … mostCascades: so that where each part begins a texel of its map is at most three pixels
+/// wide. That is where it is widest; of all edges 95 % are then within about a pixel, in a street of 2 km as on mountains, and
+/// walls that the light grazes are dark beside what stands before them, within ten texels of it.
 /// @param pixels  on a side of a texel, at the farthest that is seen, if there is one map.
 /// @param before  how many there were, 0 … mostCascades; they stay where another count would hardly be better.
 int cascadesFor(const SeenRange& seen, double pixels, int before);

@@ -21,6 +21,8 @@ constexpr double thinnest = 1e-6;              // of a rectangle's sides, the sh
 constexpr double steps = 1.0 / (1 << 19);      // of depth, as tests/render/PlanarBandTest.cpp measured
 constexpr double floatError = 8.0 / (1 << 24); // of a matrix of floats times a vector of floats
 constexpr double edgeOn = 20.0;                // tangent: the cosine of surface and light is 0.05
+constexpr double mostRatio =
+    256.0; // of a lamp's distances in a map: an error of depth is less than a texel of 1024 there
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 glm::dvec3 anyAcross(const glm::dvec3& axis) {
@@ -107,6 +109,12 @@ glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double fart
 
 } // namespace
 
+glm::dvec4 nearerThan(const LightFrame& frame, double distance) { return -fartherThan(frame, distance); }
+
+glm::dvec4 fartherThan(const LightFrame& frame, double distance) {
+    return glm::row(frame.lightFromScene, 3) - glm::dvec4(0.0, 0.0, 0.0, distance);
+}
+
 std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
                                       const std::vector<glm::dvec4>& halfSpaces) {
     const auto all = boxCorners(low, high, sceneFromBox);
@@ -192,8 +200,13 @@ void MapOutline::cut(const MapOutline& other) {
     for (std::size_t i = 0; i < edges.size(); ++i) corners = leftOf(corners, edges[i], edges[(i + 1) % edges.size()]);
 }
 
-void MapOutline::limitNearest() {
-    if (!_frame.sun) nearest = std::max(nearest, 64.0 * farthest);
+void MapOutline::limitNearest(double ratio) {
+    if (!_frame.sun) nearest = std::max(nearest, ratio * farthest);
+}
+
+double MapOutline::split() const {
+    if (_frame.sun || empty() || nearest >= mostRatio * farthest) return 0.0;
+    return std::exp2(std::round(-std::log2(nearest * farthest) / 2.0)); // both have the same ratio
 }
 
 void MapOutline::grow(double by) { corners = grownOutline(corners, glm::dvec2(by)); }

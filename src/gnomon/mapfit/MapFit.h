@@ -24,6 +24,10 @@ LightFrame sunFrame(const glm::dvec3& towardsSun);
 /// What a lamp sees about `axis` (unit), up to `spread` times as far to either side as ahead.
 LightFrame lampFrame(const glm::dvec3& lamp, const glm::dvec3& axis, double spread);
 
+/// Half-space of the scene: what a lamp's frame has before a distance along its axis, or beyond it.
+glm::dvec4 nearerThan(const LightFrame& frame, double distance);
+glm::dvec4 fartherThan(const LightFrame& frame, double distance);
+
 /// Corners, in the scene, of what of a box lies within all half-spaces of the scene, see cutBox(); empty if nothing does.
 std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
                                       const std::vector<glm::dvec4>& halfSpaces);
@@ -50,9 +54,12 @@ public:
     void merge(const MapOutline& other);
     /// Cuts this outline to the other one, of the same frame; depths stay. One that is all on a line cuts nothing.
     void cut(const MapOutline& other);
-    /// Of a lamp: what is nearer than a 64th of the farthest counts as if it were there, for depths of a map get coarse by
-    /// what is near.
-    void limitNearest();
+    /// Of a lamp: what is nearer than the farthest divided by `ratio` counts as if it were there, for depths of a map get
+    /// coarse by what is near.
+    void limitNearest(double ratio);
+    /// Distance along a lamp's axis at which this is best divided between two maps, a power of 2, so that it seldom
+    /// changes. 0: one map holds all well.
+    double split() const;
     /// Grows to all sides, in x/w and y/w.
     void grow(double by);
 
