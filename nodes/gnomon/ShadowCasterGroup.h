@@ -4,6 +4,8 @@
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/Export.h>
 #include <gnomon/LightUniform.h>
+#include <gnomon/NamesNodes.h>
+#include <gnomon/NodeReference.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 
@@ -18,7 +20,6 @@ namespace gnomon {
 
 class CasterMesh;
 class CasterDrawables;
-class CasterFingerprint;
 
 /// Group whose subgraph casts shadows. Every scene with Gnomon's shadows has one.
 ///
@@ -47,6 +48,8 @@ class CasterFingerprint;
 /// - Transparent drawables receive no shadow, nor does anything in render bin 8 or higher.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast.
+/// - osgUtil::Optimizer leaves what is below the group as it is if the group, or a node below it, names nodes.
+/// - Its SPATIALIZE_GROUPS replaces a Geode that is named and stands elsewhere. Its COPY_SHARED_NODES copies such nodes.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
 ///
@@ -64,7 +67,7 @@ class CasterFingerprint;
 ///       LightUniforms 1 { 0 "sunColor" }
 ///       CompositorOptions 15 TRUE 10000
 ///     }
-class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren {
+class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren, public NamesNodes {
 public:
     /// How the compositor darkens shadowed pixels.
     enum Composite : int {
@@ -79,9 +82,12 @@ public:
     META_Node(gnomon, ShadowCasterGroup)
 
     /// The part of this group's subgraph that casts. Default: all of it.
+    /// The group does not keep the node, which may stand above it.
     void setCasters(const Selection& casters);
-    /// See setCasters().
-    const Selection& getCasters() const { return _selection; }
+    /// See setCasters(). Null and the mask 0, which select nothing, if the node is gone.
+    Selection getCasters() const { return _casters.in(*this); }
+    /// True if setCasters() has named a node that has been deleted since.
+    bool areCastersGone() const { return _casters.isGone(*this); }
 
     /// How shadowed pixels are darkened. Default RELIGHT, which also replaces any unknown value.
     void setComposite(Composite composite) { _composite = composite == BLEND ? BLEND : RELIGHT; }
@@ -95,7 +101,7 @@ public:
     float getDark() const { return _dark; }
 
     /// Adds a light that casts. Without any, every light that is on in the view casts.
-    /// The LightSource may stand anywhere in the graph, also under transforms.
+    /// The LightSource may stand anywhere in the graph, also under transforms. The group does not keep it.
     void addLight(osg::LightSource* light);
     /// Adds a light by its position in the group's frame, in double: for lamps far from the origin.
     /// A light number outside 0 … 7 is refused with a warning.
@@ -104,8 +110,10 @@ public:
     void removeLights();
     /// Replaces the light sources. Null entries are skipped.
     void setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources);
-    /// The light sources that cast.
-    const std::vector<osg::ref_ptr<osg::LightSource>>& getLightSources() const { return _lightSources; }
+    /// The light sources that cast and are not gone.
+    std::vector<osg::ref_ptr<osg::LightSource>> getLightSources() const;
+    /// Number of light sources that were added. Those that have been deleted since count.
+    unsigned getNumLightSources() const { return static_cast<unsigned>(_lightSources.size()); }
     /// Replaces the lights given by position. A light number outside 0 … 7 is refused with a warning.
     void setLights(std::vector<ShadowLight> lights);
     /// The lights given by position.
@@ -127,6 +135,13 @@ public:
     /// True for the class itself, whose traversal visits all children.
     bool showsAllChildren() const override;
 
+    /// The casters and the light sources, where some are named.
+    std::vector<Selection> namedParts() const override;
+    /// Traverses the children, but keeps osgUtil::Optimizer from what it would spoil.
+    void traverse(osg::NodeVisitor& visitor) override;
+    /// Traverses the parents, but not for osgUtil::Optimizer.
+    void ascend(osg::NodeVisitor& visitor) override;
+
     /// For the techniques, whose types are internal: the casters as one mesh. They are extracted again only if something changed since the last call.
     /// Call it where the graph may be read: in update, event or cull.
     osg::ref_ptr<const CasterMesh> casters() const;
@@ -140,19 +155,16 @@ protected:
 
 private:
     void noteRevision(std::uint64_t fingerprint) const;
-    /// In a deep copy, what casts, shines and receives are the copy's own nodes.
-    void followCopies(const ShadowCasterGroup& original);
 
-    Selection _selection;
+    SelectionReference _casters;
     Composite _composite = RELIGHT;
     float _dark = 0.5f;
-    std::vector<osg::ref_ptr<osg::LightSource>> _lightSources;
+    std::vector<NodeReference> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;
     CompositorOptions _options;
 
     mutable OpenThreads::Mutex _mutex;
-    osg::ref_ptr<CasterFingerprint> _watch;
     mutable osg::ref_ptr<const CasterMesh> _mesh;
     mutable osg::ref_ptr<const CasterDrawables> _pieces;
     mutable std::uint64_t _fingerprint = 0, _meshFingerprint = 0;

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace osg {
@@ -58,15 +59,17 @@ protected:
 private:
     class OnTheWay;
 
+    bool isRoot(const osg::Node& node) const { return _roots.count(const_cast<osg::Node*>(&node)) > 0; }
     void findWays();
     bool isOnTheWay(const osg::Node& node) const;
     bool goesTheOnlyWays(osg::Node& node);
 
-    Selection _selection;
+    const std::vector<osg::ref_ptr<osg::Node>> _selected; ///< empty: everything.
+    const std::set<osg::Node*> _roots;                    ///< the same, each once.
     std::vector<osg::Matrixd> _matrices;
-    int _inside = 0;     ///< how often the selected node is on the way down.
+    int _inside = 0;     ///< how often a selected node is on the way down.
     int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.
-    /// Of what is above the selected node, the children that lead to it; once for each of its places among them.
+    /// Of what is above the selected nodes, the children that lead to it; once for each of its places among them.
     std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/NamesNodes.h>
 #include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/base/CopiedNodes.h>
+#include <gnomon/base/OptimizerGuard.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/CasterFingerprint.h>
@@ -29,39 +28,26 @@ bool isLightNumber(int number, const char* method) {
 
 } // namespace
 
-ShadowCasterGroup::ShadowCasterGroup() : _watch(new CasterFingerprint) {}
+ShadowCasterGroup::ShadowCasterGroup() = default;
 
 ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp)
     : osg::Group(other, copyOp),
-      _selection(other._selection),
+      _casters(other._casters, other),
       _composite(other._composite),
       _dark(other._dark),
-      _lightSources(other._lightSources),
       _lights(other._lights),
       _lightUniforms(other._lightUniforms),
-      _options(other._options),
-      _watch(new CasterFingerprint(other._selection)) {
-    followCopies(other);
+      _options(other._options) {
+    for (const NodeReference& source : other._lightSources) _lightSources.emplace_back(source, other);
 }
 
 ShadowCasterGroup::~ShadowCasterGroup() = default;
-
-void ShadowCasterGroup::followCopies(const ShadowCasterGroup& original) {
-    const CopiedNodes copied(original, *this);
-    setCasters({copied.of(_selection.node.get()), _selection.mask});
-    for (osg::ref_ptr<osg::LightSource>& source : _lightSources)
-        if (auto* own = dynamic_cast<osg::LightSource*>(copied.of(source.get()))) source = own;
-    copied.forEachCopy([&copied](osg::Node& node) {
-        if (auto* names = dynamic_cast<NamesNodes*>(&node)) names->followCopies(copied);
-    });
-}
 
 bool ShadowCasterGroup::showsAllChildren() const { return typeid(*this) == typeid(ShadowCasterGroup); }
 
 void ShadowCasterGroup::setCasters(const Selection& casters) {
     Lock lock(_mutex);
-    _selection = casters;
-    _watch = new CasterFingerprint(casters);
+    _casters = casters;
     _mesh = nullptr;
     _pieces = nullptr;
     _fingerprint = 0;
@@ -78,7 +64,7 @@ void ShadowCasterGroup::setDark(float factor) {
 }
 
 void ShadowCasterGroup::addLight(osg::LightSource* light) {
-    if (light) _lightSources.push_back(light);
+    if (light) _lightSources.emplace_back(light);
 }
 
 void ShadowCasterGroup::addLight(const ShadowLight& light) {
@@ -93,6 +79,30 @@ void ShadowCasterGroup::setLights(std::vector<ShadowLight> lights) { // by value
 void ShadowCasterGroup::setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources) {
     _lightSources.clear();
     for (const osg::ref_ptr<osg::LightSource>& source : sources) addLight(source);
+}
+
+std::vector<osg::ref_ptr<osg::LightSource>> ShadowCasterGroup::getLightSources() const {
+    std::vector<osg::ref_ptr<osg::LightSource>> sources;
+    for (const NodeReference& named : _lightSources) {
+        const osg::ref_ptr<osg::Node> node = named.in(*this);
+        if (auto* source = dynamic_cast<osg::LightSource*>(node.get())) sources.emplace_back(source);
+    }
+    return sources;
+}
+
+std::vector<Selection> ShadowCasterGroup::namedParts() const {
+    std::vector<Selection> parts;
+    if (getCasters() != Selection()) parts.push_back(getCasters());
+    for (const auto& source : getLightSources()) parts.push_back({source});
+    return parts;
+}
+
+void ShadowCasterGroup::traverse(osg::NodeVisitor& visitor) {
+    if (!keptFromOptimizer(*this, visitor)) osg::Group::traverse(visitor);
+}
+
+void ShadowCasterGroup::ascend(osg::NodeVisitor& visitor) {
+    if (!endsForOptimizer(visitor)) osg::Group::ascend(visitor);
 }
 
 void ShadowCasterGroup::addLightUniform(const LightUniform& uniform) {
@@ -111,15 +121,16 @@ void ShadowCasterGroup::removeLights() {
 
 osg::ref_ptr<const CasterMesh> ShadowCasterGroup::casters() const {
     auto* self = const_cast<ShadowCasterGroup*>(this); // a visitor asks for a mutable node, and changes nothing
+    const Selection selection = getCasters();
+    osg::ref_ptr<CasterFingerprint> watch = new CasterFingerprint(selection);
     Lock lock(_mutex);
-    _watch->reset();
-    self->accept(*_watch);
-    noteRevision(_watch->value());
-    if (_mesh && _watch->value() == _meshFingerprint) return _mesh;
-    osg::ref_ptr<CasterExtraction> traverser = new CasterExtraction(_selection);
+    self->accept(*watch);
+    noteRevision(watch->value());
+    if (_mesh && watch->value() == _meshFingerprint) return _mesh;
+    osg::ref_ptr<CasterExtraction> traverser = new CasterExtraction(selection);
     self->accept(*traverser);
     _mesh = new CasterMesh(*traverser);
-    _meshFingerprint = _watch->value();
+    _meshFingerprint = watch->value();
     return _mesh;
 }
 
@@ -131,7 +142,8 @@ void ShadowCasterGroup::noteRevision(std::uint64_t fingerprint) const {
 
 osg::ref_ptr<const CasterDrawables> ShadowCasterGroup::drawables() const {
     Lock lock(_mutex);
-    _pieces = CasterDrawables::of(*const_cast<ShadowCasterGroup*>(this), _selection, _pieces); // which changes nothing
+    _pieces =
+        CasterDrawables::of(*const_cast<ShadowCasterGroup*>(this), getCasters(), _pieces); // which changes nothing
     noteRevision(_pieces->fingerprint);
     return _pieces;
 }

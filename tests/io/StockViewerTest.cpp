@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The osgviewer that OpenSceneGraph's package brings: it knows nothing of Gnomon, and shows a scene file's shadows.
+#include "Desktop.h"
+#include "Program.h"
+#include "SceneText.h"
+
+#include <gnomon/TracedShadowTechnique.h>
+#include <gtest/gtest.h>
+#include <support/Scene.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace gnomon::testing;
+
+/// A ground from -8 to 8 with a box upon it, under a sun at 45°, traced.
+struct Lab {
+    Lab() { scene.addShadow(technique); }
+
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})});
+    osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+};
+
+class StockViewer : public testing::Test {
+protected:
+    StockViewer() { test::usePluginsOfThisBuild(); }
+    void write(const Lab& lab) { folder.write("scene.osgt", test::written(*lab.scene.root, "osgt")); }
+
+    /// Opens its window on the scene, and waits for the ground.
+    Screenshot shown(const Lab& lab) {
+        write(lab);
+        program = std::make_unique<ChildProcess>(
+            std::vector<std::string>{OSGVIEWER, "--window", "50", "50", "320", "240", "scene.osgt"}, folder.path(),
+            std::vector<std::string>{"DISPLAY=" + desktop.name(), "OSG_LIBRARY_PATH=" GNOMON_LIBRARIES});
+        desktop.useWindow("osgviewer");
+        const auto isLit = [](std::uint32_t c) { return c == test::litGround * 0x010101u; };
+        return desktop.pictureWhere("the ground is lit", [&](const Screenshot& p) {
+            return std::any_of(p.pixels.begin(), p.pixels.end(), isLit);
+        });
+    }
+
+    /// What it says about a scene in 20 frames.
+    std::string said(const Lab& lab, const std::string& environment = "") {
+        write(lab);
+        const std::string command = environment + " DISPLAY=" + desktop.name() +
+                                    " OSG_LIBRARY_PATH=" GNOMON_LIBRARIES " OSG_RUN_FRAME_COUNT=20 " OSGVIEWER
+                                    " --window 50 50 320 240 scene.osgt";
+        return runProgram("sh", {"-c", command}, folder.path()).err;
+    }
+
+    TemporaryFolder folder;
+    Desktop desktop{folder.path()};
+    std::unique_ptr<ChildProcess> program;
+};
+
+} // namespace
+
+TEST_F(StockViewer, ShowsTheShadowsOfASceneFileWithoutAnyOption) {
+    Lab lab;
+    lab.technique->setNodeMask(0);
+    const Screenshot none = shown(lab);
+    program = nullptr;
+    lab.technique->setNodeMask(~0u);
+    const Screenshot with = shown(lab);
+    int shadowed = 0, other = 0;
+    for (std::size_t i = 0; i < with.pixels.size(); ++i) {
+        const bool fell =
+            none.pixels[i] == test::litGround * 0x010101u && with.pixels[i] == test::shadowedGround * 0x010101u;
+        shadowed += fell;
+        other += !fell && with.pixels[i] != none.pixels[i];
+    }
+    EXPECT_GT(shadowed, 500);
+    EXPECT_LT(other, shadowed / 20) << "the box's sides, that the light grazes";
+}
+
+TEST_F(StockViewer, SaysOnceWhatIsMissing) {
+    Lab lab;
+    EXPECT_EQ(said(lab), "");
+    lab.scene.light->getLight()->setLightNum(9);
+    lab.scene.group->addLight(lab.scene.light);
+    const std::string err = said(lab);
+    const std::string cause = "light 9 is left out";
+    const std::size_t first = err.find(cause);
+    EXPECT_NE(first, std::string::npos) << err;
+    EXPECT_EQ(err.find(cause, first + 1), std::string::npos) << err;
+}
