@@ -22,6 +22,9 @@ struct Lab {
     osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
 };
 
+/// Of a grey pixel; 0 for the background, which is blue.
+int level(std::uint32_t c) { return (c & 255u) == c >> 16 ? int(c & 255u) : 0; }
+
 class StockViewer : public testing::Test {
 protected:
     StockViewer() { test::usePluginsOfThisBuild(); }
@@ -30,11 +33,12 @@ protected:
     /// Opens its window on the scene, and waits for the ground.
     Screenshot shown(const Lab& lab) {
         write(lab);
-        program = std::make_unique<ChildProcess>(
-            std::vector<std::string>{OSGVIEWER, "--window", "50", "50", "320", "240", "scene.osgt"}, folder.path(),
-            std::vector<std::string>{"DISPLAY=" + desktop.name(), "OSG_LIBRARY_PATH=" GNOMON_LIBRARIES});
-        desktop.useWindow("osgviewer");
-        const auto isLit = [](std::uint32_t c) { return c == test::litGround * 0x010101u; };
+        program = std::make_unique<ChildProcess>(std::vector<std::string>{OSGVIEWER, "scene.osgt"}, folder.path(),
+                                                 std::vector<std::string>{"DISPLAY=" + desktop.name(),
+                                                                          "OSG_WINDOW=50 50 320 240",
+                                                                          "OSG_LIBRARY_PATH=" GNOMON_LIBRARIES});
+        desktop.useWindow("");
+        const auto isLit = [](std::uint32_t c) { return level(c) > 100; };
         return desktop.pictureWhere("the ground is lit", [&](const Screenshot& p) {
             return std::any_of(p.pixels.begin(), p.pixels.end(), isLit);
         });
@@ -44,8 +48,8 @@ protected:
     std::string said(const Lab& lab, const std::string& environment = "") {
         write(lab);
         const std::string command = environment + " DISPLAY=" + desktop.name() +
-                                    " OSG_LIBRARY_PATH=" GNOMON_LIBRARIES " OSG_RUN_FRAME_COUNT=20 " OSGVIEWER
-                                    " --window 50 50 320 240 scene.osgt";
+                                    " OSG_WINDOW='50 50 320 240' OSG_LIBRARY_PATH=" GNOMON_LIBRARIES
+                                    " OSG_RUN_FRAME_COUNT=20 " OSGVIEWER " scene.osgt";
         return runProgram("sh", {"-c", command}, folder.path()).err;
     }
 
@@ -65,13 +69,12 @@ TEST_F(StockViewer, ShowsTheShadowsOfASceneFileWithoutAnyOption) {
     const Screenshot with = shown(lab);
     int shadowed = 0, other = 0;
     for (std::size_t i = 0; i < with.pixels.size(); ++i) {
-        const bool fell =
-            none.pixels[i] == test::litGround * 0x010101u && with.pixels[i] == test::shadowedGround * 0x010101u;
+        const bool fell = level(none.pixels[i]) - level(with.pixels[i]) > 30;
         shadowed += fell;
         other += !fell && with.pixels[i] != none.pixels[i];
     }
     EXPECT_GT(shadowed, 500);
-    EXPECT_LT(other, shadowed / 20) << "the box's sides, that the light grazes";
+    EXPECT_LT(other, shadowed / 20) << "nothing becomes lighter";
 }
 
 TEST_F(StockViewer, SaysOnceWhatIsMissing) {

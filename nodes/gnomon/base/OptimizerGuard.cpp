@@ -20,10 +20,15 @@ bool isOptimizer(const osg::NodeVisitor& visitor) {
 
 bool isTransform(const osg::Node* node) { return node->asTransform() != nullptr; }
 
+void keepTransformsAt(osg::Node& node) {
+    if (isTransform(&node)) node.setDataVariance(osg::Object::DYNAMIC);
+    for (osg::Group* parent : node.getParents()) keepTransformsAt(*parent);
+}
+
 /// A state set of its own keeps a Geode from being merged with others, user data an unnamed Group from being left out.
 void keep(osg::Node& node) {
-    if (node.getDataVariance() != osg::Object::DYNAMIC && (isTransform(&node) || node.asDrawable()))
-        node.setDataVariance(osg::Object::DYNAMIC);
+    keepTransformsAt(node);
+    if (node.asDrawable()) node.setDataVariance(osg::Object::DYNAMIC);
     node.getOrCreateUserDataContainer();
     if (!node.asGeode() || (node.getStateSet() && node.getStateSet()->getDataVariance() == osg::Object::DYNAMIC))
         return;
