@@ -6,6 +6,7 @@
 
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
+#include <osg/MatrixTransform>
 #include <support/Scene.h>
 
 #include <algorithm>
@@ -16,11 +17,22 @@ using namespace gnomon::testing;
 
 /// A ground from -8 to 8 with a box upon it, under a sun at 45°, traced.
 struct Lab {
-    Lab() { scene.addShadow(technique); }
+    Lab() {
+        scene.addShadow(technique);
+        scene.light->getLight()->setLightNum(1); // number 0 is the viewer's own, at the eye
+        scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+    }
 
     test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})});
     osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
 };
+
+/// The ground faces -y, where osgviewer's camera stands.
+osg::ref_ptr<osg::Node> upright(const Lab& lab) {
+    osg::ref_ptr<osg::MatrixTransform> turn = new osg::MatrixTransform(osg::Matrixd::rotate(osg::PI_2, osg::X_AXIS));
+    turn->addChild(lab.scene.root);
+    return turn;
+}
 
 /// Of a grey pixel; 0 for the background, which is blue.
 int level(std::uint32_t c) { return (c & 255u) == c >> 16 ? int(c & 255u) : 0; }
@@ -28,7 +40,7 @@ int level(std::uint32_t c) { return (c & 255u) == c >> 16 ? int(c & 255u) : 0; }
 class StockViewer : public testing::Test {
 protected:
     StockViewer() { test::usePluginsOfThisBuild(); }
-    void write(const Lab& lab) { folder.write("scene.osgt", test::written(*lab.scene.root, "osgt")); }
+    void write(const Lab& lab) { folder.write("scene.osgt", test::written(*upright(lab), "osgt")); }
 
     /// Opens its window on the scene, and waits for the ground.
     Screenshot shown(const Lab& lab) {
