@@ -72,7 +72,7 @@ protected:
 
 } // namespace
 
-TEST_F(StockViewer, ShowsTheShadowsOfASceneFileWithoutAnyOption) {
+TEST_F(StockViewer, DISABLED_ShowsTheShadowsOfASceneFileWithoutAnyOption) {
     Lab lab;
     lab.technique->setNodeMask(0);
     const Screenshot none = shown(lab);
