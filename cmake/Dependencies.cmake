@@ -27,10 +27,11 @@ set_target_properties(osg::OpenThreads PROPERTIES INTERFACE_LINK_LIBRARIES "${OP
 target_link_libraries(osg::osg INTERFACE osg::OpenThreads)
 
 # libOSMesa must come before libGL in a program's list of libraries: libosg looks its GL functions up by name in that order.
+# Options stand ahead of all libraries, whatever the order in target_link_libraries().
 add_library(osmesa::osmesa INTERFACE IMPORTED)
 set_target_properties(osmesa::osmesa PROPERTIES
   INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${OSMESA_INCLUDE_DIRS}"
-  INTERFACE_LINK_LIBRARIES "-Wl,--no-as-needed;-lOSMesa")
+  INTERFACE_LINK_OPTIONS "LINKER:--push-state,--no-as-needed,-lOSMesa,--pop-state")
 
 # libnova brings neither a package file nor a pkg-config file.
 add_library(nova::nova INTERFACE IMPORTED)

@@ -39,11 +39,10 @@ Selection selectCasters(const std::string& casters, osg::Node& root) {
         selection.mask = 0;
         return selection;
     }
-    const std::optional<NamedNode> found = findNamed(root, casters);
-    if (!found)
+    selection = selectionOf(findAllNamed(root, casters));
+    if (!selection.node)
         throw std::invalid_argument("--casters: no node is named \"" + casters +
                                     "\". Allowed: all, none, or a node's name.");
-    selection.node = found->node;
     return selection;
 }
 
@@ -94,6 +93,7 @@ void SceneSetup::cast(std::vector<ShadowSpec> specs) {
     for (ShadowSpec& spec : specs)
         if (spec.receiver.empty()) spec.receiver = receiver;
     techniques = addShadows(*group, specs);
+    diagnose(); // who asks is not warned by osg::notify() besides
 }
 
 void SceneSetup::castAsComposed(const std::vector<ShadowSpec>& specs) {

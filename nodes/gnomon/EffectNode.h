@@ -34,6 +34,7 @@ public:
     const CompositorOptions& getCompositorOptions() const { return _options; }
 
     /// Says why the effect was missing in the last frame, in any view.
+    /// A program that never calls it gets each cause once, by osg::notify() at WARN.
     /// @return one sentence a cause, with the node and the remedy; empty if all is well.
     std::vector<std::string> diagnose() const;
     /// Adds a cause to diagnose(). Repeated causes count once. Call it in cull or draw.
@@ -45,6 +46,8 @@ public:
 
     /// Traverses the children. In a cull traversal it registers the effect with the compositor, too.
     void traverse(osg::NodeVisitor& visitor) override;
+    /// Traverses the parents, but not for osgUtil::Optimizer.
+    void ascend(osg::NodeVisitor& visitor) override;
 
 protected:
     ~EffectNode() override;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/EffectNode.h>
-#include <gnomon/Selection.h>
+#include <gnomon/NamesNodes.h>
+#include <gnomon/NodeReference.h>
 
 #include <osg/Vec3f>
 #include <osg/Vec4d>
@@ -57,7 +58,7 @@ class FrameColorCopy;
 ///       Surface { Mask 0xffffffff Node TRUE { osg::Geode { UniqueID 7 } } }
 ///       Reflectance 0.9 0.6 0.4
 ///     }
-class GNOMON_EXPORT PlanarReflectionNode : public EffectNode {
+class GNOMON_EXPORT PlanarReflectionNode : public EffectNode, public NamesNodes {
 public:
     /// A mirror in the plane z = 0, without a surface.
     PlanarReflectionNode();
@@ -72,10 +73,10 @@ public:
     /// The mirror plane, as given.
     const osg::Vec4d& getPlane() const { return _plane; }
 
-    /// The surface that shows the mirror image. It must be set. It is not mirrored itself.
+    /// The surface that shows the mirror image. It must be set. It is not mirrored itself, and the mirror does not keep it.
     void setSurface(const Selection& surface) { _surface = surface; }
-    /// See setSurface().
-    const Selection& getSurface() const { return _surface; }
+    /// See setSurface(). Null and the mask 0, which select nothing, if the node is gone.
+    Selection getSurface() const { return _surface.in(*this); }
 
     /// Mirrored share of red, green and blue, 0 (none) … 1 (image only). Default 0.7 each. Clamped.
     /// NaN is refused with a warning.
@@ -88,6 +89,8 @@ public:
     /// See setStencilCure().
     bool getStencilCure() const { return _stencilCure; }
 
+    /// The surface, if one is named.
+    std::vector<Selection> namedParts() const override;
     /// Bounds of the children and their mirror images.
     osg::BoundingSphere computeBound() const override;
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
@@ -101,7 +104,7 @@ protected:
 
 private:
     osg::Vec4d _plane{0.0, 0.0, 1.0, 0.0};
-    Selection _surface;
+    SelectionReference _surface;
     osg::Vec3f _reflectance{0.7f, 0.7f, 0.7f};
     bool _stencilCure = true;
     std::shared_ptr<FrameColorCopy> _saved; ///< a frame that is still drawn keeps it.

@@ -4,6 +4,8 @@
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/Export.h>
 #include <gnomon/LightUniform.h>
+#include <gnomon/NamesNodes.h>
+#include <gnomon/NodeReference.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 
@@ -52,6 +54,8 @@ struct CasterView;
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast.
 /// - An LOD casts as its view shows it. A cull callback that chooses among children is not asked.
+/// - osgUtil::Optimizer leaves what is below the group as it is if the group, or a node below it, names nodes.
+/// - Its SPATIALIZE_GROUPS replaces a Geode that is named and stands elsewhere. Its COPY_SHARED_NODES copies such nodes.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
 ///
@@ -69,7 +73,7 @@ struct CasterView;
 ///       LightUniforms 1 { 0 "sunColor" }
 ///       CompositorOptions 15 TRUE 10000
 ///     }
-class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren {
+class GNOMON_EXPORT ShadowCasterGroup : public osg::Group, public ShowsChildren, public NamesNodes {
 public:
     /// How the compositor darkens shadowed pixels.
     enum Composite : int {
@@ -84,9 +88,12 @@ public:
     META_Node(gnomon, ShadowCasterGroup)
 
     /// The part of this group's subgraph that casts. Default: all of it.
+    /// The group does not keep the node, which may stand above it.
     void setCasters(const Selection& casters);
-    /// See setCasters().
-    const Selection& getCasters() const { return _selection; }
+    /// See setCasters(). Null and the mask 0, which select nothing, if the node is gone.
+    Selection getCasters() const { return _casters.in(*this); }
+    /// True if setCasters() has named a node that has been deleted since.
+    bool areCastersGone() const { return _casters.isGone(*this); }
 
     /// How shadowed pixels are darkened. Default RELIGHT, which also replaces any unknown value.
     void setComposite(Composite composite) { _composite = composite == BLEND ? BLEND : RELIGHT; }
@@ -100,7 +107,7 @@ public:
     float getDark() const { return _dark; }
 
     /// Adds a light that casts. Without any, every light that is on in the view casts.
-    /// The LightSource may stand anywhere in the graph, also under transforms.
+    /// The LightSource may stand anywhere in the graph, also under transforms. The group does not keep it.
     void addLight(osg::LightSource* light);
     /// Adds a light by its position in the group's frame, in double: for lamps far from the origin.
     /// A light number outside 0 … 7 is refused with a warning.
@@ -109,8 +116,10 @@ public:
     void removeLights();
     /// Replaces the light sources. Null entries are skipped.
     void setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources);
-    /// The light sources that cast.
-    const std::vector<osg::ref_ptr<osg::LightSource>>& getLightSources() const { return _lightSources; }
+    /// The light sources that cast and are not gone.
+    std::vector<osg::ref_ptr<osg::LightSource>> getLightSources() const;
+    /// Number of light sources that were added. Those that have been deleted since count.
+    unsigned getNumLightSources() const { return static_cast<unsigned>(_lightSources.size()); }
     /// Replaces the lights given by position. A light number outside 0 … 7 is refused with a warning.
     void setLights(std::vector<ShadowLight> lights);
     /// The lights given by position.
@@ -132,6 +141,13 @@ public:
     /// True for the class itself, whose traversal visits all children.
     bool showsAllChildren() const override;
 
+    /// The casters and the light sources, where some are named.
+    std::vector<Selection> namedParts() const override;
+    /// Traverses the children, but keeps osgUtil::Optimizer from what it would spoil.
+    void traverse(osg::NodeVisitor& visitor) override;
+    /// Traverses the parents, but not for osgUtil::Optimizer.
+    void ascend(osg::NodeVisitor& visitor) override;
+
     /// For the techniques, whose types are internal: the casters as one mesh. They are extracted again only if something changed.
     /// Call it where the graph may be read: in update, event or cull.
     /// @param view  whose levels of detail cast. Default: the finest cast.
@@ -146,18 +162,15 @@ protected:
     ~ShadowCasterGroup() override;
 
 private:
-    /// In a deep copy, what casts, shines and receives are the copy's own nodes.
-    void followCopies(const ShadowCasterGroup& original);
-
-    Selection _selection;
+    SelectionReference _casters;
     Composite _composite = RELIGHT;
     float _dark = 0.5f;
-    std::vector<osg::ref_ptr<osg::LightSource>> _lightSources;
+    std::vector<NodeReference> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;
     CompositorOptions _options;
 
-    const std::unique_ptr<CasterRevisions> _casters;
+    const std::unique_ptr<CasterRevisions> _revisions;
 };
 
 } // namespace gnomon

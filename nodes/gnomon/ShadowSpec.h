@@ -28,7 +28,7 @@ struct ShadowSpec {
     std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default: the group's.
     ShadowMapOptions map;                                  ///< Settings of map.
     TerrainShadowOptions terrain;                          ///< Settings of hull and drape. The name decides the method.
-    /// Name of the node that receives. Default, empty: everything for map and traced, else the node named "ground".
+    /// Name of the nodes that receive, all of that name. Default, empty: everything for map and traced, else the node named "ground".
     std::string receiver;
 };
 
@@ -46,7 +46,7 @@ GNOMON_EXPORT std::string shadowSpecHelp(const std::vector<std::string>& names =
 /// Adds the techniques of `specs` as children of `group`, and sets the group's composite.
 ///
 /// It looks for receivers by name under the group.
-/// - planar: takes the receiver's flat parts as planes. At most eight, and none below 1 % of the largest.
+/// - planar: takes the receivers' flat parts as planes. At most eight, and none below 1 % of the largest.
 /// - box, hull, drape: take the receiver as terrain.
 /// - map, traced: take everything as receiver, unless one is named.
 ///

@@ -3,6 +3,7 @@
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/Export.h>
 #include <gnomon/NamesNodes.h>
+#include <gnomon/NodeReference.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
 
@@ -19,7 +20,6 @@ class CullVisitor;
 namespace gnomon {
 
 class FrameDiagnosis;
-class CopiedNodes;
 class FrameCasters;
 class MarkJob;
 class ShadowCasterGroup;
@@ -47,13 +47,17 @@ public:
     const char* className() const override { return "ShadowTechnique"; }
 
     /// The part of the scene that receives the shadow. The shadow ends at its edges. Default: everything opaque.
+    /// The technique does not keep the node, which may stand above it.
     void setReceiver(const Selection& receiver) { _receiver = receiver; }
-    /// See setReceiver().
-    const Selection& getReceiver() const { return _receiver; }
+    /// See setReceiver(). Null and the mask 0, which select nothing, if the node is gone.
+    Selection getReceiver() const { return _receiver.in(*this); }
     /// True if setReceiver() has named a receiver.
-    bool hasReceiver() const { return _receiver != Selection(); }
+    bool hasReceiver() const { return getReceiver() != Selection(); }
+    /// True if setReceiver() has named a node that has been deleted since.
+    bool isReceiverGone() const { return _receiver.isGone(*this); }
 
     /// Says why a shadow was missing or incomplete in the last frame, in any view.
+    /// A program that never calls it gets each cause once, by osg::notify() at WARN.
     /// @return one sentence a cause, with the node and the remedy; empty if all is well.
     std::vector<std::string> diagnose() const;
 
@@ -76,8 +80,8 @@ public:
     /// ShadowProbe::answers. Default: null.
     virtual osg::ref_ptr<const osg::Referenced> answersFor(const ShadowProbe& probe) const;
 
-    /// Names the copy of the receiver as receiver.
-    void followCopies(const CopiedNodes& copied) override;
+    /// The receiver, if one is named.
+    std::vector<Selection> namedParts() const override;
 
     /// Adds a cause to diagnose(). Repeated causes count once. Call it in cull or draw.
     /// @param cause  the end of a sentence that begins with describe().
@@ -99,7 +103,7 @@ protected:
     static bool hasGroupAbove(const osg::NodeVisitor& visitor);
 
 private:
-    Selection _receiver;
+    SelectionReference _receiver;
     const osg::ref_ptr<FrameDiagnosis> _diagnosis;
 };
 

@@ -79,7 +79,7 @@ struct TerrainShadows;
 ///     shadow->setObjectGraphic(house);
 ///     shadow->setObjectPos({120.0, 80.0, 0.0});
 ///     shadow->setReceiver({terrain});
-///     if (!shadow->compute(sun)) osg::notify(osg::WARN) << shadow->diagnose().front() << std::endl;
+///     shadow->compute(sun); // if it returns false, osg::notify() has said why
 ///     root->addChild(shadow);
 ///
 /// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
 
+#include <osg/DisplaySettings>
+
+#include <algorithm>
 #include <iomanip>
 
 namespace gnomon::fields {
@@ -32,6 +35,25 @@ Selection readSelection(osgDB::InputStream& in) {
     }
     in >> in.END_BRACKET;
     return selection;
+}
+
+bool writeOthers(osgDB::OutputStream& out, const Selection& selection) {
+    return writeList(out, selection.others, [&](const auto& node) { out.writeObject(node.get()); });
+}
+
+Selection withOthers(osgDB::InputStream& in, Selection selection) {
+    selection.others = readList(in, [&] { return in.readObjectOfType<osg::Node>(); });
+    return selection;
+}
+
+void askForStencilBits() {
+    osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
+    settings.setMinimumNumStencilBits(std::max(settings.getMinimumNumStencilBits(), 8u));
+}
+
+void askForAlphaBits() {
+    osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
+    settings.setMinimumNumAlphaBits(std::max(settings.getMinimumNumAlphaBits(), 8u));
 }
 
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options) {

@@ -85,6 +85,13 @@ auto readList(osgDB::InputStream& in, ReadItem readItem) {
 /// The node is written as an object: where it stands in the graph too, the file refers to it by its number.
 bool writeSelection(osgDB::OutputStream& out, const Selection& selection);
 Selection readSelection(osgDB::InputStream& in);
+/// A selection's other nodes. The getter's selection has been read before.
+bool writeOthers(osgDB::OutputStream& out, const Selection& selection);
+Selection withOthers(osgDB::InputStream& in, Selection selection);
+
+/// Raises a minimum of osg::DisplaySettings to 8 bits. Windows made later have them.
+void askForStencilBits();
+void askForAlphaBits();
 
 /// Reserved stencil bits, filter, most decals.
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options);

@@ -18,6 +18,17 @@ static bool writeSurface(osgDB::OutputStream& out, const PlanarReflectionNode& n
     return fields::writeSelection(out, node.getSurface());
 }
 
+static bool checkOtherSurface(const PlanarReflectionNode& node) { return !node.getSurface().others.empty(); }
+
+static bool readOtherSurface(osgDB::InputStream& in, PlanarReflectionNode& node) {
+    node.setSurface(fields::withOthers(in, node.getSurface()));
+    return true;
+}
+
+static bool writeOtherSurface(osgDB::OutputStream& out, const PlanarReflectionNode& node) {
+    return fields::writeOthers(out, node.getSurface());
+}
+
 REGISTER_OBJECT_WRAPPER(gnomon_PlanarReflectionNode, new gnomon::PlanarReflectionNode, gnomon::PlanarReflectionNode,
                         "osg::Object osg::Node osg::Group gnomon::PlanarReflectionNode") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
@@ -25,6 +36,7 @@ REGISTER_OBJECT_WRAPPER(gnomon_PlanarReflectionNode, new gnomon::PlanarReflectio
                                                                         &MyClass::setPlane),
                            osgDB::BaseSerializer::RW_VEC4D);
     ADD_USER_SERIALIZER(Surface);
+    ADD_USER_SERIALIZER(OtherSurface);
     wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec3f>("Reflectance", fresh->getReflectance(),
                                                                         &MyClass::getReflectance,
                                                                         &MyClass::setReflectance),

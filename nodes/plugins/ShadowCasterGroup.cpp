@@ -95,10 +95,28 @@ static bool writeLightUniforms(osgDB::OutputStream& out, const ShadowCasterGroup
     });
 }
 
-REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, new gnomon::ShadowCasterGroup, gnomon::ShadowCasterGroup,
+static bool checkOtherCasters(const ShadowCasterGroup& group) { return !group.getCasters().others.empty(); }
+
+static bool readOtherCasters(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setCasters(fields::withOthers(in, group.getCasters()));
+    return true;
+}
+
+static bool writeOtherCasters(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeOthers(out, group.getCasters());
+}
+
+/// Programs that know nothing of Gnomon, such as osgviewer, make their window after they have read the file.
+static ShadowCasterGroup* newGroup() {
+    fields::askForStencilBits();
+    return new ShadowCasterGroup;
+}
+
+REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, newGroup(), gnomon::ShadowCasterGroup,
                         "osg::Object osg::Node osg::Group gnomon::ShadowCasterGroup") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     ADD_USER_SERIALIZER(Casters);
+    ADD_USER_SERIALIZER(OtherCasters);
     fields::addEnum(*wrapper, "Composite", fresh->getComposite(), &MyClass::getComposite, &MyClass::setComposite,
                     {{"RELIGHT", MyClass::RELIGHT}, {"BLEND", MyClass::BLEND}});
     wrapper->addSerializer(

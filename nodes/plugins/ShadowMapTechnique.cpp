@@ -7,10 +7,19 @@
 
 using namespace gnomon;
 
+/// See fields::askForAlphaBits().
+struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
+    void objectRead(osgDB::InputStream&, osg::Object& object) override {
+        if (static_cast<const ShadowMapTechnique&>(object).getEdges() != ShadowMapTechnique::HARD)
+            fields::askForAlphaBits();
+    }
+};
+
 REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechnique, gnomon::ShadowMapTechnique,
                         "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
                         "gnomon::ShadowMapTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    wrapper->addFinishedObjectReadCallback(new AskForAlphaBits);
     ADD_INT_SERIALIZER(Size, fresh->getSize());
     fields::addEnum(*wrapper, "Filter", fresh->getFilter(), &MyClass::getFilter, &MyClass::setFilter,
                     {{"NEAREST", MyClass::NEAREST},

@@ -103,7 +103,7 @@ TEST(BrokenFileBinary, HasACompositeWhateverItsNumberIs) {
     group->setComposite(ShadowCasterGroup::BLEND);
     group->setCasters({nullptr, 0xdeadbeefu});
     std::string file = test::written(*group, "osgb");
-    const std::size_t composite = file.find("\xef\xbe\xad\xde") + 4 + 1; // after the mask and "no node"
+    const std::size_t composite = file.find("\xef\xbe\xad\xde") + 4 + 2; // after the mask, "no node" and "no other nodes"
     ASSERT_EQ(file.substr(composite, 4), std::string("\1\0\0\0", 4));
     file[composite] = 77;
     const auto copy = test::loadedAs<ShadowCasterGroup>(file, "osgb");

@@ -71,9 +71,22 @@ unsigned long Desktop::find(unsigned long parent, const std::string& name) const
     return found;
 }
 
+unsigned long Desktop::firstShown() const {
+    Window root = 0, above = 0, *children = nullptr, found = 0;
+    unsigned count = 0;
+    XQueryTree(_display, DefaultRootWindow(_display), &root, &above, &children, &count);
+    for (unsigned i = 0; i < count && !found; ++i) {
+        XWindowAttributes window{};
+        if (XGetWindowAttributes(_display, children[i], &window) && window.map_state == IsViewable) found = children[i];
+    }
+    XFree(children);
+    return found;
+}
+
 void Desktop::useWindow(const std::string& name) {
     const Window root = DefaultRootWindow(_display);
-    if (!waitFor(limit, [&] { return (_window = find(root, name)) != 0; })) fail("no window " + name + " appears");
+    const auto isFound = [&] { return (_window = name.empty() ? firstShown() : find(root, name)) != 0; };
+    if (!waitFor(limit, isFound)) fail("no window " + name + " appears");
     const Screenshot now = picture();
     XTestFakeMotionEvent(_display, 0, 50 + now.width / 2, 50 + now.height / 2, 0);
     XFlush(_display);

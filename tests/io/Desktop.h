@@ -31,7 +31,7 @@ public:
     ~Desktop();
 
     std::string name() const { return _name; } ///< for DISPLAY
-    /// Waits for a window of this name and puts the pointer into its middle. @throws std::runtime_error
+    /// Waits for a window of this name, or with no name for any, and puts the pointer into its middle. @throws std::runtime_error
     void useWindow(const std::string& name);
     /// A letter, a digit or an X key name as "Escape".
     void press(const std::string& key);
@@ -45,6 +45,7 @@ public:
                             bool still = true);
 
 private:
+    unsigned long firstShown() const;
     unsigned long find(unsigned long parent, const std::string& name) const;
     /// @throws std::runtime_error if there is none.
     unsigned codeOf(const std::string& key) const;

@@ -16,6 +16,8 @@
 
 #include <cmath>
 #include <limits>
+#include <osg/DisplaySettings>
+#include <osg/observer_ptr>
 
 namespace {
 
@@ -23,6 +25,7 @@ using gnomon::PlanarShadowNode;
 using gnomon::Selection;
 using gnomon::ShadowCasterGroup;
 using gnomon::ShadowLight;
+using gnomon::ShadowMapTechnique;
 
 /// KeyNumbers that six digits, or a reader that rounds carelessly, would change.
 const std::vector<osg::Vec4d> delicate = {
@@ -256,11 +259,16 @@ TEST_P(SceneFile, KeepsLightSourcesInsideAndOutsideTheGroup) {
     group->addChild(inside);
     group->addLight(outside);
     group->addLight(inside);
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(group);
+    root->addChild(outside);
 
-    const auto copy = test::throughFile(*group, kind());
-    ASSERT_TRUE(copy);
+    const auto graph = test::throughFile(*root, kind());
+    ASSERT_TRUE(graph);
+    const osg::ref_ptr<ShadowCasterGroup> copy = &childOf<ShadowCasterGroup>(*graph, 0);
     ASSERT_EQ(copy->getLightSources().size(), 2u);
     EXPECT_EQ(copy->getLightSources()[0]->getLight()->getLightNum(), 6);
+    EXPECT_EQ(copy->getLightSources()[0], graph->getChild(1));
     EXPECT_EQ(copy->getLightSources()[1], copy->getChild(0));
     EXPECT_EQ(copy->getLightSources()[1]->getLight()->getLightNum(), 5);
 }
@@ -276,6 +284,44 @@ TEST_P(SceneFile, KeepsWhatTheBaseClassesHave) {
     EXPECT_EQ(copy->getNodeMask(), 0x10u);
     EXPECT_EQ(copy->getNumDrawables(), 1u);
     EXPECT_FALSE(copy->getCullingActive());
+}
+
+TEST_P(SceneFile, IsFreedThoughItNamesWhatIsAboveTheGroup) {
+    osg::observer_ptr<osg::Node> freed;
+    {
+        osg::ref_ptr<osg::Group> root = new osg::Group;
+        osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
+        osg::ref_ptr<PlanarShadowNode> node = new PlanarShadowNode;
+        root->addChild(group);
+        group->addChild(node);
+        node->setReceiver({root});
+        group->setCasters({group});
+        const auto copy = test::throughFile(*root, kind());
+        ASSERT_TRUE(copy);
+        EXPECT_EQ(childOf<PlanarShadowNode>(childOf<ShadowCasterGroup>(*copy, 0), 0).getReceiver().node, copy);
+        freed = copy.get();
+    }
+    EXPECT_FALSE(freed.valid());
+}
+
+TEST_P(SceneFile, AsksForTheBitsThatItsShadowsNeedBeforeAWindowIsMade) {
+    const osg::ref_ptr<osg::DisplaySettings> before = osg::DisplaySettings::instance();
+    osg::DisplaySettings::instance() = new osg::DisplaySettings;
+    osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
+    osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
+    osg::ref_ptr<ShadowMapTechnique> map = new ShadowMapTechnique;
+    group->addChild(map);
+    settings.setMinimumNumStencilBits(0);
+    settings.setMinimumNumAlphaBits(0);
+    test::throughFile(*group, kind());
+    EXPECT_EQ(settings.getMinimumNumStencilBits(), 8u);
+    EXPECT_EQ(settings.getMinimumNumAlphaBits(), 0u) << "hard edges need none";
+    map->setEdges(ShadowMapTechnique::SMOOTH);
+    settings.setMinimumNumStencilBits(16);
+    test::throughFile(*group, kind());
+    EXPECT_EQ(settings.getMinimumNumStencilBits(), 16u) << "never lowered";
+    EXPECT_EQ(settings.getMinimumNumAlphaBits(), 8u);
+    osg::DisplaySettings::instance() = before;
 }
 
 TEST_P(SceneFile, LoadsDefaultsAsDefaults) {

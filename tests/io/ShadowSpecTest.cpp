@@ -338,6 +338,21 @@ TEST(AddShadows, TracedReceivesEverywhereUnlessAReceiverIsNamed) {
               "no node is named \"roof\" to receive the shadow. Names in the scene: floor.");
 }
 
+TEST(AddShadows, AllNodesOfAReceiversNameReceive) {
+    osg::ref_ptr<osg::Group> town = new osg::Group;
+    for (int i = 0; i < 400; ++i) { // steps of 1 in height, 300 of the area of 1, 100 of the area of 4
+        const double height = i < 300 ? i % 3 : 3;
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(3 * i, 0, height));
+        place->addChild(square("building", i < 300 ? 1 : 2));
+        town->addChild(place);
+    }
+    town->addChild(square("street", 1));
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(town);
+    const auto added = addShadows(*group, {parseShadowSpec("map:receiver=building")});
+    EXPECT_EQ(added[0]->getReceiver().roots().size(), 400u);
+    EXPECT_EQ(planesOf(*group, "planar:receiver=building").size(), 4u);
+}
+
 TEST(AddShadows, AMissingReceiverIsRefusedWithTheNamesThereAre) {
     osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
     EXPECT_EQ(refusal(*group, {"planar"}),

@@ -5,6 +5,7 @@
 #include <gnomon/group/ShadowBin.h>
 #include <osg/Fog>
 #include <osg/LightModel>
+#include <osg/Notify>
 
 #include <limits>
 
@@ -96,6 +97,55 @@ TEST(Diagnose, TellsOfALightInThePlaneOrBehindItUntilItIsMovedBack) {
         site.scene.light->getLight()->setPosition(good);
         EXPECT_EQ(site.causes(), Causes());
     }
+}
+
+TEST(Diagnose, TellsOfNamedNodesThatNothingElseKept) {
+    Site site;
+    site.technique->setReceiver({node(square(1.0))});
+    EXPECT_TRUE(says(site.causes(), "the node given to setReceiver() is gone", "and name it anew"));
+    site.technique->setReceiver({});
+    site.scene.group->setCasters({node(square(1.0))});
+    EXPECT_TRUE(says(site.causes(), "the node given to setCasters()", "and name them anew"));
+    site.scene.group->setCasters({});
+    site.scene.group->addLight(new osg::LightSource);
+    EXPECT_TRUE(says(site.causes(), "a LightSource given to ShadowCasterGroup::addLight() is gone",
+                     "and give it to the group anew"));
+    site.scene.group->removeLights();
+    EXPECT_EQ(site.causes(), Causes());
+}
+
+TEST(Diagnose, WarnsOnceOfEachCauseUntilAProgramAsks) {
+    struct Listener : osg::NotifyHandler {
+        void notify(osg::NotifySeverity severity, const char* message) override {
+            if (severity == osg::WARN) said.emplace_back(message);
+        }
+        Causes said;
+    };
+    const osg::ref_ptr<osg::NotifyHandler> before = osg::getNotifyHandler();
+    osg::ref_ptr<Listener> listener = new Listener;
+    osg::setNotifyHandler(listener);
+    {
+        Site site;
+        site.camera = std::make_unique<Camera>(site.scene.root, site.view, site.options);
+        for (int frame = 0; frame < 3; ++frame) site.camera->frame();
+        EXPECT_EQ(listener->said, Causes()) << "all is well";
+        site.technique->setPlanes({});
+        for (int frame = 0; frame < 3; ++frame) site.camera->frame();
+        ASSERT_EQ(listener->said.size(), 1u);
+        EXPECT_NE(listener->said[0].find("PlanarShadowNode 'floor': no plane is set"), std::string::npos);
+        for (const float height : {-1.0f, -2.0f}) { // the same cause with other numbers
+            site.technique->setPlanes({groundPlane});
+            site.scene.light->getLight()->setPosition({1.0f, 0.0f, height, 0.0f});
+            site.camera->frame();
+        }
+        EXPECT_EQ(listener->said.size(), 2u);
+    }
+    Site asked;
+    EXPECT_EQ(asked.technique->diagnose(), Causes());
+    asked.technique->setPlanes({});
+    EXPECT_EQ(asked.causes().size(), 1u);
+    EXPECT_EQ(listener->said.size(), 2u) << "who asks is not warned besides";
+    osg::setNotifyHandler(before);
 }
 
 TEST(Diagnose, TellsOfALightThatIsNotANumber) {

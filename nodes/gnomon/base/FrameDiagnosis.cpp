@@ -10,20 +10,31 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
+/// Counts may change from frame to frame, and the cause is the same.
+std::string withoutDigits(std::string text) {
+    const auto isDigit = [](unsigned char letter) { return letter >= '0' && letter <= '9'; };
+    text.erase(std::remove_if(text.begin(), text.end(), isDigit), text.end());
+    return text;
+}
+
 } // namespace
 
 std::vector<std::string> FrameDiagnosis::all() const {
     Lock lock(_mutex);
+    _asked = true;
     return _causes;
 }
 
 void FrameDiagnosis::add(unsigned frame, const std::string& who, const std::string& cause) {
-    Lock lock(_mutex);
-    if (frame != _frame) return;
     const std::string sentence = who + ": " + cause;
-    if (!_known.insert(sentence).second) return;
+    if (isNewsOf(frame, sentence)) OSG_WARN << "gnomon: " << sentence << std::endl; // whoever is told may ask for all()
+}
+
+bool FrameDiagnosis::isNewsOf(unsigned frame, const std::string& sentence) {
+    Lock lock(_mutex);
+    if (frame != _frame || !_known.insert(sentence).second) return false;
     _causes.push_back(sentence);
-    OSG_INFO << "gnomon: " << sentence << std::endl;
+    return !_asked && _warned.insert(withoutDigits(sentence)).second;
 }
 
 void FrameDiagnosis::begin(unsigned frame, const void* view) {

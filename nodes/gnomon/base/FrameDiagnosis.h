@@ -16,9 +16,10 @@ namespace gnomon {
 /// Threads any number.
 class FrameDiagnosis : public osg::Referenced {
 public:
-    /// One text for each cause: what is wrong, then what to do. Empty if all is well.
+    /// One text for each cause: what is wrong, then what to do. Empty if all is well. Whoever asks is not warned.
     std::vector<std::string> all() const;
-    /// Notes a cause; repeated ones count once, those of frames before the last none.
+    /// Notes a cause; repeated ones count once, those of frames before the last none. Warns by osg::notify() of each that
+    /// is new, numbers aside, until somebody asks for all().
     /// @param who  described() of the node.
     void add(unsigned frame, const std::string& who, const std::string& cause);
     /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
@@ -29,9 +30,14 @@ protected:
     ~FrameDiagnosis() override = default;
 
 private:
+    /// Notes it. @return whether to warn of it.
+    bool isNewsOf(unsigned frame, const std::string& sentence);
+
     mutable OpenThreads::Mutex _mutex;
+    mutable bool _asked = false;
     std::vector<std::string> _causes;
     std::unordered_set<std::string> _known; ///< the same.
+    std::set<std::string> _warned;          ///< without their digits.
     unsigned _frame = 0;
     std::set<const void*> _views; ///< met in that frame.
 };

@@ -5,6 +5,7 @@
 #include <osg/Transform>
 
 #include <algorithm>
+#include <set>
 
 namespace gnomon {
 namespace {
@@ -16,14 +17,13 @@ public:
     }
 
     void apply(osg::Node& node) override {
-        if (found) return;
         if (node.getName() == _name)
-            found = NamedNode{&node, placeOfParent()};
+            found.push_back({&node, placeOfParent()});
         else
             traverse(node);
     }
 
-    std::optional<NamedNode> found;
+    std::vector<NamedNode> found;
 
 private:
     osg::Matrixd placeOfParent() const {
@@ -57,10 +57,28 @@ private:
 } // namespace
 
 std::optional<NamedNode> findNamed(osg::Node& root, const std::string& name) {
-    if (name.empty()) return std::nullopt;
+    const std::vector<NamedNode> found = findAllNamed(root, name);
+    return found.empty() ? std::nullopt : std::optional<NamedNode>(found.front());
+}
+
+std::vector<NamedNode> findAllNamed(osg::Node& root, const std::string& name) {
+    if (name.empty()) return {};
     Finder finder(name);
     root.accept(finder);
     return finder.found;
+}
+
+Selection selectionOf(const std::vector<NamedNode>& nodes) {
+    Selection selection;
+    std::set<const osg::Node*> met;
+    for (const NamedNode& named : nodes) {
+        if (!met.insert(named.node.get()).second) continue;
+        if (selection.node)
+            selection.others.push_back(named.node);
+        else
+            selection.node = named.node;
+    }
+    return selection;
 }
 
 std::vector<std::string> nodeNames(osg::Node& root, std::size_t limit) {

@@ -80,7 +80,7 @@ bool testsAlphaAbove(const osg::Node& node) {
 class CasterVisitor::OnTheWay {
 public:
     OnTheWay(CasterVisitor& visitor, const osg::Node& node)
-        : _visitor(visitor), _entered(&node == visitor._selection.node ? 1 : 0), _alphaTests(testsAlpha(node) ? 1 : 0) {
+        : _visitor(visitor), _entered(visitor.isRoot(node) ? 1 : 0), _alphaTests(testsAlpha(node) ? 1 : 0) {
         _visitor._inside += _entered;
         _visitor._alphaTests += _alphaTests;
     }
@@ -97,33 +97,38 @@ private:
 };
 
 CasterVisitor::CasterVisitor(const Selection& selection)
-    : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _selection(selection) {
+    : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
+      _selected(selection.roots()),
+      _roots(_selected.begin(), _selected.end()) {
     setTraversalMask(selection.mask);
     CasterVisitor::reset();
 }
 
 void CasterVisitor::reset() {
     _matrices.assign(1, osg::Matrixd::identity());
-    _inside = _selection.node ? 0 : 1;
+    _inside = _selected.empty() ? 1 : 0;
     _metLevels = false;
     _choice = Fingerprint();
     findWays();
 }
 
 void CasterVisitor::findWays() {
-    if (!_selection.node) return;
+    if (_selected.empty()) return;
     _ways.clear();
-    std::vector<osg::Node*> reached{_selection.node.get()};
+    std::vector<osg::Node*> reached;
+    std::set<const osg::Node*> met;
+    for (const auto& root : _selected)
+        if (met.insert(root.get()).second) reached.push_back(root.get());
     for (std::size_t i = 0; i < reached.size(); ++i)
         for (osg::Group* parent : reached[i]->getParents()) {
             const auto [way, isNew] = _ways.try_emplace(parent);
             way->second.push_back(reached[i]);
-            if (isNew) reached.push_back(parent);
+            if (isNew && !isRoot(*parent)) reached.push_back(parent);
         }
 }
 
 bool CasterVisitor::isOnTheWay(const osg::Node& node) const {
-    return _inside > 0 || &node == _selection.node || _ways.count(&node) > 0;
+    return _inside > 0 || isRoot(node) || _ways.count(&node) > 0;
 }
 
 /// Of a town beside the terrain nothing need be visited to find the terrain.

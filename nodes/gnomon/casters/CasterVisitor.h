@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace gnomon {
@@ -82,6 +83,7 @@ protected:
 private:
     class OnTheWay;
 
+    bool isRoot(const osg::Node& node) const { return _roots.count(const_cast<osg::Node*>(&node)) > 0; }
     void findWays();
     bool isOnTheWay(const osg::Node& node) const;
     bool goesTheOnlyWays(osg::Node& node);
@@ -89,7 +91,8 @@ private:
     void visitPixelLevels(osg::LOD& lod);
     osg::Matrixd eyeFromHere() const;
 
-    Selection _selection;
+    const std::vector<osg::ref_ptr<osg::Node>> _selected; ///< empty: everything.
+    const std::set<osg::Node*> _roots;                    ///< the same, each once.
     std::vector<osg::Matrixd> _matrices;
     Levels _levels = Levels::Chosen;
     std::optional<CasterView> _view;
@@ -98,9 +101,9 @@ private:
     int _atLevels = 0;                          ///< how many LODs are on the way down.
     bool _metLevels = false;
     Fingerprint _choice;
-    int _inside = 0;     ///< how often the selected node is on the way down.
+    int _inside = 0;     ///< how often a selected node is on the way down.
     int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.
-    /// Of what is above the selected node, the children that lead to it; once for each of its places among them.
+    /// Of what is above the selected nodes, the children that lead to it; once for each of its places among them.
     std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };
 

@@ -14,6 +14,7 @@
 #include <climits>
 #include <cmath>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace gnomon {
 namespace {
@@ -48,7 +49,9 @@ bool nearlyEqual(const osg::Matrixd& a, const osg::Matrixd& b) {
 class ReceiverTest {
 public:
     ReceiverTest(const Selection& selection, const osg::Matrixd& eyeFromWorld)
-        : _selection(selection), _eyeFromWorld(eyeFromWorld) {}
+        : _mask(selection.mask), _eyeFromWorld(eyeFromWorld) {
+        for (const auto& root : selection.roots()) _roots.insert(root.get());
+    }
 
     bool operator()(const osgUtil::RenderLeaf& leaf) {
         const Ways ways = waysUnder(*leaf._drawable);
@@ -61,13 +64,14 @@ private:
 
     Ways waysUnder(const osg::Node& node) {
         const auto [known, isNew] = _ways.insert({&node, {false, false}});
-        if (!isNew || !(node.getNodeMask() & _selection.mask)) return known->second;
+        if (!isNew || !(node.getNodeMask() & _mask)) return known->second;
         Ways ways;
-        if (&node == _selection.node)
+        const bool isRoot = _roots.count(&node) > 0;
+        if (isRoot)
             ways = {true, true};
         else if (node.getNumParents() == 0)
-            ways = {!_selection.node, !_selection.node};
-        for (unsigned i = 0; &node != _selection.node && i < node.getNumParents(); ++i) {
+            ways = {_roots.empty(), _roots.empty()};
+        for (unsigned i = 0; !isRoot && i < node.getNumParents(); ++i) {
             const Ways way = waysUnder(*node.getParent(i));
             ways.some = ways.some || way.some;
             ways.all = ways.all && way.all;
@@ -90,11 +94,11 @@ private:
     Places placesOf(const osg::Drawable& drawable) const {
         Places places;
         for (const osg::NodePath& path : drawable.getParentalNodePaths()) {
-            bool under = !_selection.node;
+            bool under = _roots.empty();
             bool visible = true;
             for (const osg::Node* node : path) {
-                under = under || node == _selection.node;
-                visible = visible && (!under || (node->getNodeMask() & _selection.mask));
+                under = under || _roots.count(node);
+                visible = visible && (!under || (node->getNodeMask() & _mask));
             }
             if (!under || !visible) continue;
             const osg::Matrixd place = osg::computeLocalToWorld(path) * _eyeFromWorld;
@@ -103,7 +107,8 @@ private:
         return places;
     }
 
-    const Selection& _selection;
+    const osg::Node::NodeMask _mask;
+    std::unordered_set<const osg::Node*> _roots; ///< empty: any node.
     const osg::Matrixd& _eyeFromWorld;
     std::unordered_map<const osg::Node*, Ways> _ways;
     std::unordered_map<const osg::Drawable*, Places> _places;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/EffectNode.h>
 #include <gnomon/base/FrameReport.h>
+#include <gnomon/base/OptimizerGuard.h>
 #include <gnomon/effects/SubgraphCull.h>
 #include <gnomon/group/ShadowBin.h>
 
@@ -20,9 +21,14 @@ void EffectNode::report(unsigned frame, const std::string& cause) const { report
 FrameReport EffectNode::reportIn(unsigned frame) const { return {_diagnosis, described(*this), frame}; }
 
 void EffectNode::traverse(osg::NodeVisitor& visitor) {
+    if (keptFromOptimizer(*this, visitor)) return;
     osg::Group::traverse(visitor);
     osgUtil::CullVisitor* cull = visitor.asCullVisitor();
     if (cull && !isSubgraphCull(visitor)) enlist(*cull);
+}
+
+void EffectNode::ascend(osg::NodeVisitor& visitor) {
+    if (!endsForOptimizer(visitor)) osg::Group::ascend(visitor);
 }
 
 void EffectNode::enlist(osgUtil::CullVisitor& cull) {

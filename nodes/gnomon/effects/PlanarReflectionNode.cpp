@@ -3,7 +3,6 @@
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/Plane.h>
 #include <gnomon/Reflection.h>
-#include <gnomon/base/CopiedNodes.h>
 #include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/effects/ReflectionEffect.h>
 #include <gnomon/geometry/ScreenBounds.h>
@@ -36,12 +35,10 @@ PlanarReflectionNode::PlanarReflectionNode() : _saved(std::make_shared<FrameColo
 PlanarReflectionNode::PlanarReflectionNode(const PlanarReflectionNode& other, const osg::CopyOp& copyOp)
     : EffectNode(other, copyOp),
       _plane(other._plane),
-      _surface(other._surface),
+      _surface(other._surface, other),
       _reflectance(other._reflectance),
       _stencilCure(other._stencilCure),
-      _saved(std::make_shared<FrameColorCopy>()) {
-    _surface.node = CopiedNodes(other, *this).of(_surface.node.get());
-}
+      _saved(std::make_shared<FrameColorCopy>()) {}
 
 PlanarReflectionNode::~PlanarReflectionNode() = default;
 
@@ -60,6 +57,11 @@ void PlanarReflectionNode::setReflectance(const osg::Vec3f& share) {
     for (int i = 0; i < 3; ++i) _reflectance[i] = std::clamp(share[i], 0.0f, 1.0f);
 }
 
+std::vector<Selection> PlanarReflectionNode::namedParts() const {
+    if (getSurface() == Selection()) return {};
+    return {getSurface()};
+}
+
 osg::BoundingSphere PlanarReflectionNode::computeBound() const {
     osg::BoundingSphere bound = EffectNode::computeBound();
     const auto plane = normalizedPlane(toGlm(_plane));
@@ -73,7 +75,11 @@ osg::ref_ptr<ViewEffect> PlanarReflectionNode::makeEffect(osgUtil::CullVisitor& 
     const osg::Matrixd& eyeFromNode = *cull.getModelViewMatrix();
     const auto plane = normalizedPlane(toGlm(_plane));
     const auto eyePlane = plane ? transformedPlane(toGlm(eyeFromNode), *plane) : plane;
-    if (_surface == Selection())
+    const Selection surface = getSurface();
+    if (_surface.isGone(*this))
+        report(frameOf(cull), "the node given to setSurface() is gone, because nothing else kept it. Add the surface "
+                              "to the scene, and name it anew.");
+    else if (surface == Selection())
         report(frameOf(cull),
                "no surface is named, so there is no image. Name the node that shows the image with setSurface().");
     else if (!eyePlane)
@@ -87,7 +93,7 @@ osg::ref_ptr<ViewEffect> PlanarReflectionNode::makeEffect(osgUtil::CullVisitor& 
             new SubgraphCull(cull, *this, eyeFromNode * toOsg(reflectionMatrix(*eyePlane)), SubgraphCull::Keep::InView);
         effect->saved = _saved;
         effect->report = reportIn(frameOf(cull));
-        effect->surface = _surface;
+        effect->surface = surface;
         effect->reflectance = _reflectance;
         effect->stencilCure = _stencilCure;
         includeImages(cull, *effect->mirrored);

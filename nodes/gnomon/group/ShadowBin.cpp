@@ -39,6 +39,12 @@ bool areSome(const EnlistedTechnique& entry, const Casters& casters) {
                                     ", the first in '" + casters.invalidNode +
                                     "'. Give every vertex finite coordinates and every index a vertex.");
     if (!casters.empty()) return true;
+    if (entry.group->areCastersGone()) {
+        entry.technique->report(entry.frameNumber, "nothing casts, because the node given to setCasters() of the "
+                                                   "ShadowCasterGroup is gone. Add the casters to the scene, and name "
+                                                   "them anew.");
+        return false;
+    }
     entry.technique->report(entry.frameNumber,
                             "nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
                                 "' holds no triangles. Add the scene to the group, or check its setCasters().");
@@ -51,6 +57,10 @@ bool hasCasters(const EnlistedTechnique& entry, const FrameCasters& casters) {
 
 /// A receiver that is out of sight is nothing to report; one that can never be seen to receive is.
 void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage) {
+    if (entry.technique->isReceiverGone())
+        return entry.technique->report(entry.frameNumber, "the node given to setReceiver() is gone, because nothing "
+                                                          "else kept it. Add the receiver to the scene, and name it "
+                                                          "anew.");
     const std::string cause = whyMissing(entry.technique->getReceiver(), "receiver", *entry.group, stage);
     if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/NamesNodes.h>
 #include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/base/CopiedNodes.h>
+#include <gnomon/base/OptimizerGuard.h>
 #include <gnomon/casters/CasterRevisions.h>
 
 #include <osg/Notify>
@@ -23,38 +22,27 @@ bool isLightNumber(int number, const char* method) {
 
 } // namespace
 
-ShadowCasterGroup::ShadowCasterGroup() : _casters(new CasterRevisions) {}
+ShadowCasterGroup::ShadowCasterGroup() : _revisions(new CasterRevisions) {}
 
 ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp)
     : osg::Group(other, copyOp),
-      _selection(other._selection),
+      _casters(other._casters, other),
       _composite(other._composite),
       _dark(other._dark),
-      _lightSources(other._lightSources),
       _lights(other._lights),
       _lightUniforms(other._lightUniforms),
       _options(other._options),
-      _casters(new CasterRevisions) {
-    followCopies(other);
+      _revisions(new CasterRevisions) {
+    for (const NodeReference& source : other._lightSources) _lightSources.emplace_back(source, other);
 }
 
 ShadowCasterGroup::~ShadowCasterGroup() = default;
 
-void ShadowCasterGroup::followCopies(const ShadowCasterGroup& original) {
-    const CopiedNodes copied(original, *this);
-    setCasters({copied.of(_selection.node.get()), _selection.mask});
-    for (osg::ref_ptr<osg::LightSource>& source : _lightSources)
-        if (auto* own = dynamic_cast<osg::LightSource*>(copied.of(source.get()))) source = own;
-    copied.forEachCopy([&copied](osg::Node& node) {
-        if (auto* names = dynamic_cast<NamesNodes*>(&node)) names->followCopies(copied);
-    });
-}
-
 bool ShadowCasterGroup::showsAllChildren() const { return typeid(*this) == typeid(ShadowCasterGroup); }
 
 void ShadowCasterGroup::setCasters(const Selection& casters) {
-    _selection = casters;
-    _casters->clear();
+    _casters = casters;
+    _revisions->clear();
 }
 
 void ShadowCasterGroup::setDark(float factor) {
@@ -68,7 +56,7 @@ void ShadowCasterGroup::setDark(float factor) {
 }
 
 void ShadowCasterGroup::addLight(osg::LightSource* light) {
-    if (light) _lightSources.push_back(light);
+    if (light) _lightSources.emplace_back(light);
 }
 
 void ShadowCasterGroup::addLight(const ShadowLight& light) {
@@ -83,6 +71,30 @@ void ShadowCasterGroup::setLights(std::vector<ShadowLight> lights) { // by value
 void ShadowCasterGroup::setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources) {
     _lightSources.clear();
     for (const osg::ref_ptr<osg::LightSource>& source : sources) addLight(source);
+}
+
+std::vector<osg::ref_ptr<osg::LightSource>> ShadowCasterGroup::getLightSources() const {
+    std::vector<osg::ref_ptr<osg::LightSource>> sources;
+    for (const NodeReference& named : _lightSources) {
+        const osg::ref_ptr<osg::Node> node = named.in(*this);
+        if (auto* source = dynamic_cast<osg::LightSource*>(node.get())) sources.emplace_back(source);
+    }
+    return sources;
+}
+
+std::vector<Selection> ShadowCasterGroup::namedParts() const {
+    std::vector<Selection> parts;
+    if (getCasters() != Selection()) parts.push_back(getCasters());
+    for (const auto& source : getLightSources()) parts.push_back({source});
+    return parts;
+}
+
+void ShadowCasterGroup::traverse(osg::NodeVisitor& visitor) {
+    if (!keptFromOptimizer(*this, visitor)) osg::Group::traverse(visitor);
+}
+
+void ShadowCasterGroup::ascend(osg::NodeVisitor& visitor) {
+    if (!endsForOptimizer(visitor)) osg::Group::ascend(visitor);
 }
 
 void ShadowCasterGroup::addLightUniform(const LightUniform& uniform) {
@@ -101,14 +113,14 @@ void ShadowCasterGroup::removeLights() {
 
 osg::ref_ptr<const CasterMesh> ShadowCasterGroup::casters(const CasterView* view) const {
     auto* self = const_cast<ShadowCasterGroup*>(this); // a visitor asks for a mutable node, and changes nothing
-    return _casters->mesh(*self, _selection, view);
+    return _revisions->mesh(*self, getCasters(), view);
 }
 
 osg::ref_ptr<const CasterDrawables> ShadowCasterGroup::drawables(const CasterView* view) const {
     auto* self = const_cast<ShadowCasterGroup*>(this); // as above
-    return _casters->drawables(*self, _selection, view);
+    return _revisions->drawables(*self, getCasters(), view);
 }
 
-unsigned ShadowCasterGroup::revision() const { return _casters->count(); }
+unsigned ShadowCasterGroup::revision() const { return _revisions->count(); }
 
 } // namespace gnomon

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowTechnique.h>
-#include <gnomon/base/CopiedNodes.h>
 #include <gnomon/base/FrameReport.h>
 #include <gnomon/group/ShadowProbe.h>
 
@@ -11,7 +10,7 @@ ShadowTechnique::ShadowTechnique() : _diagnosis(new FrameDiagnosis) { setCulling
 ShadowTechnique::~ShadowTechnique() = default;
 
 ShadowTechnique::ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp& copyOp)
-    : osg::Geode(other, copyOp), _receiver(other._receiver), _diagnosis(new FrameDiagnosis) {
+    : osg::Geode(other, copyOp), _receiver(other._receiver, other), _diagnosis(new FrameDiagnosis) {
     setCullingActive(false);
 }
 
@@ -31,8 +30,9 @@ void ShadowTechnique::beginFrame(unsigned frame, const void* view) const { _diag
 
 std::string ShadowTechnique::describe() const { return described(*this); }
 
-void ShadowTechnique::followCopies(const CopiedNodes& copied) {
-    setReceiver({copied.of(_receiver.node.get()), _receiver.mask});
+std::vector<Selection> ShadowTechnique::namedParts() const {
+    if (!hasReceiver()) return {};
+    return {getReceiver()};
 }
 
 } // namespace gnomon

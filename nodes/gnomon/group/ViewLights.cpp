@@ -52,8 +52,12 @@ std::string notOpenGL(int number) {
 
 void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight>& inStage,
                   const osg::Matrixd& groupFromEye, GroupLights& result) {
+    const auto sources = group.getLightSources();
     result.lights = group.getLights();
-    for (const auto& source : group.getLightSources()) {
+    if (sources.size() < group.getNumLightSources())
+        result.causes.push_back("a LightSource given to ShadowCasterGroup::addLight() is gone, because nothing else "
+                                "kept it. Add it to the scene, and give it to the group anew.");
+    for (const auto& source : sources) {
         const osg::Light* light = source->getLight();
         if (light && (light->getLightNum() < 0 || light->getLightNum() > 7)) {
             result.causes.push_back(notOpenGL(light->getLightNum()));
@@ -75,7 +79,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
     const std::map<int, StageLight> inStage = lightsIn(stage);
     const osg::Matrixd groupFromEye = osg::Matrixd::inverse(eyeFromGroup);
     GroupLights result;
-    if (!group.getLights().empty() || !group.getLightSources().empty()) {
+    if (!group.getLights().empty() || group.getNumLightSources() > 0) {
         addSetLights(group, inStage, groupFromEye, result);
         return result;
     }

@@ -26,7 +26,11 @@ public:
     bool unbind() override { return OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0) != GL_FALSE; }
     const unsigned char* pixels() const override { return _buffer.data(); } // OSMesa's glReadPixels clamps floats
     std::string name() const override { return "OSMesa"; }
-    std::string linkRemedy() const override { return "Link libOSMesa ahead of libGL"; }
+    std::string linkRemedy() const override {
+        return "Link gnomon::headless to the program itself with target_link_libraries(), or put -lOSMesa ahead of "
+               "-lGL "
+               "in its link line";
+    }
 
 private:
     int _width, _height;

@@ -7,8 +7,9 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/spec/SpecTable.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
-#include <optional>
 #include <stdexcept>
 
 namespace gnomon {
@@ -18,38 +19,58 @@ constexpr unsigned mostPlanes = 8;
 constexpr double smallestPart = 0.01; // of the largest
 
 using Techniques = std::vector<osg::ref_ptr<ShadowTechnique>>;
-/// `receiver` is null where none is named and the technique can do without.
-using Maker = osg::ref_ptr<ShadowTechnique> (*)(const ShadowSpec& spec, const NamedNode* receiver);
+/// All nodes of the receiver's name; none where the technique can do without.
+using Receivers = std::vector<NamedNode>;
+using Maker = osg::ref_ptr<ShadowTechnique> (*)(const ShadowSpec& spec, const Receivers& receivers);
 
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+
+/// Of one length. Looser than flatParts(), which has the vertices' rounding to go by.
+bool isNear(const osg::Vec4d& a, const osg::Vec4d& b) { return (a - b).length() <= 1e-6 * (1.0 + std::abs(a.w())); }
 
 /// Plane of the receiver's own frame, in the group's.
 osg::Vec4d inGroup(const osg::Vec4d& plane, const NamedNode& receiver) {
     return osg::Matrixd::inverse(receiver.rootFromParent) * plane;
 }
 
-osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec&, const NamedNode* named) {
-    const NamedNode& receiver = *named;
-    const std::vector<FlatPart> parts = flatParts(*receiver.node, mostPlanes);
+/// Largest first. Receivers that lie in one plane share a part.
+std::vector<FlatPart> flatPartsOf(const Receivers& receivers) {
+    std::vector<FlatPart> parts;
+    for (const NamedNode& receiver : receivers)
+        for (const FlatPart& part : flatParts(*receiver.node, mostPlanes)) {
+            const osg::Vec4d plane = inGroup(part.plane, receiver);
+            const auto isSame = [&](const FlatPart& other) { return isNear(other.plane, plane); };
+            const auto known = std::find_if(parts.begin(), parts.end(), isSame);
+            if (known == parts.end())
+                parts.push_back({plane, part.area});
+            else
+                known->area += part.area;
+        }
+    std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
+    return parts;
+}
+
+osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec&, const Receivers& receivers) {
+    const std::vector<FlatPart> parts = flatPartsOf(receivers);
     if (parts.empty())
-        refuse("the receiver \"" + receiver.node->getName() +
+        refuse("the receiver \"" + receivers.front().node->getName() +
                "\" has no flat part, which planar needs. Name another one with receiver=NAME.");
     osg::ref_ptr<PlanarShadowNode> node = new PlanarShadowNode;
-    for (const FlatPart& part : parts)
-        if (part.area >= smallestPart * parts.front().area) node->addPlane(inGroup(part.plane, receiver));
+    for (std::size_t i = 0; i < std::min<std::size_t>(parts.size(), mostPlanes); ++i)
+        if (parts[i].area >= smallestPart * parts.front().area) node->addPlane(parts[i].plane);
     return node;
 }
 
-osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec&, const NamedNode*) { return new TracedShadowTechnique; }
+osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec&, const Receivers&) { return new TracedShadowTechnique; }
 
-osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const NamedNode*) {
+osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const Receivers&) {
     osg::ref_ptr<ShadowMapTechnique> node = new ShadowMapTechnique;
     node->setOptions(spec.map);
     return node;
 }
 
 template <TerrainShadowOptions::Method method>
-osg::ref_ptr<ShadowTechnique> makeTerrain(const ShadowSpec& spec, const NamedNode*) {
+osg::ref_ptr<ShadowTechnique> makeTerrain(const ShadowSpec& spec, const Receivers&) {
     osg::ref_ptr<TerrainShadowGeode> node = new TerrainShadowGeode;
     node->setOptions(spec.terrain);
     node->setMethod(method);
@@ -83,8 +104,9 @@ void setComposite(ShadowCasterGroup& group, const std::vector<ShadowSpec>& specs
     if (specs.front().dark) group.setDark(*specs.front().dark);
 }
 
-NamedNode requireReceiver(osg::Node& root, const std::string& name) {
-    if (const std::optional<NamedNode> found = findNamed(root, name)) return *found;
+Receivers requireReceivers(osg::Node& root, const std::string& name) {
+    const Receivers found = findAllNamed(root, name);
+    if (!found.empty()) return found;
     const std::string names = listed(nodeNames(root));
     refuse("no node is named \"" + name +
            "\" to receive the shadow. Names in the scene: " + (names.empty() ? "none" : names) + ".");
@@ -94,13 +116,11 @@ osg::ref_ptr<ShadowTechnique> makeTechnique(ShadowCasterGroup& group, const Shad
     const SpecTechnique& technique = requireTechnique(spec.technique);
     const auto maker = makers().find(technique.name);
     if (maker == makers().end()) return nullptr;
-    std::optional<NamedNode> receiver;
+    Receivers receivers;
     const std::string name = spec.receiver.empty() ? technique.receiver : spec.receiver;
-    if (!name.empty()) receiver = requireReceiver(group, name);
-    osg::ref_ptr<ShadowTechnique> node = maker->second(spec, receiver ? &*receiver : nullptr);
-    Selection selection;
-    if (receiver) selection.node = receiver->node;
-    node->setReceiver(selection);
+    if (!name.empty()) receivers = requireReceivers(group, name);
+    osg::ref_ptr<ShadowTechnique> node = maker->second(spec, receivers);
+    node->setReceiver(selectionOf(receivers));
     node->setName(spec.text);
     return node;
 }

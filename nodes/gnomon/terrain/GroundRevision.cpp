@@ -62,7 +62,9 @@ osg::NodePath belowCamera(const osg::NodePath& path) {
 
 TerrainPlace TerrainPlace::inFrameOf(const osg::Node& group, const Selection& terrain) {
     const auto root = const_cast<osg::Node*>(&group); // visitors ask for more than they need
-    if (!terrain.node || isUnder(*terrain.node, group)) return {*root, terrain, osg::Matrixd::identity()};
+    const auto roots = terrain.roots();
+    if (std::all_of(roots.begin(), roots.end(), [&](const auto& node) { return isUnder(*node, group); }))
+        return {*root, terrain, osg::Matrixd::identity()};
     const osg::NodePath path = belowCamera(group.getParentalNodePaths().front());
     return {*path.front(), terrain, osg::Matrixd::inverse(osg::computeLocalToWorld(path, false))};
 }

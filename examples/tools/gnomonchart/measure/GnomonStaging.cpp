@@ -10,6 +10,7 @@ GnomonStaging::GnomonStaging(ShadowSpec spec, const ChartScene& scene, Look look
     _group->addChild(_content);
     _root->addChild(_group);
     _techniques = addShadows(*_group, {spec});
+    GnomonStaging::diagnose(); // who asks is not warned by osg::notify() besides
     GnomonStaging::setLight(scene.light);
 }
 
