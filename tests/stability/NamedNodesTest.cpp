@@ -2,6 +2,8 @@
 // Nodes that the kit names without keeping them: what is above the one that names it is freed, and copies name their own.
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/casters/CasterMesh.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 #include <osg/observer_ptr>
@@ -82,8 +84,8 @@ TEST(NamedNodes, AboveTheOneThatNamesThemAreFreed) {
             namings[i](graph);
             graph.group->casters();
             graph.group->drawables();
-            root = graph.root;
-            group = graph.group;
+            root = graph.root.get();
+            group = graph.group.get();
         }
         EXPECT_FALSE(root.valid()) << i;
         EXPECT_FALSE(group.valid()) << i;

@@ -100,7 +100,7 @@ bool takeReceiver(ShadowSpec& spec, const std::string& value) {
 }
 
 SpecKey receiverKey(const std::string& byDefault) {
-    return {"receiver",  "nodes that receive the shadow: all of that name", "setReceiver()", "", {}, "a node's name", byDefault,
+    return {"receiver",  "nodes that receive the shadow", "setReceiver()", "", {}, "a node's name", byDefault,
             takeReceiver};
 }
 
