@@ -154,4 +154,29 @@ TEST(Pages, HaveOnePlaceForTheSettingsOfEachTechnique) {
     }
 }
 
+/// A suite or a test, as its TEST macro in tests/ names it.
+bool isTest(const std::string& name) {
+    const std::size_t dot = name.find('.');
+    const std::string macro = "TEST(_[FP])?\\(" + name.substr(0, dot) + ", ";
+    const std::string rest = dot == std::string::npos ? "" : name.substr(dot + 1) + "\\)";
+    return std::regex_search(programs(), std::regex(macro + rest));
+}
+
+/// What the last column of docs/company.md's tables names.
+std::vector<std::string> testsOfCompany() {
+    std::vector<std::string> tests;
+    std::istringstream lines(repositoryFile("docs/company.md"));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.size() < 2 || line.front() != '|') continue;
+        const std::vector<std::string> named = codePiecesOf(line.substr(line.rfind('|', line.size() - 2)));
+        tests.insert(tests.end(), named.begin(), named.end());
+    }
+    return tests;
+}
+
+TEST(Company, HasATestForEachFeature) {
+    ASSERT_GE(testsOfCompany().size(), 25u);
+    for (const std::string& name : testsOfCompany()) EXPECT_TRUE(isTest(name)) << name;
+}
+
 } // namespace
