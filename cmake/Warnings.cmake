@@ -1,8 +1,6 @@
-# Warnings and sanitizers for this project's own targets: link them with `gnomon_warnings` (PRIVATE).
+# Warnings for this project's own targets: link them with `gnomon_warnings` (PRIVATE).
 add_library(gnomon_warnings INTERFACE)
 target_compile_options(gnomon_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   # GCC 12 guesses these two from inlined standard containers, and wrongly: a warning then, no error.
-  $<$<BOOL:${GNOMON_WERROR}>:-Werror$<SEMICOLON>-Wno-error=stringop-overflow$<SEMICOLON>-Wno-error=free-nonheap-object>
-  $<$<BOOL:${GNOMON_SANITIZE}>:-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer>)
-target_link_options(gnomon_warnings INTERFACE $<$<BOOL:${GNOMON_SANITIZE}>:-fsanitize=address,undefined>)
+  $<$<BOOL:${GNOMON_WERROR}>:-Werror$<SEMICOLON>-Wno-error=stringop-overflow$<SEMICOLON>-Wno-error=free-nonheap-object>)

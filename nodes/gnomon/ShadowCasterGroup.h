@@ -37,6 +37,7 @@ struct CasterView;
 /// - After a change: an extraction of the changed drawables. PlanarShadowNode and TracedShadowTechnique extract all.
 /// - RELIGHT: one more draw of the drawables that shadows touch.
 /// - BLEND: one multiplication a shadowed pixel.
+/// - DrawThreadPerContext: the next frame starts only after this frame's shadows are drawn, also if all is STATIC.
 /// Needs
 /// - Stencil bits; 8 are always enough. RELIGHT takes one a light and sometimes one more.
 /// - Alpha bits for soft and smooth edges.
