@@ -119,7 +119,7 @@ public:
     void setLightSources(std::vector<osg::ref_ptr<osg::LightSource>> sources);
     /// The light sources that cast and are not gone.
     std::vector<osg::ref_ptr<osg::LightSource>> getLightSources() const;
-    /// Number of light sources that were added. Those that have been deleted since count.
+    /// Number of light sources that were added. Sources that have been deleted since count.
     unsigned getNumLightSources() const { return static_cast<unsigned>(_lightSources.size()); }
     /// Replaces the lights given by position. A light number outside 0 … 7 is refused with a warning.
     void setLights(std::vector<ShadowLight> lights);
