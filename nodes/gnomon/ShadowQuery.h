@@ -18,6 +18,7 @@
 
 namespace gnomon {
 
+class CasterMesh;
 class ShadowCasterGroup;
 struct ShadowProbe;
 

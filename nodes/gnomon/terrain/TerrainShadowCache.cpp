@@ -7,6 +7,7 @@
 #include <OpenThreads/ScopedLock>
 #include <glm/matrix.hpp>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,19 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
+<<<<<<< HEAD
 constexpr std::size_t mostTowns = 4;   // groups above one node, and views of different levels of detail
+=======
+/// Runs work of TBB under the cache's lock. Isolated: a thread that waits for it must not take up a task of the caller's,
+/// which might ask for the lock in turn.
+template <typename Work>
+void runLocked(OpenThreads::Mutex& mutex, const Work& work) {
+    Lock lock(mutex);
+    tbb::this_task_arena::isolate(work);
+}
+
+constexpr std::size_t mostTowns = 2;   // groups above one node
+>>>>>>> checks
 constexpr double secondsAFrame = 2e-3; // on what may wait: an eighth of a frame at 60 Hz
 // Of a shadow's diameter, beyond the ground under it: a coarser level of detail may lie that far off.
 constexpr double marginOfLevels = 0.5;
@@ -105,6 +118,7 @@ TerrainShadowCache::Town& TerrainShadowCache::townOf(const ShadowCasterGroup& gr
 
 TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawables& casters, const TerrainPlace& place,
                                        int number, const glm::dvec4& light, const TerrainSettings& settings) {
+<<<<<<< HEAD
     Lock lock(_mutex);
     Town& town = townOf(*view.group, casters, view.stage, place, settings.asBoxes);
     TileUpdates& tiles = town.lights[number];
@@ -115,22 +129,43 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
     _found += tiles.found() - before;
     return {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
             isFromAbove(view, ground)};
+=======
+    TerrainFrame frame;
+    runLocked(_mutex, [&] {
+        Town& town = townOf(*view.group, casters, place, settings.asBoxes);
+        TileUpdates& tiles = town.lights[number];
+        const TileVisibility seen(view, town.casters.origin());
+        const TileGround ground = groundOf(*town.drawn);
+        const unsigned before = tiles.found();
+        tiles.update(town.casters, ground, light, settings, seen, secondsAFrame);
+        _found += tiles.found() - before;
+        frame = {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
+                 isFromAbove(view, ground)};
+    });
+    return frame;
+>>>>>>> checks
 }
 
 osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterGroup& group,
                                                              const CasterDrawables& casters, const TerrainPlace& place,
                                                              const glm::dvec4& light, const TerrainSettings& settings) {
+<<<<<<< HEAD
     Lock lock(_mutex);
     const Town& town = townOf(group, casters, nullptr, place, settings.asBoxes);
+=======
+>>>>>>> checks
     osg::ref_ptr<TerrainAnswer> answer = new TerrainAnswer;
-    answer->drawn = town.drawn;
-    answer->origin = town.casters.origin();
-    const auto& tiles = town.casters.tiles();
-    answer->tiles.resize(tiles.size());
-    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-        const osg::ref_ptr<TileShadows> shadows = new TileShadows;
-        findShadows(groundOf(*town.drawn), tiles[i], light, settings, answer->origin, *shadows);
-        answer->tiles[i] = shadows;
+    runLocked(_mutex, [&] {
+        const Town& town = townOf(group, casters, place, settings.asBoxes);
+        answer->drawn = town.drawn;
+        answer->origin = town.casters.origin();
+        const auto& tiles = town.casters.tiles();
+        answer->tiles.resize(tiles.size());
+        tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+            const osg::ref_ptr<TileShadows> shadows = new TileShadows;
+            findShadows(groundOf(*town.drawn), tiles[i], light, settings, answer->origin, *shadows);
+            answer->tiles[i] = shadows;
+        });
     });
     return answer;
 }
