@@ -17,9 +17,6 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-<<<<<<< HEAD
-constexpr std::size_t mostTowns = 4;   // groups above one node, and views of different levels of detail
-=======
 /// Runs work of TBB under the cache's lock. Isolated: a thread that waits for it must not take up a task of the caller's,
 /// which might ask for the lock in turn.
 template <typename Work>
@@ -28,8 +25,7 @@ void runLocked(OpenThreads::Mutex& mutex, const Work& work) {
     tbb::this_task_arena::isolate(work);
 }
 
-constexpr std::size_t mostTowns = 2;   // groups above one node
->>>>>>> checks
+constexpr std::size_t mostTowns = 4;   // groups above one node, and views of different levels of detail
 constexpr double secondsAFrame = 2e-3; // on what may wait: an eighth of a frame at 60 Hz
 // Of a shadow's diameter, beyond the ground under it: a coarser level of detail may lie that far off.
 constexpr double marginOfLevels = 0.5;
@@ -118,21 +114,9 @@ TerrainShadowCache::Town& TerrainShadowCache::townOf(const ShadowCasterGroup& gr
 
 TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawables& casters, const TerrainPlace& place,
                                        int number, const glm::dvec4& light, const TerrainSettings& settings) {
-<<<<<<< HEAD
-    Lock lock(_mutex);
-    Town& town = townOf(*view.group, casters, view.stage, place, settings.asBoxes);
-    TileUpdates& tiles = town.lights[number];
-    const TileVisibility seen(view, town.casters.origin());
-    const TileGround ground = groundOf(*town.drawn);
-    const unsigned before = tiles.found();
-    tiles.update(town.casters, ground, light, settings, seen, secondsAFrame);
-    _found += tiles.found() - before;
-    return {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
-            isFromAbove(view, ground)};
-=======
     TerrainFrame frame;
     runLocked(_mutex, [&] {
-        Town& town = townOf(*view.group, casters, place, settings.asBoxes);
+        Town& town = townOf(*view.group, casters, view.stage, place, settings.asBoxes);
         TileUpdates& tiles = town.lights[number];
         const TileVisibility seen(view, town.casters.origin());
         const TileGround ground = groundOf(*town.drawn);
@@ -143,20 +127,14 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
                  isFromAbove(view, ground)};
     });
     return frame;
->>>>>>> checks
 }
 
 osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterGroup& group,
                                                              const CasterDrawables& casters, const TerrainPlace& place,
                                                              const glm::dvec4& light, const TerrainSettings& settings) {
-<<<<<<< HEAD
-    Lock lock(_mutex);
-    const Town& town = townOf(group, casters, nullptr, place, settings.asBoxes);
-=======
->>>>>>> checks
     osg::ref_ptr<TerrainAnswer> answer = new TerrainAnswer;
     runLocked(_mutex, [&] {
-        const Town& town = townOf(group, casters, place, settings.asBoxes);
+        const Town& town = townOf(group, casters, nullptr, place, settings.asBoxes);
         answer->drawn = town.drawn;
         answer->origin = town.casters.origin();
         const auto& tiles = town.casters.tiles();
