@@ -45,15 +45,25 @@ float ulp(float value) { return std::nextafter(std::abs(value), INFINITY) - std:
 
 } // namespace
 
-TEST(CasterMesh, VerticesAreAboutTheMiddleCorner) {
+TEST(CasterMesh, VerticesAreAboutTheCentreOfTheBounds) {
     const osg::ref_ptr<CasterMesh> mesh =
         meshOf(*geometryOf(vec3s({{2, 0, 0}, {6, 0, 0}, {2, 8, 1}}), new osg::DrawArrays(Mode::TRIANGLES, 0, 3)));
     EXPECT_EQ(mesh->bounds._min, osg::Vec3d(2, 0, 0));
     EXPECT_EQ(mesh->bounds._max, osg::Vec3d(6, 8, 1));
-    EXPECT_EQ(mesh->origin, osg::Vec3d(2, 0, 0));
-    EXPECT_EQ((*mesh->vertices)[0], osg::Vec3(0, 0, 0));
-    EXPECT_EQ((*mesh->vertices)[1], osg::Vec3(4, 0, 0));
-    EXPECT_EQ((*mesh->vertices)[2], osg::Vec3(0, 8, 1));
+    EXPECT_EQ(mesh->origin, osg::Vec3d(4, 4, 0.5));
+    EXPECT_EQ((*mesh->vertices)[0], osg::Vec3(-2, -4, -0.5f));
+    EXPECT_EQ((*mesh->vertices)[1], osg::Vec3(2, -4, -0.5f));
+    EXPECT_EQ((*mesh->vertices)[2], osg::Vec3(-2, 4, 0.5f));
+}
+
+// Floats about the middle of the bounds, half a million metres off, would have steps of 3 cm.
+TEST(CasterMesh, VerticesAreAboutThoseThatAreMostWhereOneIsFarAway) {
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (int i = 0; i < 5; ++i) root->addChild(triangle());
+    root->addChild(geometryOf(vec3s({{1e6f, 0, 0}, {1e6f + 1.0f, 0, 0}, {1e6f, 1, 0}}),
+                              new osg::DrawArrays(Mode::TRIANGLES, 0, 3)));
+    const osg::ref_ptr<CasterMesh> mesh = meshOf(*root);
+    EXPECT_LE((mesh->origin - osg::Vec3d(0.5, 0.5, 0)).length(), 1.0);
 }
 
 TEST(CasterMesh, PointsAndLinesAreNeitherInTheMeshNorInItsBounds) {

@@ -16,20 +16,32 @@ osg::BoundingBoxd boundsOf(const CasterExtraction& casters) {
     return bounds;
 }
 
-/// The middle one of the corners along each axis: near most of them, however far a few are. Floats are fine about it.
-osg::Vec3d middleOf(const CasterExtraction& casters) {
+constexpr std::size_t mostSamples = 1000; // of the corners, to tell where most are
+constexpr double farthest = 64.0; // the casters' reach in that of most, for which floats about the centre are fine
+
+/// The middle one of some values.
+double middleOf(std::vector<double> values) {
+    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    return *half;
+}
+
+/// The centre of all, unless a few are so far that floats about it were coarse for the others: then a place among most.
+osg::Vec3d originOf(const CasterExtraction& casters, const osg::BoundingBoxd& bounds) {
     const std::vector<unsigned>& corners = casters.getTriangles();
-    const std::size_t every = corners.size() / 1000 + 1;
-    osg::Vec3d middle;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::vector<double> places;
-        for (std::size_t i = 0; i < corners.size(); i += every)
-            places.push_back(casters.getVertices()[corners[i]][axis]);
-        const auto half = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
-        std::nth_element(places.begin(), half, places.end());
-        middle[axis] = *half;
-    }
-    return middle;
+    const std::size_t every = corners.size() / mostSamples + 1;
+    std::vector<osg::Vec3d> places;
+    for (std::size_t i = 0; i < corners.size(); i += every) places.push_back(casters.getVertices()[corners[i]]);
+    const auto middle = [&places](const auto& measure) {
+        std::vector<double> values;
+        for (const osg::Vec3d& place : places) values.push_back(measure(place));
+        return middleOf(std::move(values));
+    };
+    const osg::Vec3d among(middle([](const osg::Vec3d& p) { return p.x(); }),
+                           middle([](const osg::Vec3d& p) { return p.y(); }),
+                           middle([](const osg::Vec3d& p) { return p.z(); }));
+    const double most = middle([&among](const osg::Vec3d& p) { return (p - among).length(); });
+    return bounds.radius() <= farthest * most ? bounds.center() : among;
 }
 
 constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
@@ -63,7 +75,7 @@ CasterMesh::CasterMesh(const CasterExtraction& casters, const std::optional<osg:
     // Attached here, for the first geometry to use the array would do so, perhaps in one of several threads.
     vertices->setVertexBufferObject(new osg::VertexBufferObject);
     triangles->setElementBufferObject(new osg::ElementBufferObject);
-    if (about || bounds.valid()) origin = about ? *about : middleOf(casters);
+    if (about || bounds.valid()) origin = about ? *about : originOf(casters, bounds);
     std::vector<unsigned> places(casters.getVertices().size(), nowhere);
     triangles->reserve(casters.getTriangles().size());
     for (unsigned index : casters.getTriangles()) {

@@ -20,6 +20,8 @@ osg::ref_ptr<const CasterLayer> layerOf(CasterDrawables::List pieces, const Cast
     return new CasterLayer(std::move(pieces), casters.origin);
 }
 
+constexpr double farthest = 64.0; // as CasterMesh
+
 /// The middle one of a measure of the drawables, each as often as it has triangles.
 template <class Measure>
 double middleOf(const CasterDrawables& pieces, Measure measure) {
@@ -107,22 +109,20 @@ void CasterLayers::divideAnew(const CasterLayers& before) {
     moving = layerOf(std::move(others), *this);
 }
 
-/// The middle one of the triangles along each axis, as their drawables stand: near most of them, however far a few are.
+/// The centre of all, unless a few are so far that floats about it were coarse for the others: then a place among most.
 osg::Vec3d CasterLayers::middle() const {
-    osg::Vec3d result;
+    osg::Vec3d among;
     for (int axis = 0; axis < 3; ++axis)
-        result[axis] = middleOf(*pieces, [axis](const CasterDrawable& piece) { return piece.bounds.center()[axis]; });
-    return result;
+        among[axis] = middleOf(*pieces, [axis](const CasterDrawable& piece) { return piece.bounds.center()[axis]; });
+    const double most = middleOf(*pieces, [&among](const CasterDrawable& piece) {
+        return (piece.bounds.center() - among).length() + piece.bounds.radius();
+    });
+    return pieces->bounds.radius() <= farthest * most ? osg::Vec3d(pieces->bounds.center()) : among;
 }
 
-/// Whether floats about a place are as fine, but for a bit, as about the middle of most.
+/// Whether floats about a place are as fine, but for a bit, as about the middle of all.
 bool CasterLayers::isNear(const osg::Vec3d& place) const {
-    if (pieces->empty()) return true;
-    const osg::Vec3d about = middle();
-    const double most = middleOf(*pieces, [&about](const CasterDrawable& piece) {
-        return (piece.bounds.center() - about).length() + piece.bounds.radius();
-    });
-    return (place - about).length() <= 2.0 * most;
+    return pieces->empty() || (place - pieces->bounds.center()).length() <= pieces->bounds.radius();
 }
 
 bool CasterLayers::isAtRest(const CasterDrawable* piece) const {
