@@ -89,20 +89,26 @@ const int mapCount = MAPS;
 
 // Share of the light; outside all maps it is 1. Soft cascades are blended where one ends: `left` is the weight of those
 // that are still to come.
-float visibility(vec4 pixel, vec4 plane) {
+//
+// drawn: how far off the plane may be, in e. Its place is left as it is, or edges would move; it is compared as if it were
+// as much nearer to the light as that is, measured along the light.
+float visibility(vec4 pixel, vec4 plane, float drawn) {
     float share = 0.0, left = 1.0;
     for (int i = 0; i < mapCount; ++i) {
         vec3 at;
         if (!holds(i, pixel, at)) continue;
         vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
-        vec2 slope = -across / (dot(plane, pixelFromMapZ(i)) * place(i).z);
+        float deeper = dot(plane, pixelFromMapZ(i));
+        vec2 slope = -across / (deeper * place(i).z);
         float steepness = abs(slope.x) + abs(slope.y);
         vec4 error = mix(nearestError(i), farthestError(i), clamp(at.z, 0.0, 1.0));
         if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
             slope = vec2(0.0);
             steepness = error.z;
         }
-        float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x;
+        float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
+        float off = drawn / (max(abs(deeper), steep) * (mapFromPixel(i) * pixel).w);
+        float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
         vec2 p = place(i).xy + at.xy * place(i).z;
 #ifdef SMOOTH
         sides = sidesIn(i, pixel, -plane.xy, at.xy);
@@ -155,9 +161,9 @@ void main() {
     vec2 slope = changeOf(e, here);
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float slopes = abs(slope.x) + abs(slope.y), drawn = max(drawnError.x + e * drawnError.y, 0.0);
-    float nearer = e + depthError.x + drawn + (depthError.y + drawnError.z * drawn) * slopes;
+    float nearer = e + depthError.x + depthError.y * slopes;
     vec2 at = gl_FragCoord.xy + depthError.zw;
-    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer));
+    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer), drawn * (1.0 + drawnError.z * slopes));
 #ifdef SMOOTH
     arrives = ofPixel(arrives);
 #endif

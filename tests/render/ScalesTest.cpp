@@ -138,7 +138,7 @@ Case baked(const glm::dvec3& offset, bool lamp, double far) {
     return result;
 }
 
-const std::vector<glm::dvec3> places{{0.0, 0.0, 0.0}, {5e3, 0.0, 0.0}, {5e3, 5e3, 100.0}, {-2e4, 3e3, 0.0}};
+const std::vector<glm::dvec3> places{{0.0, 0.0, 0.0}, {5e3, 0.0, 0.0}, {5e3, 5e3, 100.0}, {-2e4, 3e3, 0.0}, {6e4, 8e4, 300.0}};
 
 TEST(Scales, TracedIsRightWhereLargeCoordinatesAreInTheVertices) {
     for (const glm::dvec3& place : places)
