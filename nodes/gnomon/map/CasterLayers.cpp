@@ -136,11 +136,16 @@ void CasterLayers::measure() {
     low = scene.point(pieces->bounds._min);
     high = scene.point(pieces->bounds._max);
     reach = glm::max(glm::abs(low), glm::abs(high));
+    double least = std::numeric_limits<double>::infinity();
     for (const auto& piece : pieces->list) {
         if (!piece->bounds.valid()) continue;
         widest = std::max(widest, 2.0 * piece->bounds.radius());
-        rounding = std::max(rounding, roundingOf(*piece));
+        const double own = roundingOf(*piece);
+        rounding = std::max(rounding, own);
+        least = std::min(least, own);
     }
+    // One large ground must not cost what stands on it the light beside its shadows.
+    if (rounding > 2.0 * least) rounding = middleOf(*pieces, roundingOf);
 }
 
 void CasterLayers::resizeGLObjectBuffers(unsigned maxSize) const {
