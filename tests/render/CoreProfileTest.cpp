@@ -11,6 +11,7 @@
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
+#include <osg/DisplaySettings>
 #include <osg/Program>
 
 #include <GL/osmesa.h>
@@ -69,6 +70,7 @@ struct Shot {
 
 /// The second frame; OpenSceneGraph itself complains of what a core profile lacks.
 Shot shotOf(osg::Node* root) {
+    osg::DisplaySettings::instance()->setVertexBufferHint(osg::DisplaySettings::VERTEX_ARRAY_OBJECT); // as it needs
     Camera camera(root, slanted);
     osg::State& state = *camera.context().graphicsContext()->getState();
     state.setUseModelViewAndProjectionUniforms(true);

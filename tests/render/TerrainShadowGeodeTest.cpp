@@ -34,7 +34,9 @@ osg::ref_ptr<TerrainShadowGeode> shadowOn(osg::Node* terrain, TerrainShadowGeode
 
 /// A house of 2 × 2 and 3 high on a ground of 40 × 40, by itself.
 osg::ref_ptr<TerrainShadowGeode> alone(TerrainShadowGeode::Method method) {
-    osg::ref_ptr<TerrainShadowGeode> shadow = shadowOn(test::node(test::square(20.0), "ground"), method);
+    const osg::ref_ptr<osg::Node> ground = test::node(test::square(20.0), "ground");
+    osg::ref_ptr<TerrainShadowGeode> shadow = shadowOn(ground, method);
+    shadow->setUserData(ground); // else nothing keeps it
     shadow->setObjectGraphic(test::node(test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}), "house"));
     return shadow;
 }
@@ -104,7 +106,8 @@ TEST(TerrainShadowGeodeAlone, BoxTakesEveryVertexWhereItStands) {
 /// Its rays are 500 long whatever the scene.
 TEST(TerrainShadowGeodeAlone, BoxReachesAsFarAsTheLightDoes) {
     const auto shadow = alone(TerrainShadowGeode::BOX);
-    shadow->setReceiver({test::node(test::square(2000.0), "ground")});
+    const osg::ref_ptr<osg::Node> ground = test::node(test::square(2000.0), "ground");
+    shadow->setReceiver({ground});
     ASSERT_TRUE(shadow->compute({500.0, 0.0, 1.0, 0.0}));
     EXPECT_NEAR(boundsOf(*shadow).xMin(), -1.0 - 1500.0, 1e-3);
 }
@@ -132,6 +135,14 @@ TEST(TerrainShadowGeodeAlone, IsDrawnAsTransparentGeometryWithoutAGroup) {
     EXPECT_NEAR(dark, 0.5 * test::litGround, 1.0);
 }
 
+TEST(TerrainShadowGeodeAlone, SaysThatItsTerrainIsGone) {
+    const auto shadow = alone(TerrainShadowGeode::HULL);
+    shadow->setUserData(nullptr);
+    EXPECT_FALSE(shadow->compute(sun));
+    ASSERT_EQ(shadow->diagnose().size(), 1u);
+    EXPECT_NE(shadow->diagnose()[0].find("the terrain given to setReceiver() is gone"), std::string::npos);
+}
+
 TEST(TerrainShadowGeodeAlone, SaysWhatIsMissingAndDrawsNothing) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto refusal = [](TerrainShadowGeode& shadow, const osg::Vec4d& light) {
@@ -142,13 +153,14 @@ TEST(TerrainShadowGeodeAlone, SaysWhatIsMissingAndDrawsNothing) {
     };
     const osg::ref_ptr<TerrainShadowGeode> empty = new TerrainShadowGeode;
     EXPECT_NE(refusal(*empty, sun).find("setReceiver()"), std::string::npos);
-    empty->setReceiver({test::node(test::square(20.0))});
+    const osg::ref_ptr<osg::Node> ground = test::node(test::square(20.0)), nothing = new osg::Group;
+    empty->setReceiver({ground});
     EXPECT_NE(refusal(*empty, sun).find("setObjectGraphic()"), std::string::npos);
     const auto shadow = alone(TerrainShadowGeode::HULL);
     EXPECT_TRUE(shadow->compute(sun));
     EXPECT_NE(refusal(*shadow, {nan, 0.0, 1.0, 0.0}).find("no finite position or direction"), std::string::npos);
     EXPECT_NE(refusal(*shadow, {1.0, 0.0, -1.0, 0.0}).find("below the horizon"), std::string::npos);
-    shadow->setReceiver({new osg::Group});
+    shadow->setReceiver({nothing});
     EXPECT_NE(refusal(*shadow, sun).find("meets no ground"), std::string::npos);
     shadow->setError(nan);
     shadow->setError(-1.0);

@@ -219,6 +219,9 @@ TerrainShadowGeode::Request TerrainShadowGeode::requestFor(const osg::Vec4d& lig
     const auto usable = localLight(light, SceneFrame(osg::Vec3d()));
     if (!_object) result.refusal = "no object is set, so there is no shadow. Set one with setObjectGraphic().";
     if (!getReceiver().node) result.refusal = "no terrain is named, so there is no shadow. Name it with setReceiver().";
+    if (isReceiverGone())
+        result.refusal = "the terrain given to setReceiver() is gone, because nothing else kept it. Add it to the "
+                         "scene, and name it anew.";
     if (!usable) result.refusal = "the light has no finite position or direction. Give one of them.";
     if (result.refusal) return result;
     osg::BoundingBoxd box = _bounds;
