@@ -150,7 +150,7 @@ TEST(ConvexShadow, HoldsExactlyThePointsWhoseWayToTheLightIsBlocked) {
             ASSERT_TRUE(hull);
             const glm::dvec3 way = glm::normalize(cloud(100 + seed, 1).front());
             const Tally result = tally(*hull, glm::dvec4(9.0 * way, w), seed);
-            EXPECT_EQ(result.wrong, 0) << seed << (w ? " lamp" : " sun");
+            EXPECT_EQ(result.wrong, 0) << seed << (w == 1.0 ? " lamp" : " sun");
             EXPECT_GT(result.shadowed, 50) << seed;
             EXPECT_LT(result.unsure, 5) << seed;
         }

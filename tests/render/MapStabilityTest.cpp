@@ -91,7 +91,7 @@ constexpr double mostCrawl = 0.02; // pixels; the issue's goal
 
 TEST(MapStability, EdgesDoNotCrawlWhileTheCameraMovesAndTurnsByPartsOfAPixel) {
     for (const int size : {64, 128, 2048})
-        for (const auto& [name, step] : {std::pair("aside", aside), {"ahead", ahead}, {"turned", turned}}) {
+        for (const auto& [name, step] : {std::pair("aside", &aside), {"ahead", &ahead}, {"turned", &turned}}) {
             const Crawl found = crawlOf(size, step);
             std::cout << size << ", " << name << ": " << found << "\n";
             EXPECT_LE(found.deviation, mostCrawl) << size << ", " << name;

@@ -110,7 +110,7 @@ TEST_P(AnyBin, AnotherReceiverThanTheNamedOneReceivesNothing) {
 /// The half of the ground with the alpha of 1 receives, the other half lets the background shine through.
 TEST_P(AnyBin, ATextureReceivesWhereItsAlphaIs1) {
     const Trial trial = houseTrial();
-    const auto build = [&trial](Scene scene) {
+    const auto build = [](Scene scene) {
         osg::Node& ground = *find(*scene.root, "ground");
         osg::Geometry& geometry = *ground.asGeode()->getDrawable(0)->asGeometry();
         osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;

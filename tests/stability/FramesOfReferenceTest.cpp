@@ -145,7 +145,7 @@ void moveContentAndLight(Scene& scene, const osg::Matrixd& place) {
 } // namespace
 
 TEST_P(Place, FarAwayByATransformInTheGroupChangesNoBit) {
-    forEachLightAndView([this](const osg::Vec4d& light, bool fromTop) {
+    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         Scene scene = trial.build();
         addShadow(scene, GetParam(), toFarAway);
@@ -155,7 +155,7 @@ TEST_P(Place, FarAwayByATransformInTheGroupChangesNoBit) {
 }
 
 TEST_P(Place, FarAwayOfALightGivenInDoubleChangesNoBit) {
-    forEachLightAndView([this](const osg::Vec4d& light, bool fromTop) {
+    forEachLightAndView([](const osg::Vec4d& light, bool fromTop) {
         const Trial trial = trialAt(light, fromTop);
         Scene scene = trial.build();
         addShadow(scene, GetParam(), toFarAway);

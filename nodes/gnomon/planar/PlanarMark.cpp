@@ -54,7 +54,7 @@ std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     if (!cures.offset) fightReceiver();
     const bool drawn = drawParts(renderInfo);
     if (cutToPlane) cut(state, pass, bit);
-    if (!cures.stencil) darken(renderInfo, pass, bit);
+    if (!cures.stencil) darkenEach(renderInfo, pass, bit);
     return drawn ? "" : noProgram;
 }
 
@@ -100,7 +100,7 @@ void PlanarMark::fightReceiver() const {
 }
 
 /// Without the stencil cure: each triangle darkens for itself where marked; then no marks are left.
-void PlanarMark::darken(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+void PlanarMark::darkenEach(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
     pass.stencilAny(bit);
     glDisable(GL_DEPTH_TEST);
     if (!cures.offset) fightReceiver();

@@ -47,7 +47,7 @@ protected:
 private:
     bool drawParts(osg::RenderInfo& renderInfo) const;
     bool drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const;
-    void darken(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
+    void darkenEach(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
     void fightReceiver() const;
     void cut(const osg::State& state, ScreenPass& pass, unsigned bit) const;
 };

@@ -192,8 +192,8 @@ double HeightPyramid::hitAmong(const Cells& cells, double low, double high, cons
 
 /// Column by column of cells, across the axis along which it goes farther; of each column the few that it passes.
 double HeightPyramid::hitBeside(const glm::dvec3& start, const glm::dvec3& along) const {
-    constexpr int mostColumns = 64;   // of what goes farther blocks of cells are left out at once
-    constexpr double rounding = 1e-6; // of a cell
+    constexpr int mostColumns = 64; // of what goes farther blocks of cells are left out at once
+    constexpr double slack = 1e-6;  // of a cell
     const glm::dvec2 pace = glm::dvec2(along) / _field.step(), from = _field.cellOf(start.x, start.y);
     const int axis = std::abs(pace.x) >= std::abs(pace.y) ? 0 : 1, way = pace[axis] < 0.0 ? -1 : 1;
     const bool isUpright = !(std::abs(pace[axis]) > 1e-100); // or as good as that
@@ -202,8 +202,8 @@ double HeightPyramid::hitBeside(const glm::dvec3& start, const glm::dvec3& along
     double column = std::floor(from[axis]);
     for (int i = 0; i < mostColumns && in <= nearest; ++i, column += way) {
         const double out = isUpright ? 0.0 : std::max(0.0, (column + (way > 0) - from[axis]) / pace[axis]);
-        glm::dvec2 low = glm::min(from + in * pace, from + out * pace) - rounding,
-                   high = glm::max(from + in * pace, from + out * pace) + rounding;
+        glm::dvec2 low = glm::min(from + in * pace, from + out * pace) - slack,
+                   high = glm::max(from + in * pace, from + out * pace) + slack;
         low[axis] = high[axis] = column;
         const auto passed = cells(low, high);
         if (!passed) break;
