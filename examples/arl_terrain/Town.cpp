@@ -85,7 +85,8 @@ Lot lotFor(Dice& dice, const glm::dvec2& plotCorner) {
     const double width = dice.between(14.0, 30.0), depth = dice.between(10.0, 18.0), degrees = dice.between(0.0, 360.0);
     const double tower = dice.between(0.0, 1.0) < towerShare ? 25.0 : 0.0, height = dice.between(6.0, 16.0) + tower,
                  kind = dice.between(0.0, 1.0);
-    const glm::dvec2 aside(dice.between(0.4, 0.6), dice.between(0.4, 0.6));
+    const double north = dice.between(0.4, 0.6), east = dice.between(0.4, 0.6);
+    const glm::dvec2 aside(east, north);
     Lot lot{kind < tankShare ? Lot::Tank : kind < tankShare + wingShare ? Lot::Wing : Lot::Block, {}, height};
     lot.outline = lot.kind == Lot::Tank   ? tank(width / 2.0)
                   : lot.kind == Lot::Wing ? lShape(width, width, depth / 2.0)

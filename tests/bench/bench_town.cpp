@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Shadows of a town's houses on hills with posts every 10 m: houses a second, a step of the sun, memory, and what the
 // machine could do at most. Each run's result is checked before it is timed.
+#include <support/Drawn.h>
 #include <support/TerrainTrial.h>
 
 #include <gnomon/ground/HeightPyramid.h>
@@ -50,7 +51,7 @@ struct Town {
 
 test::Prism houseNear(const glm::dvec2& middle, std::mt19937& random) {
     std::uniform_real_distribution<double> unit;
-    const glm::dvec2 half(4.0 + 8.0 * unit(random), 4.0 + 8.0 * unit(random));
+    const glm::dvec2 half = 4.0 + 8.0 * test::drawn(unit, random);
     const double turn = 180.0 * test::degree * unit(random), above = 5.0 + 25.0 * unit(random);
     const double height = *ground().height(middle.x, middle.y);
     return test::boxAt(middle, half, turn, height - 40.0, height + above);
@@ -70,7 +71,7 @@ Town townOf(std::size_t count) {
         Tile tile;
         tile.origin = glm::dvec3(corner, *ground().height(corner.x, corner.y));
         for (std::size_t i = 0; i < tileSize && town.size < count; ++i, ++town.size) {
-            const test::Prism house = houseNear(corner + glm::dvec2(within(random), within(random)), random);
+            const test::Prism house = houseNear(corner + test::drawn(within, random), random);
             if (t == 0) town.prisms.push_back(house);
             tile.parts.add(house.parts().front());
         }

@@ -51,7 +51,7 @@ Tally tally(const Ground& ground, const House& house, const glm::dvec3& sun, dou
     Tally result;
     result.triangles = drape.size() / 3;
     for (int i = 0; i < 1500; ++i) {
-        const glm::dvec2 p = house.middle + glm::dvec2(place(random), place(random));
+        const glm::dvec2 p = house.middle + test::drawn(place, random);
         const bool expected = dark(p);
         const int found = over(drape, p);
         result.shadowed += expected;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "support/Drawn.h"
 #include "support/TerrainTrial.h"
 
 #include <gnomon/ground/HeightPyramid.h>
@@ -57,7 +58,7 @@ inline std::vector<House> houses(int count, const gnomon::Ground& ground) {
     std::uniform_real_distribution<double> unit;
     std::vector<House> result;
     for (int i = 0; i < count; ++i) {
-        const glm::dvec2 at(300.0 + 700.0 * unit(random), 300.0 + 700.0 * unit(random));
+        const glm::dvec2 at = 300.0 + 700.0 * test::drawn(unit, random);
         result.push_back({at,
                           {4.0 + 8.0 * unit(random), 4.0 + 8.0 * unit(random)},
                           180.0 * degree * unit(random),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "support/TerrainTrial.h"
+#include "support/Drawn.h"
 
 #include <gnomon/drape/BoxShadow.h>
 #include <gnomon/onterrain/TerrainShadow.h>
@@ -76,7 +77,10 @@ struct Region {
         const glm::dvec2 size = high - low;
         const int columns = std::max(1, int(std::sqrt(points * size.x / size.y))), rows = std::max(1, points / columns);
         for (int j = 0; j < rows; ++j)
-            for (int i = 0; i < columns; ++i) take(at((i + unit(random)) / columns, (j + unit(random)) / rows));
+            for (int i = 0; i < columns; ++i) {
+                const glm::dvec2 place = (glm::dvec2(i, j) + drawn(unit, random)) / glm::dvec2(columns, rows);
+                take(at(place.x, place.y));
+            }
     }
 };
 
@@ -220,9 +224,9 @@ std::vector<Prism> prismsOn(const gnomon::Ground& ground, const glm::dvec2& low,
     std::uniform_real_distribution<double> unit;
     std::vector<Prism> prisms;
     while (int(prisms.size()) < count) {
-        const glm::dvec2 middle = low + (high - low) * glm::dvec2(unit(random), unit(random));
-        const glm::dvec2 half(4.0 + 8.0 * unit(random), 4.0 + 8.0 * unit(random));
-        const glm::dvec2 cut = half * glm::dvec2(0.2 + 0.6 * unit(random), 0.2 + 0.6 * unit(random));
+        const glm::dvec2 middle = low + (high - low) * drawn(unit, random);
+        const glm::dvec2 half = 4.0 + 8.0 * drawn(unit, random);
+        const glm::dvec2 cut = half * (0.2 + 0.6 * drawn(unit, random));
         const double turn = 360.0 * degree * unit(random), above = 5.0 + 25.0 * unit(random);
         const auto height = ground.height(middle.x, middle.y);
         if (!height) continue;
