@@ -18,6 +18,8 @@ struct ChartOptions {
     std::optional<int> frames;       ///< 60, or 12 with quick.
     std::optional<int> flicker;      ///< frames of each film; 16, or 8 with quick; none below 2.
     bool resume = false;             ///< go on with what is in `out`.
+    bool stability = false;          ///< the stability table, of the scenes in stabilityScenes.
+    std::vector<std::string> stabilityScenes; ///< ids; empty: all.
     bool quick = false, list = false, help = false;
 
     int frameCount() const { return frames.value_or(quick ? 12 : 60); }
