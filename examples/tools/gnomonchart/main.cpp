@@ -146,6 +146,8 @@ int run(osg::ArgumentParser& arguments) {
         listNames();
     else if (!options.again.empty())
         return options.stability ? (writeStabilityAgain(options.again), 0) : chartAgain(options.again);
+    else if (options.random)
+        return searchRandom(options, [] { return stopAsked != 0; }) ? 0 : 1;
     else if (options.stability)
         return stability(options, command);
     else

@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double wallSeconds = 20.0; // that a second of processor time may take, on a loaded machine or while it sleeps
-constexpr int mostIdle = 2; // children that end before their first cell: the scene itself is at fault then
+constexpr int mostIdle = 2;          // children that end before their first cell: the scene itself is at fault then
 
 void writeAll(int into, const std::string& text) {
     for (std::size_t done = 0; done < text.size();) {
@@ -96,8 +96,9 @@ void SceneProcess::runChild(const StabilityPlace& from, int into) {
     std::signal(SIGTERM, SIG_DFL);
     int status = 0;
     try {
-        measureScene(_plan, _scene, from, _rows[from.contender].settings,
-                     [&](const json& line) { writeAll(into, line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n"); });
+        measureScene(_plan, _scene, from, _rows[from.contender].settings, [&](const json& line) {
+            writeAll(into, line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+        });
     } catch (const std::exception& failure) {
         std::cerr << _scene.id << ": " << failure.what() << std::endl;
         status = 1;

@@ -42,9 +42,9 @@ private:
     StabilityRow* _rows;
     pid_t _id = -1;
     int _descriptor = -1;
-    std::string _pending;  ///< of a line.
-    StabilityPlace _place; ///< where the child is.
-    bool _begun = false;   ///< and not done there
+    std::string _pending;                         ///< of a line.
+    StabilityPlace _place;                        ///< where the child is.
+    bool _begun = false;                          ///< and not done there
     std::chrono::steady_clock::time_point _since; ///< the child was heard of last
     double _spent = 0.0;                          ///< its processor time then, s
     std::size_t _cells = 0;

@@ -35,8 +35,7 @@ metrics::FlickerFrame frameOf(const ChartScene& scene, const metrics::TruthMaps&
     frame.visibility = visibility;
     frame.truth = truth;
     frame.facing = facing;
-    frame.clipFromPosition =
-        toGlm(osg::Matrixd::translate(scene.center) * scene.camera.view * scene.camera.projection);
+    frame.clipFromPosition = toGlm(osg::Matrixd::translate(scene.center) * scene.camera.view * scene.camera.projection);
     return frame;
 }
 
@@ -98,8 +97,7 @@ void SceneSweep::Run::addPicture(std::size_t place, const metrics::Picture& visi
     _left = _left || leaves;
     const StabilityScene& scene = _sweep._scene;
     if (_sweep._plan.folder.empty() || (!leaves && place + 1 < scene.values.size())) return;
-    cell.picture =
-        fileName({scene.id, _contender.technique, _contender.setting, std::to_string(place)}, ".png");
+    cell.picture = fileName({scene.id, _contender.technique, _contender.setting, std::to_string(place)}, ".png");
     OutputFile(_sweep._plan.folder + "/" + cell.picture).write(*errorOverlay(visibility, _sweep.value(place).maps));
 }
 

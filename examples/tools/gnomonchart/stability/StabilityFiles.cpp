@@ -103,9 +103,10 @@ std::string joined(const std::vector<std::string>& texts) {
 std::string csvLine(const StabilitySceneText& scene, const StabilityRow& row, std::size_t place) {
     const StabilityCell& cell = row.cells[place];
     const auto yes = [](bool is) { return is ? ",yes" : ",no"; };
-    std::string line = quotedField(scene.id) + "," + quotedField(scene.parameter) + "," + valueText(scene.values[place]) +
-                       "," + quotedField(scene.unit) + "," + row.kit + "," + quotedField(row.technique) + "," +
-                       quotedField(row.setting) + "," + nameOf(row.outcome()) + "," + cell.failure;
+    std::string line = quotedField(scene.id) + "," + quotedField(scene.parameter) + "," +
+                       valueText(scene.values[place]) + "," + quotedField(scene.unit) + "," + row.kit + "," +
+                       quotedField(row.technique) + "," + quotedField(row.setting) + "," + nameOf(row.outcome()) + "," +
+                       cell.failure;
     line += judgementFields(cell.everywhere, true);
     line += cell.onReceiver ? judgementFields(*cell.onReceiver, false) : ",,,";
     line += "," + std::to_string(cell.notFinite);

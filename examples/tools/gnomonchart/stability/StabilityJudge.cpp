@@ -7,9 +7,9 @@
 namespace gnomon::examples {
 namespace {
 
-constexpr int reach = 2;                 // px: rows and columns on each side that a boundary 1 px off may blur
-constexpr std::size_t leastPixels = 50;  // that a shadow has, or a false one, to be lost
-constexpr double lostBelow = 0.2;        // IoU, as metrics::Catastrophes has it
+constexpr int reach = 2;                // px: rows and columns on each side that a boundary 1 px off may blur
+constexpr std::size_t leastPixels = 50; // that a shadow has, or a false one, to be lost
+constexpr double lostBelow = 0.2;       // IoU, as metrics::Catastrophes has it
 
 bool isEdge(double lit) { return lit > 0.0 && lit < 1.0; }
 
@@ -34,8 +34,7 @@ std::size_t wrongAwayFromEdges(const metrics::Picture& visibility, const metrics
     std::size_t wrong = 0;
     for (int y = 0; y < certain.height; ++y)
         for (int x = 0; x < certain.width; ++x)
-            wrong += certain.at(x, y) &&
-                     metrics::isShadowed(visibility.at(x, y)) == (truth.litCentre.at(x, y) != 0) &&
+            wrong += certain.at(x, y) && metrics::isShadowed(visibility.at(x, y)) == (truth.litCentre.at(x, y) != 0) &&
                      !isNearEdge(truth, x, y);
     return wrong;
 }

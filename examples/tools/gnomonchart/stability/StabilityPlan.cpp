@@ -28,8 +28,7 @@ std::vector<StabilityContender> stabilityContenders(const std::string& part, boo
         chosen.push_back({peerContender(peer, "defaults", {})});
         if (best && !peer.knobs.empty()) chosen.push_back({peerContender(peer, "best", {}), &peer});
     }
-    if (chosen.empty())
-        throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
+    if (chosen.empty()) throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
     return chosen;
 }
 

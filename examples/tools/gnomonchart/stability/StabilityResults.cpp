@@ -16,10 +16,14 @@ StabilityOutcome StabilityRow::outcome() const {
     StabilityOutcome worst = StabilityOutcome::HELD;
     for (const StabilityCell& cell : cells) {
         StabilityOutcome here = StabilityOutcome::LEFT;
-        if (cell.inBudget()) here = StabilityOutcome::HELD;
-        else if (cell.catastrophe()) here = StabilityOutcome::CATASTROPHE;
-        else if (cell.stated()) here = StabilityOutcome::STATED;
-        else if (cell.rightOnReceiver()) here = StabilityOutcome::ELSEWHERE;
+        if (cell.inBudget())
+            here = StabilityOutcome::HELD;
+        else if (cell.catastrophe())
+            here = StabilityOutcome::CATASTROPHE;
+        else if (cell.stated())
+            here = StabilityOutcome::STATED;
+        else if (cell.rightOnReceiver())
+            here = StabilityOutcome::ELSEWHERE;
         worst = std::max(worst, here);
     }
     return worst;
@@ -38,11 +42,16 @@ double StabilityRow::reach() const {
 
 const char* nameOf(StabilityOutcome outcome) {
     switch (outcome) {
-    case StabilityOutcome::HELD: return "held";
-    case StabilityOutcome::STATED: return "stated limit";
-    case StabilityOutcome::ELSEWHERE: return "elsewhere";
-    case StabilityOutcome::LEFT: return "left";
-    case StabilityOutcome::CATASTROPHE: break;
+    case StabilityOutcome::HELD:
+        return "held";
+    case StabilityOutcome::STATED:
+        return "stated limit";
+    case StabilityOutcome::ELSEWHERE:
+        return "elsewhere";
+    case StabilityOutcome::LEFT:
+        return "left";
+    case StabilityOutcome::CATASTROPHE:
+        break;
     }
     return "catastrophe";
 }
@@ -66,11 +75,21 @@ std::vector<StabilityCount> countsOf(const StabilityResults& results) {
         }
         ++count->scenes;
         switch (row.outcome()) {
-        case StabilityOutcome::HELD: ++count->held; break;
-        case StabilityOutcome::STATED: ++count->stated; break;
-        case StabilityOutcome::ELSEWHERE: ++count->elsewhere; break;
-        case StabilityOutcome::LEFT: ++count->left; break;
-        case StabilityOutcome::CATASTROPHE: ++count->catastrophes; break;
+        case StabilityOutcome::HELD:
+            ++count->held;
+            break;
+        case StabilityOutcome::STATED:
+            ++count->stated;
+            break;
+        case StabilityOutcome::ELSEWHERE:
+            ++count->elsewhere;
+            break;
+        case StabilityOutcome::LEFT:
+            ++count->left;
+            break;
+        case StabilityOutcome::CATASTROPHE:
+            ++count->catastrophes;
+            break;
         }
     }
     return counts;

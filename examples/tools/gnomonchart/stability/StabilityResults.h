@@ -42,10 +42,10 @@ struct StabilityCell {
 
 /// What a sweep comes to.
 enum class StabilityOutcome {
-    HELD,       ///< within the budget at every value.
-    STATED,     ///< where it is not, diagnose() says so, or the technique refuses.
-    ELSEWHERE,  ///< where it is not, and says nothing, it is right on its receiver: other surfaces get no shadow by design.
-    LEFT,       ///< out of its budget, and says nothing.
+    HELD,      ///< within the budget at every value.
+    STATED,    ///< where it is not, diagnose() says so, or the technique refuses.
+    ELSEWHERE, ///< where it is not, and says nothing, it is right on its receiver: other surfaces get no shadow by design.
+    LEFT,      ///< out of its budget, and says nothing.
     CATASTROPHE ///< see StabilityCell::catastrophe().
 };
 

@@ -77,9 +77,8 @@ private:
 
 } // namespace
 
-StabilityResults
-runStability(const StabilityPlan& plan,
-             const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
+StabilityResults runStability(const StabilityPlan& plan,
+                              const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
     StabilityResults results;
     results.made = plan.made;
     for (const StabilityScene& scene : plan.scenes) results.scenes.push_back(textOf(scene));

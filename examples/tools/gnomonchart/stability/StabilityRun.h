@@ -14,7 +14,8 @@ namespace gnomon::examples {
 ///                  false ends the run.
 /// @return all that was measured: the same from run to run.
 /// @throws std::runtime_error, one sentence, if no process can be started.
-StabilityResults runStability(const StabilityPlan& plan,
-                              const std::function<bool(std::size_t done, std::size_t all, const std::string&)>& progress);
+StabilityResults
+runStability(const StabilityPlan& plan,
+             const std::function<bool(std::size_t done, std::size_t all, const std::string&)>& progress);
 
 } // namespace gnomon::examples

@@ -10,7 +10,7 @@ namespace gnomon::examples {
 
 /// A scene that is hard on shadows, at one value of its parameter.
 struct StabilityCase {
-    ChartScene scene;             ///< drawn by every contender. Its receivers come first in the graph.
+    ChartScene scene;               ///< drawn by every contender. Its receivers come first in the graph.
     osg::ref_ptr<osg::Group> truth; ///< what rays see; null: the scene's content.
 };
 

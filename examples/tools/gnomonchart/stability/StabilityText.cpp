@@ -39,7 +39,8 @@ void addScene(std::ostream& out, const StabilityResults& results, const Stabilit
 }
 
 void addCounts(std::ostream& out, const StabilityResults& results) {
-    out << std::left << std::setw(nameWidth + 2) << "technique" << "held  stated  elsewhere  left  catastrophes\n";
+    out << std::left << std::setw(nameWidth + 2) << "technique"
+        << "held  stated  elsewhere  left  catastrophes\n";
     for (const StabilityCount& count : countsOf(results))
         out << "  " << std::left << std::setw(nameWidth) << nameOf(count.technique, count.setting) << std::right
             << std::setw(4) << count.held << std::setw(8) << count.stated << std::setw(11) << count.elsewhere

@@ -68,8 +68,7 @@ SceneParts nested(double depth) {
         osg::ref_ptr<osg::Node> below = node(mesh);
         for (int i = 0; i < int(depth); ++i) {
             const double stretch = i % 2 ? -0.5 : -2.0;
-            osg::ref_ptr<osg::MatrixTransform> over =
-                new osg::MatrixTransform(osg::Matrixd::scale(stretch, 1.0, 1.0));
+            osg::ref_ptr<osg::MatrixTransform> over = new osg::MatrixTransform(osg::Matrixd::scale(stretch, 1.0, 1.0));
             over->addChild(below);
             below = over;
         }
@@ -113,19 +112,54 @@ SceneParts depthRange(double ratio) {
 
 std::vector<StabilityScene> numberScenes() {
     return {
-        {"N1", section, "Far from the origin, sun", "The picture must be that at the origin.", "distance", "m",
-         {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7}, madeOf(farFromOrigin)},
-        {"N1L", section, "Far from the origin, lamp", "A lamp's matrix multiplies coordinates, and loses them twice.",
-         "distance", "m", {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7}, madeOf(lampFarFromOrigin)},
-        {"N2", section, "Broken triangles", "NaN, infinity and triangles without area count as if they were not there.",
-         "broken triangles in each caster", "", {0.0, 1.0, 4.0, 16.0, 100.0}, madeOf(withBadTriangles)},
-        {"N3", section, "Scale", "The same scene in any unit gives the same picture.", "size of a metre", "units",
-         {1.0, 0.1, 10.0, 1e-2, 1e2, 1e-3, 1e3, 1e4}, madeOf(ofScale)},
-        {"N4", section, "Nested and mirrored transforms",
-         "Each transform mirrors and stretches the caster, and turns its faces inside out.", "transforms above a caster",
-         "", {0.0, 1.0, 2.0, 7.0, 16.0, 33.0}, madeOf(nested)},
-        {"N5", section, "Depth range", "Marks drawn at the receiver's own depth fight with it where depth is coarse.",
-         "far plane over near plane", "", {1e2, 1e3, 1e4, 1e5, 1e6}, madeOf(depthRange)},
+        {"N1",
+         section,
+         "Far from the origin, sun",
+         "The picture must be that at the origin.",
+         "distance",
+         "m",
+         {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7},
+         madeOf(farFromOrigin)},
+        {"N1L",
+         section,
+         "Far from the origin, lamp",
+         "A lamp's matrix multiplies coordinates, and loses them twice.",
+         "distance",
+         "m",
+         {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7},
+         madeOf(lampFarFromOrigin)},
+        {"N2",
+         section,
+         "Broken triangles",
+         "NaN, infinity and triangles without area count as if they were not there.",
+         "broken triangles in each caster",
+         "",
+         {0.0, 1.0, 4.0, 16.0, 100.0},
+         madeOf(withBadTriangles)},
+        {"N3",
+         section,
+         "Scale",
+         "The same scene in any unit gives the same picture.",
+         "size of a metre",
+         "units",
+         {1.0, 0.1, 10.0, 1e-2, 1e2, 1e-3, 1e3, 1e4},
+         madeOf(ofScale)},
+        {"N4",
+         section,
+         "Nested and mirrored transforms",
+         "Each transform mirrors and stretches the caster, and turns its faces inside out.",
+         "transforms above a caster",
+         "",
+         {0.0, 1.0, 2.0, 7.0, 16.0, 33.0},
+         madeOf(nested)},
+        {"N5",
+         section,
+         "Depth range",
+         "Marks drawn at the receiver's own depth fight with it where depth is coarse.",
+         "far plane over near plane",
+         "",
+         {1e2, 1e3, 1e4, 1e5, 1e6},
+         madeOf(depthRange)},
     };
 }
 

@@ -17,7 +17,8 @@ SceneCamera cameraOf(const SceneParts& parts, const osg::BoundingBoxd& bounds, i
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     const osg::Vec3d way = parts.center - parts.eye;
     const bool down = std::hypot(way.x(), way.y()) < 1e-3 * way.length();
-    camera->setViewMatrixAsLookAt(parts.eye, parts.center, down ? osg::Vec3d(0.0, 1.0, 0.0) : osg::Vec3d(0.0, 0.0, 1.0));
+    camera->setViewMatrixAsLookAt(parts.eye, parts.center,
+                                  down ? osg::Vec3d(0.0, 1.0, 0.0) : osg::Vec3d(0.0, 0.0, 1.0));
     const double aspect = double(width) / height, near = parts.near.value_or(1.0), far = parts.far.value_or(2.0);
     if (parts.orthographic) {
         const double up = *parts.orthographic;
@@ -76,7 +77,8 @@ Mesh landscape(const std::function<double(double, double)>& height, double half,
 
 Mesh tilted(double half, double degrees) {
     const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
-    return quad(half * glm::dvec3(-c, -1.0, s), 2.0 * half * glm::dvec3(c, 0.0, -s), 2.0 * half * glm::dvec3(0.0, 1.0, 0.0));
+    return quad(half * glm::dvec3(-c, -1.0, s), 2.0 * half * glm::dvec3(c, 0.0, -s),
+                2.0 * half * glm::dvec3(0.0, 1.0, 0.0));
 }
 
 Mesh boxAt(const glm::dvec3& foot, const glm::dvec3& size) {

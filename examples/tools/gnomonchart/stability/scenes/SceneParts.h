@@ -11,14 +11,15 @@ namespace gnomon::examples {
 
 /// What a stability scene is put together from. Lengths are metres, z is up.
 struct SceneParts {
-    osg::ref_ptr<osg::Group> content = new osg::Group; ///< receivers first; a flat one is "ground", a hilly one "terrain".
-    osg::Vec4d light = sunAt(120.0, 45.0);             ///< homogeneous, world.
+    osg::ref_ptr<osg::Group> content =
+        new osg::Group;                    ///< receivers first; a flat one is "ground", a hilly one "terrain".
+    osg::Vec4d light = sunAt(120.0, 45.0); ///< homogeneous, world.
     osg::Vec3d eye{-8.0, -14.0, 10.0}, center{0.0, 0.0, 1.0};
-    double fovy = 40.0;                  ///< degrees.
-    std::optional<double> orthographic;  ///< instead: half of what the picture's height shows.
-    std::optional<double> near, far;     ///< both or none; none: close about the content.
-    double radius = 3.0;                 ///< of what matters, for contact and the peers' lengths.
-    osg::ref_ptr<osg::Group> truth;      ///< see StabilityCase.
+    double fovy = 40.0;                 ///< degrees.
+    std::optional<double> orthographic; ///< instead: half of what the picture's height shows.
+    std::optional<double> near, far;    ///< both or none; none: close about the content.
+    double radius = 3.0;                ///< of what matters, for contact and the peers' lengths.
+    osg::ref_ptr<osg::Group> truth;     ///< see StabilityCase.
 
     void add(const Mesh& mesh, const std::string& name = "");
     void add(osg::Node* node) { content->addChild(node); }
