@@ -30,9 +30,7 @@ const bool registered = [] {
     return true;
 }();
 
-/// @param casters  a CasterMesh, or CasterDrawables.
-template <typename Casters>
-bool areSome(const EnlistedTechnique& entry, const Casters& casters) {
+bool areSome(const EnlistedTechnique& entry, const CasterDrawables& casters) {
     if (casters.invalidTriangles > 0)
         entry.technique->report(entry.frameNumber,
                                 "invalid triangles are left out: " + std::to_string(casters.invalidTriangles) +
@@ -52,7 +50,7 @@ bool areSome(const EnlistedTechnique& entry, const Casters& casters) {
 }
 
 bool hasCasters(const EnlistedTechnique& entry, const FrameCasters& casters) {
-    return entry.technique->takesDrawables() ? areSome(entry, casters.drawables()) : areSome(entry, casters.mesh());
+    return areSome(entry, entry.technique->takesDrawables() ? casters.drawables() : *casters.layers().pieces);
 }
 
 /// A receiver that is out of sight is nothing to report; one that can never be seen to receive is.
@@ -82,7 +80,8 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
 const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderStage& stage,
                               std::deque<FrameCasters>& known) {
     const CasterView view{entry.eyeFromGroup, *entry.projection, stage.getViewport(),
-                          entry.viewPoint,    entry.lodScale,    &stage};
+                          entry.viewPoint,    entry.lodScale,    &stage,
+                          entry.quads};
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
     return found == known.end() ? known.emplace_back(*entry.group, view) : *found;
@@ -356,6 +355,7 @@ void ShadowBin::handOnLateJobs(osgUtil::RenderBin* last) {
 
 void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (!isIdle()) {
+        foundQuadSplit(*renderInfo.getState()); // for the next cull, which may be of another thread
         popLeafState(*renderInfo.getState(), previous);
         std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
         const bool clean = isStencilClean(leaves);
