@@ -3,6 +3,7 @@
 #include "StabilityScene.h"
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace gnomon::examples {
 
