@@ -107,7 +107,7 @@ std::vector<const osgUtil::RenderLeaf*> receivingOf(const EnlistedTechnique& ent
     if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
     std::vector<const osgUtil::RenderLeaf*> receiving;
     for (const DrawnLeaf& leaf : leaves)
-        if (named ? receivers.count(leaf.leaf) > 0 : isSameLens(*leaf.leaf->_projection, *entry.projection))
+        if (named ? receivers.count(leaf.leaf) > 0 : isSameLens(projectionOf(*leaf.leaf), *entry.projection))
             receiving.push_back(leaf.leaf);
     return receiving;
 }
