@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/gl/FrameDepthCopy.h>
 #include <gnomon/gl/SavedFramebuffers.h>
+#include <gnomon/gl/WorkFramebuffer.h>
 
 #include <OpenThreads/ScopedLock>
 
@@ -90,20 +91,20 @@ glm::dvec2 FrameDepthCopy::transfer(osg::State& state, Target& target, const Pix
     return {0.0, 1.0};
 }
 
-/// Mesa has a window's first row at the top, a texture's at the bottom: so mirrored, memory is copied and nothing drawn.
-/// @return false if that is not a window of one sample a pixel, or not possible: formats can differ though they have as many
+/// Rows of Mesa's windows go from the top, a texture's from the bottom: so mirrored, memory is copied and nothing drawn.
+/// @return false if they do not, or pixels have several samples, or that is not possible: formats can differ though they have as many
 ///         bits.
 bool FrameDepthCopy::mirror(osg::State& state, Target& target, const PixelRect& pixels) {
     const auto& gl = *state.get<osg::GLExtensions>();
-    const bool isWindow = glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT) == 0 && glInteger(GL_SAMPLES) == 0;
-    if (!gl.glBlitFramebuffer || !isWindow) return false;
+    if (!gl.glBlitFramebuffer || glInteger(GL_SAMPLES) > 0 || !isTopDown(state)) return false;
+    const auto source = static_cast<GLuint>(glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT));
     const ScratchFramebuffer framebuffer(gl);
     const osg::Texture::TextureObject* texture = target.texture->getTextureObject(state.getContextID());
     framebuffer.attachDepth(*texture);
     gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_STENCIL_ATTACHMENT_EXT, GL_TEXTURE_2D, texture->id(), 0);
     const bool first = target.tried != texture;
     target.tried = texture;
-    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, 0);
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, source);
     if (first) glGetError(); // somebody else's
     blitMirrored(gl, pixels, target.texture->getTextureHeight());
     if (first) target.mirrors = glGetError() == GL_NO_ERROR;
