@@ -104,11 +104,8 @@ void SceneWindow::openWindow(const WindowNames& names, const ViewOptions& option
     _viewer.getWindows(windows);
     if (windows.empty())
         throw std::runtime_error(
-            "no window can be opened. Set DISPLAY to an X server with OpenGL and a stencil buffer, or use " +
+            "no window can be opened. Set DISPLAY to an X server with OpenGL, or use " +
             names.without + ", which needs no window.");
-    if (windows.front()->getTraits()->stencil == 0)
-        throw std::runtime_error("this display offers no window with a stencil buffer. Use another display, or " +
-                                 names.without + ", which needs no window.");
     _viewer.realize();
     windows.front()->setWindowName(names.program);
 }

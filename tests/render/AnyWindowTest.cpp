@@ -4,11 +4,15 @@
 #include "IntoTexture.h"
 
 #include <gnomon/ShadowSpec.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/group/ViewFrame.h>
 #include <support/Oracle.h>
 #include <support/Scene.h>
 
 #include <gtest/gtest.h>
+#include <osg/ColorMask>
 #include <osg/GLExtensions>
+#include <osg/Stencil>
 
 #include <algorithm>
 
@@ -83,8 +87,45 @@ std::vector<std::string> causesOf(const Scene& scene) {
     return all;
 }
 
-class AnyWindow : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Shadows, AnyWindow,
+class NoMarks : public gnomon::MarkJob {
+public:
+    std::string mark(osg::RenderInfo&, gnomon::ScreenPass&, unsigned) const override { return ""; }
+};
+
+/// Marks nothing, and counts how often it is asked to.
+class CountingTechnique : public gnomon::ShadowTechnique {
+public:
+    META_Node(test, CountingTechnique)
+    CountingTechnique() = default;
+    CountingTechnique(const CountingTechnique& other, const osg::CopyOp& copyOp) : ShadowTechnique(other, copyOp) {}
+    mutable int asked = 0;
+
+protected:
+    ~CountingTechnique() override = default;
+    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+                                                       const gnomon::FrameCasters& casters) const override;
+};
+
+std::vector<osg::ref_ptr<gnomon::MarkJob>> CountingTechnique::prepare(const gnomon::ViewFrame&,
+                                                                      const gnomon::ShadowLight&,
+                                                                      const gnomon::FrameCasters&) const {
+    ++asked;
+    return {new NoMarks};
+}
+
+/// Writes 5 into the stencil buffer where it is drawn, which no eye sees.
+osg::ref_ptr<osg::Geode> stencilMarks() {
+    osg::ref_ptr<osg::Geode> marks = node(square(2.0, 0.01));
+    osg::ref_ptr<osg::Stencil> five = new osg::Stencil;
+    five->setFunction(osg::Stencil::ALWAYS, 5, ~0u);
+    five->setOperation(osg::Stencil::KEEP, osg::Stencil::KEEP, osg::Stencil::REPLACE);
+    marks->getOrCreateStateSet()->setAttributeAndModes(five);
+    marks->getStateSet()->setAttributeAndModes(new osg::ColorMask(false, false, false, false));
+    return marks;
+}
+
+class AnyWindowBy : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(AnyWindow, AnyWindowBy,
                          testing::Values("planar", "planar:composite=blend", "box", "hull", "hull:composite=blend",
                                          "drape", "drape:composite=blend", "traced", "traced:composite=blend", "map",
                                          "map:composite=blend", "map:receiver=ground", "map:edges=smooth",
@@ -93,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Shadows, AnyWindow,
 
 } // namespace
 
-TEST_P(AnyWindow, WithoutStencilShowsTheSameBits) {
+TEST_P(AnyWindowBy, WithoutStencilShowsTheSameBits) {
     for (const int lights : {1, 2}) {
         const Picture with = inWindow(shadowed(GetParam(), lights).root, 8);
         EXPECT_GT(with.different(inWindow(shadowed("", lights).root, 8)), 300);
@@ -103,7 +144,7 @@ TEST_P(AnyWindow, WithoutStencilShowsTheSameBits) {
     }
 }
 
-TEST_P(AnyWindow, AnObjectWithoutStencilAndOneWithoutAlphaShowTheSameBits) {
+TEST_P(AnyWindowBy, AnObjectWithoutStencilAndOneWithoutAlphaShowTheSameBits) {
     for (const unsigned samples : {0u, 4u}) {
         const Picture with = inObject(shadowed(GetParam()).root, {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER,
                                                                   GL_DEPTH24_STENCIL8_EXT, samples});
@@ -113,4 +154,67 @@ TEST_P(AnyWindow, AnObjectWithoutStencilAndOneWithoutAlphaShowTheSameBits) {
         EXPECT_EQ(inObject(shadowed(GetParam()).root, without(samples, GL_RGB8)).different(with), 0) << samples;
         EXPECT_EQ(causesOf(scene), std::vector<std::string>());
     }
+}
+
+TEST(AnyWindow, WithStencilMakesNoBuffersAndCopiesNothing) {
+    for (const int bits : {8, 0}) {
+        HeadlessContext::Options options;
+        options.stencilBits = bits;
+        Camera camera(shadowed("planar").root, slanted, options);
+        third(camera);
+        osg::GraphicsContext& context = *camera.context().graphicsContext();
+        context.makeCurrent();
+        GLuint next = 0;
+        context.getState()->get<osg::GLExtensions>()->glGenRenderbuffers(1, &next);
+        EXPECT_EQ(next == 1, bits == 8) << "OpenGL counts what is made";
+        context.releaseContext();
+    }
+}
+
+/// Where the height of a window is not known, its rows cannot be told from the top, and depths are drawn once more.
+TEST(AnyWindow, OfAnUnknownHeightShowsTheSameShadows) {
+    for (const char* spec : {"planar", "planar:composite=blend", "map:edges=smooth", "traced:receiver=ground"}) {
+        const Picture with = inWindow(shadowed(spec).root, 8);
+        HeadlessContext::Options options;
+        options.stencilBits = 0;
+        const Scene scene = shadowed(spec);
+        Camera camera(scene.root, slanted, options);
+        const_cast<osg::GraphicsContext::Traits*>(camera.context().graphicsContext()->getTraits())->height = 1;
+        EXPECT_LT(third(camera).different(with), 20) << spec << ": edges alone may be rounded otherwise";
+        EXPECT_EQ(causesOf(scene), std::vector<std::string>());
+    }
+}
+
+TEST(AnyWindow, TheMarksOfAProgramStay) {
+    const auto stencilOf = [](const std::string& spec) {
+        const Scene scene = shadowed(spec);
+        scene.root->addChild(stencilMarks());
+        Camera camera(scene.root, slanted);
+        third(camera);
+        const osg::ref_ptr<osg::Image> bits = camera.context().stencil();
+        return std::vector<unsigned char>(bits->data(), bits->data() + bits->getTotalSizeInBytes());
+    };
+    const std::vector<unsigned char> without = stencilOf("");
+    EXPECT_GT(std::count(without.begin(), without.end(), 5), 500);
+    for (const char* spec : {"planar", "planar:composite=blend", "map", "hull"}) EXPECT_EQ(stencilOf(spec), without) << spec;
+}
+
+TEST(AnyWindow, WhatCannotBeDrawnIsPreparedOnceAndAgainWhenItCan) {
+    Scene scene = groundScene(casters);
+    const osg::ref_ptr<CountingTechnique> technique = new CountingTechnique;
+    scene.addShadow(technique);
+    Camera camera(scene.root, slanted);
+    osg::Camera& view = *camera.viewer().getCamera();
+    view.setClearDepth(0.5);
+    for (int frame = 0; frame < 4; ++frame) {
+        camera.frame();
+        EXPECT_EQ(technique->asked, 1);
+        ASSERT_EQ(technique->diagnose().size(), 1u);
+        EXPECT_NE(technique->diagnose()[0].find("cleared to less than 1"), std::string::npos);
+    }
+    view.setClearDepth(1.0);
+    camera.frame(); // finds that it can
+    camera.frame();
+    EXPECT_EQ(technique->asked, 2);
+    EXPECT_TRUE(technique->diagnose().empty());
 }
