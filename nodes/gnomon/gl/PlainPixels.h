@@ -5,10 +5,10 @@
 
 namespace gnomon {
 
-/// Pixels go to and come from memory as they are, without gaps; put back at its end.
+/// While it lives, pixels go to and come from memory as they are, without gaps.
 class PlainPixels {
 public:
-    explicit PlainPixels(const osg::State& state) {
+    explicit PlainPixels(const osg::State& state) : _extensions(*state.get<osg::GLExtensions>()) {
         glPushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
         glPushAttrib(GL_CURRENT_BIT | GL_PIXEL_MODE_BIT);
         for (GLenum size : {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_ROWS, GL_PACK_SWAP_BYTES,
@@ -18,10 +18,9 @@ public:
         glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
         glPixelTransferf(GL_DEPTH_SCALE, 1.0f);
         glPixelTransferf(GL_DEPTH_BIAS, 0.0f);
-        const auto* extensions = state.get<osg::GLExtensions>();
-        if (!extensions->isPBOSupported) return;
+        if (!_extensions.isPBOSupported) return;
         for (GLenum buffer : {GL_PIXEL_PACK_BUFFER_ARB, GL_PIXEL_UNPACK_BUFFER_ARB})
-            extensions->glBindBuffer(buffer, 0);
+            _extensions.glBindBuffer(buffer, 0);
     }
     ~PlainPixels() {
         glPopAttrib();
@@ -29,6 +28,9 @@ public:
     }
     PlainPixels(const PlainPixels&) = delete;
     PlainPixels& operator=(const PlainPixels&) = delete;
+
+private:
+    const osg::GLExtensions& _extensions;
 };
 
 } // namespace gnomon

@@ -82,7 +82,8 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
 const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderStage& stage,
                               std::deque<FrameCasters>& known) {
     const CasterView view{entry.eyeFromGroup, *entry.projection, stage.getViewport(),
-                          entry.viewPoint,    entry.lodScale,    &stage};
+                          entry.viewPoint,    entry.lodScale,    &stage,
+                          entry.quads};
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
     return found == known.end() ? known.emplace_back(*entry.group, view) : *found;

@@ -37,6 +37,7 @@ void drawDepths(const CompositorStage& draw, const ScreenRect& bounds) {
 
 void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (!isIdle()) {
+        foundQuadSplit(*renderInfo.getState()); // for the next cull, which may be of another thread
         popLeafState(*renderInfo.getState(), previous);
         tell(compose(renderInfo));
         renderInfo.getState()->decrementDynamicObjectCount();
