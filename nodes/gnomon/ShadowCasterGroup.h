@@ -38,8 +38,8 @@ struct CasterView;
 /// - BLEND: one multiplication a shadowed pixel.
 /// - DrawThreadPerContext: the next frame starts only after this frame's shadows are drawn, also if all is STATIC.
 /// Needs
-/// - OpenGL 3.0. Where a framebuffer lacks stencil bits, or alpha bits for soft edges, a copy of it has them, see
-///   docs/performance.md.
+/// - OpenGL 3.0. A framebuffer without stencil bits, or without alpha bits for soft edges, costs copies to one that
+///   has them.
 /// Limits
 /// - RELIGHT shadows three lights. BLEND shadows any number, but darkens a pixel only once.
 /// - RELIGHT darkens unlit receivers by setDark(), and receivers whose program reads no light it knows.

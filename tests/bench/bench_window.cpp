@@ -38,9 +38,10 @@ int measure(osg::ArgumentParser& arguments) {
         contenders.push_back(contender("without", spec, 0));
         contenders.push_back(contender("with", spec, 8));
         bench::race(contenders, *frames);
-        same = contenders[1].camera->frame().different(contenders[2].camera->frame()) == 0 && same;
+        const int different = contenders[1].camera->frame().different(contenders[2].camera->frame());
+        if (different > 0) std::printf("  %d pixels differ\n", different);
+        same = same && different == 0;
     }
-    std::puts(same ? "the pictures are the same" : "the pictures differ");
     return same ? 0 : 1;
 }
 

@@ -36,7 +36,8 @@ public:
         osgUtil::StateGraph* graph = cull->getCurrentStateGraph();
         if (graph->leaves_empty()) cull->getCurrentRenderBin()->addStateGraph(graph);
         osg::RefMatrix* projection = _projected ? cull->getProjectionMatrix() : nullptr;
-        graph->addLeaf(new osgUtil::RenderLeaf((_projected ? _before : _onScreen)->getDrawable(0), projection, nullptr, 0.0f));
+        graph->addLeaf(
+            new osgUtil::RenderLeaf((_projected ? _before : _onScreen)->getDrawable(0), projection, nullptr, 0.0f));
     }
 
 private:
@@ -67,8 +68,7 @@ TEST(HostileGraph, ALeafWithoutMatricesIsDrawnAndLeavesTheShadowsRight) {
             EXPECT_GT(plain.different(shadow), 500);
             int wrong = 0;
             for (std::size_t i = 0; i < both.pixels.size(); ++i)
-                wrong +=
-                    both.pixels[i] != (leaf.pixels[i] != plain.pixels[i] ? leaf.pixels[i] : shadow.pixels[i]);
+                wrong += both.pixels[i] != (leaf.pixels[i] != plain.pixels[i] ? leaf.pixels[i] : shadow.pixels[i]);
             EXPECT_EQ(wrong, 0) << "way " << way << (projected ? ", projected" : "");
         }
 }

@@ -42,13 +42,13 @@ public:
     PlainTransfer& operator=(const PlainTransfer&) = delete;
 };
 
-/// From the window to what is bound for drawing, `height` rows high.
-void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint height) {
+/// From a window to what is bound for drawing, `height` rows high.
+void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint height, GLbitfield what) {
     const GLint right = pixels.x + pixels.width, top = pixels.y + pixels.height;
     const GLboolean cut = glIsEnabled(GL_SCISSOR_TEST);
     glDisable(GL_SCISSOR_TEST);
-    gl.glBlitFramebuffer(pixels.x, pixels.y, right, top, pixels.x, height - pixels.y, right, height - top,
-                         GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
+    gl.glBlitFramebuffer(pixels.x, pixels.y, right, top, pixels.x, height - pixels.y, right, height - top, what,
+                         GL_NEAREST);
     if (cut) glEnable(GL_SCISSOR_TEST);
 }
 
@@ -85,8 +85,7 @@ FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pi
 /// @return Copy::rows.
 glm::dvec2 FrameDepthCopy::transfer(osg::State& state, Target& target, const PixelRect& pixels) {
     state.applyTextureAttribute(0, target.texture);
-    if (target.packed && target.mirrors && mirror(state, target, pixels))
-        return {target.texture->getTextureHeight() - 1, -1};
+    if (target.mirrors && mirror(state, target, pixels)) return {target.texture->getTextureHeight() - 1, -1};
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
     return {0.0, 1.0};
 }
@@ -96,17 +95,20 @@ glm::dvec2 FrameDepthCopy::transfer(osg::State& state, Target& target, const Pix
 ///         bits.
 bool FrameDepthCopy::mirror(osg::State& state, Target& target, const PixelRect& pixels) {
     const auto& gl = *state.get<osg::GLExtensions>();
-    if (!gl.glBlitFramebuffer || glInteger(GL_SAMPLES) > 0 || !isTopDown(state)) return false;
+    const bool sameBits = target.packed || glInteger(GL_DEPTH_BITS) == 24;
+    if (!gl.glBlitFramebuffer || !sameBits || glInteger(GL_SAMPLES) > 0 || !isTopDown(state)) return false;
     const auto source = static_cast<GLuint>(glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT));
     const ScratchFramebuffer framebuffer(gl);
     const osg::Texture::TextureObject* texture = target.texture->getTextureObject(state.getContextID());
     framebuffer.attachDepth(*texture);
-    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_STENCIL_ATTACHMENT_EXT, GL_TEXTURE_2D, texture->id(), 0);
+    if (target.packed)
+        gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_STENCIL_ATTACHMENT_EXT, GL_TEXTURE_2D, texture->id(), 0);
     const bool first = target.tried != texture;
     target.tried = texture;
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, source);
     if (first) glGetError(); // somebody else's
-    blitMirrored(gl, pixels, target.texture->getTextureHeight());
+    blitMirrored(gl, pixels, target.texture->getTextureHeight(),
+                 GL_DEPTH_BUFFER_BIT | (target.packed ? GL_STENCIL_BUFFER_BIT : 0));
     if (first) target.mirrors = glGetError() == GL_NO_ERROR;
     return target.mirrors;
 }

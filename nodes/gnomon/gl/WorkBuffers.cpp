@@ -67,8 +67,8 @@ WorkFormat WorkFormat::ofBound() {
     return format;
 }
 
-WorkBuffers::Buffers& WorkBuffers::fitting(const osg::GLExtensions& extensions, const WorkFormat& format,
-                                           GLsizei width, GLsizei height) {
+WorkBuffers::Buffers& WorkBuffers::fitting(const osg::GLExtensions& extensions, const WorkFormat& format, GLsizei width,
+                                           GLsizei height) {
     Lock lock(_mutex);
     Buffers& buffers = _buffers[format];
     if (buffers.width >= width && buffers.height == height) return buffers;

@@ -40,12 +40,12 @@ public:
     };
     /// Of one format.
     struct Buffers {
-        GLuint color = 0;          ///< a renderbuffer.
-        GLuint depth = 0;          ///< the same; of one sample and 24 bits a texture.
+        GLuint color = 0; ///< a renderbuffer.
+        GLuint depth = 0; ///< the same; of one sample and 24 bits a texture.
         bool depthIsTexture = false;
         GLsizei width = 0, height = 0;
-        bool tried = false;      ///< to copy colours to them.
-        bool takesColor = true;  ///< false once OpenGL has refused that.
+        bool tried = false;     ///< to copy colours to them.
+        bool takesColor = true; ///< false once OpenGL has refused that.
         DepthCopy depthCopy = DepthCopy::Untried;
     };
 
@@ -53,6 +53,8 @@ public:
 
     /// Buffers of that format: at least as wide; exactly as high.
     Buffers& fitting(const osg::GLExtensions& extensions, const WorkFormat& format, GLsizei width, GLsizei height);
+
+    bool empty() const { return _buffers.empty(); }
 
     void flushDeletedGLObjects(double, double&) override {}
     void flushAllDeletedGLObjects() override {}

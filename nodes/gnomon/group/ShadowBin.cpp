@@ -344,6 +344,7 @@ void ShadowBin::handOnLateJobs(osgUtil::RenderBin* last) {
     for (ShadowJob& job : _lateJobs) job.hidingOnly = true;
     late._jobs = std::move(_lateJobs);
     late._options = _options;
+    late._sharesStencil = _sharesStencil;
     late._composesBelow = last->getBinNum() + 1;
 }
 

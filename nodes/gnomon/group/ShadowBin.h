@@ -100,7 +100,7 @@ private:
     std::vector<osg::ref_ptr<ViewEffect>> _effects;
     std::vector<FrameReport> _waiting; ///< of techniques, for that the stage can be composed in, see StageVerdict.
     bool _sharesStencil = false;       ///< leaves of the stage test or mark the stencil buffer themselves.
-    CompositorOptions _options; ///< of all that were enlisted.
+    CompositorOptions _options;        ///< of all that were enlisted.
 };
 
 } // namespace gnomon
