@@ -92,7 +92,9 @@ const int mapCount = MAPS;
 //
 // drawn: how far off the plane may be, in e. Its place is left as it is, or edges would move; it is compared as if it were
 // as much nearer to the light as that is, measured along the light.
-float visibility(vec4 pixel, vec4 plane, float drawn) {
+// nearer: how much of e has been added. Of what faces away from the light that is farther from it, and taken back twice: a
+// single sheet, seen from behind, does not shadow itself.
+float visibility(vec4 pixel, vec4 plane, float drawn, float nearer) {
     float share = 0.0, left = 1.0;
     for (int i = 0; i < mapCount; ++i) {
         vec3 at;
@@ -107,7 +109,7 @@ float visibility(vec4 pixel, vec4 plane, float drawn) {
             steepness = error.z;
         }
         float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
-        float off = drawn / (max(abs(deeper), steep) * (mapFromPixel(i) * pixel).w);
+        float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (max(abs(deeper), steep) * (mapFromPixel(i) * pixel).w);
         float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
         vec2 p = place(i).xy + at.xy * place(i).z;
 #ifdef SMOOTH
@@ -161,9 +163,9 @@ void main() {
     vec2 slope = changeOf(e, here);
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float slopes = abs(slope.x) + abs(slope.y), drawn = max(drawnError.x + e * drawnError.y, 0.0);
-    float nearer = e + depthError.x + depthError.y * slopes;
+    float off = depthError.x + depthError.y * slopes, nearer = e + off;
     vec2 at = gl_FragCoord.xy + depthError.zw;
-    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer), drawn * (1.0 + drawnError.z * slopes));
+    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer), drawn * (1.0 + drawnError.z * slopes), off);
 #ifdef SMOOTH
     arrives = ofPixel(arrives);
 #endif

@@ -184,9 +184,11 @@ CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, st
 osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const Selection& casters,
                                                         const osg::ref_ptr<const CasterDrawables>& known,
                                                         const CasterView* view, LevelPieces* levels,
-                                                        const QuadSplit& quads) {
+                                                        const QuadSplit& quads,
+                                                        const std::optional<CastingRule>& rule) {
     DrawableVisitor visitor(casters, known.get(), levels);
     visitor.setQuads(quads);
+    if (rule) visitor.setRule(*rule);
     if (view) visitor.setView(*view);
     if (levels) levels->startVisit();
     root.accept(visitor);

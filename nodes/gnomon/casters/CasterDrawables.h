@@ -3,6 +3,7 @@
 #include <gnomon/Selection.h>
 #include <gnomon/casters/AlphaTest.h>
 #include <gnomon/casters/CasterView.h>
+#include <gnomon/casters/CastingRule.h>
 
 #include <osg/BoundingBox>
 #include <osg/Drawable>
@@ -85,6 +86,7 @@ public:
     /// @param view    whose levels of detail are taken; null: the finest.
     /// @param levels  pieces under LODs that were met before, and gets those that are met now; may be null.
     /// @param quads   how quads are cut without a view.
+    /// @param rule    which drawables cast; nullopt: all that can.
     /// @return        `known` itself if nothing changed.
     ///
     /// Cost
@@ -92,7 +94,8 @@ public:
     static osg::ref_ptr<const CasterDrawables> of(osg::Node& root, const Selection& casters,
                                                   const osg::ref_ptr<const CasterDrawables>& known,
                                                   const CasterView* view = nullptr, LevelPieces* levels = nullptr,
-                                                  const QuadSplit& quads = {});
+                                                  const QuadSplit& quads = {},
+                                                  const std::optional<CastingRule>& rule = {});
 
 protected:
     ~CasterDrawables() override = default;

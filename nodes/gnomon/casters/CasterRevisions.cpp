@@ -15,9 +15,11 @@ constexpr unsigned pruneEvery = 60;    // calls: levels may leave the graph unse
 
 const void* keyOf(const CasterView* view) { return view ? view->key : nullptr; }
 
-osg::ref_ptr<const CasterMesh> extracted(osg::Node& root, const Selection& casters, const QuadSplit& quads) {
+osg::ref_ptr<const CasterMesh> extracted(osg::Node& root, const Selection& casters, const QuadSplit& quads,
+                                         const CastingRule& rule) {
     const osg::ref_ptr<CasterExtraction> found = new CasterExtraction(casters);
     found->setQuads(quads);
+    found->setRule(rule);
     root.accept(*found);
     return new CasterMesh(*found);
 }
@@ -34,6 +36,11 @@ void CasterRevisions::clear() {
     Lock lock(_mutex);
     _choices.dropIf([](const Choice&) { return true; });
     _levels.clear();
+}
+
+void CasterRevisions::setRule(const CastingRule& rule) {
+    Lock lock(_mutex);
+    _rule = rule;
 }
 
 unsigned CasterRevisions::count() const {
@@ -69,12 +76,13 @@ osg::ref_ptr<const CasterMesh> CasterRevisions::mesh(osg::Node& root, const Sele
     if (view) _quads = view->quads;
     const osg::ref_ptr<CasterFingerprint> watch = new CasterFingerprint(casters);
     watch->setQuads(_quads);
+    watch->setRule(_rule);
     if (view) watch->setView(*view);
     root.accept(*watch);
     Choice& known = take(watch->choice(), watch->value(), view);
     if (known.mesh.get()) return known.mesh.get();
     if (!watch->metLevels()) {
-        known.mesh.set(extracted(root, casters, _quads));
+        known.mesh.set(extracted(root, casters, _quads, _rule));
         return known.mesh.get();
     }
     Choice& pieces = findDrawables(root, casters, view);
@@ -92,7 +100,8 @@ osg::ref_ptr<const CasterDrawables> CasterRevisions::drawables(osg::Node& root, 
 CasterRevisions::Choice& CasterRevisions::findDrawables(osg::Node& root, const Selection& casters,
                                                         const CasterView* view) {
     const osg::ref_ptr<const CasterDrawables> before = knownTo(view),
-                                              now = CasterDrawables::of(root, casters, before, view, &_levels, _quads);
+                                              now = CasterDrawables::of(root, casters, before, view, &_levels, _quads,
+                                                                        _rule);
     Choice& known = take(now->choice, now->fingerprint, view);
     if (known.pieces.get()) return known;
     known.pieces.set(now);

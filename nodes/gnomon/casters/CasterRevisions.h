@@ -3,6 +3,7 @@
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CastingRule.h>
 
 #include <OpenThreads/Mutex>
 
@@ -46,6 +47,8 @@ public:
     osg::ref_ptr<const CasterMesh> mesh(osg::Node& root, const Selection& casters, const CasterView* view);
     /// The same, drawable by drawable.
     osg::ref_ptr<const CasterDrawables> drawables(osg::Node& root, const Selection& casters, const CasterView* view);
+    /// Which drawables cast, of those that can. Default: all but skies.
+    void setRule(const CastingRule& rule);
     /// How often there was something that was not known.
     unsigned count() const;
     /// Forgets all: others cast.
@@ -69,6 +72,7 @@ private:
     LevelPieces _levels;
     unsigned _calls = 0, _count = 0;
     QuadSplit _quads; ///< of the last view.
+    CastingRule _rule;
 };
 
 } // namespace gnomon
