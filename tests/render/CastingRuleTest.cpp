@@ -6,7 +6,7 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gtest/gtest.h>
 #include <osg/BlendColor>
 #include <osg/BlendFunc>
@@ -127,7 +127,7 @@ struct Shop {
     std::size_t trianglesOf() const {
         std::size_t triangles = 0;
         for (const auto& piece : group->drawables()->list) triangles += piece->triangles;
-        EXPECT_EQ(group->casters()->triangles->size() / 3, triangles);
+        EXPECT_EQ(group->casters()->triangles(), triangles);
         return triangles;
     }
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;

@@ -24,8 +24,8 @@ TracedShadowTechnique::~TracedShadowTechnique() = default;
 
 std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                                   const FrameCasters& casters) const {
-    const CasterMesh& mesh = casters.mesh();
-    const SceneFrame scene(mesh.origin);
+    const CasterLayers& layers = casters.layers();
+    const SceneFrame scene(layers.origin);
     const auto usable = localLight(light.inGroup, scene);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
@@ -35,18 +35,18 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
     mark->frame.lightInScene = *usable;
     mark->frame.light = light.number;
     mark->frame.stage = view.stage;
-    mark->frame.origin = mesh.origin;
-    mark->frame.pieces = &casters.drawables();
+    mark->frame.origin = layers.origin;
+    mark->frame.pieces = layers.pieces;
     mark->frames = _frames;
     mark->resolved = _resolved;
-    mark->rounding = mesh.rounding;
+    mark->rounding = layers.largestRounding;
     mark->frame.clipFromScene = scene.clipFromScene(view);
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
-    const auto bounds = shadowBounds(mesh, mark->frame.clipFromScene, *usable);
+    const auto bounds = shadowBounds(layers, mark->frame.clipFromScene, *usable);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
     try {
-        mark->frame.scene = _casters->of(mesh, describe());
+        mark->frame.scene = _casters->of(layers, describe());
     } catch (const std::exception& failure) {
         report(view.frameNumber, std::string("there is no shadow. ") + failure.what());
         return {};
