@@ -52,7 +52,7 @@ struct CasterView;
 /// - A drawable in render bin 8 or higher receives where it writes depth, has bounds and an alpha of 1.
 /// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
-/// - VertexTraverser lists which drawables never cast.
+/// - VertexTraverser lists which drawables never cast. Neither does what is drawn at the far plane, as skies are.
 /// - Quads that are not flat cast as the driver cuts them, which is measured once a context.
 /// - Mesa's llvmpipe cuts quads of glDrawArrays() outside display lists now so, now so. Draw those that are not flat by indices.
 /// - An LOD casts as its view shows it. A cull callback that chooses among children is not asked.
@@ -69,6 +69,7 @@ struct CasterView;
 ///       Casters { Mask 0xff Node FALSE }
 ///       Composite BLEND
 ///       Dark 0.3
+///       OpaqueFrom 0.8
 ///       LightSources 1 { osg::LightSource { UniqueID 9 } }
 ///       Lights 1 { 0 433000.25 5410000.5 60 1 }
 ///       Spots 1 { 0 0 -1 30 }
@@ -96,6 +97,13 @@ public:
     Selection getCasters() const { return _casters.in(*this); }
     /// True if setCasters() has named a node that has been deleted since.
     bool areCastersGone() const { return _casters.isGone(*this); }
+
+    /// Alpha from which on a blending drawable casts, 0 … 1. Default 0.5: what hides less than half casts nothing. 0: all cast.
+    /// It counts where it is constant: of osg::Material, an overall colour or osg::BlendColor.
+    /// Clamped. NaN is refused with a warning.
+    void setOpaqueFrom(float alpha);
+    /// See setOpaqueFrom().
+    float getOpaqueFrom() const { return _opaqueFrom; }
 
     /// How shadowed pixels are darkened. Default RELIGHT, which also replaces any unknown value.
     void setComposite(Composite composite) { _composite = composite == BLEND ? BLEND : RELIGHT; }
@@ -166,7 +174,7 @@ protected:
 private:
     SelectionReference _casters;
     Composite _composite = RELIGHT;
-    float _dark = 0.5f;
+    float _dark = 0.5f, _opaqueFrom = 0.5f;
     std::vector<NodeReference> _lightSources;
     std::vector<ShadowLight> _lights;
     std::vector<LightUniform> _lightUniforms;

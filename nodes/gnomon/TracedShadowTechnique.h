@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/ShadowTechnique.h>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace gnomon {
 
 class ResolvedDepth;
 class RaySceneCache;
+class TracedFrames;
 
 /// Casts hard shadows onto everything visible, by one ray a pixel towards the light.
 ///
@@ -21,6 +23,7 @@ class RaySceneCache;
 ///
 /// Cost
 /// - One ray for each pixel within the casters' and shadows' bounds, on all cores.
+/// - Pixels whose depth, light and casters are those of the frame before cost a comparison.
 /// - A read of the depth buffer.
 /// - After a change of the casters: a ray tree over what changed, see RayScene. A large drawable that moves as a whole
 ///   keeps its tree.
@@ -30,6 +33,7 @@ class RaySceneCache;
 /// - One stencil bit a light, and one more where a receiver is named.
 /// Limits
 /// - One sample a pixel: edges are hard.
+/// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
 /// - Alpha-tested casters cast as if they were solid.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.
@@ -63,6 +67,9 @@ public:
     /// A tree that a ShadowQuery or another technique has of the same casters is shared and does not count.
     unsigned builds() const;
 
+    /// Number of pixels that rays were cast for so far, over all views and lights.
+    std::size_t tracedPixels() const;
+
     /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
@@ -71,7 +78,8 @@ protected:
 
 private:
     std::unique_ptr<RaySceneCache> _casters;
-    std::shared_ptr<ResolvedDepth> _resolved; ///< a frame that is still drawn keeps it.
+    std::shared_ptr<ResolvedDepth> _resolved; ///< a frame that is still drawn keeps it, and the next.
+    std::shared_ptr<TracedFrames> _frames;
 };
 
 } // namespace gnomon

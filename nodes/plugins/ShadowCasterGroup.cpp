@@ -123,6 +123,9 @@ REGISTER_OBJECT_WRAPPER(gnomon_ShadowCasterGroup, newGroup(), gnomon::ShadowCast
     wrapper->addSerializer(
         new fields::ExactNumber<MyClass, float>("Dark", fresh->getDark(), &MyClass::getDark, &MyClass::setDark),
         osgDB::BaseSerializer::RW_FLOAT);
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, float>("OpaqueFrom", fresh->getOpaqueFrom(),
+                                                                   &MyClass::getOpaqueFrom, &MyClass::setOpaqueFrom),
+                           osgDB::BaseSerializer::RW_FLOAT);
     ADD_USER_SERIALIZER(LightSources);
     ADD_USER_SERIALIZER(Lights);
     ADD_USER_SERIALIZER(Spots);

@@ -92,42 +92,46 @@ const int mapCount = MAPS;
 //
 // drawn: how far off the plane may be, in e. Its place is left as it is, or edges would move; it is compared as if it were
 // as much nearer to the light as that is, measured along the light.
-float visibility(vec4 pixel, vec4 plane, float drawn) {
+// nearer: how much of e has been added. Of what faces away from the light that is farther from it, and taken back twice: a
+// single sheet, seen from behind, does not shadow itself.
+float visibility(vec4 pixel, vec4 plane, float drawn, float nearer) {
     float share = 0.0, left = 1.0;
     for (int i = 0; i < mapCount; ++i) {
         vec3 at;
-        if (!holds(i, pixel, at)) continue;
-        vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
-        float deeper = dot(plane, pixelFromMapZ(i));
-        vec2 slope = -across / (deeper * place(i).z);
-        float steepness = abs(slope.x) + abs(slope.y);
-        vec4 error = mix(nearestError(i), farthestError(i), clamp(at.z, 0.0, 1.0));
-        if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
-            slope = vec2(0.0);
-            steepness = error.z;
-        }
-        float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
-        float off = drawn / (max(abs(deeper), steep) * (mapFromPixel(i) * pixel).w);
-        float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
-        vec2 p = place(i).xy + at.xy * place(i).z;
+        float asked = holds(i, pixel, at) ? 1.0 : 0.0;
+        for (float once = 0.0; once < asked; once += 1.0) { // a loop ends where no pixel asks; a condition does not
+            vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
+            float deeper = dot(plane, pixelFromMapZ(i));
+            vec2 slope = -across / (deeper * place(i).z);
+            float steepness = abs(slope.x) + abs(slope.y);
+            vec4 error = mix(nearestError(i), farthestError(i), clamp(at.z, 0.0, 1.0));
+            if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
+                slope = vec2(0.0);
+                steepness = error.z;
+            }
+            float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
+            float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (max(abs(deeper), steep) * (mapFromPixel(i) * pixel).w);
+            float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
+            vec2 p = place(i).xy + at.xy * place(i).z;
 #ifdef SMOOTH
-        sides = sidesIn(i, pixel, -plane.xy, at.xy);
+            sides = sidesIn(i, pixel, -plane.xy, at.xy);
 #endif
 #if defined(SMOOTH) && defined(BICUBIC)
-        return litOverPixel(i, p, depth, slope, isAtRim ? mat2(0.0) : sides);
+            return litOverPixel(i, p, depth, slope, isAtRim ? mat2(0.0) : sides);
 #elif !defined(SOFT)
-        return lit(p, depth, slope, true);
+            return lit(p, depth, slope, true);
 #else
-        const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
-        float weight = left;
+            const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
+            float weight = left;
 #if MAPS > 1
-        vec2 inside = min(at.xy, 1.0 - at.xy) - place(i).w - mostSpread(i, depth) / place(i).z;
-        weight *= clamp(min(inside.x, inside.y) / fade, least, 1.0);
+            vec2 inside = min(at.xy, 1.0 - at.xy) - place(i).w - mostSpread(i, depth) / place(i).z;
+            weight *= clamp(min(inside.x, inside.y) / fade, least, 1.0);
 #endif
-        share += weight * litSoftly(i, p, depth, slope);
-        left -= weight;
-        if (left <= least) return share / (1.0 - left);
+            share += weight * litSoftly(i, p, depth, slope);
+            left -= weight;
+            if (left <= least) return share / (1.0 - left);
 #endif
+        }
     }
     return left < 1.0 ? share / (1.0 - left) : 1.0;
 }
@@ -161,9 +165,9 @@ void main() {
     vec2 slope = changeOf(e, here);
     // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
     float slopes = abs(slope.x) + abs(slope.y), drawn = max(drawnError.x + e * drawnError.y, 0.0);
-    float nearer = e + depthError.x + depthError.y * slopes;
+    float off = depthError.x + depthError.y * slopes, nearer = e + off;
     vec2 at = gl_FragCoord.xy + depthError.zw;
-    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer), drawn * (1.0 + drawnError.z * slopes));
+    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer), drawn * (1.0 + drawnError.z * slopes), off);
 #ifdef SMOOTH
     arrives = ofPixel(arrives);
 #endif

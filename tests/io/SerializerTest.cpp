@@ -143,10 +143,12 @@ TEST_P(SceneFile, KeepsTheCompositeAndItsFactor) {
     group->setComposite(ShadowCasterGroup::BLEND);
     for (const float dark : {0.0f, 0.1f, 1.0f / 3.0f, std::nextafter(0.5f, 1.0f), 1e-30f, 1.0f}) {
         group->setDark(dark);
+        group->setOpaqueFrom(dark);
         const auto copy = test::throughFile(*group, kind());
         ASSERT_TRUE(copy);
         EXPECT_EQ(copy->getComposite(), ShadowCasterGroup::BLEND);
         EXPECT_EQ(copy->getDark(), dark);
+        EXPECT_EQ(copy->getOpaqueFrom(), dark);
     }
 }
 
@@ -331,6 +333,7 @@ TEST_P(SceneFile, LoadsDefaultsAsDefaults) {
     EXPECT_EQ(copy->getCasters(), fresh->getCasters());
     EXPECT_EQ(copy->getComposite(), fresh->getComposite());
     EXPECT_EQ(copy->getDark(), fresh->getDark());
+    EXPECT_EQ(copy->getOpaqueFrom(), fresh->getOpaqueFrom());
     EXPECT_TRUE(copy->getLights().empty() && copy->getLightSources().empty());
     const osg::ref_ptr<PlanarShadowNode> freshNode = new PlanarShadowNode;
     const auto node = test::throughFile(*freshNode, kind());

@@ -46,7 +46,7 @@ std::size_t shadowed(const gnomon::DepthPicture& picture) {
     test::Soup ground;
     ground.ground(500.0);
     const gnomon::RayScene scene(ground.view());
-    const std::vector<std::uint8_t> bits = gnomon::depthBufferShadow(scene, picture, clip(), sun);
+    const std::vector<std::uint8_t> bits = gnomon::depthBufferShadow(scene, picture, clip(), sun).bits;
     std::size_t count = 0;
     for (const std::uint8_t byte : bits)
         for (int i = 0; i < 8; ++i) count += (byte >> i) & 1u;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/AlphaTest.h>
+#include <gnomon/casters/PathState.h>
 
 #include <osg/AlphaFunc>
 #include <osg/Geometry>
 #include <osg/Image>
-#include <osg/Program>
 #include <osg/TexEnv>
 #include <osg/TexMat>
 
@@ -15,63 +15,6 @@ namespace {
 
 using A = osg::StateAttribute;
 
-/// OpenGL's state as the sets along a path leave it, by OpenSceneGraph's rules of inheritance.
-class PathState {
-public:
-    explicit PathState(const osg::NodePath& path) {
-        for (const osg::Node* node : path) add(*node);
-        if (path.empty()) return;
-        for (const osg::Node* node = path.front(); node->getNumParents() > 0;) add(*(node = node->getParent(0)), true);
-    }
-
-    bool isOn(A::GLMode mode) const {
-        return isOnBy([mode](const osg::StateSet& set) { return set.getMode(mode); });
-    }
-    bool isTextureOn(unsigned unit, A::GLMode mode) const {
-        return isOnBy([=](const osg::StateSet& set) { return set.getTextureMode(unit, mode); });
-    }
-    /// Null if there is none.
-    A* attribute(A::Type type) const {
-        return attributeBy([type](const osg::StateSet& set) { return set.getAttributePair(type); });
-    }
-    A* textureAttribute(A::Type type) const {
-        return attributeBy([type](const osg::StateSet& set) { return set.getTextureAttributePair(0, type); });
-    }
-    /// Texture units that any set speaks of.
-    unsigned units() const {
-        std::size_t most = 0;
-        for (const osg::StateSet* set : _sets) most = std::max(most, set->getTextureModeList().size());
-        return static_cast<unsigned>(most);
-    }
-
-private:
-    void add(const osg::Node& node, bool above = false) {
-        if (node.getStateSet()) _sets.insert(above ? _sets.begin() : _sets.end(), node.getStateSet());
-    }
-
-    template <class Get>
-    bool isOnBy(Get get) const {
-        A::GLModeValue now = A::OFF;
-        for (const osg::StateSet* set : _sets) {
-            const A::GLModeValue given = get(*set);
-            if (!(given & A::INHERIT) && (!(now & A::OVERRIDE) || (given & A::PROTECTED))) now = given;
-        }
-        return now & A::ON;
-    }
-
-    template <class Get>
-    A* attributeBy(Get get) const {
-        const osg::StateSet::RefAttributePair* now = nullptr;
-        for (const osg::StateSet* set : _sets) {
-            const osg::StateSet::RefAttributePair* given = get(*set);
-            if (given && (!now || !(now->second & A::OVERRIDE) || (given->second & A::PROTECTED))) now = given;
-        }
-        return now ? now->first.get() : nullptr;
-    }
-
-    std::vector<const osg::StateSet*> _sets; // outermost first
-};
-
 bool isTextured(const PathState& state) {
     constexpr GLenum kinds[] = {GL_TEXTURE_2D, GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_RECTANGLE};
     for (unsigned unit = 0; unit < state.units(); ++unit)
@@ -80,15 +23,10 @@ bool isTextured(const PathState& state) {
     return false;
 }
 
-bool hasProgram(const PathState& state) {
-    const auto* program = dynamic_cast<const osg::Program*>(state.attribute(A::PROGRAM));
-    return program && program->getNumShaders() > 0;
-}
-
 /// Null if alpha is something else's.
 osg::Texture2D* textureOf(const PathState& state) {
     const bool generated = state.isTextureOn(0, GL_TEXTURE_GEN_S) || state.isTextureOn(0, GL_TEXTURE_GEN_T);
-    if (hasProgram(state) || generated || !state.isTextureOn(0, GL_TEXTURE_2D)) return nullptr;
+    if (state.hasProgram() || generated || !state.isTextureOn(0, GL_TEXTURE_2D)) return nullptr;
     return dynamic_cast<osg::Texture2D*>(state.textureAttribute(A::TEXTURE));
 }
 
@@ -139,7 +77,7 @@ std::optional<AlphaTest> AlphaTest::of(const osg::NodePath& path) {
     result.passing = test->getFunction() - osg::AlphaFunc::NEVER; // whose order this is
     result.reference = std::clamp(test->getReferenceValue(), 0.0f, 1.0f);
     result.texture = textureOf(state);
-    if (result.texture ? isSolid(*result.texture, state) : !isTextured(state) && !hasProgram(state))
+    if (result.texture ? isSolid(*result.texture, state) : !isTextured(state) && !state.hasProgram())
         return std::nullopt;
     const auto* matrix = dynamic_cast<const osg::TexMat*>(state.textureAttribute(A::TEXMAT));
     if (matrix) result.matrix = matrix->getMatrix();

@@ -194,9 +194,11 @@ CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, st
 osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const Selection& casters,
                                                         const osg::ref_ptr<const CasterDrawables>& known,
                                                         const CasterView* view, LevelPieces* levels,
-                                                        const QuadSplit& quads, const CasterBodies* bodies) {
+                                                        const QuadSplit& quads, const CasterBodies* bodies,
+                                                        const std::optional<CastingRule>& rule) {
     DrawableVisitor visitor(casters, known.get(), levels, bodies);
     visitor.setQuads(quads);
+    if (rule) visitor.setRule(*rule);
     if (view) visitor.setView(*view);
     if (levels) levels->startVisit();
     root.accept(visitor);

@@ -3,6 +3,7 @@
 #include <gnomon/Selection.h>
 #include <gnomon/casters/CasterDrawable.h>
 #include <gnomon/casters/CasterView.h>
+#include <gnomon/casters/CastingRule.h>
 
 #include <osg/BoundingBox>
 #include <osg/Referenced>
@@ -61,6 +62,7 @@ public:
     /// @param levels  pieces under LODs that were met before, and gets those that are met now; may be null.
     /// @param quads   how quads are cut without a view.
     /// @param bodies  whose vertices tell where a body is; may be null.
+    /// @param rule    which drawables cast; nullopt: all that can.
     /// @return        `known` itself if nothing changed.
     ///
     /// Cost
@@ -68,7 +70,8 @@ public:
     static osg::ref_ptr<const CasterDrawables> of(osg::Node& root, const Selection& casters,
                                                   const osg::ref_ptr<const CasterDrawables>& known,
                                                   const CasterView* view = nullptr, LevelPieces* levels = nullptr,
-                                                  const QuadSplit& quads = {}, const CasterBodies* bodies = nullptr);
+                                                  const QuadSplit& quads = {}, const CasterBodies* bodies = nullptr,
+                                                  const std::optional<CastingRule>& rule = {});
 
 protected:
     ~CasterDrawables() override = default;

@@ -24,6 +24,11 @@ void CasterRevisions::clear() {
     _bodies.clear();
 }
 
+void CasterRevisions::setRule(const CastingRule& rule) {
+    Lock lock(_mutex);
+    _rule = rule;
+}
+
 unsigned CasterRevisions::count() const {
     Lock lock(_mutex);
     return _count;
@@ -72,15 +77,15 @@ osg::ref_ptr<const CasterLayers> CasterRevisions::layers(osg::Node& root, const 
 osg::ref_ptr<const CasterDrawables> CasterRevisions::drawables(osg::Node& root, const Selection& casters,
                                                                const CasterView* view) {
     Lock lock(_mutex);
-    if (view) _quads = view->quads;
     return findDrawables(root, casters, view).pieces.get();
 }
 
 CasterRevisions::Choice& CasterRevisions::findDrawables(osg::Node& root, const Selection& casters,
                                                         const CasterView* view) {
+    if (view) _quads = view->quads;
     const osg::ref_ptr<const CasterDrawables> before = knownTo(view),
                                               now = CasterDrawables::of(root, casters, before, view, &_levels, _quads,
-                                                                        &_bodies);
+                                                                        &_bodies, _rule);
     Choice& known = take(now->choice, now->fingerprint, view);
     if (known.pieces.get()) return known;
     known.pieces.set(now);

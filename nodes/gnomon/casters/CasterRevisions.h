@@ -4,6 +4,7 @@
 #include <gnomon/casters/CasterBodies.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterLayers.h>
+#include <gnomon/casters/CastingRule.h>
 
 #include <OpenThreads/Mutex>
 
@@ -47,6 +48,8 @@ public:
     osg::ref_ptr<const CasterLayers> layers(osg::Node& root, const Selection& casters, const CasterView* view);
     /// The same, drawable by drawable.
     osg::ref_ptr<const CasterDrawables> drawables(osg::Node& root, const Selection& casters, const CasterView* view);
+    /// Which drawables cast, of those that can. Default: all but skies.
+    void setRule(const CastingRule& rule);
     /// How often there was something that was not known.
     unsigned count() const;
     /// Forgets all: others cast.
@@ -74,6 +77,7 @@ private:
     CasterBodies _bodies;
     unsigned _calls = 0, _count = 0;
     QuadSplit _quads; ///< of the last view.
+    CastingRule _rule;
 };
 
 } // namespace gnomon

@@ -68,9 +68,10 @@ float finestRange(const osg::LOD& lod) {
 /// Most nodes have no state.
 bool testsAlpha(const osg::Node& node) { return node.getStateSet() && AlphaTest::isOn(node); }
 
-bool testsAlphaAbove(const osg::Node& node) {
+template <class Test>
+bool isAnyAbove(const osg::Node& node, Test test) {
     for (const osg::Node* above = &node; above->getNumParents() > 0;)
-        if (testsAlpha(*(above = above->getParent(0)))) return true;
+        if (test(*(above = above->getParent(0)))) return true;
     return false;
 }
 
@@ -80,20 +81,25 @@ bool testsAlphaAbove(const osg::Node& node) {
 class CasterVisitor::OnTheWay {
 public:
     OnTheWay(CasterVisitor& visitor, const osg::Node& node)
-        : _visitor(visitor), _entered(visitor.isRoot(node) ? 1 : 0), _alphaTests(testsAlpha(node) ? 1 : 0) {
+        : _visitor(visitor),
+          _entered(visitor.isRoot(node) ? 1 : 0),
+          _alphaTests(testsAlpha(node) ? 1 : 0),
+          _exceptions(CastingRule::mayMatter(node) ? 1 : 0) {
         _visitor._inside += _entered;
         _visitor._alphaTests += _alphaTests;
+        _visitor._exceptions += _exceptions;
     }
     ~OnTheWay() {
         _visitor._inside -= _entered;
         _visitor._alphaTests -= _alphaTests;
+        _visitor._exceptions -= _exceptions;
     }
     OnTheWay(const OnTheWay&) = delete;
     OnTheWay& operator=(const OnTheWay&) = delete;
 
 private:
     CasterVisitor& _visitor;
-    const int _entered, _alphaTests;
+    const int _entered, _alphaTests, _exceptions;
 };
 
 CasterVisitor::CasterVisitor(const Selection& selection)
@@ -145,9 +151,15 @@ void CasterVisitor::apply(osg::Node& node) {
 
 void CasterVisitor::apply(osg::Drawable& drawable) {
     const OnTheWay here(*this, drawable);
-    if (_inside == 0 || isText(drawable) || !hasTriangles(drawable)) return;
+    if (_inside == 0 || isText(drawable) || !hasTriangles(drawable) || !isLetCast(drawable)) return;
     if (_atLevels > 0) _choice.mix(static_cast<const void*>(&drawable));
     applyCaster(drawable);
+}
+
+bool CasterVisitor::isLetCast(const osg::Drawable& drawable) const {
+    if (!_rule) return true;
+    const bool matters = _exceptions > 0 || isAnyAbove(*getNodePath().front(), CastingRule::mayMatter);
+    return !matters || _rule->lets(getNodePath(), drawable);
 }
 
 void CasterVisitor::apply(osg::Geode& geode) {
@@ -237,7 +249,7 @@ void CasterVisitor::apply(osg::Transform& transform) {
 }
 
 std::optional<AlphaTest> CasterVisitor::alphaTest() const {
-    if (_alphaTests == 0 && !testsAlphaAbove(*getNodePath().front())) return std::nullopt;
+    if (_alphaTests == 0 && !isAnyAbove(*getNodePath().front(), testsAlpha)) return std::nullopt;
     return AlphaTest::of(getNodePath());
 }
 

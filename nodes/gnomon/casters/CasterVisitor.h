@@ -4,6 +4,7 @@
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/AlphaTest.h>
 #include <gnomon/casters/CasterView.h>
+#include <gnomon/casters/CastingRule.h>
 
 #include <osg/CullStack>
 #include <osg/Matrixd>
@@ -53,6 +54,8 @@ public:
     /// How quads are cut where no view says so. Default: as Mesa does.
     void setQuads(const QuadSplit& quads) { _quads = quads; }
     const QuadSplit& quads() const { return _quads; }
+    /// Leaves out what a rule does not let cast. Default: all that can cast.
+    void setRule(const CastingRule& rule) { _rule = rule; }
     /// Default Levels::Chosen.
     void setLevels(Levels levels) { _levels = levels; }
     /// Stands for the drawables that were met under LODs, wherever they are.
@@ -87,6 +90,7 @@ private:
     bool isRoot(const osg::Node& node) const { return _roots.count(const_cast<osg::Node*>(&node)) > 0; }
     void findWays();
     bool isOnTheWay(const osg::Node& node) const;
+    bool isLetCast(const osg::Drawable& drawable) const;
     bool goesTheOnlyWays(osg::Node& node);
     void visitLevels(osg::LOD& lod);
     void visitPixelLevels(osg::LOD& lod);
@@ -104,6 +108,8 @@ private:
     Fingerprint _choice;
     int _inside = 0;     ///< how often a selected node is on the way down.
     int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.
+    int _exceptions = 0; ///< how many states on the way down may matter to the rule.
+    std::optional<CastingRule> _rule;
     /// Of what is above the selected nodes, the children that lead to it; once for each of its places among them.
     std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };

@@ -22,17 +22,19 @@ bool isLightNumber(int number, const char* method) {
 
 } // namespace
 
-ShadowCasterGroup::ShadowCasterGroup() : _revisions(new CasterRevisions) {}
+ShadowCasterGroup::ShadowCasterGroup() : _revisions(new CasterRevisions) { _revisions->setRule({_opaqueFrom}); }
 
 ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp)
     : osg::Group(other, copyOp),
       _casters(other._casters, other),
       _composite(other._composite),
       _dark(other._dark),
+      _opaqueFrom(other._opaqueFrom),
       _lights(other._lights),
       _lightUniforms(other._lightUniforms),
       _options(other._options),
       _revisions(new CasterRevisions) {
+    _revisions->setRule({_opaqueFrom});
     for (const NodeReference& source : other._lightSources) _lightSources.emplace_back(source, other);
 }
 
@@ -53,6 +55,16 @@ void ShadowCasterGroup::setDark(float factor) {
         return;
     }
     _dark = std::clamp(factor, 0.0f, 1.0f);
+}
+
+void ShadowCasterGroup::setOpaqueFrom(float alpha) {
+    if (std::isnan(alpha)) {
+        OSG_WARN << "gnomon: ShadowCasterGroup::setOpaqueFrom(): NaN is refused. Give an alpha from 0 (all cast) to 1."
+                 << std::endl;
+        return;
+    }
+    _opaqueFrom = std::clamp(alpha, 0.0f, 1.0f);
+    _revisions->setRule({_opaqueFrom});
 }
 
 void ShadowCasterGroup::addLight(osg::LightSource* light) {

@@ -3,7 +3,6 @@
 #include <gnomon/gl/PlainPixels.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
-#include <gnomon/rays/DepthBufferShadow.h>
 #include <gnomon/traced/TracedMark.h>
 
 #include <osg/State>
@@ -85,11 +84,16 @@ std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     if (!readDepth(state, *resolved, part)) return unresolvedDepth;
     part.offPlace += pushedBack.x;
     part.step *= 1.0 + pushedBack.y; // of which depthBufferShadow() allows for a few
-    const DrawnError drawn = drawnError(clipFromScene, part.viewportWidth, rounding, scene->longestSide());
+    const DrawnError drawn = drawnError(frame.clipFromScene, part.viewportWidth, rounding, frame.scene->longestSide());
     part.drawnDepth = drawn.depth;
     part.drawnPixels = drawn.pixels;
     pass.stencilEqual(bit, 0, bit);
-    const std::vector<std::uint8_t> bits = depthBufferShadow(*scene, part, clipFromScene, light);
+    TracedFrame seen = frame;
+    std::vector<float> depths;
+    depths.swap(part.depths);
+    seen.picture = part;
+    seen.picture.depths.swap(depths);
+    const std::vector<std::uint8_t> bits = frames->bitsOf(std::move(seen));
     (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, bits);
     return "";
 }

@@ -11,10 +11,14 @@
 
 namespace gnomon {
 
-TracedShadowTechnique::TracedShadowTechnique() : _casters(new RaySceneCache), _resolved(new ResolvedDepth) {}
+TracedShadowTechnique::TracedShadowTechnique()
+    : _casters(new RaySceneCache), _resolved(new ResolvedDepth), _frames(new TracedFrames) {}
 
 TracedShadowTechnique::TracedShadowTechnique(const TracedShadowTechnique& other, const osg::CopyOp& copyOp)
-    : ShadowTechnique(other, copyOp), _casters(new RaySceneCache), _resolved(new ResolvedDepth) {}
+    : ShadowTechnique(other, copyOp),
+      _casters(new RaySceneCache),
+      _resolved(new ResolvedDepth),
+      _frames(new TracedFrames) {}
 
 TracedShadowTechnique::~TracedShadowTechnique() = default;
 
@@ -28,16 +32,21 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
         return {};
     }
     osg::ref_ptr<TracedMark> mark = new TracedMark;
-    mark->light = *usable;
+    mark->frame.lightInScene = *usable;
+    mark->frame.light = light.number;
+    mark->frame.stage = view.stage;
+    mark->frame.origin = layers.origin;
+    mark->frame.pieces = layers.pieces;
+    mark->frames = _frames;
     mark->resolved = _resolved;
     mark->rounding = layers.largestRounding;
-    mark->clipFromScene = scene.clipFromScene(view);
+    mark->frame.clipFromScene = scene.clipFromScene(view);
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
-    const auto bounds = shadowBounds(layers, mark->clipFromScene, *usable);
+    const auto bounds = shadowBounds(layers, mark->frame.clipFromScene, *usable);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
     try {
-        mark->scene = _casters->of(layers, describe());
+        mark->frame.scene = _casters->of(layers, describe());
     } catch (const std::exception& failure) {
         report(view.frameNumber, std::string("there is no shadow. ") + failure.what());
         return {};
@@ -46,6 +55,8 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
 }
 
 unsigned TracedShadowTechnique::builds() const { return _casters->builds(); }
+
+std::size_t TracedShadowTechnique::tracedPixels() const { return _frames->traced(); }
 
 void TracedShadowTechnique::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);

@@ -6,7 +6,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -21,6 +23,16 @@ struct DepthError {
     double most = 0.0;  ///< by the floats of the vertices, too.
 };
 
+/// Where a pixel's surface is, by what its depth may mean.
+struct Span {
+    glm::dvec3 nearest;  ///< to the eye, by all that is known.
+    glm::dvec3 before;   ///< the same by what the vertices' floats do not add.
+    glm::dvec3 farthest; ///< from the eye.
+    double pixel = 0.0;  ///< squared size of a pixel there.
+
+    glm::dvec3 along() const { return farthest - nearest; }
+};
+
 class DepthTracer {
 public:
     DepthTracer(const RayScene& scene, const DepthPicture& picture, const glm::dmat4& clipFromScene,
@@ -33,8 +45,12 @@ public:
 
     /// @param x,y  counted from the part's corner.
     bool blocked(int x, int y) const;
+    /// @param row  of bits that are 0.
+    /// @return pixels that rays were cast for.
+    std::size_t traceRow(int y, std::uint8_t* row, const FormerShadow* former, const std::uint8_t* known) const;
 
 private:
+    bool mayHaveChanged(int x, int y, const std::vector<RayBox>& changed) const;
     double depth(int x, int y) const {
         return double(_picture.depths[std::size_t(y) * std::size_t(_picture.width) + std::size_t(x)]);
     }
@@ -43,7 +59,10 @@ private:
     /// Homogeneous, scene: a point of a pixel's ray. In these coordinates all of the ray is linear in depth.
     glm::dvec4 unproject(int x, int y, double depth) const;
     DepthError error(int x, int y, double perDistance) const;
-    glm::dvec3 start(int x, int y) const;
+    Span span(int x, int y) const;
+    glm::dvec3 start(const Span& span) const;
+    Ray toLight(const glm::dvec3& from) const;
+    bool isLitFromBehind(const Span& span) const;
 
     const RayScene& _scene;
     const DepthPicture& _picture;
@@ -80,46 +99,137 @@ DepthError DepthTracer::error(int x, int y, double perDistance) const {
     return result;
 }
 
-/// Where a pixel's ray to the light starts: as far before the surface as its depth may be wrong, or on the surface that
-/// is found there where that is too far.
-glm::dvec3 DepthTracer::start(int x, int y) const {
+Span DepthTracer::span(int x, int y) const {
     const double seen = depth(x, y);
     const glm::dvec4 surface = unproject(x, y, seen), deeper = 2.0 * _sceneFromClip[2];
     const DepthError off = error(x, y, surface.w);
     const auto nearerBy = [&](double by) { return cartesian(surface - std::min(by, seen) * deeper); };
-    const glm::dvec3 nearer = nearerBy(off.most);
-    const glm::dvec3 farther = cartesian(surface + std::min(off.most, 1.0 - seen) * deeper); // beyond 1: behind the eye
-    const glm::dvec3 along = farther - nearer, pixel = cartesian(surface + _across) - cartesian(surface);
-    if (!(glm::dot(along, along) > coarse * coarse * glm::dot(pixel, pixel)))
-        return nearer - _scene.margin(nearer) * glm::normalize(along);
-    const RayHit hit = _scene.closest({nearer, along, 1.0});
+    const glm::dvec3 pixel = cartesian(surface + _across) - cartesian(surface);
+    return {nearerBy(off.most), nearerBy(off.least),
+            cartesian(surface + std::min(off.most, 1.0 - seen) * deeper), // beyond 1: behind the eye
+            glm::dot(pixel, pixel)};
+}
+
+/// Where a pixel's ray to the light starts: as far before the surface as its depth may be wrong, or on the surface that
+/// is found there where that is too far.
+glm::dvec3 DepthTracer::start(const Span& span) const {
+    const glm::dvec3 along = span.along();
+    if (!(glm::dot(along, along) > coarse * coarse * span.pixel))
+        return span.nearest - _scene.margin(span.nearest) * glm::normalize(along);
+    const RayHit hit = _scene.closest({span.nearest, along, 1.0});
     if (hit)
-        return _scene.lifted(nearer + hit.distance * along,
+        return _scene.lifted(span.nearest + hit.distance * along,
                              glm::dot(hit.normal, along) < 0.0 ? hit.normal : -hit.normal);
-    const glm::dvec3 before = nearerBy(off.least); // what is seen does not cast
-    return before - _scene.margin(before) * glm::normalize(along);
+    return span.before - _scene.margin(span.before) * glm::normalize(along); // what is seen does not cast
+}
+
+Ray DepthTracer::toLight(const glm::dvec3& from) const {
+    const glm::dvec3 light(_light);
+    if (_light.w == 0.0) return {from, light};
+    return {from, light / _light.w - from, 1.0};
+}
+
+/// True if nothing but the surface itself, which faces away from the light, is between. Nearly all that is in shadow is
+/// so from behind its surface, too: then no more is looked for.
+bool DepthTracer::isLitFromBehind(const Span& span) const {
+    const glm::dvec3 way = glm::normalize(span.along());
+    const glm::dvec3 first = span.nearest - _scene.margin(span.nearest) * way;
+    const glm::dvec3 last = span.farthest + _scene.margin(span.farthest) * way;
+    if (_scene.blocked(toLight(last))) return false;
+    const RayHit surface = _scene.closest({first, last - first, 1.0});
+    if (!surface) return false;
+    const glm::dvec3 at = first + surface.distance * (last - first);
+    const bool isFrontToLight = glm::dot(surface.normal, toLight(at).along) > 0.0;
+    const glm::dvec3 normal = isFrontToLight ? surface.normal : -surface.normal;
+    return glm::dot(normal, way) > 0.0 && !_scene.blocked(toLight(_scene.lifted(at, normal)));
 }
 
 bool DepthTracer::blocked(int x, int y) const {
     if (!(depth(x, y) < 1.0)) return false;
-    const glm::dvec3 from = start(x, y), light(_light);
-    if (_light.w == 0.0) return _scene.blocked({from, light});
-    return _scene.blocked({from, light / _light.w - from, 1.0});
+    const Span surface = span(x, y);
+    return _scene.blocked(toLight(start(surface))) && !isLitFromBehind(surface);
+}
+
+/// True if the way from a to b, or beyond it if `endless`, meets the box.
+bool meets(const RayBox& box, const glm::dvec3& a, const glm::dvec3& along, bool endless) {
+    double from = 0.0, to = endless ? std::numeric_limits<double>::infinity() : 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (along[axis] == 0.0) {
+            if (!(a[axis] >= box.low[axis] && a[axis] <= box.high[axis])) return false;
+            continue;
+        }
+        const double low = (box.low[axis] - a[axis]) / along[axis], high = (box.high[axis] - a[axis]) / along[axis];
+        from = std::max(from, std::min(low, high));
+        to = std::min(to, std::max(low, high));
+    }
+    return from <= to;
+}
+
+/// True if a box of what has changed may be on the way of a pixel's rays.
+bool DepthTracer::mayHaveChanged(int x, int y, const std::vector<RayBox>& changed) const {
+    if (changed.empty() || !(depth(x, y) < 1.0)) return false;
+    const Span surface = span(x, y);
+    const Ray ray = toLight(surface.nearest);
+    const glm::dvec3 more(glm::length(surface.along()) + 4.0 * _scene.margin(surface.farthest));
+    return std::any_of(changed.begin(), changed.end(), [&](const RayBox& box) {
+        return meets({box.low - more, box.high + more}, ray.start, ray.along, std::isinf(ray.reach));
+    });
+}
+
+/// True if a pixel's depth, and those that its slope is taken of, are what they were.
+bool isSameAbout(const DepthPicture& a, const DepthPicture& b, int x, int y) {
+    const auto same = [&](int u, int v) {
+        if (u < 0 || v < 0 || u >= a.width || v >= a.height) return true;
+        const std::size_t at = std::size_t(v) * std::size_t(a.width) + std::size_t(u);
+        return a.depths[at] == b.depths[at];
+    };
+    return same(x, y) && same(x - 1, y) && same(x + 1, y) && same(x, y - 1) && same(x, y + 1);
+}
+
+bool isSameRow(const DepthPicture& a, const DepthPicture& b, int y) {
+    if (y < 0 || y >= a.height) return true;
+    const std::size_t first = std::size_t(y) * std::size_t(a.width);
+    return std::equal(a.depths.begin() + std::ptrdiff_t(first),
+                      a.depths.begin() + std::ptrdiff_t(first + std::size_t(a.width)),
+                      b.depths.begin() + std::ptrdiff_t(first));
+}
+
+bool isSet(const std::uint8_t* row, int x) { return (row[x / 8] & (0x80 >> (x % 8))) != 0; }
+
+std::size_t DepthTracer::traceRow(int y, std::uint8_t* row, const FormerShadow* former,
+                                  const std::uint8_t* known) const {
+    std::size_t traced = 0;
+    for (int x = 0; x < _picture.width; ++x) {
+        const bool keeps =
+            former && isSameAbout(_picture, former->picture, x, y) && !mayHaveChanged(x, y, former->changed);
+        traced += !keeps && depth(x, y) < 1.0;
+        if (keeps ? isSet(known, x) : blocked(x, y))
+            row[x / 8] = static_cast<std::uint8_t>(row[x / 8] | (0x80 >> (x % 8)));
+    }
+    return traced;
 }
 
 } // namespace
 
-std::vector<std::uint8_t> depthBufferShadow(const RayScene& scene, const DepthPicture& picture,
-                                            const glm::dmat4& clipFromScene, const glm::dvec4& light) {
+TracedBits depthBufferShadow(const RayScene& scene, const DepthPicture& picture, const glm::dmat4& clipFromScene,
+                             const glm::dvec4& light, const FormerShadow* former) {
     const DepthTracer tracer(scene, picture, clipFromScene, light);
     const std::size_t stride = (std::size_t(picture.width) + 7) / 8;
-    std::vector<std::uint8_t> bits(stride * std::size_t(picture.height), 0);
+    TracedBits result;
+    result.bits.resize(stride * std::size_t(picture.height), 0);
+    std::atomic<std::size_t> traced{0};
     tbb::parallel_for(0, picture.height, [&](int y) {
-        std::uint8_t* row = bits.data() + stride * std::size_t(y);
-        for (int x = 0; x < picture.width; ++x)
-            if (tracer.blocked(x, y)) row[x / 8] = static_cast<std::uint8_t>(row[x / 8] | (0x80 >> (x % 8)));
+        std::uint8_t* row = result.bits.data() + stride * std::size_t(y);
+        const std::uint8_t* known = former ? former->bits.data() + stride * std::size_t(y) : nullptr;
+        const bool isAsBefore = former && former->changed.empty() && isSameRow(picture, former->picture, y - 1) &&
+                                isSameRow(picture, former->picture, y) && isSameRow(picture, former->picture, y + 1);
+        if (isAsBefore)
+            std::copy_n(known, stride, row);
+        else
+            traced += tracer.traceRow(y, row, former, known);
     });
-    return bits;
+    result.traced = traced;
+    return result;
 }
 
 } // namespace gnomon

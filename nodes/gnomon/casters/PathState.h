@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <osg/Node>
+#include <osg/Program>
+#include <osg/StateAttribute>
+#include <osg/StateSet>
+
+#include <algorithm>
+#include <vector>
+
+namespace gnomon {
+
+/// OpenGL's state as the sets along a path leave it, by OpenSceneGraph's rules of inheritance.
+class PathState {
+public:
+    explicit PathState(const osg::NodePath& path) {
+        for (const osg::Node* node : path) add(*node);
+        if (path.empty()) return;
+        for (const osg::Node* node = path.front(); node->getNumParents() > 0;) add(*(node = node->getParent(0)), true);
+    }
+
+    /// @param unset  where no state set gives the mode.
+    bool isOn(osg::StateAttribute::GLMode mode, bool unset = false) const {
+        return isOnBy([mode](const osg::StateSet& set) { return set.getMode(mode); }, unset);
+    }
+    bool isTextureOn(unsigned unit, osg::StateAttribute::GLMode mode) const {
+        return isOnBy([=](const osg::StateSet& set) { return set.getTextureMode(unit, mode); });
+    }
+    /// Null if there is none.
+    osg::StateAttribute* attribute(osg::StateAttribute::Type type) const {
+        return attributeBy([type](const osg::StateSet& set) { return set.getAttributePair(type); });
+    }
+    osg::StateAttribute* textureAttribute(osg::StateAttribute::Type type) const {
+        return attributeBy([type](const osg::StateSet& set) { return set.getTextureAttributePair(0, type); });
+    }
+    /// Texture units that any set speaks of.
+    unsigned units() const {
+        std::size_t most = 0;
+        for (const osg::StateSet* set : _sets) most = std::max(most, set->getTextureModeList().size());
+        return static_cast<unsigned>(most);
+    }
+
+    /// True if a program is in use, which may do anything.
+    bool hasProgram() const {
+        const auto* program = dynamic_cast<const osg::Program*>(attribute(osg::StateAttribute::PROGRAM));
+        return program && program->getNumShaders() > 0;
+    }
+
+private:
+    void add(const osg::Node& node, bool above = false) {
+        if (node.getStateSet()) _sets.insert(above ? _sets.begin() : _sets.end(), node.getStateSet());
+    }
+
+    template <class Get>
+    bool isOnBy(Get get, bool unset = false) const {
+        osg::StateAttribute::GLModeValue now = unset ? osg::StateAttribute::ON : osg::StateAttribute::OFF;
+        for (const osg::StateSet* set : _sets) {
+            const osg::StateAttribute::GLModeValue given = get(*set);
+            if (!(given & osg::StateAttribute::INHERIT) &&
+                (!(now & osg::StateAttribute::OVERRIDE) || (given & osg::StateAttribute::PROTECTED)))
+                now = given;
+        }
+        return now & osg::StateAttribute::ON;
+    }
+
+    template <class Get>
+    osg::StateAttribute* attributeBy(Get get) const {
+        const osg::StateSet::RefAttributePair* now = nullptr;
+        for (const osg::StateSet* set : _sets) {
+            const osg::StateSet::RefAttributePair* given = get(*set);
+            if (given && (!now || !(now->second & osg::StateAttribute::OVERRIDE) ||
+                          (given->second & osg::StateAttribute::PROTECTED)))
+                now = given;
+        }
+        return now ? now->first.get() : nullptr;
+    }
+
+    std::vector<const osg::StateSet*> _sets; // outermost first
+};
+
+} // namespace gnomon
