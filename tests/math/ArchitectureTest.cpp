@@ -124,6 +124,7 @@ private:
                                                                       {"HeadlessOptions", "headless"},
                                                                       {"PlanarCures", "planar"},
                                                                       {"ShadowSpec", "spec"},
+                                                                      {"ShadowedScene", "spec"},
                                                                       {"TerrainShadowOptions", "terrain"}};
         const auto found = headerOnly.find(name);
         return found == headerOnly.end() ? "base" : found->second;
