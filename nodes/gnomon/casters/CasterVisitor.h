@@ -50,10 +50,11 @@ public:
     void setRootFromVisited(const osg::Matrixd& matrix) { _matrices.assign(1, matrix); }
     /// Takes levels of detail as a view does, whose group is the root. Default: no view.
     void setView(const CasterView& view);
+    /// How quads are cut where no view says so. Default: as Mesa does.
+    void setQuads(const QuadSplit& quads) { _quads = quads; }
+    const QuadSplit& quads() const { return _quads; }
     /// Default Levels::Chosen.
     void setLevels(Levels levels) { _levels = levels; }
-    /// True if a caster was met under an LOD.
-    bool metLevels() const { return _metLevels; }
     /// Stands for the drawables that were met under LODs, wherever they are.
     std::uint64_t choice() const { return _choice.value(); }
 
@@ -96,10 +97,10 @@ private:
     std::vector<osg::Matrixd> _matrices;
     Levels _levels = Levels::Chosen;
     std::optional<CasterView> _view;
+    QuadSplit _quads;
     std::unique_ptr<osg::CullStack> _cullStack; ///< of the view; null until an LOD by pixels is met.
     int _atPixelLevels = 0;                     ///< how many of them are on the way down.
     int _atLevels = 0;                          ///< how many LODs are on the way down.
-    bool _metLevels = false;
     Fingerprint _choice;
     int _inside = 0;     ///< how often a selected node is on the way down.
     int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.
