@@ -124,7 +124,6 @@ private:
                                                                       {"HeadlessOptions", "headless"},
                                                                       {"PlanarCures", "planar"},
                                                                       {"ShadowSpec", "spec"},
-                                                                      {"ShadowedScene", "spec"},
                                                                       {"TerrainShadowOptions", "terrain"}};
         const auto found = headerOnly.find(name);
         return found == headerOnly.end() ? "base" : found->second;
