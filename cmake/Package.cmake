@@ -45,10 +45,9 @@ other program that loads files shows shadows without code.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/package/triggers ${PROJECT_BINARY_DIR}/package/shlibs)
 
-# What find_package(gnomon) and pkg-config need, and what its components need besides.
-set(GNOMON_DEV_PACKAGES "libopenscenegraph-dev, libglm-dev")
-set(GNOMON_COMPONENT_PACKAGES
-  "libembree-dev, libtbb-dev, libhwy-dev, libqhull-dev, libnova-dev, libosmesa6-dev, libegl-dev, libgl-dev")
+# What find_package(gnomon) looks for.
+set(GNOMON_DEV_PACKAGES "libopenscenegraph-dev, libglm-dev, libembree-dev, libtbb-dev, libhwy-dev, libqhull-dev")
+string(APPEND GNOMON_DEV_PACKAGES ", libnova-dev, libosmesa6-dev, libegl-dev, libgl-dev, pkg-config")
 gnomon_package(dev libgnomon-dev libdevel "shadow NodeKit for OpenSceneGraph - development files"
 "Gnomon adds shadows to OpenSceneGraph scenes: exact shadows on planes, shadows
 of buildings on terrain, shadow maps, and shadows by traced rays.
@@ -56,7 +55,6 @@ of buildings on terrain, shadow maps, and shadows by traced rays.
 This package holds headers, static libraries, and package files for CMake and
 pkg-config.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libgnomon1 ${same_version}, ${GNOMON_DEV_PACKAGES}")
-set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "${GNOMON_COMPONENT_PACKAGES}")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "gnomon-doc")
 
 gnomon_package(tools gnomon-tools graphics "shadow NodeKit for OpenSceneGraph - programs"
