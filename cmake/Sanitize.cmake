@@ -1,6 +1,7 @@
-# GNOMON_SANITIZE builds everything under a sanitizer of GCC.
+# GNOMON_SANITIZE builds everything under a sanitizer; `./check asan` and `./check tsan` set it.
 #   address  AddressSanitizer, UndefinedBehaviorSanitizer and the assertions of libstdc++
 #   thread   ThreadSanitizer
+# GNOMON_SANITIZER_ENVIRONMENT is then what tests need in their environment: suppressions, which name third parties' frames.
 set(GNOMON_SANITIZE "" CACHE STRING "Sanitizer: address, thread or none (empty)")
 set(gnomon_sanitize_address -fsanitize=address,undefined)
 set(gnomon_sanitize_thread -fsanitize=thread)
@@ -10,7 +11,18 @@ if(GNOMON_SANITIZE)
   endif()
   add_compile_options(${gnomon_sanitize_${GNOMON_SANITIZE}} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(${gnomon_sanitize_${GNOMON_SANITIZE}})
+  set(suppressions ${PROJECT_SOURCE_DIR}/tests/sanitize)
   if(GNOMON_SANITIZE STREQUAL "address")
     add_compile_definitions(_GLIBCXX_ASSERTIONS)
+    set(GNOMON_SANITIZER_ENVIRONMENT
+      "LSAN_OPTIONS=suppressions=${suppressions}/leaks.txt:print_suppressions=0;UBSAN_OPTIONS=print_stacktrace=1")
+  else()
+    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+      message(FATAL_ERROR "GNOMON_SANITIZE=thread needs Clang, which can leave oneTBB's headers unwatched. Set CXX=clang++.")
+    endif()
+    add_compile_options(-fsanitize-ignorelist=${suppressions}/uninstrumented.txt)
+    include_directories(BEFORE ${suppressions}) # headers of tbb/ that say what oneTBB's library orders
+    set(GNOMON_SANITIZER_ENVIRONMENT
+      "TSAN_OPTIONS=suppressions=${suppressions}/threads.txt:ignore_noninstrumented_modules=1:halt_on_error=0")
   endif()
 endif()

@@ -6,9 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <osgDB/ReadFile>
 
 #include <cmath>
+#include <fstream>
+#include <set>
 
 namespace {
 
@@ -34,8 +37,34 @@ bool isClear(int x, int y) {
     return true;
 }
 
+/// Pixels with and without shadow that are not as rays have it, and those in shadow.
+struct Judged {
+    int wrong = 0, dark = 0;
+};
+Judged judged(const osg::Image& without, const osg::Image& with) {
+    Judged result;
+    for (int y = 1; y < height - 1; ++y)
+        for (int x = 1; x < width - 1; ++x) {
+            const bool differs = with.getColor(unsigned(x), unsigned(y)) != without.getColor(unsigned(x), unsigned(y));
+            result.dark += differs;
+            result.wrong += isClear(x, y) && differs != isShadowed(x + 0.5, y + 0.5);
+        }
+    return result;
+}
+
 class Gnomonrun : public testing::Test {
 protected:
+    /// Builds the plain programs once for all tests, as its makers would.
+    static void SetUpTestSuite() {
+        made = std::make_unique<TemporaryFolder>();
+        const Ending built = runProgram(
+            "/usr/bin/make", {"-f", PLAIN_PROGRAM "/Makefile", "SOURCE=" PLAIN_PROGRAM, "all"}, made->path());
+        ASSERT_EQ(built.status, 0) << built.err;
+    }
+    /// A program of another build system.
+    static std::string built(const std::string& name) { return made->path() / name; }
+    static void TearDownTestSuite() { made.reset(); }
+
     /// Runs gnomonrun in the test's folder, on its own X server.
     Ending run(const std::string& arguments) {
         return runProgram("/bin/sh",
@@ -44,33 +73,23 @@ protected:
     }
     osg::ref_ptr<osg::Image> picture(const std::string& name) { return osgDB::readRefImageFile(folder.path() / name); }
 
+    inline static std::unique_ptr<TemporaryFolder> made;
     TemporaryFolder folder;
     Desktop desktop{folder.path()};
 };
 
 TEST_F(Gnomonrun, AProgramOfAnotherBuildSystemHasTheShadowThatRaysHave) {
-    const Ending built =
-        runProgram("/usr/bin/make", {"-f", PLAIN_PROGRAM "/Makefile", "SOURCE=" PLAIN_PROGRAM, "scene"}, folder.path());
-    ASSERT_EQ(built.status, 0) << built.err;
-    const Ending plain = run("--shadow none --frames 5 --out none.png -- ./scene");
+    const Ending plain = run("--shadow none --frames 5 --out none.png -- " + built("scene"));
     ASSERT_EQ(plain.status, 0) << plain.err;
     for (const std::string technique : {"traced", "map", "map:composite=blend"}) {
-        const Ending ending = run("--shadow " + technique + " --frames 5 --out shadow.png -- ./scene");
+        const Ending ending = run("--shadow " + technique + " --frames 5 --out shadow.png -- " + built("scene"));
         ASSERT_EQ(ending.status, 0) << ending.err;
         const osg::ref_ptr<osg::Image> without = picture("none.png"), with = picture("shadow.png");
         ASSERT_TRUE(without && with);
         ASSERT_EQ(with->s(), width);
         ASSERT_EQ(with->t(), height);
-        int wrong = 0, dark = 0;
-        for (int y = 1; y < height - 1; ++y)
-            for (int x = 1; x < width - 1; ++x) {
-                const bool differs =
-                    with->getColor(unsigned(x), unsigned(y)) != without->getColor(unsigned(x), unsigned(y));
-                dark += differs;
-                wrong += isClear(x, y) && differs != isShadowed(x + 0.5, y + 0.5);
-            }
-        EXPECT_EQ(wrong, 0) << technique;
-        EXPECT_GT(dark, 1000) << technique;
+        EXPECT_EQ(judged(*without, *with).wrong, 0) << technique;
+        EXPECT_GT(judged(*without, *with).dark, 1000) << technique;
     }
 }
 
@@ -82,10 +101,62 @@ TEST_F(Gnomonrun, OsgviewerHasTheShadowsOfEveryTechniqueOrTheirCauses) {
     EXPECT_NE(ending.err.find(" of it for shadows"), std::string::npos) << ending.err;
 }
 
+TEST_F(Gnomonrun, OneFrameIsComparedInEveryWay) {
+    const Ending ending = run("--frames 5 --compare compared -- " + built("scene"));
+    ASSERT_EQ(ending.status, 0) << ending.err;
+    const osg::ref_ptr<osg::Image> without = picture("compared/none.png");
+    ASSERT_TRUE(without);
+    std::ifstream file(folder.path() / "compared/compare.json");
+    const auto table = nlohmann::json::parse(file);
+    const std::set<std::string> exact = {"traced", "traced:composite=blend", "map"};
+    std::set<std::string> names;
+    for (const nlohmann::json& drawn : table["drawn"]) {
+        const std::string name = drawn["name"];
+        SCOPED_TRACE(name);
+        names.insert(name);
+        const osg::ref_ptr<osg::Image> with = picture("compared/" + drawn["file"].get<std::string>());
+        ASSERT_TRUE(with);
+        const Judged pixels = judged(*without, *with);
+        EXPECT_EQ(drawn["glErrors"], 0);
+        EXPECT_NEAR(drawn["darker"], pixels.dark, 2 * (width + height)); // that of the picture's margin
+        if (exact.count(name)) EXPECT_EQ(pixels.wrong, 0);
+        if (exact.count(name)) EXPECT_GT(pixels.dark, 1000);
+        if (name == "hull") EXPECT_NE(drawn["causes"].dump().find("no node is named"), std::string::npos);
+    }
+    for (const std::string name : {"none", "again", "map:composite=blend", "hull", "osgShadow::ShadowMap"})
+        EXPECT_TRUE(names.count(name)) << name;
+    EXPECT_EQ(table["disagree"]["map"]["traced"], 0);
+    EXPECT_GT(table["disagree"]["none"]["traced"], 1000);
+}
+
+TEST_F(Gnomonrun, KeysSwitchTechniquesAndAtTheEndEachCostIsTold) {
+    const std::string command =
+        "OSG_WINDOW='0 0 320 240' exec " GNOMONRUN " --shadow traced -- " + built("scene") + " 2>said";
+    ChildProcess program({"sh", "-c", command}, folder.path(), {"DISPLAY=" + desktop.name()});
+    desktop.useWindow("");
+    const Screenshot traced = desktop.pictureWhere("a picture", [](const Screenshot&) { return true; });
+    const auto isTraced = [&](const Screenshot& now) { return now == traced; };
+    desktop.press("n");
+    desktop.pictureWhere("a picture without shadow", std::not_fn(isTraced));
+    desktop.press("Escape");
+    EXPECT_EQ(program.ended(std::chrono::seconds(10)), 0);
+    const std::string said = readFile(folder.path() / "said");
+    for (const std::string technique : {"none", "traced"})
+        EXPECT_NE(said.find("gnomonrun: " + technique + ": "), std::string::npos) << technique << said;
+}
+
 TEST_F(Gnomonrun, WhatCannotBeReachedIsSaid) {
     const Ending none = run("-- /bin/true");
     EXPECT_EQ(none.status, 1);
-    EXPECT_NE(none.lastLine().find("gave no scene to osgViewer::View::setSceneData()"), std::string::npos) << none.err;
+    EXPECT_EQ(none.lastLine(),
+              "gnomonrun: /bin/true cannot be reached: it needs no library of OpenSceneGraph, or has it "
+              "linked in statically.");
+    const Ending convert = run("-- osgconv " GNOMON_DATA "/lab8.osgt copy.osgt"); // no viewer
+    EXPECT_NE(convert.lastLine().find("gave no scene to osgViewer::View::setSceneData()"), std::string::npos)
+        << convert.err;
+    const Ending view = run("-- " + built("scene_view"));
+    EXPECT_EQ(view.status, 1);
+    EXPECT_NE(view.lastLine().find("it draws by osgUtil::SceneView, without a viewer."), std::string::npos) << view.err;
     const Ending missing = run("-- ./nothing");
     EXPECT_EQ(missing.status, 127);
     EXPECT_EQ(missing.lastLine(), "gnomonrun: ./nothing cannot be started: No such file or directory.");

@@ -1,55 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "GlComplaints.h"
 
-#include <osg/GLExtensions>
 #include <osg/State>
-
-#include <stdexcept>
-
-#ifndef APIENTRY
-#define APIENTRY
-#endif
+#include <support/GlDebug.h>
 
 namespace test {
-namespace {
-
-constexpr GLenum debugOutput = 0x92E0, debugOutputSynchronous = 0x8242, typeError = 0x824C;
-
-using Callback = void(APIENTRY*)(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
-                                 const GLchar* message, const void* user);
-using SetCallback = void(APIENTRY*)(Callback callback, const void* user);
-
-void APIENTRY keep(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void* user) {
-    if (type == typeError)
-        const_cast<std::vector<std::string>*>(static_cast<const std::vector<std::string>*>(user))->push_back(message);
-}
-
-} // namespace
 
 struct GlComplaints::Log {
+    static void keep(const GlMessage& message, void* log) {
+        if (message.error) static_cast<Log*>(log)->lines.push_back(message.text);
+    }
     std::vector<std::string> lines;
 };
 
 GlComplaints::GlComplaints(Camera& camera) : _log(std::make_unique<Log>()), _camera(camera) {
     osg::GraphicsContext& context = *camera.context().graphicsContext();
-    context.realize();
-    context.makeCurrent();
-    SetCallback setCallback = nullptr;
-    if (!osg::setGLExtensionFuncPtr(setCallback, "glDebugMessageCallback", "glDebugMessageCallbackKHR"))
-        throw std::runtime_error("this OpenGL has no KHR_debug");
-    glEnable(debugOutput);
-    glEnable(debugOutputSynchronous);
-    setCallback(keep, &_log->lines);
+    listenToGl(context, Log::keep, _log.get());
     context.getState()->setCheckForGLErrors(osg::State::NEVER_CHECK_GL_ERRORS); // it would take them from glGetError
-    context.releaseContext();
 }
 
-GlComplaints::~GlComplaints() {
-    osg::GraphicsContext& context = *_camera.context().graphicsContext();
-    context.makeCurrent();
-    glDisable(debugOutput);
-    context.releaseContext();
-}
+GlComplaints::~GlComplaints() { stopListeningToGl(*_camera.context().graphicsContext()); }
 
 std::vector<std::string> GlComplaints::all() const {
     osg::GraphicsContext& context = *_camera.context().graphicsContext();

@@ -296,6 +296,29 @@ TEST(Diagnose, TellsOfLightsBeyondTheThreeThatCanBeRelit) {
     EXPECT_EQ(site.causes(), Causes());
 }
 
+TEST(Diagnose, TellsWhenEachLightIsBlack) {
+    Site site;
+    addLights(site.scene, 2);
+    osg::Light& sun = *site.scene.light->getLight();
+    const osg::Vec4 black(0.0f, 0.0f, 0.0f, 1.0f), white(1.0f, 1.0f, 1.0f, 1.0f);
+    sun.setDiffuse(black);
+    sun.setSpecular(black);
+    EXPECT_EQ(site.causes(), Causes()) << "the other light shines";
+    const auto isBlack = [&] {
+        return says(site.causes(), "each light in this view is black", "Give it a diffuse or specular colour");
+    };
+    site.scene.group->addLight(site.scene.light);
+    EXPECT_TRUE(isBlack());
+    site.scene.group->addLightUniform({0, "sunColor"}); // a program may have a colour of its own
+    EXPECT_EQ(site.causes(), Causes());
+    site.scene.group->setLightUniforms({});
+    site.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    EXPECT_EQ(site.causes(), Causes());
+    site.scene.group->setComposite(gnomon::ShadowCasterGroup::RELIGHT);
+    sun.setSpecular(white);
+    EXPECT_EQ(site.causes(), Causes());
+}
+
 TEST(Diagnose, TellsOfFogThatBlendDarkens) {
     Site site;
     site.scene.root->getOrCreateStateSet()->setAttributeAndModes(new osg::Fog);

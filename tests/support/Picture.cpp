@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <support/GlDebug.h>
 #include <support/Picture.h>
 
 #include <osg/GLExtensions>
@@ -43,6 +44,7 @@ Camera::Camera(osg::Node* root, const View& view, const gnomon::HeadlessContext:
     options.width = view.width;
     options.height = view.height;
     _context = std::make_unique<gnomon::HeadlessContext>(options);
+    failBySeriousGlMessages(*_context->graphicsContext());
     _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     _viewer.setLightingMode(osg::View::NO_LIGHT);
     osg::Camera& camera = *_viewer.getCamera();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ProgramRun.h"
+#include "LoadedLibraries.h"
 #include "OutputFile.h"
+#include "SideBySide.h"
 
 #include <OpenThreads/ScopedLock>
 #include <osg/DisplaySettings>
@@ -53,6 +55,10 @@ ProgramRun::ProgramRun(const RunOptions& options) : _options(options) {
     osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
     osg::DisplaySettings::instance()->setMinimumNumAlphaBits(8);
     met(metProgram);
+    std::atexit([] { // where the program ends by itself
+        if (programNeedsOsg()) ofProcess()->met(metOsg);
+        ofProcess()->sayCosts();
+    });
 }
 
 void ProgramRun::met(const std::string& what) {
@@ -104,7 +110,7 @@ void ProgramRun::choose() {
     }
     if (_options.diagnose || _options.frames == 0) return;
     const int left = _options.frames - 1 - _frame; // the last turn is one with shadow
-    _shown = left < 0 || left / turn % 2 == 0;
+    _shown = _options.compare.empty() && (left < 0 || left / turn % 2 == 0);
     for (const auto& scene : _scenes) scene->show(_shown);
 }
 
@@ -121,11 +127,12 @@ void ProgramRun::tryTechnique(std::size_t number) {
 
 std::string ProgramRun::drawn() const { return _scenes.empty() || !_shown ? "none" : _scenes.back()->technique(); }
 
-void ProgramRun::afterFrame(osgViewer::ViewerBase&) {
+void ProgramRun::afterFrame(osgViewer::ViewerBase& viewer, const std::function<void()>& draw) {
     _clock.stop();
     sayCauses();
     ++_frame;
     if (_options.diagnose || _options.frames == 0 || _frame < _options.frames) return;
+    if (!_options.compare.empty()) compare(viewer, draw);
     if (_options.out.empty()) end(0);
     const osg::ref_ptr<osg::Image> picture = captured().take();
     if (!picture && _frame < _options.frames + patience) return;
@@ -149,9 +156,26 @@ void ProgramRun::capture(osgViewer::ViewerBase& viewer) {
     _capture->captureNextFrame(viewer);
 }
 
+void ProgramRun::compare(osgViewer::ViewerBase& viewer, const std::function<void()>& draw) {
+    guarded([&] {
+        SideBySide comparison(viewer, draw, _options.compare);
+        std::vector<ShadowedScene*> shown;
+        for (const auto& scene : _scenes)
+            if (scene->isPrepared()) shown.push_back(scene.get());
+        comparison.run(shown);
+        for (const std::string& line : comparison.lines()) say(line);
+    });
+    _clock = {};
+    end(0);
+}
+
+void ProgramRun::sayCosts() {
+    for (const std::string& line : _clock.lines()) say(line);
+}
+
 /// Without the program's own way out, which is not known.
 void ProgramRun::end(int status) {
-    for (const std::string& line : _clock.lines()) say(line);
+    sayCosts();
     std::cout.flush();
     _exit(status);
 }

@@ -6,6 +6,7 @@
 
 #include <osgViewer/ViewerEventHandlers>
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -22,8 +23,8 @@ public:
     /// What a view is to show in the place of `scene`.
     osg::Node* shadowed(osg::Node* scene);
     void beforeFrame(osgViewer::ViewerBase& viewer);
-    /// Ends the process after the last frame asked for.
-    void afterFrame(osgViewer::ViewerBase& viewer);
+    /// Ends the process after the last frame asked for. @param draw  draws a frame as the program does.
+    void afterFrame(osgViewer::ViewerBase& viewer, const std::function<void()>& draw);
     /// What was met, once: gnomonrun reads it when the program has ended.
     void met(const std::string& what);
 
@@ -35,6 +36,8 @@ private:
     void tryTechnique(std::size_t number);
     void sayCauses();
     void capture(osgViewer::ViewerBase& viewer);
+    [[noreturn]] void compare(osgViewer::ViewerBase& viewer, const std::function<void()>& draw);
+    void sayCosts();
     [[noreturn]] void end(int status);
     std::string drawn() const;
 

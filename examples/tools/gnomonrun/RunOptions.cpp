@@ -24,6 +24,10 @@ Options runOptions(RunOptions& into) {
     table.push_back({"--diagnose", "",
                      "try every technique in turn, N frames each or 60, print a table, and end the program", "",
                      [&into](Text) { into.diagnose = true; }});
+    table.push_back({"--compare", "FOLDER",
+                     "draw the last frame without shadows, with every technique and with osgShadow::ShadowMap, write "
+                     "pictures and compare.json, and end the program; needs --frames",
+                     "none", [&into](Text t) { into.compare = t; }});
     table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
     return table;
 }
@@ -49,8 +53,9 @@ RunOptions readRunOptions(const std::vector<std::string>& given) {
         throw std::invalid_argument(std::string("\"") + arguments[1] +
                                     "\" stands before --. Write gnomonrun OPTION... -- PROGRAM ARGUMENT...");
     if (!options.out.empty() && options.frames == 0) throw std::invalid_argument("--out needs --frames N.");
-    if (options.diagnose && !options.out.empty())
-        throw std::invalid_argument("--diagnose takes no --out. Give one of them.");
+    if (!options.compare.empty() && options.frames == 0) throw std::invalid_argument("--compare needs --frames N.");
+    if (options.diagnose + !options.out.empty() + !options.compare.empty() > 1)
+        throw std::invalid_argument("--diagnose, --out and --compare exclude one another. Give one of them.");
     if (options.view.shadows.empty()) options.view.shadows = {parseShadowSpec("map")};
     return options;
 }

@@ -14,6 +14,7 @@ struct RunOptions {
     ViewOptions view;
     int frames = 0;        ///< after which the program is ended; 0: it ends by itself.
     std::string out;       ///< picture of the last frame; empty: none.
+    std::string compare;   ///< folder for the last frame, drawn in every way; empty: none.
     bool diagnose = false; ///< try every technique in turn.
     bool help = false;
 
@@ -27,6 +28,8 @@ constexpr const char* reportVariable = "GNOMON_RUN_REPORT";
 
 /// What the library met in the program, a line each in the report's file.
 constexpr const char* metProgram = "program";
+constexpr const char* metOsg = "osg"; ///< it needs a library of OpenSceneGraph.
+constexpr const char* metSceneView = "sceneview";
 constexpr const char* metScene = "scene";
 constexpr const char* metFrame = "frame";
 

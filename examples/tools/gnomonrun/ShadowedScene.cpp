@@ -2,6 +2,10 @@
 #include "ShadowedScene.h"
 #include "ShadowKeys.h"
 
+#include <osgShadow/ShadowMap>
+#include <osgShadow/ShadowedScene>
+#include <osgUtil/UpdateVisitor>
+
 #include <algorithm>
 #include <iostream>
 
@@ -32,6 +36,15 @@ void ShadowedScene::light(osgViewer::View& view) {
         << "gnomonrun: note: the program lights its scene from the eye, where no shadow is seen. A sun takes that "
            "light's place; see --light."
         << std::endl;
+}
+
+void ShadowedScene::castByPeer() {
+    osg::ref_ptr<osgShadow::ShadowedScene> peer = new osgShadow::ShadowedScene(new osgShadow::ShadowMap);
+    osgUtil::UpdateVisitor update; // in which it gets ready; the program's scene is not yet below
+    peer->accept(update);
+    for (unsigned i = 0; i < _setup.group->getNumChildren(); ++i)
+        if (!dynamic_cast<ShadowTechnique*>(_setup.group->getChild(i))) peer->addChild(_setup.group->getChild(i));
+    _setup.root->replaceChild(_setup.group, peer);
 }
 
 void ShadowedScene::addKeys(osgViewer::View& view) {

@@ -26,9 +26,14 @@ public:
     /// Before a frame of `view`, which shows this scene. @throws std::invalid_argument, one sentence.
     void prepare(osgViewer::View& view);
 
+    /// True from its first frame on.
+    bool isPrepared() const { return _controls != nullptr; }
+
     void show(bool shadows) { _setup.show(shadows); }
     /// Gives these instead of what the options ask. @throws std::invalid_argument, one sentence.
     void cast(const std::vector<ShadowSpec>& specs) { _setup.cast(specs); }
+    /// Has osgShadow::ShadowMap cast instead, for good.
+    void castByPeer();
     std::vector<std::string> diagnose() const { return _setup.diagnose(); }
     /// What draws the shadows now, as --shadow has it.
     std::string technique() const;

@@ -96,6 +96,10 @@ std::string whyUnreached(const std::string& program, const std::set<std::string>
     if (met.count(metFrame) && met.count(metScene)) return "";
     if (!met.count(metProgram))
         return program + " cannot be reached: it is linked statically, or runs with the rights of another user.";
+    if (!met.count(metScene) && met.count(metSceneView))
+        return program + " cannot be reached: it draws by osgUtil::SceneView, without a viewer.";
+    if (!met.count(metScene) && !met.count(metOsg))
+        return program + " cannot be reached: it needs no library of OpenSceneGraph, or has it linked in statically.";
     if (!met.count(metScene))
         return program + " gave no scene to osgViewer::View::setSceneData(), so there was nothing to shadow.";
     return program + " ended before it drew a frame.";

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Stands before osgViewer in a program that gnomonrun started: these two functions are called in the place of osgViewer's of
-// the same name, and call them in turn.
+// Stands before OpenSceneGraph in a program that gnomonrun started: these functions are called in the place of osgViewer's and
+// osgUtil's of the same name, and call them in turn.
 #include "ProgramRun.h"
 
+#include <osgUtil/SceneView>
 #include <osgViewer/View>
 #include <osgViewer/ViewerBase>
 
@@ -38,5 +39,12 @@ void osgViewer::ViewerBase::renderingTraversals() {
     ProgramRun* run = ProgramRun::ofProcess();
     if (run) run->beforeFrame(*this);
     osgs(this);
-    if (run) run->afterFrame(*this);
+    if (run) run->afterFrame(*this, [this] { osgs(this); });
+}
+
+/// Viewers cull by it, too; a program that calls it without a viewer is told of.
+void osgUtil::SceneView::cull() {
+    static const auto osgs = next<void (*)(osgUtil::SceneView*)>("_ZN7osgUtil9SceneView4cullEv");
+    if (ProgramRun* run = ProgramRun::ofProcess()) run->met(gnomon::examples::metSceneView);
+    osgs(this);
 }

@@ -5,6 +5,7 @@
 #include <osg/Light>
 #include <osgUtil/PositionalStateContainer>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -73,14 +74,37 @@ void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight
     }
 }
 
+bool isBlack(const osg::Vec4& color) { return color.r() == 0.0f && color.g() == 0.0f && color.b() == 0.0f; }
+
+/// RELIGHT takes away what a light gives. @return why nobody sees that; empty if somebody may.
+std::string whyAllIsDark(const ShadowCasterGroup& group, const std::map<int, StageLight>& inStage,
+                         const std::vector<ShadowLight>& lights) {
+    if (group.getComposite() != ShadowCasterGroup::RELIGHT || lights.empty()) return "";
+    const auto mayShine = [&](const ShadowLight& light) {
+        const auto found = inStage.find(light.number);
+        const auto& uniforms = group.getLightUniforms();
+        const bool inPrograms = std::any_of(uniforms.begin(), uniforms.end(), [&](const LightUniform& uniform) {
+            return uniform.number == light.number;
+        });
+        return inPrograms || found == inStage.end() || !isBlack(found->second.light->getDiffuse()) ||
+               !isBlack(found->second.light->getSpecular());
+    };
+    if (std::any_of(lights.begin(), lights.end(), mayShine)) return "";
+    return "each light in this view is black, so there is no shadow to be seen. Give it a diffuse or specular colour.";
+}
+
 } // namespace
 
 GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFromGroup, osgUtil::RenderStage& stage) {
     const std::map<int, StageLight> inStage = lightsIn(stage);
     const osg::Matrixd groupFromEye = osg::Matrixd::inverse(eyeFromGroup);
     GroupLights result;
+    const auto addCause = [&](const std::string& cause) {
+        if (!cause.empty()) result.causes.push_back(cause);
+    };
     if (!group.getLights().empty() || group.getNumLightSources() > 0) {
         addSetLights(group, inStage, groupFromEye, result);
+        addCause(whyAllIsDark(group, inStage, result.lights));
         return result;
     }
     const std::vector<DrawnLeaf> leaves = leavesBelow(stage, std::numeric_limits<int>::max());
@@ -92,6 +116,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
     if (result.lights.empty() && (inStage.empty() || !leaves.empty())) // with nothing in sight, nobody can tell
         result.causes.push_back("no light is on in this view. Add an osg::LightSource and switch its mode on, or set a "
                                 "light with ShadowCasterGroup::addLight().");
+    addCause(whyAllIsDark(group, inStage, result.lights));
     return result;
 }
 

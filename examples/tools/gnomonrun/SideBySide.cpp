@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "SideBySide.h"
+#include "FrameTime.h"
+#include "GlErrorCount.h"
+#include "OutputFile.h"
+#include "PictureChange.h"
+
+#include <gnomon/ShadowSpec.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr int settling = 2; // frames: OSG keeps two scene views, each of which compiles in its first
+constexpr int timed = 3;    // frames
+
+using Scenes = std::vector<ShadowedScene*>;
+
+/// What can be drawn, by the names of the files.
+std::vector<std::string> specifications() {
+    std::vector<std::string> names;
+    for (const std::string& technique : shadowTechniques()) {
+        if (technique == "none") continue;
+        names.push_back(technique);
+        names.push_back(technique + ":composite=blend");
+    }
+    return names;
+}
+
+/// @return why the technique does not suit the scenes; empty if it does.
+std::vector<std::string> cast(const Scenes& scenes, const std::string& name) {
+    std::vector<std::string> refusals;
+    for (ShadowedScene* scene : scenes) {
+        try {
+            scene->cast({parseShadowSpec(name)});
+        } catch (const std::invalid_argument& error) {
+            refusals.push_back(error.what());
+        }
+    }
+    return refusals;
+}
+
+std::vector<std::string> causesOf(const Scenes& scenes) {
+    std::vector<std::string> causes;
+    for (ShadowedScene* scene : scenes)
+        for (const std::string& cause : scene->diagnose()) causes.push_back(cause);
+    return causes;
+}
+
+std::string fileOf(std::string name) {
+    std::replace(name.begin(), name.end(), ':', '-');
+    std::replace(name.begin(), name.end(), '=', '-');
+    return name + ".png";
+}
+
+osg::ref_ptr<osg::GraphicsContext> firstWindow(osgViewer::ViewerBase& viewer) {
+    osgViewer::ViewerBase::Contexts contexts;
+    viewer.getContexts(contexts);
+    for (osg::GraphicsContext* context : contexts)
+        if (context->getTraits() && !context->getTraits()->pbuffer) return context;
+    throw std::runtime_error("the program shows no window.");
+}
+
+} // namespace
+
+SideBySide::SideBySide(osgViewer::ViewerBase& viewer, std::function<void()> draw, std::string folder)
+    : _viewer(viewer),
+      _draw(std::move(draw)),
+      _folder(std::move(folder)),
+      _window(firstWindow(viewer)),
+      _picture(new WindowPicture(*_window)) {
+    viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+    _window->setSwapCallback(_picture);
+}
+
+/// Its number is another one, its time the same.
+void SideBySide::nextFrame() {
+    osgViewer::ViewerBase::Views views;
+    _viewer.getViews(views);
+    std::vector<osg::FrameStamp*> stamps{_viewer.getViewerFrameStamp()};
+    for (osgViewer::View* view : views) stamps.push_back(view->getFrameStamp());
+    std::sort(stamps.begin(), stamps.end());
+    stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
+    for (osg::FrameStamp* stamp : stamps)
+        if (stamp) stamp->setFrameNumber(stamp->getFrameNumber() + 1);
+    _draw();
+}
+
+SideBySide::Drawn SideBySide::draw(const std::string& name) {
+    using Clock = std::chrono::steady_clock;
+    std::cerr << "gnomonrun: drawing " << name << std::endl; // which one it was, should the program end in it
+    const GlErrorCount errors;
+    std::vector<double> times;
+    for (int frame = 0; frame < settling + timed; ++frame) {
+        const Clock::time_point start = Clock::now();
+        nextFrame();
+        const std::chrono::duration<double, std::milli> took = Clock::now() - start;
+        if (frame >= settling) times.push_back(took.count());
+    }
+    if (!_picture->last()) throw std::runtime_error("no picture could be taken of this program's windows.");
+    Drawn drawn;
+    drawn.name = name;
+    drawn.picture = new osg::Image(*_picture->last(), osg::CopyOp::DEEP_COPY_ALL);
+    drawn.milliseconds = quartiles(times).median;
+    drawn.glErrors = errors.count();
+    return drawn;
+}
+
+void SideBySide::run(const Scenes& scenes) {
+    requireFolder(_folder);
+    for (ShadowedScene* scene : scenes) scene->cast({});
+    std::vector<Drawn> all{draw("none"), draw("again")};
+    for (const std::string& name : specifications()) {
+        const std::vector<std::string> refusals = cast(scenes, name);
+        Drawn drawn = draw(name);
+        drawn.causes = causesOf(scenes);
+        drawn.causes.insert(drawn.causes.end(), refusals.begin(), refusals.end());
+        all.push_back(std::move(drawn));
+    }
+    for (ShadowedScene* scene : scenes) scene->castByPeer();
+    all.push_back(draw("osgShadow::ShadowMap"));
+    write(all);
+    for (const Drawn& drawn : all) {
+        char time[32];
+        std::snprintf(time, sizeof time, "%.1f ms", drawn.milliseconds);
+        const PictureChange change = changeOf(*all.front().picture, *drawn.picture);
+        _lines.push_back(drawn.name + ": " + time + " a frame, " + std::to_string(change.darkerPixels) +
+                         " pixels in shadow");
+    }
+}
+
+void SideBySide::write(const std::vector<Drawn>& all) const {
+    nlohmann::ordered_json table;
+    const osg::Image& without = *all.front().picture;
+    table["width"] = without.s();
+    table["height"] = without.t();
+    std::vector<PictureChange> changes;
+    for (const Drawn& drawn : all) {
+        changes.push_back(changeOf(without, *drawn.picture));
+        OutputFile(_folder + "/" + fileOf(drawn.name)).write(*drawn.picture);
+        table["drawn"].push_back({{"name", drawn.name},
+                                  {"file", fileOf(drawn.name)},
+                                  {"ms", drawn.milliseconds},
+                                  {"darker", changes.back().darkerPixels},
+                                  {"brighter", changes.back().brighterPixels},
+                                  {"glErrors", drawn.glErrors},
+                                  {"causes", drawn.causes}});
+    }
+    for (std::size_t a = 0; a < all.size(); ++a)
+        for (std::size_t b = a + 1; b < all.size(); ++b)
+            table["disagree"][all[a].name][all[b].name] = disagreement(changes[a], changes[b]);
+    OutputFile(_folder + "/compare.json").write(table.dump(1) + "\n");
+}
+
+} // namespace gnomon::examples
