@@ -138,9 +138,27 @@ osg::ref_ptr<const CullableFaces> CasterLayer::faces(bool flats, bool again) con
     return drawn.faces;
 }
 
+osg::ref_ptr<const CasterLayer> CasterLayer::boxesOf(const CasterDrawables::List& pieces, const osg::Vec3d& origin) {
+    osg::ref_ptr<CasterLayer> layer = new CasterLayer({}, origin);
+    for (const auto& piece : pieces) {
+        if (!piece->bounds.valid()) continue;
+        const Box box{toGlm(piece->bounds._min - origin), toGlm(piece->bounds._max - origin)};
+        (isFlat(box) ? layer->flatBoxes : layer->bodyBoxes).push_back(box);
+        layer->triangles += piece->triangles;
+    }
+    sortBySize(layer->bodyBoxes);
+    sortBySize(layer->flatBoxes);
+    return layer;
+}
+
 double CasterLayer::distanceTo(const glm::dvec3& place) const {
     double nearest = std::numeric_limits<double>::infinity();
-    if (!_mesh) return nearest;
+    if (!_mesh) {
+        for (const std::vector<Box>* boxes : {&bodyBoxes, &flatBoxes})
+            for (const Box& box : *boxes)
+                nearest = std::min(nearest, glm::distance(place, glm::clamp(place, box.low, box.high)));
+        return nearest;
+    }
     const auto& corners = *_mesh->triangles;
     const auto from = [&](std::size_t i) { return toGlm(osg::Vec3d((*_mesh->vertices)[corners[i]])) - place; };
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3)

@@ -29,6 +29,8 @@ struct CasterLayer : public osg::Referenced {
     /// Reads the graph as a cull traversal does, see meshOf().
     /// @param origin  group frame; all positions are about it.
     CasterLayer(CasterDrawables::List pieces, const osg::Vec3d& origin);
+    /// Where they are, and nothing to draw: no triangle is read.
+    static osg::ref_ptr<const CasterLayer> boxesOf(const CasterDrawables::List& pieces, const osg::Vec3d& origin);
 
     const CasterDrawables::List pieces; ///< in the order in which a traversal meets them.
     std::size_t triangles = 0;          ///< of all.
@@ -42,6 +44,7 @@ struct CasterLayer : public osg::Referenced {
     osg::ref_ptr<const CullableFaces> faces(bool flats, bool again) const;
 
     /// From a place about the origin to the nearest triangle; infinite if there is none. Takes as long as there are triangles.
+    /// Of boxes alone to the nearest of them.
     double distanceTo(const glm::dvec3& place) const;
 
     void resizeGLObjectBuffers(unsigned maxSize) const;

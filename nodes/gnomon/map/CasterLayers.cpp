@@ -60,6 +60,15 @@ osg::ref_ptr<const CasterLayers> CasterLayers::of(const CasterDrawables& pieces,
     return now;
 }
 
+osg::ref_ptr<const CasterLayers> CasterLayers::boxesOf(const CasterDrawables& pieces) {
+    const osg::ref_ptr<CasterLayers> all = new CasterLayers(pieces);
+    all->origin = all->middle();
+    all->still = CasterLayer::boxesOf(pieces.list, all->origin);
+    all->moving = CasterLayer::boxesOf({}, all->origin);
+    all->measure();
+    return all;
+}
+
 void CasterLayers::begin() {
     origin = middle();
     CasterDrawables::List all;

@@ -24,6 +24,9 @@ struct CasterLayers : public osg::Referenced {
     static osg::ref_ptr<const CasterLayers> of(const CasterDrawables& pieces,
                                                const osg::ref_ptr<const CasterLayers>& before);
 
+    /// Where all of them are, standing still, and nothing to draw: for a MapForecast.
+    static osg::ref_ptr<const CasterLayers> boxesOf(const CasterDrawables& pieces);
+
     const osg::ref_ptr<const CasterDrawables> pieces;
     osg::Vec3d origin;              ///< group frame; all positions are about it, and it stays where it is near.
     glm::dvec3 low{0.0}, high{0.0}; ///< bounds of all, about the origin.

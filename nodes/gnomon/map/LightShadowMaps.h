@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/map/DepthMap.h>
+#include <gnomon/map/MapForecast.h>
 #include <gnomon/map/MapLookupPass.h>
 #include <gnomon/map/MapSlice.h>
 
@@ -26,6 +27,8 @@ public:
                                  const glm::dvec2& pixels);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
     void update(const MapPrograms& resources);
+    /// What the maps would be like if they were made after find().
+    MapForecast forecast() const;
     /// Without what a cone adds.
     MapLookupPass quad(const glm::dmat4& clipFromScene) const;
 
