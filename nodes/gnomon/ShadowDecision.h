@@ -9,8 +9,8 @@ namespace gnomon {
 struct ShadowCandidate {
     std::string spec;   ///< Specification string that gives it, without composite. "none": no shadow at all.
     double error = 0.0; ///< Predicted error of the shadow's edge: 95th percentile, pixels.
-    double time =
-        0.0; ///< Predicted time that it adds to a frame, milliseconds of processor time, as the scene moves now.
+    /// Predicted time that it adds to a frame, milliseconds of processor time, as the scene moves now.
+    double time = 0.0;
     double still = 0.0;   ///< The same of a frame in which neither the light nor a caster moves.
     double moving = 0.0;  ///< The same of a frame in which one of them moves.
     std::string obstacle; ///< Why it cannot be used here. Empty if it can.
@@ -22,7 +22,6 @@ struct ShadowDecision {
     ShadowCandidate chosen;
     std::string reason;      ///< One sentence.
     bool keepsBudget = true; ///< False if no candidate keeps the error and the time that are asked for.
-    double measured = 0.0;   ///< Measured time, milliseconds of processor time, mean of recent frames. 0: none yet.
     unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.
     unsigned changes = 0;    ///< How often another candidate was chosen since the first.
     std::vector<ShadowCandidate> candidates; ///< All candidates, the usable ones first, by their times.

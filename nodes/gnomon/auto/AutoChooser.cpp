@@ -155,7 +155,7 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
     _lastStage = view.frame.stage;
     if (_casters != &view.casters) {
         _casters = &view.casters;
-        _known.bodies.keepOnly(view.casters);
+        _known.bodies.keepMostly(view.casters);
     }
     const Seen now{view.frame.eyeFromGroup,
                    view.frame.projection,

@@ -15,8 +15,8 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t mostTriangles = 20000; // of a drawable that is looked at: more would take 20 ms and more
-constexpr double touching = 1e-6;            // of a body's size: so close counts as beside it
+constexpr std::size_t mostTriangles = 4000; // of a drawable that is looked at: more would take 5 ms and more
+constexpr double touching = 1e-6;           // of a body's size: so close counts as beside it
 
 std::vector<glm::vec3> positionsOf(const CasterMesh& mesh) {
     std::vector<glm::vec3> result;
@@ -124,7 +124,9 @@ const DrawableBodies& CasterBodies::of(const CasterDrawable& piece) {
     return known != _known.end() ? known->second : _known.emplace(&piece, look(piece)).first->second;
 }
 
-void CasterBodies::keepOnly(const CasterDrawables& casters) {
+void CasterBodies::keepMostly(const CasterDrawables& casters) {
+    constexpr std::size_t few = 64; // views of different levels of detail take turns
+    if (_known.size() <= 2 * casters.list.size() + few) return;
     std::set<const CasterDrawable*> current;
     for (const auto& piece : casters.list) current.insert(piece.get());
     for (auto entry = _known.begin(); entry != _known.end();)

@@ -36,8 +36,8 @@ class CasterBodies {
 public:
     /// @param of  reads the graph as a cull traversal does, see meshOf().
     const DrawableBodies& of(const CasterDrawable& piece);
-    /// Lets go what is not of these.
-    void keepOnly(const CasterDrawables& casters);
+    /// Lets go what is not of these, if that is much.
+    void keepMostly(const CasterDrawables& casters);
 
 private:
     std::map<osg::ref_ptr<const CasterDrawable>, DrawableBodies> _known;

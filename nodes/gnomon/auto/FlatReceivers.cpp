@@ -17,10 +17,10 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t mostPlanes = 8;    // each is one more draw of all casters
-constexpr std::size_t mostBodies = 1024; // that are compared with one another
-constexpr double grazing = 1e-4;         // sine: light along a plane gives it no light to take away
-constexpr double flatness = 1e-6;        // of a size
+constexpr std::size_t mostPlanes = 8;   // each is one more draw of all casters
+constexpr std::size_t mostBodies = 128; // that are compared with one another: a millisecond
+constexpr double grazing = 1e-4;        // sine: light along a plane gives it no light to take away
+constexpr double flatness = 1e-6;       // of a size
 
 std::string nameOf(const osg::Drawable& drawable) {
     return "'" +
