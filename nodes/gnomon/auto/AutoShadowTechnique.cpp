@@ -50,7 +50,7 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
         return {};
     }
     const AutoChooser::Drawn drawn =
-        _chooser->choose({view, light, casters.drawables(), *usable}, getReceiver(), _options);
+        _chooser->choose({view, light, casters.layers(), casters.drawables(), *usable}, getReceiver(), _options);
     if (!drawn.cause.empty()) report(view.frameNumber, drawn.cause);
     if (!drawn.technique) return {};
     ViewFrame here = view;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
-#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/group/ViewFrame.h>
 
 #include <glm/vec4.hpp>
@@ -14,8 +14,9 @@ namespace gnomon {
 struct AutoView {
     const ViewFrame& frame;
     const ShadowLight& light;
-    const CasterDrawables& casters;
-    glm::dvec4 towards; ///< the light, group frame: w = 0 and length 1, or w = 1.
+    const CasterLayers& layers;
+    const CasterDrawables& casters; ///< the same, drawable by drawable.
+    glm::dvec4 towards;             ///< the light, group frame: w = 0 and length 1, or w = 1.
 };
 
 /// Stands for the drawables that can receive, and where they are but for the view.

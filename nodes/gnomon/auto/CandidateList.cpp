@@ -3,7 +3,7 @@
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/auto/FlatReceivers.h>
 #include <gnomon/choice/EdgeError.h>
-#include <gnomon/map/CasterLayers.h>
+#include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapSettings.h>
 #include <gnomon/map/ShadowMapCache.h>
 #include <gnomon/mapfit/TexelDensity.h>
@@ -40,7 +40,12 @@ constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
 class Lister {
 public:
     Lister(const AutoView& view, const Selection& receiver, double error, AutoKnowledge& known)
-        : _view(view), _receiver(receiver), _error(error), _known(known), _boxes(CasterLayers::boxesOf(view.casters)) {}
+        : _view(view),
+          _receiver(receiver),
+          _error(error),
+          _known(known),
+          _boxes(new MapCasters(view.layers, MapLayer::boxesOf(*view.layers.still),
+                                MapLayer::boxesOf(*view.layers.moving))) {}
 
     CandidateList list() {
         _one = forecast(1, sizes[0]);
@@ -194,7 +199,7 @@ private:
     const Selection& _receiver;
     const double _error;
     AutoKnowledge& _known;
-    const osg::ref_ptr<const CasterLayers> _boxes;
+    const osg::ref_ptr<const MapCasters> _boxes;
     MapForecast _one;
     double _pixels = 0.0, _casters = 0.0;
     ShadowWork _compose;

@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/auto/AutoCandidate.h>
 #include <gnomon/auto/AutoView.h>
-#include <gnomon/auto/CasterBodies.h>
+#include <gnomon/auto/ConvexBodies.h>
 #include <gnomon/auto/TerrainFacts.h>
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace gnomon {
 
 /// What is known of a group's casters and receivers, from earlier decisions.
 struct AutoKnowledge {
-    CasterBodies bodies;
+    ConvexBodies bodies;
     TerrainKnowledge terrain;
     bool hasAlpha = true; ///< false once a framebuffer had no alpha bits: edges cannot be smooth.
 };

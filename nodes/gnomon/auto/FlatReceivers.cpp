@@ -2,6 +2,7 @@
 #include <gnomon/Convert.h>
 #include <gnomon/Plane.h>
 #include <gnomon/auto/FlatReceivers.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
@@ -44,7 +45,7 @@ std::optional<glm::dvec4> planeOf(const osg::BoundingBox& box) {
 /// Collects the receivers of one view.
 class Finder {
 public:
-    Finder(const AutoView& view, CasterBodies& bodies) : _view(view), _bodies(bodies) {
+    Finder(const AutoView& view, ConvexBodies& bodies) : _view(view), _bodies(bodies) {
         for (const auto& piece : view.casters.list) _pieces.emplace(piece->drawable.get(), piece.get());
         _groupFromEye = glm::inverse(toGlm(view.frame.eyeFromGroup));
         _eye = eyeIn(toGlm(view.frame.eyeFromGroup * view.frame.projection));
@@ -76,7 +77,7 @@ private:
         const auto [first, end] = _pieces.equal_range(leaf._drawable.get());
         const auto flat = planeOf(leaf._drawable->getBoundingBox());
         if (flat && first == end) {
-            const auto inGroup = transformedPlane(_groupFromEye * toGlm(*leaf._modelview), *flat);
+            const auto inGroup = transformedPlane(_groupFromEye * toGlm(modelviewOf(leaf)), *flat);
             return inGroup ? addPlane(rounded(*inGroup), leaf) : addBox(leaf);
         }
         if (first == end) return addBox(leaf);
@@ -98,7 +99,7 @@ private:
         if (!found.looked)
             return refuse("the receiver " + nameOf(*piece.drawable) + " has too many triangles to be looked at");
         if (!found.convex) return refuse("the receiver " + nameOf(*piece.drawable) + " is not convex");
-        for (const CasterBody& body : found.bodies) {
+        for (const ConvexBody& body : found.bodies) {
             if (body.isPlate())
                 addPlane(body.planes.front(), leaf);
             else
@@ -111,8 +112,8 @@ private:
     void addBox(const osgUtil::RenderLeaf& leaf) {
         const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
         if (!box.valid()) return refuse("a receiver has no bounds");
-        const glm::dmat4 groupFromLeaf = _groupFromEye * toGlm(*leaf._modelview);
-        CasterBody body;
+        const glm::dmat4 groupFromLeaf = _groupFromEye * toGlm(modelviewOf(leaf));
+        ConvexBody body;
         for (unsigned i = 0; i < 8; ++i)
             body.corners.emplace_back(groupFromLeaf * glm::dvec4(toGlm(osg::Vec3d(box.corner(i))), 1.0));
         _boxes.push_back(body);
@@ -135,23 +136,23 @@ private:
 
     double reach() const { return _view.casters.bounds.radius(); }
 
-    std::vector<const CasterBody*> allBodies() {
-        std::vector<const CasterBody*> all;
+    std::vector<const ConvexBody*> allBodies() {
+        std::vector<const ConvexBody*> all;
         for (const auto& piece : _view.casters.list)
             if (piece->bounds.valid())
-                for (const CasterBody& body : _bodies.of(*piece).bodies) all.push_back(&body);
+                for (const ConvexBody& body : _bodies.of(*piece).bodies) all.push_back(&body);
         return all;
     }
 
     void lookForShadowsOnBodies() {
-        std::vector<const CasterBody*> receiving = _receiving;
-        for (const CasterBody& box : _boxes) receiving.push_back(&box);
+        std::vector<const ConvexBody*> receiving = _receiving;
+        for (const ConvexBody& box : _boxes) receiving.push_back(&box);
         if (receiving.empty()) return;
-        const std::vector<const CasterBody*> casting = allBodies();
+        const std::vector<const ConvexBody*> casting = allBodies();
         if (casting.size() * receiving.size() > mostBodies * mostBodies)
             return refuse("there are too many casters to be compared with the receivers");
-        for (const CasterBody* body : receiving)
-            for (const CasterBody* caster : casting)
+        for (const ConvexBody* body : receiving)
+            for (const ConvexBody* caster : casting)
                 if (caster != body && mayShadow(*caster, *body, _view.towards))
                     return refuse("objects shadow one another");
     }
@@ -172,17 +173,17 @@ private:
     }
 
     const AutoView& _view;
-    CasterBodies& _bodies;
+    ConvexBodies& _bodies;
     std::unordered_multimap<const osg::Drawable*, const CasterDrawable*> _pieces;
     glm::dmat4 _groupFromEye{1.0};
     glm::dvec4 _eye{0.0};
-    std::vector<const CasterBody*> _receiving;
-    std::vector<CasterBody> _boxes;
+    std::vector<const ConvexBody*> _receiving;
+    std::vector<ConvexBody> _boxes;
     FlatReceivers _result;
 };
 
 } // namespace
 
-FlatReceivers findFlatReceivers(const AutoView& view, CasterBodies& bodies) { return Finder(view, bodies).find(); }
+FlatReceivers findFlatReceivers(const AutoView& view, ConvexBodies& bodies) { return Finder(view, bodies).find(); }
 
 } // namespace gnomon

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/auto/AutoView.h>
-#include <gnomon/auto/CasterBodies.h>
+#include <gnomon/auto/ConvexBodies.h>
 
 #include <osg/Vec4d>
 
@@ -21,6 +21,6 @@ struct FlatReceivers {
 };
 
 /// @param bodies  of the view's casters; those that are asked for are found.
-FlatReceivers findFlatReceivers(const AutoView& view, CasterBodies& bodies);
+FlatReceivers findFlatReceivers(const AutoView& view, ConvexBodies& bodies);
 
 } // namespace gnomon

@@ -13,7 +13,7 @@
 namespace gnomon {
 
 /// A convex body, group frame: a connected part of a drawable, or the box about one.
-struct CasterBody {
+struct ConvexBody {
     std::vector<glm::dvec3> corners;
     std::vector<glm::dvec4> planes; ///< of its faces, outwards; of a plate two.
     bool isPlate() const { return planes.size() == 2; }
@@ -21,18 +21,18 @@ struct CasterBody {
 
 /// A drawable as bodies.
 struct DrawableBodies {
-    std::vector<CasterBody> bodies; ///< its convex parts; else one, the box about it.
+    std::vector<ConvexBody> bodies; ///< its convex parts; else one, the box about it.
     bool convex = true;             ///< all parts that are connected are convex, so that none shadows itself.
     bool looked = true;             ///< else it has too many triangles to be looked at.
 };
 
 /// The box between two corners, for what is not known better.
-CasterBody boxBody(const std::vector<glm::dvec3>& corners, const glm::dvec3& low, const glm::dvec3& high);
+ConvexBody boxBody(const std::vector<glm::dvec3>& corners, const glm::dvec3& low, const glm::dvec3& high);
 
 /// What casts, as bodies: found once for each drawable, and only for those that are asked for.
 ///
 /// Threads one at a time.
-class CasterBodies {
+class ConvexBodies {
 public:
     /// @param of  reads the graph as a cull traversal does, see meshOf().
     const DrawableBodies& of(const CasterDrawable& piece);
@@ -45,6 +45,6 @@ private:
 
 /// True if a caster may stand between a light and any part of a body. Both are convex; it errs towards true.
 /// @param light  group frame: w = 0 the way towards a sun, length 1; w = 1 a lamp.
-bool mayShadow(const CasterBody& caster, const CasterBody& body, const glm::dvec4& light);
+bool mayShadow(const ConvexBody& caster, const ConvexBody& body, const glm::dvec4& light);
 
 } // namespace gnomon

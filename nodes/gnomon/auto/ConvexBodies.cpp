@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/auto/CasterBodies.h>
+#include <gnomon/auto/ConvexBodies.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/geometry/ConvexParts.h>
 
@@ -24,8 +24,8 @@ std::vector<glm::vec3> positionsOf(const CasterMesh& mesh) {
     return result;
 }
 
-CasterBody bodyOf(const ConvexHull& hull, const glm::dvec3& origin) {
-    CasterBody body;
+ConvexBody bodyOf(const ConvexHull& hull, const glm::dvec3& origin) {
+    ConvexBody body;
     for (const glm::dvec3& vertex : hull.vertices) body.corners.push_back(vertex + origin);
     for (const ConvexHull::Face& face : hull.faces) {
         const glm::dvec4 plane(glm::dvec3(face.plane), face.plane.w - glm::dot(glm::dvec3(face.plane), origin));
@@ -35,7 +35,7 @@ CasterBody bodyOf(const ConvexHull& hull, const glm::dvec3& origin) {
     return body;
 }
 
-CasterBody boxOf(const osg::BoundingBoxd& bounds) {
+ConvexBody boxOf(const osg::BoundingBoxd& bounds) {
     std::vector<glm::dvec3> corners;
     for (unsigned i = 0; i < 8; ++i) corners.push_back(toGlm(osg::Vec3d(bounds.corner(i))));
     return boxBody(corners, toGlm(osg::Vec3d(bounds._min)), toGlm(osg::Vec3d(bounds._max)));
@@ -61,7 +61,7 @@ DrawableBodies look(const CasterDrawable& piece) {
     return result;
 }
 
-double sizeOf(const CasterBody& body) {
+double sizeOf(const ConvexBody& body) {
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const glm::dvec3& corner : body.corners) low = glm::min(low, corner), high = glm::max(high, corner);
     return body.corners.empty() ? 0.0 : glm::distance(low, high);
@@ -70,14 +70,14 @@ double sizeOf(const CasterBody& body) {
 double beyond(const glm::dvec4& plane, const glm::dvec3& point) { return glm::dot(glm::dvec3(plane), point) + plane.w; }
 
 /// True if all of the body is on the outer side of the plane, or in it.
-bool isOutside(const CasterBody& body, const glm::dvec4& plane, double tolerance) {
+bool isOutside(const ConvexBody& body, const glm::dvec4& plane, double tolerance) {
     return std::all_of(body.corners.begin(), body.corners.end(),
                        [&](const glm::dvec3& corner) { return beyond(plane, corner) >= -tolerance; });
 }
 
 /// How far along a way a body reaches.
 struct Reach {
-    Reach(const CasterBody& body, const glm::dvec3& way) {
+    Reach(const ConvexBody& body, const glm::dvec3& way) {
         for (const glm::dvec3& corner : body.corners) {
             low = std::min(low, glm::dot(corner, way));
             high = std::max(high, glm::dot(corner, way));
@@ -93,7 +93,7 @@ void across(const glm::dvec3& sun, glm::dvec3& u, glm::dvec3& v) {
     v = glm::cross(sun, u);
 }
 
-bool missSun(const CasterBody& caster, const CasterBody& body, const glm::dvec3& sun, double tolerance) {
+bool missSun(const ConvexBody& caster, const ConvexBody& body, const glm::dvec3& sun, double tolerance) {
     if (Reach(caster, sun).high <= Reach(body, sun).low + tolerance) return true; // all of it is behind the body
     glm::dvec3 u, v;
     across(sun, u, v);
@@ -106,8 +106,8 @@ bool missSun(const CasterBody& caster, const CasterBody& body, const glm::dvec3&
 
 } // namespace
 
-CasterBody boxBody(const std::vector<glm::dvec3>& corners, const glm::dvec3& low, const glm::dvec3& high) {
-    CasterBody body;
+ConvexBody boxBody(const std::vector<glm::dvec3>& corners, const glm::dvec3& low, const glm::dvec3& high) {
+    ConvexBody body;
     body.corners = corners;
     for (int axis = 0; axis < 3; ++axis)
         for (const double side : {1.0, -1.0}) {
@@ -119,12 +119,12 @@ CasterBody boxBody(const std::vector<glm::dvec3>& corners, const glm::dvec3& low
     return body;
 }
 
-const DrawableBodies& CasterBodies::of(const CasterDrawable& piece) {
+const DrawableBodies& ConvexBodies::of(const CasterDrawable& piece) {
     const auto known = _known.find(&piece);
     return known != _known.end() ? known->second : _known.emplace(&piece, look(piece)).first->second;
 }
 
-void CasterBodies::keepMostly(const CasterDrawables& casters) {
+void ConvexBodies::keepMostly(const CasterDrawables& casters) {
     constexpr std::size_t few = 64; // views of different levels of detail take turns
     if (_known.size() <= 2 * casters.list.size() + few) return;
     std::set<const CasterDrawable*> current;
@@ -134,7 +134,7 @@ void CasterBodies::keepMostly(const CasterDrawables& casters) {
 }
 
 /// A plane between the two that the light is on the right side of tells that no ray meets both.
-bool mayShadow(const CasterBody& caster, const CasterBody& body, const glm::dvec4& light) {
+bool mayShadow(const ConvexBody& caster, const ConvexBody& body, const glm::dvec4& light) {
     const double tolerance = touching * std::max(sizeOf(caster), sizeOf(body));
     const auto towards = [&](const glm::dvec4& plane) {
         return glm::dot(glm::dvec3(plane), glm::dvec3(light)) + plane.w * light.w;
