@@ -123,7 +123,7 @@ std::vector<std::string> ShadowControls::describeChoice() const {
             std::ostringstream line;
             line.precision(2);
             line << "light " << decision.light << ": " << decision.chosen.spec << ", predicted " << decision.chosen.error
-                 << " px and " << decision.chosen.time << " ms. " << decision.reason;
+                 << " px and " << decision.chosen.time << " ms; " << decision.reason;
             lines.push_back(line.str());
         }
     }

@@ -38,7 +38,7 @@ class AutoChooser;
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
 /// - A decision: a few visits of the boxes of casters and receivers. The candidate that is drawn costs what it costs alone.
 /// Needs
-/// - What the chosen technique needs. Smooth edges need alpha bits; without them hard edges are drawn.
+/// - The needs of the chosen technique. Smooth edges need alpha bits; without them hard edges are drawn.
 /// Limits
 /// - It leaves the group's composite as it is. BLEND is cheaper.
 /// - A change of the choice costs the first frame of the technique that takes over.
@@ -75,7 +75,7 @@ public:
     /// See AutoShadowOptions::time.
     double getTime() const { return _options.time; }
 
-    /// What was chosen for each light in the view that was drawn last, in the order of the lights' numbers.
+    /// The choice for each light in the view that was drawn last, in the order of the lights' numbers.
     /// Empty before the first frame, and if no light or no caster was there.
     std::vector<ShadowDecision> lastDecision() const;
 

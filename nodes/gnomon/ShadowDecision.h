@@ -16,11 +16,11 @@ struct ShadowCandidate {
     std::string obstacle; ///< Why it cannot be used here. Empty if it can.
 };
 
-/// What an AutoShadowTechnique has chosen for one light in one view, and why.
+/// The choice of an AutoShadowTechnique for one light in one view, and its reason.
 struct ShadowDecision {
-    int light = 0; ///< OpenGL light number.
-    ShadowCandidate chosen;
-    std::string reason;      ///< One sentence.
+    int light = 0;           ///< OpenGL light number.
+    ShadowCandidate chosen;  ///< The candidate that is drawn.
+    std::string reason;      ///< In a few words: "the cheapest that keeps 1 px".
     bool keepsBudget = true; ///< False if no candidate keeps the error and the time that are asked for.
     unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.
     unsigned changes = 0;    ///< How often another candidate was chosen since the first.

@@ -267,7 +267,8 @@ TEST_F(BadInput, TruthsThatCannotBeHad) {
 TEST_F(BadInput, NothingToDo) {
     EXPECT_EQ(refusal({}), "no scene file is given. See --help.");
     EXPECT_EQ(refusal({"--out", "o.png"}), "no scene file is given. See --help.");
-    EXPECT_EQ(refusal({scene}), "no output is asked for. Give --out IMAGE, --stats FILE.json or --truth FILE.osgb.");
+    EXPECT_EQ(refusal({scene}),
+              "no output is asked for. Give --out IMAGE, --stats FILE.json, --truth FILE.osgb or --recommend.");
 }
 
 } // namespace

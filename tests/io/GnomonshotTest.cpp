@@ -268,7 +268,7 @@ TEST_F(Gnomonshot, RecommendsTheTechniqueThatAutoDraws) {
     EXPECT_EQ(chosen.at("decisions"), 1);
     EXPECT_GT(chosen.at("ms").at("still"), 0.0);
     const std::string out = run(with({"--recommend"})).out, spec = chosen.at("spec");
-    EXPECT_EQ(out.rfind("light 0: " + spec + ". It is the cheapest that keeps 1 px.\n", 0), 0u) << out;
+    EXPECT_EQ(out.rfind("light 0: " + spec + ", the cheapest that keeps 1 px\n", 0), 0u) << out;
     for (const char* part : {"planar", "traced  ", "map:", "hull  ", "no terrain is named as receiver", "in C++: "})
         EXPECT_NE(out.find(part), std::string::npos) << part << " is not in\n" << out;
     EXPECT_EQ(runGnomonshot(with({"--recommend", "--shadow", "map"}), folder.path()).lastLine(),
@@ -299,6 +299,7 @@ TEST_F(Gnomonshot, HelpListsEveryOption) {
                                "--frames N",
                                "--out IMAGE",
                                "--stats FILE.json",
+                               "--recommend",
                                "--ground auto|none|SIZE",
                                "--up y|z",
                                "--help",

@@ -39,15 +39,15 @@ std::string reasonFor(ChoiceReason reason, const ChoiceBudget& budget) {
     const std::string error = rounded(budget.error) + " px", time = rounded(budget.time) + " ms";
     switch (reason) {
     case ChoiceReason::Cheapest:
-        return "It is the cheapest that keeps " + error + ".";
+        return "the cheapest that keeps " + error;
     case ChoiceReason::Kept:
-        return "It was chosen before and keeps " + error + "; another would save less than a fifth.";
+        return "chosen before, and keeps " + error + "; another would save less than a fifth";
     case ChoiceReason::MostAccurate:
-        return "It is the most accurate within " + time + ".";
+        return "the most accurate within " + time;
     case ChoiceReason::ErrorTooSmall:
-        return "No technique keeps " + error + ". It is the most accurate.";
+        return "the most accurate, for none keeps " + error;
     default:
-        return "No technique keeps " + time + ". It is the cheapest.";
+        return "the cheapest, for none keeps " + time;
     }
 }
 
@@ -135,7 +135,7 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     choice.candidate = list.all[index];
     decision.light = view.light.number;
     decision.chosen = choice.candidate.judged(_rates, choice.moving);
-    decision.reason = list.nothing.empty() ? reasonFor(reason, budget) : "None is needed: " + list.nothing + ".";
+    decision.reason = list.nothing.empty() ? reasonFor(reason, budget) : "none is needed: " + list.nothing;
     decision.keepsBudget = reason != ChoiceReason::ErrorTooSmall && reason != ChoiceReason::TimeTooShort;
     decision.candidates = judgedOf(list.all, _rates, choice.moving);
     decision.changes += changes ? 1 : 0;
