@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// addshadows FILE: shows a scene file in a window, with its shadow on the plane z = 0.
-#include <gnomon/PlanarShadowNode.h>
+// addshadows FILE: shows a scene file in a window, with shadows by whichever technique costs least.
+#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/ShadowCasterGroup.h>
 
 #include <osg/DisplaySettings>
@@ -13,15 +13,14 @@
 int main(int argc, char** argv) {
     osg::ref_ptr<osg::Node> scene = argc == 2 ? osgDB::readRefNodeFile(argv[1]) : nullptr;
     if (!scene) {
-        std::cerr
-            << "addshadows: no scene file can be read. Give one with a ground at z = 0, for example data/lab8.osgt.\n";
+        std::cerr << "addshadows: no scene file can be read. Give one with a ground, for example data/lab8.osgt.\n";
         return 1;
     }
     osgViewer::Viewer viewer;
     // [lines]
     osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
     group->addChild(scene);
-    group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
+    group->addChild(new gnomon::AutoShadowTechnique);
     viewer.setSceneData(group);
     // [/lines]
     const osg::BoundingSphere& all = scene->getBound();

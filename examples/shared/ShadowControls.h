@@ -35,6 +35,7 @@ private:
 
     void cast();
     void applySwitches();
+    std::vector<std::string> describeChoice() const;
     std::string describeLight() const;
     std::string describeCures() const;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/AutoShadowOptions.h>
 #include <gnomon/Export.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapOptions.h>
@@ -19,7 +20,7 @@ namespace gnomon {
 ///
 ///     gnomon::addShadows(*group, {gnomon::parseShadowSpec("planar:composite=blend,dark=0.4,receiver=floor")});
 ///
-/// Syntax: NAME, or NAME:key=value,key=value. The names are none, planar, box, hull, drape, map and traced.
+/// Syntax: NAME, or NAME:key=value,key=value. The names are none, planar, box, hull, drape, map, traced and auto.
 /// shadowSpecHelp() lists the keys with ranges, units and defaults.
 struct ShadowSpec {
     std::string text;                                      ///< The string as given.
@@ -28,7 +29,8 @@ struct ShadowSpec {
     std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default: the group's.
     ShadowMapOptions map;                                  ///< Settings of map.
     TerrainShadowOptions terrain;                          ///< Settings of hull and drape. The name decides the method.
-    /// Name of the nodes that receive, all of that name. Default, empty: everything for map and traced, else the node named "ground".
+    AutoShadowOptions budget;                              ///< Settings of auto.
+    /// Name of the nodes that receive, all of that name. Default, empty: everything for map, traced and auto, else the node named "ground".
     std::string receiver;
 };
 
@@ -48,7 +50,7 @@ GNOMON_EXPORT std::string shadowSpecHelp(const std::vector<std::string>& names =
 /// It looks for receivers by name under the group.
 /// - planar: takes the receivers' flat parts as planes. At most eight, and none below 1 % of the largest.
 /// - box, hull, drape: take the receiver as terrain.
-/// - map, traced: take everything as receiver, unless one is named.
+/// - map, traced, auto: take everything as receiver, unless one is named.
 ///
 /// @return the techniques in the order of `specs`. "none" adds none.
 /// @throws std::invalid_argument with one sentence if composites differ, or a receiver is missing or has no flat part.

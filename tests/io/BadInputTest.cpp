@@ -129,10 +129,10 @@ TEST_F(BadInput, UnknownTechniqueOrKey) {
     EXPECT_EQ(
         refusalWith({"--shadow", "plane"}),
         "--shadow plane cannot be used. \"plane\" is not a shadow technique. Allowed: none, planar, box, hull, drape, "
-        "map, traced.");
+        "map, traced, auto.");
     EXPECT_EQ(refusalWith({"--shadow", "volume:bits=8"}),
               "--shadow volume:bits=8 cannot be used. \"volume\" is not built yet. Allowed: none, planar, box, hull, "
-              "drape, map, traced.");
+              "drape, map, traced, auto.");
     EXPECT_EQ(refusalWith({"--shadow", "planar:soft=1"}), "--shadow planar:soft=1 cannot be used. the technique planar "
                                                           "has no key \"soft\". Allowed: composite, dark, receiver.");
 }
@@ -267,7 +267,8 @@ TEST_F(BadInput, TruthsThatCannotBeHad) {
 TEST_F(BadInput, NothingToDo) {
     EXPECT_EQ(refusal({}), "no scene file is given. See --help.");
     EXPECT_EQ(refusal({"--out", "o.png"}), "no scene file is given. See --help.");
-    EXPECT_EQ(refusal({scene}), "no output is asked for. Give --out IMAGE, --stats FILE.json or --truth FILE.osgb.");
+    EXPECT_EQ(refusal({scene}),
+              "no output is asked for. Give --out IMAGE, --stats FILE.json, --truth FILE.osgb or --recommend.");
 }
 
 } // namespace

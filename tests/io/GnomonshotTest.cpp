@@ -255,6 +255,26 @@ TEST_F(Gnomonshot, WritesStats) {
     }
 }
 
+TEST_F(Gnomonshot, RecommendsTheTechniqueThatAutoDraws) {
+    const Arguments view = {scene, "--size", "80x60", "--light", "1,0,1,0"};
+    const auto with = [&view](Arguments more) {
+        more.insert(more.begin(), view.begin(), view.end());
+        return more;
+    };
+    run(with({"--shadow", "auto", "--frames", "2", "--stats", "s.json"}));
+    const nlohmann::json chosen = nlohmann::json::parse(readFile(folder.path() / "s.json")).at("decisions").at(0);
+    EXPECT_EQ(chosen.at("light"), 0);
+    EXPECT_TRUE(chosen.at("keepsBudget").get<bool>());
+    EXPECT_EQ(chosen.at("decisions"), 1);
+    EXPECT_GT(chosen.at("ms").at("still"), 0.0);
+    const std::string out = run(with({"--recommend"})).out, spec = chosen.at("spec");
+    EXPECT_EQ(out.rfind("light 0: " + spec + ", the cheapest that keeps 1 px\n", 0), 0u) << out;
+    for (const char* part : {"planar", "traced  ", "map:", "hull  ", "no terrain is named as receiver", "in C++: "})
+        EXPECT_NE(out.find(part), std::string::npos) << part << " is not in\n" << out;
+    EXPECT_EQ(runGnomonshot(with({"--recommend", "--shadow", "map"}), folder.path()).lastLine(),
+              "gnomonshot: --recommend needs --shadow auto and no other. Leave --shadow out, or give its budget.");
+}
+
 TEST_F(Gnomonshot, SaysWhyThereIsNoShadow) {
     const Ending ending = run({scene, "--shadow", "planar", "--light", "0,0,-1,0", "--out", "o.png"});
     EXPECT_NE(ending.err.find("gnomonshot: note: "), std::string::npos) << ending.err;
@@ -279,6 +299,7 @@ TEST_F(Gnomonshot, HelpListsEveryOption) {
                                "--frames N",
                                "--out IMAGE",
                                "--stats FILE.json",
+                               "--recommend",
                                "--ground auto|none|SIZE",
                                "--up y|z",
                                "--help",

@@ -2,6 +2,7 @@
 // Scene files keep every property, to the bit.
 #include "SceneText.h"
 
+#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/HaloNode.h>
 #include <gnomon/HaloPulse.h>
 #include <gnomon/PlanarReflectionNode.h>
@@ -366,6 +367,15 @@ TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
     technique->setFilter(gnomon::ShadowMapTechnique::FINE);
     scene.addShadow(technique);
     expectSamePictureOnceLoaded(scene);
+}
+
+TEST_P(SceneFile, KeepsTheBudgetOfAutomaticChoice) {
+    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
+    technique->setError(1.0 / 3.0);
+    technique->setTime(0.7);
+    const auto loaded = test::throughFile(*technique, kind());
+    EXPECT_EQ(loaded->getError(), 1.0 / 3.0);
+    EXPECT_EQ(loaded->getTime(), 0.7);
 }
 
 TEST_P(SceneFile, KeepsTheCascadesOfMaps) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowSpec.h>
@@ -212,18 +213,32 @@ TEST(ShadowSpec, KeysAreRead) {
     EXPECT_EQ(parseShadowSpec("planar:composite=relight").composite, ShadowCasterGroup::RELIGHT);
 }
 
+TEST(ShadowSpec, AutoTakesAnErrorAndATime) {
+    EXPECT_EQ(parseShadowSpec("auto").budget.error, 0.0);
+    EXPECT_EQ(parseShadowSpec("auto:error=0.4,time=5").budget.error, 0.4);
+    EXPECT_EQ(parseShadowSpec("auto:error=0.4,time=5").budget.time, 5.0);
+    EXPECT_EQ(refusal("auto:error=0"), "error=0 cannot be used. Allowed: 0.01 to 100, pixels.");
+    EXPECT_EQ(refusal("auto:time=fast"), "time=fast cannot be used. Allowed: 0.01 to 10000, ms.");
+    const auto group = groupOf(square("floor", 1));
+    const auto added = addShadows(*group, {parseShadowSpec("auto:error=0.4,time=5,receiver=floor")});
+    const auto& shadow = dynamic_cast<const gnomon::AutoShadowTechnique&>(*added.at(0));
+    EXPECT_EQ(shadow.getError(), 0.4);
+    EXPECT_EQ(shadow.getTime(), 5.0);
+    EXPECT_TRUE(shadow.hasReceiver());
+}
+
 TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
-    const std::string allowed = "Allowed: none, planar, box, hull, drape, map, traced.";
+    const std::string allowed = "Allowed: none, planar, box, hull, drape, map, traced, auto.";
     EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique. " + allowed);
     EXPECT_EQ(refusal(""), "\"\" is not a shadow technique. " + allowed);
     EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique. " + allowed);
 }
 
 TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
-    for (const char* name : {"volume", "auto"})
+    for (const char* name : {"volume"})
         EXPECT_EQ(refusal(std::string(name) + ":size=4"),
                   "\"" + std::string(name) +
-                      "\" is not built yet. Allowed: none, planar, box, hull, drape, map, traced.");
+                      "\" is not built yet. Allowed: none, planar, box, hull, drape, map, traced, auto.");
 }
 
 TEST(ShadowSpec, HullAndDrapeTakeAnErrorAndAllThreeTheTerrain) {
@@ -286,7 +301,7 @@ TEST(ShadowSpec, HelpNamesEveryTechniqueAndKey) {
             EXPECT_NE(help.find("    " + key.name + "=  "), std::string::npos) << key.name;
             EXPECT_NE(help.find("allowed " + key.allowed() + ", default "), std::string::npos) << key.name;
         }
-    EXPECT_NE(help.find("default map, traced: everything; else: ground"), std::string::npos);
+    EXPECT_NE(help.find("default map, traced, auto: everything; else: ground"), std::string::npos);
     std::istringstream lines(help);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
 }

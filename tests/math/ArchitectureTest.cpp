@@ -35,6 +35,7 @@ const Graph& mayInclude() {
         {"mapfit", words("geometry")},
         {"ground", words("geometry")},
         {"simd", words("ground")},
+        {"choice", {}},
         {"drape", words("geometry ground simd")},
         {"onterrain", words("geometry ground simd drape")},
         {"overlay", words("geometry ground drape onterrain")},
@@ -48,9 +49,10 @@ const Graph& mayInclude() {
         {"map", words(technique + " mapfit")},
         {"terrain", words(technique + " ground drape onterrain overlay")},
         {"traced", words(technique + " rays")},
+        {"auto", words(technique + " choice ground mapfit planar map terrain traced")},
         {"effects", words("base gl compositor group geometry")},
         {"query", words("base casters group rays")},
-        {"spec", words("base casters group rays planar map terrain traced")},
+        {"spec", words("base casters group rays planar map terrain traced auto")},
     };
     return table;
 }

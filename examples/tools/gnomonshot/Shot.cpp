@@ -4,6 +4,7 @@
 #include "SceneBounds.h"
 #include "SceneTruth.h"
 
+#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/VertexTraverser.h>
@@ -29,6 +30,20 @@ HeadlessContext::Options contextOptions(const ShotOptions& options) {
 nlohmann::json quartilesJson(const std::vector<double>& times) {
     const Quartiles q = quartiles(times);
     return {{"q1", q.q1}, {"median", q.median}, {"q3", q.q3}};
+}
+
+nlohmann::json decisionsJson(const std::vector<ShadowDecision>& decisions) {
+    nlohmann::json result = nlohmann::json::array();
+    for (const ShadowDecision& decision : decisions)
+        result.push_back({{"light", decision.light},
+                          {"spec", decision.chosen.spec},
+                          {"reason", decision.reason},
+                          {"keepsBudget", decision.keepsBudget},
+                          {"error", decision.chosen.error},
+                          {"ms", {{"still", decision.chosen.still}, {"moving", decision.chosen.moving}}},
+                          {"decisions", decision.decisions},
+                          {"changes", decision.changes}});
+    return result;
 }
 
 double peakMiB() {
@@ -68,6 +83,7 @@ nlohmann::json Shot::measure() {
         return mapsDrawn();
     };
     maps[1] = time(steady, 0.0);
+    const std::vector<ShadowDecision> still = decisions();
     maps[2] = time(moving, 1.0);
     _setup.lights->turn(0.0);
     const unsigned draws = countDraws();
@@ -77,11 +93,20 @@ nlohmann::json Shot::measure() {
             {"triangles", countTriangles()},
             {"draws", draws},
             {"shadowPasses", shadowPasses(maps)},
+            {"decisions", decisionsJson(still)},
             {"msFirst", first},
             {"msSteady", quartilesJson(steady)},
             {"msMoving", quartilesJson(moving)},
             {"msNone", quartilesJson(none)},
             {"peakMiB", peakMiB()}};
+}
+
+std::vector<ShadowDecision> Shot::decisions() const {
+    std::vector<ShadowDecision> result;
+    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques)
+        if (const auto* automatic = dynamic_cast<const AutoShadowTechnique*>(technique.get()))
+            for (const ShadowDecision& decision : automatic->lastDecision()) result.push_back(decision);
+    return result;
 }
 
 metrics::TruthMaps Shot::truth() {

@@ -4,6 +4,7 @@
 #include "ShotOptions.h"
 
 #include <gnomon/HeadlessContext.h>
+#include <gnomon/ShadowDecision.h>
 #include <gnomon/metrics/TruthMaps.h>
 
 #include <osgViewer/Viewer>
@@ -29,6 +30,8 @@ public:
     /// What is true of the picture. @throws std::runtime_error, one sentence, if there is not one light.
     metrics::TruthMaps truth();
     std::vector<std::string> diagnose() const { return _setup.diagnose(); }
+    /// What each light's shadow was drawn by, where that is chosen automatically.
+    std::vector<ShadowDecision> decisions() const;
 
 private:
     double timedFrame(bool shadows);

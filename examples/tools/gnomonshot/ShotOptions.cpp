@@ -22,6 +22,10 @@ void addShotOptions(Options& table, ShotOptions& into) {
     table.push_back({"--truth", "FILE.osgb",
                      "true shadows of this view by ray casting, for gnomoncompare; needs one light and all casters",
                      "none", [&into](Text t) { into.truth = t; }});
+    table.push_back({"--recommend", "",
+                     "print what could draw each light's shadow, with predicted errors and times; the choice of\n"
+                     "      --shadow auto first",
+                     "", [&into](Text) { into.recommend = true; }});
     table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
 }
 
@@ -32,12 +36,21 @@ Options shotOptions(ShotOptions& into) {
 }
 
 void requireOutput(const ShotOptions& options) {
-    if (options.out.empty() && options.stats.empty() && options.truth.empty())
+    if (options.out.empty() && options.stats.empty() && options.truth.empty() && !options.recommend)
         throw std::invalid_argument(
-            "no output is asked for. Give --out IMAGE, --stats FILE.json or --truth FILE.osgb.");
+            "no output is asked for. Give --out IMAGE, --stats FILE.json, --truth FILE.osgb or --recommend.");
     if (!options.truth.empty() && options.view.casters != "all")
         throw std::invalid_argument(
             "--truth and --casters exclude each other. Give one of them: the truth is that of all casters.");
+}
+
+void requireAuto(ShotOptions& options) {
+    std::vector<ShadowSpec>& shadows = options.view.shadows;
+    if (!options.recommend) return;
+    if (shadows.empty()) shadows = {parseShadowSpec("auto")};
+    if (shadows.size() > 1 || shadows.front().technique != "auto")
+        throw std::invalid_argument(
+            "--recommend needs --shadow auto and no other. Leave --shadow out, or give its budget.");
 }
 
 } // namespace
@@ -50,6 +63,7 @@ ShotOptions readShotOptions(osg::ArgumentParser& arguments) {
     readFiles(arguments, options.view);
     requireOutput(options);
     requireConsistent(options.view);
+    requireAuto(options);
     return options;
 }
 

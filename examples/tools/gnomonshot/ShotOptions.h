@@ -14,6 +14,7 @@ struct ShotOptions {
     std::string out;           ///< picture; empty: none.
     std::string stats;         ///< JSON file; empty: none.
     std::string truth;         ///< file of what is true; empty: none.
+    bool recommend = false;    ///< print what could draw the shadows.
     bool help = false;
 
     int frameCount() const { return frames.value_or(stats.empty() ? 1 : 20); }

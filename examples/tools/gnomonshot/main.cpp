@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gnomonshot: scene files in, a picture with shadows out; no display, no GPU.
 #include "OutputFile.h"
+#include "Recommendation.h"
 #include "SceneFile.h"
 #include "Shot.h"
 #include "TruthFile.h"
@@ -21,6 +22,7 @@ void shoot(const ShotOptions& options) {
     nlohmann::json measured;
     stats ? void(measured = shot.measure()) : shot.draw();
     for (const std::string& cause : shot.diagnose()) std::cerr << "gnomonshot: note: " << cause << std::endl;
+    if (options.recommend) std::cout << recommendation(shot.decisions());
     if (picture) picture->write(*shot.picture());
     if (truth) truth->writeData(*truthImage(shot.truth()));
     if (stats) stats->write(measured.dump(2) + "\n");

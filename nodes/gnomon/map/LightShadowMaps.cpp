@@ -211,6 +211,20 @@ void LightShadowMaps::findLamp(MapSlice& far, MapSlice& near, const std::vector<
 }
 
 /// On a side of the map that needs most.
+MapForecast LightShadowMaps::forecast() const {
+    MapForecast result;
+    result.maps = mapsNeeded();
+    result.most = largestTexture / std::clamp(result.maps, 1, columns());
+    result.flats = _cause.flats;
+    for (const MapSlice& face : _faces) {
+        if (face.needed.empty()) continue;
+        const glm::dvec2 size = fitOf(face).size;
+        result.pixel = std::min(result.pixel, face.texel);
+        result.texels = std::max(result.texels, std::max(size.x, size.y) / face.texel);
+    }
+    return result;
+}
+
 double LightShadowMaps::texelsWanted() const {
     double wanted = 0.0;
     for (const MapSlice& face : _faces) {

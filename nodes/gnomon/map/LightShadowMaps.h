@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/map/DepthMap.h>
 #include <gnomon/map/MapBodies.h>
+#include <gnomon/map/MapForecast.h>
 #include <gnomon/map/MapLookupPass.h>
 #include <gnomon/map/MapSlice.h>
 
@@ -27,6 +28,8 @@ public:
                                  const glm::dvec2& pixels);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
     void update(const MapPrograms& resources, MapBodies& bodies);
+    /// What the maps would be like if they were made after find().
+    MapForecast forecast() const;
     /// Without what a cone adds.
     MapLookupPass quad(const glm::dmat4& clipFromScene) const;
 

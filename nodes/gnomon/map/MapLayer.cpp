@@ -184,6 +184,18 @@ MapLayer::MapLayer(const CasterLayer& given, const std::vector<osg::ref_ptr<cons
     sortBySize(flatBoxes);
 }
 
+osg::ref_ptr<const MapLayer> MapLayer::boxesOf(const CasterLayer& casters) {
+    osg::ref_ptr<MapLayer> layer = new MapLayer(casters);
+    for (const auto& piece : casters.pieces) {
+        if (!piece->bounds.valid()) continue;
+        const Box box{toGlm(piece->bounds._min - casters.origin), toGlm(piece->bounds._max - casters.origin)};
+        (isFlat(box) ? layer->flatBoxes : layer->bodyBoxes).push_back(box);
+    }
+    sortBySize(layer->bodyBoxes);
+    sortBySize(layer->flatBoxes);
+    return layer;
+}
+
 std::vector<MapLayer::Drawn> MapLayer::faces(bool flats, bool again, MapBodies& bodies) const {
     std::vector<Drawn> result;
     for (const PlacedMesh& placed : casters->meshes) {
@@ -216,6 +228,12 @@ std::vector<MapLayer::Part> MapLayer::parts() const {
 }
 
 double MapLayer::clearanceOf(const glm::dvec3& lamp) const {
+    if (_boxesOnly) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const std::vector<Box>* boxes : {&bodyBoxes, &flatBoxes})
+            for (const Box& box : *boxes) nearest = std::min(nearest, distance(box, lamp));
+        return nearest;
+    }
     const std::vector<Part> all = parts();
     std::vector<std::pair<double, const Part*>> nearestFirst;
     for (const Part& part : all) nearestFirst.emplace_back(distance(part.box, lamp), &part);

@@ -40,6 +40,9 @@ struct MapLayer : public osg::Referenced {
     /// @param before  layers, whatever of which is the same is taken.
     MapLayer(const CasterLayer& casters, const std::vector<osg::ref_ptr<const MapLayer>>& before);
 
+    /// Where these are, and nothing to draw: for a MapForecast.
+    static osg::ref_ptr<const MapLayer> boxesOf(const CasterLayer& casters);
+
     const osg::ref_ptr<const CasterLayer> casters;
     std::vector<Cutout> cutouts; ///< what textures cut out.
     std::vector<Box> bodyBoxes;  ///< of the drawables, about the origin, the largest first.
@@ -51,6 +54,7 @@ struct MapLayer : public osg::Referenced {
 
     /// From a lamp about the origin to the nearest triangle; infinite if there is none. Triangles whose plane holds the lamp,
     /// to 10⁻⁶ of the coordinates, do not count: they cast nothing. Looks at the drawables that may be nearest.
+    /// Of boxes alone the nearest box counts.
     double clearanceOf(const glm::dvec3& lamp) const;
 
     void resizeGLObjectBuffers(unsigned maxSize) const;
@@ -60,10 +64,12 @@ protected:
     ~MapLayer() override = default;
 
 private:
+    explicit MapLayer(const CasterLayer& given) : casters(&given), _boxesOnly(true) {}
     struct Joined;
     struct Part;
     std::vector<Part> parts() const;
 
+    const bool _boxesOnly = false;
     std::shared_ptr<Joined> _joined; ///< of the joined mesh; null if there is none.
 };
 

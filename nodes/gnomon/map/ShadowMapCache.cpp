@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/group/LocalLight.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/MapMark.h>
 #include <gnomon/map/ProgramMaps.h>
@@ -93,6 +94,21 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
     return quad.fades() ? markOf<SoftMapMark>(quad, *bounds, settings.view)
                         : markOf<MapMark>(quad, *bounds, settings.view);
+}
+
+MapForecast ShadowMapCache::forecast(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
+                                     const MapSettings& settings) {
+    const auto usable = localLight(light.inGroup, SceneFrame(boxes.layers->origin));
+    if (!usable) return {};
+    const SceneView scene(view, boxes);
+    const std::vector<MapReceiver> receivers = receiversOf(view, scene.eyeFromScene);
+    LightShadowMaps maps(nullptr, light.number);
+    maps.setCause({*usable, spotOf(light), &boxes, anyIsBetween(boxes, *usable, receivers), settings});
+    const auto corners = maps.find(receivers, scene.clipFromScene, {view.pixels.x(), view.pixels.y()});
+    MapForecast result = maps.forecast();
+    result.bounds = corners.empty() ? std::nullopt : screenBounds(corners);
+    if (!result.bounds) result.maps = 0;
+    return result;
 }
 
 osg::ref_ptr<const MapCasters> ShadowMapCache::castersOf(const CasterLayers& layers) {

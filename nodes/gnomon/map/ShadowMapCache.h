@@ -28,6 +28,9 @@ public:
     osg::ref_ptr<MarkJob> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
                                const std::optional<SpotCone>& cone, const MapCasters& casters,
                                const MapSettings& settings);
+    /// What maps of one light in a view would be like; none is made. @param boxes  see MapLayer::boxesOf().
+    static MapForecast forecast(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
+                                const MapSettings& settings);
     /// Marks of all that is seen outside a spot's cone.
     osg::ref_ptr<SpotMark> around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
                                   const MapCasters& casters) const;

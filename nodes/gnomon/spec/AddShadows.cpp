@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/FlatParts.h>
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
@@ -63,6 +64,12 @@ osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec&, const Receivers& rec
 
 osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec&, const Receivers&) { return new TracedShadowTechnique; }
 
+osg::ref_ptr<ShadowTechnique> makeAuto(const ShadowSpec& spec, const Receivers&) {
+    osg::ref_ptr<AutoShadowTechnique> node = new AutoShadowTechnique;
+    node->setOptions(spec.budget);
+    return node;
+}
+
 osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const Receivers&) {
     osg::ref_ptr<ShadowMapTechnique> node = new ShadowMapTechnique;
     node->setOptions(spec.map);
@@ -86,6 +93,7 @@ const std::map<std::string, Maker>& makers() {
         {"drape", makeTerrain<TerrainShadowOptions::DRAPE>},
         {"map", makeMap},
         {"traced", makeTraced},
+        {"auto", makeAuto},
     };
     return all;
 }

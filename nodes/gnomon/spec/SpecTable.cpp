@@ -94,6 +94,21 @@ SpecKey errorKey() {
                      terrainError(), 0.0, mostError);
 }
 
+SpecKey budgetKey(SpecKey key, double AutoShadowOptions::*option, double least, double most, const char* byDefault) {
+    key = numberKey(std::move(key), {0.0, [option](ShadowSpec& spec, double value) { spec.budget.*option = value; }},
+                    least, most);
+    key.byDefault = byDefault;
+    return key;
+}
+
+std::vector<SpecKey> autoKeys() {
+    using Budget = AutoShadowOptions;
+    return {budgetKey({"error", "largest error of the shadow's edge", "setError()", "pixels"}, &Budget::error,
+                      Budget::leastError, Budget::mostError, "1; with time= as small as that allows"),
+            budgetKey({"time", "most time that a light's shadow may add to a frame", "setTime()", "ms"}, &Budget::time,
+                      Budget::leastTime, Budget::mostTime, "no limit")};
+}
+
 std::vector<SpecKey> mapKeys() {
     return {
         numberKey({"size", "most texels on a side of a shadow map", "setSize()", "texels"}, ofMap(&Map::size),
@@ -173,7 +188,7 @@ const std::vector<SpecTechnique>& specTechniques() {
         {"map", "shadow maps; on every visible surface", "", mapKeys()},
         planned("volume"),
         {"traced", "one ray for each pixel by Embree; exact on every visible surface"},
-        planned("auto"),
+        {"auto", "the cheapest of the others that keeps an error, or the most accurate within a time", "", autoKeys()},
     };
     return table;
 }

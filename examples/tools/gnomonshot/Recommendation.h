@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowDecision.h>
+
+#include <string>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// A line of C++ that adds the technique of a specification to a group.
+std::string cppFor(const std::string& spec);
+
+/// For each light a table of what could draw its shadow: of each technique the best, the choice first.
+std::string recommendation(const std::vector<ShadowDecision>& decisions);
+
+} // namespace gnomon::examples

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/AutoShadowOptions.h>
+#include <gnomon/ShadowDecision.h>
+#include <gnomon/ShadowTechnique.h>
+
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+class AutoChooser;
+
+/// Casts shadows by the cheapest of the other techniques that keeps an error, or by the most accurate that keeps a time.
+///
+/// Take it if you do not want to choose. Take one of the others if you know which: it then never changes.
+///
+///     osg::ref_ptr<gnomon::AutoShadowTechnique> shadow = new gnomon::AutoShadowTechnique;
+///     shadow->setError(0.4); // optional: pixels
+///     group->addChild(shadow);
+///
+/// Candidates
+/// - No shadow at all, if none could be seen.
+/// - PlanarShadowNode, if only flat receivers get shadow.
+/// - TerrainShadowGeode with HULL or DRAPE, if a terrain is named as receiver and does not shadow itself.
+/// - ShadowMapTechnique, with all sizes, numbers of cascades, filters, and hard or smooth edges.
+/// - TracedShadowTechnique.
+/// - A candidate whose shadow would be wrong here is never chosen. ShadowCandidate::obstacle says why.
+/// Prediction
+/// - Error and time of each candidate are predicted from the casters, the receivers in sight, the light and the view.
+/// - lastDecision() gives them, with the choice and its reason.
+/// Changes
+/// - A scene that stands still is judged once, and once more if the light or a caster comes to rest.
+/// - In a scene that moves, candidates are judged again every 16 frames or more seldom, and whenever the one that is
+///   drawn would become wrong.
+/// - Another candidate takes over only if it saves a fifth of the time. Both keep the error.
+/// Cost
+/// - In a frame without change: a look at the view, the light and the drawables in sight.
+/// - A decision: a few visits of the boxes of casters and receivers. The candidate that is drawn costs what it costs alone.
+/// Needs
+/// - The needs of the chosen technique. Smooth edges need alpha bits; without them hard edges are drawn.
+/// Limits
+/// - It leaves the group's composite as it is. BLEND is cheaper.
+/// - A change of the choice costs the first frame of the technique that takes over.
+/// - Penumbras are never chosen. Use ShadowMapTechnique with SOFT edges for them.
+/// - Predictions are for the whole shadow of one light. If a scene has several lights, each keeps the budget alone.
+/// - ShadowQuery answers by rays.
+/// Threads
+/// - Any number of cull and draw threads. Set properties between frames.
+///
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
+///
+///     gnomon::AutoShadowTechnique {
+///       UniqueID 2
+///       Error 0.4
+///     }
+class GNOMON_EXPORT AutoShadowTechnique : public ShadowTechnique {
+public:
+    /// A technique with the default budget.
+    AutoShadowTechnique();
+    /// Copies the properties.
+    AutoShadowTechnique(const AutoShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+    META_Node(gnomon, AutoShadowTechnique)
+
+    /// Sets error and time at once. AutoShadowOptions::usable() says what becomes of values out of range.
+    void setOptions(const AutoShadowOptions& options) { _options = options.usable(); }
+    /// See setOptions().
+    const AutoShadowOptions& getOptions() const { return _options; }
+    /// See AutoShadowOptions::error.
+    void setError(double pixels);
+    /// See AutoShadowOptions::error.
+    double getError() const { return _options.error; }
+    /// See AutoShadowOptions::time.
+    void setTime(double milliseconds);
+    /// See AutoShadowOptions::time.
+    double getTime() const { return _options.time; }
+
+    /// The choice for each light in the view that was drawn last, in the order of the lights' numbers.
+    /// Empty before the first frame, and if no light or no caster was there.
+    std::vector<ShadowDecision> lastDecision() const;
+
+    /// Decides if need be, and asks the chosen technique. See ShadowTechnique::prepare().
+    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+                                               const FrameCasters& casters) const override;
+    /// True: facts are found by drawable.
+    bool takesDrawables() const override { return true; }
+
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
+    void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
+protected:
+    ~AutoShadowTechnique() override;
+
+private:
+    AutoShadowOptions _options;
+    std::unique_ptr<AutoChooser> _chooser;
+};
+
+} // namespace gnomon

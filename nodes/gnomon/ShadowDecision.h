@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A way to draw a shadow, as an AutoShadowTechnique has judged it for one light in one view.
+struct ShadowCandidate {
+    std::string spec;   ///< Specification string that gives it, without composite. "none": no shadow at all.
+    double error = 0.0; ///< Predicted error of the shadow's edge: 95th percentile, pixels.
+    /// Predicted time that it adds to a frame, milliseconds of processor time, as the scene moves now.
+    double time = 0.0;
+    double still = 0.0;   ///< The same of a frame in which neither the light nor a caster moves.
+    double moving = 0.0;  ///< The same of a frame in which one of them moves.
+    std::string obstacle; ///< Why it cannot be used here. Empty if it can.
+};
+
+/// The choice of an AutoShadowTechnique for one light in one view, and its reason.
+struct ShadowDecision {
+    int light = 0;           ///< OpenGL light number.
+    ShadowCandidate chosen;  ///< The candidate that is drawn.
+    std::string reason;      ///< In a few words: "the cheapest that keeps 1 px".
+    bool keepsBudget = true; ///< False if no candidate keeps the error and the time that are asked for.
+    unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.
+    unsigned changes = 0;    ///< How often another candidate was chosen since the first.
+    std::vector<ShadowCandidate> candidates; ///< All candidates, the usable ones first, by their times.
+};
+
+} // namespace gnomon

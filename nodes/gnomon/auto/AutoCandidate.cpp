@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/auto/AutoCandidate.h>
+
+#include <charconv>
+
+namespace gnomon {
+namespace {
+
+std::string textOf(double number) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
+/// "NAME", or "NAME:key=value,key=value".
+class SpecText {
+public:
+    explicit SpecText(const char* name) : _text(name) {}
+    void add(const char* key, const std::string& value) {
+        _text += (_any ? "," : ":") + (key + ("=" + value));
+        _any = true;
+    }
+    const std::string& text() const { return _text; }
+
+private:
+    std::string _text;
+    bool _any = false;
+};
+
+std::string specOf(const ShadowMapOptions& map) {
+    constexpr const char* filters[] = {"nearest", "bilinear", "bicubic", "fine"};
+    const ShadowMapOptions plain;
+    SpecText text("map");
+    if (map.size != plain.size) text.add("size", std::to_string(map.size));
+    if (map.filter != plain.filter) text.add("filter", filters[map.filter]);
+    if (map.cascades != plain.cascades) text.add("cascades", std::to_string(map.cascades));
+    if (map.edges == ShadowMapOptions::SMOOTH) text.add("edges", "smooth");
+    return text.text();
+}
+
+std::string specOf(const TerrainShadowOptions& terrain) {
+    SpecText text(terrain.method == TerrainShadowOptions::HULL ? "hull" : "drape");
+    if (terrain.error != TerrainShadowOptions().error) text.add("error", textOf(terrain.error));
+    return text.text();
+}
+
+} // namespace
+
+std::string AutoCandidate::spec() const {
+    switch (kind) {
+    case Kind::Planar:
+        return "planar";
+    case Kind::Terrain:
+        return specOf(terrain);
+    case Kind::Map:
+        return specOf(map);
+    case Kind::Traced:
+        return "traced";
+    default:
+        return "none";
+    }
+}
+
+bool AutoCandidate::isSame(const AutoCandidate& other) const {
+    if (kind != other.kind) return false;
+    if (kind == Kind::Terrain) return terrain.method == other.terrain.method && terrain.error == other.terrain.error;
+    return kind != Kind::Map || (map.size == other.map.size && map.filter == other.map.filter &&
+                                 map.cascades == other.map.cascades && map.edges == other.map.edges);
+}
+
+double AutoCandidate::time(const CostRates& rates, double moving) const {
+    return timeOf(still, rates) + moving * timeOf(change, rates);
+}
+
+ShadowCandidate AutoCandidate::judged(const CostRates& rates, double moving) const {
+    return {spec(), error, time(rates, moving), time(rates, 0.0), time(rates, 1.0), obstacle};
+}
+
+} // namespace gnomon

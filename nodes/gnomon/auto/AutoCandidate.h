@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/AutoShadowOptions.h>
+#include <gnomon/ShadowDecision.h>
+#include <gnomon/ShadowMapOptions.h>
+#include <gnomon/TerrainShadowOptions.h>
+#include <gnomon/choice/ShadowWork.h>
+
+#include <osg/Vec4d>
+
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// A way to draw a shadow, with what it is expected to come to.
+struct AutoCandidate {
+    enum class Kind { Nothing, Planar, Terrain, Map, Traced };
+
+    Kind kind = Kind::Nothing;
+    ShadowMapOptions map = {};
+    TerrainShadowOptions terrain = {};
+    std::vector<osg::Vec4d> planes = {}; ///< group frame.
+    double error = 0.0;                  ///< pixels.
+    ShadowWork still = {};               ///< in every frame.
+    ShadowWork change = {};              ///< besides, in a frame in which the light or a caster moves.
+    std::string obstacle = {};           ///< why it cannot be used.
+
+    /// Specification string without composite and receiver.
+    std::string spec() const;
+    /// True if it is drawn alike, wherever the planes are.
+    bool isSame(const AutoCandidate& other) const;
+    /// Milliseconds a frame. @param moving  share of the frames in which the light or a caster moves, or a map is drawn again.
+    double time(const CostRates& rates, double moving) const;
+    ShadowCandidate judged(const CostRates& rates, double moving) const;
+};
+
+} // namespace gnomon

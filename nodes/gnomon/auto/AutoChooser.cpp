@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/auto/AutoChooser.h>
+
+#include <OpenThreads/ScopedLock>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+using Kind = AutoCandidate::Kind;
+
+constexpr unsigned keptRounds = 60;    // choices of views that are gone are let go
+constexpr double memory = 0.9;         // of motion, from a frame to the next
+constexpr double refits = 0.15;        // share of the frames of a moving view in which a map is drawn again
+constexpr double atRest = 0.01;        // share of frames: 44 without motion after one with it
+constexpr unsigned leastPatience = 16; // frames between two decisions that nothing forces
+constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on average
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string rounded(double number) {
+    std::ostringstream text;
+    text.precision(2);
+    text << number;
+    return text.str();
+}
+
+ChoiceBudget budgetOf(const AutoShadowOptions& options) {
+    const double error = options.error > 0.0 ? options.error : options.time > 0.0 ? 0.0 : AutoShadowOptions::usualError;
+    return {error, options.time > 0.0 ? options.time : infinity};
+}
+
+std::string reasonFor(ChoiceReason reason, const ChoiceBudget& budget) {
+    const std::string error = rounded(budget.error) + " px", time = rounded(budget.time) + " ms";
+    switch (reason) {
+    case ChoiceReason::Cheapest:
+        return "the cheapest that keeps " + error;
+    case ChoiceReason::Kept:
+        return "chosen before, and keeps " + error + "; another would save less than a fifth";
+    case ChoiceReason::MostAccurate:
+        return "the most accurate within " + time;
+    case ChoiceReason::ErrorTooSmall:
+        return "the most accurate, for none keeps " + error;
+    default:
+        return "the cheapest, for none keeps " + time;
+    }
+}
+
+std::string causeOf(ChoiceReason reason, const ChoiceBudget& budget, const ShadowCandidate& chosen) {
+    if (reason == ChoiceReason::ErrorTooSmall)
+        return "no technique keeps an error of " + rounded(budget.error) + " pixels here; " + chosen.spec +
+               " is the most accurate, with " + rounded(chosen.error) + ". Allow a larger error.";
+    if (reason == ChoiceReason::TimeTooShort)
+        return "no technique keeps a time of " + rounded(budget.time) + " ms here; " + chosen.spec +
+               " is the cheapest, with " + rounded(chosen.time) + ". Allow more time.";
+    return {};
+}
+
+std::vector<ShadowCandidate> judgedOf(const std::vector<AutoCandidate>& all, const CostRates& rates, double moving) {
+    std::vector<ShadowCandidate> result;
+    for (const AutoCandidate& candidate : all) result.push_back(candidate.judged(rates, moving));
+    std::stable_sort(result.begin(), result.end(), [](const ShadowCandidate& a, const ShadowCandidate& b) {
+        return std::make_pair(!a.obstacle.empty(), a.time) < std::make_pair(!b.obstacle.empty(), b.time);
+    });
+    return result;
+}
+
+} // namespace
+
+bool AutoChooser::Seen::hasSameMotion(const Seen& other) const {
+    return light == other.light && casters == other.casters;
+}
+
+bool AutoChooser::Seen::hasSameView(const Seen& other) const {
+    return eyeFromGroup == other.eyeFromGroup && projection == other.projection && leaves == other.leaves;
+}
+
+bool AutoChooser::Seen::asks(const Seen& other) const {
+    return pixels == other.pixels && composite == other.composite && dark == other.dark && receiver == other.receiver &&
+           error == other.error && time == other.time && light.inGroup.w() == other.light.inGroup.w() &&
+           casters->list.size() == other.casters->list.size();
+}
+
+AutoChooser::Choice& AutoChooser::find(const AutoView& view) {
+    auto* known = _choices.find(
+        [&](const auto& choice) { return choice->stage == view.frame.stage && choice->light == view.light.number; });
+    Choice& choice = known ? **known : *_choices.add(std::make_unique<Choice>());
+    if (!known) choice.stage = view.frame.stage, choice.light = view.light.number;
+    if (view.frame.frameNumber != _frame || (known && choice.lastRound == _round)) {
+        _frame = view.frame.frameNumber;
+        ++_round;
+    }
+    choice.lastRound = _round;
+    _choices.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
+    return choice;
+}
+
+/// Whether the candidates are to be compared. A choice that is right only as long as things lie as they lie is looked at
+/// whenever they do not.
+bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver) {
+    ++choice.frames;
+    if (choice.decision.decisions == 0) return true;
+    const bool same = now.isSame(choice.last);
+    const double motion = !now.hasSameMotion(choice.last) ? 1.0 : now.hasSameView(choice.last) ? 0.0 : refits;
+    choice.moving = memory * choice.moving + (1.0 - memory) * motion;
+    if (choice.moving < atRest) choice.moving = 0.0;
+    choice.last = now;
+    if (!now.asks(choice.decided)) return true;
+    if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
+    const bool cameToRest = choice.moving == 0.0 && choice.movingThen > 0.0;
+    return choice.frames >= choice.patience && (cameToRest || !now.isSame(choice.decided));
+}
+
+void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver,
+                         const AutoShadowOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    const ChoiceBudget budget = budgetOf(options);
+    const CandidateList list = listCandidates(view, receiver, budget.error, _known);
+    std::vector<ChoiceCandidate> judged;
+    std::optional<std::size_t> before;
+    for (const AutoCandidate& candidate : list.all) {
+        if (choice.decision.decisions > 0 && candidate.isSame(choice.candidate)) before = judged.size();
+        judged.push_back({candidate.obstacle.empty(), candidate.error, candidate.time(_rates, choice.moving)});
+    }
+    const auto chosen = chooseCandidate(judged, budget, before);
+    const std::size_t index = chosen ? chosen->index : 0;
+    const ChoiceReason reason = chosen ? chosen->reason : ChoiceReason::Cheapest;
+    ShadowDecision& decision = choice.decision;
+    const bool changes = decision.decisions > 0 && !list.all[index].isSame(choice.candidate);
+    choice.candidate = list.all[index];
+    decision.light = view.light.number;
+    decision.chosen = choice.candidate.judged(_rates, choice.moving);
+    decision.reason = list.nothing.empty() ? reasonFor(reason, budget) : "none is needed: " + list.nothing;
+    decision.keepsBudget = reason != ChoiceReason::ErrorTooSmall && reason != ChoiceReason::TimeTooShort;
+    decision.candidates = judgedOf(list.all, _rates, choice.moving);
+    decision.changes += changes ? 1 : 0;
+    ++decision.decisions;
+    choice.cause = list.nothing.empty() ? causeOf(reason, budget, decision.chosen) : "";
+    choice.decided = choice.last = now;
+    choice.movingThen = choice.moving;
+    choice.frames = 0;
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    choice.patience = std::max(leastPatience, unsigned(std::min(took.count() / decisionTime, 1e4)));
+}
+
+AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& receiver,
+                                       const AutoShadowOptions& options) {
+    Lock lock(_mutex);
+    Choice& choice = find(view);
+    _lastStage = view.frame.stage;
+    if (_casters != &view.casters) {
+        _casters = &view.casters;
+        _known.bodies.keepMostly(view.casters);
+    }
+    const Seen now{view.frame.eyeFromGroup,
+                   view.frame.projection,
+                   view.frame.pixels,
+                   view.light,
+                   &view.casters,
+                   fingerprintOf(view.frame.seen),
+                   view.frame.group->getComposite(),
+                   view.frame.dark,
+                   receiver,
+                   options.error,
+                   options.time};
+    if (isDue(choice, now, view, receiver)) decide(choice, now, view, receiver, options);
+    return {_inner.of(choice.candidate, receiver, _round), choice.cause};
+}
+
+std::vector<ShadowDecision> AutoChooser::lastDecision() const {
+    Lock lock(_mutex);
+    std::vector<ShadowDecision> result;
+    for (const auto& choice : _choices)
+        if (choice->stage == _lastStage && choice->lastRound == _round) result.push_back(choice->decision);
+    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.light < b.light; });
+    return result;
+}
+
+void AutoChooser::forEach(const std::function<void(ShadowTechnique&)>& visit) const {
+    Lock lock(_mutex);
+    _inner.forEach(visit);
+}
+
+} // namespace gnomon

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/auto/CandidateList.h>
+#include <gnomon/auto/InnerTechniques.h>
+#include <gnomon/base/RecentCache.h>
+#include <gnomon/choice/CandidateChoice.h>
+
+#include <OpenThreads/Mutex>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What an AutoShadowTechnique remembers: the choice for each light in each view, and the techniques that draw.
+///
+/// Threads any number; one at a time decides.
+class AutoChooser {
+public:
+    /// What draws one light's shadow in one view, in this frame.
+    struct Drawn {
+        osg::ref_ptr<const ShadowTechnique> technique; ///< null: no shadow is drawn.
+        std::string cause;                             ///< for ShadowTechnique::report(): the budget cannot be kept.
+    };
+    Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
+
+    /// Of the view that asked last.
+    std::vector<ShadowDecision> lastDecision() const;
+    void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
+
+private:
+    /// What a choice was made for.
+    struct Seen {
+        osg::Matrixd eyeFromGroup, projection;
+        osg::Vec2d pixels;
+        ShadowLight light;
+        osg::ref_ptr<const CasterDrawables> casters;
+        std::uint64_t leaves = 0;
+        ShadowCasterGroup::Composite composite = ShadowCasterGroup::RELIGHT;
+        float dark = 0.0f;
+        Selection receiver;
+        double error = 0.0, time = 0.0;
+
+        bool isSame(const Seen& other) const { return hasSameMotion(other) && hasSameView(other) && asks(other); }
+        bool hasSameMotion(const Seen& other) const;
+        bool hasSameView(const Seen& other) const;
+        /// True if the same is wanted of the same things, wherever they are.
+        bool asks(const Seen& other) const;
+    };
+    struct Choice {
+        const void* stage;
+        int light;
+        Seen decided, last;
+        AutoCandidate candidate;
+        ShadowDecision decision;
+        unsigned lastRound = 0;
+        unsigned frames = 0;     ///< since the candidates were compared.
+        unsigned patience = 0;   ///< frames that have to pass before they are compared again, if nothing forces it.
+        double moving = 0.0;     ///< share of the recent frames in which maps had to be drawn again.
+        std::string cause;       ///< see Drawn.
+        double movingThen = 0.0; ///< when the candidates were compared.
+    };
+    Choice& find(const AutoView& view);
+    bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
+    void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver,
+                const AutoShadowOptions& options);
+
+    mutable OpenThreads::Mutex _mutex;
+    InnerTechniques _inner;
+    AutoKnowledge _known;
+    CostRates _rates;
+    osg::ref_ptr<const CasterDrawables> _casters; ///< that the knowledge is of.
+    RecentCache<std::unique_ptr<Choice>> _choices;
+    unsigned _round = 0, _frame = 0;
+    const void* _lastStage = nullptr;
+};
+
+} // namespace gnomon

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/auto/AutoChooser.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/group/FrameCasters.h>
+#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/ViewFrame.h>
+
+#include <algorithm>
+
+namespace gnomon {
+namespace {
+
+/// The causes that another technique has for one frame, without its name.
+std::vector<std::string> causesOf(const ShadowTechnique& technique) {
+    const std::string start = technique.describe() + ": ";
+    std::vector<std::string> causes = technique.diagnose();
+    for (std::string& cause : causes)
+        if (cause.rfind(start, 0) == 0) cause.erase(0, start.size());
+    return causes;
+}
+
+/// 0 for what is no number above 0.
+double within(double number, double least, double most) { return number > 0.0 ? std::clamp(number, least, most) : 0.0; }
+
+} // namespace
+
+AutoShadowOptions AutoShadowOptions::usable() const {
+    return {within(error, leastError, mostError), within(time, leastTime, mostTime)};
+}
+
+AutoShadowTechnique::AutoShadowTechnique() : _chooser(new AutoChooser) {}
+
+AutoShadowTechnique::AutoShadowTechnique(const AutoShadowTechnique& other, const osg::CopyOp& copyOp)
+    : ShadowTechnique(other, copyOp), _options(other._options), _chooser(new AutoChooser) {}
+
+AutoShadowTechnique::~AutoShadowTechnique() = default;
+
+void AutoShadowTechnique::setError(double pixels) { setOptions({pixels, _options.time}); }
+
+void AutoShadowTechnique::setTime(double milliseconds) { setOptions({_options.error, milliseconds}); }
+
+std::vector<ShadowDecision> AutoShadowTechnique::lastDecision() const { return _chooser->lastDecision(); }
+
+std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                                const FrameCasters& casters) const {
+    const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
+    if (!usable) {
+        report(view.frameNumber, notUsable(light.inGroup));
+        return {};
+    }
+    const AutoChooser::Drawn drawn =
+        _chooser->choose({view, light, casters.layers(), casters.drawables(), *usable}, getReceiver(), _options);
+    if (!drawn.cause.empty()) report(view.frameNumber, drawn.cause);
+    if (!drawn.technique) return {};
+    ViewFrame here = view;
+    here.groupFromTechnique = osg::Matrixd(); // planes are the group's
+    drawn.technique->beginFrame(view.frameNumber, view.stage);
+    const std::vector<osg::ref_ptr<MarkJob>> jobs = drawn.technique->prepare(here, light, casters);
+    for (const std::string& cause : causesOf(*drawn.technique)) report(view.frameNumber, cause);
+    return jobs;
+}
+
+void AutoShadowTechnique::resizeGLObjectBuffers(unsigned maxSize) {
+    ShadowTechnique::resizeGLObjectBuffers(maxSize);
+    _chooser->forEach([maxSize](ShadowTechnique& inner) { inner.resizeGLObjectBuffers(maxSize); });
+}
+
+void AutoShadowTechnique::releaseGLObjects(osg::State* state) const {
+    ShadowTechnique::releaseGLObjects(state);
+    _chooser->forEach([state](ShadowTechnique& inner) { inner.releaseGLObjects(state); });
+}
+
+} // namespace gnomon

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowLight.h>
+#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/group/ViewFrame.h>
+
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+
+namespace gnomon {
+
+/// What a decision is about: one light in one view, and the casters.
+struct AutoView {
+    const ViewFrame& frame;
+    const ShadowLight& light;
+    const CasterLayers& layers;
+    const CasterDrawables& casters; ///< the same, drawable by drawable.
+    glm::dvec4 towards;             ///< the light, group frame: w = 0 and length 1, or w = 1.
+};
+
+/// Stands for the drawables that can receive, and where they are but for the view.
+std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leaves);
+
+/// Triangles of a drawable, by its primitives; an estimate where it is no geometry.
+double trianglesOf(const osg::Drawable& drawable);
+
+/// Triangles of what the view would draw again where marks are within these bounds.
+double trianglesWithin(const ViewFrame& frame, const ScreenRect& bounds);
+
+/// Pixels within these bounds.
+double pixelsOf(const ViewFrame& frame, const ScreenRect& bounds);
+
+} // namespace gnomon

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/auto/CandidateList.h>
+#include <gnomon/auto/FlatReceivers.h>
+#include <gnomon/choice/EdgeError.h>
+#include <gnomon/map/MapCasters.h>
+#include <gnomon/map/MapSettings.h>
+#include <gnomon/map/ShadowMapCache.h>
+#include <gnomon/mapfit/TexelDensity.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+using Map = ShadowMapOptions;
+using Kind = AutoCandidate::Kind;
+
+constexpr double leastContrast = 2.0 / 255.0;
+constexpr double leastShadow = 0.5; // pixels across
+
+struct MapQuality {
+    Map::Filter filter;
+    Map::Edges edges;
+    EdgeFilter edge;
+};
+/// Spread: of edges at random, see docs/performance.md. Pixel: of a sphere and a cube on a ground, with small texels.
+constexpr MapQuality qualities[] = {
+    {Map::NEAREST, Map::HARD, {0.51, 0.42, 0.25}},  {Map::BILINEAR, Map::HARD, {0.41, 0.41, 1.0}},
+    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.41, 0.27, 1.0}},
+    {Map::BICUBIC, Map::SMOOTH, {0.35, 0.14, 4.0}}, {Map::FINE, Map::SMOOTH, {0.35, 0.06, 16.0}},
+};
+constexpr double callsAMap = 14.0;   // to switch to its framebuffer and back, and to fit it
+constexpr double callsAPiece = 0.06; // to see that it has not changed
+constexpr double mostStretch = 8.0;  // as TexelDensity has it
+constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
+
+/// Finds the candidates of one view.
+class Lister {
+public:
+    Lister(const AutoView& view, const Selection& receiver, double error, AutoKnowledge& known)
+        : _view(view),
+          _receiver(receiver),
+          _error(error),
+          _known(known),
+          _boxes(new MapCasters(view.layers, MapLayer::boxesOf(*view.layers.still),
+                                MapLayer::boxesOf(*view.layers.moving))) {}
+
+    CandidateList list() {
+        _one = forecast(1, sizes[0]);
+        _result.nothing = whyNothing();
+        if (!_result.nothing.empty()) return only();
+        const FlatReceivers flat = findFlatReceivers(_view, _known.bodies);
+        if (flat.nothing()) {
+            _result.nothing = "no receiver in sight gets any shadow";
+            return only();
+        }
+        measure();
+        addPlanar(flat);
+        addTerrain();
+        addMaps();
+        addTraced();
+        return _result;
+    }
+
+private:
+    std::string whyNothing() const {
+        if (_view.frame.seen.empty()) return "no receiver is in sight";
+        if (_one.maps == 0) return "no shadow can fall on what is in sight";
+        if (_one.texels < leastShadow) return "the shadow is narrower than half a pixel";
+        if (blends() && _view.frame.dark >= 1.0f - float(leastContrast))
+            return "the shadow would not be seen, as its factor is 1";
+        return {};
+    }
+
+    CandidateList only() {
+        AutoCandidate none;
+        none.error = _one.texels < leastShadow ? _one.texels : 0.0;
+        _result.all = {none};
+        return _result;
+    }
+
+    bool blends() const { return _view.frame.group->getComposite() == ShadowCasterGroup::BLEND; }
+
+    /// What every technique costs: the compositor's part.
+    void measure() {
+        _pixels = pixelsOf(_view.frame, *_one.bounds);
+        _casters = 0.0;
+        for (const auto& piece : _view.casters.list) _casters += double(piece->triangles);
+        _compose.calls = 2.0 + callsAPiece * double(_view.casters.list.size());
+        _compose.filled = _pixels;
+        if (blends()) return;
+        _compose.relit = trianglesWithin(_view.frame, *_one.bounds);
+        _compose.calls += 0.1 * double(_view.frame.seen.size());
+    }
+
+    void addPlanar(const FlatReceivers& flat) {
+        AutoCandidate planar;
+        planar.kind = Kind::Planar;
+        planar.planes = flat.planes;
+        planar.obstacle = flat.obstacle;
+        planar.error = sampledEdge;
+        const double planes = std::max(1.0, double(flat.planes.size()));
+        planar.still = _compose;
+        planar.still.calls += 2.0 * planes;
+        planar.still.triangles = planes * _casters;
+        planar.still.pixels = _pixels;
+        _result.all.push_back(planar);
+    }
+
+    void addTerrain() {
+        const TerrainFacts facts = _known.terrain.of(_view, _receiver);
+        AutoCandidate hull;
+        hull.kind = Kind::Terrain;
+        hull.obstacle = facts.obstacle;
+        hull.error = polygonEdgeError(facts.off / _one.pixel);
+        const double objects = _casters / 12.0;
+        hull.still = _compose;
+        hull.still.calls += 4.0;
+        hull.still.triangles = 6.0 * objects;
+        hull.still.pixels = _pixels;
+        hull.change.objects = objects;
+        _result.all.push_back(hull);
+        AutoCandidate drape = hull;
+        drape.terrain.method = TerrainShadowOptions::DRAPE;
+        drape.terrain.error = drapeError();
+        drape.error = polygonEdgeError(drape.terrain.error / _one.pixel);
+        drape.still.triangles *= 6.0;
+        drape.change = 20.0 * hull.change;
+        _result.all.push_back(drape);
+    }
+
+    /// As coarse as the budget allows, in steps, so that it seldom changes; the group's unit.
+    double drapeError() const {
+        const double most = _error > sampledEdge ? std::sqrt(_error * _error - sampledEdge * sampledEdge) : 0.0;
+        const double length = most * _one.pixel;
+        return length > 0.0 && std::isfinite(length) ? std::exp2(std::floor(std::log2(length))) : 0.0;
+    }
+
+    MapForecast forecast(int cascades, int size) const {
+        ShadowMapOptions options;
+        options.cascades = cascades;
+        options.size = size;
+        return ShadowMapCache::forecast(_view.frame, _view.light, *_boxes, options);
+    }
+
+    /// One map, and as many as the size asks for, where those are more.
+    void addMaps() {
+        for (const int size : sizes) {
+            for (const MapQuality& quality : qualities) addMap(_one, 1, size, quality);
+            const MapForecast several = _view.towards.w == 0.0 ? forecast(0, size) : _one;
+            if (several.maps == _one.maps) continue;
+            for (const MapQuality& quality : qualities) addMap(several, 0, size, quality);
+        }
+    }
+
+    void addMap(const MapForecast& forecast, int cascades, int size, const MapQuality& quality) {
+        if (quality.edges == Map::SMOOTH && !_known.hasAlpha) return;
+        AutoCandidate map;
+        map.kind = Kind::Map;
+        map.map.size = size;
+        map.map.filter = quality.filter;
+        map.map.edges = quality.edges;
+        map.map.cascades = cascades;
+        const double wish = MapSettings(map.map).pixels;
+        const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
+        map.error = mapEdgeError(quality.edge, forecast.texels / texels / stretch());
+        const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
+        map.still = _compose;
+        map.still.calls += 3.0 * passes;
+        map.still.pixels = passes * _pixels;
+        map.still.taps = passes * _pixels * quality.edge.compared;
+        map.change.calls = callsAMap * forecast.maps;
+        map.change.texels = double(forecast.maps) * texels * texels;
+        map.change.triangles = double(forecast.maps) * _casters;
+        _result.all.push_back(map);
+    }
+
+    /// Texels are stretched on level ground along a sun's way, where few of the edges run across it.
+    double stretch() const {
+        if (_view.towards.w != 0.0) return 1.0;
+        return std::min(1.0 / std::max(std::abs(_view.towards.z), 1e-6), mostStretch);
+    }
+
+    void addTraced() {
+        AutoCandidate traced;
+        traced.kind = Kind::Traced;
+        traced.error = sampledEdge;
+        for (const auto& piece : _view.casters.list)
+            if (piece->test || piece->unknownTests > 0) traced.obstacle = "casters are cut out by an alpha test";
+        traced.still = _compose;
+        traced.still.pixels = 2.0 * _pixels;
+        traced.still.rays = _pixels;
+        _result.all.push_back(traced);
+    }
+
+    const AutoView& _view;
+    const Selection& _receiver;
+    const double _error;
+    AutoKnowledge& _known;
+    const osg::ref_ptr<const MapCasters> _boxes;
+    MapForecast _one;
+    double _pixels = 0.0, _casters = 0.0;
+    ShadowWork _compose;
+    CandidateList _result;
+};
+
+} // namespace
+
+CandidateList listCandidates(const AutoView& view, const Selection& receiver, double error, AutoKnowledge& known) {
+    return Lister(view, receiver, error, known).list();
+}
+
+std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver,
+                     AutoKnowledge& known) {
+    if (candidate.kind == Kind::Nothing) return "a shadow may be needed now";
+    if (candidate.kind == Kind::Terrain) return known.terrain.of(view, receiver).obstacle;
+    if (candidate.kind != Kind::Planar) return {};
+    const FlatReceivers flat = findFlatReceivers(view, known.bodies);
+    if (!flat.obstacle.empty()) return flat.obstacle;
+    return flat.planes == candidate.planes ? "" : "other flat receivers are in sight";
+}
+
+} // namespace gnomon

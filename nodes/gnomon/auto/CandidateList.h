@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/auto/AutoCandidate.h>
+#include <gnomon/auto/AutoView.h>
+#include <gnomon/auto/ConvexBodies.h>
+#include <gnomon/auto/TerrainFacts.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// What is known of a group's casters and receivers, from earlier decisions.
+struct AutoKnowledge {
+    ConvexBodies bodies;
+    TerrainKnowledge terrain;
+    bool hasAlpha = true; ///< false once a framebuffer had no alpha bits: edges cannot be smooth.
+};
+
+/// All that could draw one light's shadow in a view.
+struct CandidateList {
+    std::vector<AutoCandidate> all;
+    std::string nothing; ///< why no shadow is needed; empty: one is. `all` is then the only candidate, none.
+};
+
+/// @param receiver  that the technique names.
+/// @param error     that is asked for, pixels: it decides how exact a drape is.
+/// A new technique is one more function in CandidateList.cpp.
+CandidateList listCandidates(const AutoView& view, const Selection& receiver, double error, AutoKnowledge& known);
+
+/// Why a candidate that was right for another frame is wrong now; empty if it still is right.
+std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver,
+                     AutoKnowledge& known);
+
+} // namespace gnomon

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "Fields.h"
+
+#include <gnomon/AutoShadowTechnique.h>
+
+#include <osgDB/ObjectWrapper>
+
+using namespace gnomon;
+
+/// Smooth edges may be chosen, see fields::askForAlphaBits().
+struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
+    void objectRead(osgDB::InputStream&, osg::Object&) override { fields::askForAlphaBits(); }
+};
+
+REGISTER_OBJECT_WRAPPER(gnomon_AutoShadowTechnique, new gnomon::AutoShadowTechnique, gnomon::AutoShadowTechnique,
+                        "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
+                        "gnomon::AutoShadowTechnique") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    wrapper->addFinishedObjectReadCallback(new AskForAlphaBits);
+    wrapper->addSerializer(
+        new fields::ExactNumber<MyClass, double>("Error", fresh->getError(), &MyClass::getError, &MyClass::setError),
+        osgDB::BaseSerializer::RW_DOUBLE);
+    wrapper->addSerializer(
+        new fields::ExactNumber<MyClass, double>("Time", fresh->getTime(), &MyClass::getTime, &MyClass::setTime),
+        osgDB::BaseSerializer::RW_DOUBLE);
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace gnomon {
+
+/// How texels are compared, as ShadowMapOptions::Filter and its edges have it.
+struct EdgeFilter {
+    double spread;   ///< share of a texel within which 95 % of the edges stay.
+    double pixel;    ///< the same of a pixel, where texels are so small that they do not count.
+    double compared; ///< comparisons of 2 × 2 texels a pixel.
+};
+
+/// One ray or one fragment a pixel decides: 95 % of such edges are within so many pixels of the true one.
+constexpr double sampledEdge = 0.40;
+
+/// 95th percentile of the distance between an edge looked up in a map and the true one, pixels.
+/// @param pixelsATexel  on a side of a texel, where it is widest on the screen.
+double mapEdgeError(const EdgeFilter& filter, double pixelsATexel);
+
+/// The same of edges that are drawn as polygons whose place is off by up to so many pixels.
+double polygonEdgeError(double pixelsOff);
+
+} // namespace gnomon

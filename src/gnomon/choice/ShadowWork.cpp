@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/choice/ShadowWork.h>
+
+namespace gnomon {
+namespace {
+
+struct Kind {
+    double ShadowWork::*count;
+    double CostRates::*rate;
+};
+
+constexpr Kind kinds[] = {{&ShadowWork::calls, &CostRates::call},    {&ShadowWork::triangles, &CostRates::triangle},
+                          {&ShadowWork::texels, &CostRates::texel},  {&ShadowWork::pixels, &CostRates::pixel},
+                          {&ShadowWork::taps, &CostRates::tap},      {&ShadowWork::relit, &CostRates::relit},
+                          {&ShadowWork::filled, &CostRates::filled}, {&ShadowWork::rays, &CostRates::ray},
+                          {&ShadowWork::built, &CostRates::built},   {&ShadowWork::objects, &CostRates::object}};
+
+} // namespace
+
+ShadowWork& ShadowWork::operator+=(const ShadowWork& other) {
+    for (const Kind& kind : kinds) this->*kind.count += other.*kind.count;
+    return *this;
+}
+
+ShadowWork operator*(double share, ShadowWork work) {
+    for (const Kind& kind : kinds) work.*kind.count *= share;
+    return work;
+}
+
+ShadowWork operator+(ShadowWork a, const ShadowWork& b) { return a += b; }
+
+double timeOf(const ShadowWork& work, const CostRates& rates) {
+    double time = 0.0;
+    for (const Kind& kind : kinds) time += work.*kind.count * rates.*kind.rate;
+    return time;
+}
+
+} // namespace gnomon

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// What is chosen automatically, that it is right, and that a still scene costs next to nothing.
+#include <support/Scene.h>
+#include <support/Truth.h>
+
+#include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowSpec.h>
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+
+#include <algorithm>
+
+using gnomon::AutoShadowTechnique;
+using gnomon::ShadowDecision;
+using test::box;
+using test::Camera;
+using test::Picture;
+using test::Scene;
+
+namespace {
+
+const osg::Vec4d sun(1.0, 0.4, 1.2, 0.0);
+const test::Mesh cube = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
+const test::Mesh beside = box({-1.0, -5.0, 0.0}, {1.0, -3.5, 1.0}); // no shadow of the cube's, none on it
+const test::Mesh below = box({-3.0, -1.5, 0.0}, {-2.0, 0.5, 0.5});  // in the cube's shadow
+
+test::View view() { return test::perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 160, 120); }
+
+/// A scene under automatic choice.
+struct Trial {
+    explicit Trial(const std::vector<test::Mesh>& casters, const gnomon::AutoShadowOptions& options = {})
+        : scene(test::groundScene(casters, 8.0, sun)), technique(new AutoShadowTechnique) {
+        technique->setOptions(options);
+        scene.addShadow(technique);
+    }
+    ShadowDecision decision() const {
+        const std::vector<ShadowDecision> all = technique->lastDecision();
+        return all.size() == 1 ? all.front() : ShadowDecision();
+    }
+    std::string chosen() const { return decision().chosen.spec; }
+    const gnomon::ShadowCandidate* candidate(const std::string& start) {
+        last = decision();
+        for (const gnomon::ShadowCandidate& each : last.candidates)
+            if (each.spec.rfind(start, 0) == 0) return &each;
+        return nullptr;
+    }
+
+    Scene scene;
+    osg::ref_ptr<AutoShadowTechnique> technique;
+    ShadowDecision last;
+};
+
+/// The same scene by a technique that is named.
+Picture drawnBy(const std::string& spec, const std::vector<test::Mesh>& casters) {
+    Scene scene = test::groundScene(casters, 8.0, sun);
+    scene.addShadow(new AutoShadowTechnique);
+    scene.group->removeChild(scene.group->getNumChildren() - 1);
+    gnomon::addShadows(*scene.group, {gnomon::parseShadowSpec(spec)});
+    return test::render(scene.root, view());
+}
+
+bool startsWith(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+
+} // namespace
+
+TEST(Auto, TakesPlanarWhereOnlyTheGroundGetsShadow) {
+    Trial trial({cube, beside});
+    const Picture picture = test::render(trial.scene.root, view());
+    EXPECT_EQ(trial.chosen(), "planar") << trial.decision().reason;
+    EXPECT_EQ(picture.different(drawnBy("planar", {cube, beside})), 0);
+    EXPECT_EQ(trial.technique->diagnose(), std::vector<std::string>());
+}
+
+TEST(Auto, TakesNoPlanarWhereOneObjectShadowsAnother) {
+    Trial trial({cube, below});
+    const Picture picture = test::render(trial.scene.root, view());
+    EXPECT_TRUE(startsWith(trial.chosen(), "map")) << trial.chosen();
+    ASSERT_TRUE(trial.candidate("planar"));
+    EXPECT_EQ(trial.candidate("planar")->obstacle, "objects shadow one another");
+    EXPECT_EQ(picture.different(drawnBy(trial.chosen(), {cube, below})), 0);
+}
+
+TEST(Auto, TakesNoPlanarForObjectsThatMayShadowThemselves) {
+    const test::Mesh arch =
+        test::joined({box({-1.0, -1.0, 0.0}, {1.0, -0.2, 2.0}), box({-1.0, 0.2, 0.0}, {1.0, 1.0, 2.0})});
+    Trial trial({arch}); // two bodies of one drawable, one in the other's shadow
+    test::render(trial.scene.root, view());
+    EXPECT_TRUE(startsWith(trial.chosen(), "map")) << trial.chosen();
+}
+
+TEST(Auto, DrawsWhatRaysFindWhateverItChooses) {
+    for (const std::vector<test::Mesh>& casters : {std::vector{cube, beside}, std::vector{cube, below}}) {
+        Scene lit = test::groundScene(casters, 8.0, sun), dark = test::groundScene(casters, 8.0, sun);
+        dark.takeLightAway();
+        const Picture litPicture = test::render(lit.root, view()), darkPicture = test::render(dark.root, view());
+        std::vector<test::Mesh> meshes = casters;
+        meshes.push_back(test::square(8.0));
+        const gnomon::TruthImage truth = test::truthOf(meshes, sun, view());
+        const auto drawn = [&](double error) {
+            Trial trial(casters, {error, 0.0});
+            const Picture picture = test::render(trial.scene.root, view());
+            EXPECT_TRUE(trial.decision().keepsBudget);
+            return picture;
+        };
+        for (const double error : {1.0, 4.0})
+            EXPECT_LE(test::edgesOff(drawn(error), litPicture, darkPicture, truth).p95, error);
+        EXPECT_LT(test::shareOff(drawn(0.2), litPicture, darkPicture, truth),
+                  test::shareOff(drawn(1.0), litPicture, darkPicture, truth));
+    }
+}
+
+TEST(Auto, AsksForNoMoreThanTheErrorNeeds) {
+    Trial coarse({cube, below}, {4.0, 0.0}), fine({cube, below}, {0.2, 0.0});
+    test::render(coarse.scene.root, view());
+    test::render(fine.scene.root, view());
+    EXPECT_LT(coarse.decision().chosen.time, fine.decision().chosen.time);
+    EXPECT_LE(fine.decision().chosen.error, 0.2);
+    EXPECT_GT(coarse.decision().chosen.error, fine.decision().chosen.error);
+}
+
+TEST(Auto, TakesTheMostAccurateWithinATime) {
+    Trial little({cube, below}, {0.0, 0.3}), much({cube, below}, {0.0, 100.0});
+    test::render(little.scene.root, view());
+    test::render(much.scene.root, view());
+    EXPECT_LE(much.decision().chosen.time, 100.0);
+    EXPECT_LT(much.decision().chosen.error, 0.15);
+    EXPECT_GE(little.decision().chosen.error, much.decision().chosen.error);
+}
+
+TEST(Auto, SaysWhereNoTechniqueKeepsTheError) {
+    Trial trial({cube, below}, {0.01, 0.0});
+    test::render(trial.scene.root, view());
+    EXPECT_FALSE(trial.decision().keepsBudget);
+    ASSERT_EQ(trial.technique->diagnose().size(), 1u);
+    EXPECT_NE(trial.technique->diagnose().front().find("no technique keeps an error of 0.01 pixels here"),
+              std::string::npos)
+        << trial.technique->diagnose().front();
+    for (const gnomon::ShadowCandidate& each : trial.decision().candidates)
+        if (each.obstacle.empty()) EXPECT_GE(each.error * 1.06, trial.decision().chosen.error) << each.spec;
+}
+
+TEST(Auto, DrawsNothingWhereNoShadowCanBeSeen) {
+    Trial bare({});
+    test::render(bare.scene.root, view());
+    EXPECT_EQ(bare.chosen(), "none") << bare.decision().reason;
+    Trial away({cube});
+    const test::View up = test::perspective({0.0, -9.0, 3.0}, {0.0, -18.0, 9.0}, 160, 120);
+    Camera camera(away.scene.root, up);
+    camera.frame();
+    EXPECT_TRUE(away.chosen() == "none" || away.technique->lastDecision().empty()) << away.chosen();
+    Trial tiny({box({-1e-3, -1e-3, 0.0}, {1e-3, 1e-3, 2e-3})});
+    test::render(tiny.scene.root, view());
+    EXPECT_EQ(tiny.chosen(), "none");
+    EXPECT_NE(tiny.decision().reason.find("narrower than half a pixel"), std::string::npos);
+    for (Trial* trial : {&bare, &away, &tiny}) EXPECT_EQ(trial->technique->diagnose(), std::vector<std::string>());
+}
+
+TEST(Auto, ComparesTheCandidatesOfAStillSceneOnce) {
+    for (const std::vector<test::Mesh>& casters : {std::vector{cube, beside}, std::vector{cube, below}}) {
+        Trial trial(casters);
+        Camera camera(trial.scene.root, view());
+        for (int i = 0; i < 100; ++i) camera.viewer().frame();
+        EXPECT_EQ(trial.decision().decisions, 1u);
+        EXPECT_EQ(trial.decision().changes, 0u);
+    }
+}
+
+TEST(Auto, SeesAtOnceThatAnObjectMovesIntoAShadow) {
+    Scene scene = test::groundScene({cube}, 8.0, sun);
+    const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+    mover->setDataVariance(osg::Object::DYNAMIC);
+    mover->addChild(test::node(box({-0.5, -0.5, 0.0}, {0.5, 0.5, 0.5})));
+    scene.content->addChild(mover);
+    const osg::ref_ptr<AutoShadowTechnique> technique = new AutoShadowTechnique;
+    scene.addShadow(technique);
+    Camera camera(scene.root, view());
+    const auto chosenAt = [&](double x, double y) {
+        mover->setMatrix(osg::Matrixd::translate(x, y, 0.0));
+        camera.frame();
+        return technique->lastDecision().at(0).chosen.spec;
+    };
+    EXPECT_EQ(chosenAt(0.0, -4.0), "planar");
+    EXPECT_EQ(chosenAt(0.1, -4.0), "planar");
+    EXPECT_TRUE(startsWith(chosenAt(-2.2, -0.5), "map"));
+}
+
+TEST(Auto, BuildsNothingThatItDoesNotDraw) {
+    Trial trial({cube, beside});
+    Camera camera(trial.scene.root, view());
+    camera.frame();
+    EXPECT_EQ(trial.chosen(), "planar");
+    EXPECT_EQ(trial.scene.group->revision(), 1u);
+}
+
+TEST(AutoOptions, AreClampedAndZeroedWhereTheyAreNone) {
+    const osg::ref_ptr<AutoShadowTechnique> technique = new AutoShadowTechnique;
+    technique->setError(1e9);
+    technique->setTime(-3.0);
+    EXPECT_EQ(technique->getError(), gnomon::AutoShadowOptions::mostError);
+    EXPECT_EQ(technique->getTime(), 0.0);
+    technique->setError(std::nan(""));
+    EXPECT_EQ(technique->getError(), 0.0);
+}
