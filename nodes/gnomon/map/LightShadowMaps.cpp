@@ -297,12 +297,13 @@ glm::dvec3 LightShadowMaps::reachOf(const MapSlice& face) const {
 osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies) {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
     const bool stillAgain = _drawnStill == _cause.casters->still, movingAgain = _drawnMoving == _cause.casters->moving;
+    bodies.startPicture();
     if (!stillAgain || due) _still = drawnOf(*_cause.casters->still, stillAgain, bodies);
     picture->still = _still;
     picture->moving = drawnOf(*_cause.casters->moving, movingAgain, bodies);
     _drawnStill = _cause.casters->still;
     _drawnMoving = _cause.casters->moving;
-    picture->program = resources.casterProgram;
+    picture->program = _frames.front().sun ? resources.casterProgram : resources.casterByLampProgram;
     picture->cutoutProgram = resources.cutoutProgram;
     picture->size = _texels;
     picture->slopeOffset = 0.5; // with as much of the slope that is seen: see map.frag
@@ -311,7 +312,7 @@ osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources
 
 MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, MapBodies& bodies) const {
     MapPicture::Layer drawn;
-    for (const MapLayer::Drawn& mesh : layer.faces(_cause.flats, again, bodies)) {
+    for (const MapLayer::Drawn& mesh : layer.faces(_cause.flats, again, &layer == _cause.casters->moving, bodies)) {
         const glm::dvec4 light = glm::inverse(mesh.sceneFromMesh) * _cause.light;
         drawn.meshes.push_back({mesh, _settled ? wholly : mesh.faces->outside(light)});
     }

@@ -6,16 +6,29 @@
 namespace gnomon {
 namespace {
 
+constexpr std::size_t mostSearched = 30000; // triangles a picture: ten milliseconds
+
 bool isDrawn(const CullableFaces* faces) { return faces && faces->referenceCount() > 1; }
 
 } // namespace
 
-osg::ref_ptr<const CullableFaces> MapBodies::of(const CasterMesh& mesh, bool again) {
+osg::ref_ptr<const CullableFaces> MapBodies::of(const CasterMesh& mesh, bool moving) {
+    Entry& entry = _known[&mesh];
+    const bool again = entry.whole || entry.solids;
+    if (moving && again && (entry.solids || _searched < mostSearched)) return solidsOf(mesh);
+    entry.mesh = &mesh;
+    if (!entry.whole) entry.whole = new CullableFaces(mesh, mesh.triangles, false);
+    return entry.whole;
+}
+
+osg::ref_ptr<const CullableFaces> MapBodies::solidsOf(const CasterMesh& mesh) {
     Entry& entry = _known[&mesh];
     entry.mesh = &mesh;
-    osg::ref_ptr<const CullableFaces>& faces = again ? entry.solids : entry.whole;
-    if (!faces) faces = new CullableFaces(mesh, mesh.triangles, again);
-    return faces;
+    if (!entry.solids) {
+        entry.solids = new CullableFaces(mesh, mesh.triangles, true);
+        _searched += mesh.triangles->size() / 3;
+    }
+    return entry.solids;
 }
 
 /// Pictures hold what is drawn.

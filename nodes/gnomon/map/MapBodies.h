@@ -5,6 +5,7 @@
 #include <osg/State>
 #include <osg/ref_ptr>
 
+#include <cstddef>
 #include <unordered_map>
 
 namespace gnomon {
@@ -15,8 +16,12 @@ namespace gnomon {
 /// - One at a time. The owner locks.
 class MapBodies {
 public:
-    /// @param again  see MapLayer::faces().
-    osg::ref_ptr<const CullableFaces> of(const CasterMesh& mesh, bool again);
+    /// A picture begins, in which solids are looked for in some of those that move.
+    void startPicture() { _searched = 0; }
+    /// All faces, or the solids of one that moves and has been drawn before.
+    osg::ref_ptr<const CullableFaces> of(const CasterMesh& mesh, bool moving);
+    /// The faces with solids told apart.
+    osg::ref_ptr<const CullableFaces> solidsOf(const CasterMesh& mesh);
     /// Lets go what nobody else draws.
     void prune();
     void resizeGLObjectBuffers(unsigned maxSize) const;
@@ -29,6 +34,7 @@ private:
     };
 
     std::unordered_map<const CasterMesh*, Entry> _known;
+    std::size_t _searched = 0; ///< triangles, in this picture.
 };
 
 } // namespace gnomon

@@ -196,12 +196,13 @@ osg::ref_ptr<const MapLayer> MapLayer::boxesOf(const CasterLayer& casters) {
     return layer;
 }
 
-std::vector<MapLayer::Drawn> MapLayer::faces(bool flats, bool again, MapBodies& bodies) const {
+std::vector<MapLayer::Drawn> MapLayer::faces(bool flats, bool again, bool moving, MapBodies& bodies) const {
     std::vector<Drawn> result;
     for (const PlacedMesh& placed : casters->meshes) {
         const Box box = boxOf(placed, casters->origin);
         if (placed.isBody && isFlat(box) && !flats) continue;
-        const auto faces = placed.isBody ? bodies.of(*placed.mesh, again) : _joined->faces(flats, again);
+        const auto faces = placed.isBody ? again ? bodies.solidsOf(*placed.mesh) : bodies.of(*placed.mesh, moving)
+                                         : _joined->faces(flats, again);
         if (faces) result.push_back({faces, placed.sceneFromMesh, box});
     }
     return result;

@@ -49,8 +49,9 @@ struct MapLayer : public osg::Referenced {
     std::vector<Box> flatBoxes;  ///< of those that are flat along an axis of the group.
 
     /// All that no texture cuts out, or of it all but what is flat, as grounds are. One thread at a time.
-    /// @param again  it has been drawn before, and so may be drawn often: its solids are told apart.
-    std::vector<Drawn> faces(bool flats, bool again, MapBodies& bodies) const;
+    /// @param again   it has been drawn before, and so may be drawn often: its solids are told apart.
+    /// @param moving  its bodies move on: they will be drawn often though the layer is not.
+    std::vector<Drawn> faces(bool flats, bool again, bool moving, MapBodies& bodies) const;
 
     /// From a lamp about the origin to the nearest triangle; infinite if there is none. Triangles whose plane holds the lamp,
     /// to 10⁻⁶ of the coordinates, do not count: they cast nothing. Looks at the drawables that may be nearest.

@@ -14,7 +14,8 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 } // namespace
 
 MapPrograms::MapPrograms()
-    : casterProgram(shaderProgram("#define NEAREST\n")),
+    : casterProgram(shaderProgram()), // for a clip distance costs a third more a vertex on llvmpipe
+      casterByLampProgram(shaderProgram("#define NEAREST\n")),
       cutoutProgram(shaderProgram("#define NEAREST\n#define CUTOUT\n")),
       blocksProgram(quadProgram("gnomon blocks", "", shaders::blocks_frag)),
       coneProgram(quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag)) {}
@@ -37,7 +38,8 @@ osg::ref_ptr<const osg::StateSet> MapPrograms::of(Programs& programs, const std:
 
 std::vector<osg::ref_ptr<osg::StateSet>> MapPrograms::all() {
     Lock lock(_mutex);
-    std::vector<osg::ref_ptr<osg::StateSet>> sets{casterProgram, cutoutProgram, blocksProgram, coneProgram};
+    std::vector<osg::ref_ptr<osg::StateSet>> sets{casterProgram, casterByLampProgram, cutoutProgram, blocksProgram,
+                                                  coneProgram};
     for (const Programs* programs : {&_programs, &_viewPrograms})
         for (const auto& [defines, set] : *programs) sets.push_back(set);
     return sets;

@@ -17,7 +17,7 @@ class MapPrograms : public osg::Referenced {
 public:
     MapPrograms();
 
-    const osg::ref_ptr<osg::StateSet> casterProgram, cutoutProgram, blocksProgram, coneProgram;
+    const osg::ref_ptr<osg::StateSet> casterProgram, casterByLampProgram, cutoutProgram, blocksProgram, coneProgram;
     FrameDepthCopy seen;
     std::atomic<unsigned> passes{0}; ///< maps drawn so far.
 
