@@ -2,6 +2,7 @@
 function(gnomon_embed_texts target namespace header)
   set(text "// Made by CMake from the files themselves.\n#pragma once\nnamespace ${namespace} {\n")
   foreach(file ${ARGN})
+    get_filename_component(file ${file} ABSOLUTE) # one name a file, or Ninja takes it for two
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
     file(READ ${file} content)
     get_filename_component(name ${file} NAME)

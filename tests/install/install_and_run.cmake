@@ -1,10 +1,44 @@
-# cmake -DBUILD=… -DPROGRAM=… -DSCRATCH=… -DGENERATOR=… -P install_and_run.cmake
+# cmake -DBUILD=… -DPROGRAM=… -DPLAIN=… -DSCRATCH=… -DGENERATOR=… -DCXX=… -P install_and_run.cmake
 file(REMOVE_RECURSE ${SCRATCH})
-foreach(step
-    "${CMAKE_COMMAND};--install;${BUILD};--prefix;${SCRATCH}/installed"
-    "${CMAKE_COMMAND};-G;${GENERATOR};-S;${PROGRAM};-B;${SCRATCH}/build;-DCMAKE_PREFIX_PATH=${SCRATCH}/installed"
-    "${CMAKE_COMMAND};--build;${SCRATCH}/build"
-    "${SCRATCH}/build/headless_first"
-    "${SCRATCH}/build/headless_last")
-  execute_process(COMMAND ${step} COMMAND_ERROR_IS_FATAL ANY)
+set(installed ${SCRATCH}/installed)
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${installed})
+
+# Programs against what lies there, linked in either order.
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${PROGRAM} -B ${SCRATCH}/build -DCMAKE_PREFIX_PATH=${installed})
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
+run(${SCRATCH}/build/headless_first)
+run(${SCRATCH}/build/headless_last)
+
+# The same by pkg-config.
+file(GLOB_RECURSE package ${installed}/*/gnomon.pc)
+get_filename_component(package ${package} DIRECTORY)
+get_filename_component(libraries ${package} DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} ${package})
+run(sh -c "${CXX} -std=c++17 ${PLAIN}/main.cpp $(pkg-config --cflags --libs gnomon) -o ${SCRATCH}/plain")
+run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libraries} ${SCRATCH}/plain)
+
+# Each program runs from where it lies, and has a page for man and completion.
+file(GLOB programs RELATIVE ${installed}/bin ${installed}/bin/*)
+if(NOT "gnomonshot" IN_LIST programs)
+  message(FATAL_ERROR "gnomonshot is not installed, only: ${programs}")
+endif()
+foreach(program ${programs})
+  run(${installed}/bin/${program} --help OUTPUT_QUIET)
+  foreach(file man/man1/${program}.1.gz bash-completion/completions/${program})
+    if(NOT EXISTS ${installed}/share/${file})
+      message(FATAL_ERROR "${file} is missing.")
+    endif()
+  endforeach()
 endforeach()
+execute_process(COMMAND bash -c
+  "source ${installed}/share/bash-completion/completions/gnomonshot
+   COMP_WORDS=(${installed}/bin/gnomonshot --shadow tr) COMP_CWORD=2; _gnomon ${installed}/bin/gnomonshot; echo \"\${COMPREPLY[@]}\"
+   COMP_WORDS=(${installed}/bin/gnomonshot --fov) COMP_CWORD=1; _gnomon ${installed}/bin/gnomonshot; echo \"\${COMPREPLY[@]}\""
+  OUTPUT_VARIABLE completed COMMAND_ERROR_IS_FATAL ANY)
+if(NOT completed STREQUAL "traced\n--fovy\n")
+  message(FATAL_ERROR "bash completes to: ${completed}")
+endif()

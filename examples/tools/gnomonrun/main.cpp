@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <set>
@@ -48,9 +49,18 @@ private:
     std::string _name;
 };
 
-void preload() {
+/// The library to preload, by its way from this program's folder.
+/// @throws std::runtime_error if it is not there.
+std::string libraryToPreload() {
+    namespace fs = std::filesystem;
+    const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
+    for (const char* way : {GNOMON_PRELOADS})
+        if (fs::exists(here / way)) return fs::canonical(here / way);
+    throw std::runtime_error("gnomonrun_preload.so is missing. Install Gnomon's programs anew.");
+}
+
+void preload(const std::string& library) {
     const char* before = std::getenv("LD_PRELOAD");
-    const std::string library = GNOMON_PRELOAD;
     setenv("LD_PRELOAD", (before && *before ? library + ":" + before : library).c_str(), 1);
 }
 
@@ -65,12 +75,13 @@ void preload() {
 
 /// @return its exit status; 128 + signal if one ended it.
 int runProgram(const Words& command, const Words& options, const ReportFile& report) {
+    const std::string library = libraryToPreload();
     const pid_t id = fork();
     if (id < 0) throw std::runtime_error(std::string("no process can be started: ") + std::strerror(errno) + ".");
     if (id == 0) {
         setenv(optionsVariable, joined(options).c_str(), 1);
         setenv(reportVariable, report.name().c_str(), 1);
-        preload();
+        preload(library);
         become(command);
     }
     std::signal(SIGINT, SIG_IGN); // it is the program's

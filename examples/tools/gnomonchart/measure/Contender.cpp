@@ -8,8 +8,6 @@
 namespace gnomon::examples {
 namespace {
 
-enum class Receives { EVERYTHING, FLAT, TERRAIN }; // of ChartScene: all, receiver, terrain
-
 struct GnomonPoint {
     const char* technique;
     const char* setting;
@@ -71,7 +69,7 @@ ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
 }
 
 Contender gnomonContender(const GnomonPoint& point) {
-    Contender result{"Gnomon", point.technique, point.setting, {{"--shadow", point.spec}}, {}};
+    Contender result{"Gnomon", point.technique, point.setting, {{"--shadow", point.spec}}, point.receives, {}};
     result.stage = [point](const ChartScene& scene, Look look) {
         return std::make_unique<GnomonStaging>(specFor(point, scene), scene, look);
     };
@@ -81,7 +79,7 @@ Contender gnomonContender(const GnomonPoint& point) {
 } // namespace
 
 Contender plainContender() {
-    Contender result{"", "none", "", {}, {}};
+    Contender result{"", "none", "", {}, Receives::EVERYTHING, {}};
     result.stage = [](const ChartScene& scene, Look look) { return std::make_unique<PlainStaging>(scene, look); };
     return result;
 }
@@ -93,7 +91,8 @@ std::vector<Contender> gnomonContenders() {
 }
 
 Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings) {
-    Contender result{"osgShadow", peer.name, setting, settings, {}};
+    const Receives receives = peer.partsCastAndReceive ? Receives::EVERYTHING : Receives::FLAT;
+    Contender result{"osgShadow", peer.name, setting, settings, receives, {}};
     result.stage = [&peer, settings](const ChartScene& scene, Look look) {
         return std::make_unique<PeerStaging>(peer, settings, scene, look);
     };

@@ -10,12 +10,16 @@
 
 namespace gnomon::examples {
 
+/// What a technique shadows in a scene: all of it, ChartScene::receiver, or ChartScene::terrain.
+enum class Receives { EVERYTHING, FLAT, TERRAIN };
+
 /// One way to shadow a scene: a point on the chart.
 struct Contender {
     std::string kit;       ///< "Gnomon" or "osgShadow".
     std::string technique; ///< the curve's name.
     std::string setting;   ///< the point's name.
     Settings settings;     ///< all that differs from the technique's own defaults.
+    Receives receives = Receives::EVERYTHING;
 
     /// @throws std::invalid_argument, one sentence, if it does not suit the scene.
     std::function<std::unique_ptr<Staging>(const ChartScene& scene, Look look)> stage;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "StabilityTable.h"
+
+#include "Machine.h"
+#include "OutputFile.h"
+#include "Progress.h"
+#include "RandomSearch.h"
+#include "StabilityFiles.h"
+#include "StabilityPage.h"
+#include "StabilityRun.h"
+#include "StabilityText.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr std::size_t fewScenes = 6; // of which the text tells all
+
+/// The first value, the middle one and the last.
+StabilityScene coarse(StabilityScene scene) {
+    const std::vector<double> all = scene.values;
+    scene.values = {all.front(), all[all.size() / 2], all.back()};
+    return scene;
+}
+
+StabilityPlan planOf(const ChartOptions& options) {
+    StabilityPlan plan;
+    plan.scenes = stabilityScenes(options.stabilityScenes);
+    if (options.quick) std::transform(plan.scenes.begin(), plan.scenes.end(), plan.scenes.begin(), coarse);
+    plan.contenders = stabilityContenders(options.technique, !options.quick);
+    plan.width = options.view.width;
+    plan.height = options.view.height;
+    plan.workers = std::max(1u, std::thread::hardware_concurrency());
+    plan.folder = options.out;
+    plan.made = {{"size", std::to_string(plan.width) + "x" + std::to_string(plan.height)},
+                 {"sweep", options.quick ? "three values" : "all values"}};
+    return plan;
+}
+
+void print(const StabilityResults& results, const std::string& folder) {
+    std::cout << stabilityText(results, results.scenes.size() <= fewScenes) << "the table is " << folder
+              << "/stability.html\n";
+}
+
+} // namespace
+
+bool makeStabilityTable(const ChartOptions& options, const std::string& command, const std::function<bool()>& stops) {
+    StabilityPlan plan = planOf(options);
+    plan.made.insert(plan.made.begin(), {"command", command});
+    requireFolder(options.out);
+    std::size_t cells = 0;
+    for (const StabilityScene& scene : plan.scenes) cells += scene.values.size() * plan.contenders.size();
+    StabilityResults results;
+    {
+        ProgressLine progress(static_cast<double>(cells));
+        results = runStability(plan, [&](std::size_t done, std::size_t, const std::string& doing) {
+            if (done) progress.show(double(done), doing);
+            return !stops();
+        });
+    }
+    for (auto& fact : machineFacts()) results.made.push_back(fact); // after the run: it makes a context
+    saveStability(results, options.out);
+    writeStabilityPage(results, options.out);
+    print(results, options.out);
+    return results.complete;
+}
+
+bool searchRandom(const ChartOptions& options, const std::function<bool()>& stops) {
+    RandomSearch search;
+    search.first = options.seed;
+    search.count = options.random.value_or(search.count);
+    search.contenders = stabilityContenders(options.technique, false);
+    const auto isRough = [](const StabilityContender& each) {
+        return each.contender.kit != "Gnomon" || each.contender.technique == "box"; // box: shadows of bounding boxes
+    };
+    search.contenders.erase(std::remove_if(search.contenders.begin(), search.contenders.end(), isRough),
+                            search.contenders.end());
+    search.workers = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<RandomFault> faults;
+    {
+        ProgressLine progress(static_cast<double>(search.count) * static_cast<double>(search.contenders.size()));
+        faults = searchRandomScenes(search, [&](std::size_t done, std::size_t, const std::string& doing) {
+            if (done) progress.show(double(done), doing);
+            return !stops();
+        });
+    }
+    for (const RandomFault& fault : faults) std::cout << faultText(fault) << "\n";
+    std::cout << search.count << " random scenes from seed " << search.first << ", " << faults.size() << " faults\n";
+    return faults.empty() && !stops();
+}
+
+void writeStabilityAgain(const std::string& folder) {
+    const StabilityResults results = loadStability((std::filesystem::path(folder) / "stability.json").string());
+    writeStabilityPage(results, folder);
+    print(results, folder);
+}
+
+} // namespace gnomon::examples
