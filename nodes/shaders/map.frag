@@ -21,6 +21,7 @@ const int reach = 2; // to the next pixel
 const int reach = 1;
 #endif
 
+#if defined(ODD) || !defined(HALVES)
 // From `here` to its neighbour in a direction, or, of that nothing is known, to the one on the other side.
 ivec2 known(ivec2 here, ivec2 step) {
     ivec2 to = here + step;
@@ -40,24 +41,28 @@ float changeIn(float e, ivec2 here, ivec2 axis, bool beyond) {
 }
 
 float smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
+#endif
 
 #ifdef SMOOTH
 bool isAtRim = false; // of a surface: beside the pixel there is another, or this one bends
 #endif
 
-// Change of e a pixel, as dFdx() and dFdy() have it where quads are whole; the smaller of those to both sides, for the other may
-// lead to another surface: where a thin wall stands on a floor, light would get through by what is allowed for its slope.
+// Change of e a pixel, as dFdx() and dFdy() have it where quads are whole. Where shares are asked for, of which every
+// comparison counts, the smaller of those to both sides: the other may lead to another surface.
 vec2 changeOf(float e, ivec2 here) {
 #ifdef ODD
     vec2 change = vec2(changeIn(e, here, ivec2(1, 0), false), changeIn(e, here, ivec2(0, 1), false));
 #else
     vec2 change = vec2(dFdx(e), dFdy(e));
 #endif
+#ifndef HALVES
     vec2 other = vec2(changeIn(e, here, ivec2(1, 0), true), changeIn(e, here, ivec2(0, 1), true));
 #ifdef SMOOTH
     isAtRim = any(greaterThan(abs(change - other), 0.75 * max(abs(change), abs(other)) + 4.0 * depthError.x));
 #endif
-    return vec2(smaller(change.x, other.x), smaller(change.y, other.y));
+    change = vec2(smaller(change.x, other.x), smaller(change.y, other.y));
+#endif
+    return change;
 }
 
 #ifdef SMOOTH
@@ -93,40 +98,38 @@ float visibility(vec4 pixel, vec4 plane, float drawn, float nearer) {
     float share = 0.0, left = 1.0;
     for (int i = 0; i < mapCount; ++i) {
         vec3 at;
-        float asked = holds(i, pixel, at) ? 1.0 : 0.0;
-        for (float once = 0.0; once < asked; once += 1.0) { // a loop ends where no pixel asks; a condition does not
-            vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
-            float deeper = dot(plane, pixelFromMapZ(i));
-            vec2 slope = -across / (deeper * place(i).z);
-            float steepness = abs(slope.x) + abs(slope.y);
-            vec4 error = mix(nearestError(i), farthestError(i), clamp(at.z, 0.0, 1.0));
-            if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
-                slope = vec2(0.0);
-                steepness = error.z;
-            }
-            float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
-            float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (max(abs(deeper), steep) * (mapFromPixel(i) * pixel).w);
-            float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
-            vec2 p = place(i).xy + at.xy * place(i).z;
+        if (!holds(i, pixel, at)) continue;
+        vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
+        float deeper = dot(plane, pixelFromMapZ(i));
+        vec2 slope = -across / (deeper * place(i).z);
+        float steepness = abs(slope.x) + abs(slope.y);
+        vec4 error = mix(nearestError(i), farthestError(i), clamp(at.z, 0.0, 1.0));
+        if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
+            slope = vec2(0.0);
+            steepness = error.z;
+        }
+        float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
+        float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (max(abs(deeper), steep) * (mapFromPixel(i) * pixel).w);
+        float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
+        vec2 p = place(i).xy + at.xy * place(i).z;
 #ifdef SMOOTH
-            sides = sidesIn(i, pixel, -plane.xy, at.xy);
+        sides = sidesIn(i, pixel, -plane.xy, at.xy);
 #endif
 #if defined(SMOOTH) && defined(BICUBIC)
-            return litOverPixel(i, p, depth, slope, isAtRim ? mat2(0.0) : sides);
+        return litOverPixel(i, p, depth, slope, isAtRim ? mat2(0.0) : sides);
 #elif !defined(SOFT)
-            return lit(p, depth, slope, true);
+        return lit(p, depth, slope, true);
 #else
-            const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
-            float weight = left;
+        const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
+        float weight = left;
 #if MAPS > 1
-            vec2 inside = min(at.xy, 1.0 - at.xy) - place(i).w - mostSpread(i, depth) / place(i).z;
-            weight *= clamp(min(inside.x, inside.y) / fade, least, 1.0);
+        vec2 inside = min(at.xy, 1.0 - at.xy) - place(i).w - mostSpread(i, depth) / place(i).z;
+        weight *= clamp(min(inside.x, inside.y) / fade, least, 1.0);
 #endif
-            share += weight * litSoftly(i, p, depth, slope);
-            left -= weight;
-            if (left <= least) return share / (1.0 - left);
+        share += weight * litSoftly(i, p, depth, slope);
+        left -= weight;
+        if (left <= least) return share / (1.0 - left);
 #endif
-        }
     }
     return left < 1.0 ? share / (1.0 - left) : 1.0;
 }

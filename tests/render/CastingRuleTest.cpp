@@ -58,37 +58,6 @@ TEST(CastingRule, ASkyAtTheFarPlaneCastsNothing) {
     castsNoDome<gnomon::ShadowMapTechnique>();
 }
 
-/// Whether a technique says of a scene that one node darkens nearly all of it.
-bool namesWhatDarkensAll(gnomon::ShadowTechnique* technique, const osg::ref_ptr<osg::Node>& above) {
-    Scene scene = test::groundScene({tower}, 8.0, sun);
-    if (above) scene.content->addChild(above);
-    const osg::ref_ptr<gnomon::ShadowTechnique> shadow = technique;
-    scene.addShadow(shadow);
-    test::render(scene.root, fromTheSide());
-    for (const std::string& cause : shadow->diagnose())
-        if (cause.find("nearly all in this view lies in the shadow of '" + (above ? above->getName() : "")) !=
-            std::string::npos)
-            return true;
-    return false;
-}
-
-TEST(DarkeningNode, IsNamedWhereItDarkensNearlyAll) {
-    const osg::ref_ptr<osg::Node> dome = skyDome(), tile = test::node(test::box({-3, -3, 4.0}, {3, 3, 4.1}), "tile");
-    dome->getOrCreateStateSet()->removeAttribute(osg::StateAttribute::DEPTH);
-    for (const bool map : {false, true}) {
-        const auto technique = [&]() -> gnomon::ShadowTechnique* {
-            if (map) return new gnomon::ShadowMapTechnique;
-            return new gnomon::TracedShadowTechnique;
-        };
-        EXPECT_TRUE(namesWhatDarkensAll(technique(), dome));
-        EXPECT_FALSE(namesWhatDarkensAll(technique(), skyDome()));
-        EXPECT_FALSE(namesWhatDarkensAll(technique(), tile));
-        EXPECT_FALSE(namesWhatDarkensAll(technique(), nullptr));
-    }
-    EXPECT_TRUE(namesWhatDarkensAll(new gnomon::TracedShadowTechnique,
-                                    test::node(test::box({-20, -20, 4.0}, {20, 20, 4.1}), "roof")));
-}
-
 /// What of a state decides, and whether a drawable with it casts from an alpha of 0.5 on.
 struct Glass {
     const char* name;

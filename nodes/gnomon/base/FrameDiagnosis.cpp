@@ -37,20 +37,6 @@ bool FrameDiagnosis::isNewsOf(unsigned frame, const std::string& sentence) {
     return !_asked && _warned.insert(withoutDigits(sentence)).second;
 }
 
-std::string FrameDiagnosis::kept(std::uint64_t subject, std::uint64_t key, unsigned frame,
-                                 const std::function<std::string()>& find) {
-    {
-        const Lock lock(_mutex);
-        const auto known = _kept.find(subject);
-        if (known != _kept.end() && known->second.holds(key, frame)) return known->second.cause;
-    }
-    const std::string cause = find();
-    const Lock lock(_mutex);
-    if (_kept.size() >= 64) _kept.clear(); // views that are gone
-    _kept[subject] = {key, frame, cause};
-    return cause;
-}
-
 void FrameDiagnosis::begin(unsigned frame, const void* view) {
     Lock lock(_mutex);
     if (frame != _frame || _views.count(view)) {

@@ -4,9 +4,6 @@
 #include <OpenThreads/Mutex>
 #include <osg/NodeVisitor>
 
-#include <cstdint>
-#include <functional>
-#include <map>
 #include <set>
 #include <string>
 #include <unordered_set>
@@ -25,11 +22,6 @@ public:
     /// is new, numbers aside, until somebody asks for all().
     /// @param who  described() of the node.
     void add(unsigned frame, const std::string& who, const std::string& cause);
-    /// A cause that is dear to find, or "" if there is none: found again where `key` has changed, though not in the next
-    /// `seldom` frames while there is none; and after some more frames.
-    /// @param subject  tells what is asked for apart.
-    std::string kept(std::uint64_t subject, std::uint64_t key, unsigned frame,
-                     const std::function<std::string()>& find);
     /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
     /// it) has been met in it before, as where nobody counts frames.
     void begin(unsigned frame, const void* view);
@@ -38,16 +30,6 @@ protected:
     ~FrameDiagnosis() override = default;
 
 private:
-    static constexpr unsigned seldom = 30, longest = 240; ///< frames.
-    struct Kept {
-        std::uint64_t key;
-        unsigned frame; ///< that it was found in.
-        std::string cause;
-        bool holds(std::uint64_t now, unsigned in) const {
-            const unsigned age = in - frame;
-            return age < longest && (key == now || (cause.empty() && age < seldom));
-        }
-    };
     /// Notes it. @return whether to warn of it.
     bool isNewsOf(unsigned frame, const std::string& sentence);
 
@@ -58,7 +40,6 @@ private:
     std::set<std::string> _warned;          ///< without their digits.
     unsigned _frame = 0;
     std::set<const void*> _views; ///< met in that frame.
-    std::map<std::uint64_t, Kept> _kept;
 };
 
 /// The frame that a traversal belongs to; where nobody counts frames, its own number.

@@ -2,7 +2,6 @@
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/StageVerdict.h>
-#include <gnomon/group/DarkeningNode.h>
 #include <gnomon/group/ShadowBin.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/group/ViewLights.h>
@@ -135,21 +134,6 @@ std::optional<ScreenRect> boundsOf(const std::vector<const osgUtil::RenderLeaf*>
         if (const std::optional<ScreenRect> place = filled(*leaf) ? screenBoundsOf(*leaf) : wholeScreen)
             all = all ? united(*all, *place) : *place;
     return all;
-}
-
-void reportDarkening(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
-                     const FrameCasters& casters, ViewFrame view, const Leaves& seen, const void* stage) {
-    view.seen = seen;
-    const FrameReport report = entry.technique->reportIn(entry.frameNumber);
-    for (const ShadowLight& light : lights) {
-        Fingerprint subject, key;
-        subject.mix(stage);
-        subject.mix(static_cast<std::uint64_t>(light.number));
-        key.mix(casters.drawables().fingerprint);
-        for (int i = 0; i < 4; ++i) key.mix(light.inGroup[i]);
-        report(report.diagnosis->kept(subject.value(), key.value(), entry.frameNumber,
-                                      [&] { return whatDarkensAll(casters.drawables(), view, light); }));
-    }
 }
 
 /// A factor is for what is seen, fog and all.
@@ -327,7 +311,6 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
     if (lateOnes.empty()) reportNoDepth(entry, receiving);
     reportFog(entry, drawn);
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
-    reportDarkening(entry, lights, casters, view, receiving, getStage());
     view.options.filter = _options.filter; // as all who share this bin want it
     const auto add = [&](auto& to, const Leaves& those, std::optional<ScreenRect> within, bool alone, bool programs) {
         for (ShadowJob& job : jobsFor({entry, lights, casters, view, those, within}, alone))
