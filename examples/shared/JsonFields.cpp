@@ -84,6 +84,14 @@ void readField(const json& object, const char* name, std::vector<std::string>& v
     for (const json& text : listField(object, name)) readInside(name, [&] { value.push_back(textOf(text)); });
 }
 
+void readField(const json& object, const char* name, std::vector<double>& value) {
+    value.clear();
+    for (const json& number : listField(object, name)) {
+        if (!number.is_number()) throw std::runtime_error(std::string(name) + ": it does not hold numbers.");
+        value.push_back(number.get<double>());
+    }
+}
+
 void readField(const json& object, const char* name, std::vector<std::pair<std::string, std::string>>& value) {
     value.clear();
     for (const json& pair : listField(object, name)) {

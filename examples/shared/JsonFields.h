@@ -25,6 +25,8 @@ void readField(const nlohmann::json& object, const char* name, unsigned& value);
 void readField(const nlohmann::json& object, const char* name, bool& value);
 void readField(const nlohmann::json& object, const char* name, std::string& value);
 void readField(const nlohmann::json& object, const char* name, std::vector<std::string>& value);
+/// Finite ones.
+void readField(const nlohmann::json& object, const char* name, std::vector<double>& value);
 /// A list of pairs, [["name", "value"], …], which keeps their order.
 void readField(const nlohmann::json& object, const char* name, std::vector<std::pair<std::string, std::string>>& value);
 /// The same for what is an object or a list itself. null is allowed where `orNull`.

@@ -172,10 +172,21 @@ TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
     EXPECT_EQ(refusal({lab8, "--scene", "room"}), "--scene and files exclude each other. Give one of them.\n");
     EXPECT_NE(refusal({lab8, "--frames", "1"}).find("2 to 10000"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--flicker", "-1"}).find("0 to 1000"), std::string::npos);
+    EXPECT_NE(refusal({"--stability", "Q9"}).find("no scene of the stability table is \"Q9\". Allowed: L1"),
+              std::string::npos);
+    EXPECT_NE(refusal({"--stability", "--scene", "room"}).find("--stability does not go with"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--size", "16x16"}).find("32x32"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--shadow", "planar"}).find("there is no option --shadow"), std::string::npos);
     folder.write("taken", "");
     EXPECT_NE(refusal({lab8, "--out", "taken"}).find("\"taken\" cannot be created as a folder"), std::string::npos);
+}
+
+TEST_F(Gnomonchart, MakesTheStabilityTable) {
+    const Ending ending = run({"--stability", "L5", "--quick", "--technique", "planar", "--out", "o"});
+    ASSERT_EQ(ending.status, 0) << ending.err;
+    EXPECT_NE(ending.out.find("held to the end"), std::string::npos) << ending.out;
+    for (const char* file : {"stability.csv", "stability.json", "l5-planar-defaults-2.png"})
+        EXPECT_TRUE(fs::exists(folder.path() / "o" / file)) << file;
 }
 
 TEST_F(Gnomonchart, ListsWhatItKnows) {

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int leastFrames = 2, mostFrames = 10000;
 constexpr int mostFlickerFrames = 1000;
+constexpr int stabilityWidth = 160, stabilityHeight = 120;
 constexpr int leastSide = 32; // pixels; smaller pictures have no pixel that is judged
 
 // Every technique is measured, each with its own casters and receivers, under light of the chart's own.
@@ -30,10 +31,15 @@ void addChartOptions(Options& table, ChartOptions& into) {
                      "", [&into](Text) { into.quick = true; }});
     table.push_back({"--frames", "N", "frames to time for each motion, 2 to 10000", "60, with --quick 12",
                      [&into](Text t) { into.frames = readWhole(t, leastFrames, mostFrames); }});
-    table.push_back({"--flicker", "N",
-                     "frames of each of the two films that flicker is measured in, 0 to 1000; fewer than 2 leave flicker\n"
-                     "      out and save time",
-                     "16, with --quick 8", [&into](Text t) { into.flicker = readWhole(t, 0, mostFlickerFrames); }});
+    table.push_back(
+        {"--flicker", "N",
+         "frames of each of the two films that flicker is measured in, 0 to 1000; fewer than 2 leave flicker\n"
+         "      out and save time",
+         "16, with --quick 8", [&into](Text t) { into.flicker = readWhole(t, 0, mostFlickerFrames); }});
+    table.push_back({"--stability", "",
+                     "the stability table instead: when shadows break. The arguments are its scenes' ids then, see "
+                     "--list",
+                     "", [&into](Text) { into.stability = true; }});
     table.push_back({"--resume", "",
                      "continue an interrupted run; scenes that are complete in FOLDER are not measured again", "",
                      [&into](Text) { into.resume = true; }});
@@ -61,12 +67,22 @@ Options chartOptions(ChartOptions& into) {
 }
 
 void setSize(ChartOptions& options, bool given) {
-    if (!given) {
+    if (!given && options.stability) {
+        options.view.width = stabilityWidth;
+        options.view.height = stabilityHeight;
+    } else if (!given) {
         options.view.width = options.quick ? 320 : 640;
         options.view.height = options.quick ? 240 : 480;
     }
     if (std::min(options.view.width, options.view.height) < leastSide)
         throw std::invalid_argument("--size is too small to be judged. Allowed: 32x32 pixels or more.");
+}
+
+/// The arguments are no files.
+void takeStabilityScenes(ChartOptions& options) {
+    options.stabilityScenes.swap(options.view.files);
+    if (!options.scenes.empty() || options.resume)
+        throw std::invalid_argument("--stability does not go with --scene or --resume. Give its scenes as arguments.");
 }
 
 } // namespace
@@ -78,6 +94,7 @@ ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
     readOsgOptions(arguments);
     if (options.help || options.list) return options;
     takeFiles(arguments, options.view);
+    if (options.stability) takeStabilityScenes(options);
     if (!options.again.empty() && !options.view.files.empty())
         throw std::invalid_argument("--again and files exclude each other. Give one of them.");
     if (!options.view.files.empty() && !options.scenes.empty())
@@ -90,6 +107,7 @@ ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
 std::string chartHelp() {
     ChartOptions defaults;
     return "gnomonchart [FILE...] [OPTION...]\n"
+           "gnomonchart --stability [SCENE...] [OPTION...]\n"
            "Measures how fast and how wrong every shadow technique is, Gnomon's and osgShadow's in the same run: in\n"
            "built-in scenes, or in a scene of your own. FILES form one scene, in any format that OpenSceneGraph "
            "reads.\n\n"

@@ -10,14 +10,16 @@ namespace gnomon::examples {
 
 /// What gnomonchart's command line asks for.
 struct ChartOptions {
-    ViewOptions view;                ///< files, and how they are seen; its size is that of all pictures.
-    std::vector<std::string> scenes; ///< names of built-in ones.
-    std::string technique;           ///< part of a technique's name; empty: all.
-    std::string out = "chart-out";   ///< folder.
-    std::string again;               ///< folder of results to be drawn again; empty: measure.
-    std::optional<int> frames;       ///< 60, or 12 with quick.
-    std::optional<int> flicker;      ///< frames of each film; 16, or 8 with quick; none below 2.
-    bool resume = false;             ///< go on with what is in `out`.
+    ViewOptions view;                         ///< files, and how they are seen; its size is that of all pictures.
+    std::vector<std::string> scenes;          ///< names of built-in ones.
+    std::string technique;                    ///< part of a technique's name; empty: all.
+    std::string out = "chart-out";            ///< folder.
+    std::string again;                        ///< folder of results to be drawn again; empty: measure.
+    std::optional<int> frames;                ///< 60, or 12 with quick.
+    std::optional<int> flicker;               ///< frames of each film; 16, or 8 with quick; none below 2.
+    bool resume = false;                      ///< go on with what is in `out`.
+    bool stability = false;                   ///< the stability table, of the scenes in stabilityScenes.
+    std::vector<std::string> stabilityScenes; ///< ids; empty: all.
     bool quick = false, list = false, help = false;
 
     int frameCount() const { return frames.value_or(quick ? 12 : 60); }

@@ -8,6 +8,8 @@
 #include "OutputFile.h"
 #include "ResultsFile.h"
 #include "SceneFile.h"
+#include "StabilityScene.h"
+#include "StabilityTable.h"
 
 #include <algorithm>
 #include <csignal>
@@ -35,6 +37,8 @@ void askToStop(int signal) {
 void listNames() {
     std::cout << "scenes:\n";
     for (const std::string& name : chartSceneNames()) std::cout << "  " << name << "\n";
+    std::cout << "scenes of --stability:\n";
+    for (const StabilityScene& scene : stabilityScenes()) std::cout << "  " << scene.id << "  " << scene.title << "\n";
     std::cout << "techniques:\n";
     for (const std::string& name : chartTechniques()) std::cout << "  " << name << "\n";
 }
@@ -112,6 +116,14 @@ int chart(const ChartOptions& options, const std::string& command) {
     return results.complete ? 0 : interrupted;
 }
 
+int stability(const ChartOptions& options, const std::string& command) {
+    std::signal(SIGINT, askToStop);
+    std::signal(SIGTERM, askToStop);
+    const bool complete = makeStabilityTable(options, command, [] { return stopAsked != 0; });
+    if (!complete) std::cerr << program << ": interrupted. The results so far are kept." << std::endl;
+    return complete ? 0 : interrupted;
+}
+
 int chartAgain(const std::string& folder) {
     const ChartResults results = loadResults((fs::path(folder) / "results.json").string());
     writeReport(results, folder);
@@ -133,7 +145,9 @@ int run(osg::ArgumentParser& arguments) {
     else if (options.list)
         listNames();
     else if (!options.again.empty())
-        return chartAgain(options.again);
+        return options.stability ? (printStabilityAgain(options.again), 0) : chartAgain(options.again);
+    else if (options.stability)
+        return stability(options, command);
     else
         return chart(options, command);
     return 0;

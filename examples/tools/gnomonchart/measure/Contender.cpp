@@ -8,8 +8,6 @@
 namespace gnomon::examples {
 namespace {
 
-enum class Receives { EVERYTHING, FLAT, TERRAIN }; // of ChartScene: all, receiver, terrain
-
 struct GnomonPoint {
     const char* technique;
     const char* setting;
@@ -72,6 +70,7 @@ ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
 
 Contender gnomonContender(const GnomonPoint& point) {
     Contender result{"Gnomon", point.technique, point.setting, {{"--shadow", point.spec}}, {}};
+    result.receives = point.receives;
     result.stage = [point](const ChartScene& scene, Look look) {
         return std::make_unique<GnomonStaging>(specFor(point, scene), scene, look);
     };
@@ -94,6 +93,7 @@ std::vector<Contender> gnomonContenders() {
 
 Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings) {
     Contender result{"osgShadow", peer.name, setting, settings, {}};
+    if (!peer.partsCastAndReceive) result.receives = Receives::FLAT;
     result.stage = [&peer, settings](const ChartScene& scene, Look look) {
         return std::make_unique<PeerStaging>(peer, settings, scene, look);
     };

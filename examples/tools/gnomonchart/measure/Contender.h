@@ -10,6 +10,9 @@
 
 namespace gnomon::examples {
 
+/// What a technique shadows in a scene: all of it, ChartScene::receiver, or ChartScene::terrain.
+enum class Receives { EVERYTHING, FLAT, TERRAIN };
+
 /// One way to shadow a scene: a point on the chart.
 struct Contender {
     std::string kit;       ///< "Gnomon" or "osgShadow".
@@ -19,6 +22,7 @@ struct Contender {
 
     /// @throws std::invalid_argument, one sentence, if it does not suit the scene.
     std::function<std::unique_ptr<Staging>(const ChartScene& scene, Look look)> stage;
+    Receives receives = Receives::EVERYTHING;
 };
 
 /// The scene without shadows, which all are timed against.

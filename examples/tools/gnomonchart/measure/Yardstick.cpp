@@ -61,12 +61,16 @@ std::string numbers(const std::initializer_list<double>& values) {
 
 } // namespace
 
-Yardstick::Yardstick(const ChartScene& scene, bool withDisc)
-    : _scene(scene), _truth(*scene.content), _maps(_truth.maps(scene.camera, scene.light)) {
+Yardstick::Yardstick(const ChartScene& scene, bool withDisc, osg::Node* seen)
+    : _scene(scene), _truth(seen ? *seen : *scene.content), _maps(_truth.maps(scene.camera, scene.light)) {
     if (withDisc && scene.light.w() == 0.0) _maps.litByDisc = _truth.litByDisc(scene.camera, scene.light);
     const metrics::Picture measured(scene.camera.width, scene.camera.height, 1.0);
     _agreeing = metrics::pixelSets(_maps, measured).agreeing;
-    _shaded = mixed(plainPicture(scene, true), plainPicture(scene, false), _maps);
+}
+
+const ShadedPicture& Yardstick::shaded() const {
+    if (_shaded.empty()) _shaded = mixed(plainPicture(_scene, true), plainPicture(_scene, false), _maps);
+    return _shaded;
 }
 
 metrics::CauseLimits Yardstick::limits() const {

@@ -16,14 +16,16 @@ using ShadedPicture = metrics::Grid<glm::dvec3>; ///< linear light.
 class Yardstick {
 public:
     /// @param withDisc  the truth of the sun's disc too; a lamp has none.
+    /// @param seen      what rays see; null: the scene's content.
     /// @throws see SceneTruth.
-    Yardstick(const ChartScene& scene, bool withDisc);
+    Yardstick(const ChartScene& scene, bool withDisc, osg::Node* seen = nullptr);
 
     const ChartScene& scene() const { return _scene; }
     const SceneTruth& truth() const { return _truth; }
     const metrics::TruthMaps& maps() const { return _maps; }
-    /// Two pictures without shadows, with the light and without, mixed by the lit share of each pixel.
-    const ShadedPicture& shaded() const { return _shaded; }
+    /// Two pictures without shadows, with the light and without, mixed by the lit share of each pixel. Drawn when first
+    /// asked for.
+    const ShadedPicture& shaded() const;
     /// R, see metrics::PixelSets.
     const metrics::Mask& agreeing() const { return _agreeing; }
     /// Contact reaches to a hundredth of the scene's radius.
@@ -36,7 +38,7 @@ private:
     SceneTruth _truth;
     metrics::TruthMaps _maps;
     metrics::Mask _agreeing;
-    ShadedPicture _shaded;
+    mutable ShadedPicture _shaded;
 };
 
 } // namespace gnomon::examples

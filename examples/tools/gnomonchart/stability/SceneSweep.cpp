@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "SceneSweep.h"
+
+#include "../measure/Errors.h"
+#include "../measure/Pictures.h"
+#include "../measure/Sweep.h"
+#include "OutputFile.h"
+#include "Overlay.h"
+#include "SceneTriangles.h"
+#include "StabilityJudge.h"
+
+#include <gnomon/Convert.h>
+#include <gnomon/NamedNode.h>
+
+#include <stdexcept>
+
+namespace gnomon::examples {
+namespace {
+
+int objectsOf(osg::Node& content, const std::string& name) {
+    const std::optional<NamedNode> found = findNamed(content, name);
+    return found ? static_cast<int>(sceneTriangles(*found->node).objects.size()) : 0;
+}
+
+metrics::Mask objectsUpTo(const metrics::Grid<int>& receiver, int last) {
+    metrics::Mask mask(receiver.width, receiver.height);
+    for (std::size_t i = 0; i < mask.cells.size(); ++i)
+        mask.cells[i] = receiver.cells[i] > 0 && receiver.cells[i] <= last;
+    return mask;
+}
+
+metrics::FlickerFrame frameOf(const ChartScene& scene, const metrics::TruthMaps& truth,
+                              const metrics::Picture& visibility, const metrics::Mask& facing) {
+    metrics::FlickerFrame frame;
+    frame.visibility = visibility;
+    frame.truth = truth;
+    frame.facing = facing;
+    frame.clipFromPosition = toGlm(osg::Matrixd::translate(scene.center) * scene.camera.view * scene.camera.projection);
+    return frame;
+}
+
+} // namespace
+
+SceneSweep::Value::Value(const StabilityCase& made)
+    : yardstick(made.scene, false, made.truth.get()),
+      maps(yardstick.maps()),
+      flatObjects(objectsOf(*made.scene.content, made.scene.receiver)),
+      terrainObjects(objectsOf(*made.scene.content, made.scene.terrain)) {
+    const glm::dvec3 shift = toGlm(yardstick.truth().origin() - made.scene.center);
+    for (glm::dvec3& position : maps.position.cells) position += shift;
+}
+
+SceneSweep::Value& SceneSweep::value(std::size_t place) {
+    std::unique_ptr<Value>& value = _values[place];
+    if (!value) value = std::make_unique<Value>(_scene.make(_scene.values[place], _plan.width, _plan.height));
+    return *value;
+}
+
+Settings SceneSweep::bestSettings(const Peer& peer) {
+    return examples::bestSettings(peer, value(_values.size() / 2).yardstick, SweepWidth::NARROW, [] { return true; });
+}
+
+StabilityCell SceneSweep::Run::cell(std::size_t place) {
+    StabilityCell cell;
+    try {
+        measure(place, cell);
+    } catch (const std::invalid_argument& refusal) {
+        cell.failure = "refused";
+        cell.message = refusal.what();
+    } catch (const std::exception& failure) {
+        cell.failure = "failed";
+        cell.message = failure.what();
+    }
+    return cell;
+}
+
+void SceneSweep::Run::measure(std::size_t place, StabilityCell& cell) {
+    const Value& value = _sweep.value(place);
+    Sight sight(_contender, value.yardstick.scene());
+    const metrics::Visibility seen = sight.visibility();
+    const metrics::PixelSets sets = metrics::pixelSets(value.maps, seen.value);
+    cell.diagnosis = sight.diagnosis();
+    cell.notFinite = seen.notFinite;
+    cell.everywhere = judge(seen.value, value.maps, sets, sets.agreeing);
+    if (_contender.receives != Receives::EVERYTHING) {
+        const int last = _contender.receives == Receives::FLAT ? value.flatObjects : value.terrainObjects;
+        cell.onReceiver = judge(seen.value, value.maps, sets, objectsUpTo(value.maps.receiver, last));
+    }
+    cell.measured = true;
+    _flicker.add(frameOf(value.yardstick.scene(), value.maps, seen.value, sets.facing));
+    addPicture(place, seen.value, cell);
+}
+
+/// Those where the budget is left, and at the end.
+void SceneSweep::Run::addPicture(std::size_t place, const metrics::Picture& visibility, StabilityCell& cell) {
+    const bool leaves = !_left && !cell.inBudget();
+    _left = _left || leaves;
+    const StabilityScene& scene = _sweep._scene;
+    if (_sweep._plan.folder.empty() || (!leaves && place + 1 < scene.values.size())) return;
+    cell.picture = fileName({scene.id, _contender.technique, _contender.setting, std::to_string(place)}, ".png");
+    OutputFile(_sweep._plan.folder + "/" + cell.picture).write(*errorOverlay(visibility, _sweep.value(place).maps));
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "StabilityPlan.h"
+
+#include <gnomon/metrics/Flicker.h>
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+
+namespace gnomon::examples {
+
+/// A place in a scene's part of the table.
+struct StabilityPlace {
+    std::size_t contender = 0;
+    int value = -1; ///< -1: before the first, where the best settings are looked for.
+};
+
+/// What a child process tells its parent, a line of JSON each.
+///     {"begin": [contender, value]}     before anything is done there
+///     {"cell": …}                       what came of it
+///     {"settings": [["size", "4096"]]}  what came of the search for the best
+///     {"flicker": [energy, share, crawl]}  after the last value, if the child made all of them
+struct StabilityLines {
+    static nlohmann::json begin(const StabilityPlace& place);
+    static nlohmann::json cell(const StabilityCell& cell);
+    static nlohmann::json settings(const Settings& settings);
+    static nlohmann::json flicker(const metrics::FlickerMeter& meter);
+};
+
+/// Measures one scene from a place on; runs in the child.
+/// @param settings  of the contender there, if they have been found.
+/// @param say       sends a line.
+void measureScene(const StabilityPlan& plan, const StabilityScene& scene, StabilityPlace from, const Settings& settings,
+                  const std::function<void(const nlohmann::json&)>& say);
+
+} // namespace gnomon::examples

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "StabilityFiles.h"
+
+#include "InputFile.h"
+#include "JsonFields.h"
+#include "OutputFile.h"
+
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+namespace gnomon::examples {
+
+using nlohmann::json;
+using nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, StabilityJudgement> judgement) {
+    way.field("p95Pixels", judgement.p95);
+    way.field("wrong", judgement.wrong);
+    way.field("shadow", judgement.shadow);
+    way.field("iou", judgement.iou);
+    way.field("lost", judgement.lost);
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, StabilityCell> cell) {
+    way.field("failure", cell.failure);
+    way.field("message", cell.message);
+    way.field("measured", cell.measured);
+    way.object("everywhere", cell.everywhere);
+    way.object("onReceiver", cell.onReceiver);
+    way.field("notFinite", cell.notFinite);
+    way.field("diagnosis", cell.diagnosis);
+    way.field("notes", cell.notes);
+    way.field("picture", cell.picture);
+    way.derived("inBudget", cell.inBudget());
+    way.derived("catastrophe", cell.catastrophe());
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, StabilityRow> row) {
+    way.field("scene", row.scene);
+    way.field("kit", row.kit);
+    way.field("technique", row.technique);
+    way.field("setting", row.setting);
+    way.field("settings", row.settings);
+    way.derived("outcome", std::string(nameOf(row.outcome())));
+    way.derived("reach", row.reach());
+    way.field("flickerEnergy", row.flickerEnergy);
+    way.field("flickerShare", row.flickerShare);
+    way.field("crawlPixels", row.crawl);
+    way.list("cells", row.cells);
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, StabilitySceneText> scene) {
+    way.field("id", scene.id);
+    way.field("section", scene.section);
+    way.field("title", scene.title);
+    way.field("about", scene.about);
+    way.field("parameter", scene.parameter);
+    way.field("unit", scene.unit);
+    way.field("values", scene.values);
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, StabilityResults> results) {
+    way.field("complete", results.complete);
+    way.field("made", results.made);
+    way.list("scenes", results.scenes);
+    way.list("rows", results.rows);
+}
+
+namespace {
+
+constexpr const char* csvHeader =
+    "scene,parameter,value,unit,kit,technique,setting,outcome,failure,p95_px,wrong_px,shadow_px,iou,"
+    "receiver_p95_px,receiver_wrong_px,receiver_iou,not_finite,in_budget,catastrophe,stated,diagnosis\r\n";
+
+std::string quotedField(std::string text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
+    return "\"" + text + "\"";
+}
+
+std::string judgementFields(const StabilityJudgement& judged, bool withShadow) {
+    std::ostringstream out;
+    out.precision(17);
+    out << "," << (judged.p95 ? valueText(*judged.p95) : "") << "," << judged.wrong;
+    if (withShadow) out << "," << judged.shadow;
+    out << "," << valueText(judged.iou);
+    return out.str();
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+    std::string all;
+    for (const std::string& text : texts) all += (all.empty() ? "" : " ") + text;
+    return all;
+}
+
+std::string csvLine(const StabilitySceneText& scene, const StabilityRow& row, std::size_t place) {
+    const StabilityCell& cell = row.cells[place];
+    const auto yes = [](bool is) { return is ? ",yes" : ",no"; };
+    std::string line = quotedField(scene.id) + "," + quotedField(scene.parameter) + "," +
+                       valueText(scene.values[place]) + "," + quotedField(scene.unit) + "," + row.kit + "," +
+                       quotedField(row.technique) + "," + quotedField(row.setting) + "," + nameOf(row.outcome()) + "," +
+                       cell.failure;
+    line += judgementFields(cell.everywhere, true);
+    line += cell.onReceiver ? judgementFields(*cell.onReceiver, false) : ",,,";
+    line += "," + std::to_string(cell.notFinite);
+    line += yes(cell.inBudget());
+    line += yes(cell.catastrophe());
+    line += yes(cell.stated());
+    return line + "," + quotedField(cell.message.empty() ? joined(cell.diagnosis) : cell.message) + "\r\n";
+}
+
+std::string csvOf(const StabilityResults& results) {
+    std::string text = csvHeader;
+    for (const StabilitySceneText& scene : results.scenes)
+        for (const StabilityRow& row : results.rows)
+            for (std::size_t place = 0; row.scene == scene.id && place < row.cells.size(); ++place)
+                text += csvLine(scene, row, place);
+    return text;
+}
+
+template <class Part>
+json written(const Part& part) {
+    json object;
+    FieldWriter way(object);
+    fields(way, part);
+    return object;
+}
+
+} // namespace
+
+json jsonOf(const StabilityCell& cell) { return written(cell); }
+
+StabilityCell cellOf(const json& object) {
+    StabilityCell cell;
+    FieldReader way(object);
+    fields(way, cell);
+    return cell;
+}
+
+void saveStability(const StabilityResults& results, const std::string& folder) {
+    ordered_json object;
+    FieldWriter way(object);
+    fields(way, results);
+    const std::string text = object.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+    OutputFile((fs::path(folder) / "stability.json").string()).write(text);
+    OutputFile((fs::path(folder) / "stability.csv").string()).write(csvOf(results));
+}
+
+StabilityResults loadStability(const std::string& file) {
+    const std::optional<std::string> bytes = fileBytes(file);
+    if (!bytes)
+        throw std::runtime_error("there is no file " + quoted(file) +
+                                 ". Give the stability.json of a run of gnomonchart --stability.");
+    const json parsed = json::parse(*bytes, nullptr, false);
+    const std::string begin = quoted(file) + " cannot be read as results of gnomonchart --stability";
+    if (parsed.is_discarded()) throw std::runtime_error(begin + ": it is not a complete JSON file.");
+    StabilityResults results;
+    readInside(begin, [&] {
+        FieldReader way(parsed);
+        fields(way, results);
+    });
+    return results;
+}
+
+} // namespace gnomon::examples

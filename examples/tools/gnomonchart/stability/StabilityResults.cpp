@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "StabilityResults.h"
+
+#include <algorithm>
+#include <sstream>
+#include <tuple>
+
+namespace gnomon::examples {
+
+bool StabilityCell::catastrophe() const {
+    if (failure == "crashed" || failure == "hung" || notFinite > 0) return true;
+    return failure.empty() && everywhere.lost && !stated() && !rightOnReceiver();
+}
+
+StabilityOutcome StabilityRow::outcome() const {
+    StabilityOutcome worst = StabilityOutcome::HELD;
+    for (const StabilityCell& cell : cells) {
+        StabilityOutcome here = StabilityOutcome::LEFT;
+        if (cell.inBudget())
+            here = StabilityOutcome::HELD;
+        else if (cell.catastrophe())
+            here = StabilityOutcome::CATASTROPHE;
+        else if (cell.stated())
+            here = StabilityOutcome::STATED;
+        else if (cell.rightOnReceiver())
+            here = StabilityOutcome::ELSEWHERE;
+        worst = std::max(worst, here);
+    }
+    return worst;
+}
+
+std::optional<std::size_t> StabilityRow::leftAt() const {
+    const auto left = std::find_if(cells.begin(), cells.end(), [](const auto& cell) { return !cell.inBudget(); });
+    if (left == cells.end()) return std::nullopt;
+    return static_cast<std::size_t>(left - cells.begin());
+}
+
+double StabilityRow::reach() const {
+    const std::optional<std::size_t> left = leftAt();
+    return left && !cells.empty() ? double(*left) / double(cells.size()) : 1.0;
+}
+
+const char* nameOf(StabilityOutcome outcome) {
+    switch (outcome) {
+    case StabilityOutcome::HELD:
+        return "held";
+    case StabilityOutcome::STATED:
+        return "stated limit";
+    case StabilityOutcome::ELSEWHERE:
+        return "elsewhere";
+    case StabilityOutcome::LEFT:
+        return "left";
+    case StabilityOutcome::CATASTROPHE:
+        break;
+    }
+    return "catastrophe";
+}
+
+std::string valueText(double value) {
+    std::ostringstream out;
+    out << value;
+    return out.str();
+}
+
+std::vector<StabilityCount> countsOf(const StabilityResults& results) {
+    std::vector<StabilityCount> counts;
+    for (const StabilityRow& row : results.rows) {
+        const auto names = std::tie(row.kit, row.technique, row.setting);
+        auto count = std::find_if(counts.begin(), counts.end(), [&](const StabilityCount& each) {
+            return std::tie(each.kit, each.technique, each.setting) == names;
+        });
+        if (count == counts.end()) {
+            counts.push_back({row.kit, row.technique, row.setting});
+            count = counts.end() - 1;
+        }
+        ++count->scenes;
+        switch (row.outcome()) {
+        case StabilityOutcome::HELD:
+            ++count->held;
+            break;
+        case StabilityOutcome::STATED:
+            ++count->stated;
+            break;
+        case StabilityOutcome::ELSEWHERE:
+            ++count->elsewhere;
+            break;
+        case StabilityOutcome::LEFT:
+            ++count->left;
+            break;
+        case StabilityOutcome::CATASTROPHE:
+            ++count->catastrophes;
+            break;
+        }
+    }
+    return counts;
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gnomon::examples {
+
+/// How right a picture's shadow is, over some of its pixels.
+struct StabilityJudgement {
+    std::optional<double> p95; ///< 95th percentile of the boundary distance, px; none without both boundaries.
+    std::size_t wrong = 0;     ///< certain pixels that are wrong, away from edges.
+    std::size_t shadow = 0;    ///< certain pixels that are truly shadowed.
+    double iou = 1.0;          ///< intersection over union of the shadow's certain pixels.
+    bool lost = false;         ///< a catastrophe: IoU below 0.2 where shadow or false shadow is of 50 pixels or more.
+
+    /// At most 1 px at the 95th percentile, no wrong pixels away from edges.
+    bool inBudget() const { return !lost && wrong == 0 && p95.value_or(0.0) <= 1.0; }
+};
+
+/// One technique in one scene at one value.
+struct StabilityCell {
+    std::string failure; ///< "refused", "failed", "crashed", "hung"; empty: there is a picture.
+    std::string message; ///< then why.
+    bool measured = false;
+    StabilityJudgement everywhere;
+    std::optional<StabilityJudgement> onReceiver; ///< of techniques that shadow one named receiver alone.
+    std::size_t notFinite = 0;                    ///< pixels with NaN or infinity.
+    std::vector<std::string> diagnosis;           ///< what the technique says is missing.
+    std::vector<std::string> notes;               ///< what OpenSceneGraph says.
+    std::string picture;                          ///< file of the errors' overlay; empty: none.
+
+    bool inBudget() const { return failure.empty() && notFinite == 0 && everywhere.inBudget(); }
+    /// Whether the technique says that it cannot do this.
+    bool stated() const { return failure == "refused" || (failure.empty() && !diagnosis.empty()); }
+    /// Whether it is right where it shadows at all.
+    bool rightOnReceiver() const { return failure.empty() && notFinite == 0 && onReceiver && onReceiver->inBudget(); }
+    /// A crash, a hang, NaN in the picture, or a lost shadow that nothing is said of.
+    bool catastrophe() const;
+};
+
+/// What a sweep comes to.
+enum class StabilityOutcome {
+    HELD,      ///< within the budget at every value.
+    STATED,    ///< where it is not, diagnose() says so, or the technique refuses.
+    ELSEWHERE, ///< where it is not, and says nothing, it is right on its receiver: other surfaces get no shadow by design.
+    LEFT,      ///< out of its budget, and says nothing.
+    CATASTROPHE ///< see StabilityCell::catastrophe().
+};
+
+/// One technique in one scene.
+struct StabilityRow {
+    std::string scene, kit, technique, setting;
+    std::vector<std::pair<std::string, std::string>> settings; ///< that differ from the technique's defaults.
+    std::vector<StabilityCell> cells;                          ///< a value each.
+    std::optional<double> flickerEnergy, flickerShare, crawl;  ///< along the sweep; see metrics::FlickerMeter.
+
+    StabilityOutcome outcome() const;
+    /// The first value's place at which the budget is left; nullopt if it holds.
+    std::optional<std::size_t> leftAt() const;
+    /// Share of the values before that, 0 … 1.
+    double reach() const;
+};
+
+/// What a scene is about, see StabilityScene.
+struct StabilitySceneText {
+    std::string id, section, title, about, parameter, unit;
+    std::vector<double> values;
+};
+
+struct StabilityResults {
+    std::vector<std::pair<std::string, std::string>> made; ///< how, where and when.
+    std::vector<StabilitySceneText> scenes;
+    std::vector<StabilityRow> rows; ///< by scene, then technique.
+    bool complete = true;
+};
+
+/// "held", "stated limit", "elsewhere", "left", "catastrophe".
+const char* nameOf(StabilityOutcome outcome);
+
+/// Six digits.
+std::string valueText(double value);
+
+/// One technique's outcomes.
+struct StabilityCount {
+    std::string kit, technique, setting;
+    std::size_t scenes = 0, held = 0, stated = 0, elsewhere = 0, left = 0, catastrophes = 0;
+};
+/// In the order of the rows.
+std::vector<StabilityCount> countsOf(const StabilityResults& results);
+
+} // namespace gnomon::examples

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// What floating-point numbers do.
+#include "SceneParts.h"
+#include "Sections.h"
+
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+
+#include <limits>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr const char* section = "numbers";
+
+std::vector<Mesh> houses() {
+    return {house({2.0, 0.0}, {2.0, 2.0, 3.0}, 30.0), house({-2.5, 1.5}, {1.5, 3.0, 2.0}, 75.0),
+            sphere({-1.5, -2.0, 1.5}, 0.8)};
+}
+
+SceneParts village() {
+    SceneParts parts = onGround();
+    for (const Mesh& mesh : houses()) parts.add(mesh);
+    return parts;
+}
+
+osg::ref_ptr<osg::MatrixTransform> placed(osg::Group& content, const osg::Matrixd& matrix) {
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(matrix);
+    for (unsigned i = 0; i < content.getNumChildren(); ++i) place->addChild(content.getChild(i));
+    return place;
+}
+
+void enclose(SceneParts& parts, const osg::Matrixd& matrix) {
+    osg::ref_ptr<osg::MatrixTransform> place = placed(*parts.content, matrix);
+    parts.content = new osg::Group;
+    parts.content->addChild(place);
+}
+
+SceneParts farFromOrigin(double metres) {
+    SceneParts parts = village();
+    const osg::Vec3d to(metres, 0.7 * metres, 0.1 * metres);
+    enclose(parts, osg::Matrixd::translate(to));
+    parts.eye += to;
+    parts.center += to;
+    return parts;
+}
+
+/// The same with a lamp.
+SceneParts lampFarFromOrigin(double metres) {
+    SceneParts parts = farFromOrigin(metres);
+    parts.light = osg::Vec4d(osg::Vec3d(metres, 0.7 * metres, 0.1 * metres) + osg::Vec3d(0.5, -1.0, 6.0), 1.0);
+    return parts;
+}
+
+SceneParts ofScale(double scale) {
+    SceneParts parts = village();
+    enclose(parts, osg::Matrixd::scale(scale, scale, scale));
+    parts.eye *= scale;
+    parts.center *= scale;
+    parts.radius *= scale;
+    return parts;
+}
+
+/// Casters below so many transforms, of which every other one mirrors, and which come to the identity in pairs.
+SceneParts nested(double depth) {
+    SceneParts parts = onGround();
+    for (const Mesh& mesh : houses()) {
+        osg::ref_ptr<osg::Node> below = node(mesh);
+        for (int i = 0; i < int(depth); ++i) {
+            const double stretch = i % 2 ? -0.5 : -2.0;
+            osg::ref_ptr<osg::MatrixTransform> over = new osg::MatrixTransform(osg::Matrixd::scale(stretch, 1.0, 1.0));
+            over->addChild(below);
+            below = over;
+        }
+        parts.add(below);
+    }
+    return parts;
+}
+
+/// Triangles that are none, in the casters' own drawable.
+SceneParts withBadTriangles(double count) {
+    SceneParts parts = onGround();
+    parts.truth = new osg::Group;
+    parts.truth->addChild(node(square(12.0), "ground"));
+    for (const Mesh& mesh : houses()) parts.truth->addChild(node(mesh));
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+    const glm::dvec3 bad[] = {{nan, nan, nan}, {infinite, 0.0, 1.0}, {0.0, -infinite, 1.0}, {0.0, 0.0, nan}};
+    for (Mesh mesh : houses()) {
+        const glm::dvec3 corner = mesh.front();
+        for (int i = 0; i < int(count); ++i)
+            mesh.insert(mesh.begin() + 3 * i, {i % 3 ? bad[i % 4] : corner, corner, corner}); // some have no area
+        parts.add(mesh);
+    }
+    return parts;
+}
+
+/// A tower 800 m away, with the far plane at 1 km.
+SceneParts depthRange(double ratio) {
+    SceneParts parts = onGround(1200.0);
+    parts.add(boxAt({0.0, 800.0, 0.0}, {40.0, 40.0, 60.0}));
+    parts.add(boxAt({-10.0, 60.0, 0.0}, {6.0, 6.0, 8.0}));
+    parts.eye = {0.0, 0.0, 60.0};
+    parts.center = {0.0, 700.0, 0.0};
+    parts.fovy = 30.0;
+    parts.far = 1000.0;
+    parts.near = 1000.0 / ratio;
+    parts.radius = 60.0;
+    return parts;
+}
+
+} // namespace
+
+std::vector<StabilityScene> numberScenes() {
+    return {
+        {"N1",
+         section,
+         "Far from the origin, sun",
+         "The picture must be that at the origin.",
+         "distance",
+         "m",
+         {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7},
+         madeOf(farFromOrigin)},
+        {"N1L",
+         section,
+         "Far from the origin, lamp",
+         "A lamp's matrix multiplies coordinates, and loses them twice.",
+         "distance",
+         "m",
+         {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7},
+         madeOf(lampFarFromOrigin)},
+        {"N2",
+         section,
+         "Broken triangles",
+         "NaN, infinity and triangles without area count as if they were not there.",
+         "broken triangles in each caster",
+         "",
+         {0.0, 1.0, 4.0, 16.0, 100.0},
+         madeOf(withBadTriangles)},
+        {"N3",
+         section,
+         "Scale",
+         "The same scene in any unit gives the same picture.",
+         "size of a metre",
+         "units",
+         {1.0, 0.1, 10.0, 1e-2, 1e2, 1e-3, 1e3, 1e4},
+         madeOf(ofScale)},
+        {"N4",
+         section,
+         "Nested and mirrored transforms",
+         "Each transform mirrors and stretches the caster, and turns its faces inside out.",
+         "transforms above a caster",
+         "",
+         {0.0, 1.0, 2.0, 7.0, 16.0, 33.0},
+         madeOf(nested)},
+        {"N5",
+         section,
+         "Depth range",
+         "Marks drawn at the receiver's own depth fight with it where depth is coarse.",
+         "far plane over near plane",
+         "",
+         {1e2, 1e3, 1e4, 1e5, 1e6},
+         madeOf(depthRange)},
+    };
+}
+
+} // namespace gnomon::examples

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// What the stability table makes of its cells; its files and its scenes.
+#include "StabilityFiles.h"
+#include "StabilityJudge.h"
+#include "StabilityScene.h"
+#include "StabilityText.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace {
+
+using namespace gnomon::examples;
+namespace metrics = gnomon::metrics;
+using Outcome = StabilityOutcome;
+
+StabilityCell rightCell() {
+    StabilityCell cell;
+    cell.measured = true;
+    cell.everywhere.p95 = 0.5;
+    return cell;
+}
+
+StabilityCell wrongCell() {
+    StabilityCell cell = rightCell();
+    cell.everywhere.wrong = 7;
+    cell.everywhere.iou = 0.8;
+    return cell;
+}
+
+StabilityCell lostCell() {
+    StabilityCell cell = wrongCell();
+    cell.everywhere.iou = 0.0;
+    cell.everywhere.lost = true;
+    return cell;
+}
+
+StabilityCell saying(StabilityCell cell) {
+    cell.diagnosis = {"it cannot be done."};
+    return cell;
+}
+
+StabilityCell rightOnItsReceiver(StabilityCell cell) {
+    cell.onReceiver = rightCell().everywhere;
+    return cell;
+}
+
+StabilityRow rowOf(std::vector<StabilityCell> cells) {
+    StabilityRow row;
+    row.scene = "T1";
+    row.kit = "Gnomon";
+    row.technique = "planar";
+    row.setting = "defaults";
+    row.cells = std::move(cells);
+    return row;
+}
+
+TEST(StabilityOutcomes, AreTheWorstOfTheSweep) {
+    EXPECT_EQ(rowOf({rightCell(), rightCell()}).outcome(), Outcome::HELD);
+    EXPECT_EQ(rowOf({rightCell(), wrongCell()}).outcome(), Outcome::LEFT);
+    EXPECT_EQ(rowOf({lostCell(), wrongCell()}).outcome(), Outcome::CATASTROPHE);
+    EXPECT_EQ(rowOf({saying(lostCell()), rightCell()}).outcome(), Outcome::STATED);
+    EXPECT_EQ(rowOf({saying(wrongCell()), wrongCell()}).outcome(), Outcome::LEFT);
+    EXPECT_EQ(rowOf({rightOnItsReceiver(lostCell()), rightCell()}).outcome(), Outcome::ELSEWHERE);
+}
+
+TEST(StabilityOutcomes, AreCatastrophesWhateverIsSaidAfterACrashOrNaN) {
+    StabilityCell notFinite = saying(rightOnItsReceiver(rightCell())), crashed;
+    notFinite.notFinite = 1;
+    crashed.failure = "crashed";
+    EXPECT_EQ(rowOf({notFinite}).outcome(), Outcome::CATASTROPHE);
+    EXPECT_EQ(rowOf({crashed}).outcome(), Outcome::CATASTROPHE);
+}
+
+TEST(StabilityOutcomes, TellHowFarASweepGets) {
+    EXPECT_EQ(rowOf({rightCell(), rightCell()}).leftAt(), std::nullopt);
+    EXPECT_EQ(rowOf({rightCell(), rightCell()}).reach(), 1.0);
+    EXPECT_EQ(rowOf({rightCell(), wrongCell(), rightCell(), wrongCell()}).leftAt(), 1u);
+    EXPECT_EQ(rowOf({rightCell(), wrongCell(), rightCell(), wrongCell()}).reach(), 0.25);
+}
+
+TEST(StabilityOutcomes, TakeAPixelAtThe95thPercentileAsTheLimit) {
+    StabilityCell cell = rightCell();
+    cell.everywhere.p95 = 1.0;
+    EXPECT_TRUE(cell.inBudget());
+    cell.everywhere.p95 = 1.001;
+    EXPECT_FALSE(cell.inBudget());
+}
+
+/// A truth of 32 × 32 pixels, the left half shadowed, the column between them an edge.
+metrics::TruthMaps halfShadowed() {
+    metrics::TruthMaps truth;
+    truth.lit = truth.blockerDistance = truth.facing = metrics::Picture(32, 32, 1.0);
+    truth.litCentre = metrics::Mask(32, 32, 1);
+    truth.receiver = metrics::Grid<int>(32, 32, 1);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x <= 16; ++x) {
+            truth.lit.at(x, y) = x < 16 ? 0.0 : 0.5;
+            truth.litCentre.at(x, y) = x == 16;
+        }
+    return truth;
+}
+
+StabilityJudgement judged(const metrics::Picture& visibility) {
+    const metrics::TruthMaps truth = halfShadowed();
+    const metrics::PixelSets sets = metrics::pixelSets(truth, visibility);
+    return judge(visibility, truth, sets, sets.agreeing);
+}
+
+metrics::Picture centreRays() {
+    const metrics::TruthMaps truth = halfShadowed();
+    metrics::Picture picture(32, 32);
+    for (std::size_t i = 0; i < picture.cells.size(); ++i) picture.cells[i] = truth.litCentre.cells[i];
+    return picture;
+}
+
+TEST(StabilityJudge, FindsThePictureOfRaysRight) {
+    const StabilityJudgement judgement = judged(centreRays());
+    EXPECT_TRUE(judgement.inBudget());
+    EXPECT_EQ(judgement.iou, 1.0);
+    EXPECT_GT(judgement.shadow, 400u); // 15 columns without the picture's rim
+}
+
+TEST(StabilityJudge, CountsAWrongPixelAwayFromEdgesButNotOneBesideThem) {
+    metrics::Picture picture = centreRays();
+    picture.at(18, 10) = 0.0; // two from the edge's column
+    EXPECT_EQ(judged(picture).wrong, 0u);
+    picture.at(19, 10) = 0.0;
+    EXPECT_EQ(judged(picture).wrong, 1u);
+    picture.at(5, 5) = 1.0;
+    EXPECT_EQ(judged(picture).wrong, 2u);
+    EXPECT_FALSE(judged(picture).inBudget());
+}
+
+TEST(StabilityJudge, CallsAShadowLostIfNothingOfItIsThere) {
+    EXPECT_TRUE(judged(metrics::Picture(32, 32, 1.0)).lost);
+    EXPECT_FALSE(judged(centreRays()).lost);
+}
+
+TEST(StabilityFiles, KeepEverything) {
+    StabilityResults results;
+    results.made = {{"size", "160x120"}};
+    results.scenes = {{"T1", "tests", "Box, \"large\"", "About.", "size", "m", {1.0, 0.1, 1e7}}};
+    results.rows = {rowOf({rightCell(), rightOnItsReceiver(saying(wrongCell())), lostCell()})};
+    results.rows[0].settings = {{"size", "4096"}};
+    results.rows[0].crawl = 0.125;
+    const auto folder = std::filesystem::temp_directory_path() / ("stability-" + std::to_string(getpid()));
+    std::filesystem::create_directory(folder);
+    saveStability(results, folder.string());
+    const StabilityResults read = loadStability((folder / "stability.json").string());
+    std::stringstream csv;
+    csv << std::ifstream(folder / "stability.csv").rdbuf();
+    std::filesystem::remove_all(folder);
+    EXPECT_EQ(read.made, results.made);
+    EXPECT_EQ(read.scenes[0].values, results.scenes[0].values);
+    EXPECT_EQ(read.scenes[0].title, results.scenes[0].title);
+    EXPECT_EQ(read.rows[0].settings, results.rows[0].settings);
+    EXPECT_EQ(read.rows[0].crawl, results.rows[0].crawl);
+    EXPECT_EQ(read.rows[0].flickerEnergy, std::nullopt);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(jsonOf(read.rows[0].cells[i]), jsonOf(results.rows[0].cells[i]));
+    const std::string line = "T1,size,0.1,m,Gnomon,planar,defaults,catastrophe,,0.5,7,0,0.8,0.5,0,1,0,no,no,yes,";
+    EXPECT_NE(csv.str().find(line), std::string::npos) << csv.str();
+}
+
+TEST(StabilityText, SaysWhereEachTechniqueLeavesItsBudget) {
+    StabilityResults results;
+    results.scenes = {{"T1", "tests", "Box", "About.", "size", "m", {1.0, 0.1}}};
+    results.rows = {rowOf({rightCell(), saying(wrongCell())})};
+    const std::string text = stabilityText(results, true);
+    EXPECT_NE(text.find("stated limit at 0.1 m: 7 wrong pixels, IoU 0.8"), std::string::npos) << text;
+    EXPECT_NE(text.find("It says: it cannot be done."), std::string::npos) << text;
+}
+
+TEST(StabilityScenes, CanAllBeMadeAtEachValue) {
+    std::set<std::string> ids;
+    for (const StabilityScene& scene : stabilityScenes()) {
+        EXPECT_TRUE(ids.insert(scene.id).second) << scene.id;
+        EXPECT_GE(scene.values.size(), 3u) << scene.id;
+        EXPECT_EQ(scene.about.back(), '.') << scene.id;
+        for (const double value : scene.values) {
+            const StabilityCase made = scene.make(value, 16, 12);
+            EXPECT_GT(made.scene.content->getNumChildren(), 0u) << scene.id;
+            EXPECT_TRUE(made.scene.bounds.valid()) << scene.id << " at " << value;
+            EXPECT_TRUE(made.scene.camera.view.valid()) << scene.id << " at " << value;
+        }
+    }
+    EXPECT_GE(ids.size(), 15u);
+}
+
+TEST(StabilityScenes, AreChosenByTheirIds) {
+    const std::vector<StabilityScene> chosen = stabilityScenes({"N1", "L5"});
+    ASSERT_EQ(chosen.size(), 2u);
+    EXPECT_EQ(chosen[0].id, "L5");
+    EXPECT_EQ(stabilityScenes(std::vector<std::string>()).size(), stabilityScenes().size());
+    EXPECT_THROW(stabilityScenes({"L5", "Q9"}), std::invalid_argument);
+}
+
+} // namespace
