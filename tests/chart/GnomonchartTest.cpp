@@ -185,7 +185,8 @@ TEST_F(Gnomonchart, MakesTheStabilityTable) {
     const Ending ending = run({"--stability", "L5", "--quick", "--technique", "planar", "--out", "o"});
     ASSERT_EQ(ending.status, 0) << ending.err;
     EXPECT_NE(ending.out.find("held to the end"), std::string::npos) << ending.out;
-    for (const char* file : {"stability.csv", "stability.json", "l5-planar-defaults-2.png"})
+    for (const char* file :
+         {"stability.csv", "stability.json", "stability.html", "stability.svg", "l5-planar-defaults-2.png"})
         EXPECT_TRUE(fs::exists(folder.path() / "o" / file)) << file;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int leastFrames = 2, mostFrames = 10000;
 constexpr int mostFlickerFrames = 1000;
+constexpr int mostRandom = 1000000, mostSeed = 1000000000;
 constexpr int stabilityWidth = 160, stabilityHeight = 120;
 constexpr int leastSide = 32; // pixels; smaller pictures have no pixel that is judged
 
@@ -40,6 +41,11 @@ void addChartOptions(Options& table, ChartOptions& into) {
                      "the stability table instead: when shadows break. The arguments are its scenes' ids then, see "
                      "--list",
                      "", [&into](Text) { into.stability = true; }});
+    table.push_back({"--random", "N",
+                     "instead search N random scenes, 1 to 1000000, for shadows that are lost; nothing is written", "",
+                     [&into](Text t) { into.random = unsigned(readWhole(t, 1, mostRandom)); }});
+    table.push_back({"--seed", "S", "seed of the first random scene, 0 to 1000000000", "1",
+                     [&into](Text t) { into.seed = unsigned(readWhole(t, 0, mostSeed)); }});
     table.push_back({"--resume", "",
                      "continue an interrupted run; scenes that are complete in FOLDER are not measured again", "",
                      [&into](Text) { into.resume = true; }});

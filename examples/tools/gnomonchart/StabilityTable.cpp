@@ -4,7 +4,9 @@
 #include "Machine.h"
 #include "OutputFile.h"
 #include "Progress.h"
+#include "RandomSearch.h"
 #include "StabilityFiles.h"
+#include "StabilityPage.h"
 #include "StabilityRun.h"
 #include "StabilityText.h"
 
@@ -41,7 +43,7 @@ StabilityPlan planOf(const ChartOptions& options) {
 
 void print(const StabilityResults& results, const std::string& folder) {
     std::cout << stabilityText(results, results.scenes.size() <= fewScenes) << "the table is " << folder
-              << "/stability.csv\n";
+              << "/stability.html\n";
 }
 
 } // namespace
@@ -62,12 +64,38 @@ bool makeStabilityTable(const ChartOptions& options, const std::string& command,
     }
     for (auto& fact : machineFacts()) results.made.push_back(fact); // after the run: it makes a context
     saveStability(results, options.out);
+    writeStabilityPage(results, options.out);
     print(results, options.out);
     return results.complete;
 }
 
-void printStabilityAgain(const std::string& folder) {
+bool searchRandom(const ChartOptions& options, const std::function<bool()>& stops) {
+    RandomSearch search;
+    search.first = options.seed;
+    search.count = options.random.value_or(search.count);
+    search.contenders = stabilityContenders(options.technique, false);
+    const auto isRough = [](const StabilityContender& each) {
+        return each.contender.kit != "Gnomon" || each.contender.technique == "box"; // box: shadows of bounding boxes
+    };
+    search.contenders.erase(std::remove_if(search.contenders.begin(), search.contenders.end(), isRough),
+                            search.contenders.end());
+    search.workers = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<RandomFault> faults;
+    {
+        ProgressLine progress(static_cast<double>(search.count) * static_cast<double>(search.contenders.size()));
+        faults = searchRandomScenes(search, [&](std::size_t done, std::size_t, const std::string& doing) {
+            if (done) progress.show(double(done), doing);
+            return !stops();
+        });
+    }
+    for (const RandomFault& fault : faults) std::cout << faultText(fault) << "\n";
+    std::cout << search.count << " random scenes from seed " << search.first << ", " << faults.size() << " faults\n";
+    return faults.empty() && !stops();
+}
+
+void writeStabilityAgain(const std::string& folder) {
     const StabilityResults results = loadStability((std::filesystem::path(folder) / "stability.json").string());
+    writeStabilityPage(results, folder);
     print(results, folder);
 }
 

@@ -13,7 +13,12 @@ namespace gnomon::examples {
 /// sentence, if a file cannot be written.
 bool makeStabilityTable(const ChartOptions& options, const std::string& command, const std::function<bool()>& stops);
 
-/// Prints the table of a folder's stability.json again.
-void printStabilityAgain(const std::string& folder);
+/// Writes all but the results again from a folder's stability.json.
+void writeStabilityAgain(const std::string& folder);
+
+/// Searches random scenes for shadows that Gnomon's techniques lose without a word, and prints each with the plainest scene
+/// in which it is lost.
+/// @return whether there is none, and the search went to its end.
+bool searchRandom(const ChartOptions& options, const std::function<bool()>& stops);
 
 } // namespace gnomon::examples

@@ -145,7 +145,9 @@ int run(osg::ArgumentParser& arguments) {
     else if (options.list)
         listNames();
     else if (!options.again.empty())
-        return options.stability ? (printStabilityAgain(options.again), 0) : chartAgain(options.again);
+        return options.stability ? (writeStabilityAgain(options.again), 0) : chartAgain(options.again);
+    else if (options.random)
+        return searchRandom(options, [] { return stopAsked != 0; }) ? 0 : 1;
     else if (options.stability)
         return stability(options, command);
     else

@@ -5,6 +5,7 @@
 #include "Findings.h"
 #include "InputFile.h"
 #include "PageData.h"
+#include "PageParts.h"
 #include "TextTemplate.h"
 
 #include <gnomon_page.h>
@@ -16,24 +17,13 @@
 namespace gnomon::examples {
 namespace {
 
-std::string element(const std::string& name, const std::string& content, const std::string& attributes = "") {
-    return "<" + name + (attributes.empty() ? "" : " " + attributes) + ">" + content + "</" + name + ">\n";
-}
-
-/// A script that stands inside a page: a closing tag in one of its texts would end it.
-std::string inlineScript(const std::string& script) {
-    std::string text;
-    for (std::size_t i = 0; i < script.size(); ++i)
-        text += script.compare(i, 3, "</s") == 0 || script.compare(i, 3, "</S") == 0 ? "<\\" : script.substr(i, 1);
-    return text;
-}
-
 void append(const char* text, MD_SIZE size, void* html) { static_cast<std::string*>(html)->append(text, size); }
 
 /// The last part of docs/measuring.md as HTML: what each number means.
 std::string metricsHtml() {
     const std::string measuring = page::measuring_md;
-    const std::string markdown = measuring.substr(std::min(measuring.size(), measuring.find("## What the numbers mean")));
+    const std::string markdown =
+        measuring.substr(std::min(measuring.size(), measuring.find("## What the numbers mean")));
     std::string html;
     md_html(markdown.data(), static_cast<MD_SIZE>(markdown.size()), append, &html, MD_FLAG_TABLES | MD_FLAG_NOHTML, 0);
     return html;
@@ -78,26 +68,12 @@ std::string findingsHtml(const ChartResults& results) {
     return element("p", summary, "class=\"summary\"") + element("details", element("summary", "Scene by scene") + html);
 }
 
-std::string madeHtml(const ChartResults& results) {
-    std::string html;
-    for (const auto& [name, value] : results.made) html += element("dt", escaped(name)) + element("dd", escaped(value));
-    return element("dl", html);
-}
-
 std::string stateOf(const ChartResults& results) {
     if (results.complete) return "";
     return element("p",
                    "The run was interrupted or is still running: " + std::to_string(results.points.size()) +
                        " points so far.",
                    "class=\"warning\"");
-}
-
-std::string shrunkText(int times) {
-    if (times == 1) return "";
-    return element("p",
-                   "Pictures on this page are reduced to 1/" + std::to_string(times) +
-                       " of their width and height. The files beside the page have full size.",
-                   "class=\"note\"");
 }
 
 } // namespace
@@ -112,7 +88,7 @@ std::string pageOf(const ChartResults& results, const std::vector<DrawnFigure>& 
                                            {"FIGURES", figuresHtml(figures, folder)},
                                            {"SHRUNK", shrunkText(pictures.shrunk())},
                                            {"METRICS", metricsHtml()},
-                                           {"MADE", madeHtml(results)},
+                                           {"MADE", madeHtml(results.made)},
                                            {"DATA", data},
                                            {"JQUERY", inlineScript(page::jquery_min_js)},
                                            {"DATATABLES", inlineScript(page::jquery_dataTables_min_js)},

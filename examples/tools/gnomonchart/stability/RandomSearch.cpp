@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "RandomSearch.h"
+
+#include "StabilityRun.h"
+
+#include <algorithm>
+
+namespace gnomon::examples {
+namespace {
+
+constexpr unsigned seedsAProcess = 25; // whose truths one process keeps
+constexpr double lostBelow = 0.5;
+constexpr std::size_t leastShadow = 200; // px
+
+StabilityScene seedsFrom(unsigned first, unsigned count) {
+    StabilityScene scene;
+    scene.id = "seeds from " + std::to_string(first);
+    scene.parameter = "seed";
+    for (unsigned i = 0; i < count; ++i) scene.values.push_back(first + i);
+    scene.make = [](double seed, int width, int height) {
+        return caseOf(randomScene(static_cast<unsigned>(seed)), width, height);
+    };
+    return scene;
+}
+
+StabilityPlan planOf(const RandomSearch& search) {
+    StabilityPlan plan;
+    plan.contenders = search.contenders;
+    plan.width = search.width;
+    plan.height = search.height;
+    plan.workers = search.workers;
+    for (unsigned done = 0; done < search.count; done += seedsAProcess)
+        plan.scenes.push_back(seedsFrom(search.first + done, std::min(seedsAProcess, search.count - done)));
+    return plan;
+}
+
+/// One scene under one technique.
+StabilityCell cellOf(const RandomSearch& search, const StabilityContender& contender, const RandomScene& scene) {
+    StabilityPlan plan;
+    plan.contenders = {contender};
+    plan.width = search.width;
+    plan.height = search.height;
+    plan.scenes = {{"plainer", "", "", "", "", "", {0.0}, [scene](double, int width, int height) {
+                        return caseOf(scene, width, height);
+                    }}};
+    return runStability(plan, [](std::size_t, std::size_t, const std::string&) { return true; }).rows[0].cells[0];
+}
+
+RandomFault shrunk(const RandomSearch& search, const StabilityContender& contender, unsigned seed,
+                   const StabilityCell& cell) {
+    RandomFault fault{contender.contender.technique, seed, randomScene(seed), cell};
+    for (bool plainer = true; plainer;) {
+        plainer = false;
+        for (const RandomScene& tried : simpler(fault.plainest)) {
+            const StabilityCell tryCell = cellOf(search, contender, tried);
+            if (!isRandomFault(tryCell)) continue;
+            fault.plainest = tried;
+            fault.cell = tryCell;
+            plainer = true;
+            break;
+        }
+    }
+    return fault;
+}
+
+} // namespace
+
+bool isRandomFault(const StabilityCell& cell) {
+    if (cell.failure == "crashed" || cell.failure == "hung" || cell.failure == "failed" || cell.notFinite > 0)
+        return true;
+    const StabilityJudgement& judged = cell.onReceiver ? *cell.onReceiver : cell.everywhere;
+    return cell.failure.empty() && cell.diagnosis.empty() && judged.shadow > leastShadow && judged.iou < lostBelow;
+}
+
+std::vector<RandomFault>
+searchRandomScenes(const RandomSearch& search,
+                   const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
+    const StabilityResults results = runStability(planOf(search), progress);
+    std::vector<RandomFault> faults;
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        const StabilityRow& row = results.rows[i];
+        const StabilitySceneText& scene = results.scenes[i / search.contenders.size()];
+        for (std::size_t place = 0; place < row.cells.size(); ++place)
+            if (isRandomFault(row.cells[place]))
+                faults.push_back(shrunk(search, search.contenders[i % search.contenders.size()],
+                                        static_cast<unsigned>(scene.values[place]), row.cells[place]));
+    }
+    return faults;
+}
+
+std::string faultText(const RandomFault& fault) {
+    const StabilityJudgement& judged = fault.cell.onReceiver ? *fault.cell.onReceiver : fault.cell.everywhere;
+    const std::string what = fault.cell.failure.empty()
+                                 ? "IoU " + valueText(judged.iou) + " of " + std::to_string(judged.shadow) + " px"
+                                 : fault.cell.failure + ", " + fault.cell.message;
+    return fault.technique + " breaks (" + what + "): " + describe(fault.plainest);
+}
+
+} // namespace gnomon::examples

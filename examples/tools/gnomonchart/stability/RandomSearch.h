@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "RandomScene.h"
+#include "StabilityPlan.h"
+
+#include <functional>
+
+namespace gnomon::examples {
+
+/// What a search looks through.
+struct RandomSearch {
+    unsigned first = 1, count = 500; ///< seeds.
+    std::vector<StabilityContender> contenders;
+    int width = 128, height = 96; ///< of the pictures, pixels.
+    unsigned workers = 1;         ///< child processes at a time.
+};
+
+/// A scene in which a technique breaks, as plain as it still does.
+struct RandomFault {
+    std::string technique;
+    unsigned seed = 0;
+    RandomScene plainest;
+    StabilityCell cell; ///< of the plainest.
+};
+
+/// Whether a cell is a catastrophe among random scenes: a crash, a hang, a failure, NaN, or an IoU below 0.5 where more than
+/// 200 pixels are shadowed and nothing is said. A technique with a receiver of its own is judged there.
+bool isRandomFault(const StabilityCell& cell);
+
+/// Measures random scenes, and makes each fault's scene plainer for as long as the fault stays.
+/// @param progress  see runStability().
+std::vector<RandomFault>
+searchRandomScenes(const RandomSearch& search,
+                   const std::function<bool(std::size_t done, std::size_t all, const std::string&)>& progress);
+
+/// A sentence a fault, with all that makes its scene.
+std::string faultText(const RandomFault& fault);
+
+} // namespace gnomon::examples

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Random scenes: no technique loses its shadow without a word; a fault's scene is made plain.
+#include "RandomSearch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <thread>
+
+namespace {
+
+using namespace gnomon::examples;
+
+constexpr unsigned inCi = 500; // of the 10,000 that gnomonchart --random 10000 draws
+
+bool goOn(std::size_t, std::size_t, const std::string&) { return true; }
+
+/// Each seed has 3 or more of them, so that two cores do all in a minute.
+std::vector<StabilityContender> techniques(const std::set<std::string>& names) {
+    std::vector<StabilityContender> all = stabilityContenders("", false);
+    const auto isOther = [&](const StabilityContender& each) { return !names.count(each.contender.technique); };
+    all.erase(std::remove_if(all.begin(), all.end(), isOther), all.end());
+    return all;
+}
+
+RandomSearch searchOf(unsigned count, std::vector<StabilityContender> contenders) {
+    RandomSearch search;
+    search.count = count;
+    search.contenders = std::move(contenders);
+    search.width = 96;
+    search.height = 72;
+    search.workers = std::max(1u, std::thread::hardware_concurrency());
+    return search;
+}
+
+TEST(RandomScenes, NeverLoseAShadowWithoutAWord) {
+    const auto faults = searchRandomScenes(searchOf(inCi, techniques({"planar", "map", "traced"})), goOn);
+    for (const RandomFault& fault : faults) ADD_FAILURE() << faultText(fault);
+}
+
+TEST(RandomScenes, AreTheSameForTheSameSeed) {
+    for (const unsigned seed : {1u, 7u, 10000u}) EXPECT_EQ(describe(randomScene(seed)), describe(randomScene(seed)));
+    EXPECT_NE(describe(randomScene(1)), describe(randomScene(2)));
+}
+
+TEST(RandomScenes, AreOfEveryKind) {
+    std::set<int> shapes, grounds;
+    unsigned lamps = 0, broken = 0, nested = 0, far = 0;
+    for (unsigned seed = 1; seed <= inCi; ++seed) {
+        const RandomScene scene = randomScene(seed);
+        grounds.insert(int(scene.ground));
+        lamps += scene.light.w == 1.0;
+        far += scene.offset > 1e5;
+        for (const RandomCaster& caster : scene.casters) {
+            shapes.insert(int(caster.shape));
+            broken += caster.broken;
+            nested += caster.transforms > 0;
+        }
+    }
+    EXPECT_EQ(shapes.size(), 6u);
+    EXPECT_EQ(grounds.size(), 3u);
+    for (const unsigned count : {lamps, broken, nested, far}) EXPECT_GT(count, 40u);
+}
+
+/// A scene without shadows is as wrong with one box on level ground as with all else.
+TEST(RandomScenes, OfAFaultAreMadeAsPlainAsTheyCanBe) {
+    RandomSearch search = searchOf(6, {{plainContender()}});
+    const auto faults = searchRandomScenes(search, goOn);
+    ASSERT_GT(faults.size(), 0u);
+    for (const RandomFault& fault : faults) {
+        EXPECT_EQ(fault.technique, "none");
+        EXPECT_LE(fault.plainest.casters.size(), randomScene(fault.seed).casters.size());
+        EXPECT_EQ(fault.plainest.offset, 0.0) << faultText(fault);
+        EXPECT_EQ(fault.plainest.scale, 1.0) << faultText(fault);
+        EXPECT_TRUE(isRandomFault(fault.cell));
+    }
+}
+
+TEST(RandomScenes, HavePlainerOnesUntilNothingIsLeftToTakeAway) {
+    RandomScene scene = randomScene(5);
+    for (int steps = 0;; ++steps) {
+        const std::vector<RandomScene> plainer = simpler(scene);
+        if (plainer.empty()) break;
+        ASSERT_LT(steps, 200);
+        scene = plainer.back();
+    }
+    ASSERT_EQ(scene.casters.size(), 1u);
+    EXPECT_EQ(scene.casters[0].shape, RandomShape::BOX);
+    EXPECT_EQ(scene.ground, RandomScene::Ground::FLAT);
+}
+
+TEST(RandomFaults, AreLargeShadowsLostWithoutAWord) {
+    StabilityCell cell;
+    cell.measured = true;
+    cell.everywhere.shadow = 201;
+    cell.everywhere.iou = 0.49;
+    EXPECT_TRUE(isRandomFault(cell));
+    StabilityCell small = cell, said = cell, right = cell, elsewhere = cell;
+    small.everywhere.shadow = 200;
+    said.diagnosis = {"it says so."};
+    right.everywhere.iou = 0.5;
+    elsewhere.onReceiver = right.everywhere;
+    for (const StabilityCell& fine : {small, said, right, elsewhere}) EXPECT_FALSE(isRandomFault(fine));
+    said.failure = "crashed";
+    EXPECT_TRUE(isRandomFault(said));
+}
+
+} // namespace
