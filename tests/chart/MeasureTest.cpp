@@ -135,7 +135,7 @@ private:
 };
 
 Contender laborious(double steady, double moving) {
-    return {"Gnomon", "laborious", "", {}, Receives::EVERYTHING, [=](const ChartScene& scene, Look look) {
+    return {"Gnomon", "laborious", "", {}, [=](const ChartScene& scene, Look look) {
                 return std::make_unique<LaboriousStaging>(scene, look, steady, moving);
             }};
 }

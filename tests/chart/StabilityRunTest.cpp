@@ -51,8 +51,8 @@ void hang() {
 StabilityPlan smallPlan() {
     StabilityPlan plan;
     plan.scenes = {{"T1", "tests", "Box", "About.", "radius", "m", {1.0, hostile, 3.0}, madeOf(boxOnGround)}};
-    plan.width = 96;
-    plan.height = 72;
+    plan.width = 128;
+    plan.height = 96;
     return plan;
 }
 

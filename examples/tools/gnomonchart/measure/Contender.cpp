@@ -77,7 +77,8 @@ ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
 }
 
 Contender gnomonContender(const GnomonPoint& point) {
-    Contender result{"Gnomon", point.technique, point.setting, {{"--shadow", point.spec}}, point.receives, {}};
+    Contender result{"Gnomon", point.technique, point.setting, {{"--shadow", point.spec}}, {}};
+    result.receives = point.receives;
     result.stage = [point](const ChartScene& scene, Look look) {
         return std::make_unique<GnomonStaging>(specFor(point, scene), scene, look);
     };
@@ -99,8 +100,8 @@ std::vector<Contender> gnomonContenders() {
 }
 
 Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings) {
-    const Receives receives = peer.partsCastAndReceive ? Receives::EVERYTHING : Receives::FLAT;
-    Contender result{"osgShadow", peer.name, setting, settings, receives, {}};
+    Contender result{"osgShadow", peer.name, setting, settings, {}};
+    if (!peer.partsCastAndReceive) result.receives = Receives::FLAT;
     result.stage = [&peer, settings](const ChartScene& scene, Look look) {
         return std::make_unique<PeerStaging>(peer, settings, scene, look);
     };
