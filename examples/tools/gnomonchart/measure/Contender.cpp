@@ -88,7 +88,7 @@ Contender gnomonContender(const GnomonPoint& point) {
 } // namespace
 
 Contender plainContender() {
-    Contender result{"", "none", "", {}, Receives::EVERYTHING, {}};
+    Contender result{"", "none", "", {}, {}};
     result.stage = [](const ChartScene& scene, Look look) { return std::make_unique<PlainStaging>(scene, look); };
     return result;
 }

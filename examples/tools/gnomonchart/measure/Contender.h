@@ -19,7 +19,6 @@ struct Contender {
     std::string technique; ///< the curve's name.
     std::string setting;   ///< the point's name.
     Settings settings;     ///< all that differs from the technique's own defaults.
-    Receives receives = Receives::EVERYTHING;
 
     /// @throws std::invalid_argument, one sentence, if it does not suit the scene.
     std::function<std::unique_ptr<Staging>(const ChartScene& scene, Look look)> stage;
