@@ -38,6 +38,7 @@ const Graph& mayInclude() {
         {"drape", words("geometry ground simd")},
         {"onterrain", words("geometry ground simd drape")},
         {"overlay", words("geometry ground drape onterrain")},
+        {"silhouette", words("geometry")},
         {"base", {}},
         {"headless", {}},
         {"gl", words("base geometry")},
@@ -48,9 +49,10 @@ const Graph& mayInclude() {
         {"map", words(technique + " mapfit")},
         {"terrain", words(technique + " ground drape onterrain overlay")},
         {"traced", words(technique + " rays")},
+        {"volume", words(technique + " overlay silhouette")},
         {"effects", words("base gl compositor group geometry")},
         {"query", words("base casters group rays")},
-        {"spec", words("base casters group rays planar map terrain traced")},
+        {"spec", words("base casters group rays planar map terrain traced volume")},
     };
     return table;
 }

@@ -3,6 +3,7 @@
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowSpec.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/spec/SpecTable.h>
@@ -63,6 +64,12 @@ osg::ref_ptr<ShadowTechnique> makePlanar(const ShadowSpec&, const Receivers& rec
 
 osg::ref_ptr<ShadowTechnique> makeTraced(const ShadowSpec&, const Receivers&) { return new TracedShadowTechnique; }
 
+osg::ref_ptr<ShadowTechnique> makeVolume(const ShadowSpec& spec, const Receivers&) {
+    osg::ref_ptr<ShadowVolumeTechnique> node = new ShadowVolumeTechnique;
+    node->setOptions(spec.volume);
+    return node;
+}
+
 osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const Receivers&) {
     osg::ref_ptr<ShadowMapTechnique> node = new ShadowMapTechnique;
     node->setOptions(spec.map);
@@ -85,6 +92,7 @@ const std::map<std::string, Maker>& makers() {
         {"hull", makeTerrain<TerrainShadowOptions::HULL>},
         {"drape", makeTerrain<TerrainShadowOptions::DRAPE>},
         {"map", makeMap},
+        {"volume", makeVolume},
         {"traced", makeTraced},
     };
     return all;

@@ -138,9 +138,17 @@ std::vector<SpecKey> mapKeys() {
     };
 }
 
+std::vector<SpecKey> volumeKeys() {
+    const Option<ShadowVolumeOptions::View> view = {
+        ShadowVolumeOptions().view,
+        [](ShadowSpec& spec, ShadowVolumeOptions::View value) { spec.volume.view = value; }};
+    return {wordKey({"view", "debug view drawn over the picture", "setView()"}, view,
+                    {{"nothing", ShadowVolumeOptions::NOTHING}, {"volumes", ShadowVolumeOptions::VOLUMES}})};
+}
+
 SpecTechnique planned(const char* name) { return {name, "", "", {}, false}; }
 
-/// "map, traced: everything; else: ground".
+/// "map, volume, traced: everything; else: ground".
 std::string receiversByDefault() {
     std::vector<std::string> everywhere;
     for (const SpecTechnique& technique : specTechniques())
@@ -190,7 +198,7 @@ const std::vector<SpecTechnique>& specTechniques() {
          {errorKey()}},
         {"drape", "the terrain's triangles, cut by the casters' shadows to within error", ground, {errorKey()}},
         {"map", "shadow maps; on every visible surface", "", mapKeys()},
-        planned("volume"),
+        {"volume", "stencil volumes; exact on every visible surface", "", volumeKeys()},
         {"traced", "one ray for each pixel by Embree; exact on every visible surface"},
         planned("auto"),
     };
