@@ -129,10 +129,10 @@ TEST_F(BadInput, UnknownTechniqueOrKey) {
     EXPECT_EQ(
         refusalWith({"--shadow", "plane"}),
         "--shadow plane cannot be used. \"plane\" is not a shadow technique. Allowed: none, planar, box, hull, drape, "
-        "map, traced.");
-    EXPECT_EQ(refusalWith({"--shadow", "volume:bits=8"}),
-              "--shadow volume:bits=8 cannot be used. \"volume\" is not built yet. Allowed: none, planar, box, hull, "
-              "drape, map, traced.");
+        "map, volume, traced.");
+    EXPECT_EQ(refusalWith({"--shadow", "auto:bits=8"}),
+              "--shadow auto:bits=8 cannot be used. \"auto\" is not built yet. Allowed: none, planar, box, hull, "
+              "drape, map, volume, traced.");
     EXPECT_EQ(refusalWith({"--shadow", "planar:soft=1"}), "--shadow planar:soft=1 cannot be used. the technique planar "
                                                           "has no key \"soft\". Allowed: composite, dark, receiver.");
 }

@@ -2,6 +2,7 @@
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowSpec.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/spec/SpecTable.h>
 
@@ -213,17 +214,17 @@ TEST(ShadowSpec, KeysAreRead) {
 }
 
 TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
-    const std::string allowed = "Allowed: none, planar, box, hull, drape, map, traced.";
+    const std::string allowed = "Allowed: none, planar, box, hull, drape, map, volume, traced.";
     EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique. " + allowed);
     EXPECT_EQ(refusal(""), "\"\" is not a shadow technique. " + allowed);
     EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique. " + allowed);
 }
 
 TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
-    for (const char* name : {"volume", "auto"})
+    for (const char* name : {"auto"})
         EXPECT_EQ(refusal(std::string(name) + ":size=4"),
                   "\"" + std::string(name) +
-                      "\" is not built yet. Allowed: none, planar, box, hull, drape, map, traced.");
+                      "\" is not built yet. Allowed: none, planar, box, hull, drape, map, volume, traced.");
 }
 
 TEST(ShadowSpec, HullAndDrapeTakeAnErrorAndAllThreeTheTerrain) {
@@ -286,7 +287,7 @@ TEST(ShadowSpec, HelpNamesEveryTechniqueAndKey) {
             EXPECT_NE(help.find("    " + key.name + "=  "), std::string::npos) << key.name;
             EXPECT_NE(help.find("allowed " + key.allowed() + ", default "), std::string::npos) << key.name;
         }
-    EXPECT_NE(help.find("default map, traced: everything; else: ground"), std::string::npos);
+    EXPECT_NE(help.find("default map, volume, traced: everything; else: ground"), std::string::npos);
     std::istringstream lines(help);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
 }
@@ -336,6 +337,16 @@ TEST(AddShadows, TracedReceivesEverywhereUnlessAReceiverIsNamed) {
     EXPECT_STREQ(added[0]->className(), "TracedShadowTechnique");
     EXPECT_EQ(refusal(*groupOf(square("floor", 1)), {"traced:receiver=roof"}),
               "no node is named \"roof\" to receive the shadow. Names in the scene: floor.");
+}
+
+TEST(AddShadows, VolumeTakesItsViewAndReceivesEverywhere) {
+    osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
+    const auto added = addShadows(*group, {parseShadowSpec("volume"), parseShadowSpec("volume:view=volumes")});
+    ASSERT_EQ(added.size(), 2u);
+    EXPECT_FALSE(added[0]->hasReceiver());
+    using gnomon::ShadowVolumeTechnique;
+    EXPECT_EQ(dynamic_cast<const ShadowVolumeTechnique&>(*added[0]).getView(), ShadowVolumeTechnique::NOTHING);
+    EXPECT_EQ(dynamic_cast<const ShadowVolumeTechnique&>(*added[1]).getView(), ShadowVolumeTechnique::VOLUMES);
 }
 
 TEST(AddShadows, AllNodesOfAReceiversNameReceive) {

@@ -116,8 +116,8 @@ protected:
         return desktop.pictureWhere("g hides the text", [](const Screenshot& p) { return !hasText(p); });
     }
 
-    /// From planar shadows on through box, hull, drape, map and traced to none; from there n leads back.
-    Screenshot withoutShadow() { return after("n", 6); }
+    /// From planar shadows on through box, hull, drape, map, volume and traced to none; from there n leads back.
+    Screenshot withoutShadow() { return after("n", 7); }
     /// The first picture without its shadow, which n then brings back.
     Screenshot glimpseWithoutShadow() {
         const Screenshot none = withoutShadow();
@@ -148,7 +148,7 @@ TEST_F(Viewer, StartsWithoutShadowUnlessAskedForOne) {
     start({});
     const Screenshot planar = pressed("n");
     EXPECT_LE(misplaced(changed(first, planar), lamp), atFeet);
-    after("n", 5); // box, hull, drape, map, traced
+    after("n", 6); // box, hull, drape, map, volume, traced
     expectAfter("n", first);
 }
 

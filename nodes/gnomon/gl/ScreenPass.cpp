@@ -72,7 +72,7 @@ void ScreenPass::takeStencil(unsigned test, unsigned bits) {
 void ScreenPass::count(unsigned bits, bool behind) {
     const GLenum single = (bits & (bits - 1)) == 0 ? GL_INVERT : GL_NONE;
     const auto& gl = *_state.get<osg::GLExtensions>();
-    testDepth(GL_LESS, behind);
+    testDepth(GL_LESS);
     _pattern.test(GL_ALWAYS, 0, ~0u);
     for (const GLenum face : {GL_FRONT, GL_BACK}) {
         const bool up = (face == GL_BACK) == behind;

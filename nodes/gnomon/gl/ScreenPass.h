@@ -46,7 +46,7 @@ public:
     /// what stands in the depth buffer, modulo the bits' range (z-fail).
     void countHolding(unsigned bits);
     /// What is drawn next, sides of volumes whose other faces no line of sight meets, counts in `bits` how many of them hold
-    /// what stands in the depth buffer, beyond those that hold the near plane (z-pass).
+    /// what stands in the depth buffer, beyond those that hold the eye (z-pass).
     void countEntered(unsigned bits);
     /// Sets the number in `bits`.
     void setCount(unsigned bits, unsigned value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/overlay/StencilBatches.h>
-#include <gnomon/silhouette/NearPlane.h>
+#include <gnomon/silhouette/SightStart.h>
 #include <gnomon/silhouette/VolumeEnd.h>
 #include <gnomon/volume/VolumeView.h>
 
@@ -114,13 +114,16 @@ osg::ref_ptr<const VolumeGeometry> giveCaps(LightVolumes& volumes, std::vector<S
 void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes& all) {
     const SilhouetteMesh& mesh = *volumes.caster().mesh;
     const glm::dmat4 clipFromMesh = clipFromScene * volumes.caster().sceneFromMesh;
-    const NearPlane near(clipFromMesh);
+    if (mesh.parts.empty()) return;
+    const SightStart start(clipFromMesh, glm::dvec3(mesh.low), glm::dvec3(mesh.high));
     const std::size_t before = all.parts.size();
     for (unsigned i = 0; i < mesh.parts.size(); ++i) {
         const ShadowVolumes::Part& volume = volumes.volumes().parts[i];
-        const auto bounds = boundsOf(hullOf(mesh.parts[i], volume.end, volumes.volumes().light, clipFromMesh));
+        const auto hull = hullOf(mesh.parts[i], volume.end, volumes.volumes().light, clipFromMesh);
+        const auto bounds = boundsOf(hull);
         if (!bounds) continue;
-        const std::optional<int> holding = volumesHolding(near, mesh, volumes.volumes(), i);
+        const bool cut = std::any_of(hull.begin(), hull.begin() + 8, [](const auto& at) { return at.z <= -at.w; });
+        const std::optional<int> holding = volumesHolding(start, mesh, volumes.volumes(), i, cut);
         if (holding == 0 && volume.count == 0) continue;
         all.bounds = all.parts.empty() ? *bounds : united(all.bounds, *bounds);
         all.parts.push_back({all.meshes.size(), i, holding, {0, 0}});

@@ -33,7 +33,7 @@ struct VolumeRound {
         std::vector<VolumeGeometry::Range> entered, left, caps;
     };
     std::map<std::size_t, Share> shares; ///< by mesh.
-    int holding = 0;                     ///< those counted from the eye that the near plane is in.
+    int holding = 0;                     ///< those counted from the eye that the eye is in.
 };
 
 /// What a view needs of the volumes of one light.

@@ -336,6 +336,10 @@ SilhouetteMesh::SilhouetteMesh(const glm::vec3* positions, std::size_t count, co
         parts[i].firstEdge = parts[i - 1].firstEdge + parts[i - 1].edges;
     }
     for (std::size_t i = 0; i < total; ++i) addPlane(*this, i);
+    for (const Part& part : parts) {
+        low = &part == &parts.front() ? part.low : glm::min(low, part.low);
+        high = &part == &parts.front() ? part.high : glm::max(high, part.high);
+    }
     for (Part& part : parts) part.inward = part.closed && volumeOf(*this, part) < 0.0;
     findThin(*this);
 }

@@ -41,6 +41,7 @@ struct SilhouetteMesh {
     std::size_t triangles() const { return planeD.size(); }
 
     std::vector<glm::vec3> vertices; ///< each place once.
+    glm::vec3 low{0.0f}, high{0.0f}; ///< bounds of all parts.
     std::vector<unsigned> corners;   ///< three a triangle.
     std::vector<Edge> edges;
     std::vector<Part> parts; ///< neighbours in space are neighbours here, as far as a curve can.
