@@ -11,6 +11,10 @@ uniform vec4 belowLight;
 uniform vec4 light; // homogeneous; a vertex's w says how far it goes on away from it, below 0 to infinity
 #endif
 
+#ifdef NEAREST
+uniform float nearest; // what a lamp has nearer than this along the axis casts nothing
+#endif
+
 #ifdef CUTOUT
 out vec3 coordinates;
 #endif
@@ -35,6 +39,9 @@ void main() {
 #ifdef BITMAP
     texel = (gl_Vertex.xy - gl_MultiTexCoord0.xy) * gl_MultiTexCoord0.z;
     texels = gl_MultiTexCoord1;
+#endif
+#ifdef NEAREST
+    gl_ClipDistance[0] = gl_Position.w - nearest;
 #endif
 #ifdef CLIP
     gl_ClipDistance[0] = dot(abovePlane, gl_Vertex);

@@ -117,6 +117,10 @@ void setUniform(const osg::State& state, const char* name, const glm::dvec2& val
     state.get<osg::GLExtensions>()->glUniform2fv(placeOf(state, name), 1, glm::value_ptr(rounded));
 }
 
+void setUniform(const osg::State& state, const char* name, double value) {
+    state.get<osg::GLExtensions>()->glUniform1f(placeOf(state, name), static_cast<GLfloat>(value));
+}
+
 void setUniform(const osg::State& state, const char* name, int value) {
     state.get<osg::GLExtensions>()->glUniform1i(placeOf(state, name), value);
 }

@@ -30,6 +30,7 @@ constexpr const char* noProgram =
 void setUniform(const osg::State& state, const char* name, const glm::dvec4& value);
 void setUniform(const osg::State& state, const char* name, const glm::dmat4& value);
 void setUniform(const osg::State& state, const char* name, const glm::dvec2& value);
+void setUniform(const osg::State& state, const char* name, double value);
 void setUniform(const osg::State& state, const char* name, int value); ///< a sampler's texture unit.
 /// Of an array.
 void setUniform(const osg::State& state, const char* name, const std::vector<glm::dvec4>& values);

@@ -8,9 +8,11 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -35,6 +37,14 @@ bool isFlat(const CasterLayer::Box& box) {
 void sortBySize(std::vector<CasterLayer::Box>& boxes) {
     std::sort(boxes.begin(), boxes.end(),
               [](const auto& a, const auto& b) { return glm::distance(a.low, a.high) > glm::distance(b.low, b.high); });
+}
+
+constexpr double inPlane = 1.0 / (1 << 20); // of the coordinates, as RayScene has it
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+double distance(const CasterLayer::Box& box, const glm::dvec3& place) {
+    return glm::distance(place, glm::clamp(place, box.low, box.high));
 }
 
 /// A drawable's part of the mesh's triangles.
@@ -112,6 +122,7 @@ CasterLayer::CasterLayer(CasterDrawables::List given, const osg::Vec3d& origin) 
         if (first == end) continue;
         const Box box = boxOf(mesh, first, end);
         (isFlat(box) ? flatBoxes : bodyBoxes).push_back(box);
+        _parts.push_back({box, first, end});
         const Span span{&(*mesh.triangles)[first], end - first};
         if (cutout != mesh.cutouts.end() && cutout->drawn == i)
             sorted.add(mesh, *cutout++, span, isFlat(box));
@@ -138,13 +149,29 @@ osg::ref_ptr<const CullableFaces> CasterLayer::faces(bool flats, bool again) con
     return drawn.faces;
 }
 
-double CasterLayer::distanceTo(const glm::dvec3& place) const {
+double CasterLayer::clearanceOf(const glm::dvec3& lamp) const {
+    std::vector<std::pair<double, const Part*>> nearestFirst;
+    for (const Part& part : _parts) nearestFirst.emplace_back(distance(part.box, lamp), &part);
+    std::sort(nearestFirst.begin(), nearestFirst.end());
     double nearest = std::numeric_limits<double>::infinity();
-    if (!_mesh) return nearest;
-    const auto& corners = *_mesh->triangles;
-    const auto from = [&](std::size_t i) { return toGlm(osg::Vec3d((*_mesh->vertices)[corners[i]])) - place; };
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-        nearest = std::min(nearest, triangleDistance(from(i), from(i + 1), from(i + 2)));
+    for (const auto& [atLeast, part] : nearestFirst) {
+        if (!(atLeast < nearest)) break;
+        nearest = std::min(nearest, clearanceOf(lamp, *part));
+    }
+    return nearest;
+}
+
+double CasterLayer::clearanceOf(const glm::dvec3& lamp, const Part& part) const {
+    const double size = std::max({largest(lamp), largest(part.box.low), largest(part.box.high)});
+    const auto from = [&](std::size_t i) {
+        return toGlm(osg::Vec3d((*_mesh->vertices)[(*_mesh->triangles)[i]])) - lamp;
+    };
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = part.first; i + 2 < part.end; i += 3) {
+        const glm::dvec3 a = from(i), b = from(i + 1), c = from(i + 2), normal = glm::cross(b - a, c - a);
+        if (std::abs(glm::dot(a, normal)) > inPlane * size * glm::length(normal))
+            nearest = std::min(nearest, triangleDistance(a, b, c));
+    }
     return nearest;
 }
 

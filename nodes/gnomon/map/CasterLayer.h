@@ -41,8 +41,9 @@ struct CasterLayer : public osg::Referenced {
     /// @param again  it has been drawn before, and so may be drawn often: its solids are told apart.
     osg::ref_ptr<const CullableFaces> faces(bool flats, bool again) const;
 
-    /// From a place about the origin to the nearest triangle; infinite if there is none. Takes as long as there are triangles.
-    double distanceTo(const glm::dvec3& place) const;
+    /// From a lamp about the origin to the nearest triangle; infinite if there is none. Triangles whose plane holds the lamp,
+    /// to 10⁻⁶ of the coordinates, do not count: they cast nothing. Looks at the drawables that may be nearest.
+    double clearanceOf(const glm::dvec3& lamp) const;
 
     void resizeGLObjectBuffers(unsigned maxSize) const;
     void releaseGLObjects(osg::State* state) const;
@@ -57,9 +58,16 @@ private:
         osg::ref_ptr<const CullableFaces> faces;
         bool knowsSolids = false;
     };
+    /// A drawable's part of the mesh's triangles.
+    struct Part {
+        Box box;
+        std::size_t first, end; ///< corners.
+    };
     void take(const Sorted& sorted);
+    double clearanceOf(const glm::dvec3& lamp, const Part& part) const;
 
     osg::ref_ptr<const CasterMesh> _mesh; ///< null if there is nothing.
+    std::vector<Part> _parts;
     mutable Drawn _all, _bodies;
 };
 

@@ -39,6 +39,7 @@ public:
         glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
                      GL_STENCIL_BUFFER_BIT);
         for (const GLenum mode : {GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
+        for (GLenum plane = GL_CLIP_PLANE0; plane <= GL_CLIP_PLANE5; ++plane) glDisable(plane);
         for (const GLenum mode :
              {GLenum(GL_SCISSOR_TEST), GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)})
             glEnable(mode);
@@ -67,6 +68,8 @@ void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size, c
     glViewport(tile.corner.x, tile.corner.y, size, size);
     glScissor(texels.x, texels.y, texels.width, texels.height);
     setUniform(state, "clipFromVertex", tile.clipFromScene);
+    setUniform(state, "nearest", tile.nearest);
+    (tile.nearest > 0.0 ? glEnable : glDisable)(GL_CLIP_PLANE0);
 }
 
 /// Depths, to the bit, between framebuffers of one size.

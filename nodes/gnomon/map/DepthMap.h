@@ -26,6 +26,7 @@ struct MapPicture : public osg::Referenced {
     struct Tile {
         glm::ivec2 corner{0};
         glm::dmat4 clipFromScene{1.0}; ///< The map's clip space. Scene: see SceneFrame.
+        double nearest = 0.0;          ///< w of clip space before which nothing is drawn; 0 for a sun.
         PixelRect movers;              ///< texels outside which nothing moves.
     };
     /// What is drawn of a layer of the casters.

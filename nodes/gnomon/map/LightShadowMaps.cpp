@@ -60,7 +60,7 @@ void LightShadowMaps::setCause(const MapRequest& cause) {
 }
 
 void LightShadowMaps::begin() {
-    _clear = std::nullopt;
+    _clear = _clearOfStill = std::nullopt;
     _faces.clear();
     _splits.clear();
     _cascades = _cause.settings.cascades;
@@ -71,8 +71,19 @@ void LightShadowMaps::begin() {
 /// From a lamp to the nearest caster: nothing that is nearer is dark.
 double LightShadowMaps::clearance() {
     const glm::dvec3 lamp(_cause.light);
-    if (!_clear) _clear = std::min(_cause.casters->still->distanceTo(lamp), _cause.casters->moving->distanceTo(lamp));
+    if (!_clearOfStill) _clearOfStill = _cause.casters->still->clearanceOf(lamp);
+    if (!_clear) _clear = std::min(*_clearOfStill, _cause.casters->moving->clearanceOf(lamp));
     return *_clear;
+}
+
+/// Distance along a frame's axis before which nothing is drawn. What is in a plane with the lamp would be anywhere, by
+/// floats. 0 for a sun.
+double LightShadowMaps::nearestDrawn(const LightFrame& frame) {
+    constexpr double corner = 8.0;            // of the widest frame: the way to it to its distance
+    constexpr double least = 1.0 / (1 << 20); // of the coordinates: what rays leave out, too
+    if (frame.sun) return 0.0;
+    const double size = glm::length(glm::dvec3(_cause.light)) + glm::length(_cause.casters->reach);
+    return std::max(std::min(clearance(), size) / corner, least * size);
 }
 
 /// Where nothing changes any more, finds all anew, for what is kept of maps goes by frames before. That is as dear as a
@@ -106,6 +117,7 @@ void LightShadowMaps::takeCasters(const CasterLayers& casters) {
     if (_cause.casters == &casters) return;
     _clear = std::nullopt;
     const bool sameStill = _cause.casters->still == casters.still;
+    if (!sameStill) _clearOfStill = std::nullopt;
     _cause.casters = &casters;
     _picture = nullptr;
     const MapSlice* before = nullptr; // of the same frame
@@ -353,7 +365,7 @@ void LightShadowMaps::update(const MapPrograms& resources) {
     const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
     for (const auto& [face, corner] : tiles) {
         _lookUps.push_back(lookUpOf(*face));
-        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene, {}});
+        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene, nearestDrawn(face->frame), {}});
         picture->tiles.back().movers = moversIn(picture->tiles.back(), _lookUps.back().errors);
         end = glm::max(end, corner + picture->size);
     }

@@ -36,6 +36,7 @@ private:
     void begin();
     void addFaces(const LightFrame& frame);
     double clearance();
+    double nearestDrawn(const LightFrame& frame);
     void settle(const glm::dmat4& clipFromScene, const glm::dvec2& pixels, const std::vector<MapReceiver>& receivers);
     bool isShown() const;
     void takeCasters(const CasterLayers& casters);
@@ -71,12 +72,12 @@ private:
     MapRequest _cause;
     glm::dvec4 _light{0.0}; ///< as it was asked for last, and the cone; see isSame().
     std::optional<SpotCone> _cone;
-    std::optional<double> _clear;            ///< see clearance().
-    Seen _seen;                              ///< in the last frame.
-    int _rest = 0, _patience = fewestAtRest; ///< frames since anything changed; after how many all is found anew.
-    bool _settled = true;                    ///< maps are as if there had been no frames before.
-    bool _anew = true;                       ///< they are to be found so.
-    bool _again = false;                     ///< they have been found anew since anything changed.
+    std::optional<double> _clear, _clearOfStill; ///< see clearance().
+    Seen _seen;                                  ///< in the last frame.
+    int _rest = 0, _patience = fewestAtRest;     ///< frames since anything changed; after how many all is found anew.
+    bool _settled = true;                        ///< maps are as if there had been no frames before.
+    bool _anew = true;                           ///< they are to be found so.
+    bool _again = false;                         ///< they have been found anew since anything changed.
     std::vector<LightFrame> _frames;
     std::vector<MapSlice> _faces; ///< of each frame one a part; of a lamp's frame two.
     int _cascades = 0;            ///< maps that a sun is to have; 0 until that is known.

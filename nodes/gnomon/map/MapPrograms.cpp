@@ -14,8 +14,8 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 } // namespace
 
 MapPrograms::MapPrograms()
-    : casterProgram(shaderProgram()),
-      cutoutProgram(shaderProgram("#define CUTOUT\n")),
+    : casterProgram(shaderProgram("#define NEAREST\n")),
+      cutoutProgram(shaderProgram("#define NEAREST\n#define CUTOUT\n")),
       blocksProgram(quadProgram("gnomon blocks", "", shaders::blocks_frag)),
       coneProgram(quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag)) {}
 
