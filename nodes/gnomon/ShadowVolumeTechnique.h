@@ -21,7 +21,7 @@ class VolumeCache;
 /// - Each frame and light: the volumes' sides are drawn into the stencil buffer. The pixels that they cover are the cost.
 /// - When a light moves: a pass over the casters' triangles and edges, and an upload of the outlines.
 /// - When a caster moves: its edges are found again, too.
-/// - Volumes end below all that receives. Those out of sight are not drawn.
+/// - Volumes end below all that receives. Volumes out of sight are not drawn.
 /// - If the eye may be inside a volume, its caster's triangles are drawn, too.
 /// Needs
 /// - OpenGL 3.0 with GLSL 1.30, its two-sided stencil and depth clamp.

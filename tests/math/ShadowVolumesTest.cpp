@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Volumes behind meshes: how many hold a point is how many triangles are between it and the light.
+#include "Soup.h"
+
 #include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/silhouette/VolumeEnd.h>
-#include <support/Mesh.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -17,7 +18,27 @@ using gnomon::SilhouetteMesh;
 
 namespace {
 
-SilhouetteMesh edgesOf(const test::Mesh& mesh) {
+using Mesh = std::vector<glm::dvec3>; ///< three corners a triangle.
+
+/// Shapes of a soup.
+template <class Add>
+Mesh meshOf(Add add) {
+    test::Soup soup;
+    add(soup);
+    Mesh mesh;
+    for (const unsigned index : soup.indices) mesh.emplace_back(soup.vertices[index]);
+    return mesh;
+}
+
+Mesh box(const glm::dvec3& low, const glm::dvec3& high) {
+    return meshOf([&](test::Soup& soup) { soup.box(low, high); });
+}
+
+Mesh sphere(const glm::dvec3& centre, double radius, int slices) {
+    return meshOf([&](test::Soup& soup) { soup.sphere(centre, radius, slices); });
+}
+
+SilhouetteMesh edgesOf(const Mesh& mesh) {
     const std::vector<glm::vec3> places(mesh.begin(), mesh.end());
     std::vector<unsigned> corners;
     for (unsigned i = 0; i < places.size(); ++i) corners.push_back(i);
@@ -48,12 +69,11 @@ double winding(const std::vector<glm::vec4>& vertices, const std::vector<unsigne
 }
 
 /// Triangles between a point and the light (T. Moeller, B. Trumbore, 1997).
-int between(const test::Mesh& mesh, const glm::dvec3& point, const glm::dvec4& light) {
+int between(const Mesh& mesh, const glm::dvec3& point, const glm::dvec4& light) {
     const glm::dvec3 along = -gnomon::awayFrom(light, point);
     int count = 0;
     for (std::size_t i = 0; i < mesh.size(); i += 3) {
-        const glm::dvec3 a(glm::vec3(mesh[i])), e1 = glm::dvec3(glm::vec3(mesh[i + 1])) - a,
-                                                e2 = glm::dvec3(glm::vec3(mesh[i + 2])) - a;
+        const glm::dvec3 a = mesh[i], e1 = mesh[i + 1] - a, e2 = mesh[i + 2] - a;
         const glm::dvec3 p = glm::cross(along, e2), s = point - a, q = glm::cross(s, e1);
         const double determinant = glm::dot(e1, p);
         if (determinant == 0.0) continue;
@@ -66,19 +86,19 @@ int between(const test::Mesh& mesh, const glm::dvec3& point, const glm::dvec4& l
 
 struct Case {
     const char* name;
-    test::Mesh mesh;
+    Mesh mesh;
     bool closed;
 };
 
-test::Mesh turnedRound(test::Mesh mesh, std::size_t every) {
+Mesh turnedRound(Mesh mesh, std::size_t every) {
     for (std::size_t i = 0; i + 2 < mesh.size(); i += 3 * every) std::swap(mesh[i + 1], mesh[i + 2]);
     return mesh;
 }
 
-test::Mesh soup() {
+Mesh soup() {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-1.0, 1.0);
-    test::Mesh mesh;
+    Mesh mesh;
     for (int i = 0; i < 40; ++i) {
         const glm::dvec3 at(place(random), place(random), place(random) + 2.0);
         for (int corner = 0; corner < 3; ++corner)
@@ -88,19 +108,25 @@ test::Mesh soup() {
 }
 
 /// Three fins on one edge, as no surface has them.
-test::Mesh fins() {
+Mesh fins() {
     const glm::dvec3 a(0.0, -1.0, 2.0), b(0.0, 1.0, 2.0);
     return {a, b, {1.0, 0.0, 2.3}, a, b, {-1.0, 0.0, 2.2}, b, a, {0.1, 0.0, 3.0}};
 }
 
 std::vector<Case> cases() {
-    const test::Mesh house = test::house({0.2, 0.1}, {1.5, 1.0, 2.0}, 30.0),
-                     ball = test::sphere({0.0, 0.0, 2.0}, 1.0, 12);
+    const Mesh house = box({-0.5, -0.4, 0.1}, {1.0, 0.6, 2.0}), ball = sphere({0.0, 0.0, 2.0}, 1.0, 12);
+    const Mesh both = meshOf([](test::Soup& soup) {
+        soup.box({-0.5, -0.4, 0.1}, {1.0, 0.6, 2.0});
+        soup.sphere({0.5, 0.0, 2.5}, 1.0, 12);
+    });
+    const Mesh sheet = meshOf([](test::Soup& soup) {
+        soup.quad({-1.0, -1.0, 1.0}, {2.0, 0.3, 0.5}, {0.0, 2.0, -0.4});
+    });
     return {{"a house", house, true},
             {"a ball", ball, true},
             {"a house turned inside out", turnedRound(house, 1), true},
-            {"two bodies", test::joined({house, test::moved(ball, {0.5, 0.0, 0.5})}), true},
-            {"a sheet", test::quad({-1.0, -1.0, 1.0}, {2.0, 0.3, 0.5}, {0.0, 2.0, -0.4}), false},
+            {"two bodies", both, true},
+            {"a sheet", sheet, false},
             {"a ball of mixed winding", turnedRound(ball, 3), false},
             {"fins", fins(), false},
             {"a soup", soup(), false}};
@@ -141,7 +167,7 @@ TEST(ShadowVolumes, HoldAPointAsOftenAsTrianglesAreBetweenItAndTheLight) {
 }
 
 TEST(ShadowVolumes, OfABoxHaveTheSixSidesOfItsOutline) {
-    const SilhouetteMesh mesh = edgesOf(test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}));
+    const SilhouetteMesh mesh = edgesOf(box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}));
     ASSERT_EQ(mesh.parts.size(), 1u);
     EXPECT_TRUE(mesh.parts[0].closed);
     ShadowVolumes volumes;
@@ -154,7 +180,7 @@ TEST(ShadowVolumes, OfABoxHaveTheSixSidesOfItsOutline) {
 }
 
 TEST(ShadowVolumes, AnEdgeOnWallFacesTheLight) {
-    const SilhouetteMesh mesh = edgesOf(test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}));
+    const SilhouetteMesh mesh = edgesOf(box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}));
     for (const double tilt : {-1e-6, 0.0, 1e-6}) {
         gnomon::FacingWeights weights;
         gnomon::faceLight(mesh, {glm::normalize(glm::dvec3(1.0, tilt, 1.0)), 0.0}, weights);
@@ -178,7 +204,7 @@ TEST(ShadowVolumes, EndAtThePlaneThatIsNearest) {
 }
 
 TEST(ShadowVolumes, SeamsThatDifferByRoundingAreClosed) {
-    const SilhouetteMesh mesh = edgesOf(test::sphere({-2.0, 0.0, 2.5}, 1.0, 64)); // sin(2 pi) is not sin(0)
+    const SilhouetteMesh mesh = edgesOf(sphere({-2.0, 0.0, 2.5}, 1.0, 64)); // sin(2 pi) is not sin(0)
     ASSERT_EQ(mesh.parts.size(), 1u);
     EXPECT_TRUE(mesh.parts[0].closed);
 }
