@@ -25,8 +25,7 @@ struct CasterView;
 /// Group whose subgraph casts shadows. Every scene with Gnomon's shadows has one.
 ///
 /// Wrap the scene, or any part of it, and add a technique beside it. The scene's own nodes stay as they are.
-/// The techniques are PlanarShadowNode, ShadowMapTechnique, ShadowVolumeTechnique, TerrainShadowGeode and
-/// TracedShadowTechnique.
+/// The techniques are PlanarShadowNode, ShadowMapTechnique, TerrainShadowGeode and TracedShadowTechnique.
 ///
 ///     osg::DisplaySettings::instance()->setMinimumNumStencilBits(8); // before the window is made
 ///     osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
@@ -35,8 +34,7 @@ struct CasterView;
 ///
 /// Cost
 /// - Each frame and view: one visit of the casters' nodes, to find changes.
-/// - After a change: an extraction of the changed drawables. PlanarShadowNode, ShadowVolumeTechnique and
-///   TracedShadowTechnique extract all.
+/// - After a change: an extraction of the changed drawables. PlanarShadowNode and TracedShadowTechnique extract all.
 /// - RELIGHT: one more draw of the drawables that shadows touch.
 /// - BLEND: one multiplication a shadowed pixel.
 /// - DrawThreadPerContext: the next frame starts only after this frame's shadows are drawn, also if all is STATIC.
