@@ -2,7 +2,6 @@
 #include "SceneLights.h"
 
 #include <osg/LightModel>
-#include <osg/NodeVisitor>
 
 #include <algorithm>
 #include <cmath>
@@ -12,22 +11,6 @@ namespace gnomon::examples {
 namespace {
 
 constexpr double sunAzimuth = 135.0, sunElevation = 45.0; // degrees
-
-class LightFinder : public osg::NodeVisitor {
-public:
-    LightFinder() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
-    void apply(osg::LightSource& source) override {
-        if (source.getLight()) found.push_back(&source);
-        traverse(source);
-    }
-    std::vector<osg::ref_ptr<osg::LightSource>> found;
-};
-
-std::vector<osg::ref_ptr<osg::LightSource>> lightsIn(osg::Node& scene) {
-    LightFinder finder;
-    scene.accept(finder);
-    return finder.found;
-}
 
 bool isLamp(const osg::Vec4d& place) { return std::abs(place.w()) > 1e-9; }
 
@@ -57,11 +40,6 @@ osg::Vec4 grey(double level) {
 
 } // namespace
 
-osg::Vec4d sunAt(double azimuth, double elevation) {
-    const double a = osg::DegreesToRadians(azimuth), e = osg::DegreesToRadians(elevation);
-    return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e), 0.0};
-}
-
 std::vector<osg::Vec4d> SceneLights::places() const {
     std::vector<osg::Vec4d> result;
     for (const Own& own : _own) result.push_back(own.place);
@@ -79,7 +57,7 @@ void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d
 }
 
 SceneLights::SceneLights(const ViewOptions& options, osg::Group& root, ShadowCasterGroup& group)
-    : _group(&group), _scene(lightsIn(group)) {
+    : _group(&group), _scene(lightSourcesIn(group)) {
     for (const osg::Vec4d& place : options.lights) add(place, root);
     if (count() == 0 && !options.keepLights) add(sunAt(sunAzimuth, sunElevation), root);
     if (!_own.empty() || !options.keepLights) root.getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);

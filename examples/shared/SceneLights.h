@@ -2,6 +2,7 @@
 #pragma once
 #include "ViewOptions.h"
 
+#include <gnomon/SceneProps.h>
 #include <gnomon/ShadowCasterGroup.h>
 
 #include <osg/Group>
@@ -15,9 +16,6 @@ namespace gnomon::examples {
 /// Puts a light, which shines from below `mount`, at a homogeneous place of the world: a lamp at the origin of its mount,
 /// which is in double; a sun's direction needs no more than float.
 void standLight(osg::MatrixTransform& mount, osg::Light& light, const osg::Vec4d& place);
-
-/// The way towards a sun, homogeneous. Degrees; azimuth from north = +y through east = +x, elevation from level.
-osg::Vec4d sunAt(double azimuth, double elevation);
 
 /// The lights of a program: those of the command line, or a sun if neither it nor the scene has one; and the scene's
 /// own. Lamps stand in double precision, so that they may be far from the origin.

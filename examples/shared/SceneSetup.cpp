@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "SceneSetup.h"
-#include "Ground.h"
 #include "SceneBounds.h"
 
 #include <gnomon/NamedNode.h>

@@ -54,6 +54,8 @@ struct CasterView;
 /// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast.
+/// - Quads that are not flat cast as the driver cuts them, which is measured once a context.
+/// - Mesa's llvmpipe cuts quads of glDrawArrays() outside display lists now so, now so. Draw those that are not flat by indices.
 /// - An LOD casts as its view shows it. A cull callback that chooses among children is not asked.
 /// - osgUtil::Optimizer leaves what is below the group as it is if the group, or a node below it, names nodes.
 /// - Its SPATIALIZE_GROUPS replaces a Geode that is named and stands elsewhere. Its COPY_SHARED_NODES copies such nodes.

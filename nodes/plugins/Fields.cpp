@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
 
-#include <osg/DisplaySettings>
-
-#include <algorithm>
 #include <iomanip>
 
 namespace gnomon::fields {
@@ -44,16 +41,6 @@ bool writeOthers(osgDB::OutputStream& out, const Selection& selection) {
 Selection withOthers(osgDB::InputStream& in, Selection selection) {
     selection.others = readList(in, [&] { return in.readObjectOfType<osg::Node>(); });
     return selection;
-}
-
-void askForStencilBits() {
-    osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
-    settings.setMinimumNumStencilBits(std::max(settings.getMinimumNumStencilBits(), 8u));
-}
-
-void askForAlphaBits() {
-    osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
-    settings.setMinimumNumAlphaBits(std::max(settings.getMinimumNumAlphaBits(), 8u));
 }
 
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options) {

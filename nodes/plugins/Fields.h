@@ -89,10 +89,6 @@ Selection readSelection(osgDB::InputStream& in);
 bool writeOthers(osgDB::OutputStream& out, const Selection& selection);
 Selection withOthers(osgDB::InputStream& in, Selection selection);
 
-/// Raises a minimum of osg::DisplaySettings to 8 bits. Windows made later have them.
-void askForStencilBits();
-void askForAlphaBits();
-
 /// Reserved stencil bits, filter, most decals.
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options);
 CompositorOptions readOptions(osgDB::InputStream& in);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
 
+#include <gnomon/SceneProps.h>
 #include <gnomon/ShadowCasterGroup.h>
 
 #include <osgDB/ObjectWrapper>
@@ -108,7 +109,7 @@ static bool writeOtherCasters(osgDB::OutputStream& out, const ShadowCasterGroup&
 
 /// Programs that know nothing of Gnomon, such as osgviewer, make their window after they have read the file.
 static ShadowCasterGroup* newGroup() {
-    fields::askForStencilBits();
+    askForStencilBits();
     return new ShadowCasterGroup;
 }
 

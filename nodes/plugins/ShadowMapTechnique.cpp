@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
 
+#include <gnomon/SceneProps.h>
 #include <gnomon/ShadowMapTechnique.h>
 
 #include <osgDB/ObjectWrapper>
 
 using namespace gnomon;
 
-/// See fields::askForAlphaBits().
+/// Windows made later have alpha bits.
 struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
     void objectRead(osgDB::InputStream&, osg::Object& object) override {
-        if (static_cast<const ShadowMapTechnique&>(object).getEdges() != ShadowMapTechnique::HARD)
-            fields::askForAlphaBits();
+        if (static_cast<const ShadowMapTechnique&>(object).getEdges() != ShadowMapTechnique::HARD) askForAlphaBits();
     }
 };
 

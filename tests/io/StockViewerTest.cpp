@@ -23,8 +23,8 @@ constexpr double dim = 0.3; ///< the material's diffuse, by which sun and headli
 
 /// A ground from -8 to 8 with a box of side 2 upon it, under a sun at 45°, traced.
 struct Lab {
-    Lab() {
-        scene.addShadow(technique);
+    explicit Lab(bool withShadow = true) {
+        if (withShadow) scene.addShadow(technique);
         scene.light->getLight()->setLightNum(1); // number 0 is the viewer's headlight
         osg::StateSet& state = *scene.root->getOrCreateStateSet();
         state.setMode(GL_LIGHT1, osg::StateAttribute::ON);
@@ -114,6 +114,17 @@ TEST_F(StockViewer, ShowsTheShadowsOfASceneFileWithoutAnyOption) {
     for (int y = 0; y < picture.height; ++y)
         for (int x = picture.width / 2; x < picture.width; ++x)
             ASSERT_NE(picture.at(x, y), shadowed) << "towards the sun, at " << x << ", " << y;
+    EXPECT_EQ(readFile(folder.path() / "said"), "");
+}
+
+TEST_F(StockViewer, ShowsTheSameShadowsOfAFileThatHasNoneByASuffixOnItsName) {
+    write(Lab());
+    open("scene.osgt");
+    const Screenshot byFile = pictureOfGround();
+    program.reset();
+    write(Lab(false));
+    open("'scene.osgt.(traced).gnomon'");
+    EXPECT_EQ(count(pictureOfGround(), shadowed), count(byFile, shadowed));
     EXPECT_EQ(readFile(folder.path() / "said"), "");
 }
 

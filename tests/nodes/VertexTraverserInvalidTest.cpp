@@ -76,7 +76,7 @@ TEST(VertexTraverserInvalid, NegativeFirstsAndCountsAreSurvived) {
 
 TEST(VertexTraverserInvalid, AQuadWithOneBadCornerKeepsTheTriangleWithoutIt) {
     osg::ref_ptr<osg::Geometry> quad =
-        geometryOf(vec3s({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, nan32, 0}}), new osg::DrawArrays(Mode::QUADS, 0, 4));
+        geometryOf(vec3s({{0, nan32, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}}), new osg::DrawArrays(Mode::QUADS, 0, 4));
     EXPECT_EQ(trianglesOf(*quad).size(), 1u);
 }
 

@@ -76,7 +76,7 @@ TEST(VertexTraverserModes, AFanAndAPolygonShareTheirFirstVertex) {
 }
 
 TEST(VertexTraverserModes, QuadsAreTwoTrianglesEach) {
-    EXPECT_EQ(indicesOf(Mode::QUADS), (Indices{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(indicesOf(Mode::QUADS), (Indices{{0, 1, 3}, {1, 2, 3}}));
 }
 
 TEST(VertexTraverserModes, AQuadStripCrossesOverItsSecondPair) {

@@ -6,21 +6,6 @@
 #include <iostream>
 
 namespace gnomon::examples {
-namespace {
-
-bool hasLightSource(osg::Node& root) {
-    class Finder : public osg::NodeVisitor {
-    public:
-        Finder() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
-        void apply(osg::LightSource&) override { found = true; }
-        bool found = false;
-    } finder;
-    root.accept(finder);
-    return finder.found;
-}
-
-} // namespace
-
 ShadowedScene::ShadowedScene(const ViewOptions& options, osg::Node& scene)
     : _options(options), _scene(&scene), _setup(groupScene(options, scene)) {}
 
@@ -39,7 +24,7 @@ void ShadowedScene::prepare(osgViewer::View& view) {
 /// A light at the eye casts shadows that nobody sees.
 void ShadowedScene::light(osgViewer::View& view) {
     const bool own = !_options.lights.empty();
-    if (!own && (view.getLightingMode() != osg::View::HEADLIGHT || hasLightSource(*_setup.group))) return;
+    if (!own && (view.getLightingMode() != osg::View::HEADLIGHT || !lightSourcesIn(*_setup.group).empty())) return;
     view.setLightingMode(osg::View::NO_LIGHT);
     if (own) return;
     _options.lights.push_back(sunAt(135.0, 45.0));

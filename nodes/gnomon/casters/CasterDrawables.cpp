@@ -48,6 +48,7 @@ public:
         if (piece.kept) return append(*piece.kept);
         _piece = &piece;
         setRootFromVisited(piece.groupFromLocal);
+        setQuads(piece.quads);
         const_cast<osg::Drawable&>(*piece.drawable).accept(*this); // which changes nothing
     }
 
@@ -75,7 +76,7 @@ public:
 protected:
     void applyCaster(osg::Drawable& drawable) override {
         const std::optional<AlphaTest> test = alphaTest();
-        const std::uint64_t value = CasterFingerprint::of(drawable, rootFromLocal(), test);
+        const std::uint64_t value = CasterFingerprint::of(drawable, rootFromLocal(), test, quads());
         _fingerprint.mix(value);
         if (!_changed && isAt(_next, value)) {
             ++_same;
@@ -126,12 +127,13 @@ private:
 
     osg::ref_ptr<const CasterDrawable> make(osg::Drawable& drawable, std::uint64_t fingerprint,
                                             const std::optional<AlphaTest>& test) const {
-        DrawableBounds found(rootFromLocal());
+        DrawableBounds found(rootFromLocal(), quads());
         if (!isOfLevels()) readTriangles(drawable, found);
         osg::ref_ptr<CasterDrawable> piece = new CasterDrawable;
         piece->fingerprint = fingerprint;
         piece->drawable = &drawable;
         piece->groupFromLocal = rootFromLocal();
+        piece->quads = quads();
         piece->test = test;
         piece->triangles = found.triangles;
         piece->bounds = found.bounds;
@@ -181,8 +183,10 @@ CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, st
 
 osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const Selection& casters,
                                                         const osg::ref_ptr<const CasterDrawables>& known,
-                                                        const CasterView* view, LevelPieces* levels) {
+                                                        const CasterView* view, LevelPieces* levels,
+                                                        const QuadSplit& quads) {
     DrawableVisitor visitor(casters, known.get(), levels);
+    visitor.setQuads(quads);
     if (view) visitor.setView(*view);
     if (levels) levels->startVisit();
     root.accept(visitor);

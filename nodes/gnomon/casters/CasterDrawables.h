@@ -31,6 +31,7 @@ struct CasterDrawable : public osg::Referenced {
     std::uint64_t fingerprint = 0;              ///< Changes with all that CasterExtraction reads of it.
     osg::ref_ptr<const osg::Drawable> drawable; ///< The drawable itself.
     osg::Matrixd groupFromLocal;                ///< Transform from the drawable's frame to the group's.
+    QuadSplit quads;                            ///< How its quads are cut.
     std::optional<AlphaTest> test;              ///< Its alpha test; nullopt if it has none.
     osg::BoundingBoxd bounds;                   ///< Bounds of its triangles, group frame. Invalid without triangles.
     std::size_t triangles = 0;                  ///< Number of its triangles.
@@ -83,13 +84,15 @@ public:
     /// @param known   an earlier result, whose unchanged pieces are used again; may be null.
     /// @param view    whose levels of detail are taken; null: the finest.
     /// @param levels  pieces under LODs that were met before, and gets those that are met now; may be null.
+    /// @param quads   how quads are cut without a view.
     /// @return        `known` itself if nothing changed.
     ///
     /// Cost
     /// - One visit of the nodes, and an extraction of each new piece.
     static osg::ref_ptr<const CasterDrawables> of(osg::Node& root, const Selection& casters,
                                                   const osg::ref_ptr<const CasterDrawables>& known,
-                                                  const CasterView* view = nullptr, LevelPieces* levels = nullptr);
+                                                  const CasterView* view = nullptr, LevelPieces* levels = nullptr,
+                                                  const QuadSplit& quads = {});
 
 protected:
     ~CasterDrawables() override = default;

@@ -30,7 +30,10 @@ class CasterExtraction::Collector : public TriangleDecoder {
 public:
     /// @param cutout  gets the coordinates of each vertex that is used, in place of those of all; may be null.
     Collector(CasterExtraction& result, const osg::Matrixd& rootFromLocal, Cutout* cutout)
-        : TriangleDecoder(rootFromLocal), _result(result), _mirrored(mirrors(rootFromLocal)), _cutout(cutout) {
+        : TriangleDecoder(rootFromLocal, result.quads()),
+          _result(result),
+          _mirrored(mirrors(rootFromLocal)),
+          _cutout(cutout) {
         if (_cutout) _coordinates.swap(_cutout->coordinates);
     }
 

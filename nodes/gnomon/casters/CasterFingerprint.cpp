@@ -11,7 +11,17 @@ namespace {
 /// Two counts of 32 bits as one word.
 std::uint64_t word(unsigned high, unsigned low) { return std::uint64_t{high} << 32 | low; }
 
-void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, Fingerprint& into) {
+bool isOfQuads(const osg::PrimitiveSet& primitives) {
+    return primitives.getMode() == GL_QUADS || primitives.getMode() == GL_QUAD_STRIP;
+}
+
+/// All that decides how a drawable's quads are cut.
+std::uint64_t splitOf(const osg::Drawable& drawable, const QuadSplit& quads) {
+    return word(quads.secondToFourth, quads.stripSecondToThird) ^
+           word(quads.arraysSecondToFourth, isFromList(drawable, quads)) << 1;
+}
+
+void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, const QuadSplit& quads, Fingerprint& into) {
     into.mix(static_cast<const void*>(vertices));
     if (vertices) {
         into.mix(word(vertices->getModifiedCount(), vertices->getNumElements()));
@@ -24,12 +34,14 @@ void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, Fing
         into.mix(static_cast<const void*>(primitives.get()));
         into.mix(word(primitives->getModifiedCount(), indices));
         into.mix(word(primitives->getMode(), listed || indices == 0 ? 0 : primitives->index(0)));
+        if (isOfQuads(*primitives)) into.mix(splitOf(geometry, quads));
     }
 }
 
-void mixBounds(const osg::Drawable& drawable, Fingerprint& into) {
+void mixBounds(const osg::Drawable& drawable, const QuadSplit& quads, Fingerprint& into) {
     const osg::BoundingBox& bounds = drawable.getBoundingBox();
     into.mix(static_cast<const void*>(&drawable));
+    into.mix(splitOf(drawable, quads));
     for (int i = 0; i < 3; ++i) into.mix(double{bounds._min[i]});
     for (int i = 0; i < 3; ++i) into.mix(double{bounds._max[i]});
 }
@@ -44,13 +56,13 @@ void CasterFingerprint::reset() {
 }
 
 std::uint64_t CasterFingerprint::of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
-                                    const std::optional<AlphaTest>& test) {
+                                    const std::optional<AlphaTest>& test, const QuadSplit& quads) {
     Fingerprint result;
     result.mix(rootFromLocal);
     if (const osg::Geometry* geometry = drawable.asGeometry())
-        mixGeometry(*geometry, verticesOf(*geometry), result);
+        mixGeometry(*geometry, verticesOf(*geometry), quads, result);
     else
-        mixBounds(drawable, result);
+        mixBounds(drawable, quads, result);
     if (test) test->mix(drawable, result);
     return result.value();
 }

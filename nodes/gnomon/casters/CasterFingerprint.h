@@ -27,10 +27,12 @@ public:
 
     /// Of what CasterExtraction would read of one drawable.
     static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
-                            const std::optional<AlphaTest>& test);
+                            const std::optional<AlphaTest>& test, const QuadSplit& quads);
 
 protected:
-    void applyCaster(osg::Drawable& drawable) override { _fingerprint.mix(of(drawable, rootFromLocal(), alphaTest())); }
+    void applyCaster(osg::Drawable& drawable) override {
+        _fingerprint.mix(of(drawable, rootFromLocal(), alphaTest(), quads()));
+    }
 
 private:
     Fingerprint _fingerprint;

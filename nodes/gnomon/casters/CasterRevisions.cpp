@@ -15,8 +15,9 @@ constexpr unsigned pruneEvery = 60;    // calls: levels may leave the graph unse
 
 const void* keyOf(const CasterView* view) { return view ? view->key : nullptr; }
 
-osg::ref_ptr<const CasterMesh> extracted(osg::Node& root, const Selection& casters) {
+osg::ref_ptr<const CasterMesh> extracted(osg::Node& root, const Selection& casters, const QuadSplit& quads) {
     const osg::ref_ptr<CasterExtraction> found = new CasterExtraction(casters);
+    found->setQuads(quads);
     root.accept(*found);
     return new CasterMesh(*found);
 }
@@ -65,13 +66,15 @@ CasterRevisions::Choice& CasterRevisions::take(std::uint64_t choice, std::uint64
 osg::ref_ptr<const CasterMesh> CasterRevisions::mesh(osg::Node& root, const Selection& casters,
                                                      const CasterView* view) {
     Lock lock(_mutex);
+    if (view) _quads = view->quads;
     const osg::ref_ptr<CasterFingerprint> watch = new CasterFingerprint(casters);
+    watch->setQuads(_quads);
     if (view) watch->setView(*view);
     root.accept(*watch);
     Choice& known = take(watch->choice(), watch->value(), view);
     if (known.mesh.get()) return known.mesh.get();
     if (!watch->metLevels()) {
-        known.mesh.set(extracted(root, casters));
+        known.mesh.set(extracted(root, casters, _quads));
         return known.mesh.get();
     }
     Choice& pieces = findDrawables(root, casters, view);
@@ -82,13 +85,14 @@ osg::ref_ptr<const CasterMesh> CasterRevisions::mesh(osg::Node& root, const Sele
 osg::ref_ptr<const CasterDrawables> CasterRevisions::drawables(osg::Node& root, const Selection& casters,
                                                                const CasterView* view) {
     Lock lock(_mutex);
+    if (view) _quads = view->quads;
     return findDrawables(root, casters, view).pieces.get();
 }
 
 CasterRevisions::Choice& CasterRevisions::findDrawables(osg::Node& root, const Selection& casters,
                                                         const CasterView* view) {
     const osg::ref_ptr<const CasterDrawables> before = knownTo(view),
-                                              now = CasterDrawables::of(root, casters, before, view, &_levels);
+                                              now = CasterDrawables::of(root, casters, before, view, &_levels, _quads);
     Choice& known = take(now->choice, now->fingerprint, view);
     if (known.pieces.get()) return known;
     known.pieces.set(now);

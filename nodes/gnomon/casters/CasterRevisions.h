@@ -42,7 +42,7 @@ private:
 class CasterRevisions {
 public:
     /// The casters below a node as one mesh. Reads the graph as a cull traversal does.
-    /// @param view  whose levels are taken; null: the finest.
+    /// @param view  whose levels are taken, and whose driver cuts quads; null: the finest, and as the last view's.
     osg::ref_ptr<const CasterMesh> mesh(osg::Node& root, const Selection& casters, const CasterView* view);
     /// The same, drawable by drawable.
     osg::ref_ptr<const CasterDrawables> drawables(osg::Node& root, const Selection& casters, const CasterView* view);
@@ -68,6 +68,7 @@ private:
     RecentCache<Choice> _choices;
     LevelPieces _levels;
     unsigned _calls = 0, _count = 0;
+    QuadSplit _quads; ///< of the last view.
 };
 
 } // namespace gnomon

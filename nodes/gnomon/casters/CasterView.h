@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/gl/QuadSplit.h>
+
 #include <osg/Matrixd>
 #include <osg/Vec3>
 #include <osg/Viewport>
@@ -7,7 +9,7 @@
 
 namespace gnomon {
 
-/// The view that nodes choose by what they show: levels of detail by its eye, scale and pixels.
+/// The view that nodes choose by what they show: levels of detail by its eye, scale and pixels; and how it is drawn.
 struct CasterView {
     osg::Matrixd eyeFromGroup;            ///< modelview at the ShadowCasterGroup.
     osg::Matrixd projection;              ///< near and far do not matter.
@@ -15,6 +17,7 @@ struct CasterView {
     osg::Vec3 viewPoint;                  ///< eye space; elsewhere than the eye where a camera inherits it.
     float lodScale = 1.0f;                ///< of the cull.
     const void* key = nullptr;            ///< any address that tells views apart.
+    QuadSplit quads{};                    ///< of the driver that draws it.
 };
 
 } // namespace gnomon

@@ -196,6 +196,7 @@ void CasterVisitor::visitPixelLevels(osg::LOD& lod) {
 
 void CasterVisitor::setView(const CasterView& view) {
     _view = view;
+    _quads = view.quads;
     _cullStack = nullptr;
 }
 

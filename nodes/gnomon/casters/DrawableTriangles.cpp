@@ -68,12 +68,19 @@ protected:
 } // namespace
 
 void readTriangles(const osg::Drawable& drawable, TriangleDecoder& into) {
+    into.setFromList(isFromList(drawable, into.quads()));
     const osg::Geometry* geometry = drawable.asGeometry();
     const osg::Array* array = geometry ? verticesOf(*geometry) : nullptr;
     const std::vector<osg::Vec4> integers = array ? integersOf(*array) : std::vector<osg::Vec4>();
     if (integers.empty()) return drawable.accept(into);
     into.setVertexArray(static_cast<unsigned>(integers.size()), integers.data());
     for (const auto& primitives : geometry->getPrimitiveSetList()) primitives->accept(into);
+}
+
+/// As osg::Drawable::draw() decides.
+bool isFromList(const osg::Drawable& drawable, const QuadSplit& quads) {
+    return quads.lists && drawable.getUseDisplayList() && drawable.getSupportsDisplayList() &&
+           !drawable.getUseVertexArrayObject() && !drawable.getUseVertexBufferObjects();
 }
 
 const osg::Array* verticesOf(const osg::Geometry& geometry) {

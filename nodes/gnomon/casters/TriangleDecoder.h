@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/gl/QuadSplit.h>
+
 #include <osg/Matrixd>
 #include <osg/PrimitiveSet>
 #include <osg/Vec3d>
@@ -12,8 +14,10 @@ namespace gnomon {
 /// Reads a drawable's primitives, of every mode, as triangles, and its vertices in the root's frame.
 class TriangleDecoder : public osg::PrimitiveFunctor {
 public:
-    explicit TriangleDecoder(const osg::Matrixd& rootFromLocal)
+    /// @param quads  how the driver that draws cuts them.
+    explicit TriangleDecoder(const osg::Matrixd& rootFromLocal, const QuadSplit& quads = {})
         : _rootFromLocal(rootFromLocal),
+          _quads(quads),
           _affine(rootFromLocal(0, 3) == 0.0 && rootFromLocal(1, 3) == 0.0 && rootFromLocal(2, 3) == 0.0 &&
                   rootFromLocal(3, 3) == 1.0) {}
 
@@ -25,11 +29,18 @@ public:
     void setVertexArray(unsigned count, const osg::Vec4d* array) override { begin(count, 4, nullptr, array); }
 
     void drawArrays(GLenum mode, GLint first, GLsizei count) override {
-        decode(mode, count, [first](unsigned i) { return static_cast<unsigned>(first) + i; });
+        decode(
+            mode, count, [first](unsigned i) { return static_cast<unsigned>(first) + i; }, _secondToFourth);
     }
     void drawElements(GLenum mode, GLsizei count, const GLubyte* list) override { decodeList(mode, count, list); }
     void drawElements(GLenum mode, GLsizei count, const GLushort* list) override { decodeList(mode, count, list); }
     void drawElements(GLenum mode, GLsizei count, const GLuint* list) override { decodeList(mode, count, list); }
+
+    /// Whether what follows is drawn from a display list. Default: it is.
+    void setFromList(bool isFromList) {
+        _secondToFourth = isFromList ? _quads.secondToFourth : _quads.arraysSecondToFourth;
+    }
+    const QuadSplit& quads() const { return _quads; }
 
 protected:
     ~TriangleDecoder() override = default;
@@ -77,12 +88,14 @@ private:
 
     template <class Index>
     void decodeList(GLenum mode, GLsizei count, const Index* list) {
-        decode(mode, count, [list](unsigned i) -> unsigned { return list[i]; });
+        decode(
+            mode, count, [list](unsigned i) -> unsigned { return list[i]; }, _quads.secondToFourth);
     }
 
     /// `index(i)` is the vertex that the i-th of `count` corners of these primitives uses.
+    /// @param secondToFourth  how GL_QUADS are cut.
     template <class Index>
-    void decode(GLenum mode, GLsizei count, Index index) {
+    void decode(GLenum mode, GLsizei count, Index index, bool secondToFourth) {
         using Set = osg::PrimitiveSet;
         const bool adjacency = mode == Set::TRIANGLES_ADJACENCY || mode == Set::TRIANGLE_STRIP_ADJACENCY;
         const unsigned step = adjacency ? 2 : 1; // every second corner is a neighbour's
@@ -102,19 +115,20 @@ private:
             for (unsigned i = 2; i < n; ++i) corners(at(0), at(i - 1), at(i));
             break;
         case Set::QUADS:
-            for (unsigned i = 3; i < n; i += 4) quad(at(i - 3), at(i - 2), at(i - 1), at(i));
+            for (unsigned i = 3; i < n; i += 4) quad(at(i - 3), at(i - 2), at(i - 1), at(i), secondToFourth);
             break;
         case Set::QUAD_STRIP:
-            for (unsigned i = 3; i < n; i += 2) quad(at(i - 3), at(i - 2), at(i), at(i - 1));
+            for (unsigned i = 3; i < n; i += 2) quad(at(i - 3), at(i - 2), at(i), at(i - 1), _quads.stripSecondToThird);
             break;
         default:
             for (unsigned i = 0; i < n; ++i) point(at(i));
         }
     }
 
-    void quad(unsigned a, unsigned b, unsigned c, unsigned d) {
-        corners(a, b, c);
-        corners(a, c, d);
+    /// In their order about it. @param bToD  it is cut there.
+    void quad(unsigned a, unsigned b, unsigned c, unsigned d, bool bToD) {
+        corners(a, b, bToD ? d : c);
+        corners(bToD ? b : a, c, d);
     }
 
     void corners(unsigned a, unsigned b, unsigned c) {
@@ -128,6 +142,8 @@ private:
     }
 
     const osg::Matrixd _rootFromLocal;
+    const QuadSplit _quads;
+    bool _secondToFourth = _quads.secondToFourth; ///< of arrays.
     const bool _affine;
     const float* _floats = nullptr;
     const double* _doubles = nullptr;

@@ -82,7 +82,8 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
 const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderStage& stage,
                               std::deque<FrameCasters>& known) {
     const CasterView view{entry.eyeFromGroup, *entry.projection, stage.getViewport(),
-                          entry.viewPoint,    entry.lodScale,    &stage};
+                          entry.viewPoint,    entry.lodScale,    &stage,
+                          entry.quads};
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
     return found == known.end() ? known.emplace_back(*entry.group, view) : *found;
@@ -356,6 +357,7 @@ void ShadowBin::handOnLateJobs(osgUtil::RenderBin* last) {
 
 void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (!isIdle()) {
+        foundQuadSplit(*renderInfo.getState()); // for the next cull, which may be of another thread
         popLeafState(*renderInfo.getState(), previous);
         std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
         const bool clean = isStencilClean(leaves);

@@ -25,6 +25,7 @@ struct EnlistedTechnique {
     osg::ref_ptr<osg::RefMatrix> projection; ///< shared with the leaves: near and far are set in it after the cull.
     osg::Vec3 viewPoint;                     ///< eye space, see CasterView.
     float lodScale = 1.0f;                   ///< of the cull.
+    QuadSplit quads{};                       ///< of the driver that draws.
     unsigned frameNumber = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/group/ShadowBin.h>
 
+#include <osg/GraphicsContext>
 #include <osg/Transform>
 #include <osgUtil/CullVisitor>
 
@@ -26,6 +27,14 @@ GroupAbove groupAbove(const osg::NodePath& path) {
         result.groupFromTechnique = osg::computeLocalToWorld(below, false);
     }
     return result;
+}
+
+/// Asks OpenGL where this thread may, so that the first frame is right.
+QuadSplit quadsOf(osgUtil::CullVisitor& cull) {
+    osg::State* state = cull.getState();
+    if (!state) return {};
+    const osg::GraphicsContext* context = state->getGraphicsContext();
+    return context && context->isCurrent() ? foundQuadSplit(*state) : knownQuadSplit(*state);
 }
 
 } // namespace
@@ -53,6 +62,7 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     entry.projection = cull.getProjectionMatrix();
     entry.viewPoint = cull.getReferenceViewPoint();
     entry.lodScale = cull.getLODScale();
+    entry.quads = quadsOf(cull);
     entry.frameNumber = frame;
     ShadowBin::of(stage).enlist(entry);
 }

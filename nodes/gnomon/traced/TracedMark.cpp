@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/geometry/DrawnError.h>
+#include <gnomon/gl/PlainPixels.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/rays/DepthBufferShadow.h>
@@ -12,32 +13,6 @@
 
 namespace gnomon {
 namespace {
-
-/// Pixels go to and come from memory as they are, without gaps; put back at its end.
-class PlainPixels {
-public:
-    explicit PlainPixels(const osg::State& state) {
-        glPushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
-        glPushAttrib(GL_CURRENT_BIT | GL_PIXEL_MODE_BIT);
-        for (GLenum size : {GL_PACK_ROW_LENGTH, GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_ROWS, GL_PACK_SWAP_BYTES,
-                            GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS, GL_UNPACK_LSB_FIRST})
-            glPixelStorei(size, 0);
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        glPixelTransferf(GL_DEPTH_SCALE, 1.0f);
-        glPixelTransferf(GL_DEPTH_BIAS, 0.0f);
-        const auto* extensions = state.get<osg::GLExtensions>();
-        if (!extensions->isPBOSupported) return;
-        for (GLenum buffer : {GL_PIXEL_PACK_BUFFER_ARB, GL_PIXEL_UNPACK_BUFFER_ARB})
-            extensions->glBindBuffer(buffer, 0);
-    }
-    ~PlainPixels() {
-        glPopAttrib();
-        glPopClientAttrib();
-    }
-    PlainPixels(const PlainPixels&) = delete;
-    PlainPixels& operator=(const PlainPixels&) = delete;
-};
 
 /// What the marks' bounds leave, at which the scissor stands.
 DepthPicture partInScissor(const osg::Viewport& viewport) {

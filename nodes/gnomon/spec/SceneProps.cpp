@@ -1,13 +1,49 @@
 // SPDX-License-Identifier: MIT
-#include "Ground.h"
+#include <gnomon/SceneProps.h>
+#include <gnomon/VertexTraverser.h>
 
+#include <osg/ComputeBoundsVisitor>
+#include <osg/DisplaySettings>
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/Material>
 #include <osg/MatrixTransform>
 
-namespace gnomon::examples {
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
 namespace {
+
+bool finite(const osg::Vec3d& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
+
+osg::BoundingBoxd ofVertices(osg::Node& root) {
+    VertexTraverser traverser;
+    root.accept(traverser);
+    osg::BoundingBoxd box;
+    for (const osg::Vec3d& vertex : traverser.getVertices())
+        if (finite(vertex)) box.expandBy(vertex);
+    return box;
+}
+
+/// Text and billboards, which are no casters, have bounds only here.
+osg::BoundingBoxd ofDrawables(osg::Node& root) {
+    osg::ComputeBoundsVisitor visitor;
+    root.accept(visitor);
+    const osg::BoundingBox& box = visitor.getBoundingBox();
+    const osg::Vec3d low(box._min), high(box._max);
+    return box.valid() && finite(low) && finite(high) ? osg::BoundingBoxd(low, high) : osg::BoundingBoxd();
+}
+
+class LightFinder : public osg::NodeVisitor {
+public:
+    LightFinder() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+    void apply(osg::LightSource& source) override {
+        if (source.getLight()) found.push_back(&source);
+        traverse(source);
+    }
+    std::vector<osg::ref_ptr<osg::LightSource>> found;
+};
 
 constexpr unsigned cells = 16; // a side: OpenGL lights vertices, and a lamp's light varies over the ground
 
@@ -50,6 +86,11 @@ osg::ref_ptr<osg::Geometry> grid(double side) {
 
 } // namespace
 
+osg::BoundingBoxd sceneBounds(osg::Node& root) {
+    const osg::BoundingBoxd box = ofVertices(root);
+    return box.valid() ? box : ofDrawables(root);
+}
+
 osg::ref_ptr<osg::Node> makeGround(const osg::BoundingBoxd& scene, double side) {
     const osg::Vec3d centre = scene.center();
     osg::ref_ptr<osg::MatrixTransform> place =
@@ -61,4 +102,25 @@ osg::ref_ptr<osg::Node> makeGround(const osg::BoundingBoxd& scene, double side) 
     return place;
 }
 
-} // namespace gnomon::examples
+osg::Vec4d sunAt(double azimuth, double elevation) {
+    const double a = osg::DegreesToRadians(azimuth), e = osg::DegreesToRadians(elevation);
+    return {std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e), 0.0};
+}
+
+std::vector<osg::ref_ptr<osg::LightSource>> lightSourcesIn(osg::Node& root) {
+    LightFinder finder;
+    root.accept(finder);
+    return finder.found;
+}
+
+void askForStencilBits() {
+    osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
+    settings.setMinimumNumStencilBits(std::max(settings.getMinimumNumStencilBits(), 8u));
+}
+
+void askForAlphaBits() {
+    osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
+    settings.setMinimumNumAlphaBits(std::max(settings.getMinimumNumAlphaBits(), 8u));
+}
+
+} // namespace gnomon
