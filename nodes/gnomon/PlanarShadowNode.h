@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-class CasterMesh;
+struct CasterLayers;
 class PlanarCasterCache;
 struct PlanarPrograms;
 
@@ -111,7 +111,7 @@ protected:
     ~PlanarShadowNode() override;
 
 private:
-    osg::ref_ptr<MarkJob> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterMesh& casters,
+    osg::ref_ptr<MarkJob> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterLayers& casters,
                                      unsigned index, const glm::dvec4& groupPlane) const;
 
     std::vector<osg::Vec4d> _planes;

@@ -17,8 +17,8 @@
 
 namespace gnomon {
 
-class CasterMesh;
 class CasterDrawables;
+struct CasterLayers;
 class CasterRevisions;
 struct CasterView;
 
@@ -34,7 +34,7 @@ struct CasterView;
 ///
 /// Cost
 /// - Each frame and view: one visit of the casters' nodes, to find changes.
-/// - After a change: an extraction of the changed drawables. PlanarShadowNode and TracedShadowTechnique extract all.
+/// - After a change: an extraction of what changed. A drawable of 256 triangles or more that moves costs a matrix.
 /// - RELIGHT: one more draw of the drawables that shadows touch.
 /// - BLEND: one multiplication a shadowed pixel.
 /// - DrawThreadPerContext: the next frame starts only after this frame's shadows are drawn, also if all is STATIC.
@@ -151,10 +151,10 @@ public:
     /// Traverses the parents, but not for osgUtil::Optimizer.
     void ascend(osg::NodeVisitor& visitor) override;
 
-    /// For the techniques, whose types are internal: the casters as one mesh. They are extracted again only if something changed.
+    /// For the techniques, whose types are internal: the casters as meshes. Only what changed is extracted again.
     /// Call it where the graph may be read: in update, event or cull.
     /// @param view  whose levels of detail cast. Default: the finest cast.
-    osg::ref_ptr<const CasterMesh> casters(const CasterView* view = nullptr) const;
+    osg::ref_ptr<const CasterLayers> casters(const CasterView* view = nullptr) const;
     /// For the techniques, whose types are internal: the casters, drawable by drawable. Only changed drawables are read again. Call it as casters().
     osg::ref_ptr<const CasterDrawables> drawables(const CasterView* view = nullptr) const;
     /// Number of changes that casters() and drawables() have found. 0 before the first call of either.

@@ -169,7 +169,6 @@ public:
                                                const FrameCasters& casters) const override;
 
     /// True: the technique keeps casters by drawable.
-    bool takesDrawables() const override { return true; }
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

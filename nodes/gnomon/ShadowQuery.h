@@ -18,7 +18,7 @@
 
 namespace gnomon {
 
-class CasterMesh;
+struct CasterLayers;
 class ShadowCasterGroup;
 struct ShadowProbe;
 
@@ -82,7 +82,7 @@ private:
 
     osg::ref_ptr<const ShadowTechnique> _technique; ///< null: exact.
     osg::ref_ptr<const ShadowCasterGroup> _group;
-    osg::ref_ptr<const CasterMesh> _mesh;
+    osg::ref_ptr<const CasterLayers> _layers;
     std::shared_ptr<const RayScene> _scene;
     osg::Vec3d _origin;
     glm::dvec4 _light{0.0};

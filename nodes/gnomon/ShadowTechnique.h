@@ -69,7 +69,7 @@ public:
     ///         wonder why, prepare() calls report().
     virtual std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                        const FrameCasters& casters) const = 0;
-    /// True if prepare() uses only the casters' pieces. The group then never joins them into one mesh. Default false.
+    /// True if prepare() uses only the casters' pieces. The group then makes no meshes of them. Default false.
     virtual bool takesDrawables() const { return false; }
 
     /// True if the light reaches a point, as this technique draws it. ShadowQuery calls it.

@@ -22,7 +22,8 @@ class RaySceneCache;
 /// Cost
 /// - One ray for each pixel within the casters' and shadows' bounds, on all cores.
 /// - A read of the depth buffer.
-/// - After each change of the casters: a new ray tree over all of them, see RayScene.
+/// - After a change of the casters: a ray tree over what changed, see RayScene. A large drawable that moves as a whole
+///   keeps its tree.
 /// - If stderr is a terminal, a build of more than a second shows its progress there.
 /// Needs
 /// - Embree, and a depth buffer that can be read.
@@ -58,7 +59,7 @@ public:
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
 
-    /// Number of ray trees built so far: one for each revision of the casters, whatever the views and lights.
+    /// Number of revisions of the casters that needed ray trees over triangles, whatever the views and lights.
     /// A tree that a ShadowQuery or another technique has of the same casters is shared and does not count.
     unsigned builds() const;
 

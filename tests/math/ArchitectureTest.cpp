@@ -184,7 +184,8 @@ std::vector<std::string> circleIn(const Graph& graph) {
 /// A header, its source file, and what that includes in place of code ("-inl.h").
 std::string unitOf(const std::string& path) {
     const std::string name = fs::path(path).stem();
-    return name.find("-inl") == std::string::npos ? name : "ShadowKernel";
+    if (name.find("-inl") == std::string::npos) return name;
+    return name.find("RayScene") == 0 ? "RayScene" : "ShadowKernel";
 }
 
 /// Which unit (a header and its source file) includes which.

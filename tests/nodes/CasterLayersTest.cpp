@@ -2,8 +2,9 @@
 // Casters in two layers: which of them is made anew when.
 #include "Scene.h"
 
+#include <gnomon/casters/CasterBodies.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CasterMesh.h>
-#include <gnomon/map/CasterLayers.h>
 
 #include <gtest/gtest.h>
 
@@ -27,16 +28,17 @@ struct Row {
     void move(unsigned i, const osg::Vec3d& to) {
         static_cast<osg::MatrixTransform&>(*root->getChild(i)).setMatrix(osg::Matrixd::translate(corner + to));
     }
-    /// What maps draw now.
+    /// What casts now.
     osg::ref_ptr<const CasterLayers> next() {
         pieces = CasterDrawables::of(*root, {}, pieces);
-        return casters = CasterLayers::of(*pieces, casters);
+        return casters = CasterLayers::of(*pieces, casters, bodies);
     }
 
     osg::Vec3d corner;
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<const CasterDrawables> pieces;
     osg::ref_ptr<const CasterLayers> casters;
+    gnomon::CasterBodies bodies;
 };
 
 std::size_t triangles(const gnomon::CasterLayer& layer) { return layer.triangles; }
@@ -124,16 +126,14 @@ TEST(CasterLayers, ThatAreTheSameInAnotherOrderStandStill) {
     const auto first = row.next();
     const CasterDrawables::List& list = row.pieces->list;
     const osg::ref_ptr<const CasterDrawables> turned = new CasterDrawables({list.rbegin(), list.rend()}, 1);
-    const auto now = CasterLayers::of(*turned, first);
+    const auto now = CasterLayers::of(*turned, first, row.bodies);
     EXPECT_EQ(triangles(*now->moving), 0u);
     EXPECT_EQ(triangles(*now->still), 5u);
 }
 
 /// Largest distance of a drawn vertex from where it ought to be: each triangle's corner.
 double worst(const CasterLayers& casters, const osg::Vec3d& corner) {
-    const auto& vertices =
-        static_cast<const osg::Vec3Array&>(*casters.moving->faces(true, false)->others->getVertexArray());
-    return (osg::Vec3d(vertices[0]) + casters.origin - corner).length();
+    return (osg::Vec3d(casters.moving->loose->vertices->front()) + casters.origin - corner).length();
 }
 
 // At 6,400 km a float's step is half a metre. Something drives 5 km, alone or out of a scene of 50 m: floats about the middle

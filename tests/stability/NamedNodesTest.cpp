@@ -3,7 +3,7 @@
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 #include <osg/observer_ptr>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/casters/CasterBodies.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/CasterFingerprint.h>
@@ -62,8 +63,9 @@ private:
 /// Meets casters, and knows those again that it is told of.
 class DrawableVisitor : public CasterVisitor {
 public:
-    DrawableVisitor(const Selection& casters, const CasterDrawables* known, LevelPieces* levels)
-        : CasterVisitor(casters), _known(known ? known->list : _none), _levels(levels) {}
+    DrawableVisitor(const Selection& casters, const CasterDrawables* known, LevelPieces* levels,
+                    const CasterBodies* bodies)
+        : CasterVisitor(casters), _known(known ? known->list : _none), _levels(levels), _bodies(bodies) {}
 
     bool changed() const { return _changed || _same != _known.size(); }
     std::uint64_t fingerprint() const { return _fingerprint.value(); }
@@ -76,7 +78,8 @@ public:
 protected:
     void applyCaster(osg::Drawable& drawable) override {
         const std::optional<AlphaTest> test = alphaTest();
-        const std::uint64_t value = CasterFingerprint::of(drawable, rootFromLocal(), test, quads());
+        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, test, quads()),
+                            value = CasterFingerprint::placed(geometry, rootFromLocal());
         _fingerprint.mix(value);
         if (!_changed && isAt(_next, value)) {
             ++_same;
@@ -86,7 +89,7 @@ protected:
         startOwnList();
         osg::ref_ptr<const CasterDrawable> piece = find(value);
         if (!piece && _levels && isOfLevels()) piece = _levels->find(value);
-        if (!piece) piece = make(drawable, value, test);
+        if (!piece) piece = make(drawable, value, geometry, test);
         _met.push_back(piece);
     }
 
@@ -125,21 +128,27 @@ private:
         return found == _places.end() ? _known.size() : found->second;
     }
 
-    osg::ref_ptr<const CasterDrawable> make(osg::Drawable& drawable, std::uint64_t fingerprint,
+    osg::ref_ptr<const CasterDrawable> make(osg::Drawable& drawable, std::uint64_t fingerprint, std::uint64_t geometry,
                                             const std::optional<AlphaTest>& test) const {
-        DrawableBounds found(rootFromLocal(), quads());
-        if (!isOfLevels()) readTriangles(drawable, found);
         osg::ref_ptr<CasterDrawable> piece = new CasterDrawable;
         piece->fingerprint = fingerprint;
+        piece->geometry = geometry;
         piece->drawable = &drawable;
         piece->groupFromLocal = rootFromLocal();
         piece->quads = quads();
         piece->test = test;
-        piece->triangles = found.triangles;
-        piece->bounds = found.bounds;
+        if (_bodies) piece->bounds = _bodies->boundsOf(geometry, rootFromLocal(), piece->triangles);
+        DrawableBounds found(rootFromLocal(), quads());
+        if (!piece->bounds.valid() && !isOfLevels()) {
+            readTriangles(drawable, found);
+            piece->triangles = found.triangles;
+            piece->bounds = found.bounds;
+        }
         holdSources(drawable, piece->sources);
         if (test) test->hold(drawable, piece->sources);
-        if (isOfLevels() || test || found.anyInvalid) describe(*piece);
+        piece->ofLevels = isOfLevels();
+        const bool isKnown = piece->bounds.valid() && piece->ofLevels; // of a body
+        if ((piece->ofLevels && !isKnown) || test || found.anyInvalid) describe(*piece);
         return piece;
     }
 
@@ -154,13 +163,14 @@ private:
         piece.unknownTests = found->getUnknownTests();
         piece.unknownNode = found->getUnknownNode();
         if (!isOfLevels()) return;
-        piece.kept = found;
         piece.triangles = found->getTriangles().size() / 3;
         for (const unsigned index : found->getTriangles()) piece.bounds.expandBy(found->getVertices()[index]);
+        if (!CasterBodies::isBody(piece)) piece.kept = found;
     }
 
     const CasterDrawables::List _none, &_known;
     LevelPieces* const _levels;
+    const CasterBodies* const _bodies;
     CasterDrawables::List _met;
     std::unordered_map<std::uint64_t, std::size_t> _places;
     std::size_t _same = 0, _next = 0;
@@ -184,8 +194,8 @@ CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, st
 osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const Selection& casters,
                                                         const osg::ref_ptr<const CasterDrawables>& known,
                                                         const CasterView* view, LevelPieces* levels,
-                                                        const QuadSplit& quads) {
-    DrawableVisitor visitor(casters, known.get(), levels);
+                                                        const QuadSplit& quads, const CasterBodies* bodies) {
+    DrawableVisitor visitor(casters, known.get(), levels, bodies);
     visitor.setQuads(quads);
     if (view) visitor.setView(*view);
     if (levels) levels->startVisit();
@@ -194,7 +204,7 @@ osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const S
     const osg::ref_ptr<CasterDrawables> met =
         new CasterDrawables(visitor.take(), visitor.fingerprint(), visitor.choice());
     for (const auto& piece : met->list)
-        if (levels && piece->kept) levels->add(*piece);
+        if (levels && piece->ofLevels) levels->add(*piece);
     return met;
 }
 
@@ -209,7 +219,10 @@ void LevelPieces::prune() {
     std::unordered_map<const osg::Drawable*, int> held; // by pieces
     std::size_t seen = 0, unseen = 0;
     for (const auto& [fingerprint, known] : _known) {
-        held[known.piece->drawable.get()] += known.piece->drawable->asGeometry() ? 1 : 3; // its sources are itself
+        const CasterDrawable& piece = *known.piece;
+        const int sources =
+            piece.drawable->asGeometry() ? 0 : 1 + (piece.kept ? 1 : 0) + (piece.body ? 1 : 0); // itself
+        held[piece.drawable.get()] += 1 + sources;
         (known.lastVisit == _visit ? seen : unseen) += known.piece->triangles;
     }
     std::vector<std::pair<unsigned, std::uint64_t>> old; // by age

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Selection.h>
-#include <gnomon/casters/AlphaTest.h>
+#include <gnomon/casters/CasterDrawable.h>
 #include <gnomon/casters/CasterView.h>
 
 #include <osg/BoundingBox>
-#include <osg/Drawable>
-#include <osg/Matrixd>
 #include <osg/Referenced>
 #include <osg/ref_ptr>
 
@@ -20,37 +18,14 @@
 
 namespace gnomon {
 
-class CasterExtraction;
+class CasterBodies;
 class CasterMesh;
 class LevelPieces;
-
-/// A drawable that casts, at one place in the graph, in one revision. A piece never changes.
-///
-/// A drawable with several parents is one piece for each path to it.
-struct CasterDrawable : public osg::Referenced {
-    std::uint64_t fingerprint = 0;              ///< Changes with all that CasterExtraction reads of it.
-    osg::ref_ptr<const osg::Drawable> drawable; ///< The drawable itself.
-    osg::Matrixd groupFromLocal;                ///< Transform from the drawable's frame to the group's.
-    QuadSplit quads;                            ///< How its quads are cut.
-    std::optional<AlphaTest> test;              ///< Its alpha test; nullopt if it has none.
-    osg::BoundingBoxd bounds;                   ///< Bounds of its triangles, group frame. Invalid without triangles.
-    std::size_t triangles = 0;                  ///< Number of its triangles.
-    unsigned invalidTriangles = 0;              ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
-    std::string invalidNode;                    ///< See CasterExtraction::getInvalidNode().
-    unsigned unknownTests = 0;                  ///< See CasterExtraction::getUnknownTests().
-    std::string unknownNode;                    ///< See CasterExtraction::getUnknownNode().
-    std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
-    osg::ref_ptr<const CasterExtraction>
-        kept; ///< Its triangles, if it is under an LOD: it may go and come back. Else null.
-
-protected:
-    ~CasterDrawable() override = default;
-};
 
 /// The casters of a group, drawable by drawable, in one revision. ShadowCasterGroup::drawables() makes it.
 ///
 /// Use it in a technique that keeps something for each drawable. After a change, unchanged drawables keep their pieces.
-/// Use CasterMesh to treat all casters alike.
+/// Use CasterLayers to treat all casters alike.
 ///
 /// Cost
 /// - 600 bytes a drawable. meshOf() extracts the triangles; those under an LOD are kept.
@@ -85,6 +60,7 @@ public:
     /// @param view    whose levels of detail are taken; null: the finest.
     /// @param levels  pieces under LODs that were met before, and gets those that are met now; may be null.
     /// @param quads   how quads are cut without a view.
+    /// @param bodies  whose vertices tell where a body is; may be null.
     /// @return        `known` itself if nothing changed.
     ///
     /// Cost
@@ -92,7 +68,7 @@ public:
     static osg::ref_ptr<const CasterDrawables> of(osg::Node& root, const Selection& casters,
                                                   const osg::ref_ptr<const CasterDrawables>& known,
                                                   const CasterView* view = nullptr, LevelPieces* levels = nullptr,
-                                                  const QuadSplit& quads = {});
+                                                  const QuadSplit& quads = {}, const CasterBodies* bodies = nullptr);
 
 protected:
     ~CasterDrawables() override = default;

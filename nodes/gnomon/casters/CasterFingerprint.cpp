@@ -55,15 +55,21 @@ void CasterFingerprint::reset() {
     _fingerprint = Fingerprint();
 }
 
-std::uint64_t CasterFingerprint::of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
-                                    const std::optional<AlphaTest>& test, const QuadSplit& quads) {
+std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const std::optional<AlphaTest>& test,
+                                            const QuadSplit& quads) {
     Fingerprint result;
-    result.mix(rootFromLocal);
     if (const osg::Geometry* geometry = drawable.asGeometry())
         mixGeometry(*geometry, verticesOf(*geometry), quads, result);
     else
         mixBounds(drawable, quads, result);
     if (test) test->mix(drawable, result);
+    return result.value();
+}
+
+std::uint64_t CasterFingerprint::placed(std::uint64_t geometry, const osg::Matrixd& rootFromLocal) {
+    Fingerprint result;
+    result.mix(rootFromLocal);
+    result.mix(geometry);
     return result.value();
 }
 

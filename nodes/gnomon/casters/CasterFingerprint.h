@@ -27,7 +27,14 @@ public:
 
     /// Of what CasterExtraction would read of one drawable.
     static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal,
-                            const std::optional<AlphaTest>& test, const QuadSplit& quads);
+                            const std::optional<AlphaTest>& test, const QuadSplit& quads) {
+        return placed(ofGeometry(drawable, test, quads), rootFromLocal);
+    }
+    /// The same, wherever it is.
+    static std::uint64_t ofGeometry(const osg::Drawable& drawable, const std::optional<AlphaTest>& test,
+                                    const QuadSplit& quads);
+    /// Of a geometry, at a place.
+    static std::uint64_t placed(std::uint64_t geometry, const osg::Matrixd& rootFromLocal);
 
 protected:
     void applyCaster(osg::Drawable& drawable) override {

@@ -15,25 +15,13 @@ constexpr unsigned pruneEvery = 60;    // calls: levels may leave the graph unse
 
 const void* keyOf(const CasterView* view) { return view ? view->key : nullptr; }
 
-osg::ref_ptr<const CasterMesh> extracted(osg::Node& root, const Selection& casters, const QuadSplit& quads) {
-    const osg::ref_ptr<CasterExtraction> found = new CasterExtraction(casters);
-    found->setQuads(quads);
-    root.accept(*found);
-    return new CasterMesh(*found);
-}
-
-osg::ref_ptr<const CasterMesh> joined(const CasterDrawables& pieces) {
-    const osg::ref_ptr<CasterMesh> mesh = meshOf(pieces.list);
-    mesh->invalidNode = pieces.invalidNode; // which the pieces alone know
-    return mesh;
-}
-
 } // namespace
 
 void CasterRevisions::clear() {
     Lock lock(_mutex);
     _choices.dropIf([](const Choice&) { return true; });
     _levels.clear();
+    _bodies.clear();
 }
 
 unsigned CasterRevisions::count() const {
@@ -50,36 +38,35 @@ CasterRevisions::Choice& CasterRevisions::take(std::uint64_t choice, std::uint64
     if (!known || known->fingerprint != fingerprint) ++_count;
     if (!known) {
         _choices.dropOldestBeyond(mostChoices - 1); // before adding, for all would be in memory
-        known = &_choices.add({choice, fingerprint, nullptr, 0, {}, {}});
+        known = &_choices.add({choice, fingerprint, nullptr, 0, {}, {}, nullptr, 0});
     }
     if (known->fingerprint != fingerprint) {
-        known->mesh.set(nullptr);
+        if (known->layers.get()) known->former = known->layers.get();
+        known->layers.set(nullptr);
         known->pieces.set(nullptr);
     }
+    if (_calls - known->lastLayersCall > keptCalls) known->former = nullptr;
     known->fingerprint = fingerprint;
     known->view = keyOf(view);
     known->lastCall = _calls;
-    if (_calls % pruneEvery == 0) _levels.prune();
+    if (_calls % pruneEvery == 0) {
+        _levels.prune();
+        _bodies.prune();
+    }
     return *known;
 }
 
-osg::ref_ptr<const CasterMesh> CasterRevisions::mesh(osg::Node& root, const Selection& casters,
-                                                     const CasterView* view) {
+osg::ref_ptr<const CasterLayers> CasterRevisions::layers(osg::Node& root, const Selection& casters,
+                                                         const CasterView* view) {
     Lock lock(_mutex);
-    if (view) _quads = view->quads;
-    const osg::ref_ptr<CasterFingerprint> watch = new CasterFingerprint(casters);
-    watch->setQuads(_quads);
-    if (view) watch->setView(*view);
-    root.accept(*watch);
-    Choice& known = take(watch->choice(), watch->value(), view);
-    if (known.mesh.get()) return known.mesh.get();
-    if (!watch->metLevels()) {
-        known.mesh.set(extracted(root, casters, _quads));
-        return known.mesh.get();
-    }
-    Choice& pieces = findDrawables(root, casters, view);
-    pieces.mesh.set(joined(*pieces.pieces.get()));
-    return pieces.mesh.get();
+    osg::ref_ptr<const CasterLayers> before = layersKnownTo(view);
+    Choice& known = findDrawables(root, casters, view);
+    known.lastLayersCall = _calls;
+    if (known.layers.get()) return known.layers.get();
+    known.layers.set(CasterLayers::of(*known.pieces.get(), before, _bodies));
+    before = known.former = nullptr;
+    _bodies.prune();
+    return known.layers.get();
 }
 
 osg::ref_ptr<const CasterDrawables> CasterRevisions::drawables(osg::Node& root, const Selection& casters,
@@ -92,7 +79,8 @@ osg::ref_ptr<const CasterDrawables> CasterRevisions::drawables(osg::Node& root, 
 CasterRevisions::Choice& CasterRevisions::findDrawables(osg::Node& root, const Selection& casters,
                                                         const CasterView* view) {
     const osg::ref_ptr<const CasterDrawables> before = knownTo(view),
-                                              now = CasterDrawables::of(root, casters, before, view, &_levels, _quads);
+                                              now = CasterDrawables::of(root, casters, before, view, &_levels, _quads,
+                                                                        &_bodies);
     Choice& known = take(now->choice, now->fingerprint, view);
     if (known.pieces.get()) return known;
     known.pieces.set(now);
@@ -101,12 +89,25 @@ CasterRevisions::Choice& CasterRevisions::findDrawables(osg::Node& root, const S
 }
 
 /// The drawables that a view had last, or any that are known.
-osg::ref_ptr<const CasterDrawables> CasterRevisions::knownTo(const CasterView* view) {
+osg::ref_ptr<const CasterDrawables> CasterRevisions::knownTo(const CasterView* view) const {
     osg::ref_ptr<const CasterDrawables> known;
     for (const Choice& entry : _choices) {
         if (!entry.pieces.get()) continue;
         known = entry.pieces.get();
         if (entry.view == keyOf(view)) break;
+    }
+    return known;
+}
+
+/// The layers that a view had last, or any that are known.
+osg::ref_ptr<const CasterLayers> CasterRevisions::layersKnownTo(const CasterView* view) const {
+    osg::ref_ptr<const CasterLayers> known;
+    bool isOwn = false;
+    for (const Choice& entry : _choices) {
+        const osg::ref_ptr<const CasterLayers> own = entry.layers.get() ? entry.layers.get() : entry.former;
+        if (!own || (isOwn && entry.view != keyOf(view))) continue;
+        known = own;
+        isOwn = entry.view == keyOf(view);
     }
     return known;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/base/RecentCache.h>
+#include <gnomon/casters/CasterBodies.h>
 #include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterLayers.h>
 
 #include <OpenThreads/Mutex>
 
@@ -41,9 +42,9 @@ private:
 /// - Any number.
 class CasterRevisions {
 public:
-    /// The casters below a node as one mesh. Reads the graph as a cull traversal does.
+    /// The casters below a node as meshes. Reads the graph as a cull traversal does.
     /// @param view  whose levels are taken, and whose driver cuts quads; null: the finest, and as the last view's.
-    osg::ref_ptr<const CasterMesh> mesh(osg::Node& root, const Selection& casters, const CasterView* view);
+    osg::ref_ptr<const CasterLayers> layers(osg::Node& root, const Selection& casters, const CasterView* view);
     /// The same, drawable by drawable.
     osg::ref_ptr<const CasterDrawables> drawables(osg::Node& root, const Selection& casters, const CasterView* view);
     /// How often there was something that was not known.
@@ -57,16 +58,20 @@ private:
         std::uint64_t choice, fingerprint;
         const void* view; ///< that had it last.
         unsigned lastCall;
-        CurrentCasters<CasterMesh> mesh;
+        CurrentCasters<CasterLayers> layers;
         CurrentCasters<CasterDrawables> pieces;
+        osg::ref_ptr<const CasterLayers> former; ///< retired ones, which the next are made from.
+        unsigned lastLayersCall = 0;
     };
     Choice& take(std::uint64_t choice, std::uint64_t fingerprint, const CasterView* view);
     Choice& findDrawables(osg::Node& root, const Selection& casters, const CasterView* view);
-    osg::ref_ptr<const CasterDrawables> knownTo(const CasterView* view);
+    osg::ref_ptr<const CasterDrawables> knownTo(const CasterView* view) const;
+    osg::ref_ptr<const CasterLayers> layersKnownTo(const CasterView* view) const;
 
     mutable OpenThreads::Mutex _mutex;
     RecentCache<Choice> _choices;
     LevelPieces _levels;
+    CasterBodies _bodies;
     unsigned _calls = 0, _count = 0;
     QuadSplit _quads; ///< of the last view.
 };

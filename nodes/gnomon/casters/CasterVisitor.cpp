@@ -107,7 +107,6 @@ CasterVisitor::CasterVisitor(const Selection& selection)
 void CasterVisitor::reset() {
     _matrices.assign(1, osg::Matrixd::identity());
     _inside = _selected.empty() ? 1 : 0;
-    _metLevels = false;
     _choice = Fingerprint();
     findWays();
 }
@@ -147,10 +146,7 @@ void CasterVisitor::apply(osg::Node& node) {
 void CasterVisitor::apply(osg::Drawable& drawable) {
     const OnTheWay here(*this, drawable);
     if (_inside == 0 || isText(drawable) || !hasTriangles(drawable)) return;
-    if (_atLevels > 0) {
-        _metLevels = true;
-        _choice.mix(static_cast<const void*>(&drawable));
-    }
+    if (_atLevels > 0) _choice.mix(static_cast<const void*>(&drawable));
     applyCaster(drawable);
 }
 

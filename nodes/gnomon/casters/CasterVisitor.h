@@ -55,8 +55,6 @@ public:
     const QuadSplit& quads() const { return _quads; }
     /// Default Levels::Chosen.
     void setLevels(Levels levels) { _levels = levels; }
-    /// True if a caster was met under an LOD.
-    bool metLevels() const { return _metLevels; }
     /// Stands for the drawables that were met under LODs, wherever they are.
     std::uint64_t choice() const { return _choice.value(); }
 
@@ -103,7 +101,6 @@ private:
     std::unique_ptr<osg::CullStack> _cullStack; ///< of the view; null until an LOD by pixels is met.
     int _atPixelLevels = 0;                     ///< how many of them are on the way down.
     int _atLevels = 0;                          ///< how many LODs are on the way down.
-    bool _metLevels = false;
     Fingerprint _choice;
     int _inside = 0;     ///< how often a selected node is on the way down.
     int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.

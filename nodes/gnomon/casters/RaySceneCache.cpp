@@ -5,6 +5,8 @@
 #include <OpenThreads/ScopedLock>
 #include <tbb/task_arena.h>
 
+#include <vector>
+
 namespace gnomon {
 namespace {
 
@@ -24,10 +26,23 @@ struct Found {
     bool built;
 };
 
+/// Of all meshes.
+OpenThreads::Mutex& treeMutex() {
+    static OpenThreads::Mutex mutex;
+    return mutex;
+}
+
+/// The trees that are there.
+std::vector<std::shared_ptr<const RayScene>> builtOf(const std::vector<PlacedMesh>& meshes) {
+    Lock lock(treeMutex());
+    std::vector<std::shared_ptr<const RayScene>> built;
+    for (const PlacedMesh& placed : meshes) built.push_back(placed.mesh->tree.lock());
+    return built;
+}
+
 /// One at a time, for all who ask.
 Found findOrBuild(const CasterMesh& mesh, const std::string& name) {
-    static OpenThreads::Mutex mutex;
-    Lock lock(mutex);
+    Lock lock(treeMutex());
     if (std::shared_ptr<const RayScene> scene = mesh.tree.lock()) return {scene, false};
     const std::shared_ptr<const RayScene> scene = build(mesh, name);
     mesh.tree = scene;
@@ -36,15 +51,25 @@ Found findOrBuild(const CasterMesh& mesh, const std::string& name) {
 
 } // namespace
 
-std::shared_ptr<const RayScene> RaySceneCache::of(const CasterMesh& mesh, const std::string& name) {
+std::shared_ptr<const RayScene> RaySceneCache::of(const CasterLayers& casters, const std::string& name) {
     Lock lock(_mutex);
-    if (const Entry* known = _entries.find([&](const Entry& entry) { return entry.mesh == &mesh; }))
+    if (const Entry* known = _entries.find([&](const Entry& entry) { return entry.casters == casters.retired(); }))
         return known->scene;
-    _entries.dropIf([](const Entry& entry) { return entry.mesh->isRetired(); });
-    _entries.dropOldestBeyond(most - 1); // before building, for all would be in memory
-    const Found found = findOrBuild(mesh, name);
-    _builds += found.built;
-    return _entries.add({&mesh, found.scene}).scene;
+    const std::vector<PlacedMesh> meshes = casters.meshes();
+    const auto there = builtOf(meshes); // held, for others may go before more are built
+    _entries.dropIf([](const Entry& entry) { return entry.casters->load(); });
+    _entries.dropOldestBeyond(most - 1);
+    std::vector<PlacedRayScene> parts;
+    bool anyBuilt = false;
+    for (const PlacedMesh& placed : meshes) {
+        const Found found = findOrBuild(*placed.mesh, name);
+        anyBuilt = anyBuilt || found.built;
+        parts.push_back({found.scene, placed.sceneFromMesh});
+    }
+    _builds += anyBuilt;
+    const bool isOne = parts.size() == 1 && parts.front().outerFromInner == glm::dmat4(1.0);
+    return _entries.add({casters.retired(), isOne ? parts.front().scene : std::make_shared<const RayScene>(parts)})
+        .scene;
 }
 
 unsigned RaySceneCache::builds() const {

@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/RayScene.h>
 #include <gnomon/base/RecentCache.h>
-#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterLayers.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/vec3.hpp>
@@ -11,7 +11,7 @@
 
 namespace gnomon {
 
-/// The casters as rays take them, about the mesh's origin, while the mesh lives.
+/// A mesh as rays take it, in its own frame, while the mesh lives.
 inline TriangleSoup soupOf(const CasterMesh& mesh) {
     static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
     TriangleSoup soup;
@@ -22,21 +22,21 @@ inline TriangleSoup soupOf(const CasterMesh& mesh) {
     return soup;
 }
 
-/// The trees over casters that a node or a query casts rays at: one a revision, kept while it is used, and one for all
-/// nodes and queries that ask for the same casters.
+/// The trees over casters that a node or a query casts rays at: one a mesh, kept while it is used, and shared by all
+/// nodes and queries that ask for the same mesh. A revision of several meshes has a tree of two levels over them.
 ///
 /// Threads any number.
 class RaySceneCache {
 public:
     /// @param name  of whom it is, for the line of progress.
     /// @throws std::runtime_error, see RayScene.
-    std::shared_ptr<const RayScene> of(const CasterMesh& mesh, const std::string& name);
-    /// How often none was there yet.
+    std::shared_ptr<const RayScene> of(const CasterLayers& casters, const std::string& name);
+    /// How often a tree over triangles was not there yet.
     unsigned builds() const;
 
 private:
     struct Entry {
-        osg::ref_ptr<const CasterMesh> mesh; // held, so that its address cannot be taken by the next revision
+        CasterLayers::Retired casters;
         std::shared_ptr<const RayScene> scene;
     };
 

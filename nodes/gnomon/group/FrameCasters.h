@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CasterView.h>
 
 #include <utility>
@@ -21,21 +21,21 @@ public:
                _view.lodScale == view.lodScale && _view.viewPoint == view.viewPoint;
     }
 
-    /// All in one.
-    const CasterMesh& mesh() const {
-        if (!_mesh) _mesh = _group->casters(&_view);
-        return *_mesh;
+    /// As meshes.
+    const CasterLayers& layers() const {
+        if (!_layers) _layers = _group->casters(&_view);
+        return *_layers;
     }
     /// Drawable by drawable.
     const CasterDrawables& drawables() const {
-        if (!_pieces) _pieces = _group->drawables(&_view);
+        if (!_pieces) _pieces = _layers ? _layers->pieces : _group->drawables(&_view);
         return *_pieces;
     }
 
 private:
     osg::ref_ptr<const ShadowCasterGroup> _group;
     const CasterView _view;
-    mutable osg::ref_ptr<const CasterMesh> _mesh;
+    mutable osg::ref_ptr<const CasterLayers> _layers;
     mutable osg::ref_ptr<const CasterDrawables> _pieces;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/Convert.h>
 #include <gnomon/ShadowLight.h>
-#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/mapfit/SpotCone.h>
@@ -45,12 +45,12 @@ inline std::string notUsable(const osg::Vec4d& light) {
 
 /// The casters' box and everything behind it as a usable light sees it: each corner, and where its shadow goes. Nullopt
 /// if nothing of it is in sight.
-inline std::optional<ScreenRect> shadowBounds(const CasterMesh& mesh, const glm::dmat4& clipFromScene,
+inline std::optional<ScreenRect> shadowBounds(const CasterLayers& casters, const glm::dmat4& clipFromScene,
                                               const glm::dvec4& light) {
-    const SceneFrame scene(mesh.origin);
+    const SceneFrame scene(casters.origin);
     std::vector<glm::dvec4> points;
     for (unsigned i = 0; i < 8; ++i) {
-        const glm::dvec3 corner = scene.point(mesh.bounds.corner(i)), at(light);
+        const glm::dvec3 corner = scene.point(casters.bounds.corner(i)), at(light);
         points.push_back(clipFromScene * glm::dvec4(corner, 1.0));
         points.push_back(clipFromScene * glm::dvec4(light.w == 0.0 ? -at : corner - at, 0.0));
     }

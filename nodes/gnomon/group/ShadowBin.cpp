@@ -30,9 +30,7 @@ const bool registered = [] {
     return true;
 }();
 
-/// @param casters  a CasterMesh, or CasterDrawables.
-template <typename Casters>
-bool areSome(const EnlistedTechnique& entry, const Casters& casters) {
+bool areSome(const EnlistedTechnique& entry, const CasterDrawables& casters) {
     if (casters.invalidTriangles > 0)
         entry.technique->report(entry.frameNumber,
                                 "invalid triangles are left out: " + std::to_string(casters.invalidTriangles) +
@@ -52,7 +50,7 @@ bool areSome(const EnlistedTechnique& entry, const Casters& casters) {
 }
 
 bool hasCasters(const EnlistedTechnique& entry, const FrameCasters& casters) {
-    return entry.technique->takesDrawables() ? areSome(entry, casters.drawables()) : areSome(entry, casters.mesh());
+    return areSome(entry, entry.technique->takesDrawables() ? casters.drawables() : *casters.layers().pieces);
 }
 
 /// A receiver that is out of sight is nothing to report; one that can never be seen to receive is.

@@ -111,9 +111,9 @@ void ShadowCasterGroup::removeLights() {
     _lights.clear();
 }
 
-osg::ref_ptr<const CasterMesh> ShadowCasterGroup::casters(const CasterView* view) const {
+osg::ref_ptr<const CasterLayers> ShadowCasterGroup::casters(const CasterView* view) const {
     auto* self = const_cast<ShadowCasterGroup*>(this); // a visitor asks for a mutable node, and changes nothing
-    return _revisions->mesh(*self, getCasters(), view);
+    return _revisions->layers(*self, getCasters(), view);
 }
 
 osg::ref_ptr<const CasterDrawables> ShadowCasterGroup::drawables(const CasterView* view) const {

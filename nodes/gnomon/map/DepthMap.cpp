@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
@@ -72,6 +73,26 @@ void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size, c
     (tile.nearest > 0.0 ? glEnable : glDisable)(GL_CLIP_PLANE0);
 }
 
+/// False if a box is beyond a side of the map.
+bool isInMap(const MapLayer::Box& box, const glm::dmat4& clipFromScene) {
+    const auto corners = boxCorners(box.low, box.high, clipFromScene);
+    const auto allBeyond = [&](int axis, double sign) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](const glm::dvec4& corner) { return sign * corner[axis] > 1.01 * corner.w; });
+    };
+    return !(allBeyond(0, 1.0) || allBeyond(0, -1.0) || allBeyond(1, 1.0) || allBeyond(1, -1.0));
+}
+
+void drawMeshes(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromScene,
+                const std::vector<MapPicture::Layer::Mesh>& meshes) {
+    for (const auto& mesh : meshes) {
+        if (!isInMap(mesh.box, clipFromScene)) continue;
+        const glm::dmat4 clipFromMesh = clipFromScene * mesh.sceneFromMesh;
+        setUniform(*renderInfo.getState(), "clipFromVertex", clipFromMesh);
+        mesh.faces->draw(renderInfo, clipFromMesh, mesh.outside);
+    }
+}
+
 /// Depths, to the bit, between framebuffers of one size.
 void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::vector<PixelRect>& parts) {
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, from);
@@ -91,7 +112,7 @@ constexpr const char* noTarget = "this context cannot render into a depth textur
 
 bool MapPicture::Layer::operator==(const Layer& other) const {
     const auto alike = [](const auto& a, const auto& b) { return a.geometry == b.geometry; };
-    return casters == other.casters && outside == other.outside &&
+    return meshes == other.meshes &&
            std::equal(cutouts.begin(), cutouts.end(), other.cutouts.begin(), other.cutouts.end(), alike);
 }
 
@@ -214,19 +235,19 @@ std::string DepthMap::drawLayer(osg::RenderInfo& renderInfo, const MapPicture& p
                                 const std::vector<Part>& parts) const {
     if (parts.empty()) return "";
     osg::State& state = *renderInfo.getState();
-    if (layer.casters) {
+    if (!layer.meshes.empty()) {
         state.apply(picture.program.get());
         if (!hasProgram(state)) return noProgram;
         for (const Part& part : parts) {
             drawInto(state, *part.tile, picture.size, part.texels);
-            layer.casters->draw(renderInfo, part.tile->clipFromScene, layer.outside);
+            drawMeshes(renderInfo, part.tile->clipFromScene, layer.meshes);
         }
     }
     if (layer.cutouts.empty()) return "";
     state.apply(picture.cutoutProgram.get());
     if (!hasProgram(state)) return noProgram;
     setUniform(state, "cutout", 0);
-    for (const CasterLayer::Cutout& cutout : layer.cutouts) {
+    for (const MapLayer::Cutout& cutout : layer.cutouts) {
         state.applyTextureAttribute(0, cutout.texture);
         setUniform(state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
         for (const Part& part : parts) {

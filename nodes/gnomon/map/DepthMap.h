@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/gl/ScreenPass.h>
-#include <gnomon/map/CasterLayer.h>
+#include <gnomon/map/MapLayer.h>
 #include <gnomon/map/MinDepthPyramid.h>
 
 #include <OpenThreads/Mutex>
@@ -31,9 +31,15 @@ struct MapPicture : public osg::Referenced {
     };
     /// What is drawn of a layer of the casters.
     struct Layer {
-        osg::ref_ptr<const CullableFaces> casters; ///< whole ones; null if there are none.
-        CullableFaces::Outside outside;            ///< where the light is.
-        std::vector<CasterLayer::Cutout> cutouts;  ///< those that textures cut out.
+        struct Mesh : public MapLayer::Drawn {
+            CullableFaces::Outside outside; ///< where the light is.
+
+            bool operator==(const Mesh& other) const {
+                return faces == other.faces && sceneFromMesh == other.sceneFromMesh && outside == other.outside;
+            }
+        };
+        std::vector<Mesh> meshes;              ///< whole ones.
+        std::vector<MapLayer::Cutout> cutouts; ///< those that textures cut out.
 
         bool operator==(const Layer& other) const;
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/map/CasterLayers.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/mapfit/SpotCone.h>
 

@@ -27,8 +27,9 @@ constexpr double sameLight = 1e-7;    // of the distance: what OSG's matrices an
 constexpr CullableFaces::Outside wholly{false, false};
 
 bool isWhole(const MapPicture::Layer& layer) {
-    const CullableFaces* casters = layer.casters;
-    return !casters || ((!casters->solids || !layer.outside.solids) && (!casters->holed || !layer.outside.holed));
+    return std::all_of(layer.meshes.begin(), layer.meshes.end(), [](const MapPicture::Layer::Mesh& mesh) {
+        return (!mesh.faces->solids || !mesh.outside.solids) && (!mesh.faces->holed || !mesh.outside.holed);
+    });
 }
 
 bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
@@ -47,10 +48,11 @@ void LightShadowMaps::setCause(const MapRequest& cause) {
     _cone = cause.cone;
     const MapRequest& old = _cause;
     const bool sameMaps = old.settings == cause.settings;
-    if (old.casters && old.casters->origin == cause.casters->origin && old.flats == cause.flats && sameMaps &&
-        isSame(cause.cone, old.cone) && isSame(cause.light, old.light, glm::length(cause.casters->reach)) &&
+    if (old.casters && old.casters->layers->origin == cause.casters->layers->origin && old.flats == cause.flats &&
+        sameMaps && isSame(cause.cone, old.cone) &&
+        isSame(cause.light, old.light, glm::length(cause.casters->layers->reach)) &&
         (old.casters == cause.casters ||
-         areSame(_frames, framesOf(old.light, old.cone, *cause.casters, old.settings.size))))
+         areSame(_frames, framesOf(old.light, old.cone, *cause.casters->layers, old.settings.size))))
         return takeCasters(*cause.casters);
     if (!sameMaps) _map = nullptr;
     _cause = cause;
@@ -64,7 +66,7 @@ void LightShadowMaps::begin() {
     _faces.clear();
     _splits.clear();
     _cascades = _cause.settings.cascades;
-    _frames = framesOf(_cause.light, _cause.cone, *_cause.casters, _cause.settings.size);
+    _frames = framesOf(_cause.light, _cause.cone, *_cause.casters->layers, _cause.settings.size);
     for (const LightFrame& frame : _frames) addFaces(frame);
 }
 
@@ -82,7 +84,7 @@ double LightShadowMaps::nearestDrawn(const LightFrame& frame) {
     constexpr double corner = 8.0;            // of the widest frame: the way to it to its distance
     constexpr double least = 1.0 / (1 << 20); // of the coordinates: what rays leave out, too
     if (frame.sun) return 0.0;
-    const double size = glm::length(glm::dvec3(_cause.light)) + glm::length(_cause.casters->reach);
+    const double size = glm::length(glm::dvec3(_cause.light)) + glm::length(_cause.casters->layers->reach);
     return std::max(std::min(clearance(), size) / corner, least * size);
 }
 
@@ -113,7 +115,7 @@ void LightShadowMaps::settle(const glm::dmat4& clipFromScene, const glm::dvec2& 
 }
 
 /// As seen from the same light.
-void LightShadowMaps::takeCasters(const CasterLayers& casters) {
+void LightShadowMaps::takeCasters(const MapCasters& casters) {
     if (_cause.casters == &casters) return;
     _clear = std::nullopt;
     const bool sameStill = _cause.casters->still == casters.still;
@@ -263,7 +265,7 @@ bool LightShadowMaps::holds(const MapSlice& face) const {
 /// What moves will be beside what casters can darken now.
 MapFit LightShadowMaps::fitOf(const MapSlice& face) const {
     MapOutline most = face.reach;
-    if (!_settled && !_cause.casters->moving->pieces.empty()) {
+    if (!_settled && !_cause.casters->moving->casters->pieces.empty()) {
         most.merge(face.held);
         most.grow(reserve * face.held.length());
     }
@@ -274,16 +276,16 @@ MapFit LightShadowMaps::fitOf(const MapSlice& face) const {
 glm::dvec3 LightShadowMaps::reachOf(const MapSlice& face) const {
     glm::dvec3 result(0.0);
     for (const glm::dvec4& point : face.held.body()) result = glm::max(result, glm::abs(glm::dvec3(point) / point.w));
-    return glm::min(_cause.casters->reach, result + _cause.casters->widest);
+    return glm::min(_cause.casters->layers->reach, result + _cause.casters->layers->widest);
 }
 
 /// Without its tiles. @param due  some are to be drawn from the first.
-osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources, bool due) {
+osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies) {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
     const bool stillAgain = _drawnStill == _cause.casters->still, movingAgain = _drawnMoving == _cause.casters->moving;
-    if (!stillAgain || due) _still = drawnOf(*_cause.casters->still, stillAgain);
+    if (!stillAgain || due) _still = drawnOf(*_cause.casters->still, stillAgain, bodies);
     picture->still = _still;
-    picture->moving = drawnOf(*_cause.casters->moving, movingAgain);
+    picture->moving = drawnOf(*_cause.casters->moving, movingAgain, bodies);
     _drawnStill = _cause.casters->still;
     _drawnMoving = _cause.casters->moving;
     picture->program = resources.casterProgram;
@@ -293,19 +295,22 @@ osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources
     return picture;
 }
 
-MapPicture::Layer LightShadowMaps::drawnOf(const CasterLayer& layer, bool again) const {
-    MapPicture::Layer drawn{layer.faces(_cause.flats, again), {}, {}};
-    if (drawn.casters) drawn.outside = _settled ? wholly : drawn.casters->outside(_cause.light);
-    for (const CasterLayer::Cutout& cutout : layer.cutouts)
+MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, MapBodies& bodies) const {
+    MapPicture::Layer drawn;
+    for (const MapLayer::Drawn& mesh : layer.faces(_cause.flats, again, bodies)) {
+        const glm::dvec4 light = glm::inverse(mesh.sceneFromMesh) * _cause.light;
+        drawn.meshes.push_back({mesh, _settled ? wholly : mesh.faces->outside(light)});
+    }
+    for (const MapLayer::Cutout& cutout : layer.cutouts)
         if (_cause.flats || !cutout.flat) drawn.cutouts.push_back(cutout);
     return drawn;
 }
 
 /// Texels of a tile that what moves may cover.
 PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const {
-    const CasterLayer& moving = *_cause.casters->moving;
+    const MapLayer& moving = *_cause.casters->moving;
     glm::dvec2 low(1.0), high(-1.0);
-    const auto add = [&](const CasterLayer::Box& box) {
+    const auto add = [&](const MapLayer::Box& box) {
         const auto corners = boxCorners(box.low, box.high, tile.clipFromScene);
         const auto bounds = screenBounds({corners.begin(), corners.end()});
         if (!bounds) return;
@@ -341,7 +346,7 @@ bool LightShadowMaps::isShown() const {
 }
 
 /// The finest map comes first, for pixels take the first that holds them.
-void LightShadowMaps::update(const MapPrograms& resources) {
+void LightShadowMaps::update(const MapPrograms& resources, MapBodies& bodies) {
     resize();
     const bool due = anyDue();
     if (_picture && !due) return;
@@ -352,7 +357,7 @@ void LightShadowMaps::update(const MapPrograms& resources) {
             face.fit = fitOf(face);
     }
     if (_picture && isShown()) return;
-    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due);
+    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due, bodies);
     std::vector<std::pair<const MapSlice*, glm::ivec2>> tiles;
     for (const MapSlice& face : _faces) {
         const int tile = static_cast<int>(tiles.size());
@@ -384,7 +389,7 @@ MapLookupPass LightShadowMaps::quad(const glm::dmat4& clipFromScene) const {
     quad.map = _map;
     quad.picture = _picture;
     quad.lookUps = _lookUps;
-    quad.rounding = _cause.casters->rounding;
+    quad.rounding = _cause.casters->layers->rounding;
     quad.clipFromScene = clipFromScene;
     quad.defines = _cause.settings.defines;
     quad.cascades = isDivided();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/map/DepthMap.h>
+#include <gnomon/map/MapBodies.h>
 #include <gnomon/map/MapLookupPass.h>
 #include <gnomon/map/MapSlice.h>
 
@@ -25,7 +26,7 @@ public:
     std::vector<glm::dvec4> find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
                                  const glm::dvec2& pixels);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
-    void update(const MapPrograms& resources);
+    void update(const MapPrograms& resources, MapBodies& bodies);
     /// Without what a cone adds.
     MapLookupPass quad(const glm::dmat4& clipFromScene) const;
 
@@ -39,7 +40,7 @@ private:
     double nearestDrawn(const LightFrame& frame);
     void settle(const glm::dmat4& clipFromScene, const glm::dvec2& pixels, const std::vector<MapReceiver>& receivers);
     bool isShown() const;
-    void takeCasters(const CasterLayers& casters);
+    void takeCasters(const MapCasters& casters);
     double pixelsATexel(double distance, const glm::dmat4& clipFromScene, double width) const;
     void findSplits(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene, double width);
     bool anyDue() const;
@@ -54,8 +55,8 @@ private:
     bool holds(const MapSlice& face) const;
     MapFit fitOf(const MapSlice& face) const;
     glm::dvec3 reachOf(const MapSlice& face) const;
-    osg::ref_ptr<MapPicture> pictureOf(const MapPrograms& resources, bool due);
-    MapPicture::Layer drawnOf(const CasterLayer& layer, bool again) const;
+    osg::ref_ptr<MapPicture> pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies);
+    MapPicture::Layer drawnOf(const MapLayer& layer, bool again, MapBodies& bodies) const;
     MapLookUp lookUpOf(const MapSlice& face) const;
     PixelRect moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const;
 
@@ -66,7 +67,7 @@ private:
         glm::dvec2 pixels{0.0};
         std::vector<MapReceiver> receivers;
         glm::dvec4 light{0.0};
-        osg::ref_ptr<const CasterLayers> casters;
+        osg::ref_ptr<const MapCasters> casters;
     };
 
     MapRequest _cause;
@@ -84,9 +85,9 @@ private:
     std::vector<double> _splits;  ///< of what is seen: see cascadeSplits().
     int _texels = 0;              ///< on a side of a tile, of those drawn last.
     osg::ref_ptr<DepthMap> _map;
-    osg::ref_ptr<const MapPicture> _picture;                   ///< null: to be made.
-    osg::ref_ptr<const CasterLayer> _drawnStill, _drawnMoving; ///< in the last picture.
-    MapPicture::Layer _still;                                  ///< of the former, as it was drawn last.
+    osg::ref_ptr<const MapPicture> _picture;                ///< null: to be made.
+    osg::ref_ptr<const MapLayer> _drawnStill, _drawnMoving; ///< in the last picture.
+    MapPicture::Layer _still;                               ///< of the former, as it was drawn last.
     std::vector<MapLookUp> _lookUps;
 };
 

@@ -36,11 +36,11 @@ MapReceiver wholeView(const ViewFrame& view, const glm::dmat4& sceneFromEye) {
     return receiver;
 }
 
-LayerOutlines outlinesOf(const MapRequest& cause, const CasterLayer& layer, const LightFrame& frame) {
+LayerOutlines outlinesOf(const MapRequest& cause, const MapLayer& layer, const LightFrame& frame) {
     LayerOutlines outlines{MapOutline(frame), {}};
-    for (const CasterLayer::Box& box : layer.bodyBoxes) outlines.bodies.addBox(box.low, box.high, glm::dmat4(1.0));
+    for (const MapLayer::Box& box : layer.bodyBoxes) outlines.bodies.addBox(box.low, box.high, glm::dmat4(1.0));
     if (!cause.flats) return outlines;
-    for (const CasterLayer::Box& box : layer.flatBoxes) {
+    for (const MapLayer::Box& box : layer.flatBoxes) {
         outlines.flats.emplace_back(frame);
         outlines.flats.back().addBox(box.low, box.high, glm::dmat4(1.0));
     }
@@ -82,7 +82,7 @@ std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& ey
     return result;
 }
 
-glm::dvec4 beyond(const CasterLayer::Box& flat, const glm::dvec4& light, const glm::dvec3& reach) {
+glm::dvec4 beyond(const MapLayer::Box& flat, const glm::dvec4& light, const glm::dvec3& reach) {
     const glm::dvec3 size = flat.high - flat.low;
     const int axis = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : 2;
     const double level = flat.low[axis], side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
@@ -108,10 +108,10 @@ void MapSlice::takeBlockers(const MapRequest& cause) {
     const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
         if (!outline.empty() && (wide || !isThin(frame, outline))) blockers.push_back({outline, halfSpaces});
     };
-    const auto addFlats = [&](const LayerOutlines& outlines, const CasterLayer& layer, const MapOutline& bodies) {
+    const auto addFlats = [&](const LayerOutlines& outlines, const MapLayer& layer, const MapOutline& bodies) {
         for (std::size_t i = 0; i < outlines.flats.size(); ++i)
             if (wide || !bodies.isBefore(outlines.flats[i]))
-                add(outlines.flats[i], {beyond(layer.flatBoxes[i], cause.light, cause.casters->reach)});
+                add(outlines.flats[i], {beyond(layer.flatBoxes[i], cause.light, cause.casters->layers->reach)});
     };
     const LayerOutlines moving = outlinesOf(cause, *cause.casters->moving, frame);
     MapOutline bodies = still.bodies;

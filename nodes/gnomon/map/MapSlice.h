@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/group/ViewFrame.h>
-#include <gnomon/map/CasterLayers.h>
+#include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapSettings.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/mapfit/SpotCone.h>
@@ -16,7 +16,7 @@ namespace gnomon {
 struct MapRequest {
     glm::dvec4 light{0.0};
     std::optional<SpotCone> cone;
-    osg::ref_ptr<const CasterLayers> casters;
+    osg::ref_ptr<const MapCasters> casters;
     bool flats = false; ///< those that are flat cast, too.
     MapSettings settings;
 
@@ -48,12 +48,12 @@ struct MapBlocker {
 };
 
 /// Half-space of what something flat can darken: what is beyond it, seen from the light.
-glm::dvec4 beyond(const CasterLayer::Box& flat, const glm::dvec4& light, const glm::dvec3& reach);
+glm::dvec4 beyond(const MapLayer::Box& flat, const glm::dvec4& light, const glm::dvec3& reach);
 
 /// What a layer of the casters can darken.
 struct LayerOutlines {
     MapOutline bodies;             ///< all together.
-    std::vector<MapOutline> flats; ///< one by one, as in CasterLayer::flatBoxes; none where they do not cast.
+    std::vector<MapOutline> flats; ///< one by one, as in MapLayer::flatBoxes; none where they do not cast.
 };
 
 /// One direction that a light looks in, and one part of what is seen.

@@ -22,8 +22,8 @@ constexpr std::size_t mostCasters = 8; // groups above one node, and views of di
 
 /// A view's two matrices. Clip space is the projection of eye space to the last bit.
 struct SceneView {
-    SceneView(const ViewFrame& view, const CasterLayers& casters)
-        : eyeFromScene(SceneFrame(casters.origin).eyeFromScene(view)),
+    SceneView(const ViewFrame& view, const MapCasters& casters)
+        : eyeFromScene(SceneFrame(casters.layers->origin).eyeFromScene(view)),
           clipFromScene(toGlm(view.projection) * eyeFromScene) {}
 
     glm::dmat4 eyeFromScene, clipFromScene;
@@ -31,7 +31,7 @@ struct SceneView {
 
 /// True if what is flat, a ground for one, may stand between the light and any part of what is seen: not if all of that is
 /// on the light's side of it, or in it.
-bool isBetween(const CasterLayer::Box& flat, const glm::dvec4& light, const std::vector<MapReceiver>& receivers,
+bool isBetween(const MapLayer::Box& flat, const glm::dvec4& light, const std::vector<MapReceiver>& receivers,
                const glm::dvec3& reach) {
     const glm::dvec4 half = beyond(flat, light, reach);
     return std::any_of(receivers.begin(), receivers.end(), [&](const MapReceiver& receiver) {
@@ -41,8 +41,8 @@ bool isBetween(const CasterLayer::Box& flat, const glm::dvec4& light, const std:
     });
 }
 
-bool anyIsBetween(const CasterLayers& casters, const glm::dvec4& light, const std::vector<MapReceiver>& receivers) {
-    const auto between = [&](const auto& flat) { return isBetween(flat, light, receivers, casters.reach); };
+bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std::vector<MapReceiver>& receivers) {
+    const auto between = [&](const auto& flat) { return isBetween(flat, light, receivers, casters.layers->reach); };
     const auto &still = casters.still->flatBoxes, &moving = casters.moving->flatBoxes;
     return std::any_of(still.begin(), still.end(), between) || std::any_of(moving.begin(), moving.end(), between);
 }
@@ -62,7 +62,7 @@ ShadowMapCache::ShadowMapCache() : _resources(new MapPrograms) {}
 ShadowMapCache::~ShadowMapCache() = default;
 
 osg::ref_ptr<SpotMark> ShadowMapCache::around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
-                                              const CasterLayers& casters) const {
+                                              const MapCasters& casters) const {
     osg::ref_ptr<SpotMark> mark = new SpotMark;
     mark->resources = _resources;
     mark->clipFromScene = SceneView(view, casters).clipFromScene;
@@ -71,7 +71,7 @@ osg::ref_ptr<SpotMark> ShadowMapCache::around(const ViewFrame& view, const glm::
 }
 
 osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
-                                           const std::optional<SpotCone>& cone, const CasterLayers& casters,
+                                           const std::optional<SpotCone>& cone, const MapCasters& casters,
                                            const MapSettings& settings) {
     const SceneView scene(view, casters);
     Lock lock(_mutex);
@@ -83,7 +83,7 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
     const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     const bool forPrograms = settings.programUnit >= 0;
     if (!bounds) return forPrograms ? new ProgramMaps(unsigned(settings.programUnit)) : nullptr;
-    map.update(*_resources);
+    map.update(*_resources, _bodies);
     MapLookupPass quad = map.quad(scene.clipFromScene);
     quad.resources = _resources;
     quad.pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
@@ -95,29 +95,26 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
                         : markOf<MapMark>(quad, *bounds, settings.view);
 }
 
-osg::ref_ptr<const CasterLayers> ShadowMapCache::castersOf(const ViewFrame& view, const CasterDrawables& pieces) {
+osg::ref_ptr<const MapCasters> ShadowMapCache::castersOf(const CasterLayers& layers) {
     Lock lock(_mutex);
-    Known* known = _casters.find([&](const Known& entry) { return entry.casters->pieces == &pieces; });
-    if (!known) {
-        const osg::ref_ptr<const CasterLayers> now = CasterLayers::of(pieces, formerOf(view));
-        _casters.dropIf([](const Known& entry) { return entry.casters->pieces->isRetired(); });
-        _casters.dropOldestBeyond(mostCasters - 1);
-        known = &_casters.add({view.group, view.stage, now});
-    }
-    known->stage = view.stage;
-    return known->casters;
+    const auto* known = _casters.find([&](const auto& entry) { return entry->layers == &layers; });
+    if (known) return *known;
+    const osg::ref_ptr<const MapCasters> made = new MapCasters(layers, layerOf(*layers.still), layerOf(*layers.moving));
+    _casters.dropIf([](const auto& entry) { return entry->layers->isRetired(); });
+    _casters.dropOldestBeyond(mostCasters - 1);
+    _bodies.prune();
+    return _casters.add(made);
 }
 
-/// Those that the view's were made from: its own, or what any view of the group had.
-osg::ref_ptr<const CasterLayers> ShadowMapCache::formerOf(const ViewFrame& view) {
-    osg::ref_ptr<const CasterLayers> former;
-    bool isOwn = false;
-    for (const Known& entry : _casters) {
-        if (entry.group != view.group || (isOwn && entry.stage != view.stage)) continue;
-        former = entry.casters;
-        isOwn = entry.stage == view.stage;
-    }
-    return former;
+/// The one that is known, or else one that takes what it can of others.
+osg::ref_ptr<const MapLayer> ShadowMapCache::layerOf(const CasterLayer& layer) const {
+    std::vector<osg::ref_ptr<const MapLayer>> known;
+    for (const auto& entry : _casters)
+        for (const auto& each : {entry->still, entry->moving}) {
+            if (each->casters == &layer) return each;
+            known.push_back(each);
+        }
+    return new MapLayer(layer, known);
 }
 
 /// A map that is asked for twice begins a round as well, for views may count no frames.
@@ -138,12 +135,14 @@ void ShadowMapCache::resizeGLObjectBuffers(unsigned maxSize) {
     _resources->resizeGLObjectBuffers(maxSize);
     Lock lock(_mutex);
     for (const auto& map : _maps) map->resizeGLObjectBuffers(maxSize);
+    _bodies.resizeGLObjectBuffers(maxSize);
 }
 
 void ShadowMapCache::release(osg::State* state) {
     _resources->release(state);
     Lock lock(_mutex);
     for (const auto& map : _maps) map->release(state);
+    _bodies.releaseGLObjects(state);
 }
 
 } // namespace gnomon

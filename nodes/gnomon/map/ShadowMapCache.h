@@ -21,35 +21,30 @@ public:
     ~ShadowMapCache();
 
     /// The casters as maps draw them; made once for all lights, and for all views of the same levels of detail.
-    osg::ref_ptr<const CasterLayers> castersOf(const ViewFrame& view, const CasterDrawables& pieces);
+    osg::ref_ptr<const MapCasters> castersOf(const CasterLayers& layers);
     /// @param light  in the scene about the casters' origin, see localLight().
     /// @param cone   of a lamp that is a spot: nothing outside it is marked.
     /// @return the marks of a light; null if none of its shadow can be seen.
     osg::ref_ptr<MarkJob> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
-                               const std::optional<SpotCone>& cone, const CasterLayers& casters,
+                               const std::optional<SpotCone>& cone, const MapCasters& casters,
                                const MapSettings& settings);
     /// Marks of all that is seen outside a spot's cone.
     osg::ref_ptr<SpotMark> around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
-                                  const CasterLayers& casters) const;
+                                  const MapCasters& casters) const;
 
     const MapPrograms& resources() const { return *_resources; }
     void resizeGLObjectBuffers(unsigned maxSize);
     void release(osg::State* state);
 
 private:
-    /// Those of a group that a view had last.
-    struct Known {
-        const ShadowCasterGroup* group;
-        const void* stage;
-        osg::ref_ptr<const CasterLayers> casters;
-    };
     LightShadowMaps& find(const ViewFrame& view, int lightNumber);
-    osg::ref_ptr<const CasterLayers> formerOf(const ViewFrame& view);
+    osg::ref_ptr<const MapLayer> layerOf(const CasterLayer& layer) const;
 
     const osg::ref_ptr<MapPrograms> _resources;
     OpenThreads::Mutex _mutex;
     RecentCache<std::unique_ptr<LightShadowMaps>> _maps;
-    RecentCache<Known> _casters;
+    RecentCache<osg::ref_ptr<const MapCasters>> _casters;
+    MapBodies _bodies;
     unsigned _round = 0, _frame = 0; ///< a round is a frame, as views count them.
 };
 

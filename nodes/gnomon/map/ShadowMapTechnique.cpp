@@ -19,8 +19,8 @@ unsigned ShadowMapTechnique::passes() const { return _maps->resources().passes; 
 
 std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                                const FrameCasters& casters) const {
-    const osg::ref_ptr<const CasterLayers> drawn = _maps->castersOf(view, casters.drawables());
-    const auto usable = localLight(light.inGroup, SceneFrame(drawn->origin));
+    const osg::ref_ptr<const MapCasters> drawn = _maps->castersOf(casters.layers());
+    const auto usable = localLight(light.inGroup, SceneFrame(drawn->layers->origin));
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};

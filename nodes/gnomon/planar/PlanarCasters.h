@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/casters/CasterMesh.h>
-
-#include <osg/Geometry>
-#include <osg/Vec4d>
+#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/planar/PlanarParts.h>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace gnomon {
@@ -16,43 +15,42 @@ namespace gnomon {
 /// Triangles in the plane are left out, and those under it unless asked for.
 class PlanarCasters : public osg::Referenced {
 public:
-    /// Triangles that are drawn alike.
-    struct Part {
-        osg::ref_ptr<osg::Geometry> geometry;
-        bool crossing; ///< they cross the plane and must be cut there; else they are wholly above it.
-        bool solid;    ///< they bound solids: those turned away from the light need not be drawn.
-    };
+    /// Makes or finds the parts of a mesh above a plane of the scene.
+    using Source = std::function<osg::ref_ptr<const PlanarParts>(const PlacedMesh& placed, const glm::dvec4& plane)>;
 
     /// @param groupPlane  unit normal, group frame.
     /// @param under       keep what lies under the plane, too.
-    /// @param findSolids  look for solids (closedParts()): takes longer than all the rest, and halves the drawing.
-    PlanarCasters(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under, bool findSolids);
+    PlanarCasters(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under, const Source& source);
 
-    bool madeFrom(const CasterMesh& mesh, const glm::dvec4& groupPlane, bool under) const {
-        return _mesh == &mesh && _groupPlane == groupPlane && _under == under;
+    bool madeFrom(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under) const {
+        return _layers == layers.retired() && isOf(groupPlane, under);
     }
+    bool isOf(const glm::dvec4& groupPlane, bool under) const { return _groupPlane == groupPlane && _under == under; }
     /// True if no view will ask for these any more.
-    bool isRetired() const { return _mesh->isRetired(); }
-    bool knowsSolids() const { return _knowsSolids; }
+    bool isRetired() const { return *_layers; }
+    /// True if in another frame than that of their making solids are to be looked for.
+    bool seeksSolids(unsigned frame) const;
+    /// Of a mesh where it is; null if it is none of these.
+    osg::ref_ptr<const PlanarParts> find(const PlacedMesh& placed) const;
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
-    unsigned firstFrame = 0; ///< in which these were made.
-    std::vector<Part> parts;
-    glm::dvec4 plane;       ///< in the scene about mesh.origin, see SceneFrame.
-    glm::dvec3 low, high;   ///< bounds of all parts, in the scene.
-    bool crosses = false;   ///< some part crosses the plane.
-    double highest = 0.0;   ///< greatest height above the plane.
-    double thickness = 0.0; ///< height up to which vertices of what crosses the plane count as lying in it.
+    std::vector<PlanarPart> parts;
+    glm::dvec4 plane;     ///< in the scene.
+    glm::dvec3 low, high; ///< bounds of all parts, in the scene.
+    bool crosses = false; ///< some part crosses the plane.
+    double highest = 0.0; ///< greatest height above the plane.
 
 protected:
     ~PlanarCasters() override = default;
 
 private:
-    osg::ref_ptr<const CasterMesh> _mesh; // kept, so that its address cannot be taken by the next revision
+    void add(const PlanarParts& more);
+
+    CasterLayers::Retired _layers;
     glm::dvec4 _groupPlane;
     bool _under;
-    bool _knowsSolids;
+    std::vector<osg::ref_ptr<const PlanarParts>> _meshes; ///< in the order of the layers.
 };
 
 } // namespace gnomon

@@ -60,37 +60,42 @@ std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
 
 /// @return false if some program is not to be had.
 bool PlanarMark::drawParts(osg::RenderInfo& renderInfo) const {
+    osg::State& state = *renderInfo.getState();
     bool drawn = true;
-    for (const PlanarCasters::Part& part : casters->parts) drawn = drawPart(renderInfo, part) && drawn;
-    renderInfo.getState()->apply();
+    for (const bool clipping : {false, true}) {
+        const auto meant = [&](const PlanarPart& part) { return clips(part) == clipping; };
+        if (std::none_of(casters->parts.begin(), casters->parts.end(), meant)) continue;
+        state.apply((clipping ? programs->clipping : programs->plain).get());
+        if (!hasProgram(state)) drawn = false;
+        if (!hasProgram(state)) continue;
+        for (const PlanarPart& part : casters->parts)
+            if (meant(part)) drawPart(renderInfo, part);
+    }
+    state.apply();
     return drawn;
 }
 
-/// @return false if the program is not to be had.
-bool PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const {
-    osg::State& state = *renderInfo.getState();
-    const bool clips = cures.clip && (part.crossing || reachesLight);
+void PlanarMark::drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part) const {
+    const osg::State& state = *renderInfo.getState();
     // A solid cut by the light's height may lack its upper faces; without the stencil cure each face darkens for itself.
-    const bool culls = part.solid && !reachesLight && cures.stencil;
-    state.apply((clips ? programs->clipping : programs->plain).get());
-    if (!hasProgram(state)) return false;
-    setUniform(state, "clipFromVertex", clipFromVertex);
-    if (clips) {
-        setUniform(state, "abovePlane", abovePlane);
-        setUniform(state, "belowLight", belowLight);
+    const bool culls = part.solid && !reachesLight && cures.stencil, isClipped = clips(part);
+    const glm::dmat4 clipFromMesh = clipFromScene * part.sceneFromMesh, planes = glm::transpose(part.sceneFromMesh);
+    setUniform(state, "clipFromVertex", clipFromMesh);
+    if (isClipped) {
+        setUniform(state, "abovePlane", planes * (abovePlane - glm::dvec4(0.0, 0.0, 0.0, part.thickness)));
+        setUniform(state, "belowLight", planes * belowLight);
     }
-    if (clips && part.crossing) glEnable(clipAbovePlane);
-    if (clips && reachesLight) glEnable(clipBelowLight);
+    if (isClipped && part.crossing) glEnable(clipAbovePlane);
+    if (isClipped && reachesLight) glEnable(clipBelowLight);
     if (culls) glEnable(GL_CULL_FACE);
-    glFrontFace(mirrored ? GL_CW : GL_CCW);
+    glFrontFace(mirrored != part.mirrored ? GL_CW : GL_CCW);
     part.geometry->draw(renderInfo);
     if (!cures.clip && reachesLight) {
-        setUniform(state, "clipFromVertex", -clipFromVertex); // the same map: OpenGL draws only the half with w > 0
+        setUniform(state, "clipFromVertex", -clipFromMesh); // the same map: OpenGL draws only the half with w > 0
         part.geometry->draw(renderInfo);
     }
     glFrontFace(GL_CCW);
     for (const GLenum mode : {clipAbovePlane, clipBelowLight, GLenum(GL_CULL_FACE)}) glDisable(mode);
-    return true;
 }
 
 /// Without the offset cure: what is drawn must be nearer than what stands there, at the depth that rounding gives both.

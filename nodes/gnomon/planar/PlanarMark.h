@@ -24,8 +24,8 @@ class PlanarMark : public MarkJob {
 public:
     osg::ref_ptr<const PlanarCasters> casters;
     osg::ref_ptr<const PlanarPrograms> programs;
-    glm::dmat4 clipFromVertex{1.0}; ///< flattened and projected.
-    glm::dvec4 abovePlane{0.0};     ///< see planarClipPlanes(); in the scene, see SceneFrame.
+    glm::dmat4 clipFromScene{1.0}; ///< flattened and projected.
+    glm::dvec4 abovePlane{0.0};    ///< see planarClipPlanes(); in the scene, see SceneFrame.
     glm::dvec4 belowLight{0.0};
     bool reachesLight = false; ///< some caster is as high as the light.
     bool mirrored = false;     ///< the view turns the sense of triangles round.
@@ -46,7 +46,8 @@ protected:
 
 private:
     bool drawParts(osg::RenderInfo& renderInfo) const;
-    bool drawPart(osg::RenderInfo& renderInfo, const PlanarCasters::Part& part) const;
+    bool clips(const PlanarPart& part) const { return cures.clip && (part.crossing || reachesLight); }
+    void drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part) const;
     void darkenEach(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
     void fightReceiver() const;
     void cut(const osg::State& state, ScreenPass& pass, unsigned bit) const;

@@ -84,7 +84,7 @@ std::optional<ScreenRect> boundsOf(const PlanarMark& mark) {
     if (mark.reachesLight) halfSpaces.push_back(mark.belowLight);
     std::vector<glm::dvec4> corners;
     for (const glm::dvec3& corner : cutBox(mark.casters->low, mark.casters->high, halfSpaces))
-        corners.push_back(mark.clipFromVertex * glm::dvec4(corner, 1.0));
+        corners.push_back(mark.clipFromScene * glm::dvec4(corner, 1.0));
     return screenBounds(corners);
 }
 
@@ -117,27 +117,27 @@ std::vector<osg::ref_ptr<MarkJob>> PlanarShadowNode::prepare(const ViewFrame& vi
             report(view.frameNumber,
                    sentence("the normal of the plane", _planes[i],
                             "is zero or not a number. Give (a, b, c, d) of the plane a x + b y + c z + d = 0."));
-        else if (osg::ref_ptr<MarkJob> job = prepareOne(view, light, casters.mesh(), i, *plane))
+        else if (osg::ref_ptr<MarkJob> job = prepareOne(view, light, casters.layers(), i, *plane))
             jobs.push_back(job);
     }
     return jobs;
 }
 
 osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light,
-                                                   const CasterMesh& mesh, unsigned index,
+                                                   const CasterLayers& layers, unsigned index,
                                                    const glm::dvec4& groupPlane) const {
     const auto refuse = [&](const char* start, const osg::Vec4d& what, const char* rest) {
         report(view.frameNumber, sentence(start, what, rest));
         return nullptr;
     };
     const std::size_t most = 4 * _planes.size(); // meshes: of two groups, or of views of different levels of detail
-    const osg::ref_ptr<PlanarCasters> casters = _casters->of(mesh, groupPlane, !_cures.clip, view.frameNumber, most);
+    const osg::ref_ptr<PlanarCasters> casters = _casters->of(layers, groupPlane, !_cures.clip, view.frameNumber, most);
     if (casters->parts.empty())
         return refuse("no caster is above the plane", _planes[index],
                       "on the side of its normal. Check where the plane lies and which way its normal points.");
     if (!isFinite(toGlm(light.inGroup)))
         return refuse("the light at", light.inGroup, "has a coordinate that is not finite. Set the light's position.");
-    const SceneFrame scene(mesh.origin);
+    const SceneFrame scene(layers.origin);
     const glm::dvec4 lightHere(glm::dvec3(toGlm(light.inGroup)) - light.inGroup.w() * scene.origin, light.inGroup.w());
     const auto flatten = planarShadowMatrix(casters->plane, lightHere);
     if (!flatten)
@@ -154,8 +154,8 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     const PlanarClipPlanes clip = planarClipPlanes(casters->plane, lightHere);
     mark->casters = casters;
     mark->programs = _programs;
-    mark->clipFromVertex = clipFromScene * *flatten;
-    mark->abovePlane = clip.abovePlane - glm::dvec4(0.0, 0.0, 0.0, casters->thickness);
+    mark->clipFromScene = clipFromScene * *flatten;
+    mark->abovePlane = clip.abovePlane;
     mark->belowLight = clip.belowLight;
     mark->reachesLight = heightLimit(clip, casters->plane) < casters->highest;
     mark->mirrored = isMirrored(view);

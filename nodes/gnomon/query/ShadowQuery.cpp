@@ -42,14 +42,14 @@ ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& li
     path.erase(path.begin());
     _groupFromTechnique = osg::computeLocalToWorld(path, false);
     _group = &group;
-    _mesh = group.casters();
-    const auto usable = localLight(light.inGroup, SceneFrame(_mesh->origin));
+    _layers = group.casters();
+    const auto usable = localLight(light.inGroup, SceneFrame(_layers->origin));
     if (!usable)
         throw std::invalid_argument(
             "gnomon::ShadowQuery: the light has no finite position or direction. Set its position.");
-    _origin = _mesh->origin;
+    _origin = _layers->origin;
     _light = *usable;
-    _scene = RaySceneCache().of(*_mesh, "ShadowQuery");
+    _scene = RaySceneCache().of(*_layers, "ShadowQuery");
     _answers = technique.answersFor(probe());
 }
 
@@ -58,7 +58,7 @@ ShadowQuery& ShadowQuery::operator=(const ShadowQuery& other) = default;
 ShadowQuery::~ShadowQuery() = default;
 
 ShadowProbe ShadowQuery::probe() const {
-    return {*_scene, *_mesh, *_group, _origin, _light, _groupFromTechnique, _answers};
+    return {*_scene, *_layers, *_group, _origin, _light, _groupFromTechnique, _answers};
 }
 
 ShadowQuery ShadowQuery::exact() const {

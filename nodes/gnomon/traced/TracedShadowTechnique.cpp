@@ -20,8 +20,8 @@ TracedShadowTechnique::~TracedShadowTechnique() = default;
 
 std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                                   const FrameCasters& casters) const {
-    const CasterMesh& mesh = casters.mesh();
-    const SceneFrame scene(mesh.origin);
+    const CasterLayers& layers = casters.layers();
+    const SceneFrame scene(layers.origin);
     const auto usable = localLight(light.inGroup, scene);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
@@ -30,14 +30,14 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
     osg::ref_ptr<TracedMark> mark = new TracedMark;
     mark->light = *usable;
     mark->resolved = _resolved;
-    mark->rounding = mesh.rounding;
+    mark->rounding = layers.largestRounding;
     mark->clipFromScene = scene.clipFromScene(view);
     mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
-    const auto bounds = shadowBounds(mesh, mark->clipFromScene, *usable);
+    const auto bounds = shadowBounds(layers, mark->clipFromScene, *usable);
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
     try {
-        mark->scene = _casters->of(mesh, describe());
+        mark->scene = _casters->of(layers, describe());
     } catch (const std::exception& failure) {
         report(view.frameNumber, std::string("there is no shadow. ") + failure.what());
         return {};

@@ -28,7 +28,7 @@ LightVolumes::LightVolumes() : _sides(new VolumeGeometry) {}
 
 bool LightVolumes::are(const VolumeCaster& caster, const glm::dvec4& light, const ReceiverBox& receivers) const {
     return _caster.mesh == caster.mesh && _caster.sceneFromMesh == caster.sceneFromMesh && _light == light &&
-           _receivers.fits(receivers);
+           _receivers == receivers;
 }
 
 void LightVolumes::set(const VolumeCaster& caster, const glm::dvec4& light, const ReceiverBox& receivers) {

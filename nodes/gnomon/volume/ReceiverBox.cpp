@@ -34,6 +34,11 @@ bool ReceiverBox::fits(const ReceiverBox& other) const {
            glm::distance(low, high) <= 2.0 * glm::distance(other.low, other.high);
 }
 
+ReceiverBox ReceiverBox::grown() const {
+    constexpr double share = 1.0 / 16.0;
+    return {low - share * (high - low), high + share * (high - low)};
+}
+
 /// Leaves share few matrices.
 ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene) {
     const osg::Matrixd sceneFromEye = scene.sceneFromEye(view);

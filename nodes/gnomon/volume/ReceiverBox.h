@@ -13,6 +13,9 @@ struct ReceiverBox {
 
     /// True if `other` is within, and not much smaller.
     bool fits(const ReceiverBox& other) const;
+    /// With room to move in.
+    ReceiverBox grown() const;
+    bool operator==(const ReceiverBox& other) const { return low == other.low && high == other.high; }
 };
 
 ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene);

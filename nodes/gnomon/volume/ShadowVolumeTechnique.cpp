@@ -22,14 +22,14 @@ unsigned ShadowVolumeTechnique::builds() const { return _cache->builds(); }
 
 std::vector<osg::ref_ptr<MarkJob>> ShadowVolumeTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                                   const FrameCasters& casters) const {
-    const CasterMesh& mesh = casters.mesh();
-    const SceneFrame scene(mesh.origin);
+    const CasterLayers& layers = casters.layers();
+    const SceneFrame scene(layers.origin);
     const auto usable = localLight(light.inGroup, scene);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    std::optional<SeenVolumes> seen = _cache->see(casters, view, light.number, *usable, scene);
+    std::optional<SeenVolumes> seen = _cache->see(layers, view, light.number, *usable, scene);
     if (!seen) return {}; // out of sight: nothing to say
     osg::ref_ptr<VolumeMark> mark = new VolumeMark;
     mark->seen = std::move(*seen);

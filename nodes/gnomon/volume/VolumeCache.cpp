@@ -5,7 +5,7 @@
 #include <OpenThreads/ScopedLock>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
+#include <iterator>
 
 namespace gnomon {
 namespace {
@@ -16,32 +16,41 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 VolumeCache::VolumeCache() : program(shaderProgram("#define EXTRUDE\n")) {}
 
-std::optional<SeenVolumes> VolumeCache::see(const FrameCasters& casters, const ViewFrame& view, int lightNumber,
+std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
                                             const glm::dvec4& light, const SceneFrame& scene) {
     const ReceiverBox receivers = receiversOf(view, scene);
     Lock lock(_mutex);
+    ++_call;
+    const ReceiverBox& box = boxOf(view.stage, receivers);
     std::vector<osg::ref_ptr<LightVolumes>> all;
     for (const VolumeCaster& caster : _casters.of(casters))
-        all.push_back(find(caster, {view.stage, lightNumber, all.size(), nullptr}, light, receivers));
-    _entries.dropOldestBeyond(std::max(most, 4 * all.size()));
+        all.push_back(find(caster, _entries[{view.stage, lightNumber, all.size()}], light, box));
+    dropUnused();
     return seenVolumes(all, scene.clipFromScene(view));
 }
 
-/// Another view's will do. A view's own of another light gives up its memory, unless it is still drawn.
-osg::ref_ptr<LightVolumes> VolumeCache::find(const VolumeCaster& caster, const Entry& owner, const glm::dvec4& light,
+const ReceiverBox& VolumeCache::boxOf(const void* stage, const ReceiverBox& receivers) {
+    const auto [known, isNew] = _boxes.emplace(stage, receivers);
+    if (!isNew && !known->second.fits(receivers)) known->second = receivers.grown();
+    return known->second;
+}
+
+/// Those of another light give up their memory, unless they are still drawn.
+osg::ref_ptr<LightVolumes> VolumeCache::find(const VolumeCaster& caster, Entry& own, const glm::dvec4& light,
                                              const ReceiverBox& receivers) {
-    if (const Entry* known =
-            _entries.find([&](const Entry& entry) { return entry.volumes->are(caster, light, receivers); }))
-        return known->volumes;
-    Entry* own = _entries.find([&](const Entry& entry) {
-        return entry.stage == owner.stage && entry.light == owner.light && entry.mesh == owner.mesh;
-    });
-    if (!own) own = &_entries.add(owner);
-    if (!own->volumes || own->volumes->referenceCount() > 1) own->volumes = new LightVolumes;
+    own.used = _call;
+    if (own.volumes && own.volumes->are(caster, light, receivers)) return own.volumes;
+    if (!own.volumes || own.volumes->referenceCount() > 1) own.volumes = new LightVolumes;
     // Isolated: a thread that waits for others must not take up work of the caller's, which might ask in turn.
-    tbb::this_task_arena::isolate([&] { own->volumes->set(caster, light, receivers); });
+    tbb::this_task_arena::isolate([&] { own.volumes->set(caster, light, receivers); });
     ++_builds;
-    return own->volumes;
+    return own.volumes;
+}
+
+void VolumeCache::dropUnused() {
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = _call - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
+    if (_entries.empty()) _boxes.clear();
 }
 
 unsigned VolumeCache::builds() const {
@@ -52,13 +61,13 @@ unsigned VolumeCache::builds() const {
 void VolumeCache::resizeGLObjectBuffers(unsigned maxSize) {
     Lock lock(_mutex);
     program->resizeGLObjectBuffers(maxSize);
-    for (const Entry& entry : _entries) entry.volumes->resizeGLObjectBuffers(maxSize);
+    for (const auto& [owner, entry] : _entries) entry.volumes->resizeGLObjectBuffers(maxSize);
 }
 
 void VolumeCache::release(osg::State* state) const {
     Lock lock(_mutex);
     program->releaseGLObjects(state);
-    for (const Entry& entry : _entries) entry.volumes->releaseGLObjects(state);
+    for (const auto& [owner, entry] : _entries) entry.volumes->releaseGLObjects(state);
 }
 
 } // namespace gnomon

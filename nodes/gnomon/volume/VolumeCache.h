@@ -6,12 +6,13 @@
 
 #include <OpenThreads/Mutex>
 
+#include <map>
 #include <optional>
-#include <vector>
+#include <tuple>
 
 namespace gnomon {
 
-class FrameCasters;
+struct CasterLayers;
 
 /// A technique's volumes: for each light in each view those found last, and whether they still are.
 ///
@@ -24,7 +25,7 @@ public:
     /// What a view sees of the volumes of all casters behind a light, found anew only where something changed.
     /// @param light  in the scene about the casters' origin, see localLight().
     /// @return       nullopt if nothing can be seen.
-    std::optional<SeenVolumes> see(const FrameCasters& casters, const ViewFrame& view, int lightNumber,
+    std::optional<SeenVolumes> see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
                                    const glm::dvec4& light, const SceneFrame& scene);
     /// How often volumes were found.
     unsigned builds() const;
@@ -35,22 +36,25 @@ public:
     void release(osg::State* state) const;
 
 private:
-    /// For whom it was found last.
+    /// For whom volumes were found: a view's stage, a light's number, and which of the casters'.
+    using Owner = std::tuple<const void*, int, std::size_t>;
     struct Entry {
-        const void* stage;
-        int light;
-        std::size_t mesh; ///< among the casters'.
         osg::ref_ptr<LightVolumes> volumes;
+        unsigned used = 0; ///< in which call.
     };
-    static constexpr std::size_t most = 32;
+    static constexpr unsigned longUnused = 64; ///< calls, one a view and light of each frame.
 
-    osg::ref_ptr<LightVolumes> find(const VolumeCaster& caster, const Entry& owner, const glm::dvec4& light,
+    /// The same as before while it fits.
+    const ReceiverBox& boxOf(const void* stage, const ReceiverBox& receivers);
+    osg::ref_ptr<LightVolumes> find(const VolumeCaster& caster, Entry& own, const glm::dvec4& light,
                                     const ReceiverBox& receivers);
+    void dropUnused();
 
     mutable OpenThreads::Mutex _mutex;
     VolumeCasters _casters;
-    RecentCache<Entry> _entries;
-    unsigned _builds = 0;
+    std::map<const void*, ReceiverBox> _boxes;
+    std::map<Owner, Entry> _entries;
+    unsigned _builds = 0, _call = 0;
 };
 
 } // namespace gnomon

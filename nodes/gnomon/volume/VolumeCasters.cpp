@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/group/FrameCasters.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/volume/VolumeCasters.h>
+
+#include <iterator>
 
 namespace gnomon {
 namespace {
@@ -15,15 +17,18 @@ std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
 
 } // namespace
 
-std::vector<VolumeCaster> VolumeCasters::of(const FrameCasters& casters) {
-    const CasterMesh& mesh = casters.mesh();
-    const Entry* known = _entries.find([&](const Entry& entry) { return entry.mesh == &mesh; });
-    if (!known) {
-        _entries.dropIf([](const Entry& entry) { return entry.mesh->isRetired(); });
-        _entries.dropOldestBeyond(most - 1);
-        known = &_entries.add({&mesh, edgesOf(mesh)});
+std::vector<VolumeCaster> VolumeCasters::of(const CasterLayers& casters) {
+    ++_call;
+    std::vector<VolumeCaster> all;
+    for (const PlacedMesh& placed : casters.meshes()) {
+        Entry& entry = _entries[placed.mesh.get()];
+        if (!entry.mesh) entry = {placed.mesh, edgesOf(*placed.mesh), 0};
+        entry.used = _call;
+        all.push_back({entry.edges, placed.sceneFromMesh});
     }
-    return {{known->edges, glm::dmat4(1.0)}};
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = _call - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
+    return all;
 }
 
 } // namespace gnomon

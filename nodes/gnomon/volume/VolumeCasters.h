@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/silhouette/SilhouetteMesh.h>
 
 #include <glm/mat4x4.hpp>
 
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace gnomon {
 
-class FrameCasters;
+struct CasterLayers;
 
 /// A mesh that casts, with its edges, where it stands in the scene.
 struct VolumeCaster {
@@ -19,20 +19,22 @@ struct VolumeCaster {
     glm::dmat4 sceneFromMesh{1.0};              ///< can be inverted.
 };
 
-/// The edges of casters, found once a mesh.
+/// The edges of casters, found once a mesh, wherever it stands.
 class VolumeCasters {
 public:
     /// All that cast.
-    std::vector<VolumeCaster> of(const FrameCasters& casters);
+    std::vector<VolumeCaster> of(const CasterLayers& casters);
 
 private:
     struct Entry {
-        osg::ref_ptr<const CasterMesh> mesh; // held, so that its address cannot be taken by the next revision
+        osg::ref_ptr<const CasterMesh> mesh; // held, so that its address cannot be taken by another
         std::shared_ptr<const SilhouetteMesh> edges;
+        unsigned used = 0; ///< in which call.
     };
-    static constexpr std::size_t most = 4; ///< as views of different levels of detail may ask for them.
+    static constexpr unsigned longUnused = 64; ///< calls, one a view and light of each frame.
 
-    RecentCache<Entry> _entries;
+    std::unordered_map<const CasterMesh*, Entry> _entries;
+    unsigned _call = 0;
 };
 
 } // namespace gnomon

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/RayScene.h>
+#include <gnomon/rays/RayScene-inl.h>
 
-#include <embree3/rtcore.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
@@ -20,20 +20,6 @@ namespace {
 constexpr int liftSteps = 8;
 constexpr double exact = 1.0 / (1LL << 42); // of the scene's size: what doubles leave of a place on a plane
 constexpr double inPlane = 1.0 / (1 << 20); // of the coordinates: eight steps of a float
-
-[[noreturn]] void fail(const char* what, RTCError error) {
-    const std::string why = error == RTC_ERROR_OUT_OF_MEMORY     ? "there is not enough memory"
-                            : error == RTC_ERROR_UNSUPPORTED_CPU ? "it does not support this processor"
-                                                                 : "it reports error " + std::to_string(int(error));
-    throw std::runtime_error(std::string("Embree cannot ") + what + ": " + why + ".");
-}
-
-/// One for all scenes, as Embree advises; lives to the end of the program, for its threads do.
-RTCDevice device() {
-    static const RTCDevice made = rtcNewDevice(nullptr);
-    if (!made) fail("start", rtcGetDeviceError(nullptr));
-    return made;
-}
 
 /// False for NaN too.
 bool isUsable(const glm::vec3& v) {
@@ -72,52 +58,41 @@ double stepsAbove(float value, int steps) {
     return static_cast<double>(moved) - static_cast<double>(value);
 }
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-/// What the filter knows of the ray that is cast, in double.
-struct Cast : RTCIntersectContext {
-    Cast(const Ray& ray, const glm::dvec3& origin) : start(ray.start - origin), along(ray.along), reach(ray.reach) {
-        rtcInitIntersectContext(this);
-    }
-
-    const glm::dvec3 start, along;
-    const double reach;
-    bool overEnd = false; ///< meets a surface on which it ends, too.
-};
-
 } // namespace
 
-struct RayScene::Embree {
-    ~Embree() { rtcReleaseScene(scene); }
+[[noreturn]] void failInEmbree(const char* what, RTCError error) {
+    const std::string why = error == RTC_ERROR_OUT_OF_MEMORY     ? "there is not enough memory"
+                            : error == RTC_ERROR_UNSUPPORTED_CPU ? "it does not support this processor"
+                                                                 : "it reports error " + std::to_string(int(error));
+    throw std::runtime_error(std::string("Embree cannot ") + what + ": " + why + ".");
+}
 
-    static void filter(const RTCFilterFunctionNArguments* arguments);
+RTCDevice embreeDevice() {
+    static const RTCDevice made = rtcNewDevice(nullptr);
+    if (!made) failInEmbree("start", rtcGetDeviceError(nullptr));
+    return made;
+}
 
-    void take(const TriangleSoup& soup);
-    void commit(const ProgressLine& progress);
-    void measure();
-    RTCRay ray(const Ray& ray) const;
-    bool meets(const Cast& cast, unsigned primitive) const;
-    RayHit refined(const Ray& ray, unsigned primitive) const;
-    double step(double coordinate) const;
-    glm::dvec3 corner(std::size_t primitive, int i) const { return glm::dvec3(vertices[indices[3 * primitive + i]]); }
+RayScene::Embree::Embree() : scene(rtcNewScene(embreeDevice())) {
+    if (!scene) failInEmbree("make a scene", rtcGetDeviceError(embreeDevice()));
+}
 
-    RTCScene scene = nullptr;
-    glm::dvec3 origin{0.0};
-    const glm::vec3* vertices = nullptr; ///< Embree's own copy.
-    const unsigned* indices = nullptr;   ///< the same; only of triangles that are kept.
-    std::vector<unsigned> kept;          ///< for each of them, its place among those given.
-    std::function<bool(unsigned, double, double)> solidAt;
-    std::size_t leftOut = 0;
-    double reach = 0.0;
-    double size = 0.0; ///< how far from the origin the middle one of the triangles is: what is far off does not count.
-    double longest = 0.0; ///< a triangle's side.
-};
+RayScene::Embree::Cast::Cast(const Ray& ray, const Embree& embree)
+    : local{ray.start - embree.origin, ray.along, ray.reach, 0.0}, outer(embree) {
+    rtcInitIntersectContext(this);
+    if (!std::isinf(ray.reach)) local.endSize = largestOf(local.start + ray.reach * ray.along);
+}
 
 /// Embree asks it of each hit that it finds; single rays only are cast, so that N is 1.
 void RayScene::Embree::filter(const RTCFilterFunctionNArguments* arguments) {
     const Embree& self = *static_cast<const Embree*>(arguments->geometryUserPtr);
+    const Cast& cast = *static_cast<const Cast*>(arguments->context);
     const unsigned primitive = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    if (!self.meets(*static_cast<const Cast*>(arguments->context), primitive)) arguments->valid[0] = 0;
+    const unsigned part = RTCHitN_instID(arguments->hit, arguments->N, 0, 0);
+    const bool met = part == RTC_INVALID_GEOMETRY_ID
+                         ? self.meets(cast.local, cast.overEnd, primitive)
+                         : self.meets(cast.outer.parts[part].inside(cast.local), cast.overEnd, primitive);
+    if (!met) arguments->valid[0] = 0;
     if (!self.solidAt || !arguments->valid[0]) return;
     const float u = RTCHitN_u(arguments->hit, arguments->N, 0), v = RTCHitN_v(arguments->hit, arguments->N, 0);
     if (!self.solidAt(self.kept[primitive], double(u), double(v))) arguments->valid[0] = 0;
@@ -125,15 +100,15 @@ void RayScene::Embree::filter(const RTCFilterFunctionNArguments* arguments) {
 
 /// Whether the triangle's plane is between the ray's ends, in double. Embree's floats are off by steps of the triangle's
 /// size, which may be kilometres where the ray starts millimetres above it.
-bool RayScene::Embree::meets(const Cast& cast, unsigned primitive) const {
+bool RayScene::Embree::meets(const LocalRay& ray, bool overEnd, unsigned primitive) const {
     const glm::dvec3 a = corner(primitive, 0);
     const glm::dvec3 normal = glm::cross(corner(primitive, 1) - a, corner(primitive, 2) - a);
-    const double ahead = glm::dot(a - cast.start, normal), speed = glm::dot(cast.along, normal);
+    const double ahead = glm::dot(a - ray.start, normal), speed = glm::dot(ray.along, normal);
     const double distance = ahead / speed;
-    if (!(distance > 0.0 && distance <= cast.reach)) return false;
-    if (cast.overEnd || std::isinf(cast.reach)) return true;
-    const double reached = std::max(largest(a), largest(cast.start + cast.reach * cast.along));
-    return std::abs(ahead - cast.reach * speed) > inPlane * reached * glm::length(normal);
+    if (!(distance > 0.0 && distance <= ray.reach)) return false;
+    if (overEnd || std::isinf(ray.reach)) return true;
+    const double reached = std::max(largestOf(a), ray.endSize);
+    return std::abs(ahead - ray.reach * speed) > inPlane * reached * glm::length(normal);
 }
 
 /// Copies what is usable.
@@ -145,7 +120,7 @@ void RayScene::Embree::take(const TriangleSoup& soup) {
         if (isTriangle(soup, soup.indices + i)) kept.push_back(static_cast<unsigned>(i / 3));
     leftOut = soup.indexCount / 3 - kept.size();
     if (kept.empty()) return;
-    const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    const RTCGeometry geometry = rtcNewGeometry(embreeDevice(), RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* points = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), soup.vertexCount));
     auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
@@ -170,15 +145,15 @@ void RayScene::Embree::commit(const ProgressLine& progress) {
     if (progress) rtcSetSceneProgressMonitorFunction(scene, report, const_cast<ProgressLine*>(&progress));
     rtcCommitScene(scene);
     if (progress) rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
-    const RTCError error = rtcGetDeviceError(device());
-    if (error != RTC_ERROR_NONE) fail("build its tree", error);
-    if (kept.empty()) return;
+    const RTCError error = rtcGetDeviceError(embreeDevice());
+    if (error != RTC_ERROR_NONE) failInEmbree("build its tree", error);
+    if (empty()) return;
     RTCBounds box;
     rtcGetSceneBounds(scene, &box);
     reach = std::max({double(box.upper_x) - double(box.lower_x), double(box.upper_y) - double(box.lower_y),
                       double(box.upper_z) - double(box.lower_z)}) /
             2.0;
-    measure();
+    parts.empty() ? measure() : measureParts();
 }
 
 void RayScene::Embree::measure() {
@@ -187,7 +162,7 @@ void RayScene::Embree::measure() {
     for (std::size_t i = 0; i < kept.size(); ++i) {
         const glm::dvec3 a = corner(i, 0), b = corner(i, 1), c = corner(i, 2);
         longest = std::max({longest, glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-        if (i % every == 0) distances.push_back(std::max({largest(a), largest(b), largest(c)}));
+        if (i % every == 0) distances.push_back(std::max({largestOf(a), largestOf(b), largestOf(c)}));
     }
     longest = std::sqrt(longest);
     const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
@@ -200,7 +175,7 @@ void RayScene::Embree::measure() {
 RTCRay RayScene::Embree::ray(const Ray& given) const {
     const double length = glm::length(given.along);
     const glm::dvec3 local = given.start - origin, unit = given.along / length;
-    const double more = inPlane * (largest(local) + longest);
+    const double more = (parts.empty() ? 1.0 : 2.0) * inPlane * (largestOf(local) + longest); // floats twice
     const glm::vec3 start(local - more * unit), along(unit);
     const bool usable = isUsable(start) && isUsable(along) && length < 1e150 && given.reach > 0.0;
     RTCRay result{};
@@ -217,21 +192,24 @@ RTCRay RayScene::Embree::ray(const Ray& given) const {
 }
 
 /// Where the ray meets the triangle's plane, in double.
-RayHit RayScene::Embree::refined(const Ray& ray, unsigned primitive) const {
+RayHit RayScene::Embree::refined(const LocalRay& ray, unsigned primitive) const {
     const glm::dvec3 a = corner(primitive, 0);
     const glm::dvec3 normal = glm::normalize(glm::cross(corner(primitive, 1) - a, corner(primitive, 2) - a));
     RayHit hit;
     hit.triangle = kept[primitive];
     hit.normal = normal;
-    hit.distance = glm::dot(a - (ray.start - origin), normal) / glm::dot(ray.along, normal);
+    hit.distance = glm::dot(a - ray.start, normal) / glm::dot(ray.along, normal);
     return hit;
 }
 
 RayScene::RayScene(const TriangleSoup& triangles, const ProgressLine& progress) : _embree(new Embree) {
-    _embree->scene = rtcNewScene(device());
-    if (!_embree->scene) fail("make a scene", rtcGetDeviceError(device()));
     _embree->take(triangles);
     _embree->commit(progress);
+}
+
+RayScene::RayScene(const std::vector<PlacedRayScene>& parts) : _embree(new Embree) {
+    _embree->take(parts);
+    _embree->commit({});
 }
 
 RayScene::~RayScene() = default;
@@ -240,17 +218,17 @@ RayHit RayScene::closest(const Ray& given) const {
     RTCRayHit query{_embree->ray(given), {}};
     if (query.ray.tfar < 0.0f) return {};
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    Cast how(given, _embree->origin);
+    Embree::Cast how(given, *_embree);
     how.overEnd = true;
     rtcIntersect1(_embree->scene, &how, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return _embree->refined(given, query.hit.primID);
+    return _embree->refined(how, query.hit);
 }
 
 bool RayScene::blocked(const Ray& given) const {
     RTCRay query = _embree->ray(given);
     if (query.tfar < 0.0f) return false;
-    Cast how(given, _embree->origin);
+    Embree::Cast how(given, *_embree);
     rtcOccluded1(_embree->scene, &how, &query);
     return query.tfar < 0.0f;
 }
@@ -273,7 +251,7 @@ double RayScene::Embree::step(double coordinate) const {
     return std::max(stepsAbove(static_cast<float>(std::max(std::abs(coordinate), least)), liftSteps), exact * reach);
 }
 
-double RayScene::margin(const glm::dvec3& point) const { return _embree->step(largest(point - _embree->origin)); }
+double RayScene::margin(const glm::dvec3& point) const { return _embree->step(largestOf(point - _embree->origin)); }
 
 glm::dvec3 RayScene::lifted(const glm::dvec3& point, const glm::dvec3& normal) const {
     glm::dvec3 result = point;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/group/SceneFrame.h>
-#include <gnomon/map/CasterLayers.h>
+#include <gnomon/Convert.h>
+#include <gnomon/casters/CasterBodies.h>
+#include <gnomon/casters/CasterLayers.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,10 +16,6 @@ namespace gnomon {
 namespace {
 
 constexpr unsigned restAfter = 60; // changes of others: a second of a scene that moves
-
-osg::ref_ptr<const CasterLayer> layerOf(CasterDrawables::List pieces, const CasterLayers& casters) {
-    return new CasterLayer(std::move(pieces), casters.origin);
-}
 
 constexpr double farthest = 64.0; // as CasterMesh
 
@@ -51,25 +48,31 @@ double roundingOf(const CasterDrawable& piece) {
 
 } // namespace
 
-osg::ref_ptr<const CasterLayers> CasterLayers::of(const CasterDrawables& pieces,
-                                                  const osg::ref_ptr<const CasterLayers>& before) {
+osg::ref_ptr<const CasterLayers>
+CasterLayers::of(const CasterDrawables& pieces, const osg::ref_ptr<const CasterLayers>& before, CasterBodies& bodies) {
     if (before && before->pieces == &pieces) return before;
     const osg::ref_ptr<CasterLayers> now = new CasterLayers(pieces);
-    before ? now->follow(*before) : now->begin();
+    before ? now->follow(*before, bodies) : now->begin(bodies);
     now->measure();
     return now;
 }
 
-void CasterLayers::begin() {
+std::vector<PlacedMesh> CasterLayers::meshes() const {
+    std::vector<PlacedMesh> all = still->meshes;
+    all.insert(all.end(), moving->meshes.begin(), moving->meshes.end());
+    return all;
+}
+
+void CasterLayers::begin(CasterBodies& bodies) {
     origin = middle();
     CasterDrawables::List all;
     for (const auto& piece : pieces->list)
         if (piece->bounds.valid()) all.push_back(piece);
-    still = layerOf(std::move(all), *this);
-    moving = layerOf({}, *this);
+    still = new CasterLayer(std::move(all), origin, bodies, {});
+    moving = new CasterLayer({}, origin, bodies, {});
 }
 
-void CasterLayers::follow(const CasterLayers& before) {
+void CasterLayers::follow(const CasterLayers& before, CasterBodies& bodies) {
     _change = before._change + 1;
     origin = before.origin;
     CasterDrawables::List others;
@@ -88,12 +91,12 @@ void CasterLayers::follow(const CasterLayers& before) {
     }
     const bool sameMoving = others == before.moving->pieces;
     _wasted = before._wasted + (sameMoving ? 0 : atRest);
-    if (next != end || !isNear(origin) || _wasted > before.still->triangles + atRest) return divideAnew(before);
+    if (next != end || !isNear(origin) || _wasted > before.still->triangles + atRest) return divideAnew(before, bodies);
     still = before.still;
-    moving = sameMoving ? before.moving : layerOf(std::move(others), *this);
+    moving = sameMoving ? before.moving : new CasterLayer(std::move(others), origin, bodies, {before.moving});
 }
 
-void CasterLayers::divideAnew(const CasterLayers& before) {
+void CasterLayers::divideAnew(const CasterLayers& before, CasterBodies& bodies) {
     std::unordered_set<const CasterDrawable*> stood;
     for (const auto& piece : before.still->pieces) stood.insert(piece.get());
     CasterDrawables::List standing, others;
@@ -105,8 +108,9 @@ void CasterLayers::divideAnew(const CasterLayers& before) {
     }
     _wasted = 0;
     if (!isNear(origin)) origin = middle();
-    still = layerOf(std::move(standing), *this);
-    moving = layerOf(std::move(others), *this);
+    const std::vector<const CasterLayer*> former{before.still, before.moving};
+    still = new CasterLayer(std::move(standing), origin, bodies, former);
+    moving = new CasterLayer(std::move(others), origin, bodies, former);
 }
 
 /// The centre of all, unless a few are so far that floats about it were coarse for the others: then a place among most.
@@ -132,9 +136,9 @@ bool CasterLayers::isAtRest(const CasterDrawable* piece) const {
 
 void CasterLayers::measure() {
     if (pieces->empty()) return;
-    const SceneFrame scene(origin);
-    low = scene.point(pieces->bounds._min);
-    high = scene.point(pieces->bounds._max);
+    bounds = pieces->bounds;
+    low = toGlm(pieces->bounds._min - origin);
+    high = toGlm(pieces->bounds._max - origin);
     reach = glm::max(glm::abs(low), glm::abs(high));
     double least = std::numeric_limits<double>::infinity();
     for (const auto& piece : pieces->list) {
@@ -146,14 +150,8 @@ void CasterLayers::measure() {
     }
     // One large ground must not cost what stands on it the light beside its shadows.
     if (rounding > 2.0 * least) rounding = middleOf(*pieces, roundingOf);
-}
-
-void CasterLayers::resizeGLObjectBuffers(unsigned maxSize) const {
-    for (const auto& layer : {still, moving}) layer->resizeGLObjectBuffers(maxSize);
-}
-
-void CasterLayers::releaseGLObjects(osg::State* state) const {
-    for (const auto& layer : {still, moving}) layer->releaseGLObjects(state);
+    for (const auto& layer : {still, moving})
+        for (const PlacedMesh& mesh : layer->meshes) largestRounding = std::max(largestRounding, mesh.rounding);
 }
 
 } // namespace gnomon

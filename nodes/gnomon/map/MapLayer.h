@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/casters/CasterLayer.h>
+#include <gnomon/casters/CullableFaces.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <osg/Geometry>
+#include <osg/Texture2D>
+
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+class MapBodies;
+
+/// A layer of the casters as a light's map draws it. Never changed once made.
+struct MapLayer : public osg::Referenced {
+    struct Box {
+        glm::dvec3 low, high;
+    };
+
+    /// Those that one texture cuts out by one test, drawn in one call; see AlphaTest.
+    struct Cutout {
+        osg::ref_ptr<osg::Geometry> geometry; ///< positions, and coordinates of the texture: s, t and q.
+        osg::ref_ptr<osg::Texture2D> texture;
+        int passing = 0;
+        float reference = 0.0f;
+        bool flat = false;
+    };
+
+    /// A mesh, or some of its triangles, at a place.
+    struct Drawn {
+        osg::ref_ptr<const CullableFaces> faces;
+        glm::dmat4 sceneFromMesh{1.0};
+        Box box; ///< in the scene.
+    };
+
+    /// @param before  layers, whatever of which is the same is taken.
+    MapLayer(const CasterLayer& casters, const std::vector<osg::ref_ptr<const MapLayer>>& before);
+
+    const osg::ref_ptr<const CasterLayer> casters;
+    std::vector<Cutout> cutouts; ///< what textures cut out.
+    std::vector<Box> bodyBoxes;  ///< of the drawables, about the origin, the largest first.
+    std::vector<Box> flatBoxes;  ///< of those that are flat along an axis of the group.
+
+    /// All that no texture cuts out, or of it all but what is flat, as grounds are. One thread at a time.
+    /// @param again  it has been drawn before, and so may be drawn often: its solids are told apart.
+    std::vector<Drawn> faces(bool flats, bool again, MapBodies& bodies) const;
+
+    /// From a lamp about the origin to the nearest triangle; infinite if there is none. Triangles whose plane holds the lamp,
+    /// to 10⁻⁶ of the coordinates, do not count: they cast nothing. Looks at the drawables that may be nearest.
+    double clearanceOf(const glm::dvec3& lamp) const;
+
+    void resizeGLObjectBuffers(unsigned maxSize) const;
+    void releaseGLObjects(osg::State* state) const;
+
+protected:
+    ~MapLayer() override = default;
+
+private:
+    struct Joined;
+    struct Part;
+    std::vector<Part> parts() const;
+
+    std::shared_ptr<Joined> _joined; ///< of the joined mesh; null if there is none.
+};
+
+} // namespace gnomon

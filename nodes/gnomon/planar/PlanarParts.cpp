@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/Plane.h>
+#include <gnomon/casters/CullableFaces.h>
+#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/planar/PlanarParts.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+glm::dvec3 vertexAt(const CasterMesh& mesh, unsigned index) { return toGlm(osg::Vec3d((*mesh.vertices)[index])); }
+
+/// A vertex this near to the plane lies in it: four steps of the floats it is kept in and of those it came from.
+double thicknessAt(double fromOrigin, double rounding) {
+    return 4.0 * (fromOrigin * std::numeric_limits<float>::epsilon() / 2.0 + rounding);
+}
+
+/// Heights above a plane of a mesh's vertices.
+struct Heights {
+    Heights(const PlacedMesh& placed, const glm::dvec4& plane)
+        : of(placed.mesh->vertices->size()), thickness(of.size()) {
+        const glm::dvec4 inMesh = glm::transpose(placed.sceneFromMesh) * plane; // heights in the scene's unit
+        for (unsigned i = 0; i < of.size(); ++i) {
+            const glm::dvec3 vertex = vertexAt(*placed.mesh, i);
+            thickness[i] = thicknessAt(placed.stretched * glm::length(vertex), placed.rounding);
+            const double height = distance(inMesh, vertex);
+            if (!(std::abs(height) <= thickness[i])) of[i] = height;
+        }
+    }
+
+    std::vector<double> of, thickness; ///< the former 0 of what lies in the plane.
+};
+
+} // namespace
+
+PlanarMesh::PlanarMesh(const CasterMesh& given, bool findSolids, unsigned frame)
+    : mesh(&given), knowsSolids(findSolids), firstFrame(frame) {
+    const osg::DrawElementsUInt& all = *mesh->triangles;
+    if (!findSolids) {
+        parts.push_back({casterGeometry(*mesh, mesh->triangles), false, false});
+        return;
+    }
+    const ClosedParts closed = closedPartsOf(*mesh, all);
+    osg::ref_ptr<osg::DrawElementsUInt> lists[2] = {noTriangles(), noTriangles()}; // [solid]
+    for (unsigned i = 0; i < all.size(); ++i) lists[closed.closed[i / 3]]->push_back(closed.welded[all[i]]);
+    for (const bool solid : {false, true})
+        if (!lists[solid]->empty()) parts.push_back({casterGeometry(*mesh, lists[solid]), false, solid});
+}
+
+PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool under, bool findSolids, unsigned frame)
+    : mesh(placed.mesh),
+      sceneFromMesh(placed.sceneFromMesh),
+      knowsSolids(findSolids),
+      firstFrame(frame),
+      low(std::numeric_limits<double>::infinity()),
+      high(-low) {
+    const Heights heights(placed, plane);
+    const osg::DrawElementsUInt& all = *mesh->triangles;
+    const ClosedParts closed = findSolids ? closedPartsOf(*mesh, all) : ClosedParts();
+    osg::ref_ptr<osg::DrawElementsUInt> lists[2][2]; // [crossing][solid]
+    for (auto& row : lists)
+        for (auto& list : row) list = noTriangles();
+    double thickness = 0.0;
+    for (unsigned i = 0; i + 2 < all.size(); i += 3) {
+        const auto [lowest, top] = std::minmax({heights.of[all[i]], heights.of[all[i + 1]], heights.of[all[i + 2]]});
+        if (!(top > 0.0 || (under && lowest < 0.0))) continue;
+        osg::DrawElementsUInt& list = *lists[lowest < 0.0][findSolids && closed.closed[i / 3]];
+        for (unsigned corner = i; corner < i + 3; ++corner) {
+            list.push_back(findSolids ? closed.welded[all[corner]] : all[corner]);
+            const glm::dvec3 place(sceneFromMesh * glm::dvec4(vertexAt(*mesh, all[corner]), 1.0));
+            low = glm::min(low, place);
+            high = glm::max(high, place);
+            if (lowest < 0.0) thickness = std::max(thickness, heights.thickness[all[corner]]);
+        }
+        highest = std::max(highest, top);
+    }
+    for (const bool crossing : {false, true})
+        for (const bool solid : {false, true})
+            if (!lists[crossing][solid]->empty())
+                parts.push_back({casterGeometry(*mesh, lists[crossing][solid]), crossing, solid, sceneFromMesh,
+                                 placed.mirrored, crossing ? thickness : 0.0});
+}
+
+PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, const glm::dvec3& from,
+                         const glm::dvec3& to, const PlanarMesh& asWhole)
+    : mesh(placed.mesh),
+      sceneFromMesh(placed.sceneFromMesh),
+      whole(&asWhole),
+      knowsSolids(asWhole.knowsSolids),
+      firstFrame(asWhole.firstFrame),
+      low(from),
+      high(to) {
+    const osg::BoundingBoxd& box = mesh->bounds;
+    const glm::dvec3 middle = toGlm(mesh->origin);
+    double lowest = std::numeric_limits<double>::infinity(), reach = 0.0;
+    highest = -lowest;
+    for (const glm::dvec4& corner : boxCorners(toGlm(box._min) - middle, toGlm(box._max) - middle, sceneFromMesh)) {
+        const double height = glm::dot(plane, corner);
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+        reach = std::max(reach, glm::distance(glm::dvec3(corner), glm::dvec3(sceneFromMesh[3])));
+    }
+    const double thickness = thicknessAt(reach, placed.rounding);
+    if (!(highest > thickness)) return;
+    for (PlanarPart part : whole->parts) {
+        part.crossing = !(lowest > thickness);
+        part.sceneFromMesh = sceneFromMesh;
+        part.mirrored = placed.mirrored;
+        part.thickness = thickness;
+        parts.push_back(part);
+    }
+}
+
+} // namespace gnomon
