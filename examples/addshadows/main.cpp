@@ -18,13 +18,12 @@ int main(int argc, char** argv) {
         return 1;
     }
     osgViewer::Viewer viewer;
-    // [five lines]
-    osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
+    // [lines]
     osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
     group->addChild(scene);
     group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
     viewer.setSceneData(group);
-    // [/five lines]
+    // [/lines]
     const osg::BoundingSphere& all = scene->getBound();
     osg::ref_ptr<osgGA::TrackballManipulator> hand = new osgGA::TrackballManipulator;
     hand->setHomePosition(all.center() + osg::Vec3d(-1, -2, 1.5) * all.radius(), all.center(), osg::Vec3d(0, 0, 1));

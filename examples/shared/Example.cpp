@@ -87,9 +87,6 @@ osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string
 }
 
 void writePicture(const ExampleText& text, const ExampleOptions& options, SceneSetup& setup, OutputFile& file) {
-    if (options.stencilBits == 0)
-        throw std::runtime_error(
-            "this framebuffer has no stencil bits, so there can be no shadow. Give --stencil-bits 8.");
     const osg::ref_ptr<osg::Image> picture =
         ScenePicture(options.view, setup, options.stencilBits).draw(options.frames);
     for (const std::string& cause : setup.diagnose()) std::cerr << text.program << ": note: " << cause << std::endl;

@@ -40,7 +40,7 @@ std::optional<ExampleOptions> readExample(osg::ArgumentParser& arguments, const 
 osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string& program);
 
 /// Draws a scene into the file; why something is missing goes to standard error.
-/// @throws std::runtime_error, one sentence, if the framebuffer has no stencil bits or there is no OpenGL.
+/// @throws std::runtime_error, one sentence, if there is no OpenGL.
 void writePicture(const ExampleText& text, const ExampleOptions& options, SceneSetup& setup, OutputFile& file);
 
 /// Does what a key does, by its letter. @throws std::invalid_argument, one sentence, if there is none.

@@ -27,7 +27,6 @@ struct CasterView;
 /// Wrap the scene, or any part of it, and add a technique beside it. The scene's own nodes stay as they are.
 /// The techniques are PlanarShadowNode, ShadowMapTechnique, TerrainShadowGeode and TracedShadowTechnique.
 ///
-///     osg::DisplaySettings::instance()->setMinimumNumStencilBits(8); // before the window is made
 ///     osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
 ///     group->addChild(scene);
 ///     group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0)));
@@ -39,8 +38,8 @@ struct CasterView;
 /// - BLEND: one multiplication a shadowed pixel.
 /// - DrawThreadPerContext: the next frame starts only after this frame's shadows are drawn, also if all is STATIC.
 /// Needs
-/// - Stencil bits; 8 are always enough. RELIGHT takes one a light and sometimes one more.
-/// - Alpha bits for soft and smooth edges.
+/// - OpenGL 3.0. A framebuffer without stencil bits, or without alpha bits for soft edges, costs copies to one that
+///   has them.
 /// Limits
 /// - RELIGHT shadows three lights. BLEND shadows any number, but darkens a pixel only once.
 /// - RELIGHT darkens unlit receivers by setDark(), and receivers whose program reads no light it knows.

@@ -174,7 +174,6 @@ TEST_F(Halomagic, ThePulseGrowsAndEndsAndMotionJumps) {
 }
 
 TEST_F(Halomagic, SaysWhatItCannotDoAndHelps) {
-    expectRefused({"--stencil-bits", "0", "--offscreen"}, "this framebuffer has no stencil bits");
     expectRefused({"--keys", "W", "--offscreen"}, "there is no key W");
     expectHelp({"  p        ", "  q        ", "  y        ", "  9        ", "halo"});
 }

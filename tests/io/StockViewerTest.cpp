@@ -137,12 +137,12 @@ TEST_F(StockViewer, SaysOnceWhatIsMissing) {
     EXPECT_EQ(timesSaid("light 9 is left out"), 1);
 }
 
-TEST_F(StockViewer, SaysOnceThatItsWindowHasNoStencilForWhatIsLoadedLater) {
+TEST_F(StockViewer, ShowsTheShadowsOfWhatIsLoadedLaterInAWindowWithoutStencil) {
     write(Lab());
     folder.write("later.osgt", test::written(*loadedLater("scene.osgt"), "osgt"));
     open("later.osgt");
-    EXPECT_EQ(timesSaid("this framebuffer has no stencil bits"), 1);
-    EXPECT_EQ(count(pictureOfGround(), shadowed), 0);
+    EXPECT_GT(count(pictureOfGround(), shadowed), 0);
+    EXPECT_EQ(readFile(folder.path() / "said"), "");
 }
 
 TEST_F(StockViewer, GivesAWindowStencilForWhatIsLoadedLaterIfTheFirstFileHasAGroup) {

@@ -3,11 +3,14 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/MatrixTransform>
 #include <osg/Stencil>
+#include <osgUtil/CullVisitor>
 
 using namespace test;
 
@@ -23,7 +26,52 @@ void expectOneCause(const gnomon::ShadowTechnique& technique, const std::string&
     EXPECT_NE(causes[0].find(part), std::string::npos) << causes[0];
 }
 
+/// Draws a square before the eye by a leaf of its own, as osgSim::LightPointNode does.
+class BareLeaf : public osg::Node {
+public:
+    explicit BareLeaf(bool projected) : _projected(projected) { setCullingActive(false); }
+    void traverse(osg::NodeVisitor& visitor) override {
+        osgUtil::CullVisitor* cull = visitor.asCullVisitor();
+        if (!cull) return;
+        osgUtil::StateGraph* graph = cull->getCurrentStateGraph();
+        if (graph->leaves_empty()) cull->getCurrentRenderBin()->addStateGraph(graph);
+        osg::RefMatrix* projection = _projected ? cull->getProjectionMatrix() : nullptr;
+        graph->addLeaf(
+            new osgUtil::RenderLeaf((_projected ? _before : _onScreen)->getDrawable(0), projection, nullptr, 0.0f));
+    }
+
+private:
+    const bool _projected;
+    const osg::ref_ptr<osg::Geode> _before = node(quad({-1.0, 0.4, -3.0}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0})),
+                                   _onScreen = node(quad({-0.9, 0.5, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}));
+};
+
 } // namespace
+
+/// Where the leaf is, the picture is that without shadows; elsewhere it is that without the leaf.
+TEST(HostileGraph, ALeafWithoutMatricesIsDrawnAndLeavesTheShadowsRight) {
+    for (const bool projected : {true, false})
+        for (const int way : {0, 1, 2, 3}) {
+            const auto picture = [&](bool leaf, bool shadow) {
+                Scene scene = boxScene();
+                const osg::ref_ptr<BareLeaf> bare = new BareLeaf(projected);
+                bare->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+                if (leaf) scene.root->addChild(bare);
+                if (shadow && way == 0) scene.addShadow(new gnomon::TracedShadowTechnique);
+                if (shadow && way == 1) scene.addShadow(new gnomon::ShadowMapTechnique);
+                if (shadow && way > 1) scene.addShadow(planar(way == 3 ? find(*scene.root, "ground") : nullptr));
+                return render(scene.root, slanted);
+            };
+            const Picture plain = picture(false, false), leaf = picture(true, false), shadow = picture(false, true),
+                          both = picture(true, true);
+            EXPECT_GT(plain.different(leaf), 500);
+            EXPECT_GT(plain.different(shadow), 500);
+            int wrong = 0;
+            for (std::size_t i = 0; i < both.pixels.size(); ++i)
+                wrong += both.pixels[i] != (leaf.pixels[i] != plain.pixels[i] ? leaf.pixels[i] : shadow.pixels[i]);
+            EXPECT_EQ(wrong, 0) << "way " << way << (projected ? ", projected" : "");
+        }
+}
 
 TEST(HostileGraph, LeafHiddenByItsOwnStencilTestStaysHidden) {
     for (const bool named : {false, true}) {

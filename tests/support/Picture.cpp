@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <support/Picture.h>
 
+#include <osg/GLExtensions>
+
 #include <algorithm>
 #include <cstring>
 
@@ -67,6 +69,21 @@ Picture Camera::frame() {
     std::memcpy(picture.pixels.data(), image->data(), picture.pixels.size() * 4);
     return picture;
 }
+
+struct NoFramebufferCopies::Functions {
+    explicit Functions(osg::GLExtensions& extensions) : all(extensions), blit(extensions.glBlitFramebuffer) {}
+    osg::GLExtensions& all;
+    const decltype(osg::GLExtensions::glBlitFramebuffer) blit;
+};
+
+NoFramebufferCopies::NoFramebufferCopies(Camera& camera) {
+    camera.frame();
+    auto& extensions = *camera.context().graphicsContext()->getState()->get<osg::GLExtensions>();
+    _functions = std::make_unique<Functions>(extensions);
+    extensions.glBlitFramebuffer = nullptr;
+}
+
+NoFramebufferCopies::~NoFramebufferCopies() { _functions->all.glBlitFramebuffer = _functions->blit; }
 
 Picture render(osg::Node* root, const View& view) { return Camera(root, view).frame(); }
 

@@ -53,6 +53,19 @@ private:
     osgViewer::Viewer _viewer;
 };
 
+/// While it lives, the OpenGL of a camera's context cannot copy between framebuffers. Draws a frame first.
+class NoFramebufferCopies {
+public:
+    explicit NoFramebufferCopies(Camera& camera);
+    ~NoFramebufferCopies();
+    NoFramebufferCopies(const NoFramebufferCopies&) = delete;
+    NoFramebufferCopies& operator=(const NoFramebufferCopies&) = delete;
+
+private:
+    struct Functions;
+    std::unique_ptr<Functions> _functions;
+};
+
 /// The first frame of a scene.
 Picture render(osg::Node* root, const View& view);
 

@@ -21,6 +21,11 @@ std::vector<Jobs> byView(const Jobs& jobs) {
 
 } // namespace
 
+/// Unless it has a named receiver or something of another view lies over it.
+bool needsNoMarks(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
+    return !job.relight && !job.receiverNamed && job.marks->canDarken() && notOfView(job, leaves).empty();
+}
+
 Compositor::Compositor(CompositorStage draw) : _draw(std::move(draw)), _lightBits(_draw.bits) {
     if (_lightBits.size() > 1) {
         const std::size_t lights = std::min(mostRelitLights, _draw.own - 1);
@@ -39,7 +44,7 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     Jobs relit;
     std::map<float, Jobs> blended;
     for (const ShadowJob& job : jobs) {
-        if (job.programMarks() || !canMark(job)) continue;
+        if (job.programMarks()) continue;
         if (job.relight)
             relit.push_back(&job);
         else if (job.dark < 1.0f) // a factor of 1 changes nothing
@@ -50,7 +55,7 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     for (const auto& [dark, group] : blended)
         for (const Jobs& view : byView(group)) blendAny(view, dark);
     draw(ViewEffect::Turn::Last);
-    if (!_draw.isCore) drawViews(jobs);
+    drawViews(jobs);
 }
 
 void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
@@ -69,12 +74,10 @@ void Compositor::blendAny(const Jobs& jobs, float dark) {
         blend(jobs, dark);
 }
 
-/// The shortest way for a single job that can: no marks. Possible unless it has a named receiver or something of another view
-/// lies over it.
+/// The shortest way for a single job that can.
 bool Compositor::darkenDirectly(const Jobs& jobs, float dark) const {
     const ShadowJob& job = *jobs.front();
-    if (jobs.size() > 1 || job.receiverNamed || !job.marks->canDarken() || !notOfView(job, _draw.leaves).empty())
-        return false;
+    if (jobs.size() > 1 || !needsNoMarks(job, _draw.leaves)) return false;
     _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
         const std::string cause = job.marks->darken(_draw.renderInfo, screen, dark);
         job.report(cause);
@@ -121,12 +124,6 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, 
         if (job->dark < 1.0f) blended[job->dark].push_back(job);
         job->report(cause);
     }
-}
-
-bool Compositor::canMark(const ShadowJob& job) const {
-    const std::string cause = whyNotComposed(_draw);
-    job.report(cause);
-    return cause.empty();
 }
 
 /// The short way for a single job: the leaves of its named receiver are drawn again at the depth that stands, and take

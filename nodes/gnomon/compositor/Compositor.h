@@ -11,6 +11,9 @@
 
 namespace gnomon {
 
+/// True if a job, alone, is composed without stencil or alpha: it darkens pixels itself. @param leaves  drawn before.
+bool needsNoMarks(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves);
+
 /// What a ShadowBin does in draw: marks, takes light away where marked, and leaves the stencil bits it used at zero.
 /// Jobs with soft edges go to the SoftCompositor.
 class Compositor {
@@ -28,7 +31,6 @@ private:
         ScreenRect bounds;
     };
 
-    bool canMark(const ShadowJob& job) const;
     bool areSoft(const Jobs& jobs) const;
     void relightAny(const Jobs& jobs, std::map<float, Jobs>& blended);
     bool composeDirectly(const Jobs& jobs);

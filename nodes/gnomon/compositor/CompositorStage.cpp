@@ -29,9 +29,7 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& dr
       options(asked),
       clean(isClean),
       pattern(StencilPattern::read(state)),
-      isCore(isCoreProfile(state)),
       own(ownBits) {
-    if (isCore) return;
     GLint stencil = 0, alpha = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil);
     glGetIntegerv(GL_ALPHA_BITS, &alpha);
@@ -63,13 +61,18 @@ void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
     previous = nullptr;
 }
 
+std::string whyNeverComposed(const osg::State& state, const osgUtil::RenderStage& stage) {
+    if (isCoreProfile(state)) return coreProfileRefused;
+    return stage.getClearDepth() < 1.0
+               ? "this view's depth buffer is cleared to less than 1. Set the camera's clear depth to 1."
+               : "";
+}
+
 std::string whyNotComposed(const CompositorStage& draw) {
-    if (draw.isCore) return coreProfileRefused;
     if (!draw.hasStencil)
-        return "this framebuffer has no stencil bits. Ask for 8 with osg::DisplaySettings::setMinimumNumStencilBits(8) "
-               "before the window is made, or give the camera a stencil attachment.";
-    if (draw.stage.getClearDepth() < 1.0)
-        return "this view's depth buffer is cleared to less than 1. Set the camera's clear depth to 1.";
+        return "this framebuffer has no stencil bits, and OpenGL makes no framebuffer object that has. Ask for 8 with "
+               "osg::DisplaySettings::setMinimumNumStencilBits(8) before the window is made, or give the camera a "
+               "stencil attachment.";
     return draw.bits.empty()
                ? "every stencil bit is reserved. Leave at least one out of CompositorOptions::reservedStencilBits."
                : "";

@@ -16,6 +16,7 @@ namespace gnomon {
 /// One stage while the compositor draws in it: what was drawn before, and what its framebuffer offers.
 class CompositorStage {
 public:
+    /// In a stage that can be composed in, see whyNeverComposed().
     /// @param leaves  what the stage drew before, in order.
     /// @param clean   the stencil buffer is known to be zero.
     /// @param own     how many stencil bits the compositor takes for itself, 2 to 8; others are counters.
@@ -44,7 +45,6 @@ public:
     const CompositorOptions options;
     const bool clean;
     const StencilPattern pattern; ///< its bit is not among `bits`.
-    const bool isCore; ///< see isCoreProfile(): nothing may be drawn.
     bool hasStencil = false, hasAlpha = false;
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are free, the highest first.
     const std::size_t own;      ///< how many of them, from the first on, are the compositor's.
@@ -62,7 +62,9 @@ constexpr const char* coreProfileRefused =
     "this is a core profile context, in which nothing is drawn. Ask for a compatibility profile; with GLX, leave "
     "osg::GraphicsContext::Traits::glContextVersion at 1.0.";
 
-/// Why nothing can be composed in this stage, as a cause for diagnose(); empty if all is well.
+/// Why nothing can be composed in this stage, whatever its framebuffer, as a cause for diagnose(); empty if all is well.
+std::string whyNeverComposed(const osg::State& state, const osgUtil::RenderStage& stage);
+/// The same by what is drawn into.
 std::string whyNotComposed(const CompositorStage& draw);
 
 } // namespace gnomon

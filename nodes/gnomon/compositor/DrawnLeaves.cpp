@@ -83,7 +83,7 @@ private:
     bool isInstance(const osgUtil::RenderLeaf& leaf) {
         const auto [places, isNew] = _places.insert({leaf._drawable.get(), {}});
         if (isNew) places->second = placesOf(*leaf._drawable);
-        const osg::Matrixd& here = *leaf._modelview;
+        const osg::Matrixd& here = modelviewOf(leaf);
         const double margin = 1e-9 * (1.0 + std::abs(here(3, 0)) + std::abs(here(3, 1)) + std::abs(here(3, 2)));
         const auto end = places->second.upper_bound(here(3, 0) + margin);
         for (auto place = places->second.lower_bound(here(3, 0) - margin); place != end; ++place)
@@ -162,6 +162,11 @@ std::string nameOf(const osg::Node& node) {
 }
 
 } // namespace
+
+const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix) {
+    static const osg::Matrixd identity;
+    return matrix ? *matrix : identity;
+}
 
 std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number) {
     std::vector<DrawnLeaf> leaves;
@@ -253,7 +258,7 @@ bool FilledTest::operator()(const osgUtil::RenderLeaf& leaf) {
 std::optional<ScreenRect> screenBoundsOf(const osgUtil::RenderLeaf& leaf) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
     if (!box.valid()) return wholeScreen;
-    const glm::dmat4 clipFromLocal = toGlm(*leaf._modelview * *leaf._projection);
+    const glm::dmat4 clipFromLocal = toGlm(modelviewOf(leaf) * projectionOf(leaf));
     std::vector<glm::dvec4> corners;
     corners.reserve(8);
     for (unsigned i = 0; i < 8; ++i)

@@ -23,6 +23,11 @@ struct DrawnLeaf {
     osgUtil::RenderBin* bin;
 };
 
+/// A leaf may lack a matrix, as osgSim's light points do: it is drawn as with the identity.
+const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix);
+inline const osg::Matrixd& modelviewOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._modelview.get()); }
+inline const osg::Matrixd& projectionOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._projection.get()); }
+
 /// Every leaf that the stage draws before bin `number`, in the order in which it is drawn. Valid from the end of sort
 /// to the end of draw.
 std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);

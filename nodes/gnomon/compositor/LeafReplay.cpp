@@ -110,12 +110,12 @@ void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const bool cut = geometry && canDrawClusters(leaf, *geometry);
     const MarkJob::BoxTest test =
-        cut && _overlay.marks ? _overlay.marks->boxTest(*leaf._modelview) : MarkJob::BoxTest();
+        cut && _overlay.marks ? _overlay.marks->boxTest(modelviewOf(leaf)) : MarkJob::BoxTest();
     if (test && geometry->getBoundingBox().valid() && !test(geometry->getBoundingBox())) return;
     const osg::ref_ptr<const TriangleClusters> clusters = cut ? TriangleClusters::of(*geometry) : nullptr;
     if (!clusters) return leaf._drawable->draw(_renderInfo);
     TriangleClusters::draw(_renderInfo, *geometry,
-                           clusters->touching(_overlay.bounds, *leaf._modelview * *leaf._projection, test));
+                           clusters->touching(_overlay.bounds, modelviewOf(leaf) * projectionOf(leaf), test));
 }
 
 /// Its own colour times a factor, whatever colour stands; a leaf that itself reads what stands stays as it is.

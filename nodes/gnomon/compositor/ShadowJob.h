@@ -41,7 +41,7 @@ struct ShadowJob {
     /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this view.
     bool isReceiver(const osgUtil::RenderLeaf& leaf) const;
     /// True if the leaf is seen through the technique's lens, unlike what a nested camera lays over the view.
-    bool isOfView(const osgUtil::RenderLeaf& leaf) const { return isOfView(*leaf._projection); }
+    bool isOfView(const osgUtil::RenderLeaf& leaf) const { return isOfView(projectionOf(leaf)); }
     bool isOfView(const osg::Matrixd& lens) const { return isSameLens(lens, *projection); }
 };
 

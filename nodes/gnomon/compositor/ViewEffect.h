@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/base/FrameReport.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 
 #include <osg/Referenced>
@@ -20,6 +21,8 @@ public:
         Last            ///< no shadow touches it.
     };
     Turn turn() const { return _turn; }
+
+    FrameReport report; ///< for the node.
 
     /// After the whole cull. @param leaves  those that the stage draws before its ShadowBin.
     virtual void prepare(osgUtil::RenderStage& stage, const std::vector<DrawnLeaf>& leaves) = 0;

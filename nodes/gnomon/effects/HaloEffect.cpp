@@ -44,8 +44,6 @@ void HaloEffect::prepare(osgUtil::RenderStage&, const std::vector<DrawnLeaf>&) {
 }
 
 void HaloEffect::draw(const CompositorStage& draw) const {
-    const std::string cause = whyNotComposed(draw);
-    if (!cause.empty()) return report(cause);
     if (!stencilCure) return blendEachTriangle(draw);
     const unsigned bit = draw.bits.front();
     draw.clearLeftovers(bit);

@@ -17,7 +17,6 @@ class HaloEffect : public ViewEffect {
 public:
     HaloEffect() : ViewEffect(Turn::Last) {}
 
-    FrameReport report;      ///< for the node.
     int width = 0;           ///< of a rim in pixels; 0 if the children are made larger instead.
     osg::Vec4f color;        ///< red, green, blue and opacity.
     bool stencilCure = true; ///< see HaloNode.

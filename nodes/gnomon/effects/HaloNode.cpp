@@ -24,7 +24,7 @@ osg::Matrixd scaledAbout(const osg::Vec3d& centre, double factor) {
 /// Of all the leaves, in the frame of their node.
 osg::BoundingBoxd boxOfAll(const std::vector<DrawnLeaf>& leaves, const osg::Matrixd& nodeFromEye) {
     osg::BoundingBoxd all;
-    for (const DrawnLeaf& entry : leaves) all.expandBy(boxOf(*entry.leaf, *entry.leaf->_modelview * nodeFromEye));
+    for (const DrawnLeaf& entry : leaves) all.expandBy(boxOf(*entry.leaf, modelviewOf(*entry.leaf) * nodeFromEye));
     return all;
 }
 
@@ -37,7 +37,7 @@ std::vector<osg::Matrixd> largerLeaves(const HaloNode& node, const std::vector<D
     std::vector<osg::Matrixd> larger;
     for (const DrawnLeaf& entry : leaves) {
         const osg::Vec3d own(entry.leaf->_drawable->getBoundingBox().center());
-        const osg::Matrixd& place = *entry.leaf->_modelview;
+        const osg::Matrixd& place = modelviewOf(*entry.leaf);
         larger.push_back(node.getShape() == HaloNode::WHOLE ? place * whole
                                                             : scaledAbout(own, node.getScale()) * place);
     }

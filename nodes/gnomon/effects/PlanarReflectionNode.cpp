@@ -24,7 +24,7 @@ bool isSeen(const glm::dvec4& eyePlane, const osg::Matrixd& projection) {
 /// Depths of what is mirrored, as far as the far plane is concerned: no image is nearer than the surface.
 void includeImages(osgUtil::CullVisitor& cull, SubgraphCull& mirrored) {
     osg::BoundingBoxd all;
-    for (const DrawnLeaf& entry : mirrored.leaves()) all.expandBy(boxOf(*entry.leaf, *entry.leaf->_modelview));
+    for (const DrawnLeaf& entry : mirrored.leaves()) all.expandBy(boxOf(*entry.leaf, modelviewOf(*entry.leaf)));
     includeInDepths(cull, all, false);
 }
 

@@ -48,8 +48,6 @@ void ReflectionEffect::prepare(osgUtil::RenderStage& stage, const std::vector<Dr
 
 void ReflectionEffect::draw(const CompositorStage& draw) const {
     if (_surface.empty()) return;
-    const std::string cause = whyNotComposed(draw);
-    if (!cause.empty()) return report(cause);
     const unsigned bit = draw.bits.front();
     draw.clearLeftovers(bit);
     drawSurface(draw, bit, true);

@@ -20,7 +20,6 @@ public:
     ReflectionEffect() : ViewEffect(Turn::BeforeBlending) {}
 
     osg::ref_ptr<const osg::Node> node; ///< whose effect it is.
-    FrameReport report;                 ///< for it.
     Selection surface;
     osg::Vec3f reflectance;
     bool stencilCure = true;             ///< see PlanarReflectionNode.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/gl/FrameDepthCopy.h>
 #include <gnomon/gl/SavedFramebuffers.h>
+#include <gnomon/gl/WorkFramebuffer.h>
 
 #include <OpenThreads/ScopedLock>
 
@@ -41,13 +42,13 @@ public:
     PlainTransfer& operator=(const PlainTransfer&) = delete;
 };
 
-/// From the window to what is bound for drawing, `height` rows high.
-void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint height) {
+/// From a window to what is bound for drawing, `height` rows high.
+void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint height, GLbitfield what) {
     const GLint right = pixels.x + pixels.width, top = pixels.y + pixels.height;
     const GLboolean cut = glIsEnabled(GL_SCISSOR_TEST);
     glDisable(GL_SCISSOR_TEST);
-    gl.glBlitFramebuffer(pixels.x, pixels.y, right, top, pixels.x, height - pixels.y, right, height - top,
-                         GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
+    gl.glBlitFramebuffer(pixels.x, pixels.y, right, top, pixels.x, height - pixels.y, right, height - top, what,
+                         GL_NEAREST);
     if (cut) glEnable(GL_SCISSOR_TEST);
 }
 
@@ -84,28 +85,30 @@ FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pi
 /// @return Copy::rows.
 glm::dvec2 FrameDepthCopy::transfer(osg::State& state, Target& target, const PixelRect& pixels) {
     state.applyTextureAttribute(0, target.texture);
-    if (target.packed && target.mirrors && mirror(state, target, pixels))
-        return {target.texture->getTextureHeight() - 1, -1};
+    if (target.mirrors && mirror(state, target, pixels)) return {target.texture->getTextureHeight() - 1, -1};
     glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
     return {0.0, 1.0};
 }
 
-/// Mesa has a window's first row at the top, a texture's at the bottom: so mirrored, memory is copied and nothing drawn.
-/// @return false if that is not a window of one sample a pixel, or not possible: formats can differ though they have as many
+/// Rows of Mesa's windows go from the top, a texture's from the bottom: so mirrored, memory is copied and nothing drawn.
+/// @return false if they do not, or pixels have several samples, or that is not possible: formats can differ though they have as many
 ///         bits.
 bool FrameDepthCopy::mirror(osg::State& state, Target& target, const PixelRect& pixels) {
     const auto& gl = *state.get<osg::GLExtensions>();
-    const bool isWindow = glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT) == 0 && glInteger(GL_SAMPLES) == 0;
-    if (!gl.glBlitFramebuffer || !isWindow) return false;
+    const bool sameBits = target.packed || glInteger(GL_DEPTH_BITS) == 24;
+    if (!gl.glBlitFramebuffer || !sameBits || glInteger(GL_SAMPLES) > 0 || !isTopDown(state)) return false;
+    const auto source = static_cast<GLuint>(glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT));
     const ScratchFramebuffer framebuffer(gl);
     const osg::Texture::TextureObject* texture = target.texture->getTextureObject(state.getContextID());
     framebuffer.attachDepth(*texture);
-    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_STENCIL_ATTACHMENT_EXT, GL_TEXTURE_2D, texture->id(), 0);
+    if (target.packed)
+        gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_STENCIL_ATTACHMENT_EXT, GL_TEXTURE_2D, texture->id(), 0);
     const bool first = target.tried != texture;
     target.tried = texture;
-    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, 0);
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, source);
     if (first) glGetError(); // somebody else's
-    blitMirrored(gl, pixels, target.texture->getTextureHeight());
+    blitMirrored(gl, pixels, target.texture->getTextureHeight(),
+                 GL_DEPTH_BUFFER_BIT | (target.packed ? GL_STENCIL_BUFFER_BIT : 0));
     if (first) target.mirrors = glGetError() == GL_NO_ERROR;
     return target.mirrors;
 }

@@ -13,17 +13,7 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-GLint attachedDepth(GLenum what) {
-    static void (*const ask)(GLenum, GLenum, GLenum, GLint*) = [] {
-        void (*found)(GLenum, GLenum, GLenum, GLint*) = nullptr;
-        osg::setGLExtensionFuncPtr(found, "glGetFramebufferAttachmentParameteriv",
-                                   "glGetFramebufferAttachmentParameterivEXT");
-        return found;
-    }();
-    GLint value = 0;
-    if (ask) ask(GL_FRAMEBUFFER_EXT, GL_DEPTH_ATTACHMENT_EXT, what, &value);
-    return value;
-}
+GLint attachedDepth(GLenum what) { return attachmentParameter(GL_DEPTH_ATTACHMENT_EXT, what); }
 
 /// The format of the depths that are drawn to: only between equal ones does OpenGL resolve. 0 if they are in no
 /// renderbuffer.

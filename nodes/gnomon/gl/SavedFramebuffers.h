@@ -12,6 +12,20 @@ inline GLint glInteger(GLenum what) {
     return value;
 }
 
+/// Of an attachment of the framebuffer that is bound for drawing; 0 if OpenGL cannot tell.
+inline GLint attachmentParameter(GLenum attachment, GLenum what) {
+    using Ask = void (*)(GLenum, GLenum, GLenum, GLint*);
+    static const Ask ask = [] {
+        Ask found = nullptr;
+        osg::setGLExtensionFuncPtr(found, "glGetFramebufferAttachmentParameteriv",
+                                   "glGetFramebufferAttachmentParameterivEXT");
+        return found;
+    }();
+    GLint value = 0;
+    if (ask) ask(GL_FRAMEBUFFER_EXT, attachment, what, &value);
+    return value;
+}
+
 /// Puts framebuffers and the renderbuffer that are bound back at its end.
 class SavedFramebuffers {
 public:

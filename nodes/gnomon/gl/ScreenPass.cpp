@@ -24,13 +24,18 @@ Interval pixels(double low, double high, double start, double size) {
 
 } // namespace
 
+PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport) {
+    const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
+    const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
+    return {x.first, y.first, x.count, y.count};
+}
+
 ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
                        std::function<Channels()> written, unsigned counters, const StencilPattern& pattern)
     : _state(state), _written(std::move(written)), _counters(counters), _pattern(pattern) {
-    const Interval x = pixels(bounds.low.x, bounds.high.x, viewport.x(), viewport.width());
-    const Interval y = pixels(bounds.low.y, bounds.high.y, viewport.y(), viewport.height());
+    const PixelRect cut = pixelsWithin(bounds, viewport);
     glEnable(GL_SCISSOR_TEST);
-    glScissor(x.first, y.first, x.count, y.count);
+    glScissor(cut.x, cut.y, cut.width, cut.height);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glDepthMask(GL_FALSE);
     if (_pattern.bit) stencilEqual(0, 0, 0);

@@ -17,6 +17,9 @@ struct Channels {
     bool encoded = false; ///< written as sRGB: what is blended is linear.
 };
 
+/// Pixels of a viewport whose centres lie within bounds, and one more on either side.
+PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport);
+
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
 /// Puts everything back at its end.
 class ScreenPass {

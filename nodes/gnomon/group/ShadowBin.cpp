@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/compositor/Compositor.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
-#include <gnomon/compositor/SoftMarkJob.h>
+#include <gnomon/compositor/StageVerdict.h>
 #include <gnomon/group/ShadowBin.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/group/ViewLights.h>
@@ -13,6 +12,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <typeinfo>
@@ -106,7 +106,7 @@ std::vector<const osgUtil::RenderLeaf*> receivingOf(const EnlistedTechnique& ent
     if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
     std::vector<const osgUtil::RenderLeaf*> receiving;
     for (const DrawnLeaf& leaf : leaves)
-        if (named ? receivers.count(leaf.leaf) > 0 : isSameLens(*leaf.leaf->_projection, *entry.projection))
+        if (named ? receivers.count(leaf.leaf) > 0 : isSameLens(projectionOf(*leaf.leaf), *entry.projection))
             receiving.push_back(leaf.leaf);
     return receiving;
 }
@@ -207,16 +207,6 @@ ShadowBin& binAfter(osgUtil::RenderBin& last) {
     }
 }
 
-/// Stencil bits that the compositor takes: one a light, and a scratch bit; one more for lights that fade.
-std::size_t ownBits(const std::vector<ShadowJob>& jobs) {
-    if (std::none_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.marks->counts(); })) return 8;
-    if (std::any_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.softMarks(); }))
-        return mostRelitLights + 2;
-    std::set<int> lights;
-    for (const ShadowJob& job : jobs) lights.insert(job.light);
-    return std::min(lights.size(), mostRelitLights) + 1;
-}
-
 } // namespace
 
 ShadowBin& ShadowBin::of(osgUtil::RenderStage* stage) {
@@ -240,15 +230,9 @@ void ShadowBin::enlist(ViewEffect& effect, const CompositorOptions& options) {
 /// takes the bit out again, for it keeps a pattern in the stencil buffer.
 void ShadowBin::clearWithStage() {
     osgUtil::RenderStage& stage = *getStage();
-    if (_options.reservedStencilBits == 0 && (stage.getClearMask() & GL_DEPTH_BUFFER_BIT) &&
+    if (_options.reservedStencilBits == 0 && !_sharesStencil && (stage.getClearMask() & GL_DEPTH_BUFFER_BIT) &&
         stage.getClearStencil() == 0)
         stage.setClearMask(stage.getClearMask() | GL_STENCIL_BUFFER_BIT);
-}
-
-/// As the stage draws. @param leaves  drawn since.
-bool ShadowBin::isStencilClean(const std::vector<DrawnLeaf>& leaves) const {
-    return (getStage()->getClearMask() & GL_STENCIL_BUFFER_BIT) && getStage()->getClearStencil() == 0 &&
-           !isModeOn(leaves, GL_STENCIL_TEST);
 }
 
 void ShadowBin::reset() {
@@ -259,6 +243,8 @@ void ShadowBin::reset() {
     _lateJobs.clear();
     _composesBelow.reset();
     _effects.clear();
+    _waiting.clear();
+    _sharesStencil = false;
     _options = {};
 }
 
@@ -272,7 +258,13 @@ void ShadowBin::prepareAll() {
     _jobs.clear();
     std::deque<FrameCasters> known;
     const StageLeaves drawn(*getStage(), getBinNum(), !_enlisted.empty());
+    _sharesStencil = isModeOn(leavesBelow(*getStage(), std::numeric_limits<int>::max()), GL_STENCIL_TEST);
+    const bool refused = StageVerdict::of(*getStage()).isRefused();
     for (const EnlistedTechnique& entry : _enlisted) {
+        if (refused) {
+            _waiting.push_back(entry.technique->reportIn(entry.frameNumber));
+            continue;
+        }
         const FrameCasters& casters = castersOf(entry, *getStage(), known);
         if (!hasCasters(entry, casters)) continue;
         const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
@@ -350,24 +342,8 @@ void ShadowBin::handOnLateJobs(osgUtil::RenderBin* last) {
     for (ShadowJob& job : _lateJobs) job.hidingOnly = true;
     late._jobs = std::move(_lateJobs);
     late._options = _options;
+    late._sharesStencil = _sharesStencil;
     late._composesBelow = last->getBinNum() + 1;
-}
-
-void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
-    if (!isIdle()) {
-        foundQuadSplit(*renderInfo.getState()); // for the next cull, which may be of another thread
-        popLeafState(*renderInfo.getState(), previous);
-        std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
-        const bool clean = isStencilClean(leaves);
-        const CompositorStage draw(renderInfo, *getStage(), std::move(leaves), _options, clean, ownBits(_jobs));
-        {
-            const FirstColorBuffer colors(draw.state);
-            Compositor(draw).compose(_jobs, _effects);
-        }
-        draw.pattern.restore(draw.state);
-        draw.state.decrementDynamicObjectCount();
-    }
-    osgUtil::RenderBin::drawImplementation(renderInfo, previous);
 }
 
 /// The leaves drawn again, and the casters, may be dynamic: the frame is not done with them before this bin is.

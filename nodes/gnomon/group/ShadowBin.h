@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
+#include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/ViewEffect.h>
@@ -38,9 +39,10 @@ struct EnlistedTechnique {
 /// Cost    scissored to where marks can fall: the marks, a stencil clear, and the leaves that the marks can touch, once
 ///         more, big ones in part (TriangleClusters). One job with a named receiver that nothing else shows on: its leaves
 ///         alone, at equal depth. Soft edges: a few more steps, and each set of lights that are gone once more.
-/// Needs   one stencil bit a relit light, one more for several jobs or for receivers that others show on. A stage that
-///         clears depth clears stencil too, unless bits are reserved. Interlaced stereo keeps its stencil bit. For soft edges alpha bits; alpha is 1 afterwards
-///         within the marks' bounds. Without them edges are hard.
+/// Needs   one stencil bit a relit light, one more for several jobs or for receivers that others show on; for soft edges
+///         alpha bits; alpha is 1 afterwards within the marks' bounds. Where the framebuffer lacks them, or leaves use its
+///         stencil, all is done in one of the kit's own (CompositorTarget). A stage that clears depth clears stencil too,
+///         unless bits are reserved or in use. Interlaced stereo keeps its stencil bit.
 /// Limits  three relit lights; the others stay unshadowed. Unlit receivers, and those whose program reads no OpenGL
 ///         light's colour, take a factor; where an opaque leaf has a stencil test of its own all is blended; under soft
 ///         edges what blends or writes no depth takes the factor. diagnose() says so.
@@ -78,9 +80,12 @@ protected:
     ~ShadowBin() override = default;
 
 private:
-    bool isIdle() const { return _jobs.empty() && _effects.empty(); }
+    bool isIdle() const { return _jobs.empty() && _effects.empty() && _waiting.empty(); }
     void clearWithStage();
     bool isStencilClean(const std::vector<DrawnLeaf>& leaves) const;
+    std::string compose(osg::RenderInfo& renderInfo);
+    TargetNeeds needs(const std::vector<DrawnLeaf>& leaves) const;
+    void tell(const std::string& cause);
     void sortAsAsked();
     void prepareAll();
     void saveColorsIfBlended(const StageLeaves& drawn);
@@ -93,7 +98,9 @@ private:
     std::vector<ShadowJob> _lateJobs;  ///< for the bin that composes what is drawn later.
     std::optional<int> _composesBelow; ///< set of that bin: what the stage draws before this number.
     std::vector<osg::ref_ptr<ViewEffect>> _effects;
-    CompositorOptions _options; ///< of all that were enlisted.
+    std::vector<FrameReport> _waiting; ///< of techniques, for that the stage can be composed in, see StageVerdict.
+    bool _sharesStencil = false;       ///< leaves of the stage test or mark the stencil buffer themselves.
+    CompositorOptions _options;        ///< of all that were enlisted.
 };
 
 } // namespace gnomon

@@ -73,7 +73,7 @@ std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& ey
         anywhere = anywhere || !box.valid();
         if (!box.valid()) continue;
         MapReceiver receiver{toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)),
-                             sceneFromEye * toGlm(*leaf->_modelview), 0.0};
+                             sceneFromEye * toGlm(modelviewOf(*leaf)), 0.0};
         receiver.size = glm::length(glm::dvec3(receiver.sceneFromBox * glm::dvec4(receiver.high - receiver.low, 0.0)));
         result.push_back(receiver);
     }

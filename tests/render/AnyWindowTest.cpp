@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Framebuffers without stencil or alpha bits, or whose stencil is somebody else's: the picture of one that has them to
+// spare, bit for bit.
+#include "IntoTexture.h"
+
+#include <gnomon/ShadowSpec.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/gl/WorkBuffers.h>
+#include <gnomon/group/ViewFrame.h>
+#include <support/Oracle.h>
+#include <support/Scene.h>
+
+#include <gtest/gtest.h>
+#include <osg/ColorMask>
+#include <osg/ContextData>
+#include <osg/Stencil>
+
+#include <algorithm>
+
+using namespace test;
+
+namespace {
+
+using gnomon::HeadlessContext;
+
+const View slanted = perspective({-6.0, -9.0, 6.0}, {0.0, 0.5, 0.0}, 161, 121);
+const std::vector<Mesh> casters = {house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0), sphere({-1.5, 1.5, 1.0}, 0.7, 10)};
+
+Scene shadowed(const std::string& spec, int lights = 1) {
+    Scene scene = groundScene(casters, 8.0, {1.0, 0.4, 1.2, 0.0});
+    if (lights > 1) {
+        osg::ref_ptr<osg::LightSource> second = new osg::LightSource;
+        second->getLight()->setLightNum(1);
+        second->getLight()->setPosition({-1.0f, 0.3f, 1.0f, 0.0f});
+        second->getLight()->setDiffuse({0.3f, 0.2f, 0.1f, 1.0f});
+        scene.root->addChild(second);
+        scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+    }
+    if (spec.empty()) return scene;
+    scene.group = new gnomon::ShadowCasterGroup;
+    scene.root->replaceChild(scene.content, scene.group);
+    scene.group->addChild(scene.content);
+    gnomon::addShadows(*scene.group, {gnomon::parseShadowSpec(spec)});
+    return scene;
+}
+
+/// The third frame: all that is learnt from a frame before is known.
+Picture third(Camera& camera) {
+    camera.frame();
+    camera.frame();
+    return camera.frame();
+}
+
+Picture inWindow(osg::Node* root, int stencilBits, int depthBits = 24) {
+    HeadlessContext::Options options;
+    options.stencilBits = stencilBits;
+    options.depthBits = depthBits;
+    Camera camera(root, slanted, options);
+    const GlComplaints complaints(camera);
+    const Picture picture = third(camera);
+    EXPECT_EQ(complaints.all(), std::vector<std::string>());
+    return picture;
+}
+
+Picture inObject(osg::Node* root, const Target& target) {
+    IntoTexture into(root, slanted, target);
+    const Picture picture = third(*into.camera);
+    EXPECT_EQ(into.complaints->all(), std::vector<std::string>());
+    return picture;
+}
+
+Target without(unsigned samples, GLenum color = GL_RGBA8) {
+    return {color, osg::Camera::DEPTH_BUFFER, GL_DEPTH_COMPONENT24, samples};
+}
+
+std::string nameOf(std::string spec) {
+    const auto isWord = [](unsigned char c) { return std::isalnum(c) != 0; };
+    std::replace_if(
+        spec.begin(), spec.end(), [=](unsigned char c) { return !isWord(c); }, '_');
+    return spec;
+}
+
+/// Causes of all techniques of a scene.
+std::vector<std::string> causesOf(const Scene& scene) {
+    std::vector<std::string> all;
+    for (unsigned i = 0; i < scene.group->getNumChildren(); ++i)
+        if (const auto* technique = dynamic_cast<gnomon::ShadowTechnique*>(scene.group->getChild(i)))
+            for (const std::string& cause : technique->diagnose()) all.push_back(cause);
+    return all;
+}
+
+class NoMarks : public gnomon::MarkJob {
+public:
+    std::string mark(osg::RenderInfo&, gnomon::ScreenPass&, unsigned) const override { return ""; }
+};
+
+/// Marks nothing, and counts how often it is asked to.
+class CountingTechnique : public gnomon::ShadowTechnique {
+public:
+    META_Node(test, CountingTechnique)
+    CountingTechnique() = default;
+    CountingTechnique(const CountingTechnique& other, const osg::CopyOp& copyOp) : ShadowTechnique(other, copyOp) {}
+    mutable int asked = 0;
+
+protected:
+    ~CountingTechnique() override = default;
+    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+                                                       const gnomon::FrameCasters& casters) const override;
+};
+
+std::vector<osg::ref_ptr<gnomon::MarkJob>>
+CountingTechnique::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight&, const gnomon::FrameCasters&) const {
+    ++asked;
+    return {new NoMarks};
+}
+
+/// Writes 5 into the stencil buffer where it is drawn, which no eye sees.
+osg::ref_ptr<osg::Geode> stencilMarks() {
+    osg::ref_ptr<osg::Geode> marks = node(square(2.0, 0.01));
+    osg::ref_ptr<osg::Stencil> five = new osg::Stencil;
+    five->setFunction(osg::Stencil::ALWAYS, 5, ~0u);
+    five->setOperation(osg::Stencil::KEEP, osg::Stencil::KEEP, osg::Stencil::REPLACE);
+    marks->getOrCreateStateSet()->setAttributeAndModes(five);
+    marks->getStateSet()->setAttributeAndModes(new osg::ColorMask(false, false, false, false));
+    return marks;
+}
+
+class AnyWindowBy : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(AnyWindow, AnyWindowBy,
+                         testing::Values("planar", "planar:composite=blend", "box", "hull", "hull:composite=blend",
+                                         "drape", "drape:composite=blend", "traced", "traced:composite=blend", "map",
+                                         "map:composite=blend", "map:receiver=ground", "map:edges=smooth",
+                                         "map:edges=smooth,composite=blend", "map:edges=soft,sun-angle=4"),
+                         [](const auto& spec) { return nameOf(spec.param); });
+
+} // namespace
+
+TEST_P(AnyWindowBy, WithoutStencilShowsTheSameBits) {
+    for (const int lights : {1, 2}) {
+        const Picture with = inWindow(shadowed(GetParam(), lights).root, 8);
+        EXPECT_GT(with.different(inWindow(shadowed("", lights).root, 8)), 300);
+        const Scene scene = shadowed(GetParam(), lights);
+        EXPECT_EQ(inWindow(scene.root, 0).different(with), 0) << lights;
+        EXPECT_EQ(causesOf(scene), std::vector<std::string>());
+    }
+}
+
+TEST_P(AnyWindowBy, AnObjectWithoutStencilAndOneWithoutAlphaShowTheSameBits) {
+    for (const unsigned samples : {0u, 4u}) {
+        const Picture with = inObject(shadowed(GetParam()).root, {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER,
+                                                                  GL_DEPTH24_STENCIL8_EXT, samples});
+        EXPECT_GT(with.different(inObject(shadowed("").root, without(samples))), 300);
+        const Scene scene = shadowed(GetParam());
+        EXPECT_EQ(inObject(scene.root, without(samples)).different(with), 0) << samples;
+        EXPECT_EQ(inObject(shadowed(GetParam()).root, without(samples, GL_RGB8)).different(with), 0) << samples;
+        EXPECT_EQ(causesOf(scene), std::vector<std::string>());
+    }
+}
+
+TEST(AnyWindow, WithStencilMakesNoBuffersAndCopiesNothing) {
+    for (const int bits : {8, 0}) {
+        HeadlessContext::Options options;
+        options.stencilBits = bits;
+        Camera camera(shadowed("planar").root, slanted, options);
+        third(camera);
+        const unsigned context = camera.context().graphicsContext()->getState()->getContextID();
+        EXPECT_EQ(osg::get<gnomon::WorkBuffers>(context)->empty(), bits == 8);
+    }
+}
+
+/// Where the height of a window is not known, its rows cannot be told from the top, and depths are drawn once more.
+TEST(AnyWindow, OfAnUnknownHeightShowsTheSameShadows) {
+    for (const char* spec : {"planar", "planar:composite=blend", "map:edges=smooth", "traced:receiver=ground"}) {
+        const Picture with = inWindow(shadowed(spec).root, 8);
+        HeadlessContext::Options options;
+        options.stencilBits = 0;
+        const Scene scene = shadowed(spec);
+        Camera camera(scene.root, slanted, options);
+        const_cast<osg::GraphicsContext::Traits*>(camera.context().graphicsContext()->getTraits())->height = 1;
+        EXPECT_LT(third(camera).different(with), 20) << spec << ": edges alone may be rounded otherwise";
+        EXPECT_EQ(causesOf(scene), std::vector<std::string>());
+    }
+}
+
+TEST(AnyWindow, TheMarksOfAProgramStay) {
+    const auto stencilOf = [](const std::string& spec) {
+        const Scene scene = shadowed(spec);
+        scene.root->addChild(stencilMarks());
+        Camera camera(scene.root, slanted);
+        third(camera);
+        const osg::ref_ptr<osg::Image> bits = camera.context().stencil();
+        return std::vector<unsigned char>(bits->data(), bits->data() + bits->getTotalSizeInBytes());
+    };
+    const std::vector<unsigned char> without = stencilOf("");
+    EXPECT_GT(std::count(without.begin(), without.end(), 5), 500);
+    for (const char* spec : {"planar", "planar:composite=blend", "map", "hull"})
+        EXPECT_EQ(stencilOf(spec), without) << spec;
+}
+
+TEST(AnyWindow, WhatCannotBeDrawnIsPreparedOnceAndAgainWhenItCan) {
+    Scene scene = groundScene(casters);
+    const osg::ref_ptr<CountingTechnique> technique = new CountingTechnique;
+    scene.addShadow(technique);
+    Camera camera(scene.root, slanted);
+    osg::Camera& view = *camera.viewer().getCamera();
+    view.setClearDepth(0.5);
+    for (int frame = 0; frame < 4; ++frame) {
+        camera.frame();
+        EXPECT_EQ(technique->asked, 1);
+        ASSERT_EQ(technique->diagnose().size(), 1u);
+        EXPECT_NE(technique->diagnose()[0].find("cleared to less than 1"), std::string::npos);
+    }
+    view.setClearDepth(1.0);
+    camera.frame(); // finds that it can
+    camera.frame();
+    EXPECT_EQ(technique->asked, 2);
+    EXPECT_TRUE(technique->diagnose().empty());
+}
