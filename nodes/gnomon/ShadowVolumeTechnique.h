@@ -20,7 +20,7 @@ class VolumeCache;
 /// Cost
 /// - Each frame and light: the volumes' sides are drawn into the stencil buffer. The pixels that they cover are the cost.
 /// - When a light moves: a pass over the casters' triangles and edges, and an upload of the outlines.
-/// - When a caster moves: its edges are found again, too.
+/// - When a caster moves as a whole: the same for it alone. Small casters that are joined are searched again.
 /// - Volumes end below all that receives. Volumes out of sight are not drawn.
 /// - If the eye may be inside a volume, its caster's triangles are drawn, too.
 /// Needs
@@ -30,6 +30,8 @@ class VolumeCache;
 /// - Dense meshes have thousands of edges one before the other: maps are faster there.
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
 /// - Alpha-tested casters cast as if they were solid, and diagnose() says so.
+/// - A caster that the view does not draw, by a mask or by face culling of an open sheet, can leave false light or shadow
+///   where one looks through it.
 /// - Counts have up to seven bits. More casters between a light and a place take several rounds. If one connected mesh
 ///   lies over itself more often, its shadow may have holes, and diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.
