@@ -3,6 +3,7 @@
 
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/PlanarShadowNode.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,10 @@ double compass(double degrees) { return degrees - 360.0 * std::floor(degrees / 3
 } // namespace
 
 ShadowControls::ShadowControls(const ViewOptions& options, SceneSetup& setup) : _setup(setup), _sun(options.sun) {
-    if (!options.shadows.empty()) _view = options.shadows.front().map.view;
+    if (!options.shadows.empty()) {
+        _view = options.shadows.front().map.view;
+        _showsVolumes = options.shadows.front().volume.view == ShadowVolumeOptions::VOLUMES;
+    }
     const std::string given = options.shadows.empty() ? "none" : options.shadows.front().technique;
     for (const std::string& name : shadowTechniques()) {
         if (name == given) _chosen = _choices.size();
@@ -81,7 +85,12 @@ void ShadowControls::toggle(bool PlanarCures::*cure) {
     applySwitches();
 }
 
+/// Of the technique that is shown.
 void ShadowControls::nextView() {
+    if (_choices[_chosen].front().technique == "volume") {
+        _showsVolumes = !_showsVolumes;
+        return applySwitches();
+    }
     using Map = ShadowMapTechnique;
     _view = _view == Map::NOTHING  ? Map::MAP
             : _view == Map::MAP    ? Map::TEXELS
@@ -93,6 +102,8 @@ void ShadowControls::nextView() {
 void ShadowControls::applySwitches() {
     for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
         if (auto* map = dynamic_cast<ShadowMapTechnique*>(technique.get())) map->setView(_view);
+        if (auto* volume = dynamic_cast<ShadowVolumeTechnique*>(technique.get()))
+            volume->setView(_showsVolumes ? ShadowVolumeTechnique::VOLUMES : ShadowVolumeTechnique::NOTHING);
         auto* planar = dynamic_cast<PlanarShadowNode*>(technique.get());
         if (!planar) continue;
         planar->setStencilCure(_cures.stencil);

@@ -47,6 +47,7 @@ private:
     SceneLights::Direction _moved{0.0, 0.0};
     PlanarCures _cures;
     ShadowMapTechnique::View _view = ShadowMapTechnique::NOTHING;
+    bool _showsVolumes = false;
 };
 
 } // namespace gnomon::examples

@@ -23,7 +23,7 @@ const std::vector<Key<ShadowControls>>& shadowKeys() {
          [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::offset); }},
         {'p', "Planar shadows: clipping off and on, against anti-shadows.",
          [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::clip); }},
-        {'v', "Show the shadow maps, their texels, their cascades, or nothing.",
+        {'v', "Show shadow maps, their texels, their cascades; or shadow volumes; or nothing.",
          [](ShadowControls& c, Hud&) { c.nextView(); }},
         {'g', "Hide or show Gnomon's text.", [](ShadowControls&, Hud& hud) { hud.toggle(); }},
     };

@@ -122,7 +122,7 @@ void addShadowOptions(Options& table, ViewOptions& into) {
     table.push_back({"--shadow", "SPEC", "shadow technique and its keys, see SPEC below", "none",
                      [&into](Text t) { into.shadows.push_back(parseShadowSpec(t)); }, true});
     table.push_back({"--receiver", "NODENAME",
-                     "nodes of this name receive shadows, if SPEC names none; map and traced then receive there alone",
+                     "nodes of this name receive shadows, if SPEC names none; map, volume and traced then receive there alone",
                      "as SPEC says", [&into](Text t) { into.receiver = t; }});
     table.push_back({"--casters", "all|none|NODENAME", "nodes that cast shadows: all of that name", "all",
                      [&into](Text t) { into.casters = t; }});

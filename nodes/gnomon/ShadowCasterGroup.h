@@ -25,7 +25,8 @@ struct CasterView;
 /// Group whose subgraph casts shadows. Every scene with Gnomon's shadows has one.
 ///
 /// Wrap the scene, or any part of it, and add a technique beside it. The scene's own nodes stay as they are.
-/// The techniques are PlanarShadowNode, ShadowMapTechnique, TerrainShadowGeode and TracedShadowTechnique.
+/// The techniques are PlanarShadowNode, ShadowMapTechnique, ShadowVolumeTechnique, TerrainShadowGeode and
+/// TracedShadowTechnique.
 ///
 ///     osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
 ///     group->addChild(scene);

@@ -14,7 +14,7 @@ class ShadowMapCache;
 /// Casts shadows onto everything visible, by depth maps. Choose it first for general scenes.
 ///
 /// It fits, keeps and biases its maps by itself. Use PlanarShadowNode for flat floors alone, TerrainShadowGeode for
-/// buildings on terrain, and TracedShadowTechnique for exact hard edges.
+/// buildings on terrain, and ShadowVolumeTechnique or TracedShadowTechnique for exact hard edges.
 ///
 ///     osg::ref_ptr<gnomon::ShadowMapTechnique> shadow = new gnomon::ShadowMapTechnique;
 ///     shadow->setSize(2048);

@@ -6,6 +6,7 @@
 #include <gnomon/ShadowMapOptions.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowTechnique.h>
+#include <gnomon/ShadowVolumeOptions.h>
 #include <gnomon/TerrainShadowOptions.h>
 
 #include <optional>
@@ -20,7 +21,7 @@ namespace gnomon {
 ///
 ///     gnomon::addShadows(*group, {gnomon::parseShadowSpec("planar:composite=blend,dark=0.4,receiver=floor")});
 ///
-/// Syntax: NAME, or NAME:key=value,key=value. The names are none, planar, box, hull, drape, map, traced and auto.
+/// Syntax: NAME, or NAME:key=value,key=value. The names are none, planar, box, hull, drape, map, volume, traced and auto.
 /// shadowSpecHelp() lists the keys with ranges, units and defaults.
 struct ShadowSpec {
     std::string text;                                      ///< The string as given.
@@ -28,9 +29,10 @@ struct ShadowSpec {
     std::optional<ShadowCasterGroup::Composite> composite; ///< Default: that of a fresh ShadowCasterGroup.
     std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default: the group's.
     ShadowMapOptions map;                                  ///< Settings of map.
+    ShadowVolumeOptions volume;                            ///< Settings of volume.
     TerrainShadowOptions terrain;                          ///< Settings of hull and drape. The name decides the method.
     AutoShadowOptions budget;                              ///< Settings of auto.
-    /// Name of the nodes that receive, all of that name. Default, empty: everything for map, traced and auto, else the node named "ground".
+    /// Name of the nodes that receive, all of that name. Default, empty: everything for map, volume, traced and auto, else the node named "ground".
     std::string receiver;
 };
 
@@ -50,7 +52,7 @@ GNOMON_EXPORT std::string shadowSpecHelp(const std::vector<std::string>& names =
 /// It looks for receivers by name under the group.
 /// - planar: takes the receivers' flat parts as planes. At most eight, and none below 1 % of the largest.
 /// - box, hull, drape: take the receiver as terrain.
-/// - map, traced, auto: take everything as receiver, unless one is named.
+/// - map, volume, traced, auto: take everything as receiver, unless one is named.
 ///
 /// @return the techniques in the order of `specs`. "none" adds none.
 /// @throws std::invalid_argument with one sentence if composites differ, or a receiver is missing or has no flat part.

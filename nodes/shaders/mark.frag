@@ -10,6 +10,10 @@ flat in vec4 texels;      // the last one, for the border is empty; bytes in a r
 in vec2 texel;
 #endif
 
+#ifdef EXTRUDE
+uniform vec4 wire; // colour, where it is written
+#endif
+
 void main() {
 #ifdef BITMAP
     ivec2 at = ivec2(clamp(texel, vec2(0.0), texels.xy));
@@ -24,5 +28,9 @@ void main() {
     int side = alpha < alphaTest.y ? 1 : alpha > alphaTest.y ? 4 : 2;
     if ((int(alphaTest.x) & side) == 0) discard;
 #endif
+#ifdef EXTRUDE
+    gl_FragColor = wire;
+#else
     gl_FragColor = vec4(0.0);
+#endif
 }

@@ -7,6 +7,10 @@ uniform vec4 abovePlane;
 uniform vec4 belowLight;
 #endif
 
+#ifdef EXTRUDE
+uniform vec4 light; // homogeneous; a vertex's w says how far it goes on away from it, below 0 to infinity
+#endif
+
 #ifdef NEAREST
 uniform float nearest; // what a lamp has nearer than this along the axis casts nothing
 #endif
@@ -22,7 +26,13 @@ out vec2 texel;
 #endif
 
 void main() {
+#ifdef EXTRUDE
+    vec3 away = light.w * gl_Vertex.xyz - light.xyz;
+    vec4 place = gl_Vertex.w < 0.0 ? vec4(away, 0.0) : vec4(gl_Vertex.xyz + gl_Vertex.w * away, 1.0);
+    gl_Position = clipFromVertex * place;
+#else
     gl_Position = clipFromVertex * gl_Vertex;
+#endif
 #ifdef CUTOUT
     coordinates = gl_MultiTexCoord0.xyz;
 #endif

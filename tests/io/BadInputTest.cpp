@@ -129,10 +129,7 @@ TEST_F(BadInput, UnknownTechniqueOrKey) {
     EXPECT_EQ(
         refusalWith({"--shadow", "plane"}),
         "--shadow plane cannot be used. \"plane\" is not a shadow technique. Allowed: none, planar, box, hull, drape, "
-        "map, traced, auto.");
-    EXPECT_EQ(refusalWith({"--shadow", "volume:bits=8"}),
-              "--shadow volume:bits=8 cannot be used. \"volume\" is not built yet. Allowed: none, planar, box, hull, "
-              "drape, map, traced, auto.");
+        "map, volume, traced, auto.");
     EXPECT_EQ(refusalWith({"--shadow", "planar:soft=1"}), "--shadow planar:soft=1 cannot be used. the technique planar "
                                                           "has no key \"soft\". Allowed: composite, dark, receiver.");
 }

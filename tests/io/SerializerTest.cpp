@@ -10,6 +10,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <support/Picture.h>
@@ -398,6 +399,15 @@ TEST_P(SceneFile, KeepsTheSoftEdgesAndTheViewOfMaps) {
     EXPECT_EQ(loaded->getLampSize(), 1.0 / 3.0);
     EXPECT_EQ(loaded->getRadius(), 2.0 / 3.0);
     EXPECT_EQ(loaded->getView(), gnomon::ShadowMapTechnique::CASCADES);
+}
+
+TEST_P(SceneFile, KeepsTheViewOfVolumesAndTheirPicture) {
+    const osg::ref_ptr<gnomon::ShadowVolumeTechnique> technique = new gnomon::ShadowVolumeTechnique;
+    technique->setView(gnomon::ShadowVolumeTechnique::VOLUMES);
+    EXPECT_EQ(test::throughFile(*technique, kind())->getView(), gnomon::ShadowVolumeTechnique::VOLUMES);
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    scene.addShadow(technique);
+    expectSamePictureOnceLoaded(scene);
 }
 
 TEST(SceneFileText, SaysNothingOfDefaults) {

@@ -3,6 +3,7 @@
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowSpec.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/spec/SpecTable.h>
 
@@ -228,17 +229,10 @@ TEST(ShadowSpec, AutoTakesAnErrorAndATime) {
 }
 
 TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
-    const std::string allowed = "Allowed: none, planar, box, hull, drape, map, traced, auto.";
+    const std::string allowed = "Allowed: none, planar, box, hull, drape, map, volume, traced, auto.";
     EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique. " + allowed);
     EXPECT_EQ(refusal(""), "\"\" is not a shadow technique. " + allowed);
     EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique. " + allowed);
-}
-
-TEST(ShadowSpec, PlannedTechniquesSayThatTheyAreNotBuiltYet) {
-    for (const char* name : {"volume"})
-        EXPECT_EQ(refusal(std::string(name) + ":size=4"),
-                  "\"" + std::string(name) +
-                      "\" is not built yet. Allowed: none, planar, box, hull, drape, map, traced, auto.");
 }
 
 TEST(ShadowSpec, HullAndDrapeTakeAnErrorAndAllThreeTheTerrain) {
@@ -301,7 +295,7 @@ TEST(ShadowSpec, HelpNamesEveryTechniqueAndKey) {
             EXPECT_NE(help.find("    " + key.name + "=  "), std::string::npos) << key.name;
             EXPECT_NE(help.find("allowed " + key.allowed() + ", default "), std::string::npos) << key.name;
         }
-    EXPECT_NE(help.find("default map, traced, auto: everything; else: ground"), std::string::npos);
+    EXPECT_NE(help.find("default map, volume, traced, auto: everything; else: ground"), std::string::npos);
     std::istringstream lines(help);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 120u) << line;
 }
@@ -351,6 +345,13 @@ TEST(AddShadows, TracedReceivesEverywhereUnlessAReceiverIsNamed) {
     EXPECT_STREQ(added[0]->className(), "TracedShadowTechnique");
     EXPECT_EQ(refusal(*groupOf(square("floor", 1)), {"traced:receiver=roof"}),
               "no node is named \"roof\" to receive the shadow. Names in the scene: floor.");
+}
+
+TEST(AddShadows, VolumeTakesItsViewAndReceivesEverywhere) {
+    const auto added = addShadows(*groupOf(square("floor", 1)), {parseShadowSpec("volume:view=volumes")});
+    EXPECT_FALSE(added.at(0)->hasReceiver());
+    EXPECT_EQ(dynamic_cast<const gnomon::ShadowVolumeTechnique&>(*added.at(0)).getView(),
+              gnomon::ShadowVolumeTechnique::VOLUMES);
 }
 
 TEST(AddShadows, AllNodesOfAReceiversNameReceive) {

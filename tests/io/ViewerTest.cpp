@@ -116,7 +116,7 @@ protected:
         return desktop.pictureWhere("g hides the text", [](const Screenshot& p) { return !hasText(p); });
     }
 
-    /// From planar shadows on through box, hull, drape, map, traced and auto to none; from there n leads back.
+    /// From planar shadows on through box, hull, drape, map, volume, traced and auto to none; from there n leads back.
     Screenshot withoutShadow() { return after("n", 7); }
     /// The first picture without its shadow, which n then brings back.
     Screenshot glimpseWithoutShadow() {
@@ -148,7 +148,7 @@ TEST_F(Viewer, StartsWithoutShadowUnlessAskedForOne) {
     start({});
     const Screenshot planar = pressed("n");
     EXPECT_LE(misplaced(changed(first, planar), lamp), atFeet);
-    after("n", 6); // box, hull, drape, map, traced, auto
+    after("n", 7); // box, hull, drape, map, volume, traced, auto
     expectAfter("n", first);
 }
 

@@ -39,6 +39,7 @@ const Graph& mayInclude() {
         {"drape", words("geometry ground simd")},
         {"onterrain", words("geometry ground simd drape")},
         {"overlay", words("geometry ground drape onterrain")},
+        {"silhouette", words("geometry")},
         {"base", {}},
         {"headless", {}},
         {"gl", words("base geometry")},
@@ -50,9 +51,10 @@ const Graph& mayInclude() {
         {"terrain", words(technique + " ground drape onterrain overlay")},
         {"traced", words(technique + " rays")},
         {"auto", words(technique + " choice ground mapfit planar map terrain traced")},
+        {"volume", words(technique + " overlay silhouette")},
         {"effects", words("base gl compositor group geometry")},
         {"query", words("base casters group rays")},
-        {"spec", words("base casters group rays planar map terrain traced auto")},
+        {"spec", words("base casters group rays planar map terrain traced volume auto")},
     };
     return table;
 }

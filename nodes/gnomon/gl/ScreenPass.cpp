@@ -74,23 +74,37 @@ void ScreenPass::takeStencil(unsigned test, unsigned bits) {
     glStencilMask(bits);
 }
 
-/// Source: W. Bilodeau and M. Songy; C. Everitt and M. Kilgard, "Practical and Robust Stenciled Shadow Volumes", 2002.
-void ScreenPass::countHolding(unsigned bits) {
-    const bool single = (bits & (bits - 1)) == 0;
+void ScreenPass::count(unsigned bits, bool behind) {
+    const GLenum single = (bits & (bits - 1)) == 0 ? GL_INVERT : GL_NONE;
     const auto& gl = *_state.get<osg::GLExtensions>();
     testDepth(GL_LESS);
     _pattern.test(GL_ALWAYS, 0, ~0u);
-    gl.glStencilOpSeparate(GL_BACK, GL_KEEP, GLenum(single ? GL_INVERT : GL_INCR_WRAP), GL_KEEP);
-    gl.glStencilOpSeparate(GL_FRONT, GL_KEEP, GLenum(single ? GL_INVERT : GL_DECR_WRAP), GL_KEEP);
+    for (const GLenum face : {GL_FRONT, GL_BACK}) {
+        const bool up = (face == GL_BACK) == behind;
+        const GLenum operation = single ? single : GLenum(up ? GL_INCR_WRAP : GL_DECR_WRAP);
+        gl.glStencilOpSeparate(face, GL_KEEP, behind ? operation : GL_KEEP, behind ? GL_KEEP : operation);
+    }
     glStencilMask(bits);
 }
 
-void ScreenPass::takeCount(unsigned bits, unsigned mark) {
+/// Source: W. Bilodeau and M. Songy; C. Everitt and M. Kilgard, "Practical and Robust Stenciled Shadow Volumes", 2002.
+void ScreenPass::countHolding(unsigned bits) { count(bits, true); }
+
+/// Source: T. Heidmann, "Real Shadows, Real Time", Iris Universe 18, 1991.
+void ScreenPass::countEntered(unsigned bits) { count(bits, false); }
+
+void ScreenPass::setCount(unsigned bits, unsigned value) {
     glDisable(GL_DEPTH_TEST);
-    _pattern.test(GL_NOTEQUAL, mark & ~bits, bits);
-    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-    glStencilMask(bits | mark);
+    stencilEqual(value, 0, bits);
     drawQuad();
+}
+
+void ScreenPass::takeCount(unsigned bits, unsigned mark) {
+    testDepth(GL_GREATER);
+    _pattern.test(GL_NOTEQUAL, mark & ~bits, bits);
+    glStencilOp(GL_KEEP, GL_ZERO, GL_REPLACE);
+    glStencilMask(bits | mark);
+    drawQuad(1.0);
 }
 
 void ScreenPass::writeFarDepth() {

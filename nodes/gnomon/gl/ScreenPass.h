@@ -48,7 +48,12 @@ public:
     /// What is drawn next, closed surfaces, counts in `bits`, one or several as counters() has them, how many of them hold
     /// what stands in the depth buffer, modulo the bits' range (z-fail).
     void countHolding(unsigned bits);
-    /// Sets `mark` wherever any of `bits` is set, and those to 0.
+    /// What is drawn next, sides of volumes whose other faces no line of sight meets, counts in `bits` how many of them hold
+    /// what stands in the depth buffer, beyond those that hold the eye (z-pass).
+    void countEntered(unsigned bits);
+    /// Sets the number in `bits`.
+    void setCount(unsigned bits, unsigned value);
+    /// Sets `mark` wherever any of `bits` is set and something stands in the depth buffer; and those to 0.
     void takeCount(unsigned bits, unsigned mark);
     /// True if the pixels beside one may be of another picture: the other eye's.
     bool isInterlaced() const { return _pattern.bit != 0; }
@@ -87,6 +92,7 @@ public:
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
 
 private:
+    void count(unsigned bits, bool behind);
     void openChannels(GLboolean alpha) const;
     void openToMultiply();
     void drawColor(const osg::Vec4& color);

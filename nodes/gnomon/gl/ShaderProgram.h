@@ -15,6 +15,7 @@ namespace gnomon {
 /// made in double. GLSL 1.30. It belongs to a node, so that it is released with the node's other OpenGL objects.
 /// @param defines  "#define CLIP\n": it writes clip distances to the uniform planes abovePlane and belowLight, too.
 ///                 "#define CUTOUT\n": it leaves out what the texture `cutout` says, by the uniform alphaTest.
+///                 "#define EXTRUDE\n": vertices as ShadowVolumes has them, by the uniform light; coloured by wire.
 ///                 "#define BITMAP\n": it leaves out what a ShadowBitmap says, see TileBitmap.
 osg::ref_ptr<osg::StateSet> shaderProgram(const std::string& defines = "");
 /// State with a program for ScreenPass::drawQuad(): a fragment shader for each pixel. GLSL 1.30.

@@ -4,6 +4,7 @@
 #include <gnomon/NamedNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowSpec.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/spec/SpecTable.h>
@@ -70,6 +71,12 @@ osg::ref_ptr<ShadowTechnique> makeAuto(const ShadowSpec& spec, const Receivers&)
     return node;
 }
 
+osg::ref_ptr<ShadowTechnique> makeVolume(const ShadowSpec& spec, const Receivers&) {
+    osg::ref_ptr<ShadowVolumeTechnique> node = new ShadowVolumeTechnique;
+    node->setOptions(spec.volume);
+    return node;
+}
+
 osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const Receivers&) {
     osg::ref_ptr<ShadowMapTechnique> node = new ShadowMapTechnique;
     node->setOptions(spec.map);
@@ -92,6 +99,7 @@ const std::map<std::string, Maker>& makers() {
         {"hull", makeTerrain<TerrainShadowOptions::HULL>},
         {"drape", makeTerrain<TerrainShadowOptions::DRAPE>},
         {"map", makeMap},
+        {"volume", makeVolume},
         {"traced", makeTraced},
         {"auto", makeAuto},
     };

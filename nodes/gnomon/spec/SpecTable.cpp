@@ -134,13 +134,19 @@ std::vector<SpecKey> mapKeys() {
     };
 }
 
-SpecTechnique planned(const char* name) { return {name, "", "", {}, false}; }
+std::vector<SpecKey> volumeKeys() {
+    const Option<ShadowVolumeOptions::View> view = {
+        ShadowVolumeOptions().view,
+        [](ShadowSpec& spec, ShadowVolumeOptions::View value) { spec.volume.view = value; }};
+    return {wordKey({"view", "debug view drawn over the picture", "setView()"}, view,
+                    {{"nothing", ShadowVolumeOptions::NOTHING}, {"volumes", ShadowVolumeOptions::VOLUMES}})};
+}
 
-/// "map, traced: everything; else: ground".
+/// "map, volume, traced: everything; else: ground".
 std::string receiversByDefault() {
     std::vector<std::string> everywhere;
     for (const SpecTechnique& technique : specTechniques())
-        if (technique.isBuilt && technique.receiver.empty() && technique.name != "none")
+        if (technique.receiver.empty() && technique.name != "none")
             everywhere.push_back(technique.name);
     return listed(everywhere) + ": everything; else: " + ground;
 }
@@ -186,7 +192,7 @@ const std::vector<SpecTechnique>& specTechniques() {
          {errorKey()}},
         {"drape", "the terrain's triangles, cut by the casters' shadows to within error", ground, {errorKey()}},
         {"map", "shadow maps; on every visible surface", "", mapKeys()},
-        planned("volume"),
+        {"volume", "stencil volumes; exact on every visible surface", "", volumeKeys()},
         {"traced", "one ray for each pixel by Embree; exact on every visible surface"},
         {"auto", "the cheapest of the others that keeps an error, or the most accurate within a time", "", autoKeys()},
     };
@@ -195,11 +201,8 @@ const std::vector<SpecTechnique>& specTechniques() {
 
 const SpecTechnique& requireTechnique(const std::string& name) {
     const std::string allowed = " Allowed: " + listed(shadowTechniques()) + ".";
-    for (const SpecTechnique& technique : specTechniques()) {
-        if (name != technique.name) continue;
-        if (!technique.isBuilt) throw std::invalid_argument("\"" + name + "\" is not built yet." + allowed);
-        return technique;
-    }
+    for (const SpecTechnique& technique : specTechniques())
+        if (name == technique.name) return technique;
     throw std::invalid_argument("\"" + name + "\" is not a shadow technique." + allowed);
 }
 
@@ -219,15 +222,14 @@ std::string listed(const std::vector<std::string>& words) {
 
 std::vector<std::string> shadowTechniques() {
     std::vector<std::string> names;
-    for (const SpecTechnique& technique : specTechniques())
-        if (technique.isBuilt) names.push_back(technique.name);
+    for (const SpecTechnique& technique : specTechniques()) names.push_back(technique.name);
     return names;
 }
 
 std::string shadowSpecHelp(const std::vector<std::string>& names) {
     std::ostringstream out;
     for (const SpecTechnique& technique : specTechniques()) {
-        if (!technique.isBuilt || !has(names, technique.name)) continue;
+        if (!has(names, technique.name)) continue;
         out << "  " << technique.name << "  " << technique.meaning << "\n";
         describeKeys(out, technique.keys);
     }

@@ -29,10 +29,9 @@ struct SpecTechnique {
     std::string meaning = {};
     std::string receiver = {};      ///< name of the node that receives where none is named; empty: everything.
     std::vector<SpecKey> keys = {}; ///< its own.
-    bool isBuilt = true;            ///< else it is planned.
 };
 
-/// The table of techniques, those planned included.
+/// The table of techniques.
 const std::vector<SpecTechnique>& specTechniques();
 /// The technique of that name.
 /// @throws std::invalid_argument if it is planned, or there is none.

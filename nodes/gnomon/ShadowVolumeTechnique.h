@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/ShadowTechnique.h>
+#include <gnomon/ShadowVolumeOptions.h>
+
+#include <memory>
+#include <vector>
+
+namespace gnomon {
+
+class VolumeCache;
+
+/// Casts exact hard shadows onto everything visible, by stencil volumes.
+///
+/// Use it for casters of few edges, such as buildings, machines and furniture: its edges have no texels, and it is the
+/// fastest technique there. Use ShadowMapTechnique for dense meshes, foliage and penumbras.
+///
+///     group->addChild(new gnomon::ShadowVolumeTechnique);
+///
+/// Cost
+/// - Each frame and light: the volumes' sides are drawn into the stencil buffer. The pixels that they cover are the cost.
+/// - When a light moves: a pass over the casters' triangles and edges, and an upload of the outlines.
+/// - When a caster moves as a whole: the same for it alone. Small casters that are joined are searched again.
+/// - Volumes end below all that receives. Volumes out of sight are not drawn.
+/// - If the eye may be inside a volume, its caster's triangles are drawn, too.
+/// Needs
+/// - OpenGL 3.0 with GLSL 1.30, its two-sided stencil and depth clamp.
+/// - One stencil bit a light, one more where a receiver is named, and one or more that count.
+/// Limits
+/// - Dense meshes have thousands of edges one before the other: maps are faster there.
+/// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
+/// - Alpha-tested casters cast as if they were solid, and diagnose() says so.
+/// - A caster that the view does not draw, by a mask or by face culling of an open sheet, can leave false light or shadow
+///   where one looks through it.
+/// - Counts have up to seven bits. More casters between a light and a place take several rounds. If one connected mesh
+///   lies over itself more often, its shadow may have holes, and diagnose() says so.
+/// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.
+/// - Drawables that write no depth do not receive.
+/// - A spot casts as a lamp: its cone is as OpenGL draws it, by vertex.
+/// Threads
+/// - Any number of cull and draw threads. Set properties between frames.
+/// Source
+/// - F. Crow, "Shadow Algorithms for Computer Graphics", SIGGRAPH 1977.
+/// - C. Everitt, M. Kilgard, "Practical and Robust Stenciled Shadow Volumes for Hardware-Accelerated Rendering", 2002.
+/// - B. Kim, K. Kim, G. Turk, "A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters", 2008.
+///
+/// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
+///
+///     gnomon::ShadowVolumeTechnique {
+///       UniqueID 2
+///       View VOLUMES
+///     }
+class GNOMON_EXPORT ShadowVolumeTechnique : public ShadowTechnique {
+public:
+    using View = ShadowVolumeOptions::View; ///< See ShadowVolumeOptions::View.
+    /// The same values, by shorter names.
+    static constexpr View NOTHING = ShadowVolumeOptions::NOTHING, VOLUMES = ShadowVolumeOptions::VOLUMES;
+
+    /// A technique with every opaque drawable as receiver.
+    ShadowVolumeTechnique();
+    /// Copies the properties.
+    ShadowVolumeTechnique(const ShadowVolumeTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
+    META_Node(gnomon, ShadowVolumeTechnique)
+
+    /// Sets all properties at once.
+    void setOptions(const ShadowVolumeOptions& options) { _options = options.usable(); }
+    /// See setOptions().
+    const ShadowVolumeOptions& getOptions() const { return _options; }
+    /// See ShadowVolumeOptions::view.
+    void setView(View view) { setOptions({view}); }
+    /// See ShadowVolumeOptions::view.
+    View getView() const { return _options.view; }
+
+    /// Number of times that volumes were found so far: once for each change of a light or the casters.
+    unsigned builds() const;
+
+    /// Finds the volumes of one light, and makes the job that draws them. See ShadowTechnique::prepare().
+    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+                                               const FrameCasters& casters) const override;
+
+    /// Prepares OpenGL objects for more contexts, as osg::Node does.
+    void resizeGLObjectBuffers(unsigned maxSize) override;
+    /// Releases OpenGL objects, as osg::Node does.
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
+protected:
+    ~ShadowVolumeTechnique() override;
+
+private:
+    ShadowVolumeOptions _options;
+    std::unique_ptr<VolumeCache> _cache;
+};
+
+} // namespace gnomon

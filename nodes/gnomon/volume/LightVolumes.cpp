@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Plane.h>
+#include <gnomon/silhouette/VolumeEnd.h>
+#include <gnomon/volume/LightVolumes.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace gnomon {
+namespace {
+
+/// Those of the scene, in the mesh's frame.
+std::vector<glm::dvec4> endsIn(const VolumeCaster& caster, const ReceiverBox& receivers) {
+    std::vector<glm::dvec4> planes;
+    for (const glm::dvec4& plane : endPlanes(receivers.low, receivers.high))
+        if (const auto there = normalizedPlane(glm::transpose(caster.sceneFromMesh) * plane)) planes.push_back(*there);
+    return planes;
+}
+
+} // namespace
+
+glm::dvec4 lightIn(const VolumeCaster& caster, const glm::dvec4& lightInScene) {
+    const glm::dvec4 light = glm::inverse(caster.sceneFromMesh) * lightInScene;
+    return light.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(light)), 0.0) : light;
+}
+
+LightVolumes::LightVolumes() : _sides(new VolumeGeometry) {}
+
+bool LightVolumes::are(const VolumeCaster& caster, const glm::dvec4& light, const ReceiverBox& receivers) const {
+    return _caster.mesh == caster.mesh && _caster.sceneFromMesh == caster.sceneFromMesh && _light == light &&
+           _receivers == receivers;
+}
+
+void LightVolumes::set(const VolumeCaster& caster, const glm::dvec4& light, const ReceiverBox& receivers) {
+    _caster = caster;
+    _light = light;
+    _receivers = receivers;
+    findShadowVolumes(*caster.mesh, lightIn(caster, light), endsIn(caster, receivers), _volumes);
+    _sides->set(_volumes.vertices, _volumes.corners);
+    _capped.clear();
+}
+
+osg::ref_ptr<const VolumeGeometry> LightVolumes::capsOf(const std::vector<unsigned>& parts,
+                                                        std::vector<VolumeGeometry::Range>& ranges) {
+    if (parts.empty()) return nullptr;
+    if (parts != _capped) {
+        if (!_caps || _caps->referenceCount() > 1) _caps = new VolumeGeometry;
+        VolumeCaps caps;
+        _ranges.clear();
+        for (const unsigned part : parts) {
+            const auto first = static_cast<unsigned>(caps.corners.size());
+            appendCaps(*_caster.mesh, _volumes, part, caps);
+            _ranges.push_back({first, static_cast<unsigned>(caps.corners.size()) - first});
+        }
+        _caps->set(caps.vertices, caps.corners);
+        _capped = parts;
+    }
+    ranges = _ranges;
+    return _caps;
+}
+
+void LightVolumes::resizeGLObjectBuffers(unsigned maxSize) {
+    _sides->resizeGLObjectBuffers(maxSize);
+    if (_caps) _caps->resizeGLObjectBuffers(maxSize);
+}
+
+void LightVolumes::releaseGLObjects(osg::State* state) const {
+    _sides->releaseGLObjects(state);
+    if (_caps) _caps->releaseGLObjects(state);
+}
+
+} // namespace gnomon

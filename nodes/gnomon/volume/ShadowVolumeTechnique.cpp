@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/ShadowVolumeTechnique.h>
+#include <gnomon/group/FrameCasters.h>
+#include <gnomon/group/LocalLight.h>
+#include <gnomon/volume/VolumeCache.h>
+#include <gnomon/volume/VolumeMark.h>
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+bool areAnyTested(const CasterDrawables& pieces) {
+    return std::any_of(pieces.list.begin(), pieces.list.end(),
+                       [](const osg::ref_ptr<const CasterDrawable>& piece) { return piece->test.has_value(); });
+}
+
+} // namespace
+
+ShadowVolumeOptions ShadowVolumeOptions::usable() const {
+    return {view == VOLUMES ? VOLUMES : ShadowVolumeOptions().view};
+}
+
+ShadowVolumeTechnique::ShadowVolumeTechnique() : _cache(std::make_unique<VolumeCache>()) {}
+
+ShadowVolumeTechnique::ShadowVolumeTechnique(const ShadowVolumeTechnique& other, const osg::CopyOp& copyOp)
+    : ShadowTechnique(other, copyOp), _options(other._options), _cache(std::make_unique<VolumeCache>()) {}
+
+ShadowVolumeTechnique::~ShadowVolumeTechnique() = default;
+
+unsigned ShadowVolumeTechnique::builds() const { return _cache->builds(); }
+
+std::vector<osg::ref_ptr<MarkJob>> ShadowVolumeTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                                  const FrameCasters& casters) const {
+    const CasterLayers& layers = casters.layers();
+    const SceneFrame scene(layers.origin);
+    const auto usable = localLight(light.inGroup, scene);
+    if (!usable) {
+        report(view.frameNumber, notUsable(light.inGroup));
+        return {};
+    }
+    if (areAnyTested(*layers.pieces))
+        report(view.frameNumber,
+               "alpha-tested casters cast as if they were solid, because volumes know no texture. Use "
+               "map for them, or leave them out of the casters.");
+    std::optional<SeenVolumes> seen = _cache->see(layers, view, light.number, *usable, scene);
+    if (!seen) return {}; // out of sight: nothing to say
+    osg::ref_ptr<VolumeMark> mark = new VolumeMark;
+    mark->seen = std::move(*seen);
+    mark->screenBounds = mark->seen.bounds;
+    mark->program = _cache->program;
+    mark->pushedBack = view.pushedBack;
+    mark->showsVolumes = _options.view == VOLUMES;
+    return {mark};
+}
+
+void ShadowVolumeTechnique::resizeGLObjectBuffers(unsigned maxSize) {
+    ShadowTechnique::resizeGLObjectBuffers(maxSize);
+    _cache->resizeGLObjectBuffers(maxSize);
+}
+
+void ShadowVolumeTechnique::releaseGLObjects(osg::State* state) const {
+    ShadowTechnique::releaseGLObjects(state);
+    _cache->release(state);
+}
+
+} // namespace gnomon

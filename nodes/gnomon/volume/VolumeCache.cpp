@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/gl/ShaderProgram.h>
+#include <gnomon/volume/VolumeCache.h>
+
+#include <OpenThreads/ScopedLock>
+#include <tbb/task_arena.h>
+
+#include <iterator>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+} // namespace
+
+VolumeCache::VolumeCache() : program(shaderProgram("#define EXTRUDE\n")) {}
+
+std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
+                                            const glm::dvec4& light, const SceneFrame& scene) {
+    const ReceiverBox receivers = receiversOf(view, scene);
+    Lock lock(_mutex);
+    ++_call;
+    const ReceiverBox& box = boxOf(view.stage, receivers);
+    std::vector<osg::ref_ptr<LightVolumes>> all;
+    for (const VolumeCaster& caster : _casters.of(casters))
+        all.push_back(find(caster, _entries[{view.stage, lightNumber, all.size()}], light, box));
+    dropUnused();
+    return seenVolumes(all, scene.clipFromScene(view));
+}
+
+const ReceiverBox& VolumeCache::boxOf(const void* stage, const ReceiverBox& receivers) {
+    const auto [known, isNew] = _boxes.emplace(stage, receivers);
+    if (!isNew && !known->second.fits(receivers)) known->second = receivers.grown();
+    return known->second;
+}
+
+/// Those of another light give up their memory, unless they are still drawn.
+osg::ref_ptr<LightVolumes> VolumeCache::find(const VolumeCaster& caster, Entry& own, const glm::dvec4& light,
+                                             const ReceiverBox& receivers) {
+    own.used = _call;
+    if (own.volumes && own.volumes->are(caster, light, receivers)) return own.volumes;
+    if (!own.volumes || own.volumes->referenceCount() > 1) own.volumes = new LightVolumes;
+    // Isolated: a thread that waits for others must not take up work of the caller's, which might ask in turn.
+    tbb::this_task_arena::isolate([&] { own.volumes->set(caster, light, receivers); });
+    ++_builds;
+    return own.volumes;
+}
+
+void VolumeCache::dropUnused() {
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = _call - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
+    if (_entries.empty()) _boxes.clear();
+}
+
+unsigned VolumeCache::builds() const {
+    Lock lock(_mutex);
+    return _builds;
+}
+
+void VolumeCache::resizeGLObjectBuffers(unsigned maxSize) {
+    Lock lock(_mutex);
+    program->resizeGLObjectBuffers(maxSize);
+    for (const auto& [owner, entry] : _entries) entry.volumes->resizeGLObjectBuffers(maxSize);
+}
+
+void VolumeCache::release(osg::State* state) const {
+    Lock lock(_mutex);
+    program->releaseGLObjects(state);
+    for (const auto& [owner, entry] : _entries) entry.volumes->releaseGLObjects(state);
+}
+
+} // namespace gnomon

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/volume/VolumeCasters.h>
+
+#include <iterator>
+
+namespace gnomon {
+namespace {
+
+std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
+    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
+    if (mesh.empty()) return std::make_shared<const SilhouetteMesh>();
+    const auto* vertices = static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
+    return std::make_shared<const SilhouetteMesh>(vertices, mesh.vertices->size(), &mesh.triangles->front(),
+                                                  mesh.triangles->size());
+}
+
+} // namespace
+
+std::vector<VolumeCaster> VolumeCasters::of(const CasterLayers& casters) {
+    ++_call;
+    std::vector<VolumeCaster> all;
+    for (const PlacedMesh& placed : casters.meshes()) {
+        Entry& entry = _entries[placed.mesh.get()];
+        if (!entry.mesh) entry = {placed.mesh, edgesOf(*placed.mesh), 0};
+        entry.used = _call;
+        all.push_back({entry.edges, placed.sceneFromMesh});
+    }
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = _call - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
+    return all;
+}
+
+} // namespace gnomon

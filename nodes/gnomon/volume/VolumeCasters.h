@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/silhouette/SilhouetteMesh.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace gnomon {
+
+struct CasterLayers;
+
+/// A mesh that casts, with its edges, where it stands in the scene.
+struct VolumeCaster {
+    std::shared_ptr<const SilhouetteMesh> mesh; ///< in its own frame.
+    glm::dmat4 sceneFromMesh{1.0};              ///< can be inverted.
+};
+
+/// The edges of casters, found once a mesh, wherever it stands.
+class VolumeCasters {
+public:
+    /// All that cast.
+    std::vector<VolumeCaster> of(const CasterLayers& casters);
+
+private:
+    struct Entry {
+        osg::ref_ptr<const CasterMesh> mesh; // held, so that its address cannot be taken by another
+        std::shared_ptr<const SilhouetteMesh> edges;
+        unsigned used = 0; ///< in which call.
+    };
+    static constexpr unsigned longUnused = 64; ///< calls, one a view and light of each frame.
+
+    std::unordered_map<const CasterMesh*, Entry> _entries;
+    unsigned _call = 0;
+};
+
+} // namespace gnomon

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/volume/VolumeView.h>
+
+#include <osg/StateSet>
+#include <osg/Vec2d>
+
+namespace gnomon {
+
+/// Marks of one light in one view: what is in a volume.
+class VolumeMark : public MarkJob {
+public:
+    SeenVolumes seen;
+    osg::ref_ptr<const osg::StateSet> program;
+    osg::Vec2d pushedBack; ///< see ViewFrame.
+    bool showsVolumes = false;
+
+    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    bool counts() const override { return true; }
+    bool hasView() const override { return showsVolumes; }
+    void drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int before) const override;
+
+protected:
+    ~VolumeMark() override = default;
+
+private:
+    void count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+               const VolumeRound::Share& share) const;
+    void drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps,
+                  const std::vector<VolumeGeometry::Range>& ranges) const;
+};
+
+} // namespace gnomon

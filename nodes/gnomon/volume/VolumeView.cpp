@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/overlay/StencilBatches.h>
+#include <gnomon/silhouette/SightStart.h>
+#include <gnomon/silhouette/VolumeEnd.h>
+#include <gnomon/volume/VolumeView.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace gnomon {
+namespace {
+
+/// Corners of the part's bounds, and where its volume ends behind them.
+std::array<glm::dvec4, 16> hullOf(const SilhouetteMesh::Part& part, const glm::dvec4& end, const glm::dvec4& light,
+                                  const glm::dmat4& clipFromMesh) {
+    std::array<glm::dvec4, 16> points;
+    const glm::dvec3 low(part.low), high(part.high);
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+        const glm::dvec3 away = awayFrom(light, corner);
+        const double length = lengthTo(end, corner, light);
+        points[i] = clipFromMesh * glm::dvec4(corner, 1.0);
+        points[i + 8] = clipFromMesh * (length < 0.0 ? glm::dvec4(away, 0.0) : glm::dvec4(corner + length * away, 1.0));
+    }
+    return points;
+}
+
+/// As screenBounds(), which is slower.
+std::optional<ScreenRect> boundsOf(const std::array<glm::dvec4, 16>& points) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    ScreenRect rect{glm::dvec2(infinity), glm::dvec2(-infinity)};
+    for (const glm::dvec4& point : points) {
+        if (!(point.w > 1e-6 * (std::abs(point.x) + std::abs(point.y))))
+            return screenBounds({points.begin(), points.end()});
+        const glm::dvec2 at = glm::dvec2(point) / point.w;
+        rect.low = glm::min(rect.low, at);
+        rect.high = glm::max(rect.high, at);
+    }
+    rect = common(rect, wholeScreen);
+    if (!overlap(rect, rect)) return std::nullopt;
+    return rect;
+}
+
+/// Where the volume of a part is across the light, in a plane of two coordinates; a lamp's are those of a globe.
+PrismLayers layersOf(const LightVolumes& of, unsigned index, unsigned capacity) {
+    const SilhouetteMesh::Part& part = of.caster().mesh->parts[index];
+    const glm::dvec4& light = of.volumes().light;
+    const glm::dvec3 low(part.low), high(part.high), middle = (low + high) / 2.0, half = (high - low) / 2.0;
+    PrismLayers layers{glm::dvec2(-4.0), glm::dvec2(4.0), 1, std::min(of.volumes().parts[index].layers, capacity)};
+    if (light.w == 0.0) {
+        const glm::dvec3 along(light);
+        const glm::dvec3 any = std::abs(along.z) < 0.7 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
+        const glm::dvec3 u = glm::normalize(glm::cross(any, along)), v = glm::cross(along, u);
+        const glm::dvec2 at(glm::dot(middle, u), glm::dot(middle, v)),
+            reach(glm::dot(half, glm::abs(u)), glm::dot(half, glm::abs(v)));
+        layers.low = at - reach;
+        layers.high = at + reach;
+        return layers;
+    }
+    const glm::dvec3 away = awayFrom(light, middle);
+    const double distance = glm::length(away), radius = glm::length(half);
+    if (!(distance > radius)) return layers;
+    const double angle = std::asin(radius / distance), height = std::asin(std::clamp(away.z / distance, -1.0, 1.0));
+    layers.low.y = height - angle;
+    layers.high.y = height + angle;
+    if (std::abs(height) + angle >= glm::half_pi<double>()) return layers;
+    const double turn = std::asin(std::sin(angle) / std::cos(height)), azimuth = std::atan2(away.y, away.x);
+    if (std::abs(azimuth) + turn > glm::pi<double>()) return layers;
+    layers.low.x = azimuth - turn;
+    layers.high.x = azimuth + turn;
+    return layers;
+}
+
+void append(std::vector<VolumeGeometry::Range>& ranges, const VolumeGeometry::Range& range) {
+    if (range.count == 0) return;
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == range.first)
+        ranges.back().count += range.count;
+    else
+        ranges.push_back(range);
+}
+
+const ShadowVolumes::Part& volumeOf(const SeenVolumes& all, const SeenPart& seen) {
+    return all.meshes[seen.mesh].volumes->volumes().parts[seen.part];
+}
+
+void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
+    VolumeRound::Share& share = round.shares[seen.mesh];
+    const ShadowVolumes::Part& part = volumeOf(all, seen);
+    append(seen.holding ? share.entered : share.left, {part.first, part.count});
+    append(share.caps, seen.caps);
+    round.holding += seen.holding.value_or(0);
+}
+
+/// To those from `first` on that are counted from behind.
+osg::ref_ptr<const VolumeGeometry> giveCaps(LightVolumes& volumes, std::vector<SeenPart>& parts, std::size_t first) {
+    std::vector<unsigned> capped;
+    for (std::size_t i = first; i < parts.size(); ++i)
+        if (!parts[i].holding) capped.push_back(parts[i].part);
+    std::vector<VolumeGeometry::Range> ranges;
+    osg::ref_ptr<const VolumeGeometry> caps = volumes.capsOf(capped, ranges);
+    for (std::size_t i = first, next = 0; i < parts.size(); ++i)
+        if (!parts[i].holding) parts[i].caps = ranges[next++];
+    return caps;
+}
+
+/// Adds the parts of a mesh that can be seen.
+void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes& all) {
+    const SilhouetteMesh& mesh = *volumes.caster().mesh;
+    const glm::dmat4 clipFromMesh = clipFromScene * volumes.caster().sceneFromMesh;
+    if (mesh.parts.empty()) return;
+    const SightStart start(clipFromMesh, glm::dvec3(mesh.low), glm::dvec3(mesh.high));
+    const std::size_t before = all.parts.size();
+    for (unsigned i = 0; i < mesh.parts.size(); ++i) {
+        const ShadowVolumes::Part& volume = volumes.volumes().parts[i];
+        const auto hull = hullOf(mesh.parts[i], volume.end, volumes.volumes().light, clipFromMesh);
+        const auto bounds = boundsOf(hull);
+        if (!bounds) continue;
+        const bool cut = std::any_of(hull.begin(), hull.begin() + 8, [](const auto& at) { return at.z <= -at.w; });
+        const std::optional<int> holding = volumesHolding(start, mesh, volumes.volumes(), i, cut);
+        if (holding == 0 && volume.count == 0) continue;
+        all.bounds = all.parts.empty() ? *bounds : united(all.bounds, *bounds);
+        all.parts.push_back({all.meshes.size(), i, holding, {0, 0}});
+    }
+    if (all.parts.size() == before) return;
+    all.meshes.push_back({&volumes, clipFromMesh, giveCaps(volumes, all.parts, before)});
+}
+
+} // namespace
+
+std::vector<VolumeRound> SeenVolumes::rounds(unsigned capacity) const {
+    std::size_t layers = 0;
+    for (const SeenPart& seen : parts) layers += volumeOf(*this, seen).layers;
+    if (layers <= capacity) {
+        std::vector<VolumeRound> all(1);
+        for (const SeenPart& seen : parts) add(all.front(), *this, seen);
+        return all;
+    }
+    std::vector<PrismLayers> prisms;
+    for (const SeenPart& seen : parts) prisms.push_back(layersOf(*meshes[seen.mesh].volumes, seen.part, capacity));
+    std::vector<VolumeRound> all;
+    for (std::vector<LayerSlice>& round : stencilBatches(prisms, capacity)) {
+        std::sort(round.begin(), round.end(),
+                  [](const LayerSlice& a, const LayerSlice& b) { return a.tile < b.tile; }); // as they lie in memory
+        all.emplace_back();
+        for (const LayerSlice& slice : round) add(all.back(), *this, parts[slice.tile]);
+    }
+    return all;
+}
+
+bool SeenVolumes::overflow(unsigned capacity) const {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const SeenPart& seen) { return volumeOf(*this, seen).layers > capacity; });
+}
+
+std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
+                                       const glm::dmat4& clipFromScene) {
+    SeenVolumes result;
+    for (const osg::ref_ptr<LightVolumes>& volumes : all) lookAt(*volumes, clipFromScene, result);
+    if (result.parts.empty()) return std::nullopt;
+    return result;
+}
+
+} // namespace gnomon

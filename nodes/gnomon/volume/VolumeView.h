@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/volume/LightVolumes.h>
+
+#include <glm/mat4x4.hpp>
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace gnomon {
+
+/// The volumes of one mesh in one view.
+struct MeshInView {
+    osg::ref_ptr<const LightVolumes> volumes;
+    glm::dmat4 clipFromMesh{1.0};
+    osg::ref_ptr<const VolumeGeometry> caps; ///< null: none are needed.
+};
+
+/// A part whose volume can be seen.
+struct SeenPart {
+    std::size_t mesh; ///< among those in view.
+    unsigned part;
+    std::optional<int> holding;       ///< see volumesHolding().
+    VolumeGeometry::Range caps{0, 0}; ///< without `holding`.
+};
+
+/// Volumes that are counted together: not more of them hold any one point than a counter can count.
+struct VolumeRound {
+    /// Of one mesh: sides to count from the eye, and from behind; and caps for those.
+    struct Share {
+        std::vector<VolumeGeometry::Range> entered, left, caps;
+    };
+    std::map<std::size_t, Share> shares; ///< by mesh.
+    int holding = 0;                     ///< those counted from the eye that the eye is in.
+};
+
+/// What a view needs of the volumes of one light.
+struct SeenVolumes {
+    std::vector<MeshInView> meshes;
+    std::vector<SeenPart> parts;
+    ScreenRect bounds{}; ///< where they can be seen.
+
+    /// @param capacity  what a counter can count to, 1 or more.
+    std::vector<VolumeRound> rounds(unsigned capacity) const;
+    /// True if a counter may pass its range.
+    bool overflow(unsigned capacity) const;
+};
+
+/// @return nullopt if none can be seen.
+std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
+                                       const glm::dmat4& clipFromScene);
+
+} // namespace gnomon

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/silhouette/LightFacing.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+namespace gnomon {
+namespace {
+
+constexpr double grazing = 1e-5;       // radians
+constexpr std::size_t block = 1 << 14; // triangles that are worth a task
+
+using Part = SilhouetteMesh::Part;
+
+/// The weights of a triangle that faces the light, and of one that does not.
+struct Pair {
+    std::int8_t facing, turned;
+};
+
+bool holds(const Part& part, const glm::dvec4& light) {
+    if (light.w == 0.0) return false;
+    const glm::dvec3 at(light);
+    return glm::all(glm::greaterThanEqual(at, glm::dvec3(part.low))) &&
+           glm::all(glm::lessThanEqual(at, glm::dvec3(part.high)));
+}
+
+Pair weightsOf(const Part& part, const glm::dvec4& light) {
+    if (!part.closed || holds(part, light)) return {1, -1};
+    return part.inward ? Pair{0, -1} : Pair{1, 0};
+}
+
+/// How far a light may be behind a plane that it grazes.
+double toleranceOf(const Part& part, const glm::dvec4& light) {
+    if (light.w == 0.0) return grazing;
+    const glm::dvec3 at(light), low(part.low), high(part.high);
+    return grazing * glm::length(glm::max(glm::abs(at - low), glm::abs(high - at)));
+}
+
+void faceLight(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& light, std::size_t first,
+               std::size_t end, std::int8_t* weights) {
+    const Pair pair = weightsOf(part, light);
+    const double least = -toleranceOf(part, light);
+    const double *x = mesh.planeX.data(), *y = mesh.planeY.data(), *z = mesh.planeZ.data(), *d = mesh.planeD.data();
+    for (std::size_t i = first; i < end; ++i) {
+        const double side = x[i] * light.x + y[i] * light.y + z[i] * light.z + d[i] * light.w;
+        weights[i] = side >= least ? pair.facing : pair.turned;
+    }
+}
+
+} // namespace
+
+void faceLight(const SilhouetteMesh& mesh, const glm::dvec4& light, FacingWeights& weights) {
+    weights.resize(mesh.triangles() + 1);
+    weights.back() = 0;
+    const auto faceParts = [&](const tbb::blocked_range<std::size_t>& parts) {
+        for (std::size_t p = parts.begin(); p < parts.end(); ++p) {
+            const Part& part = mesh.parts[p];
+            const std::size_t end = std::size_t(part.firstTriangle) + part.triangles;
+            if (part.triangles <= block) {
+                faceLight(mesh, part, light, part.firstTriangle, end, weights.data());
+                continue;
+            }
+            tbb::parallel_for(tbb::blocked_range<std::size_t>(part.firstTriangle, end, block), [&](const auto& some) {
+                faceLight(mesh, part, light, some.begin(), some.end(), weights.data());
+            });
+        }
+    };
+    const std::size_t grain = 1 + mesh.parts.size() * block / (mesh.triangles() + 1);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.parts.size(), grain), faceParts);
+    for (const SilhouetteMesh::Thin& thin : mesh.thin) weights[thin.triangle] = weights[thin.like];
+}
+
+} // namespace gnomon

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/silhouette/LightFacing.h>
+
+#include <glm/vec2.hpp>
+
+namespace gnomon {
+
+/// The volumes behind the parts of a mesh as seen from a light, ready to be drawn.
+///
+/// A vertex is a place and how far it goes on, away from the light, in lengths of awayFrom(): below 0 to infinity.
+struct ShadowVolumes {
+    /// Of one part: its sides. What closes them, see appendCaps().
+    struct Part {
+        unsigned first = 0, count = 0;     ///< in `corners`.
+        unsigned firstEdge = 0, edges = 0; ///< in `outline`.
+        unsigned layers = 0;               ///< not more of its volumes hold any one point.
+        glm::dvec4 end{0.0};               ///< see nearestEnd().
+    };
+    /// An edge of the surface that casts, which is to its left as seen from the light.
+    struct Outline {
+        unsigned from, to;
+    };
+
+    glm::dvec4 light{0.0};
+    FacingWeights weights;
+    std::vector<glm::vec4> vertices;
+    std::vector<unsigned> corners; ///< three a triangle, counter-clockwise from outside.
+    std::vector<Outline> outline;
+    std::vector<Part> parts; ///< as the mesh's.
+};
+
+/// @param light   in the mesh's frame; w is 0 and the direction has length 1, or w is 1.
+/// @param planes  see endPlanes().
+/// @param into    whose memory is used again.
+///
+/// Cost  a pass over the triangles and the edges, in parallel; the rest is linear in the outlines.
+void findShadowVolumes(const SilhouetteMesh& mesh, const glm::dvec4& light, const std::vector<glm::dvec4>& planes,
+                       ShadowVolumes& into);
+
+/// Triangles that close the volumes of a part, counter-clockwise from outside, with vertices as ShadowVolumes has them: the
+/// surface that casts, and the end. A sun's that goes to infinity ends in a point.
+struct VolumeCaps {
+    std::vector<glm::vec4> vertices;
+    std::vector<unsigned> corners;
+};
+void appendCaps(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
+
+} // namespace gnomon

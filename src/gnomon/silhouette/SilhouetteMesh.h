@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+namespace gnomon {
+
+/// Triangles as shadow volumes need them: which share an edge, in connected parts. Found once a mesh, for all lights.
+///
+/// Vertices of exactly the same position are one, and those along open edges that differ by rounding. Any mesh will do: open, of mixed winding, with edges of three triangles.
+/// Triangles with two corners in one place are left out: nothing is lost, for their edges cancel.
+///
+/// Cost
+/// - 32 bytes a triangle for its plane, 16 an edge. Linear in the triangles, but for a sort of the parts.
+/// Source
+/// - B. Kim, K. Kim, G. Turk, "A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters", 2008.
+struct SilhouetteMesh {
+    static constexpr unsigned noTriangle = ~0u;
+
+    /// An edge that `left` passes from `from` to `to`, and `right` back. Where more than two meet there are several.
+    struct Edge {
+        unsigned from, to;    ///< in `vertices`.
+        unsigned left, right; ///< triangles; the number of triangles stands for none.
+    };
+    /// Triangles that are connected by edges, one after the other; edges likewise.
+    struct Part {
+        unsigned firstTriangle, triangles, firstEdge, edges;
+        bool closed;         ///< each edge is passed as often one way as the other.
+        bool inward;         ///< closed, and turned inside out.
+        glm::vec3 low, high; ///< bounds.
+    };
+
+    SilhouetteMesh() = default;
+    /// @param positions  finite.
+    /// @param corners    three a triangle, counter-clockwise from its front.
+    SilhouetteMesh(const glm::vec3* positions, std::size_t count, const unsigned* corners, std::size_t cornerCount);
+
+    std::size_t triangles() const { return planeD.size(); }
+
+    std::vector<glm::vec3> vertices; ///< each place once.
+    glm::vec3 low{0.0f}, high{0.0f}; ///< bounds of all parts.
+    std::vector<unsigned> corners;   ///< three a triangle.
+    std::vector<Edge> edges;
+    std::vector<Part> parts; ///< neighbours in space are neighbours here, as far as a curve can.
+    /// Planes of the triangles, in double: unit normal and distance; all 0 without an area.
+    std::vector<double> planeX, planeY, planeZ, planeD;
+    /// Triangles so thin that their planes say nothing face as the triangle beyond their longest edge does.
+    struct Thin {
+        unsigned triangle, like;
+    };
+    std::vector<Thin> thin;
+};
+
+} // namespace gnomon

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Volumes behind meshes: how many hold a point is how many triangles are between it and the light.
+#include "Soup.h"
+
+#include <gnomon/silhouette/ShadowVolumes.h>
+#include <gnomon/silhouette/VolumeEnd.h>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using gnomon::ShadowVolumes;
+using gnomon::SilhouetteMesh;
+
+namespace {
+
+using Mesh = std::vector<glm::dvec3>; ///< three corners a triangle.
+
+/// Shapes of a soup.
+template <class Add>
+Mesh meshOf(Add add) {
+    test::Soup soup;
+    add(soup);
+    Mesh mesh;
+    for (const unsigned index : soup.indices) mesh.emplace_back(soup.vertices[index]);
+    return mesh;
+}
+
+Mesh box(const glm::dvec3& low, const glm::dvec3& high) {
+    return meshOf([&](test::Soup& soup) { soup.box(low, high); });
+}
+
+Mesh sphere(const glm::dvec3& centre, double radius, int slices) {
+    return meshOf([&](test::Soup& soup) { soup.sphere(centre, radius, slices); });
+}
+
+SilhouetteMesh edgesOf(const Mesh& mesh) {
+    const std::vector<glm::vec3> places(mesh.begin(), mesh.end());
+    std::vector<unsigned> corners;
+    for (unsigned i = 0; i < places.size(); ++i) corners.push_back(i);
+    return {places.data(), places.size(), corners.data(), corners.size()};
+}
+
+glm::dvec3 drawn(const glm::vec4& vertex, const glm::dvec4& light) {
+    const glm::dvec3 place(vertex);
+    return place + double(vertex.w) * gnomon::awayFrom(light, place);
+}
+
+/// Of a triangle, as seen from a point (A. van Oosterom, J. Strackee, 1983).
+double solidAngle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, const glm::dvec3& from) {
+    a -= from, b -= from, c -= from;
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    const double numerator = glm::dot(a, glm::cross(b, c));
+    return 2.0 * std::atan2(numerator, la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+}
+
+/// How often closed surfaces go round a point.
+double winding(const std::vector<glm::vec4>& vertices, const std::vector<unsigned>& corners, const glm::dvec4& light,
+               const glm::dvec3& point) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+        sum += solidAngle(drawn(vertices[corners[i]], light), drawn(vertices[corners[i + 1]], light),
+                          drawn(vertices[corners[i + 2]], light), point);
+    return sum / (4.0 * std::acos(-1.0));
+}
+
+/// Triangles between a point and the light (T. Moeller, B. Trumbore, 1997).
+int between(const Mesh& mesh, const glm::dvec3& point, const glm::dvec4& light) {
+    const glm::dvec3 along = -gnomon::awayFrom(light, point);
+    int count = 0;
+    for (std::size_t i = 0; i < mesh.size(); i += 3) {
+        const glm::dvec3 a = mesh[i], e1 = mesh[i + 1] - a, e2 = mesh[i + 2] - a;
+        const glm::dvec3 p = glm::cross(along, e2), s = point - a, q = glm::cross(s, e1);
+        const double determinant = glm::dot(e1, p);
+        if (determinant == 0.0) continue;
+        const double u = glm::dot(s, p) / determinant, v = glm::dot(along, q) / determinant,
+                     t = glm::dot(e2, q) / determinant;
+        count += u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && (light.w == 0.0 || t < 1.0);
+    }
+    return count;
+}
+
+struct Case {
+    const char* name;
+    Mesh mesh;
+    bool closed;
+};
+
+Mesh turnedRound(Mesh mesh, std::size_t every) {
+    for (std::size_t i = 0; i + 2 < mesh.size(); i += 3 * every) std::swap(mesh[i + 1], mesh[i + 2]);
+    return mesh;
+}
+
+Mesh soup() {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-1.0, 1.0);
+    Mesh mesh;
+    for (int i = 0; i < 40; ++i) {
+        const glm::dvec3 at(place(random), place(random), place(random) + 2.0);
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.push_back(at + 0.6 * glm::dvec3(place(random), place(random), place(random)));
+    }
+    return mesh;
+}
+
+/// Three fins on one edge, as no surface has them.
+Mesh fins() {
+    const glm::dvec3 a(0.0, -1.0, 2.0), b(0.0, 1.0, 2.0);
+    return {a, b, {1.0, 0.0, 2.3}, a, b, {-1.0, 0.0, 2.2}, b, a, {0.1, 0.0, 3.0}};
+}
+
+std::vector<Case> cases() {
+    const Mesh house = box({-0.5, -0.4, 0.1}, {1.0, 0.6, 2.0}), ball = sphere({0.0, 0.0, 2.0}, 1.0, 12);
+    const Mesh both = meshOf([](test::Soup& soup) {
+        soup.box({-0.5, -0.4, 0.1}, {1.0, 0.6, 2.0});
+        soup.sphere({0.5, 0.0, 2.5}, 1.0, 12);
+    });
+    const Mesh sheet = meshOf([](test::Soup& soup) {
+        soup.quad({-1.0, -1.0, 1.0}, {2.0, 0.3, 0.5}, {0.0, 2.0, -0.4});
+    });
+    return {{"a house", house, true},
+            {"a ball", ball, true},
+            {"a house turned inside out", turnedRound(house, 1), true},
+            {"two bodies", both, true},
+            {"a sheet", sheet, false},
+            {"a ball of mixed winding", turnedRound(ball, 3), false},
+            {"fins", fins(), false},
+            {"a soup", soup(), false}};
+}
+
+std::vector<glm::dvec4> lights() {
+    return {{glm::normalize(glm::dvec3(0.3, 0.2, 1.0)), 0.0},
+            {glm::normalize(glm::dvec3(-1.0, 0.4, 0.35)), 0.0},
+            {0.4, -0.3, 6.0, 1.0}};
+}
+
+TEST(ShadowVolumes, HoldAPointAsOftenAsTrianglesAreBetweenItAndTheLight) {
+    const auto planes = gnomon::endPlanes({-3.0, -3.0, -1.0}, {3.0, 3.0, 4.0});
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-2.0, 2.0);
+    for (const Case& given : cases())
+        for (const glm::dvec4& light : lights()) {
+            const SilhouetteMesh mesh = edgesOf(given.mesh);
+            ShadowVolumes volumes;
+            gnomon::findShadowVolumes(mesh, light, planes, volumes);
+            gnomon::VolumeCaps caps;
+            for (unsigned i = 0; i < mesh.parts.size(); ++i) gnomon::appendCaps(mesh, volumes, i, caps);
+            int held = 0;
+            for (int i = 0; i < 200; ++i) {
+                const glm::dvec3 point(place(random), place(random), 1.2 * place(random) + 1.5);
+                const double count = winding(volumes.vertices, volumes.corners, light, point) +
+                                     winding(caps.vertices, caps.corners, light, point);
+                const int hidden = between(given.mesh, point, light);
+                EXPECT_NEAR(count, std::round(count), 1e-3) << given.name << ": they are closed";
+                if (given.closed)
+                    EXPECT_EQ(count > 0.5, hidden > 0) << given.name;
+                else
+                    EXPECT_NEAR(count, hidden, 1e-3) << given.name;
+                held += hidden > 0;
+            }
+            EXPECT_GT(held, 2) << given.name;
+        }
+}
+
+TEST(ShadowVolumes, OfABoxHaveTheSixSidesOfItsOutline) {
+    const SilhouetteMesh mesh = edgesOf(box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}));
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    EXPECT_TRUE(mesh.parts[0].closed);
+    ShadowVolumes volumes;
+    gnomon::findShadowVolumes(mesh, {glm::normalize(glm::dvec3(1.0, 0.5, 1.0)), 0.0},
+                              gnomon::endPlanes({-5.0, -5.0, 0.0}, {5.0, 5.0, 3.0}), volumes);
+    EXPECT_EQ(volumes.parts[0].edges, 6u);
+    EXPECT_LE(volumes.parts[0].layers, 3u);
+    EXPECT_EQ(volumes.corners.size(), 6u * 6u);
+    EXPECT_EQ(volumes.vertices.size(), 2u * 6u);
+}
+
+TEST(ShadowVolumes, AnEdgeOnWallFacesTheLight) {
+    const SilhouetteMesh mesh = edgesOf(box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}));
+    for (const double tilt : {-1e-6, 0.0, 1e-6}) {
+        gnomon::FacingWeights weights;
+        gnomon::faceLight(mesh, {glm::normalize(glm::dvec3(1.0, tilt, 1.0)), 0.0}, weights);
+        for (std::size_t i = 0; i < mesh.triangles(); ++i)
+            if (std::abs(mesh.planeY[i]) > 0.5) EXPECT_EQ(int(weights[i]), 1) << tilt;
+    }
+}
+
+TEST(ShadowVolumes, EndAtThePlaneThatIsNearest) {
+    const auto planes = gnomon::endPlanes({-100.0, -100.0, 0.0}, {100.0, 100.0, 10.0});
+    const glm::dvec4 high =
+        gnomon::nearestEnd(planes, {0.0, 0.0, 0.0}, {1.0, 1.0, 5.0}, {glm::normalize(glm::dvec3(1.0, 0.0, 1.0)), 0.0});
+    EXPECT_EQ(glm::dvec3(high), glm::dvec3(0.0, 0.0, 1.0));
+    const glm::dvec4 level = gnomon::nearestEnd(planes, {0.0, 0.0, 0.0}, {1.0, 1.0, 5.0}, {1.0, 0.0, 0.0, 0.0});
+    EXPECT_EQ(glm::dvec3(level), glm::dvec3(1.0, 0.0, 0.0));
+    const double inf = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(gnomon::endPlanes({-inf, 0.0, 0.0}, {inf, 1.0, 1.0}).empty());
+    EXPECT_EQ(gnomon::nearestEnd({}, {0.0, 0.0, 0.0}, {1.0, 1.0, 5.0}, {0.0, 0.0, 1.0, 0.0}), glm::dvec4(0.0));
+    EXPECT_EQ(gnomon::nearestEnd(planes, {-5.0, -5.0, 0.0}, {5.0, 5.0, 5.0}, {0.0, 0.0, 2.0, 1.0}), glm::dvec4(0.0))
+        << "a lamp among it";
+}
+
+TEST(ShadowVolumes, SeamsThatDifferByRoundingAreClosed) {
+    const SilhouetteMesh mesh = edgesOf(sphere({-2.0, 0.0, 2.5}, 1.0, 64)); // sin(2 pi) is not sin(0)
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    EXPECT_TRUE(mesh.parts[0].closed);
+}
+
+} // namespace
