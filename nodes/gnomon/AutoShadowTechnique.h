@@ -82,8 +82,6 @@ public:
     /// Decides if need be, and asks the chosen technique. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
-    /// True: facts are found by drawable.
-    bool takesDrawables() const override { return true; }
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
