@@ -38,7 +38,7 @@ class AutoChooser;
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
 /// - A decision: a few visits of the boxes of casters and receivers. The candidate that is drawn costs what it costs alone.
 /// Needs
-/// - The needs of the chosen technique. Smooth edges need alpha bits; without them hard edges are drawn.
+/// - The needs of the chosen technique.
 /// Limits
 /// - It leaves the group's composite as it is. BLEND is cheaper.
 /// - A change of the choice costs the first frame of the technique that takes over.
