@@ -38,7 +38,7 @@ class AutoChooser;
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
 /// - A decision: a few visits of the boxes of casters and receivers. The candidate that is drawn costs what it costs alone.
 /// Needs
-/// - The needs of the chosen technique. Smooth edges need alpha bits; without them hard edges are drawn.
+/// - The needs of the chosen technique.
 /// Limits
 /// - It leaves the group's composite as it is. BLEND is cheaper.
 /// - A change of the choice costs the first frame of the technique that takes over.
@@ -82,8 +82,6 @@ public:
     /// Decides if need be, and asks the chosen technique. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
-    /// True: facts are found by drawable.
-    bool takesDrawables() const override { return true; }
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

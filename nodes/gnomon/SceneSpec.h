@@ -29,8 +29,8 @@ struct SceneSpec {
     /// Adds a sun if the scene has no light. It is light 0, in the place of a viewer's headlight. Default: true.
     bool addsSun = true;
     bool hasSun = false;         ///< Adds the sun even if the scene has a light.
-    double sunAzimuth = 135.0;   ///< Of that sun, see sunAt(). Degrees. Default: south-east.
-    double sunElevation = 45.0;  ///< Of that sun, degrees.
+    double sunAzimuth = 135.0;   ///< Azimuth of that sun, see sunAt(). Degrees. Default: south-east.
+    double sunElevation = 45.0;  ///< Elevation of that sun, degrees.
 };
 
 /// Parses a string of items. An empty string stands for "map".

@@ -2,14 +2,15 @@
 #include "Fields.h"
 
 #include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/SceneProps.h>
 
 #include <osgDB/ObjectWrapper>
 
 using namespace gnomon;
 
-/// Smooth edges may be chosen, see fields::askForAlphaBits().
+/// Smooth edges may be chosen, see askForAlphaBits().
 struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
-    void objectRead(osgDB::InputStream&, osg::Object&) override { fields::askForAlphaBits(); }
+    void objectRead(osgDB::InputStream&, osg::Object&) override { askForAlphaBits(); }
 };
 
 REGISTER_OBJECT_WRAPPER(gnomon_AutoShadowTechnique, new gnomon::AutoShadowTechnique, gnomon::AutoShadowTechnique,

@@ -156,7 +156,6 @@ private:
     }
 
     void addMap(const MapForecast& forecast, int cascades, int size, const MapQuality& quality) {
-        if (quality.edges == Map::SMOOTH && !_known.hasAlpha) return;
         AutoCandidate map;
         map.kind = Kind::Map;
         map.map.size = size;

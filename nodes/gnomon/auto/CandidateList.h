@@ -15,7 +15,6 @@ namespace gnomon {
 struct AutoKnowledge {
     ConvexBodies bodies;
     TerrainKnowledge terrain;
-    bool hasAlpha = true; ///< false once a framebuffer had no alpha bits: edges cannot be smooth.
 };
 
 /// All that could draw one light's shadow in a view.

@@ -21,12 +21,14 @@ unsigned countersAmong(const std::vector<unsigned>& bits, std::size_t own) {
 } // namespace
 
 CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& drawn, std::vector<DrawnLeaf> before,
-                                 const CompositorOptions& asked, bool isClean, std::size_t ownBits)
+                                 const CompositorOptions& asked, bool isClean, std::size_t ownBits,
+                                 MaterialHistory& kept)
     : renderInfo(info),
       state(*info.getState()),
       stage(drawn),
       leaves(std::move(before)),
       options(asked),
+      materials(kept),
       clean(isClean),
       pattern(StencilPattern::read(state)),
       own(ownBits) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/gl/ScreenPass.h>
 
 #include <osg/RenderInfo>
@@ -19,9 +20,10 @@ public:
     /// In a stage that can be composed in, see whyNeverComposed().
     /// @param leaves  what the stage drew before, in order.
     /// @param clean   the stencil buffer is known to be zero.
+    /// @param materials  what the leaves' materials left for each other; must outlive this.
     /// @param own     how many stencil bits the compositor takes for itself, 2 to 8; others are counters.
     CompositorStage(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<DrawnLeaf> leaves,
-                    const CompositorOptions& options, bool clean, std::size_t own);
+                    const CompositorOptions& options, bool clean, std::size_t own, MaterialHistory& materials);
 
     /// One step, cut to `bounds`, from and back to OpenGL's defaults.
     template <typename Step>
@@ -43,6 +45,7 @@ public:
     osgUtil::RenderStage& stage;
     const std::vector<DrawnLeaf> leaves;
     const CompositorOptions options;
+    MaterialHistory& materials; ///< of the leaves.
     const bool clean;
     const StencilPattern pattern; ///< its bit is not among `bits`.
     bool hasStencil = false, hasAlpha = false;

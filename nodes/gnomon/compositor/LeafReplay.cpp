@@ -35,6 +35,7 @@ LeafReplay::LeafReplay(const CompositorStage& draw, const Overlay& overlay)
       _pattern(draw.pattern),
       _renderInfo(draw.renderInfo),
       _state(draw.state),
+      _materials(draw.materials),
       _overlay(overlay),
       _lights(_state, _overlay.lightUniforms),
       _stackSize(static_cast<unsigned>(_state.getStateSetStackSize())) {}
@@ -79,6 +80,7 @@ void LeafReplay::apply(const DrawnLeaf& entry) {
     _state.applyModelViewMatrix(leaf._modelview.get());
     osgUtil::StateGraph::moveStateGraph(_state, _previous, graph->_parent);
     _previous = graph->_parent;
+    _materials.leadTo(*graph);
     _state.apply(graph->getStateSet());
     if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
 }

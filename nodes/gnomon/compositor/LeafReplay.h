@@ -88,6 +88,7 @@ private:
     const StencilPattern _pattern;
     osg::RenderInfo& _renderInfo;
     osg::State& _state;
+    MaterialHistory& _materials;
     const Overlay _overlay;
     ProgramLightUse _lights;
     const unsigned _stackSize;

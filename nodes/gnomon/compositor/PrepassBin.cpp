@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ProgramVisibilityJob.h>
 
@@ -88,6 +89,7 @@ void PrepassBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::Render
         const std::string cause = _job.programMarks()->drawAhead(renderInfo);
         _job.report(cause);
     }
+    if (_colors || _job.marks) MaterialHistory::restoreDefault(*renderInfo.getState());
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);
 }
 

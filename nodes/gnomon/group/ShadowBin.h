@@ -4,6 +4,7 @@
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/group/FrameCasters.h>
@@ -83,7 +84,8 @@ private:
     bool isIdle() const { return _jobs.empty() && _effects.empty() && _waiting.empty(); }
     void clearWithStage();
     bool isStencilClean(const std::vector<DrawnLeaf>& leaves) const;
-    std::string compose(osg::RenderInfo& renderInfo);
+    std::string compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous);
+    std::string compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves, MaterialHistory& materials);
     TargetNeeds needs(const std::vector<DrawnLeaf>& leaves) const;
     void tell(const std::string& cause);
     void sortAsAsked();

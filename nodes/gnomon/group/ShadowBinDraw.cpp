@@ -38,25 +38,33 @@ void drawDepths(const CompositorStage& draw, const ScreenRect& bounds) {
 void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (!isIdle()) {
         foundQuadSplit(*renderInfo.getState()); // for the next cull, which may be of another thread
-        popLeafState(*renderInfo.getState(), previous);
-        tell(compose(renderInfo));
+        tell(compose(renderInfo, previous));
         renderInfo.getState()->decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);
 }
 
 /// @return why nothing could be composed, as a cause for diagnose(); empty if all is well.
-std::string ShadowBin::compose(osg::RenderInfo& renderInfo) {
+std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     osg::State& state = *renderInfo.getState();
     const std::string never = whyNeverComposed(state, *getStage());
     if (!never.empty()) return never;
     std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
+    MaterialHistory materials(state, leaves, previous);
+    popLeafState(state, previous);
+    const std::string cause = compose(renderInfo, std::move(leaves), materials);
+    materials.restore();
+    return cause;
+}
+
+std::string ShadowBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves, MaterialHistory& materials) {
+    osg::State& state = *renderInfo.getState();
     const TargetNeeds needs = this->needs(leaves);
     const CompositorTarget target(state, *getStage()->getViewport(), needs);
     CompositorOptions options = _options;
     if (target.isOwn()) options.reservedStencilBits = 0;
     const bool clean = target.isOwn() || isStencilClean(leaves);
-    const CompositorStage draw(renderInfo, *getStage(), std::move(leaves), options, clean, ownBits(_jobs));
+    const CompositorStage draw(renderInfo, *getStage(), std::move(leaves), options, clean, ownBits(_jobs), materials);
     const std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
     if (cause.empty()) {
         if (target.lacksDepth()) drawDepths(draw, needs.bounds);

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Things without colours and materials of their own take what OpenGL has left from before: in the first drawing and, so
+// that only the light is missing, in the one without it.
+#include <support/Oracle.h>
+#include <support/Picture.h>
+#include <support/Scene.h>
+
+#include <gtest/gtest.h>
+#include <osg/Material>
+
+#include <functional>
+
+using namespace test;
+
+namespace {
+
+const View slanted = perspective({-6.0, -9.0, 6.0}, {0.0, 0.5, 0.0}, 160, 120);
+const std::vector<Mesh> casters = {house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0), box({-2.5, 1.0, 0.0}, {-1.5, 2.0, 1.5})};
+const osg::Vec4d sun(1.0, 0.4, 1.2, 0.0);
+
+osg::ref_ptr<osg::Material> material(float ambient) {
+    osg::ref_ptr<osg::Material> result = new osg::Material;
+    result->setAmbient(osg::Material::FRONT_AND_BACK, {ambient, ambient, ambient, 1.0f});
+    return result;
+}
+
+struct Case {
+    std::string name;
+    std::function<void(Scene&)> change;
+};
+std::ostream& operator<<(std::ostream& out, const Case& given) { return out << given.name; }
+
+osg::Node& childOf(Scene& scene, unsigned i) { return *scene.content->getChild(i); }
+
+void paint(osg::Node& node) {
+    osg::ref_ptr<osg::Vec4Array> green = new osg::Vec4Array;
+    green->push_back({0.2f, 0.7f, 0.3f, 1.0f});
+    node.asGeode()->getDrawable(0)->asGeometry()->setColorArray(green, osg::Array::BIND_OVERALL);
+}
+
+const Case cases[] = {
+    {"AllOfThem", [](Scene&) {}},
+    {"BesideOneWithAMaterial",
+     [](Scene& scene) { childOf(scene, 1).getOrCreateStateSet()->setAttributeAndModes(material(0.5f)); }},
+    {"BesideTwoWithMaterialsAndBins",
+     [](Scene& scene) {
+         childOf(scene, 1).getOrCreateStateSet()->setAttributeAndModes(material(0.5f));
+         childOf(scene, 1).getStateSet()->setRenderBinDetails(-1, "RenderBin");
+         childOf(scene, 2).getOrCreateStateSet()->setAttributeAndModes(material(0.7f));
+         childOf(scene, 2).getStateSet()->setRenderBinDetails(1, "RenderBin");
+     }},
+    {"BesideOneWithColors", [](Scene& scene) { paint(childOf(scene, 1)); }},
+};
+
+/// Without any colour or material: osgViewer's lets colours be materials.
+Scene build(const Case& given, bool shadow, bool dark) {
+    Scene scene = groundScene(casters, 8.0, sun);
+    for (unsigned i = 0; i < scene.content->getNumChildren(); ++i)
+        childOf(scene, i).asGeode()->getDrawable(0)->asGeometry()->setColorArray(nullptr);
+    scene.root->getStateSet()->removeAttribute(osg::StateAttribute::MATERIAL);
+    given.change(scene);
+    if (dark) scene.takeLightAway();
+    if (shadow) scene.addShadow(planar());
+    return scene;
+}
+
+class NoColors : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Relit, NoColors, testing::ValuesIn(cases), testing::PrintToStringParamName());
+
+} // namespace
+
+TEST_P(NoColors, LoseTheLightAlone) {
+    const Scene lit = build(GetParam(), false, false), dark = build(GetParam(), false, true),
+                shadowed = build(GetParam(), true, false);
+    const Mask mask = castRays(square(8.0), casters, sun, slanted);
+    Camera litCamera(lit.root, slanted), darkCamera(dark.root, slanted), camera(shadowed.root, slanted);
+    for (int frame = 1; frame <= 4; ++frame) {
+        const Picture actual = camera.frame();
+        const Comparison found = compare(actual, litCamera.frame(), darkCamera.frame(), mask);
+        EXPECT_EQ(found.wrongInside, 0) << "frame " << frame;
+        EXPECT_EQ(found.wrongAtEdge, 0) << "frame " << frame;
+    }
+    EXPECT_GT(mask.count(Seen::ShadowedReceiver), 300);
+}
