@@ -2,22 +2,15 @@
 #include "Fields.h"
 
 #include <gnomon/AutoShadowTechnique.h>
-#include <gnomon/SceneProps.h>
 
 #include <osgDB/ObjectWrapper>
 
 using namespace gnomon;
 
-/// Smooth edges may be chosen, see askForAlphaBits().
-struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
-    void objectRead(osgDB::InputStream&, osg::Object&) override { askForAlphaBits(); }
-};
-
 REGISTER_OBJECT_WRAPPER(gnomon_AutoShadowTechnique, new gnomon::AutoShadowTechnique, gnomon::AutoShadowTechnique,
                         "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
                         "gnomon::AutoShadowTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    wrapper->addFinishedObjectReadCallback(new AskForAlphaBits);
     wrapper->addSerializer(
         new fields::ExactNumber<MyClass, double>("Error", fresh->getError(), &MyClass::getError, &MyClass::setError),
         osgDB::BaseSerializer::RW_DOUBLE);

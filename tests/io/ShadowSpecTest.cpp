@@ -218,8 +218,8 @@ TEST(ShadowSpec, AutoTakesAnErrorAndATime) {
     EXPECT_EQ(parseShadowSpec("auto").budget.error, 0.0);
     EXPECT_EQ(parseShadowSpec("auto:error=0.4,time=5").budget.error, 0.4);
     EXPECT_EQ(parseShadowSpec("auto:error=0.4,time=5").budget.time, 5.0);
-    EXPECT_EQ(refusal("auto:error=0"), "error=0 cannot be used. Allowed: 0.01 to 100, pixels.");
-    EXPECT_EQ(refusal("auto:time=fast"), "time=fast cannot be used. Allowed: 0.01 to 10000, ms.");
+    EXPECT_EQ(refusal("auto:error=0"), "error=0 cannot be used. Allowed: auto, 0.01 to 100, pixels.");
+    EXPECT_EQ(refusal("auto:time=fast"), "time=fast cannot be used. Allowed: unlimited, 0.01 to 10000, ms.");
     const auto group = groupOf(square("floor", 1));
     const auto added = addShadows(*group, {parseShadowSpec("auto:error=0.4,time=5,receiver=floor")});
     const auto& shadow = dynamic_cast<const gnomon::AutoShadowTechnique&>(*added.at(0));

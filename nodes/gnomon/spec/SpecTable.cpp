@@ -81,8 +81,7 @@ bool takeReceiver(ShadowSpec& spec, const std::string& value) {
 }
 
 SpecKey receiverKey(const std::string& byDefault) {
-    return {"receiver",  "nodes that receive the shadow", "setReceiver()", "", {}, "a node's name", byDefault,
-            takeReceiver};
+    return {"receiver", "nodes that receive", "setReceiver()", "", {}, "a node's name", byDefault, takeReceiver};
 }
 
 std::string receiverOf(const SpecTechnique& technique) {
@@ -94,19 +93,17 @@ SpecKey errorKey() {
                      terrainError(), 0.0, mostError);
 }
 
-SpecKey budgetKey(SpecKey key, double AutoShadowOptions::*option, double least, double most, const char* byDefault) {
-    key = numberKey(std::move(key), {0.0, [option](ShadowSpec& spec, double value) { spec.budget.*option = value; }},
-                    least, most);
-    key.byDefault = byDefault;
-    return key;
+SpecKey budgetKey(SpecKey key, double AutoShadowOptions::*option, double least, double most, const char* unset) {
+    const Option<double> budget = {0.0, [option](ShadowSpec& spec, double value) { spec.budget.*option = value; }};
+    return wordKey(numberKey(std::move(key), budget, least, most), budget, {{unset, 0.0}});
 }
 
 std::vector<SpecKey> autoKeys() {
     using Budget = AutoShadowOptions;
-    return {budgetKey({"error", "largest error of the shadow's edge", "setError()", "pixels"}, &Budget::error,
-                      Budget::leastError, Budget::mostError, "1; with time= as small as that allows"),
+    return {budgetKey({"error", "largest error of the edge; auto is 1, with time= the least", "setError()", "pixels"},
+                      &Budget::error, Budget::leastError, Budget::mostError, "auto"),
             budgetKey({"time", "most time that a light's shadow may add to a frame", "setTime()", "ms"}, &Budget::time,
-                      Budget::leastTime, Budget::mostTime, "no limit")};
+                      Budget::leastTime, Budget::mostTime, "unlimited")};
 }
 
 std::vector<SpecKey> mapKeys() {
@@ -142,12 +139,11 @@ std::vector<SpecKey> volumeKeys() {
                     {{"nothing", ShadowVolumeOptions::NOTHING}, {"volumes", ShadowVolumeOptions::VOLUMES}})};
 }
 
-/// "map, volume, traced: everything; else: ground".
+/// "map, volume, traced, auto: everything; else: ground".
 std::string receiversByDefault() {
     std::vector<std::string> everywhere;
     for (const SpecTechnique& technique : specTechniques())
-        if (technique.receiver.empty() && technique.name != "none")
-            everywhere.push_back(technique.name);
+        if (technique.receiver.empty() && technique.name != "none") everywhere.push_back(technique.name);
     return listed(everywhere) + ": everything; else: " + ground;
 }
 
