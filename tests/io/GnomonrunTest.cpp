@@ -132,17 +132,17 @@ TEST_F(Gnomonrun, OneFrameIsComparedInEveryWay) {
 
 TEST_F(Gnomonrun, KeysSwitchTechniquesAndAtTheEndEachCostIsTold) {
     const std::string command =
-        "OSG_WINDOW='0 0 320 240' exec " GNOMONRUN " --shadow traced -- " + built("scene") + " 2>said";
+        "OSG_WINDOW='0 0 320 240' exec " GNOMONRUN " --shadow auto -- " + built("scene") + " 2>said";
     ChildProcess program({"sh", "-c", command}, folder.path(), {"DISPLAY=" + desktop.name()});
     desktop.useWindow("");
-    const Screenshot traced = desktop.pictureWhere("a picture", [](const Screenshot&) { return true; });
-    const auto isTraced = [&](const Screenshot& now) { return now == traced; };
-    desktop.press("n");
-    desktop.pictureWhere("a picture without shadow", std::not_fn(isTraced));
+    const Screenshot shadowed = desktop.pictureWhere("a picture", [](const Screenshot&) { return true; });
+    const auto isShadowed = [&](const Screenshot& now) { return now == shadowed; };
+    desktop.press("n"); // after auto comes none
+    desktop.pictureWhere("a picture without shadow", std::not_fn(isShadowed));
     desktop.press("Escape");
     EXPECT_EQ(program.ended(std::chrono::seconds(10)), 0);
     const std::string said = readFile(folder.path() / "said");
-    for (const std::string technique : {"none", "traced"})
+    for (const std::string technique : {"none", "auto"})
         EXPECT_NE(said.find("gnomonrun: " + technique + ": "), std::string::npos) << technique << said;
 }
 

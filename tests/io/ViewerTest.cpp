@@ -117,7 +117,7 @@ protected:
     }
 
     /// From planar shadows on through box, hull, drape, map, volume, traced and auto to none; from there n leads back.
-    Screenshot withoutShadow() { return after("n", 7); }
+    Screenshot withoutShadow() { return after("n", 8); }
     /// The first picture without its shadow, which n then brings back.
     Screenshot glimpseWithoutShadow() {
         const Screenshot none = withoutShadow();
