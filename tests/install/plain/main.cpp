@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A program against an installed Gnomon, by pkg-config or CMake, that needs OpenSceneGraph and GLM alone: it asks whether
-// points are in the shadow of a box.
+// A program against an installed Gnomon, by pkg-config, that needs OpenSceneGraph and GLM alone: it puts a box into shadow by
+// a line of text.
 #include <gnomon/SceneProps.h>
 #include <gnomon/SceneSpec.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <osg/Geode>
 #include <osg/ShapeDrawable>
+#include <osg/io_utils>
 
 #include <iostream>
 
