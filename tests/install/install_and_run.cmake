@@ -1,4 +1,5 @@
 # cmake -DBUILD=… -DPROGRAM=… -DPLAIN=… -DSCRATCH=… -DGENERATOR=… -DCXX=… -P install_and_run.cmake
+cmake_minimum_required(VERSION 3.20)
 file(REMOVE_RECURSE ${SCRATCH})
 set(installed ${SCRATCH}/installed)
 function(run)
