@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <thread>
 
 namespace {
 
@@ -35,6 +36,11 @@ bool isClear(int x, int y) {
     for (const int d : {-1, 1})
         if (isShadowed(x + 0.5 + d, y + 0.5) != here || isShadowed(x + 0.5, y + 0.5 + d) != here) return false;
     return true;
+}
+
+/// A window that shows something yet.
+bool hasSeveralColors(const Screenshot& picture) {
+    return std::set<std::uint32_t>(picture.pixels.begin(), picture.pixels.end()).size() > 1;
 }
 
 /// Pixels with and without shadow that are not as rays have it, and those in shadow.
@@ -135,10 +141,13 @@ TEST_F(Gnomonrun, KeysSwitchTechniquesAndAtTheEndEachCostIsTold) {
         "OSG_WINDOW='0 0 320 240' exec " GNOMONRUN " --shadow auto -- " + built("scene") + " 2>said";
     ChildProcess program({"sh", "-c", command}, folder.path(), {"DISPLAY=" + desktop.name()});
     desktop.useWindow("");
-    const Screenshot shadowed = desktop.pictureWhere("a picture", [](const Screenshot&) { return true; });
+    desktop.pictureWhere("a picture of several colours", hasSeveralColors);
+    std::this_thread::sleep_for(std::chrono::seconds(1)); // the window hears keys by now
+    const Screenshot shadowed = desktop.pictureWhere("a picture", hasSeveralColors);
     const auto isShadowed = [&](const Screenshot& now) { return now == shadowed; };
     desktop.press("n"); // after auto comes none
     desktop.pictureWhere("a picture without shadow", std::not_fn(isShadowed));
+    std::this_thread::sleep_for(std::chrono::seconds(1)); // a technique's first three frames do not count
     desktop.press("Escape");
     EXPECT_EQ(program.ended(std::chrono::seconds(10)), 0);
     const std::string said = readFile(folder.path() / "said");
