@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/auto/AutoCandidate.h>
-
-#include <charconv>
+#include <gnomon/base/NumberText.h>
 
 namespace gnomon {
 namespace {
-
-std::string textOf(double number) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, number).ptr};
-}
 
 /// "NAME", or "NAME:key=value,key=value".
 class SpecText {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/SceneProps.h>
 #include <gnomon/SceneSpec.h>
-#include <gnomon/spec/SpecNumbers.h>
+#include <gnomon/base/NumberText.h>
 #include <gnomon/spec/SpecTable.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/spec/SpecNumbers.h>
+#include <gnomon/base/NumberText.h>
 #include <gnomon/spec/SpecTable.h>
 
 #include <algorithm>

@@ -34,7 +34,7 @@ struct SpecTechnique {
 /// The table of techniques.
 const std::vector<SpecTechnique>& specTechniques();
 /// The technique of that name.
-/// @throws std::invalid_argument if it is planned, or there is none.
+/// @throws std::invalid_argument if there is none.
 const SpecTechnique& requireTechnique(const std::string& name);
 
 /// Keys that every technique has.
