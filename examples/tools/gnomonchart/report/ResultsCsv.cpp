@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ResultsCsv.h"
 
+#include "CsvText.h"
 #include "PointNumbers.h"
 
 #include <array>
@@ -13,17 +14,12 @@ namespace {
 constexpr std::array textColumns = {"scene",   "kit",          "technique", "setting", "settings",
                                     "failure", "catastrophic", "notes",     "picture", "overlay"};
 
+constexpr const char* between = "; "; // texts of one field
+
 /// What is not UTF-8 becomes U+FFFD, as in results.json.
 std::string utf8(const std::string& text) {
     using nlohmann::json;
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
-}
-
-std::string quotedIfNeeded(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string result = "\"";
-    for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
-    return result + "\"";
 }
 
 std::string shortest(double value) {
@@ -33,16 +29,10 @@ std::string shortest(double value) {
     return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};
 }
 
-std::string joined(const std::vector<std::string>& parts) {
-    std::string all;
-    for (const std::string& part : parts) all += (all.empty() ? "" : "; ") + part;
-    return all;
-}
-
 std::string settingsText(const ChartPoint& point) {
     std::vector<std::string> parts;
     for (const auto& [name, value] : point.settings) parts.push_back(name + "=" + value);
-    return joined(parts);
+    return joined(parts, between);
 }
 
 std::string header() {
@@ -61,11 +51,11 @@ std::string line(const ChartPoint& point) {
                                                                settingsText(point),
                                                                point.failure,
                                                                point.catastrophic() ? "yes" : "no",
-                                                               joined(point.notes),
+                                                               joined(point.notes, between),
                                                                point.picture,
                                                                point.overlay};
     std::string result;
-    for (const std::string& text : texts) result += quotedIfNeeded(utf8(text)) + ",";
+    for (const std::string& text : texts) result += csvField(utf8(text)) + ",";
     for (const PointNumber& number : pointNumbers()) {
         const std::optional<double> value = number.of(point);
         result += (value ? shortest(*value) : "") + ",";

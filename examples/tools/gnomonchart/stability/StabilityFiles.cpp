@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "StabilityFiles.h"
 
-#include "InputFile.h"
+#include "../report/CsvText.h"
 #include "JsonFields.h"
+#include "JsonFile.h"
 #include "OutputFile.h"
 
 #include <filesystem>
 #include <sstream>
-#include <stdexcept>
 
 namespace gnomon::examples {
 
@@ -79,12 +79,6 @@ constexpr const char* csvHeader =
     "scene,parameter,value,unit,kit,technique,setting,outcome,failure,p95_px,wrong_px,shadow_px,iou,"
     "receiver_p95_px,receiver_wrong_px,receiver_iou,not_finite,in_budget,catastrophe,stated,diagnosis\r\n";
 
-std::string quotedField(std::string text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    for (std::size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
-    return "\"" + text + "\"";
-}
-
 std::string judgementFields(const StabilityJudgement& judged, bool withShadow) {
     std::ostringstream out;
     out.precision(17);
@@ -94,26 +88,19 @@ std::string judgementFields(const StabilityJudgement& judged, bool withShadow) {
     return out.str();
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-    std::string all;
-    for (const std::string& text : texts) all += (all.empty() ? "" : " ") + text;
-    return all;
-}
-
 std::string csvLine(const StabilitySceneText& scene, const StabilityRow& row, std::size_t place) {
     const StabilityCell& cell = row.cells[place];
     const auto yes = [](bool is) { return is ? ",yes" : ",no"; };
-    std::string line = quotedField(scene.id) + "," + quotedField(scene.parameter) + "," +
-                       valueText(scene.values[place]) + "," + quotedField(scene.unit) + "," + row.kit + "," +
-                       quotedField(row.technique) + "," + quotedField(row.setting) + "," + nameOf(row.outcome()) + "," +
-                       cell.failure;
+    std::string line = csvField(scene.id) + "," + csvField(scene.parameter) + "," + valueText(scene.values[place]) +
+                       "," + csvField(scene.unit) + "," + row.kit + "," + csvField(row.technique) + "," +
+                       csvField(row.setting) + "," + nameOf(row.outcome()) + "," + cell.failure;
     line += judgementFields(cell.everywhere, true);
     line += cell.onReceiver ? judgementFields(*cell.onReceiver, false) : ",,,";
     line += "," + std::to_string(cell.notFinite);
     line += yes(cell.inBudget());
     line += yes(cell.catastrophe());
     line += yes(cell.stated());
-    return line + "," + quotedField(cell.message.empty() ? joined(cell.diagnosis) : cell.message) + "\r\n";
+    return line + "," + csvField(cell.message.empty() ? joined(cell.diagnosis, " ") : cell.message) + "\r\n";
 }
 
 std::string csvOf(const StabilityResults& results) {
@@ -148,22 +135,14 @@ void saveStability(const StabilityResults& results, const std::string& folder) {
     ordered_json object;
     FieldWriter way(object);
     fields(way, results);
-    const std::string text = object.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
-    OutputFile((fs::path(folder) / "stability.json").string()).write(text);
+    OutputFile((fs::path(folder) / "stability.json").string()).write(resultsText(object));
     OutputFile((fs::path(folder) / "stability.csv").string()).write(csvOf(results));
 }
 
 StabilityResults loadStability(const std::string& file) {
-    const std::optional<std::string> bytes = fileBytes(file);
-    if (!bytes)
-        throw std::runtime_error("there is no file " + quoted(file) +
-                                 ". Give the stability.json of a run of gnomonchart --stability.");
-    const json parsed = json::parse(*bytes, nullptr, false);
-    const std::string begin = quoted(file) + " cannot be read as results of gnomonchart --stability";
-    if (parsed.is_discarded()) throw std::runtime_error(begin + ": it is not a complete JSON file.");
     StabilityResults results;
-    readInside(begin, [&] {
-        FieldReader way(parsed);
+    readResultsFile(file, "stability.json", "gnomonchart --stability", [&](const json& object) {
+        FieldReader way(object);
         fields(way, results);
     });
     return results;
