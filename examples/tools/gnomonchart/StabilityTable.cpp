@@ -41,6 +41,26 @@ StabilityPlan planOf(const ChartOptions& options) {
     return plan;
 }
 
+/// What an interrupted run did not measure to the end cannot be judged.
+void dropUnfinished(StabilityResults& results) {
+    const auto isUnfinished = [](const StabilityRow& row) {
+        return row.cells.empty() || std::any_of(row.cells.begin(), row.cells.end(), [](const StabilityCell& cell) {
+                   return !cell.measured && cell.failure.empty();
+               });
+    };
+    results.rows.erase(std::remove_if(results.rows.begin(), results.rows.end(), isUnfinished), results.rows.end());
+}
+
+/// @param stops  see makeStabilityTable().
+template <class Work>
+auto withProgress(std::size_t steps, const std::function<bool()>& stops, const Work& work) {
+    ProgressLine progress(static_cast<double>(steps));
+    return work([&](std::size_t done, std::size_t, const std::string& doing) {
+        if (done) progress.show(double(done), doing);
+        return !stops();
+    });
+}
+
 void print(const StabilityResults& results, const std::string& folder) {
     std::cout << stabilityText(results, results.scenes.size() <= fewScenes) << "the table is " << folder
               << "/stability.html\n";
@@ -54,14 +74,9 @@ bool makeStabilityTable(const ChartOptions& options, const std::string& command,
     requireFolder(options.out);
     std::size_t cells = 0;
     for (const StabilityScene& scene : plan.scenes) cells += scene.values.size() * plan.contenders.size();
-    StabilityResults results;
-    {
-        ProgressLine progress(static_cast<double>(cells));
-        results = runStability(plan, [&](std::size_t done, std::size_t, const std::string& doing) {
-            if (done) progress.show(double(done), doing);
-            return !stops();
-        });
-    }
+    StabilityResults results =
+        withProgress(cells, stops, [&](const auto& progress) { return runStability(plan, progress); });
+    dropUnfinished(results);
     for (auto& fact : machineFacts()) results.made.push_back(fact); // after the run: it makes a context
     saveStability(results, options.out);
     writeStabilityPage(results, options.out);
@@ -80,14 +95,9 @@ bool searchRandom(const ChartOptions& options, const std::function<bool()>& stop
     search.contenders.erase(std::remove_if(search.contenders.begin(), search.contenders.end(), isRough),
                             search.contenders.end());
     search.workers = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<RandomFault> faults;
-    {
-        ProgressLine progress(static_cast<double>(search.count) * static_cast<double>(search.contenders.size()));
-        faults = searchRandomScenes(search, [&](std::size_t done, std::size_t, const std::string& doing) {
-            if (done) progress.show(double(done), doing);
-            return !stops();
-        });
-    }
+    const std::size_t cells = std::size_t(search.count) * search.contenders.size();
+    const std::vector<RandomFault> faults =
+        withProgress(cells, stops, [&](const auto& progress) { return searchRandomScenes(search, progress); });
     for (const RandomFault& fault : faults) std::cout << faultText(fault) << "\n";
     std::cout << search.count << " random scenes from seed " << search.first << ", " << faults.size() << " faults\n";
     return faults.empty() && !stops();

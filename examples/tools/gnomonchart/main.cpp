@@ -34,6 +34,12 @@ void askToStop(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
+/// Ctrl-C ends a run with what there is.
+void listenForStop() {
+    std::signal(SIGINT, askToStop);
+    std::signal(SIGTERM, askToStop);
+}
+
 void listNames() {
     std::cout << "scenes:\n";
     for (const std::string& name : chartSceneNames()) std::cout << "  " << name << "\n";
@@ -103,8 +109,7 @@ int chart(const ChartOptions& options, const std::string& command) {
     plan.made.insert(plan.made.begin(), {"command", command});
     requireFolder(options.out);
     if (options.resume) plan.kept = keptOf(loadResults((fs::path(options.out) / "results.json").string()), plan);
-    std::signal(SIGINT, askToStop);
-    std::signal(SIGTERM, askToStop);
+    listenForStop();
     const ChartResults results = runChart(
         plan, [&](const ChartResults& sofar) { saveResults(sofar, options.out); }, [] { return stopAsked != 0; });
     writeReport(results, options.out);
@@ -117,11 +122,15 @@ int chart(const ChartOptions& options, const std::string& command) {
 }
 
 int stability(const ChartOptions& options, const std::string& command) {
-    std::signal(SIGINT, askToStop);
-    std::signal(SIGTERM, askToStop);
+    listenForStop();
     const bool complete = makeStabilityTable(options, command, [] { return stopAsked != 0; });
     if (!complete) std::cerr << program << ": interrupted. The results so far are kept." << std::endl;
     return complete ? 0 : interrupted;
+}
+
+int random(const ChartOptions& options) {
+    listenForStop();
+    return searchRandom(options, [] { return stopAsked != 0; }) ? 0 : 1;
 }
 
 int chartAgain(const std::string& folder) {
@@ -147,7 +156,7 @@ int run(osg::ArgumentParser& arguments) {
     else if (!options.again.empty())
         return options.stability ? (writeStabilityAgain(options.again), 0) : chartAgain(options.again);
     else if (options.random)
-        return searchRandom(options, [] { return stopAsked != 0; }) ? 0 : 1;
+        return random(options);
     else if (options.stability)
         return stability(options, command);
     else

@@ -12,7 +12,7 @@ namespace gnomon::examples {
 ///
 /// @param progress  called after each cell and at least once a second, with cells done and to do and what was done last;
 ///                  false ends the run.
-/// @return all that was measured: the same from run to run.
+/// @return all that was measured.
 /// @throws std::runtime_error, one sentence, if no process can be started.
 StabilityResults
 runStability(const StabilityPlan& plan,
