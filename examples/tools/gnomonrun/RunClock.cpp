@@ -9,13 +9,13 @@ namespace {
 
 constexpr int settling = 3; // frames: OSG keeps two scene views, each of which compiles in its first
 
-std::string milliseconds(double time) {
+} // namespace
+
+std::string millisecondsText(double time) {
     char text[32];
     std::snprintf(text, sizeof text, "%.1f ms", time);
     return text;
 }
-
-} // namespace
 
 void RunClock::start(const std::string& drawn) {
     if (drawn != _drawn) _since = 0;
@@ -33,9 +33,10 @@ std::vector<std::string> RunClock::lines() const {
     const auto none = _milliseconds.find("none");
     for (const auto& [drawn, times] : _milliseconds) {
         const double median = quartiles(times).median;
-        std::string line = drawn + ": " + milliseconds(median) + " a frame, median of " + std::to_string(times.size());
+        std::string line =
+            drawn + ": " + millisecondsText(median) + " a frame, median of " + std::to_string(times.size());
         if (none != _milliseconds.end() && drawn != "none")
-            line += ", " + milliseconds(median - quartiles(none->second).median) + " of it for shadows";
+            line += ", " + millisecondsText(median - quartiles(none->second).median) + " of it for shadows";
         lines.push_back(line);
     }
     return lines;

@@ -7,6 +7,9 @@
 
 namespace gnomon::examples {
 
+/// "2.4 ms".
+std::string millisecondsText(double time);
+
 /// How long frames took, by what was drawn in them. The first few after a change do not count: they compile and settle.
 class RunClock {
 public:

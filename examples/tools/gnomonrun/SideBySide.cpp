@@ -3,7 +3,7 @@
 #include "FrameTime.h"
 #include "GlErrorCount.h"
 #include "OutputFile.h"
-#include "PictureChange.h"
+#include "RunClock.h"
 
 #include <gnomon/ShadowSpec.h>
 #include <nlohmann/json.hpp>
@@ -124,36 +124,31 @@ void SideBySide::run(const Scenes& scenes) {
     }
     for (ShadowedScene* scene : scenes) scene->castByPeer();
     all.push_back(draw("osgShadow::ShadowMap"));
+    for (Drawn& drawn : all) drawn.change = changeOf(*all.front().picture, *drawn.picture);
     write(all);
     for (const Drawn& drawn : all) {
-        char time[32];
-        std::snprintf(time, sizeof time, "%.1f ms", drawn.milliseconds);
-        const PictureChange change = changeOf(*all.front().picture, *drawn.picture);
-        _lines.push_back(drawn.name + ": " + time + " a frame, " + std::to_string(change.darkerPixels) +
-                         " pixels in shadow");
+        _lines.push_back(drawn.name + ": " + millisecondsText(drawn.milliseconds) + " a frame, " +
+                         std::to_string(drawn.change.darkerPixels) + " pixels in shadow");
     }
 }
 
 void SideBySide::write(const std::vector<Drawn>& all) const {
     nlohmann::ordered_json table;
-    const osg::Image& without = *all.front().picture;
-    table["width"] = without.s();
-    table["height"] = without.t();
-    std::vector<PictureChange> changes;
+    table["width"] = all.front().picture->s();
+    table["height"] = all.front().picture->t();
     for (const Drawn& drawn : all) {
-        changes.push_back(changeOf(without, *drawn.picture));
         OutputFile(_folder + "/" + fileOf(drawn.name)).write(*drawn.picture);
         table["drawn"].push_back({{"name", drawn.name},
                                   {"file", fileOf(drawn.name)},
                                   {"ms", drawn.milliseconds},
-                                  {"darker", changes.back().darkerPixels},
-                                  {"brighter", changes.back().brighterPixels},
+                                  {"darker", drawn.change.darkerPixels},
+                                  {"brighter", drawn.change.brighterPixels},
                                   {"glErrors", drawn.glErrors},
                                   {"causes", drawn.causes}});
     }
     for (std::size_t a = 0; a < all.size(); ++a)
         for (std::size_t b = a + 1; b < all.size(); ++b)
-            table["disagree"][all[a].name][all[b].name] = disagreement(changes[a], changes[b]);
+            table["disagree"][all[a].name][all[b].name] = disagreement(all[a].change, all[b].change);
     OutputFile(_folder + "/compare.json").write(table.dump(1) + "\n");
 }
 

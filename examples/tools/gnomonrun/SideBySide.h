@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "PictureChange.h"
 #include "ShadowedScene.h"
 #include "WindowPicture.h"
 
@@ -32,6 +33,7 @@ private:
         osg::ref_ptr<osg::Image> picture;
         double milliseconds = 0.0; ///< a frame, median.
         int glErrors = 0;
+        PictureChange change; ///< from the picture without shadows.
         std::vector<std::string> causes;
     };
 
