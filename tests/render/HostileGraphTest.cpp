@@ -4,6 +4,7 @@
 #include <support/Scene.h>
 
 #include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/ColorMask>
@@ -51,7 +52,7 @@ private:
 /// Where the leaf is, the picture is that without shadows; elsewhere it is that without the leaf.
 TEST(HostileGraph, ALeafWithoutMatricesIsDrawnAndLeavesTheShadowsRight) {
     for (const bool projected : {true, false})
-        for (const int way : {0, 1, 2, 3}) {
+        for (const int way : {0, 1, 2, 3, 4}) {
             const auto picture = [&](bool leaf, bool shadow) {
                 Scene scene = boxScene();
                 const osg::ref_ptr<BareLeaf> bare = new BareLeaf(projected);
@@ -59,7 +60,9 @@ TEST(HostileGraph, ALeafWithoutMatricesIsDrawnAndLeavesTheShadowsRight) {
                 if (leaf) scene.root->addChild(bare);
                 if (shadow && way == 0) scene.addShadow(new gnomon::TracedShadowTechnique);
                 if (shadow && way == 1) scene.addShadow(new gnomon::ShadowMapTechnique);
-                if (shadow && way > 1) scene.addShadow(planar(way == 3 ? find(*scene.root, "ground") : nullptr));
+                if (shadow && way == 4) scene.addShadow(new gnomon::ShadowVolumeTechnique);
+                if (shadow && (way == 2 || way == 3))
+                    scene.addShadow(planar(way == 3 ? find(*scene.root, "ground") : nullptr));
                 return render(scene.root, slanted);
             };
             const Picture plain = picture(false, false), leaf = picture(true, false), shadow = picture(false, true),

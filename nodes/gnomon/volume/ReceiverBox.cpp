@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/volume/ReceiverBox.h>
 
 #include <glm/common.hpp>
@@ -51,7 +52,7 @@ ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene) {
         const osg::Matrixd& sceneFromBox =
             found != known.end()
                 ? found->second
-                : known.emplace(leaf->_modelview.get(), *leaf->_modelview * sceneFromEye).first->second;
+                : known.emplace(leaf->_modelview.get(), modelviewOf(*leaf) * sceneFromEye).first->second;
         expand(all, box, sceneFromBox);
     }
     return all;
