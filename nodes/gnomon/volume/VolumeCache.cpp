@@ -20,25 +20,28 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
                                             const glm::dvec4& light, const SceneFrame& scene) {
     const ReceiverBox receivers = receiversOf(view, scene);
     Lock lock(_mutex);
-    ++_call;
+    if (view.frameNumber != _frame) ++_round;
+    _frame = view.frameNumber;
     const ReceiverBox& box = boxOf(view.stage, receivers);
     std::vector<osg::ref_ptr<LightVolumes>> all;
-    for (const VolumeCaster& caster : _casters.of(casters))
+    for (const VolumeCaster& caster : _casters.of(casters, _round))
         all.push_back(find(caster, _entries[{view.stage, lightNumber, all.size()}], light, box));
     dropUnused();
     return seenVolumes(all, scene.clipFromScene(view));
 }
 
 const ReceiverBox& VolumeCache::boxOf(const void* stage, const ReceiverBox& receivers) {
-    const auto [known, isNew] = _boxes.emplace(stage, receivers);
-    if (!isNew && !known->second.fits(receivers)) known->second = receivers.grown();
-    return known->second;
+    const auto [known, isNew] = _boxes.emplace(stage, Box{receivers});
+    Box& box = known->second;
+    if (!isNew && !box.receivers.fits(receivers)) box.receivers = receivers.grown();
+    box.used = _round;
+    return box.receivers;
 }
 
 /// Those of another light give up their memory, unless they are still drawn.
 osg::ref_ptr<LightVolumes> VolumeCache::find(const VolumeCaster& caster, Entry& own, const glm::dvec4& light,
                                              const ReceiverBox& receivers) {
-    own.used = _call;
+    own.used = _round;
     if (own.volumes && own.volumes->are(caster, light, receivers)) return own.volumes;
     if (!own.volumes || own.volumes->referenceCount() > 1) own.volumes = new LightVolumes;
     // Isolated: a thread that waits for others must not take up work of the caller's, which might ask in turn.
@@ -48,9 +51,12 @@ osg::ref_ptr<LightVolumes> VolumeCache::find(const VolumeCaster& caster, Entry& 
 }
 
 void VolumeCache::dropUnused() {
-    for (auto entry = _entries.begin(); entry != _entries.end();)
-        entry = _call - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
-    if (_entries.empty()) _boxes.clear();
+    const auto drop = [this](auto& owners) {
+        for (auto owner = owners.begin(); owner != owners.end();)
+            owner = _round - owner->second.used > longUnused ? owners.erase(owner) : std::next(owner);
+    };
+    drop(_entries);
+    drop(_boxes);
 }
 
 unsigned VolumeCache::builds() const {

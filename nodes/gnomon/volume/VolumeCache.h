@@ -40,9 +40,13 @@ private:
     using Owner = std::tuple<const void*, int, std::size_t>;
     struct Entry {
         osg::ref_ptr<LightVolumes> volumes;
-        unsigned used = 0; ///< in which call.
+        unsigned used = 0; ///< in which round.
     };
-    static constexpr unsigned longUnused = 64; ///< calls, one a view and light of each frame.
+    struct Box {
+        ReceiverBox receivers;
+        unsigned used = 0; ///< the same.
+    };
+    static constexpr unsigned longUnused = 64; ///< rounds.
 
     /// The same as before while it fits.
     const ReceiverBox& boxOf(const void* stage, const ReceiverBox& receivers);
@@ -52,9 +56,10 @@ private:
 
     mutable OpenThreads::Mutex _mutex;
     VolumeCasters _casters;
-    std::map<const void*, ReceiverBox> _boxes;
+    std::map<const void*, Box> _boxes; ///< by stage.
     std::map<Owner, Entry> _entries;
-    unsigned _builds = 0, _call = 0;
+    unsigned _builds = 0;
+    unsigned _round = 0, _frame = 0; ///< a round is a frame, as views count them.
 };
 
 } // namespace gnomon

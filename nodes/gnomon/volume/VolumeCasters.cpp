@@ -17,17 +17,17 @@ std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
 
 } // namespace
 
-std::vector<VolumeCaster> VolumeCasters::of(const CasterLayers& casters) {
-    ++_call;
+std::vector<VolumeCaster> VolumeCasters::of(const CasterLayers& casters, unsigned round) {
     std::vector<VolumeCaster> all;
-    for (const PlacedMesh& placed : casters.meshes()) {
-        Entry& entry = _entries[placed.mesh.get()];
-        if (!entry.mesh) entry = {placed.mesh, edgesOf(*placed.mesh), 0};
-        entry.used = _call;
-        all.push_back({entry.edges, placed.sceneFromMesh});
-    }
+    for (const auto& layer : {casters.still, casters.moving})
+        for (const PlacedMesh& placed : layer->meshes) {
+            Entry& entry = _entries[placed.mesh.get()];
+            if (!entry.mesh) entry = {placed.mesh, edgesOf(*placed.mesh), 0};
+            entry.used = round;
+            all.push_back({entry.edges, placed.sceneFromMesh});
+        }
     for (auto entry = _entries.begin(); entry != _entries.end();)
-        entry = _call - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
+        entry = round - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
     return all;
 }
 

@@ -22,19 +22,19 @@ struct VolumeCaster {
 /// The edges of casters, found once a mesh, wherever it stands.
 class VolumeCasters {
 public:
-    /// All that cast.
-    std::vector<VolumeCaster> of(const CasterLayers& casters);
+    /// All that cast. Those of casters that were last asked for 64 rounds ago are let go.
+    /// @param round  a frame, as views count them; never fewer than before.
+    std::vector<VolumeCaster> of(const CasterLayers& casters, unsigned round);
 
 private:
     struct Entry {
         osg::ref_ptr<const CasterMesh> mesh; // held, so that its address cannot be taken by another
         std::shared_ptr<const SilhouetteMesh> edges;
-        unsigned used = 0; ///< in which call.
+        unsigned used = 0; ///< in which round.
     };
-    static constexpr unsigned longUnused = 64; ///< calls, one a view and light of each frame.
+    static constexpr unsigned longUnused = 64; ///< rounds.
 
     std::unordered_map<const CasterMesh*, Entry> _entries;
-    unsigned _call = 0;
 };
 
 } // namespace gnomon
