@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/auto/AutoView.h>
 #include <gnomon/base/Fingerprint.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 
 #include <osg/Geometry>
 
@@ -13,8 +14,15 @@ constexpr double ofAShape = 200.0; // triangles: a ShapeDrawable's sphere has so
 
 std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
     Fingerprint value;
-    for (const osgUtil::RenderLeaf* leaf : leaves) value.mix(reinterpret_cast<std::uintptr_t>(leaf->_drawable.get()));
+    for (const osgUtil::RenderLeaf* leaf : leaves) {
+        value.mix(static_cast<const void*>(leaf->_drawable.get()));
+        value.mix(modelviewOf(*leaf));
+    }
     return value.value();
+}
+
+std::string whyCutOut(const CasterDrawables& casters) {
+    return casters.anyTested || casters.unknownTests > 0 ? "casters are cut out by an alpha test" : "";
 }
 
 double trianglesOf(const osg::Drawable& drawable) {

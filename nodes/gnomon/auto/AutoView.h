@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace gnomon {
 
@@ -19,8 +20,11 @@ struct AutoView {
     glm::dvec4 towards;             ///< the light, group frame: w = 0 and length 1, or w = 1.
 };
 
-/// Stands for the drawables that can receive, and where they are but for the view.
+/// Stands for the drawables that can receive, and where they are in the view.
 std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leaves);
+
+/// Why casters need a technique that knows their textures; empty if they do not.
+std::string whyCutOut(const CasterDrawables& casters);
 
 /// Triangles of a drawable, by its primitives; an estimate where it is no geometry.
 double trianglesOf(const osg::Drawable& drawable);

@@ -86,8 +86,7 @@ private:
     /// What every technique costs: the compositor's part.
     void measure() {
         _pixels = pixelsOf(_view.frame, *_one.bounds);
-        _casters = 0.0;
-        for (const auto& piece : _view.casters.list) _casters += double(piece->triangles);
+        _casters = double(_view.layers.triangles());
         _compose.calls = 2.0 + callsAPiece * double(_view.casters.list.size());
         _compose.filled = _pixels;
         if (blends()) return;
@@ -186,8 +185,7 @@ private:
         AutoCandidate traced;
         traced.kind = Kind::Traced;
         traced.error = sampledEdge;
-        for (const auto& piece : _view.casters.list)
-            if (piece->test || piece->unknownTests > 0) traced.obstacle = "casters are cut out by an alpha test";
+        traced.obstacle = whyCutOut(_view.casters);
         traced.still = _compose;
         traced.still.pixels = 2.0 * _pixels;
         traced.still.rays = _pixels;

@@ -23,13 +23,6 @@ constexpr std::size_t mostBodies = 128; // that are compared with one another: a
 constexpr double grazing = 1e-4;        // sine: light along a plane gives it no light to take away
 constexpr double flatness = 1e-6;       // of a size
 
-std::string nameOf(const osg::Drawable& drawable) {
-    return "'" +
-           (drawable.getName().empty() && drawable.getNumParents() ? drawable.getParent(0)->getName()
-                                                                   : drawable.getName()) +
-           "'";
-}
-
 /// The plane of a box that is flat in its own frame.
 std::optional<glm::dvec4> planeOf(const osg::BoundingBox& box) {
     if (!box.valid()) return std::nullopt;
@@ -68,9 +61,8 @@ private:
     }
 
     void lookAtCasters() {
-        if (_view.casters.unknownTests > 0) refuse("casters are cut out by an alpha test");
-        for (const auto& piece : _view.casters.list)
-            if (piece->test) refuse("casters are cut out by an alpha test");
+        const std::string cutOut = whyCutOut(_view.casters);
+        if (!cutOut.empty()) refuse(cutOut);
     }
 
     void lookAt(const osgUtil::RenderLeaf& leaf) {
@@ -96,9 +88,8 @@ private:
             if (const auto inGroup = transformedPlane(toGlm(piece.groupFromLocal), *flat))
                 return addPlane(*inGroup, leaf);
         const DrawableBodies& found = _bodies.of(piece);
-        if (!found.looked)
-            return refuse("the receiver " + nameOf(*piece.drawable) + " has too many triangles to be looked at");
-        if (!found.convex) return refuse("the receiver " + nameOf(*piece.drawable) + " is not convex");
+        if (!found.looked) return refuse("the receiver '" + nameOf(leaf) + "' has too many triangles to be looked at");
+        if (!found.convex) return refuse("the receiver '" + nameOf(leaf) + "' is not convex");
         for (const ConvexBody& body : found.bodies) {
             if (body.isPlate())
                 addPlane(body.planes.front(), leaf);

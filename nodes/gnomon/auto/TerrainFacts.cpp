@@ -35,8 +35,8 @@ TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receive
     if (!view.frame.receivers) facts.obstacle = "no terrain is named as receiver";
     if (facts.obstacle.empty() && !(view.towards.w == 0.0 && sun.z > 0.0))
         facts.obstacle = "the light is no sun above the horizon";
-    for (const auto& piece : view.casters.list)
-        if (piece->test || piece->unknownTests > 0) facts.obstacle = "casters are cut out by an alpha test";
+    const std::string cutOut = whyCutOut(view.casters);
+    if (!cutOut.empty()) facts.obstacle = cutOut;
     for (const osgUtil::RenderLeaf* leaf : view.frame.seen)
         if (isPulledForward(leaf->_parent)) facts.obstacle = "a polygon offset pulls the terrain forward";
     if (!facts.obstacle.empty()) return facts;

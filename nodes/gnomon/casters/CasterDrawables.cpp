@@ -188,6 +188,7 @@ CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, st
         invalidTriangles += piece->invalidTriangles;
         if (unknownTests == 0) unknownNode = piece->unknownNode;
         unknownTests += piece->unknownTests;
+        anyTested = anyTested || piece->test;
     }
 }
 

@@ -53,6 +53,7 @@ public:
     osg::BoundingBoxd bounds;        ///< Bounds of all triangles, group frame. Invalid without triangles.
     unsigned invalidTriangles = 0;   ///< Sum over the pieces.
     std::string invalidNode;         ///< Name of the first drawable with an invalid triangle.
+    bool anyTested = false;          ///< A piece has an alpha test.
     unsigned unknownTests = 0;       ///< Sum over the pieces.
     std::string unknownNode;         ///< Name of the first drawable with an unknown alpha test.
 

@@ -5,18 +5,7 @@
 #include <gnomon/volume/VolumeCache.h>
 #include <gnomon/volume/VolumeMark.h>
 
-#include <algorithm>
-
 namespace gnomon {
-
-namespace {
-
-bool areAnyTested(const CasterDrawables& pieces) {
-    return std::any_of(pieces.list.begin(), pieces.list.end(),
-                       [](const osg::ref_ptr<const CasterDrawable>& piece) { return piece->test.has_value(); });
-}
-
-} // namespace
 
 ShadowVolumeOptions ShadowVolumeOptions::usable() const {
     return {view == VOLUMES ? VOLUMES : ShadowVolumeOptions().view};
@@ -40,7 +29,7 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowVolumeTechnique::prepare(const ViewFram
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    if (areAnyTested(*layers.pieces))
+    if (layers.pieces->anyTested)
         report(view.frameNumber,
                "alpha-tested casters cast as if they were solid, because volumes know no texture. Use "
                "map for them, or leave them out of the casters.");
