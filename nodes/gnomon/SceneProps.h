@@ -31,11 +31,11 @@ GNOMON_EXPORT osg::Vec4d sunAt(double azimuth, double elevation);
 /// All LightSources under a node that hold a light, in traversal order. Switches and node masks count.
 GNOMON_EXPORT std::vector<osg::ref_ptr<osg::LightSource>> lightSourcesIn(osg::Node& root);
 
-/// Asks for 8 stencil bits in osg::DisplaySettings, for all windows that are made afterwards. Every shadow needs them.
+/// Asks for 8 stencil bits in osg::DisplaySettings, for all windows that are made afterwards. They spare a copy each frame.
 GNOMON_EXPORT void askForStencilBits();
 
-/// Asks for 8 alpha bits in osg::DisplaySettings, for all windows that are made afterwards. Smooth and soft edges need
-/// them.
+/// Asks for 8 alpha bits in osg::DisplaySettings, for all windows that are made afterwards. With smooth and soft edges
+/// they spare a copy each frame.
 GNOMON_EXPORT void askForAlphaBits();
 
 } // namespace gnomon

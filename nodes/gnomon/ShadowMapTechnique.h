@@ -168,8 +168,6 @@ public:
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
 
-    /// True: the technique keeps casters by drawable.
-
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
     /// Releases OpenGL objects, as osg::Node does.

@@ -43,7 +43,7 @@ struct CasterLayers : public osg::Referenced {
     std::size_t triangles() const { return still->triangles + moving->triangles; }
     /// Stands for these in a cache, which then keeps no caster. True once no view will ask for them any more.
     using Retired = std::shared_ptr<const std::atomic<bool>>;
-    const Retired& retired() const { return _isRetired; }
+    Retired retired() const { return _retired; }
     /// No view will ask for these any more: caches may let them go.
     void retire() const { *_retired = true; }
     bool isRetired() const { return *_retired; }
@@ -75,7 +75,6 @@ private:
     std::unordered_map<const CasterDrawable*, unsigned> _since; ///< of what moves, the change that it came with.
     std::size_t _wasted = 0; ///< triangles that were made again, though they were at rest.
     const std::shared_ptr<std::atomic<bool>> _retired = std::make_shared<std::atomic<bool>>(false);
-    const Retired _isRetired = _retired;
 };
 
 } // namespace gnomon

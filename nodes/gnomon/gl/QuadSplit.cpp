@@ -107,11 +107,6 @@ void drawQuad() {
 void drawStrip() {
     for (const int corner : {0, 1, 3, 2}) glVertex3fv(corners[corner]);
 }
-/// The same, and another out of view.
-void drawQuadAndMore() {
-    drawQuad();
-    for (const GLfloat* corner : corners) glVertex3f(corner[0] + 9.0f, corner[1], corner[2]);
-}
 
 void draw(GLenum mode, void (*vertices)()) {
     glBegin(mode);
@@ -147,8 +142,6 @@ QuadSplit find(const osg::State& state) {
     found.secondToFourth = isFarInTheMiddle();
     draw(GL_QUADS, drawQuad);
     found.arraysSecondToFourth = isFarInTheMiddle();
-    draw(GL_QUADS, drawQuadAndMore);
-    found.arraysVary = isFarInTheMiddle() != found.arraysSecondToFourth;
     draw(GL_QUAD_STRIP, drawStrip);
     found.stripSecondToThird = isFarInTheMiddle();
     return found;

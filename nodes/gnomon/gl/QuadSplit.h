@@ -12,15 +12,9 @@ namespace gnomon {
 struct QuadSplit {
     bool secondToFourth = true;       ///< GL_QUADS from indices and display lists; else from the first to the third.
     bool arraysSecondToFourth = true; ///< The same of arrays, where all is in view.
-    bool arraysVary = false;          ///< Those of arrays are cut otherwise where not all is in view.
     bool stripSecondToThird =
         false;         ///< GL_QUAD_STRIP, in the order of its vertices; else from the first to the fourth.
     bool lists = true; ///< OpenSceneGraph draws from display lists in this context.
-
-    bool operator==(const QuadSplit& other) const {
-        return secondToFourth == other.secondToFourth && arraysSecondToFourth == other.arraysSecondToFourth &&
-               arraysVary == other.arraysVary && stripSecondToThird == other.stripSecondToThird && lists == other.lists;
-    }
 };
 
 /// The split of the driver of a context that is current. Found once a context by the depth of bent quads.

@@ -142,16 +142,17 @@ WorkFramebuffer::WorkFramebuffer(osg::State& state, const osg::Viewport& viewpor
     _own.emplace(_extensions);
     _buffers = &osg::get<WorkBuffers>(state.getContextID())->fitting(_extensions, format, place.width, place.height);
     _isTopDown = place.isWindow && letRowsGoDown(state);
-    _isBound = attach(format.samples) && copyColors();
-    if (!_isBound) _own.reset();
-    if (!_isBound) return;
+    if (!attach(format.samples) || !copyColors()) {
+        _own.reset();
+        return;
+    }
     clear();
     if (format.keepsDepth && place.fits && _isTopDown == place.isWindow) copyDepths();
     _own->bind();
 }
 
 WorkFramebuffer::~WorkFramebuffer() {
-    if (_isBound) blit(_own->name, _target, GL_COLOR_BUFFER_BIT);
+    if (_own) blit(_own->name, _target, GL_COLOR_BUFFER_BIT);
 }
 
 /// @return false if OpenGL cannot draw to these together, or gives them more samples.

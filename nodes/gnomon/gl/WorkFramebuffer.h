@@ -28,7 +28,7 @@ public:
     WorkFramebuffer& operator=(const WorkFramebuffer&) = delete;
 
     /// False if OpenGL makes none: what was bound before still is.
-    bool isBound() const { return _isBound; }
+    bool isBound() const { return _own.has_value(); }
     /// False if depths could not be copied, and are all far.
     bool hasDepth() const { return _hasDepth; }
 
@@ -46,7 +46,7 @@ private:
     GLenum _drawBuffer = GL_BACK;
     WorkBuffers::Buffers* _buffers = nullptr;
     std::optional<ScratchFramebuffer> _own;
-    bool _isBound = false, _isTopDown = false, _hasDepth = false;
+    bool _isTopDown = false, _hasDepth = false;
 };
 
 } // namespace gnomon

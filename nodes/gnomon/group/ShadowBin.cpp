@@ -258,7 +258,6 @@ void ShadowBin::prepareAll() {
     _jobs.clear();
     std::deque<FrameCasters> known;
     const StageLeaves drawn(*getStage(), getBinNum(), !_enlisted.empty());
-    _sharesStencil = isModeOn(leavesBelow(*getStage(), std::numeric_limits<int>::max()), GL_STENCIL_TEST);
     const bool refused = StageVerdict::of(*getStage()).isRefused();
     for (const EnlistedTechnique& entry : _enlisted) {
         if (refused) {
@@ -274,7 +273,10 @@ void ShadowBin::prepareAll() {
     PrepassBin::show(_jobs, *getStage());
     PrepassBin::show(_lateJobs, *getStage());
     for (const osg::ref_ptr<ViewEffect>& effect : _effects) effect->prepare(*getStage(), drawn.early);
-    if (!isIdle() || !_lateJobs.empty()) clearWithStage();
+    if (!isIdle() || !_lateJobs.empty()) {
+        _sharesStencil = isModeOn(leavesBelow(*getStage(), std::numeric_limits<int>::max()), GL_STENCIL_TEST);
+        clearWithStage();
+    }
     saveColorsIfBlended(drawn);
     handOnLateJobs(drawn.late.last);
 }

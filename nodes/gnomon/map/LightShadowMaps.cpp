@@ -210,12 +210,10 @@ void LightShadowMaps::findLamp(MapSlice& far, MapSlice& near, const std::vector<
     find(far, {fartherThan(far.frame, split)});
 }
 
-/// On a side of the map that needs most.
 MapForecast LightShadowMaps::forecast() const {
     MapForecast result;
     result.maps = mapsNeeded();
     result.most = largestTexture / std::clamp(result.maps, 1, columns());
-    result.flats = _cause.flats;
     for (const MapSlice& face : _faces) {
         if (face.needed.empty()) continue;
         const glm::dvec2 size = fitOf(face).size;
@@ -225,6 +223,7 @@ MapForecast LightShadowMaps::forecast() const {
     return result;
 }
 
+/// On a side of the map that needs most.
 double LightShadowMaps::texelsWanted() const {
     double wanted = 0.0;
     for (const MapSlice& face : _faces) {

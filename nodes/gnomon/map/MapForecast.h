@@ -13,7 +13,6 @@ struct MapForecast {
     int most = 0;        ///< texels on a side of a map, by OpenGL's largest texture.
     double texels = 0.0; ///< on a side of the largest map, with one texel a pixel where pixels are smallest.
     double pixel = std::numeric_limits<double>::infinity(); ///< smallest side of a pixel, see TexelDensity.
-    bool flats = false;                                     ///< what is flat, as grounds are, is drawn into them.
     std::optional<ScreenRect> bounds;                       ///< where on the screen the shadow can be.
 };
 

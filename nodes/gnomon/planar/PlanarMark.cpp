@@ -66,8 +66,10 @@ bool PlanarMark::drawParts(osg::RenderInfo& renderInfo) const {
         const auto meant = [&](const PlanarPart& part) { return clips(part) == clipping; };
         if (std::none_of(casters->parts.begin(), casters->parts.end(), meant)) continue;
         state.apply((clipping ? programs->clipping : programs->plain).get());
-        if (!hasProgram(state)) drawn = false;
-        if (!hasProgram(state)) continue;
+        if (!hasProgram(state)) {
+            drawn = false;
+            continue;
+        }
         for (const PlanarPart& part : casters->parts)
             if (meant(part)) drawPart(renderInfo, part);
     }

@@ -13,7 +13,7 @@ constexpr Kind kinds[] = {{&ShadowWork::calls, &CostRates::call},    {&ShadowWor
                           {&ShadowWork::texels, &CostRates::texel},  {&ShadowWork::pixels, &CostRates::pixel},
                           {&ShadowWork::taps, &CostRates::tap},      {&ShadowWork::relit, &CostRates::relit},
                           {&ShadowWork::filled, &CostRates::filled}, {&ShadowWork::rays, &CostRates::ray},
-                          {&ShadowWork::built, &CostRates::built},   {&ShadowWork::objects, &CostRates::object}};
+                          {&ShadowWork::objects, &CostRates::object}};
 
 } // namespace
 

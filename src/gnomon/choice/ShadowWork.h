@@ -13,7 +13,6 @@ struct ShadowWork {
     double relit = 0.0;     ///< triangles of the scene that are drawn once more.
     double filled = 0.0;    ///< pixels that those cover, or that are blended.
     double rays = 0.0;      ///< cast by the processor.
-    double built = 0.0;     ///< triangles that are put into a tree of rays, or read from the scene.
     double objects = 0.0;   ///< shadows found on terrain.
 
     ShadowWork& operator+=(const ShadowWork& other);
@@ -32,7 +31,6 @@ struct CostRates {
     double relit = 2.1e-4;
     double filled = 6e-6;
     double ray = 2e-4;
-    double built = 7e-4;
     double object = 2.5e-4;
 };
 
