@@ -202,7 +202,8 @@ TEST(MapCascades, AreFourAtMost) {
         EXPECT_EQ(technique->getCascades(), kept);
     }
     technique->setCascades(3);
-    EXPECT_EQ(osg::clone(technique.get())->getCascades(), 3);
+    const osg::ref_ptr<ShadowMapTechnique> copy = osg::clone(technique.get());
+    EXPECT_EQ(copy->getCascades(), 3);
 }
 
 /// 300 walls and blocks at 12 to 1200 m, seen from among them, as near and far as depths of 24 bits allow.

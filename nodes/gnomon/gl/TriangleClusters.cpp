@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <typeinfo>
 
@@ -116,16 +117,17 @@ GLenum indexType(const osg::DrawElements& elements) {
     }
 }
 
-/// Where the indices of a list begin: in its buffer, which gets bound, or in memory.
-const char* indicesOf(const osg::DrawElements& elements, osg::State& state, bool useBuffers) {
+/// Where the indices of a list begin: in its buffer, which gets bound, or in memory. A number, for offsets into a buffer are
+/// no pointers to count on from.
+std::uintptr_t indicesOf(const osg::DrawElements& elements, osg::State& state, bool useBuffers) {
     osg::GLBufferObject* buffer = useBuffers ? elements.getOrCreateGLBufferObject(state.getContextID()) : nullptr;
     osg::VertexArrayState& arrays = *state.getCurrentVertexArrayState();
     if (buffer)
         arrays.bindElementBufferObject(buffer);
     else if (useBuffers)
         arrays.unbindElementBufferObject();
-    if (!buffer) return static_cast<const char*>(elements.getDataPointer());
-    return reinterpret_cast<const char*>(buffer->getOffset(elements.getBufferIndex()));
+    if (!buffer) return reinterpret_cast<std::uintptr_t>(elements.getDataPointer());
+    return static_cast<std::uintptr_t>(buffer->getOffset(elements.getBufferIndex()));
 }
 
 /// Runs of one primitive set, in one call: calls cost more than small runs do.
@@ -137,9 +139,9 @@ void drawRuns(const osg::PrimitiveSet& primitives, const TriangleClusters::Run* 
     for (std::size_t i = 0; i < number; ++i) counts[i] = static_cast<GLsizei>(runs[i].count);
     if (const osg::DrawElements* elements = primitives.getDrawElements()) {
         const std::size_t size = elements->getTotalDataSize() / elements->getNumIndices();
-        const char* indices = indicesOf(*elements, state, useBuffers);
+        const std::uintptr_t indices = indicesOf(*elements, state, useBuffers);
         std::vector<const void*> places(number);
-        for (std::size_t i = 0; i < number; ++i) places[i] = indices + runs[i].first * size;
+        for (std::size_t i = 0; i < number; ++i) places[i] = reinterpret_cast<const void*>(indices + runs[i].first * size);
         gl.glMultiDrawElements(elements->getMode(), counts.data(), indexType(*elements), places.data(), drawn);
     } else {
         const auto& arrays = static_cast<const osg::DrawArrays&>(primitives);
