@@ -38,6 +38,7 @@ struct PlanarPrograms;
 /// - Receivers are flat. Casters do not shadow one another.
 /// - A plane receives on its lit side only.
 /// - Alpha-tested casters cast as if they were solid.
+/// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Without a receiver, a wall that stands in the plane is marked at its foot: up to an eighth of a pixel's slope and
 ///   32 depth steps high.
 /// - Without a receiver, a polygon offset or depth range on the ground loses the shadow. A ground of many kilometres
