@@ -88,6 +88,9 @@ public:
     /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
+    /// True: it takes maps where casters draw themselves.
+    bool drawsCasters() const override { return true; }
+
 protected:
     ~AutoShadowTechnique() override;
 

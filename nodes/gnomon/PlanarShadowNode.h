@@ -38,6 +38,7 @@ struct PlanarPrograms;
 /// - Receivers are flat. Casters do not shadow one another.
 /// - A plane receives on its lit side only.
 /// - Alpha-tested casters cast as if they were solid.
+/// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Without a receiver, a wall that stands in the plane is marked at its foot: up to an eighth of a pixel's slope and
 ///   32 depth steps high.
 /// - Without a receiver, what a polygon offset pulls forward is found where it is flat in its own frame: its drawable's box

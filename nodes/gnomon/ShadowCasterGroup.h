@@ -54,6 +54,7 @@ struct CasterView;
 /// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast. Drawables at the far plane, as skies are, do not cast either.
+/// - A drawable that draws itself, or is made of patches, casts in ShadowMapTechnique alone. Others report it.
 /// - Quads that are not flat cast as the driver cuts them, which is measured once a context.
 /// - Mesa's llvmpipe cuts quads of glDrawArrays() outside display lists now so, now so. Draw those that are not flat by indices.
 /// - An LOD casts as its view shows it. A cull callback that chooses among children is not asked.

@@ -43,6 +43,8 @@ class ShadowMapCache;
 ///   only estimated.
 /// - Penumbras are streaky where a caster is nearer to the lamp than the lamp is wide.
 /// - Penumbras end at 128 texels, and at the borders of a lamp's maps.
+/// - Casters that draw themselves need bounds. Each costs as much as in the view, in every map that changes.
+/// - What one of them changes from frame to frame shows if it uses no display list, or its data variance is DYNAMIC.
 /// - Blended casters cast as if they were solid.
 /// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.
 /// - Multisampled framebuffers are shadowed by pixel, from one sample.
@@ -172,6 +174,9 @@ public:
     void resizeGLObjectBuffers(unsigned maxSize) override;
     /// Releases OpenGL objects, as osg::Node does.
     void releaseGLObjects(osg::State* state = nullptr) const override;
+
+    /// True.
+    bool drawsCasters() const override { return true; }
 
 protected:
     ~ShadowMapTechnique() override;

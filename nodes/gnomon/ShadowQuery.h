@@ -40,6 +40,7 @@ struct ShadowProbe;
 /// - Embree. No OpenGL and no view.
 /// Limits
 /// - It has no view: the most detailed children of an LOD cast.
+/// - Casters that draw themselves, or are made of patches, are not asked.
 /// - If the technique names a receiver, its answers hold for points on that receiver only.
 /// - Points on a surface that the light grazes (sine 0.01 or less) may get either answer.
 /// Threads

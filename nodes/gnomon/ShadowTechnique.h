@@ -72,6 +72,10 @@ public:
     /// True if prepare() uses only the casters' pieces. The group then makes no meshes of them. Default false.
     virtual bool takesDrawables() const { return false; }
 
+    /// True if it draws casters that have no triangles to read, by their own code. Else the compositor reports them.
+    /// Default false.
+    virtual bool drawsCasters() const { return false; }
+
     /// True if the light reaches a point, as this technique draws it. ShadowQuery calls it.
     /// Default: true if a ray from the point to the light meets no caster.
     /// @param point  relative to the probe's origin, group frame.

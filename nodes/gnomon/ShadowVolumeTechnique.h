@@ -30,6 +30,7 @@ class VolumeCache;
 /// - Dense meshes have thousands of edges one before the other: maps are faster there.
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
 /// - Alpha-tested casters cast as if they were solid, and diagnose() says so.
+/// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - A caster that the view does not draw, by a mask or by face culling of an open sheet, can leave false light or shadow
 ///   where one looks through it.
 /// - Counts have up to seven bits. More casters between a light and a place take several rounds. If one connected mesh

@@ -47,6 +47,7 @@ struct TerrainShadows;
 /// - One stencil bit; two for shadows off a grid; three if those overlap. More bits save passes.
 /// Limits
 /// - Walls and roofs receive nothing.
+/// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Casters stand on or in the ground. HULL shows no light below an overhang.
 /// - HULL: a corner that is buried in the ground casts as if it stood on the ground above. The shadow is slightly too
 ///   large there. DRAPE is exact.

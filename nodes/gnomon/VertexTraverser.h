@@ -40,7 +40,7 @@ class CasterExtraction;
 /// Limits
 /// - Leaves out cameras, projections, text, shadow techniques and absolute transforms.
 /// - Leaves out billboards, and AutoTransforms that turn or scale with the view.
-/// - Leaves out drawables that hand out no triangles, such as particles.
+/// - Leaves out drawables that hand out no triangles: particles, patches, and classes that only draw themselves.
 /// - Leaves out vertices that no primitive uses.
 /// - Counts instanced primitives once, and ignores displacement by vertex shaders.
 /// Threads

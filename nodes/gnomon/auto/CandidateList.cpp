@@ -36,6 +36,11 @@ constexpr double callsAPiece = 0.06; // to see that it has not changed
 constexpr double mostStretch = 8.0;  // as TexelDensity has it
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
 
+/// Why a candidate would leave a caster out; empty if it would not.
+std::string whyOnlyMaps(const AutoCandidate& candidate, const CasterDrawables& casters) {
+    return candidate.kind == Kind::Map || casters.own.empty() ? "" : "a caster draws itself, and only maps can let it";
+}
+
 /// Finds the candidates of one view.
 class Lister {
 public:
@@ -61,6 +66,8 @@ public:
         addTerrain();
         addMaps();
         addTraced();
+        for (AutoCandidate& candidate : _result.all)
+            if (candidate.obstacle.empty()) candidate.obstacle = whyOnlyMaps(candidate, _view.casters);
         return _result;
     }
 
@@ -211,6 +218,8 @@ CandidateList listCandidates(const AutoView& view, const Selection& receiver, do
 
 std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver,
                      AutoKnowledge& known) {
+    const std::string own = whyOnlyMaps(candidate, view.casters);
+    if (!own.empty()) return own;
     if (candidate.kind == Kind::Nothing) return "a shadow may be needed now";
     if (candidate.kind == Kind::Terrain) return known.terrain.of(view, receiver).obstacle;
     if (candidate.kind != Kind::Planar) return {};

@@ -65,15 +65,20 @@ class DrawableVisitor : public CasterVisitor {
 public:
     DrawableVisitor(const Selection& casters, const CasterDrawables* known, LevelPieces* levels,
                     const CasterBodies* bodies)
-        : CasterVisitor(casters), _known(known ? known->list : _none), _levels(levels), _bodies(bodies) {}
+        : CasterVisitor(casters),
+          _known(known ? known->list : _none),
+          _knownOwn(known ? known->own : CasterDrawables::OwnList()),
+          _levels(levels),
+          _bodies(bodies) {}
 
-    bool changed() const { return _changed || _same != _known.size(); }
+    bool changed() const { return _changed || _same != _known.size() || _own != _knownOwn; }
     std::uint64_t fingerprint() const { return _fingerprint.value(); }
     /// Those that were met.
     CasterDrawables::List take() {
         startOwnList();
         return std::move(_met);
     }
+    CasterDrawables::OwnList takeOwn() { return std::move(_own); }
 
 protected:
     void applyCaster(osg::Drawable& drawable) override {
@@ -91,6 +96,17 @@ protected:
         if (!piece && _levels && isOfLevels()) piece = _levels->find(value);
         if (!piece) piece = make(drawable, value, geometry, test);
         _met.push_back(piece);
+    }
+
+    /// In the old order as a rule.
+    void applyOwnDrawing(osg::Drawable& drawable) override {
+        const std::uint64_t value = OwnDrawing::fingerprintOf(getNodePath(), drawable, rootFromLocal());
+        _fingerprint.mix(value);
+        const std::size_t place = _own.size();
+        if (place < _knownOwn.size() && _knownOwn[place]->fingerprint == value)
+            _own.push_back(_knownOwn[place]);
+        else
+            _own.push_back(new OwnDrawing(getNodePath(), drawable, rootFromLocal()));
     }
 
 private:
@@ -169,6 +185,8 @@ private:
     }
 
     const CasterDrawables::List _none, &_known;
+    const CasterDrawables::OwnList _knownOwn;
+    CasterDrawables::OwnList _own;
     LevelPieces* const _levels;
     const CasterBodies* const _bodies;
     CasterDrawables::List _met;
@@ -180,8 +198,9 @@ private:
 
 } // namespace
 
-CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, std::uint64_t choiceOfAll)
-    : list(std::move(pieces)), fingerprint(fingerprintOfAll), choice(choiceOfAll) {
+CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, std::uint64_t choiceOfAll,
+                                 OwnList drawings)
+    : list(std::move(pieces)), own(std::move(drawings)), fingerprint(fingerprintOfAll), choice(choiceOfAll) {
     for (const auto& piece : list) {
         bounds.expandBy(piece->bounds);
         if (invalidTriangles == 0) invalidNode = piece->invalidNode;
@@ -205,7 +224,7 @@ osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const S
     root.accept(visitor);
     if (known && !visitor.changed()) return known;
     const osg::ref_ptr<CasterDrawables> met =
-        new CasterDrawables(visitor.take(), visitor.fingerprint(), visitor.choice());
+        new CasterDrawables(visitor.take(), visitor.fingerprint(), visitor.choice(), visitor.takeOwn());
     for (const auto& piece : met->list)
         if (levels && piece->ofLevels) levels->add(*piece);
     return met;

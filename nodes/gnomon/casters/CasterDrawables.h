@@ -4,6 +4,7 @@
 #include <gnomon/casters/CasterDrawable.h>
 #include <gnomon/casters/CasterView.h>
 #include <gnomon/casters/CastingRule.h>
+#include <gnomon/casters/OwnDrawing.h>
 
 #include <osg/BoundingBox>
 #include <osg/Referenced>
@@ -38,8 +39,10 @@ class CasterDrawables : public osg::Referenced {
 public:
     /// Pieces, one for each drawable and path.
     using List = std::vector<osg::ref_ptr<const CasterDrawable>>;
+    /// What only its own code draws, one for each drawable and path.
+    using OwnList = std::vector<osg::ref_ptr<const OwnDrawing>>;
     /// Sums up the pieces.
-    CasterDrawables(List pieces, std::uint64_t fingerprint, std::uint64_t choice = 0);
+    CasterDrawables(List pieces, std::uint64_t fingerprint, std::uint64_t choice = 0, OwnList own = {});
 
     /// True if there is no triangle.
     bool empty() const { return !bounds.valid(); }
@@ -48,6 +51,7 @@ public:
     bool isRetired() const { return _retired; }
 
     const List list;                 ///< In traversal order.
+    const OwnList own;               ///< Casters without triangles, which only maps draw. Traversal order.
     const std::uint64_t fingerprint; ///< Changes with any piece.
     const std::uint64_t choice;      ///< Stands for the drawables under LODs, wherever they are.
     osg::BoundingBoxd bounds;        ///< Bounds of all triangles, group frame. Invalid without triangles.

@@ -157,10 +157,7 @@ CasterExtraction::Cutout* CasterExtraction::startCutout(const osg::Drawable& dra
 }
 
 std::string CasterExtraction::nameHere(const osg::Drawable& drawable) const {
-    const osg::NodePath& path = getNodePath();
-    const auto named =
-        std::find_if(path.rbegin(), path.rend(), [](const osg::Node* n) { return !n->getName().empty(); });
-    return named != path.rend() ? (*named)->getName() : drawable.className();
+    return getNodePath().empty() ? drawable.className() : nameAlong(getNodePath());
 }
 
 } // namespace gnomon

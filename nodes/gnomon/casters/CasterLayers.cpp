@@ -36,6 +36,13 @@ double middleOf(const CasterDrawables& pieces, Measure measure) {
     return 0.0;
 }
 
+/// With what draws itself.
+osg::BoundingBoxd boundsOf(const CasterDrawables& pieces) {
+    osg::BoundingBoxd bounds = pieces.bounds;
+    for (const auto& drawing : pieces.own) bounds.expandBy(drawing->bounds);
+    return bounds;
+}
+
 /// As CasterExtraction::getRounding() has it.
 double roundingOf(const CasterDrawable& piece) {
     const osg::BoundingBox& box = piece.drawable->getBoundingBox();
@@ -115,6 +122,9 @@ void CasterLayers::divideAnew(const CasterLayers& before, CasterBodies& bodies) 
 
 /// The centre of all, unless a few are so far that floats about it were coarse for the others: then a place among most.
 osg::Vec3d CasterLayers::middle() const {
+    const osg::BoundingBoxd all = boundsOf(*pieces);
+    if (!all.valid()) return {};
+    if (pieces->empty()) return all.center();
     osg::Vec3d among;
     for (int axis = 0; axis < 3; ++axis)
         among[axis] = middleOf(*pieces, [axis](const CasterDrawable& piece) { return piece.bounds.center()[axis]; });
@@ -126,7 +136,8 @@ osg::Vec3d CasterLayers::middle() const {
 
 /// Whether floats about a place are as fine, but for a bit, as about the middle of all.
 bool CasterLayers::isNear(const osg::Vec3d& place) const {
-    return pieces->empty() || (place - pieces->bounds.center()).length() <= pieces->bounds.radius();
+    const osg::BoundingBoxd all = boundsOf(*pieces);
+    return !all.valid() || (place - all.center()).length() <= all.radius();
 }
 
 bool CasterLayers::isAtRest(const CasterDrawable* piece) const {
@@ -135,11 +146,13 @@ bool CasterLayers::isAtRest(const CasterDrawable* piece) const {
 }
 
 void CasterLayers::measure() {
-    if (pieces->empty()) return;
-    bounds = pieces->bounds;
-    low = toGlm(pieces->bounds._min - origin);
-    high = toGlm(pieces->bounds._max - origin);
+    bounds = boundsOf(*pieces);
+    if (!bounds.valid()) return;
+    low = toGlm(bounds._min - origin);
+    high = toGlm(bounds._max - origin);
     reach = glm::max(glm::abs(low), glm::abs(high));
+    for (const auto& drawing : pieces->own)
+        if (drawing->bounds.valid()) widest = std::max(widest, 2.0 * drawing->bounds.radius());
     double least = std::numeric_limits<double>::infinity();
     for (const auto& piece : pieces->list) {
         if (!piece->bounds.valid()) continue;

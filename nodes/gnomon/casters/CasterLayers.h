@@ -50,10 +50,10 @@ struct CasterLayers : public osg::Referenced {
 
     const osg::ref_ptr<const CasterDrawables> pieces;
     osg::Vec3d origin;              ///< group frame; all positions are about it, and it stays where it is near.
-    osg::BoundingBoxd bounds;       ///< of all triangles, group frame; invalid without any.
+    osg::BoundingBoxd bounds;       ///< of all, group frame; invalid without any.
     glm::dvec3 low{0.0}, high{0.0}; ///< bounds of all, about the origin.
     glm::dvec3 reach{0.0};          ///< half sides of a box about the origin that holds all.
-    double widest = 0.0;            ///< diameter of a drawable.
+    double widest = 0.0;            ///< diameter of a drawable. These count casters that draw themselves, too.
     double rounding = 0.0;          ///< of the vertices by their own floats, of most.
     double largestRounding = 0.0;   ///< see CasterExtraction::getRounding().
     osg::ref_ptr<const CasterLayer> still, moving; ///< never null.

@@ -2,6 +2,7 @@
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/casters/DrawableTriangles.h>
+#include <gnomon/casters/OwnDrawing.h>
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
@@ -151,9 +152,12 @@ void CasterVisitor::apply(osg::Node& node) {
 
 void CasterVisitor::apply(osg::Drawable& drawable) {
     const OnTheWay here(*this, drawable);
-    if (_inside == 0 || isText(drawable) || !hasTriangles(drawable) || !isLetCast(drawable)) return;
+    if (_inside == 0 || isText(drawable)) return;
+    const bool triangles = hasTriangles(drawable), own = drawsItself(drawable);
+    if (!(triangles || own) || !isLetCast(drawable)) return;
     if (_atLevels > 0) _choice.mix(static_cast<const void*>(&drawable));
-    applyCaster(drawable);
+    if (triangles) applyCaster(drawable);
+    if (own) applyOwnDrawing(drawable);
 }
 
 bool CasterVisitor::isLetCast(const osg::Drawable& drawable) const {
@@ -261,6 +265,12 @@ void CasterVisitor::holdSources(const osg::Drawable& drawable,
     } else {
         sources.emplace_back(&drawable);
     }
+}
+
+std::string nameAlong(const osg::NodePath& path) {
+    const auto named =
+        std::find_if(path.rbegin(), path.rend(), [](const osg::Node* node) { return !node->getName().empty(); });
+    return named != path.rend() ? (*named)->getName() : path.back()->className();
 }
 
 } // namespace gnomon

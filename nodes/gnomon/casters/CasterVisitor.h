@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace gnomon {
@@ -60,6 +61,8 @@ public:
     void setLevels(Levels levels) { _levels = levels; }
     /// Stands for the drawables that were met under LODs, wherever they are.
     std::uint64_t choice() const { return _choice.value(); }
+    /// Adds the arrays and primitive sets of a drawable that are read; the drawable itself if it is no geometry.
+    static void holdSources(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources);
 
     osg::CullStack* asCullStack() override { return _atPixelLevels > 0 ? _cullStack.get() : nullptr; }
     const osg::CullStack* asCullStack() const override { return _atPixelLevels > 0 ? _cullStack.get() : nullptr; }
@@ -75,14 +78,14 @@ protected:
 
     /// Called for each caster, once for each way down to it.
     virtual void applyCaster(osg::Drawable& drawable) = 0;
+    /// Called in the same way for each that drawsItself(). A geometry may be both.
+    virtual void applyOwnDrawing(osg::Drawable&) {}
     /// From the frame of the drawable being visited to that of the root.
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
     /// Of the drawable being visited: nullopt, at no cost, if no state on the way to it switches one on.
     virtual std::optional<AlphaTest> alphaTest() const;
     /// True while the drawable being visited is under an LOD: it may go and come back.
     bool isOfLevels() const { return _atLevels > 0; }
-    /// Adds the arrays and primitive sets of a drawable that are read; the drawable itself if it is no geometry.
-    static void holdSources(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources);
 
 private:
     class OnTheWay;
@@ -113,5 +116,8 @@ private:
     /// Of what is above the selected nodes, the children that lead to it; once for each of its places among them.
     std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };
+
+/// Name of the last node of a path, or of the nearest named one above it; else its class name.
+std::string nameAlong(const osg::NodePath& path);
 
 } // namespace gnomon

@@ -155,12 +155,6 @@ bool isFilledSet(const osg::StateSet& set) {
 
 const osg::Node& rootOf(const osg::Node& node) { return node.getNumParents() ? rootOf(*node.getParent(0)) : node; }
 
-std::string nameOf(const osg::Node& node) {
-    for (const osg::Node* above = &node; above; above = above->getNumParents() ? above->getParent(0) : nullptr)
-        if (!above->getName().empty()) return above->getName();
-    return node.className();
-}
-
 } // namespace
 
 const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix) {
@@ -241,6 +235,12 @@ bool LeafTest::operator()(const osgUtil::RenderLeaf& leaf) {
 PlainTest::PlainTest() : LeafTest(isPlainSet) {}
 
 OpaqueTest::OpaqueTest() : LeafTest(isOpaqueSet) {}
+
+std::string nameOf(const osg::Node& node) {
+    for (const osg::Node* above = &node; above; above = above->getNumParents() ? above->getParent(0) : nullptr)
+        if (!above->getName().empty()) return above->getName();
+    return node.className();
+}
 
 std::string nameOf(const osgUtil::RenderLeaf& leaf) { return nameOf(*leaf._drawable); }
 

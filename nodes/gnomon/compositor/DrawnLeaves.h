@@ -84,6 +84,8 @@ public:
 
 /// Its drawable's name or that of the nearest named node above it, else its class.
 std::string nameOf(const osgUtil::RenderLeaf& leaf);
+/// The name of a node or of the nearest named one above it, by first parents; else its class name.
+std::string nameOf(const osg::Node& node);
 
 /// Drawn as filled triangles: points and lines are wider than what they are made of.
 class FilledTest : public LeafTest {

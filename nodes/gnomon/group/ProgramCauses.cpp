@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/base/ProgramText.h>
+#include <gnomon/casters/OwnDrawing.h>
 #include <gnomon/group/ProgramCauses.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage
     for (const DrawnLeaf& entry : leavesBelow(stage, std::numeric_limits<int>::max())) {
         const auto [places, isNew] = known.try_emplace(entry.leaf->_parent);
         if (isNew) places->second = placesIn(entry.leaf->_parent);
-        if (places->second.movesVertices) _moving.push_back(entry);
+        if (places->second.movesVertices && !drawsItself(*entry.leaf->_drawable)) _moving.push_back(entry);
         if (places->second.ownDepth) _ownDepths.insert(entry.leaf);
     }
 }

@@ -2,6 +2,7 @@
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/StageVerdict.h>
+#include <gnomon/group/EnclosingCasters.h>
 #include <gnomon/group/ShadowBin.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/group/ViewLights.h>
@@ -30,13 +31,32 @@ const bool registered = [] {
     return true;
 }();
 
+/// Casters without triangles are drawn by their own code, or not at all.
+void reportOwnDrawings(const EnlistedTechnique& entry, const CasterDrawables::OwnList& own) {
+    if (own.empty()) return;
+    const std::string first = ", the first in '" + own.front()->name + "'";
+    if (!entry.technique->drawsCasters())
+        return entry.technique->report(entry.frameNumber,
+                                       "what draws itself or is made of patches casts nothing here: " +
+                                           std::to_string(own.size()) + first +
+                                           ". Use map, or let a node that is never drawn cast in its place.");
+    const auto hasNone = [](const auto& drawing) { return !drawing->bounds.valid(); };
+    const auto unbounded = std::find_if(own.begin(), own.end(), hasNone);
+    if (unbounded != own.end())
+        entry.technique->report(entry.frameNumber,
+                                "'" + (*unbounded)->name +
+                                    "' draws itself and has no bounds, so it casts nothing. Give it "
+                                    "computeBoundingBox(), or call setInitialBound().");
+}
+
 bool areSome(const EnlistedTechnique& entry, const CasterDrawables& casters) {
+    reportOwnDrawings(entry, casters.own);
     if (casters.invalidTriangles > 0)
         entry.technique->report(entry.frameNumber,
                                 "invalid triangles are left out: " + std::to_string(casters.invalidTriangles) +
                                     ", the first in '" + casters.invalidNode +
                                     "'. Give every vertex finite coordinates and every index a vertex.");
-    if (!casters.empty()) return true;
+    if (!casters.empty() || (entry.technique->drawsCasters() && !casters.own.empty())) return true;
     if (entry.group->areCastersGone()) {
         entry.technique->report(entry.frameNumber, "nothing casts, because the node given to setCasters() of the "
                                                    "ShadowCasterGroup is gone. Add the casters to the scene, and name "
@@ -142,6 +162,15 @@ void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
         (isModeOn(drawn.early, GL_FOG) || isModeOn(drawn.late.leaves, GL_FOG)))
         entry.technique->report(entry.frameNumber, "fog is on, and BLEND darkens it with the surface behind it. Set "
                                                    "RELIGHT, or switch GL_FOG off.");
+}
+
+void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
+                     const CasterDrawables& casters, const Leaves& receiving, osgUtil::RenderStage& stage) {
+    for (const ShadowLight& light : lights) {
+        const std::string cause =
+            EnclosingCasters::of(stage).causeOf({*entry.group, light, casters, receiving, entry.eyeFromGroup});
+        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+    }
 }
 
 /// Leaves whose depths belong together. What all lies at one depth, as a sky does, receives nothing.
@@ -312,6 +341,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
         return reportNoReceiver(entry, *getStage());
     if (lateOnes.empty()) reportNoDepth(entry, receiving);
     reportFog(entry, drawn);
+    reportEnclosers(entry, lights, casters.drawables(), receiving, *getStage());
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
     view.options.filter = _options.filter; // as all who share this bin want it
     const auto add = [&](auto& to, const Leaves& those, std::optional<ScreenRect> within, bool alone, bool programs) {

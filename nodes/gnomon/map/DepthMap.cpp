@@ -5,6 +5,7 @@
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/gl/UncomparedSampler.h>
 #include <gnomon/map/DepthMap.h>
+#include <gnomon/map/MapState.h>
 
 #include <OpenThreads/ScopedLock>
 
@@ -33,28 +34,6 @@ osg::ref_ptr<osg::Texture2D> mapTexture(const glm::ivec2& size, osg::Texture::Fi
 constexpr const char* noSamplers =
     "the penumbras are no wider than the filter, because this context has no sampler objects. Use OpenGL 3.3 or later.";
 
-/// OpenGL as a map is drawn under; put back at its end.
-class MapState {
-public:
-    explicit MapState(double slopeOffset) {
-        glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
-                     GL_STENCIL_BUFFER_BIT);
-        for (const GLenum mode : {GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
-        for (GLenum plane = GL_CLIP_PLANE0; plane <= GL_CLIP_PLANE5; ++plane) glDisable(plane);
-        for (const GLenum mode :
-             {GLenum(GL_SCISSOR_TEST), GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)})
-            glEnable(mode);
-        glDepthFunc(GL_LESS);
-        glDepthMask(GL_TRUE);
-        glDepthRange(0.0, 1.0);
-        glClearDepth(1.0);
-        glPolygonOffset(static_cast<GLfloat>(slopeOffset), 0.0f);
-    }
-    ~MapState() { glPopAttrib(); }
-    MapState(const MapState&) = delete;
-    MapState& operator=(const MapState&) = delete;
-};
-
 /// Parts that no tile is in, too.
 void clearAll() {
     glDisable(GL_SCISSOR_TEST);
@@ -71,16 +50,6 @@ void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size, c
     setUniform(state, "clipFromVertex", tile.clipFromScene);
     setUniform(state, "nearest", tile.nearest);
     (tile.nearest > 0.0 ? glEnable : glDisable)(GL_CLIP_PLANE0);
-}
-
-/// False if a box is beyond a side of the map.
-bool isInMap(const MapLayer::Box& box, const glm::dmat4& clipFromScene) {
-    const auto corners = boxCorners(box.low, box.high, clipFromScene);
-    const auto allBeyond = [&](int axis, double sign) {
-        return std::all_of(corners.begin(), corners.end(),
-                           [&](const glm::dvec4& corner) { return sign * corner[axis] > 1.01 * corner.w; });
-    };
-    return !(allBeyond(0, 1.0) || allBeyond(0, -1.0) || allBeyond(1, 1.0) || allBeyond(1, -1.0));
 }
 
 void drawMeshes(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromScene,
@@ -118,8 +87,8 @@ bool MapPicture::Layer::operator==(const Layer& other) const {
 
 const MapPicture::Tile* MapPicture::findStill(const Tile& tile, const MapPicture& other) const {
     if (!(still == other.still && size == other.size && slopeOffset == other.slopeOffset)) return nullptr;
-    const auto found = std::find_if(tiles.begin(), tiles.end(), [&tile](const Tile& own) {
-        return own.corner == tile.corner && own.clipFromScene == tile.clipFromScene;
+    const auto found = std::find_if(tiles.begin(), tiles.end(), [&tile](const Tile& each) {
+        return each.corner == tile.corner && each.clipFromScene == tile.clipFromScene;
     });
     return found == tiles.end() ? nullptr : &*found;
 }
@@ -175,7 +144,7 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     const ScratchFramebuffer framebuffer(gl);
     if (!attach(state, target, framebuffer)) return noTarget;
     const MapState mapState(picture.slopeOffset);
-    const bool sameMoving = target.shown && target.shown->moving == picture.moving;
+    const bool sameMoving = target.shown && target.shown->hasSameMoving(picture);
     std::vector<Due> due;
     for (const MapPicture::Tile& tile : picture.tiles) {
         const MapPicture::Tile* shown =
@@ -217,7 +186,7 @@ std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, const ScratchFrame
     if (hidden.empty() && parts.empty()) return "";
     osg::State& state = *renderInfo.getState();
     const auto& gl = *state.get<osg::GLExtensions>();
-    if (!gl.glBlitFramebuffer) return drawLayer(renderInfo, picture, picture.moving, parts); // all is drawn each time
+    if (!gl.glBlitFramebuffer) return drawMovers(renderInfo, picture, parts); // all is drawn each time
     const osg::ref_ptr<osg::Texture2D> texture = savedTexture();
     state.applyTextureAttribute(0, texture); // which makes it
     const ScratchFramebuffer saved(gl);
@@ -228,7 +197,18 @@ std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, const ScratchFrame
     for (const Part& part : parts) toHide.push_back(part.texels);
     copyDepths(gl, framebuffer.name, saved.name, toHide);
     framebuffer.bind();
-    return drawLayer(renderInfo, picture, picture.moving, parts);
+    return drawMovers(renderInfo, picture, parts);
+}
+
+std::string DepthMap::drawMovers(osg::RenderInfo& renderInfo, const MapPicture& picture,
+                                 const std::vector<Part>& parts) const {
+    const std::string cause = drawLayer(renderInfo, picture, picture.moving, parts);
+    if (!cause.empty() || picture.own.casters.empty()) return cause;
+    std::vector<OwnCasterPass::Target> targets;
+    for (const auto& [tile, texels] : parts)
+        targets.push_back({tile->corner, picture.size, texels, tile->clipFromScene, tile->nearest});
+    OwnCasterPass(renderInfo, picture.own, picture.slopeOffset).draw(targets);
+    return "";
 }
 
 std::string DepthMap::drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,

@@ -3,6 +3,7 @@
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/map/MapLayer.h>
 #include <gnomon/map/MinDepthPyramid.h>
+#include <gnomon/map/OwnCasters.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
@@ -44,12 +45,15 @@ struct MapPicture : public osg::Referenced {
         bool operator==(const Layer& other) const;
     };
     Layer still, moving;
+    OwnCasters own; ///< they count as moving.
     osg::ref_ptr<const osg::StateSet> program;       ///< see shaderProgram().
     osg::ref_ptr<const osg::StateSet> cutoutProgram; ///< the same with CUTOUT.
     int size = 0;                                    ///< of a tile's side, texels.
     double slopeOffset = 0.0; ///< how many texels of each surface's own slope it is drawn deeper.
     std::vector<Tile> tiles;
 
+    /// True if what moves looks as in another picture.
+    bool hasSameMoving(const MapPicture& other) const { return moving == other.moving && own.areSame(other.own); }
     /// The tile here that shows, of what stands still, the same as one of another picture; null if there is none.
     const Tile* findStill(const Tile& tile, const MapPicture& other) const;
 
@@ -111,6 +115,8 @@ private:
                           const std::vector<Due>& due) const;
     std::string drawMoving(osg::RenderInfo& renderInfo, const ScratchFramebuffer& framebuffer,
                            const MapPicture& picture, const std::vector<Due>& due);
+    std::string drawMovers(osg::RenderInfo& renderInfo, const MapPicture& picture,
+                           const std::vector<Part>& parts) const;
     std::string drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
                           const std::vector<Part>& parts) const;
 

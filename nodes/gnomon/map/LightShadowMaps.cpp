@@ -74,7 +74,8 @@ void LightShadowMaps::begin() {
 double LightShadowMaps::clearance() {
     const glm::dvec3 lamp(_cause.light);
     if (!_clearOfStill) _clearOfStill = _cause.casters->still->clearanceOf(lamp);
-    if (!_clear) _clear = std::min(*_clearOfStill, _cause.casters->moving->clearanceOf(lamp));
+    if (!_clear) _clear = std::min({*_clearOfStill, _cause.casters->moving->clearanceOf(lamp),
+                                    clearanceOf(_cause.casters->own, lamp)});
     return *_clear;
 }
 
@@ -293,13 +294,15 @@ glm::dvec3 LightShadowMaps::reachOf(const MapSlice& face) const {
 }
 
 /// Without its tiles. @param due  some are to be drawn from the first.
-osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies) {
+osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies,
+                                                    const OwnView& view) {
     osg::ref_ptr<MapPicture> picture = new MapPicture;
     const bool stillAgain = _drawnStill == _cause.casters->still, movingAgain = _drawnMoving == _cause.casters->moving;
     bodies.startPicture();
     if (!stillAgain || due) _still = drawnOf(*_cause.casters->still, stillAgain, bodies);
     picture->still = _still;
     picture->moving = drawnOf(*_cause.casters->moving, movingAgain, bodies);
+    picture->own = {_cause.casters->own, view};
     _drawnStill = _cause.casters->still;
     _drawnMoving = _cause.casters->moving;
     picture->program = _frames.front().sun ? resources.casterProgram : resources.casterByLampProgram;
@@ -333,6 +336,7 @@ PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile, const MapError
     };
     std::for_each(moving.bodyBoxes.begin(), moving.bodyBoxes.end(), add);
     if (_cause.flats) std::for_each(moving.flatBoxes.begin(), moving.flatBoxes.end(), add);
+    for (const OwnCaster& caster : _cause.casters->own) add(caster.box);
     if (!(low.x <= high.x && low.y <= high.y)) return {};
     const double more = 1.0 + std::max(errors.nearest.texels, errors.farthest.texels), size = _texels;
     const auto texel = [size](const glm::dvec2& place) { return glm::ivec2(glm::clamp(place, 0.0, size)); };
@@ -360,7 +364,8 @@ bool LightShadowMaps::isShown() const {
 }
 
 /// The finest map comes first, for pixels take the first that holds them.
-void LightShadowMaps::update(const MapPrograms& resources, MapBodies& bodies) {
+void LightShadowMaps::update(const MapPrograms& resources, MapBodies& bodies, const OwnView& view) {
+    if (_picture && !_picture->own.areSame({_cause.casters->own, view})) _picture = nullptr;
     resize();
     const bool due = anyDue();
     if (_picture && !due) return;
@@ -371,7 +376,7 @@ void LightShadowMaps::update(const MapPrograms& resources, MapBodies& bodies) {
             face.fit = fitOf(face);
     }
     if (_picture && isShown()) return;
-    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due, bodies);
+    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due, bodies, view);
     std::vector<std::pair<const MapSlice*, glm::ivec2>> tiles;
     for (const MapSlice& face : _faces) {
         const int tile = static_cast<int>(tiles.size());

@@ -27,7 +27,7 @@ public:
     std::vector<glm::dvec4> find(const std::vector<MapReceiver>& receivers, const glm::dmat4& clipFromScene,
                                  const glm::dvec2& pixels);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
-    void update(const MapPrograms& resources, MapBodies& bodies);
+    void update(const MapPrograms& resources, MapBodies& bodies, const OwnView& view);
     /// What the maps would be like if they were made after find().
     MapForecast forecast() const;
     /// Without what a cone adds.
@@ -58,7 +58,7 @@ private:
     bool holds(const MapSlice& face) const;
     MapFit fitOf(const MapSlice& face) const;
     glm::dvec3 reachOf(const MapSlice& face) const;
-    osg::ref_ptr<MapPicture> pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies);
+    osg::ref_ptr<MapPicture> pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies, const OwnView& view);
     MapPicture::Layer drawnOf(const MapLayer& layer, bool again, MapBodies& bodies) const;
     MapLookUp lookUpOf(const MapSlice& face) const;
     PixelRect moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/geometry/TriangleDistance.h>
 #include <gnomon/map/MapBodies.h>
 #include <gnomon/map/MapLayer.h>
@@ -260,6 +261,15 @@ double MapLayer::Part::clearanceOf(const glm::dvec3& lamp) const {
             nearest = std::min(nearest, triangleDistance(a, b, c));
     }
     return nearest;
+}
+
+bool isInMap(const MapLayer::Box& box, const glm::dmat4& clipFromScene) {
+    const auto corners = boxCorners(box.low, box.high, clipFromScene);
+    const auto allBeyond = [&](int axis, double sign) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](const glm::dvec4& corner) { return sign * corner[axis] > 1.01 * corner.w; });
+    };
+    return !(allBeyond(0, 1.0) || allBeyond(0, -1.0) || allBeyond(1, 1.0) || allBeyond(1, -1.0));
 }
 
 void MapLayer::resizeGLObjectBuffers(unsigned maxSize) const {

@@ -74,4 +74,7 @@ private:
     std::shared_ptr<Joined> _joined; ///< of the joined mesh; null if there is none.
 };
 
+/// False if a box of the scene is beyond a side of a map.
+bool isInMap(const MapLayer::Box& box, const glm::dmat4& clipFromScene);
+
 } // namespace gnomon

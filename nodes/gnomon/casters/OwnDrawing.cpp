@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/DrawableTriangles.h>
+#include <gnomon/casters/OwnDrawing.h>
+#include <gnomon/casters/PathState.h>
+
+#include <osg/DispatchCompute>
+#include <osg/DrawPixels>
+#include <osg/Geometry>
+
+#include <algorithm>
+#include <cstring>
+
+namespace gnomon {
+namespace {
+
+using States = std::vector<osg::ref_ptr<osg::StateSet>>;
+
+/// By first parents above the path.
+States statesAlong(const osg::NodePath& path) {
+    States states;
+    const auto add = [&states](const osg::Node& node) {
+        if (node.getStateSet()) states.emplace_back(const_cast<osg::StateSet*>(node.getStateSet()));
+    };
+    for (auto node = path.rbegin(); node != path.rend(); ++node) add(**node);
+    for (const osg::Node* node = path.front(); node->getNumParents() > 0;) add(*(node = node->getParent(0)));
+    std::reverse(states.begin(), states.end());
+    return states;
+}
+
+void mixState(const osg::StateSet& set, Fingerprint& into) {
+    into.mix(static_cast<const void*>(&set));
+    for (const auto& [type, attribute] : set.getAttributeList())
+        into.mix(static_cast<const void*>(attribute.first.get()));
+    for (const auto& [name, uniform] : set.getUniformList()) {
+        into.mix(static_cast<const void*>(uniform.first.get()));
+        into.mix(std::uint64_t{uniform.first->getModifiedCount()});
+    }
+}
+
+osg::BoundingBoxd boundsOf(const osg::Drawable& drawable, const osg::Matrixd& groupFromLocal) {
+    osg::BoundingBoxd bounds;
+    const osg::BoundingBox& box = drawable.getBoundingBox();
+    for (unsigned i = 0; i < 8 && box.valid(); ++i) bounds.expandBy(osg::Vec3d(box.corner(i)) * groupFromLocal);
+    return bounds;
+}
+
+/// A display list, and arrays that count their changes, show the same again.
+bool changesUnseen(const osg::Drawable& drawable) {
+    if (drawable.getDataVariance() != osg::Object::UNSPECIFIED)
+        return drawable.getDataVariance() == osg::Object::DYNAMIC;
+    return !drawable.asGeometry() && !(drawable.getSupportsDisplayList() && drawable.getUseDisplayList());
+}
+
+bool isPatches(const osg::ref_ptr<osg::PrimitiveSet>& primitives) {
+    return primitives->getMode() == osg::PrimitiveSet::PATCHES;
+}
+
+} // namespace
+
+OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix)
+    : fingerprint(fingerprintOf(path, given, matrix)),
+      drawable(&given),
+      groupFromLocal(matrix),
+      states(statesAlong(path)),
+      name(nameAlong(path)),
+      bounds(boundsOf(given, matrix)),
+      byProgram(PathState(path).hasProgram()),
+      mayChange(changesUnseen(given)) {
+    CasterVisitor::holdSources(given, sources);
+    for (const auto& set : states) {
+        for (const auto& [type, attribute] : set->getAttributeList()) sources.emplace_back(attribute.first);
+        for (const auto& [uniformName, uniform] : set->getUniformList()) sources.emplace_back(uniform.first);
+    }
+}
+
+std::uint64_t OwnDrawing::fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
+                                        const osg::Matrixd& groupFromLocal) {
+    Fingerprint result;
+    result.mix(CasterFingerprint::of(drawable, groupFromLocal, {}, {}));
+    result.mix(static_cast<const void*>(&drawable));
+    result.mix(std::uint64_t{changesUnseen(drawable)});
+    for (const auto& set : statesAlong(path)) mixState(*set, result);
+    return result.value();
+}
+
+bool drawsItself(const osg::Drawable& drawable) {
+    if (const osg::Geometry* geometry = drawable.asGeometry()) {
+        const osg::Geometry::PrimitiveSetList& all = geometry->getPrimitiveSetList();
+        return std::any_of(all.begin(), all.end(), isPatches);
+    }
+    if (hasTriangles(drawable)) return false;
+    for (const char* library : {"osgText", "osgParticle"}) // which the kit does not link
+        if (std::strcmp(drawable.libraryName(), library) == 0) return false;
+    return !dynamic_cast<const osg::DrawPixels*>(&drawable) && !dynamic_cast<const osg::DispatchCompute*>(&drawable);
+}
+
+} // namespace gnomon
