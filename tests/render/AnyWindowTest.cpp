@@ -125,7 +125,8 @@ INSTANTIATE_TEST_SUITE_P(AnyWindow, AnyWindowBy,
                          testing::Values("planar", "planar:composite=blend", "box", "hull", "hull:composite=blend",
                                          "drape", "drape:composite=blend", "traced", "traced:composite=blend", "map",
                                          "map:composite=blend", "map:receiver=ground", "map:edges=smooth",
-                                         "map:edges=smooth,composite=blend", "map:edges=soft,sun-angle=4"),
+                                         "map:edges=smooth,composite=blend", "map:edges=soft,sun-angle=4", "volume",
+                                         "volume:composite=blend"),
                          [](const auto& spec) { return nameOf(spec.param); });
 
 } // namespace

@@ -1,60 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Shadow volumes against the truth image: hard scenes, views and lights.
-#include "TracedCases.h"
+#include "VolumeTrial.h"
 
-#include <gnomon/ShadowVolumeTechnique.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <iostream>
-#include <limits>
-
+using test::expectFloor;
 using test::labEight;
-using test::Picture;
 using test::room;
-using test::Scene;
 using test::townOfHouses;
 using test::TracedCase;
 
 namespace {
 
-TracedCase small(TracedCase given, int width = 320, int height = 240) {
-    given.view.width = width;
-    given.view.height = height;
-    return given;
-}
-
-struct Result {
-    Picture lit, dark, cast;
-    test::TruthComparison comparison;
-    std::vector<std::string> causes;
-};
-
-Result draw(const TracedCase& given) {
-    Result result;
-    Scene lit = given.build(), dark = given.build(), shadowed = given.build();
-    dark.takeLightAway();
-    const osg::ref_ptr<gnomon::ShadowVolumeTechnique> technique = new gnomon::ShadowVolumeTechnique;
-    shadowed.addShadow(technique);
-    result.lit = test::render(lit.root, given.view);
-    result.dark = test::render(dark.root, given.view);
-    result.cast = test::render(shadowed.root, given.view);
-    result.comparison = test::compare(result.cast, result.lit, result.dark, given.truth());
-    result.causes = technique->diagnose();
-    return result;
-}
-
-/// As good as one ray a pixel can be, but for a few pixels that the rasteriser decides.
-void expectFloor(const TracedCase& given) {
-    const Result result = draw(given);
-    std::cout << given.name << ": " << result.comparison << "\n";
-    EXPECT_LE(result.comparison.wrong, 1.10 * result.comparison.floor + 5) << given.name << ": " << result.comparison;
-    EXPECT_EQ(result.comparison.certain, 0) << given.name << ": " << result.comparison;
-    EXPECT_EQ(result.comparison.neither, 0) << given.name << ": " << result.comparison;
-    EXPECT_GT(result.comparison.shadowed, 300) << given.name;
-    EXPECT_GT(result.comparison.edges, 60) << given.name;
-    EXPECT_EQ(result.causes, std::vector<std::string>()) << given.name;
-}
+TracedCase small(TracedCase given) { return test::sized(std::move(given), 320, 240); }
 
 TEST(Volume, IsAsGoodAsOneRayAPixelCanBe) {
     for (const TracedCase& given : {labEight(), townOfHouses(), room()}) expectFloor(small(given));

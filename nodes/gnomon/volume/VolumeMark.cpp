@@ -4,25 +4,25 @@
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/volume/VolumeMark.h>
 
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gnomon {
 namespace {
 
-/// A side that lies in what it starts from is before it, by some steps of the depth buffer: what both lose by rounding.
-glm::dmat4 nearer(glm::dmat4 clipFromMesh) {
-    constexpr double steps = 2.0;
-    const double shift = steps * std::ldexp(2.0, -std::clamp(glInteger(GL_DEPTH_BITS), 1, 24));
-    for (int column = 0; column < 4; ++column) clipFromMesh[column][2] -= shift * clipFromMesh[column][3];
-    return clipFromMesh;
+/// Where lines of sight are parallel, a triangle at infinity is beside all of them. A lamp's then ends far beyond all that
+/// is seen: 10^7 times as far from it as the caster, which floats still hold.
+double endlessIn(const glm::dmat4& clipFromMesh, const glm::dvec4& light) {
+    const bool parallel = glm::dvec3(glm::row(clipFromMesh, 3)) == glm::dvec3(0.0);
+    return parallel && light.w != 0.0 ? 1e7 : -1.0;
 }
 
 void place(osg::State& state, const glm::dmat4& clipFromMesh, const glm::dvec4& light) {
     setUniform(state, "clipFromVertex", clipFromMesh);
     setUniform(state, "light", light);
+    setUniform(state, "endless", endlessIn(clipFromMesh, light));
 }
 
 /// Where nothing stands.
@@ -57,7 +57,7 @@ void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned c
     osg::State& state = *renderInfo.getState();
     const glm::dvec4& light = mesh.volumes->volumes().light;
     glFrontFace(glm::determinant(mesh.clipFromMesh) > 0.0 ? GL_CW : GL_CCW); // clip space is left-handed
-    place(state, nearer(mesh.clipFromMesh), light);
+    place(state, mesh.clipFromMesh, light);
     if (!share.entered.empty()) {
         pass.countEntered(counters);
         mesh.volumes->sides().draw(renderInfo, share.entered);
@@ -65,7 +65,6 @@ void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned c
     if (!share.caps.empty()) {
         pass.countHolding(counters);
         mesh.volumes->sides().draw(renderInfo, share.left);
-        place(state, mesh.clipFromMesh, light);
         drawCaps(renderInfo, *mesh.caps, share.caps);
     }
     glFrontFace(GL_CCW);
@@ -100,7 +99,7 @@ void VolumeMark::drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int) co
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     for (const VolumeRound& round : seen.rounds(~0u))
         for (const auto& [mesh, share] : round.shares) {
-            place(state, nearer(seen.meshes[mesh].clipFromMesh), seen.meshes[mesh].volumes->volumes().light);
+            place(state, seen.meshes[mesh].clipFromMesh, seen.meshes[mesh].volumes->volumes().light);
             setUniform(state, "wire", glm::dvec4(1.0, 0.85, 0.0, 1.0));
             seen.meshes[mesh].volumes->sides().draw(renderInfo, share.entered);
             setUniform(state, "wire", glm::dvec4(1.0, 0.2, 0.1, 1.0));

@@ -53,6 +53,8 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"map, soft", "size 2048", "map:edges=soft,size=2048", Receives::EVERYTHING},
     {"map, soft", "blend, size 1024", "map:edges=soft,composite=blend", Receives::EVERYTHING},
     {"map, soft", "blend, size 2048", "map:edges=soft,composite=blend,size=2048", Receives::EVERYTHING},
+    {"volume", "relight", "volume", Receives::EVERYTHING},
+    {"volume", "blend", "volume:composite=blend", Receives::EVERYTHING},
     {"auto", "error 4", "auto:error=4", Receives::EVERYTHING},
     {"auto", "error 1", "auto", Receives::EVERYTHING},
     {"auto", "error 0.4", "auto:error=0.4", Receives::EVERYTHING},

@@ -55,6 +55,8 @@ void addGenerated(std::vector<Entry>& entries) {
     addTwice(entries, {"hills", "Hilly town of 400 boxes", hillyTown, {}, overTown, town, townFovy}, 105.0);
     entries.push_back({"town-utm", "The flat town at UTM coordinates, sun at 45°", townAtUtm, sunAt(105.0, 45.0),
                        overTown + utm, town + utm, townFovy});
+    entries.push_back({"street", "Street level in the flat town, sun at 30°", flatTown, sunAt(105.0, 30.0),
+                       osg::Vec3d(1.0, -20.0, 1.7), osg::Vec3d(4.0, 20.0, 1.5), 50.0});
     entries.push_back({"mountains-10", "10 km of mountains, long view, sun at 10°", mountains, sunAt(120.0, 10.0),
                        osg::Vec3d(-4700.0, -4300.0, 900.0), osg::Vec3d(0.0, 0.0, 0.0)});
     entries.push_back({"room",
