@@ -70,69 +70,103 @@ mat2 sides = mat2(1.0); // of the pixel, in texels of its map
 
 // The same of map i, on a surface on which e changes so; where they are more than four times those on one that faces the eye,
 // no longer than these: there other pixels of the quad are often of another surface.
-mat2 sidesIn(int i, vec4 pixel, vec2 change, vec2 inMap) {
-    mat4 toMap = mapFromPixel(i);
+mat2 sidesIn(int i, vec4 at, vec2 change) {
+    mat4 toMap = mapFromPixelOf(i);
+    vec2 inMap = at.xy / at.w;
     vec2 x = toMap[0].xy - inMap * toMap[0].w, y = toMap[1].xy - inMap * toMap[1].w;
     vec2 deeper = toMap[2].xy - inMap * toMap[2].w;
     mat2 along = mat2(x + change.x * deeper, y + change.y * deeper);
     float facing = max(dot(x, x), dot(y, y)), longest = max(dot(along[0], along[0]), dot(along[1], along[1]));
     float part = longest > 16.0 * facing ? sqrt(facing / longest) : 1.0;
-    return along * (part * place(i).z / (toMap * pixel).w);
+    return along * (part * place(i).z / at.w);
 }
 #endif
 
+// The first that holds the pixel; MAPS, if none does. Found by itself, for llvmpipe runs the rest of a loop's body, and both
+// sides of a condition, for pixels that have no part in them, too.
+int mapOf(vec4 pixel, out vec4 inMap) {
+    int found = holds(MAPS - 1, pixel, inMap) ? MAPS - 1 : MAPS;
+    for (int i = MAPS - 2; i >= 0; --i) {
+        vec4 at;
+        if (!holds(i, pixel, at)) continue;
+        found = i;
+        inMap = at;
+    }
+    return found;
+}
+
+// How a map compares a pixel on a surface whose plane is given: see visibility().
+struct Compared {
+    vec2 place, slope; // in texels of the texture; change of depth a texel
+    float depth;
+};
+
+// at: see holds().
+Compared compared(int i, vec4 at, vec4 plane, float drawn, float nearer) {
+    vec3 inMap = at.xyz / at.w;
+    vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
+    float deeper = dot(plane, pixelFromMapZ(i));
+    vec2 slope = -across / (deeper * place(i).z);
+    float steepness = abs(slope.x) + abs(slope.y);
+    vec4 error = mix(nearestError(i), farthestError(i), clamp(inMap.z, 0.0, 1.0));
+    if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
+        slope = vec2(0.0);
+        steepness = error.z;
+    }
+    float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
+    float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (max(abs(deeper), steep) * at.w);
+    float depth = min(inMap.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
+    return Compared(place(i).xy + inMap.xy * place(i).z, slope, depth);
+}
+
+// Share of the light; outside all maps it is 1.
+//
+// drawn: how far off the plane may be, in e. Its place is left as it is, or edges would move; it is compared as if it were
+// as much nearer to the light as that is, measured along the light.
+// nearer: how much of e has been added. Of what faces away from the light that is farther from it, and taken back twice: a
+// single sheet, seen from behind, does not shadow itself.
+#ifndef SOFT
+float visibility(vec4 pixel, vec4 plane, float drawn, float nearer) {
+    vec4 at;
+    int found = mapOf(pixel, at), i = min(found, MAPS - 1);
+    Compared c = compared(i, at, plane, drawn, nearer);
+#ifdef SMOOTH
+    sides = sidesIn(i, at, -plane.xy);
+#endif
+#if defined(SMOOTH) && defined(BICUBIC)
+    float share = litOverPixel(i, c.place, c.depth, c.slope, isAtRim ? mat2(0.0) : sides);
+#else
+    float share = lit(c.place, c.depth, c.slope, found < MAPS);
+#endif
+    return found < MAPS ? share : 1.0;
+}
+#else
 #if MAPS > 2
 uniform int mapCount; // MAPS, which a compiler must not know: llvmpipe unrolls the loop, and looks a pixel up in all of them
 #else
 const int mapCount = MAPS;
 #endif
 
-// Share of the light; outside all maps it is 1. Soft cascades are blended where one ends: `left` is the weight of those
-// that are still to come.
-//
-// drawn: how far off the plane may be, in e. Its place is left as it is, or edges would move; it is compared as if it were
-// as much nearer to the light as that is, measured along the light.
-// nearer: how much of e has been added. Of what faces away from the light that is farther from it, and taken back twice: a
-// single sheet, seen from behind, does not shadow itself.
+// Cascades are blended where one ends: `left` is the weight of those that are still to come.
 float visibility(vec4 pixel, vec4 plane, float drawn, float nearer) {
     float share = 0.0, left = 1.0;
     for (int i = 0; i < mapCount; ++i) {
-        vec3 at;
+        vec4 at;
         if (!holds(i, pixel, at)) continue;
-        vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
-        float deeper = dot(plane, pixelFromMapZ(i));
-        vec2 slope = -across / (deeper * place(i).z);
-        float steepness = abs(slope.x) + abs(slope.y);
-        vec4 error = mix(nearestError(i), farthestError(i), clamp(at.z, 0.0, 1.0));
-        if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
-            slope = vec2(0.0);
-            steepness = error.z;
-        }
-        float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
-        float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (max(abs(deeper), steep) * (mapFromPixel(i) * pixel).w);
-        float depth = min(at.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
-        vec2 p = place(i).xy + at.xy * place(i).z;
-#ifdef SMOOTH
-        sides = sidesIn(i, pixel, -plane.xy, at.xy);
-#endif
-#if defined(SMOOTH) && defined(BICUBIC)
-        return litOverPixel(i, p, depth, slope, isAtRim ? mat2(0.0) : sides);
-#elif !defined(SOFT)
-        return lit(p, depth, slope, true);
-#else
+        Compared c = compared(i, at, plane, drawn, nearer);
         const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
         float weight = left;
 #if MAPS > 1
-        vec2 inside = min(at.xy, 1.0 - at.xy) - place(i).w - mostSpread(i, depth) / place(i).z;
+        vec2 inMap = at.xy / at.w, inside = min(inMap, 1.0 - inMap) - border - mostSpread(i, c.depth) / place(i).z;
         weight *= clamp(min(inside.x, inside.y) / fade, least, 1.0);
 #endif
-        share += weight * litSoftly(i, p, depth, slope);
+        share += weight * litSoftly(i, c.place, c.depth, c.slope);
         left -= weight;
         if (left <= least) return share / (1.0 - left);
-#endif
     }
     return left < 1.0 ? share / (1.0 - left) : 1.0;
 }
+#endif
 
 #ifdef SMOOTH
 // Texels from one side of a pixel to the other, across an edge: `change` is that of what arrives, a pixel. Where nothing

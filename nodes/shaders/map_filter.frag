@@ -8,37 +8,56 @@ uniform sampler2DShadow maps;
 #ifdef BICUBIC
 // The cubic B-spline over 4 x 4 comparisons as four of 2 x 2. Source: C. Sigg and M. Hadwiger, "Fast Third-Order Texture
 // Filtering", GPU Gems 2, 2005.
-float litBicubic(vec2 p, float depth, vec2 slope, bool asked) {
+struct Spline {
+    vec2 a, b;      // from p to the comparisons: to the lower and to the upper
+    vec2 low, high; // weights
+};
+
+Spline splineAt(vec2 p) {
     vec2 f = fract(p - 0.5), g = 1.0 - f;
     vec2 w0 = g * g * g / 6.0, w3 = f * f * f / 6.0;
     vec2 w1 = 2.0 / 3.0 - 0.5 * f * f * (2.0 - f);
     vec2 low = w0 + w1, high = 1.0 - low;
-    vec2 a = w1 / low - 1.0 - f, b = w3 / high + 1.0 - f; // from p
-    float taps = asked ? 4.0 : 0.0, share = 0.0; // a loop ends early where no pixel asks; of a condition both sides may be run
-    for (float tap = 0.0; tap < taps; tap += 1.0) {
-        bool right = tap == 1.0 || tap == 3.0, upper = tap > 1.5;
-        vec2 to = vec2(right ? b.x : a.x, upper ? b.y : a.y);
-        float weight = (right ? high.x : low.x) * (upper ? high.y : low.y);
-        share += weight * texture(maps, vec3((p + to) * texel, depth + dot(slope, to)));
-    }
-    return share;
+    return Spline(w1 / low - 1.0 - f, w3 / high + 1.0 - f, low, high);
 }
-#endif
 
-// Anything where it is not asked for.
+// Anything where it is not asked for. A loop ends early where no pixel asks, if it looks at its end; of a condition both sides
+// may be run.
 float lit(vec2 p, float depth, vec2 slope, bool asked) {
-#if defined(BICUBIC) && defined(HALVES)
+    Spline spline = splineAt(p);
+    float share = 0.0, tap = 0.0;
+#ifdef HALVES
     // The inner 2 x 2 have more than half of the B-spline's weight everywhere, 0.69 at least: where they agree, they decide.
-    float inner = texture(maps, vec3(p * texel, depth));
-    bool open = inner > 0.0 && inner < 1.0;
-    float share = litBicubic(p, depth, slope, asked && open);
-    return open ? share : inner;
-#elif defined(BICUBIC)
-    return litBicubic(p, depth, slope, asked);
+    float inner = 0.0;
+    tap = -1.0;
+#endif
+    do {
+        bool right = tap == 1.0 || tap == 3.0, upper = tap > 1.5;
+        vec2 to = vec2(right ? spline.b.x : spline.a.x, upper ? spline.b.y : spline.a.y);
+        float weight = (right ? spline.high.x : spline.low.x) * (upper ? spline.high.y : spline.low.y);
+#ifdef HALVES
+        if (tap < 0.0) to = vec2(0.0);
+#endif
+        float passes = texture(maps, vec3((p + to) * texel, depth + dot(slope, to)));
+#ifdef HALVES
+        if (tap < 0.0) {
+            inner = passes;
+            weight = 0.0;
+            asked = asked && inner > 0.0 && inner < 1.0;
+        }
+#endif
+        share += weight * passes;
+        tap += 1.0;
+    } while (asked && tap < 4.0);
+#ifdef HALVES
+    return asked ? share : inner;
 #else
-    return texture(maps, vec3(p * texel, depth));
+    return share;
 #endif
 }
+#else
+float lit(vec2 p, float depth, vec2 slope, bool asked) { return texture(maps, vec3(p * texel, depth)); }
+#endif
 
 #if defined(SMOOTH) || defined(SOFT)
 vec2 withinTile(vec2 p, int i) { return clamp(p, place(i).xy + 0.5, place(i).xy + place(i).z - 0.5); }

@@ -6,41 +6,64 @@
 
 uniform sampler2D seen;       // depths of the frame
 
-// What is the same for all pixels: SHARED vectors, then EACH of them for each map; see quad.vert and MapLookupPass::setConstants().
-#ifdef FLAT
-flat in vec4 constant[CONSTANTS];
-#else
+// What is the same for all pixels: SHARED vectors, PLACING of them for each map, then EACH for each map. The first FLATS come
+// from the vertices: see quad.vert and MapLookupPass::setConstants().
 uniform vec4 constants[CONSTANTS];
-#define constant constants
+#if FLATS > 0
+flat in vec4 constant[FLATS];
 #endif
-mat4 matrixAt(int first) { return mat4(constant[first], constant[first + 1], constant[first + 2], constant[first + 3]); }
-#define depthError constant[0]       // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
-#define texel constant[1].xy         // of the texture, whose sides are 1
-#define rows constant[1].zw           // of `seen`: see FrameDepthCopy
-#define wanted constant[2]           // see map.frag
-#define seenPixels constant[3]       // first and last pixel that `seen` holds: x, y; x, y
-#define drawnError constant[4]       // how far off a surface may be drawn, in depth, divided by w: x + e y; in pixels to z times that
-#define coneFromPixel matrixAt(5)    // see cone.frag
-#define ofMap(i, k) constant[SHARED + EACH * (i) + k]
-#define mapFromPixel(i) matrixAt(SHARED + EACH * (i))
-#define place(i) ofMap(i, 4)         // in the texture: corner, and texels on a side; share of it that is border
-#define pixelFromMapX(i) ofMap(i, 5) // columns of the inverse of mapFromPixel
-#define pixelFromMapY(i) ofMap(i, 6)
-#define pixelFromMapZ(i) ofMap(i, 7)
-#define nearestError(i) ofMap(i, 8)  // x, y, z: see MapErrors
-#define farthestError(i) ofMap(i, 9)
+#if FLATS >= SHARED
+#define ofAll(k) constant[k]
+#else
+#define ofAll(k) constants[k]
+#endif
+#if FLATS >= SHARED + PLACING * MAPS
+#define placing(i, k) constant[SHARED + PLACING * (i) + k]
+#else
+#define placing(i, k) constants[SHARED + PLACING * (i) + k]
+#endif
+#define firstOfMap(i) (SHARED + PLACING * MAPS + EACH * (i))
+#if FLATS == CONSTANTS && MAPS == 1
+#define ofMap(i, k) constant[firstOfMap(0) + k]
+#elif FLATS == CONSTANTS && MAPS == 2
+#define ofMap(i, k) ((i) == 0 ? constant[firstOfMap(0) + k] : constant[firstOfMap(1) + k])
+#else
+#define ofMap(i, k) constants[firstOfMap(i) + k]
+#endif
+#define depthError ofAll(0)         // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
+#define texel ofAll(1).xy           // of the texture, whose sides are 1
+#define rows ofAll(1).zw            // of `seen`: see FrameDepthCopy
+#define wanted ofAll(2)             // see map.frag
+#define seenPixels ofAll(3)         // first and last pixel that `seen` holds: x, y; x, y
+#define drawnError ofAll(4)         // how far off a surface may be drawn, in depth, divided by w: x + e y; in pixels to z times that
+#define border ofAll(4).w           // share of a map's side
+#define coneFromPixel mat4(ofAll(5), ofAll(6), ofAll(7), ofAll(8)) // see cone.frag
+#define mapFromPixel(i) mat4(placing(i, 0), placing(i, 1), placing(i, 2), placing(i, 3))
+// The same of a map that differs from pixel to pixel: a varying of such an index is slower than a uniform.
+#if MAPS == 1
+#define mapFromPixelOf(i) mapFromPixel(0)
+#else
+mat4 matrixAt(int first) { return mat4(constants[first], constants[first + 1], constants[first + 2], constants[first + 3]); }
+#define mapFromPixelOf(i) matrixAt(SHARED + PLACING * (i))
+#endif
+#define place(i) ofMap(i, 0)         // in the texture: corner, and texels on a side
+#define pixelFromMapX(i) ofMap(i, 1) // columns of the inverse of mapFromPixel
+#define pixelFromMapY(i) ofMap(i, 2)
+#define pixelFromMapZ(i) ofMap(i, 3)
+#define nearestError(i) ofMap(i, 4)  // x, y, z: see MapErrors
+#define farthestError(i) ofMap(i, 5)
 #define penumbra(i) vec2(nearestError(i).w, farthestError(i).w) // see map_filter.frag
-#define discs(i) ofMap(i, 10)        // the same
+#define discs(i) ofMap(i, 6)         // the same
 
 float seenDepth(ivec2 here) { return texelFetch(seen, ivec2(here.x, int(rows.x + rows.y * float(here.y))), 0).r; }
 
-// False if map i does not answer for the pixel. Sides and depths of a map are 0 ... 1.
-bool holds(int i, vec4 pixel, out vec3 inMap) {
-    vec4 at = mapFromPixel(i) * pixel;
-    inMap = at.xyz / at.w;
-    bool beside = any(lessThan(inMap.xy, place(i).ww)) || any(greaterThan(inMap.xy, 1.0 - place(i).ww));
+// False if map i does not answer for the pixel. Sides and depths of a map are 0 ... w.
+bool holds(int i, vec4 pixel, out vec4 inMap) {
+    inMap = mapFromPixel(i) * pixel;
+    vec2 low = vec2(border * inMap.w);
+    bool beside = any(lessThan(inMap.xy, low)) || any(greaterThan(inMap.xy, inMap.w - low));
 #ifdef CASCADES
-    beside = beside || !(inMap.z >= 0.0 && inMap.z <= 1.0);
+    beside = beside || !(inMap.z >= 0.0 && inMap.z <= inMap.w);
 #endif
-    return at.w > 0.0 && !beside;
+    return inMap.w > 0.0 && !beside;
 }

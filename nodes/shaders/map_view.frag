@@ -29,10 +29,10 @@ void main() {
     int map = MAPS;
     vec2 texels = vec2(0.0);
     for (int i = MAPS - 1; i >= 0; --i) { // the first that holds it counts
-        vec3 at;
+        vec4 at;
         if (!holds(i, pixel, at)) continue;
         map = i;
-        texels = at.xy * place(i).z;
+        texels = at.xy / at.w * place(i).z;
     }
 #ifdef TEXELS
     float pixels = 1.0 / min(length(dFdx(texels)), length(dFdy(texels)));

@@ -2,7 +2,6 @@
 // What shadows add to a frame in a window with stencil bits, and in one without; the pictures must be the same.
 #include "Contenders.h"
 
-#include <gnomon/ShadowSpec.h>
 #include <support/Oracle.h>
 
 #include <cstdio>
@@ -13,10 +12,7 @@ const test::View view = test::perspective({-50.0, -70.0, 50.0}, {0.0, 0.0, 0.0},
 
 bench::Contender contender(const std::string& name, const std::string& spec, int stencilBits) {
     test::Scene scene = test::groundScene(test::town(20), 55.0, bench::sun);
-    const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
-    scene.root->replaceChild(scene.content, group);
-    group->addChild(scene.content);
-    gnomon::addShadows(*group, {gnomon::parseShadowSpec(spec)});
+    scene.addShadow(spec);
     gnomon::HeadlessContext::Options options;
     options.stencilBits = stencilBits;
     bench::Contender result;

@@ -3,7 +3,6 @@
 // spare, bit for bit.
 #include "IntoTexture.h"
 
-#include <gnomon/ShadowSpec.h>
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/gl/WorkBuffers.h>
 #include <gnomon/group/ViewFrame.h>
@@ -36,11 +35,7 @@ Scene shadowed(const std::string& spec, int lights = 1) {
         scene.root->addChild(second);
         scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
     }
-    if (spec.empty()) return scene;
-    scene.group = new gnomon::ShadowCasterGroup;
-    scene.root->replaceChild(scene.content, scene.group);
-    scene.group->addChild(scene.content);
-    gnomon::addShadows(*scene.group, {gnomon::parseShadowSpec(spec)});
+    if (!spec.empty()) scene.addShadow(spec);
     return scene;
 }
 

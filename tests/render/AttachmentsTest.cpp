@@ -2,7 +2,6 @@
 // Framebuffer objects of several colour attachments: lit colours in the first, something else in the next.
 #include "GlComplaints.h"
 
-#include <gnomon/ShadowSpec.h>
 #include <gtest/gtest.h>
 #include <support/Scene.h>
 
@@ -51,12 +50,7 @@ Attachments draw(const std::string& spec, bool blends) {
         find(*scene.root, "ground")
             ->getOrCreateStateSet()
             ->setAttributeAndModes(new osg::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA));
-    if (!spec.empty()) {
-        osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
-        group->addChild(scene.content);
-        scene.root->replaceChild(scene.content, group);
-        gnomon::addShadows(*group, {gnomon::parseShadowSpec(spec)});
-    }
+    if (!spec.empty()) scene.addShadow(spec);
     Camera camera(scene.root, from);
     Attachments drawn{blank(), blank(), {}};
     osg::Camera& into = *camera.viewer().getCamera();

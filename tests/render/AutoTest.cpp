@@ -5,7 +5,6 @@
 
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/ShadowMapTechnique.h>
-#include <gnomon/ShadowSpec.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 
@@ -54,9 +53,7 @@ struct Trial {
 /// The same scene by a technique that is named.
 Picture drawnBy(const std::string& spec, const std::vector<test::Mesh>& casters) {
     Scene scene = test::groundScene(casters, 8.0, sun);
-    scene.addShadow(new AutoShadowTechnique);
-    scene.group->removeChild(scene.group->getNumChildren() - 1);
-    gnomon::addShadows(*scene.group, {gnomon::parseShadowSpec(spec)});
+    scene.addShadow(spec);
     return test::render(scene.root, view());
 }
 

@@ -5,7 +5,6 @@
 
 #include <gnomon/HaloNode.h>
 #include <gnomon/PlanarReflectionNode.h>
-#include <gnomon/ShadowSpec.h>
 #include <gtest/gtest.h>
 #include <support/Scene.h>
 
@@ -47,12 +46,8 @@ Scene build(const std::string& given) {
         mirror->setSurface({find(*scene.root, "ground")});
         mirror->setReflectance({0.5f, 0.5f, 0.5f});
         scene.root->replaceChild(scene.content, mirror);
-    } else if (!given.empty()) {
-        osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
-        group->addChild(scene.content);
-        scene.root->replaceChild(scene.content, group);
-        gnomon::addShadows(*group, {gnomon::parseShadowSpec(given)});
-    }
+    } else if (!given.empty())
+        scene.addShadow(given);
     return scene;
 }
 

@@ -2,6 +2,7 @@
 #include <support/Scene.h>
 
 #include <gnomon/EffectNode.h>
+#include <gnomon/ShadowSpec.h>
 #include <osg/LightModel>
 #include <osg/Material>
 #include <osg/NodeVisitor>
@@ -46,13 +47,21 @@ struct OptionsSetter : osg::NodeVisitor {
 
 } // namespace
 
+void Scene::addGroup() {
+    if (group) return;
+    group = new gnomon::ShadowCasterGroup;
+    root->replaceChild(content, group);
+    group->addChild(content);
+}
+
 void Scene::addShadow(gnomon::ShadowTechnique* technique) {
-    if (!group) {
-        group = new gnomon::ShadowCasterGroup;
-        root->replaceChild(content, group);
-        group->addChild(content);
-    }
+    addGroup();
     group->addChild(technique);
+}
+
+void Scene::addShadow(const std::string& spec) {
+    addGroup();
+    gnomon::addShadows(*group, {gnomon::parseShadowSpec(spec)});
 }
 
 void Scene::takeLightAway() {

@@ -7,6 +7,8 @@
 #include <osg/LightSource>
 #include <osg/Vec4d>
 
+#include <string>
+
 namespace test {
 
 /// The scene of the exact colours: white ambient and diffuse material, one light of ambient 0.3 and diffuse 0.7, scene
@@ -20,8 +22,13 @@ struct Scene {
 
     /// Wraps the content in a ShadowCasterGroup with the technique.
     void addShadow(gnomon::ShadowTechnique* technique);
+    /// The same with what a specification says, see gnomon::parseShadowSpec().
+    void addShadow(const std::string& spec);
     /// As a frame without Gnomon would be if nothing received this light: its diffuse and specular black.
     void takeLightAway();
+
+private:
+    void addGroup();
 };
 
 constexpr unsigned litGround = 228, shadowedGround = 102;

@@ -18,6 +18,7 @@ namespace {
 
 constexpr unsigned seenUnit = 0, mapUnit = 1, rawUnit = 2, blocksUnit = 3;
 constexpr GLenum maxVaryingComponents = 0x8B4B; // GL_MAX_VARYING_COMPONENTS
+constexpr std::size_t placing = 4;              // vectors a map, by which a pixel finds its map
 constexpr double border = 2.0;                  // texels at a tile's sides that a comparison may reach over
 
 struct Span {
@@ -77,7 +78,7 @@ std::string MapLookupPass::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, c
     if (!hasProgram(state)) return noProgram;
     map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
     setUniform(state, "maps", int(mapUnit));
-    setUniform(state, "mapCount", int(lookUps.size()));
+    if (soft) setUniform(state, "mapCount", int(lookUps.size()));
     setConstants(state, copy, wanted, pixels);
     wide ? drawWide(state, pass) : drawFragments(state, pass);
     state.apply();
@@ -118,14 +119,13 @@ std::string MapLookupPass::definesOf(const PixelRect& pixels, bool wide) const {
 }
 
 std::string MapLookupPass::mapDefines() const {
-    const std::size_t all = sharedConstants() + constantsOfMap() * lookUps.size();
-    const bool flat = 4 * all <= static_cast<std::size_t>(glInteger(maxVaryingComponents));
+    const std::size_t all = sharedConstants() + (placing + constantsOfMap()) * lookUps.size();
     const auto define = [](const char* name, std::size_t value) {
         return "#define " + (name + (" " + std::to_string(value))) + "\n";
     };
     return defines + (cascades ? "#define CASCADES\n" : "") + (coneFromScene ? "#define CONE\n" : "") +
-           (flat ? "#define FLAT\n" : "") + define("MAPS", lookUps.size()) + define("SHARED", sharedConstants()) +
-           define("EACH", constantsOfMap()) + define("CONSTANTS", all);
+           define("MAPS", lookUps.size()) + define("SHARED", sharedConstants()) + define("PLACING", placing) +
+           define("FLATS", flatConstants(all)) + define("EACH", constantsOfMap()) + define("CONSTANTS", all);
 }
 
 std::vector<glm::dvec4> MapLookupPass::places() const {
@@ -142,7 +142,16 @@ std::vector<glm::dvec4> MapLookupPass::errors(MapError MapErrors::*which) const 
 
 std::size_t MapLookupPass::sharedConstants() const { return coneFromScene ? 9 : 5; }
 
-std::size_t MapLookupPass::constantsOfMap() const { return soft ? 11 : 10; }
+std::size_t MapLookupPass::constantsOfMap() const { return soft ? 7 : 6; }
+
+/// How many of all the vertices hand on: as many whole parts as OpenGL takes. Soft edges index them, if there are many maps.
+std::size_t MapLookupPass::flatConstants(std::size_t all) const {
+    const std::size_t most = static_cast<std::size_t>(glInteger(maxVaryingComponents)) / 4;
+    const std::size_t searched = sharedConstants() + placing * lookUps.size();
+    if (all <= most) return all;
+    if (searched <= most && !soft) return searched;
+    return sharedConstants() <= most ? sharedConstants() : 0;
+}
 
 void MapLookupPass::setConstants(osg::State& state, const FrameDepthCopy::Copy& copy, const Wanted& wanted,
                                  const PixelRect& pixels) const {
@@ -153,7 +162,10 @@ void MapLookupPass::setConstants(osg::State& state, const FrameDepthCopy::Copy& 
                                       {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1},
                                       drawnErrorOf(*state.getCurrentViewport(), sceneFromPixel)};
     if (coneFromScene) addColumns(*coneFromScene * sceneFromPixel, 4, constants);
-    for (std::size_t i = 0; i < lookUps.size(); ++i) addMap(i, sceneFromPixel, constants);
+    std::vector<glm::dmat4> mapFromPixel;
+    for (const MapLookUp& lookUp : lookUps) mapFromPixel.push_back(lookUp.mapFromScene * sceneFromPixel);
+    for (const glm::dmat4& matrix : mapFromPixel) addColumns(matrix, 4, constants);
+    for (std::size_t i = 0; i < lookUps.size(); ++i) addMap(i, mapFromPixel[i], constants);
     state.applyTextureAttribute(seenUnit, copy.texture);
     setUniform(state, "seen", int(seenUnit));
     setUniform(state, "constants", constants);
@@ -167,13 +179,11 @@ glm::dvec4 MapLookupPass::drawnErrorOf(const osg::Viewport& viewport, const glm:
         return std::max(change * start, change * (start + size));
     };
     const double beside = most(row.x, viewport.x(), viewport.width()) + most(row.y, viewport.y(), viewport.height());
-    return {row.w + beside, row.z, off.depth > 0.0 ? off.pixels / off.depth : 0.0, 0.0};
+    return {row.w + beside, row.z, off.depth > 0.0 ? off.pixels / off.depth : 0.0, border / picture->size};
 }
 
-void MapLookupPass::addMap(std::size_t i, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const {
+void MapLookupPass::addMap(std::size_t i, const glm::dmat4& mapFromPixel, std::vector<glm::dvec4>& constants) const {
     const MapLookUp& lookUp = lookUps[i];
-    const glm::dmat4 mapFromPixel = lookUp.mapFromScene * sceneFromPixel;
-    addColumns(mapFromPixel, 4, constants);
     constants.push_back(placeOf(picture->tiles[i], picture->size));
     addColumns(glm::inverse(mapFromPixel), 3, constants);
     const MapSpread& spread = lookUp.spread;

@@ -74,8 +74,9 @@ private:
     /// How many vectors map_place.frag has there.
     std::size_t sharedConstants() const;
     std::size_t constantsOfMap() const;
+    std::size_t flatConstants(std::size_t all) const;
     glm::dvec4 drawnErrorOf(const osg::Viewport& viewport, const glm::dmat4& sceneFromPixel) const;
-    void addMap(std::size_t map, const glm::dmat4& sceneFromPixel, std::vector<glm::dvec4>& constants) const;
+    void addMap(std::size_t map, const glm::dmat4& mapFromPixel, std::vector<glm::dvec4>& constants) const;
 };
 
 } // namespace gnomon
