@@ -8,7 +8,8 @@ uniform vec4 belowLight;
 #endif
 
 #ifdef EXTRUDE
-uniform vec4 light; // homogeneous; a vertex's w says how far it goes on away from it, below 0 to infinity
+uniform vec4 light; // homogeneous; a vertex's w says how far it goes on away from it, below 0 without an end
+uniform float endless; // how far that is; below 0 to infinity
 #endif
 
 #ifdef NEAREST
@@ -28,7 +29,8 @@ out vec2 texel;
 void main() {
 #ifdef EXTRUDE
     vec3 away = light.w * gl_Vertex.xyz - light.xyz;
-    vec4 place = gl_Vertex.w < 0.0 ? vec4(away, 0.0) : vec4(gl_Vertex.xyz + gl_Vertex.w * away, 1.0);
+    float length = gl_Vertex.w < 0.0 ? endless : gl_Vertex.w;
+    vec4 place = length < 0.0 ? vec4(away, 0.0) : vec4(gl_Vertex.xyz + length * away, 1.0);
     gl_Position = clipFromVertex * place;
 #else
     gl_Position = clipFromVertex * gl_Vertex;

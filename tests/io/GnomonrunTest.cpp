@@ -24,17 +24,18 @@ constexpr int width = 320, height = 240;
 constexpr double unitsAPixel = 0.025;
 const osg::Vec3d towardsSun(2, -1, 2);
 
-bool isShadowed(double column, double row) {
-    const osg::Vec3d seen((column - width / 2.0) * unitsAPixel, (row - height / 2.0) * unitsAPixel, 0.0);
+/// @param x  where the box is.
+bool isShadowed(double column, double row, double x = 0.0) {
+    const osg::Vec3d seen((column - width / 2.0) * unitsAPixel - x, (row - height / 2.0) * unitsAPixel, 0.0);
     const bool onTop = std::abs(seen.x()) < 0.5 && std::abs(seen.y()) < 0.5;
     return !onTop && std::isfinite(meetBox(seen, towardsSun, {-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0}));
 }
 
 /// A pixel's centre and its neighbours' give one answer. The pixel that an edge crosses may have either.
-bool isClear(int x, int y) {
-    const bool here = isShadowed(x + 0.5, y + 0.5);
+bool isClear(int x, int y, double box) {
+    const bool here = isShadowed(x + 0.5, y + 0.5, box);
     for (const int d : {-1, 1})
-        if (isShadowed(x + 0.5 + d, y + 0.5) != here || isShadowed(x + 0.5, y + 0.5 + d) != here) return false;
+        if (isShadowed(x + 0.5 + d, y + 0.5, box) != here || isShadowed(x + 0.5, y + 0.5 + d, box) != here) return false;
     return true;
 }
 
@@ -47,13 +48,13 @@ bool hasSeveralColors(const Screenshot& picture) {
 struct Judged {
     int wrong = 0, dark = 0;
 };
-Judged judged(const osg::Image& without, const osg::Image& with) {
+Judged judged(const osg::Image& without, const osg::Image& with, double box = 0.0) {
     Judged result;
     for (int y = 1; y < height - 1; ++y)
         for (int x = 1; x < width - 1; ++x) {
             const bool differs = with.getColor(unsigned(x), unsigned(y)) != without.getColor(unsigned(x), unsigned(y));
             result.dark += differs;
-            result.wrong += isClear(x, y) && differs != isShadowed(x + 0.5, y + 0.5);
+            result.wrong += isClear(x, y, box) && differs != isShadowed(x + 0.5, y + 0.5, box);
         }
     return result;
 }
@@ -64,7 +65,7 @@ protected:
     static void SetUpTestSuite() {
         made = std::make_unique<TemporaryFolder>();
         const Ending built = runProgram(
-            "/usr/bin/make", {"-f", PLAIN_PROGRAM "/Makefile", "SOURCE=" PLAIN_PROGRAM, "all"}, made->path());
+            "/usr/bin/make", {"-f", PLAIN_PROGRAM "/Makefile", "SOURCE=" PLAIN_PROGRAM, "all"}, made->path(), 300);
         ASSERT_EQ(built.status, 0) << built.err;
     }
     /// A program of another build system.
@@ -136,6 +137,19 @@ TEST_F(Gnomonrun, OneFrameIsComparedInEveryWay) {
     EXPECT_GT(table["disagree"]["none"]["traced"], 1000);
 }
 
+TEST_F(Gnomonrun, WithFramesTheProgramsTimeIsThatOfSixtyFramesASecond) {
+    for (const std::string technique : {"none", "traced"}) {
+        const Ending ending =
+            run("--shadow " + technique + " --frames 5 --out " + technique + ".png -- " + built("scene") + " moving");
+        ASSERT_EQ(ending.status, 0) << ending.err;
+    }
+    const osg::ref_ptr<osg::Image> without = picture("none.png"), with = picture("traced.png");
+    ASSERT_TRUE(without && with);
+    const Judged pixels = judged(*without, *with, 15.0 * 4 / 60); // the fifth frame's
+    EXPECT_EQ(pixels.wrong, 0);
+    EXPECT_GT(pixels.dark, 1000);
+}
+
 TEST_F(Gnomonrun, KeysSwitchTechniquesAndAtTheEndEachCostIsTold) {
     const std::string command =
         "OSG_WINDOW='0 0 320 240' exec " GNOMONRUN " --shadow auto -- " + built("scene") + " 2>said";
@@ -170,6 +184,12 @@ TEST_F(Gnomonrun, WhatCannotBeReachedIsSaid) {
     const Ending missing = run("-- ./nothing");
     EXPECT_EQ(missing.status, 127);
     EXPECT_EQ(missing.lastLine(), "gnomonrun: ./nothing cannot be started: No such file or directory.");
+    const Ending empty = run("--frames 5 -- " + built("scene") + " empty");
+    EXPECT_EQ(empty.status, 1);
+    EXPECT_NE(empty.lastLine().find("gave no scene to osgViewer::View::setSceneData()"), std::string::npos) << empty.err;
+    const Ending killed = run("-- /bin/sh -c 'kill -SEGV $$'");
+    EXPECT_EQ(killed.status, 128 + 11);
+    EXPECT_EQ(killed.lastLine(), "gnomonrun: /bin/sh was ended by signal 11.");
     const Ending unnamed = run("--shadow map");
     EXPECT_EQ(unnamed.status, 1);
     EXPECT_NE(unnamed.lastLine().find("no program is given"), std::string::npos) << unnamed.err;

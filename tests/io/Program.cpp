@@ -29,9 +29,10 @@ std::string Ending::lastLine() const {
     return last;
 }
 
-Ending runProgram(const std::string& program, const std::vector<std::string>& arguments, const fs::path& folder) {
+Ending runProgram(const std::string& program, const std::vector<std::string>& arguments, const fs::path& folder,
+                  int seconds) {
     const TemporaryFolder said;
-    std::string command = "cd " + quoted(folder) + " && exec timeout 60 " + quoted(program);
+    std::string command = "cd " + quoted(folder) + " && exec timeout " + std::to_string(seconds) + " " + quoted(program);
     for (const std::string& argument : arguments) command += " " + quoted(argument);
     command += " >" + quoted(said.path() / "out") + " 2>" + quoted(said.path() / "err") + " </dev/null";
     Ending ending;

@@ -8,16 +8,16 @@ namespace gnomon::testing {
 
 /// How a program ended and what it said.
 struct Ending {
-    int status = -1; ///< exit status; 128 + signal if one ended it, 124 if it ran for more than a minute.
+    int status = -1; ///< exit status; 128 + signal if one ended it, 124 if it ran for too long.
     std::string out, err;
 
     /// Last line of err, without its end.
     std::string lastLine() const;
 };
 
-/// Runs a program as a shell would, in `folder`.
+/// Runs a program as a shell would, in `folder`. @param seconds  that it may take.
 Ending runProgram(const std::string& program, const std::vector<std::string>& arguments,
-                  const std::filesystem::path& folder);
+                  const std::filesystem::path& folder, int seconds = 60);
 /// Runs gnomonshot so.
 Ending runGnomonshot(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 

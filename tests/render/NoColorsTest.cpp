@@ -32,10 +32,14 @@ std::ostream& operator<<(std::ostream& out, const Case& given) { return out << g
 
 osg::Node& childOf(Scene& scene, unsigned i) { return *scene.content->getChild(i); }
 
-void paint(osg::Node& node) {
-    osg::ref_ptr<osg::Vec4Array> green = new osg::Vec4Array;
-    green->push_back({0.2f, 0.7f, 0.3f, 1.0f});
-    node.asGeode()->getDrawable(0)->asGeometry()->setColorArray(green, osg::Array::BIND_OVERALL);
+void paint(osg::Node& node, const osg::Vec4& color = {0.2f, 0.7f, 0.3f, 1.0f}) {
+    osg::ref_ptr<osg::Vec4Array> overall = new osg::Vec4Array(1, &color);
+    node.asGeode()->getDrawable(0)->asGeometry()->setColorArray(overall, osg::Array::BIND_OVERALL);
+}
+
+/// As osg::ShapeDrawable does: the colour is that of osg::Material.
+void paintAllAsMaterials(Scene& scene) {
+    for (unsigned i = 0; i < scene.content->getNumChildren(); ++i) paint(childOf(scene, i), {0.8f, 0.8f, 0.8f, 1.0f});
 }
 
 const Case cases[] = {
@@ -50,6 +54,14 @@ const Case cases[] = {
          childOf(scene, 2).getStateSet()->setRenderBinDetails(1, "RenderBin");
      }},
     {"BesideOneWithColors", [](Scene& scene) { paint(childOf(scene, 1)); }},
+    {"InTheMaterialsColor", paintAllAsMaterials},
+    {"InTheMaterialsColorAndLate",
+     [](Scene& scene) { // as DART's viewer has its shapes
+         paintAllAsMaterials(scene);
+         osg::StateSet& state = *scene.content->getOrCreateStateSet();
+         state.setMode(GL_BLEND, osg::StateAttribute::ON);
+         state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+     }},
 };
 
 /// Without any colour or material: osgViewer's lets colours be materials.

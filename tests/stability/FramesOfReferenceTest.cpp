@@ -87,7 +87,7 @@ void forEachLightAndView(const Check& check) {
 GNOMON_BY_TECHNIQUE(Place);
 GNOMON_BY_TECHNIQUE(Scale);
 GNOMON_BY_TECHNIQUE(Globe);
-GNOMON_BY(GlobeInGroup, By::Planar, By::Traced, By::Map); // the others' ground is level in the group
+GNOMON_BY(GlobeInGroup, By::Planar, By::Traced, By::Map, By::Volume); // the others' ground is level in the group
 
 /// Where a scene stands on the Earth, east, north and up being x, y and z of its own: from Tennessee to New Zealand.
 std::vector<osg::Matrixd> placesOnEarth() {

@@ -12,8 +12,8 @@ namespace {
 const Mesh shell = insideOut(box({-5.0, -5.0, -0.5}, {5.0, 5.0, 4.0}));
 const std::vector<Mesh> furniture = {box({1.0, 0.5, 0.0}, {2.0, 1.5, 1.0}), box({-2.0, -1.0, 0.0}, {-1.5, 1.0, 2.0})};
 
-/// In the ceiling; in it, on the diagonal of its triangles; in a wall; on its diagonal; in an edge; in a corner.
-const osg::Vec4d lamps[] = {{0.3, 0.4, 4.0, 1.0},  {0.0, 0.0, 4.0, 1.0}, {5.0, 0.4, 2.5, 1.0},
+/// Below the ceiling; in it; in it, on the diagonal of its triangles; in a wall; on its diagonal; in an edge; in a corner.
+const osg::Vec4d lamps[] = {{0.3, 0.4, 3.5, 1.0},  {0.3, 0.4, 4.0, 1.0}, {0.0, 0.0, 4.0, 1.0}, {5.0, 0.4, 2.5, 1.0},
                             {5.0, 0.0, 1.75, 1.0}, {5.0, 0.4, 4.0, 1.0}, {5.0, 5.0, 4.0, 1.0}};
 
 /// About the z axis: walls are in planes that no float is exactly in.
@@ -51,7 +51,7 @@ struct Room {
     std::vector<Mesh> inside;
 };
 
-GNOMON_BY(SurfaceLamp, By::Planar, By::Traced, By::Map);
+GNOMON_BY(SurfaceLamp, By::Planar, By::Traced, By::Map, By::Volume);
 
 TEST_P(SurfaceLamp, InCeilingWallEdgeOrCornerLightsTheRoom) {
     for (const double angle : {0.0, 0.6})

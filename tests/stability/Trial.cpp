@@ -2,6 +2,7 @@
 #include "Trial.h"
 
 #include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 
@@ -18,7 +19,7 @@ By casting = By::Planar;
 /// Pixels from an edge to where a picture must be right.
 int edgeReach(const Truth& truth) { return casting == By::Map ? truth.mapEdge : 1; }
 /// True if what faces away from the light is in shadow, as its own.
-bool shadowsWhatFacesAway() { return casting == By::Traced || casting == By::Map; }
+bool shadowsWhatFacesAway() { return casting == By::Traced || casting == By::Map || casting == By::Volume; }
 
 ::testing::AssertionResult judged(const Comparison& found) {
     if (found.wrongInside == 0 && found.wrongAtEdge == 0) return ::testing::AssertionSuccess();
@@ -43,7 +44,7 @@ ByTechnique::ByTechnique() { casting = GetParam(); }
 ByTechnique::~ByTechnique() { casting = By::Planar; }
 
 std::ostream& operator<<(std::ostream& out, By technique) {
-    constexpr const char* names[] = {"Planar", "Hull", "Drape", "Traced", "Map"};
+    constexpr const char* names[] = {"Planar", "Hull", "Drape", "Traced", "Map", "Volume"};
     return out << names[static_cast<int>(technique)];
 }
 
@@ -54,6 +55,8 @@ osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver) {
         technique = new gnomon::TracedShadowTechnique;
     else if (casting == By::Map)
         technique = new gnomon::ShadowMapTechnique;
+    else if (casting == By::Volume)
+        technique = new gnomon::ShadowVolumeTechnique;
     else
         technique = terrainShadow(casting == By::Hull ? TerrainShadowGeode::HULL : TerrainShadowGeode::DRAPE);
     if (receiver) technique->setReceiver({receiver});

@@ -16,6 +16,7 @@
 namespace gnomon::examples {
 namespace {
 
+constexpr double framesASecond = 60.0;
 constexpr int turn = 10;      // frames with and without shadow, to tell what shadows cost
 constexpr int patience = 100; // frames to wait for a picture from another thread
 
@@ -75,6 +76,11 @@ osg::Node* ProgramRun::shadowed(osg::Node* scene) {
     }
     _scenes.push_back(std::make_unique<ShadowedScene>(_options.view, *scene));
     return &_scenes.back()->root();
+}
+
+double ProgramRun::timeOfFrame(double wanted) const {
+    const bool ours = _options.frames > 0 && wanted == USE_REFERENCE_TIME;
+    return ours ? _frame / framesASecond : wanted;
 }
 
 void ProgramRun::beforeFrame(osgViewer::ViewerBase& viewer) {

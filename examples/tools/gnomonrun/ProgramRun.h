@@ -22,6 +22,9 @@ public:
 
     /// What a view is to show in the place of `scene`.
     osg::Node* shadowed(osg::Node* scene);
+    /// The scene's time in seconds for the next frame: with --frames, 1/60 s after the last one, so that each run draws the same.
+    /// @param wanted  what the program asks for; a time of its own stays.
+    double timeOfFrame(double wanted) const;
     void beforeFrame(osgViewer::ViewerBase& viewer);
     /// Ends the process after the last frame asked for. @param draw  draws a frame as the program does.
     void afterFrame(osgViewer::ViewerBase& viewer, const std::function<void()>& draw);

@@ -44,7 +44,8 @@ void ShadowedScene::castByPeer() {
     peer->accept(update);
     for (unsigned i = 0; i < _setup.group->getNumChildren(); ++i)
         if (!dynamic_cast<ShadowTechnique*>(_setup.group->getChild(i))) peer->addChild(_setup.group->getChild(i));
-    _setup.root->replaceChild(_setup.group, peer);
+    _setup.root->removeChild(_setup.group);
+    _setup.root->addChild(peer); // after the lights: it knows only those that cull met before
 }
 
 void ShadowedScene::addKeys(osgViewer::View& view) {

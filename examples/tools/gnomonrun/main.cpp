@@ -22,6 +22,7 @@ using namespace gnomon::examples;
 using Words = std::vector<std::string>;
 
 constexpr int notStarted = 127; // as a shell has it
+constexpr int signalled = 128;  // and the number of the signal
 
 /// A file that the program's library writes to; gone with this.
 class ReportFile {
@@ -73,7 +74,7 @@ void preload(const std::string& library) {
     _exit(notStarted);
 }
 
-/// @return its exit status; 128 + signal if one ended it.
+/// @return its exit status; `signalled` + signal if one ended it.
 int runProgram(const Words& command, const Words& options, const ReportFile& report) {
     const std::string library = libraryToPreload();
     const pid_t id = fork();
@@ -88,17 +89,18 @@ int runProgram(const Words& command, const Words& options, const ReportFile& rep
     int status = 0;
     while (waitpid(id, &status, 0) < 0 && errno == EINTR) {
     }
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : signalled + WTERMSIG(status);
 }
 
-/// Why no shadow can have been seen; empty if frames were drawn.
-std::string whyUnreached(const std::string& program, const std::set<std::string>& met) {
+/// Why no shadow can have been seen; empty if frames were drawn. @param status  of the program's end, as a shell has it.
+std::string whyUnreached(const std::string& program, int status, const std::set<std::string>& met) {
     if (met.count(metFrame) && met.count(metScene)) return "";
+    if (status > signalled) return program + " was ended by signal " + std::to_string(status - signalled) + ".";
     if (!met.count(metProgram))
         return program + " cannot be reached: it is linked statically, or runs with the rights of another user.";
-    if (!met.count(metScene) && met.count(metSceneView))
+    if (!met.count(metScene) && !met.count(metFrame) && met.count(metSceneView))
         return program + " cannot be reached: it draws by osgUtil::SceneView, without a viewer.";
-    if (!met.count(metScene) && !met.count(metOsg))
+    if (!met.count(metScene) && !met.count(metFrame) && !met.count(metOsg))
         return program + " cannot be reached: it needs no library of OpenSceneGraph, or has it linked in statically.";
     if (!met.count(metScene))
         return program + " gave no scene to osgViewer::View::setSceneData(), so there was nothing to shadow.";
@@ -108,7 +110,7 @@ std::string whyUnreached(const std::string& program, const std::set<std::string>
 int run(const Words& options, const Words& command) {
     const ReportFile report;
     const int status = runProgram(command, options, report);
-    const std::string cause = status == notStarted ? "" : whyUnreached(command.front(), report.lines());
+    const std::string cause = status == notStarted ? "" : whyUnreached(command.front(), status, report.lines());
     if (!cause.empty()) std::cerr << "gnomonrun: " << cause << std::endl;
     return status == 0 && !cause.empty() ? 1 : status;
 }

@@ -4,8 +4,8 @@
 #include "ProgramRun.h"
 
 #include <osgUtil/SceneView>
-#include <osgViewer/View>
-#include <osgViewer/ViewerBase>
+#include <osgViewer/CompositeViewer>
+#include <osgViewer/Viewer>
 
 #include <dlfcn.h>
 
@@ -17,6 +17,15 @@ namespace {
 template <typename Function>
 Function next(const char* name) {
     return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+/// osgViewer's own, with the run's time in the place of the clock's.
+template <typename Viewer>
+void advanceByRun(Viewer& viewer, double time, void (*osgs)(Viewer*, double)) {
+    const ProgramRun* run = ProgramRun::ofProcess();
+    const double settled = run ? run->timeOfFrame(time) : time;
+    osgs(&viewer, settled);
+    if (settled != time) viewer.getViewerFrameStamp()->setReferenceTime(settled);
 }
 
 /// Says that the library is in, whatever the program then does.
@@ -32,6 +41,17 @@ void osgViewer::View::setSceneData(osg::Node* node) {
         next<void (*)(osgViewer::View*, osg::Node*)>("_ZN9osgViewer4View12setSceneDataEPN3osg4NodeE");
     ProgramRun* run = ProgramRun::ofProcess();
     osgs(this, run ? run->shadowed(node) : node);
+}
+
+void osgViewer::Viewer::advance(double time) {
+    static const auto osgs = next<void (*)(osgViewer::Viewer*, double)>("_ZN9osgViewer6Viewer7advanceEd");
+    advanceByRun(*this, time, osgs);
+}
+
+void osgViewer::CompositeViewer::advance(double time) {
+    static const auto osgs =
+        next<void (*)(osgViewer::CompositeViewer*, double)>("_ZN9osgViewer15CompositeViewer7advanceEd");
+    advanceByRun(*this, time, osgs);
 }
 
 void osgViewer::ViewerBase::renderingTraversals() {

@@ -21,20 +21,26 @@ bool tracksAmbient(const osg::Material& material) {
            material.getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE;
 }
 
-bool hasColors(const osg::Drawable& drawable) {
+osg::Vec4 trackedColor(const osg::Material& material) {
+    return material.getColorMode() == osg::Material::AMBIENT ? material.getAmbient(osg::Material::FRONT)
+                                                             : material.getDiffuse(osg::Material::FRONT);
+}
+
+/// OpenGL's current colour after a drawable with this material; nullopt if nobody knows.
+std::optional<osg::Vec4> colorAfter(const osg::Drawable& drawable, const osg::Material& material) {
     const osg::Geometry* geometry = drawable.asGeometry();
-    return !geometry || geometry->getColorArray();
+    if (!geometry) return std::nullopt;
+    const osg::Array* colors = geometry->getColorArray();
+    if (!colors) return trackedColor(material);
+    const auto* overall = dynamic_cast<const osg::Vec4Array*>(colors);
+    if (!overall || overall->empty() || overall->getBinding() != osg::Array::BIND_OVERALL) return std::nullopt;
+    return overall->front();
 }
 
 osg::Vec4 ambientNow() {
     osg::Vec4 ambient;
     glGetMaterialfv(GL_FRONT, GL_AMBIENT, ambient.ptr());
     return ambient;
-}
-
-osg::Vec4 trackedColor(const osg::Material& material) {
-    return material.getColorMode() == osg::Material::AMBIENT ? material.getAmbient(osg::Material::FRONT)
-                                                             : material.getDiffuse(osg::Material::FRONT);
 }
 
 /// That which osg::State applies where there is none.
@@ -65,8 +71,9 @@ private:
 bool isKept(const osg::State& state, const osgUtil::RenderLeaf* last) {
     if (osg::get<FirstFrame>(state.getContextID())->is(state)) return false;
     const osg::Material* material = last ? materialOf(last->_parent) : nullptr;
-    return material && tracksAmbient(*material) && !hasColors(*last->_drawable) &&
-           ambientNow() != trackedColor(*material);
+    if (!material || !tracksAmbient(*material)) return false;
+    const std::optional<osg::Vec4> color = colorAfter(*last->_drawable, *material);
+    return color && ambientNow() != *color;
 }
 
 /// As Mesa does whenever it draws: what is set beside is taken over, and forgotten.

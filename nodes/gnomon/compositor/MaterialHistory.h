@@ -15,7 +15,7 @@ namespace gnomon {
 ///
 /// osgViewer's own material lets the current colour be ambient and diffuse. Mesa (22.3) keeps what the material before it has
 /// set beside, until something is drawn: the first things of a stage have osg::State's default ambient instead of their
-/// colour, if they have no colour of their own.
+/// colour, if they have no colour of their own, or just that of the material before.
 class MaterialHistory {
 public:
     /// Call it before anything else is drawn or popped. @param last  the leaf drawn last; null if there is none.

@@ -24,12 +24,6 @@ bool resolvedMode(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode 
     return value & osg::StateAttribute::ON;
 }
 
-/// Null where none is on.
-const osg::PolygonOffset* offsetOf(const osgUtil::StateGraph* graph) {
-    const auto* offset = resolved<osg::PolygonOffset>(graph, osg::StateAttribute::POLYGONOFFSET);
-    return offset && isOn(graph, GL_POLYGON_OFFSET_FILL) ? offset : nullptr;
-}
-
 } // namespace
 
 bool isOn(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool unset) {
@@ -52,9 +46,15 @@ const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, o
     return found;
 }
 
+osg::Vec2d polygonOffsetOf(const osgUtil::StateGraph* graph) {
+    const auto* offset = resolved<osg::PolygonOffset>(graph, osg::StateAttribute::POLYGONOFFSET);
+    if (!offset || !isOn(graph, GL_POLYGON_OFFSET_FILL)) return {};
+    return {offset->getFactor(), offset->getUnits()};
+}
+
 bool isPulledForward(const osgUtil::StateGraph* graph) {
-    const osg::PolygonOffset* offset = offsetOf(graph);
-    return offset && (offset->getFactor() < 0.0f || offset->getUnits() < 0.0f);
+    const osg::Vec2d offset = polygonOffsetOf(graph);
+    return offset.x() < 0.0 || offset.y() < 0.0;
 }
 
 DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph) {
@@ -63,10 +63,9 @@ DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph) {
         placement.nearest = depth->getZNear();
         placement.farthest = depth->getZFar();
     }
-    if (const osg::PolygonOffset* offset = offsetOf(graph)) {
-        placement.pixels = std::max(0.0, double{offset->getFactor()});
-        placement.steps = std::max(0.0, double{offset->getUnits()});
-    }
+    const osg::Vec2d offset = polygonOffsetOf(graph);
+    placement.pixels = std::max(0.0, offset.x());
+    placement.steps = std::max(0.0, offset.y());
     return placement;
 }
 

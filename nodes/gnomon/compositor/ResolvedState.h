@@ -2,6 +2,7 @@
 #pragma once
 #include <osg/StateAttribute>
 #include <osg/StateSet>
+#include <osg/Vec2d>
 #include <osgUtil/StateGraph>
 
 #include <tuple>
@@ -39,6 +40,10 @@ private:
 
 /// What an offset brings nearer to the eye counts as in its place: shadows find it all the same.
 DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph);
+
+/// The polygon offset that is on: in pixels of the surface's slope, and in steps of the depth buffer; away from the eye where
+/// positive. Zeros where none is on.
+osg::Vec2d polygonOffsetOf(const osgUtil::StateGraph* graph);
 
 /// True if a polygon offset brings what is drawn so nearer to the eye.
 bool isPulledForward(const osgUtil::StateGraph* graph);

@@ -17,17 +17,20 @@ namespace {
 constexpr GLenum clipAbovePlane = GL_CLIP_PLANE0; // the same value as GL_CLIP_DISTANCE0
 constexpr GLenum clipBelowLight = GL_CLIP_PLANE1;
 
-/// How far from the plane's, in window depth, what lies in it may be drawn.
+/// How far from the plane's depth what lies in it may be drawn: pixels of the plane's slope, steps of the depth buffer.
 ///
 /// A rasteriser interpolates depth in float: on llvmpipe 32 steps of the depth buffer hold that, but for a ground of
 /// many kilometres under a near plane of decimetres (tests/render/PlanarBandTest.cpp). And it snaps vertices to a part
 /// of a pixel, which OpenGL lets be as coarse as a sixteenth: an eighth of a pixel's slope. A larger margin would reach
 /// up walls that stand in the plane.
-double tolerance(const osg::Viewport& viewport, const glm::dvec3& depth) {
+constexpr glm::dvec2 tolerance(1.0 / 8.0, 32.0);
+
+/// An offset in window depth, as OpenGL adds its parts up.
+double depthOf(const glm::dvec2& offset, const osg::Viewport& viewport, const glm::dvec3& depth) {
     GLint depthBits = 24;
     glGetIntegerv(GL_DEPTH_BITS, &depthBits);
     const double slope = std::abs(depth.x) / viewport.width() + std::abs(depth.y) / viewport.height(); // a pixel
-    return slope / 8.0 + 32.0 * std::ldexp(1.0, -std::min(depthBits, 24));
+    return offset.x * slope + offset.y * std::ldexp(1.0, -std::min(depthBits, 24));
 }
 
 } // namespace
@@ -118,12 +121,13 @@ void PlanarMark::darkenEach(osg::RenderInfo& renderInfo, ScreenPass& pass, unsig
 
 /// Takes the marks back where what stands in the depth buffer is behind the plane, and where it is before it.
 void PlanarMark::cut(const osg::State& state, ScreenPass& pass, unsigned bit) const {
-    const double margin = 2.0 * tolerance(*state.getCurrentViewport(), depth); // in normalised device coordinates
+    // In normalised device coordinates, twice as long as window depths.
+    const auto moved = [&](const glm::dvec2& by) { return 2.0 * depthOf(by, *state.getCurrentViewport(), depth); };
     pass.stencilEqual(0, 0, bit);
     pass.testDepth(GL_LEQUAL);
-    pass.drawQuad(depth.z + margin, depth.x, depth.y);
+    pass.drawQuad(depth.z + moved(farthestOffset + tolerance), depth.x, depth.y);
     pass.testDepth(GL_GREATER);
-    pass.drawQuad(depth.z - margin, depth.x, depth.y);
+    pass.drawQuad(depth.z + moved(nearestOffset - tolerance), depth.x, depth.y);
 }
 
 } // namespace gnomon

@@ -5,6 +5,7 @@
 #include <gnomon/planar/PlanarCasters.h>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <osg/StateSet>
@@ -34,6 +35,9 @@ public:
     float dark = 0.5f; ///< factor that each triangle takes of what it covers; without the stencil cure only.
     /// The plane on the screen, normalised device coordinates: z = depth.x·x + depth.y·y + depth.z.
     glm::dvec3 depth{0.0};
+    /// How far polygon offsets move what lies in the plane away from the eye, at least and at most: pixels of the plane's
+    /// slope, and steps of the depth buffer.
+    glm::dvec2 nearestOffset{0.0}, farthestOffset{0.0};
 
     glm::dvec4 eyePlane{0.0}; ///< unit normal.
 

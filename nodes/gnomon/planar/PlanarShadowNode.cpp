@@ -3,6 +3,7 @@
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
@@ -55,6 +56,28 @@ bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
         if (!(std::abs(distance(*plane, corner)) <= rounding)) return false;
     }
     return true;
+}
+
+/// Leaves of one state follow each other.
+bool hasOffsets(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
+    const osgUtil::StateGraph* known = nullptr;
+    return std::any_of(leaves.begin(), leaves.end(), [&](const osgUtil::RenderLeaf* leaf) {
+        return leaf->_parent != known && polygonOffsetOf(known = leaf->_parent) != osg::Vec2d();
+    });
+}
+
+/// What lies in the plane is looked for where polygon offsets move it to.
+void followOffsets(PlanarMark& mark, const ViewFrame& view) {
+    if (!hasOffsets(view.seen)) return;
+    bool found = false;
+    for (const osgUtil::RenderLeaf* leaf : view.seen) {
+        if (!liesIn(*leaf, mark.eyePlane)) continue;
+        const osg::Vec2d given = polygonOffsetOf(leaf->_parent);
+        const glm::dvec2 offset(given.x(), given.y());
+        mark.nearestOffset = found ? glm::min(mark.nearestOffset, offset) : offset;
+        mark.farthestOffset = found ? glm::max(mark.farthestOffset, offset) : offset;
+        found = true;
+    }
 }
 
 /// True if the view turns round the sense in which a triangle's corners follow each other on the screen.
@@ -167,6 +190,7 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
     mark->eyePlane = *eyePlane;
     mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);
+    if (mark->cutToPlane) followOffsets(*mark, view);
     mark->screenBounds = *bounds;
     mark->depth = *depth;
     return mark;

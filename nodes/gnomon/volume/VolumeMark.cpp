@@ -4,6 +4,7 @@
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/volume/VolumeMark.h>
 
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -11,9 +12,17 @@
 namespace gnomon {
 namespace {
 
+/// Where lines of sight are parallel, a triangle at infinity is beside all of them. A lamp's then ends far beyond all that
+/// is seen: 10^7 times as far from it as the caster, which floats still hold.
+double endlessIn(const glm::dmat4& clipFromMesh, const glm::dvec4& light) {
+    const bool parallel = glm::dvec3(glm::row(clipFromMesh, 3)) == glm::dvec3(0.0);
+    return parallel && light.w != 0.0 ? 1e7 : -1.0;
+}
+
 void place(osg::State& state, const glm::dmat4& clipFromMesh, const glm::dvec4& light) {
     setUniform(state, "clipFromVertex", clipFromMesh);
     setUniform(state, "light", light);
+    setUniform(state, "endless", endlessIn(clipFromMesh, light));
 }
 
 /// Where nothing stands.

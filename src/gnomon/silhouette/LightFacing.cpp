@@ -14,9 +14,9 @@ constexpr std::size_t block = 1 << 14; // triangles that are worth a task
 
 using Part = SilhouetteMesh::Part;
 
-/// The weights of a triangle that faces the light, and of one that does not.
-struct Pair {
-    std::int8_t facing, turned;
+/// The weights of a triangle that faces the light, of one that is edge-on to it, and of one that is turned away.
+struct Weights {
+    std::int8_t facing, edgeOn, turned;
 };
 
 bool holds(const Part& part, const glm::dvec4& light) {
@@ -26,12 +26,14 @@ bool holds(const Part& part, const glm::dvec4& light) {
            glm::all(glm::lessThanEqual(at, glm::dvec3(part.high)));
 }
 
-Pair weightsOf(const Part& part, const glm::dvec4& light) {
-    if (!part.closed || holds(part, light)) return {1, -1};
-    return part.inward ? Pair{0, -1} : Pair{1, 0};
+/// What a lamp lies in, as in a ceiling, takes no light from it.
+Weights weightsOf(const Part& part, const glm::dvec4& light) {
+    if (holds(part, light)) return {1, 0, -1};
+    if (!part.closed) return {1, 1, -1};
+    return part.inward ? Weights{0, 0, -1} : Weights{1, 1, 0};
 }
 
-/// How far a light may be behind a plane that it grazes.
+/// How far a light may be off a plane that it grazes.
 double toleranceOf(const Part& part, const glm::dvec4& light) {
     if (light.w == 0.0) return grazing;
     const glm::dvec3 at(light), low(part.low), high(part.high);
@@ -40,12 +42,12 @@ double toleranceOf(const Part& part, const glm::dvec4& light) {
 
 void faceLight(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& light, std::size_t first,
                std::size_t end, std::int8_t* weights) {
-    const Pair pair = weightsOf(part, light);
-    const double least = -toleranceOf(part, light);
+    const Weights of = weightsOf(part, light);
+    const double least = toleranceOf(part, light);
     const double *x = mesh.planeX.data(), *y = mesh.planeY.data(), *z = mesh.planeZ.data(), *d = mesh.planeD.data();
     for (std::size_t i = first; i < end; ++i) {
         const double side = x[i] * light.x + y[i] * light.y + z[i] * light.z + d[i] * light.w;
-        weights[i] = side >= least ? pair.facing : pair.turned;
+        weights[i] = side > least ? of.facing : side >= -least ? of.edgeOn : of.turned;
     }
 }
 

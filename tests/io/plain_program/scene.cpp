@@ -1,19 +1,37 @@
 // SPDX-License-Identifier: MIT
-// A box on a ground, lit by a sun, seen straight from above: 0.025 of the scene's unit a pixel.
+// A box on a ground, lit by a sun, seen straight from above: 0.025 of the scene's unit a pixel. With `moving` the
+// box runs along x, 15 units a second. With `empty` nothing is shown, as where a model is missing.
 #include <osg/Geode>
 #include <osg/LightSource>
+#include <osg/MatrixTransform>
+#include <osg/NodeVisitor>
 #include <osg/ShapeDrawable>
 #include <osgViewer/Viewer>
 
-int main() {
-    osg::ref_ptr<osg::Geode> boxes = new osg::Geode;
-    boxes->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, -0.5f), 20, 20, 1)));
-    boxes->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, 0.5f), 1, 1, 1)));
+#include <string>
+
+struct RunAlongX : osg::NodeCallback {
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+        const double x = 15.0 * visitor->getFrameStamp()->getSimulationTime();
+        static_cast<osg::MatrixTransform*>(node)->setMatrix(osg::Matrix::translate(x, 0, 0));
+        traverse(node, visitor);
+    }
+};
+
+int main(int argc, char** argv) {
+    const std::string shown = argc > 1 ? argv[1] : "";
+    osg::ref_ptr<osg::Geode> ground = new osg::Geode, box = new osg::Geode;
+    ground->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, -0.5f), 20, 20, 1)));
+    box->addDrawable(new osg::ShapeDrawable(new osg::Box(osg::Vec3(0, 0, 0.5f), 1, 1, 1)));
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
+    place->addChild(box);
+    if (shown == "moving") place->setUpdateCallback(new RunAlongX);
     osg::ref_ptr<osg::LightSource> sun = new osg::LightSource;
     sun->getLight()->setPosition(osg::Vec4(2, -1, 2, 0));
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(sun);
-    root->addChild(boxes);
+    root->addChild(ground);
+    root->addChild(place);
     osgViewer::Viewer viewer;
     viewer.setLightingMode(osg::View::NO_LIGHT);
     viewer.setUpViewInWindow(0, 0, 320, 240);
@@ -22,7 +40,7 @@ int main() {
     viewer.getCamera()->setViewMatrixAsLookAt(osg::Vec3d(0, 0, 10), osg::Vec3d(), osg::Vec3d(0, 1, 0));
     root->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
     root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
-    viewer.setSceneData(root);
+    viewer.setSceneData(shown == "empty" ? nullptr : root.get());
     while (!viewer.done()) viewer.frame();
     return 0;
 }
