@@ -24,7 +24,7 @@ class AutoChooser;
 /// - PlanarShadowNode, if only flat receivers get shadow.
 /// - TerrainShadowGeode with HULL or DRAPE, if a terrain is named as receiver and does not shadow itself.
 /// - ShadowMapTechnique, with all sizes, numbers of cascades, filters, and hard or smooth edges.
-/// - TracedShadowTechnique.
+/// - ShadowVolumeTechnique and TracedShadowTechnique, if no caster has an alpha test.
 /// - A candidate whose shadow would be wrong here is never chosen. ShadowCandidate::obstacle says why.
 /// Prediction
 /// - Error and time of each candidate are predicted from the casters, the receivers in sight, the light and the view.

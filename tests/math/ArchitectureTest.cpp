@@ -50,7 +50,7 @@ const Graph& mayInclude() {
         {"map", words(technique + " mapfit")},
         {"terrain", words(technique + " ground drape onterrain overlay")},
         {"traced", words(technique + " rays")},
-        {"auto", words(technique + " choice ground mapfit planar map terrain traced")},
+        {"auto", words(technique + " choice ground mapfit planar map silhouette terrain traced volume")},
         {"volume", words(technique + " overlay silhouette")},
         {"effects", words("base gl compositor group geometry")},
         {"query", words("base casters group rays")},

@@ -58,6 +58,7 @@ Picture drawnBy(const std::string& spec, const std::vector<test::Mesh>& casters)
 }
 
 bool startsWith(const std::string& text, const std::string& start) { return text.rfind(start, 0) == 0; }
+bool receivesAll(const std::string& spec) { return startsWith(spec, "map") || spec == "volume"; }
 
 } // namespace
 
@@ -72,7 +73,7 @@ TEST(Auto, TakesPlanarWhereOnlyTheGroundGetsShadow) {
 TEST(Auto, TakesNoPlanarWhereOneObjectShadowsAnother) {
     Trial trial({cube, below});
     const Picture picture = test::render(trial.scene.root, view());
-    EXPECT_TRUE(startsWith(trial.chosen(), "map")) << trial.chosen();
+    EXPECT_TRUE(receivesAll(trial.chosen())) << trial.chosen();
     ASSERT_TRUE(trial.candidate("planar"));
     EXPECT_EQ(trial.candidate("planar")->obstacle, "objects shadow one another");
     EXPECT_EQ(picture.different(drawnBy(trial.chosen(), {cube, below})), 0);
@@ -83,7 +84,19 @@ TEST(Auto, TakesNoPlanarForObjectsThatMayShadowThemselves) {
         test::joined({box({-1.0, -1.0, 0.0}, {1.0, -0.2, 2.0}), box({-1.0, 0.2, 0.0}, {1.0, 1.0, 2.0})});
     Trial trial({arch}); // two bodies of one drawable, one in the other's shadow
     test::render(trial.scene.root, view());
-    EXPECT_TRUE(startsWith(trial.chosen(), "map")) << trial.chosen();
+    EXPECT_TRUE(receivesAll(trial.chosen())) << trial.chosen();
+}
+
+TEST(Auto, TakesVolumesForCastersOfFewEdgesAndMapsForDenseOnes) {
+    Trial plain({cube, below}, {0.5, 0.0}), dense({test::sphere({-1.0, 0.0, 2.0}, 1.2, 200), below});
+    const Picture picture = test::render(plain.scene.root, view());
+    EXPECT_EQ(plain.chosen(), "volume") << plain.decision().reason;
+    EXPECT_EQ(picture.different(drawnBy("volume", {cube, below})), 0);
+    test::render(dense.scene.root, view());
+    EXPECT_TRUE(startsWith(dense.chosen(), "map")) << dense.chosen();
+    ASSERT_TRUE(dense.candidate("volume"));
+    EXPECT_GT(dense.candidate("volume")->still, dense.decision().chosen.still);
+    EXPECT_GT(dense.candidate("volume")->moving, dense.candidate("volume")->still) << "outlines are found again";
 }
 
 TEST(Auto, DrawsWhatRaysFindWhateverItChooses) {
@@ -179,7 +192,7 @@ TEST(Auto, SeesAtOnceThatAnObjectMovesIntoAShadow) {
     };
     EXPECT_EQ(chosenAt(0.0, -4.0), "planar");
     EXPECT_EQ(chosenAt(0.1, -4.0), "planar");
-    EXPECT_TRUE(startsWith(chosenAt(-2.2, -0.5), "map"));
+    EXPECT_TRUE(receivesAll(chosenAt(-2.2, -0.5)));
 }
 
 TEST(Auto, BuildsNothingThatItDoesNotDraw) {

@@ -68,6 +68,7 @@ std::string cppFor(const std::string& spec) {
     if (parsed.technique == "hull" || parsed.technique == "drape") return cppFor(parsed.terrain, parsed.technique);
     if (parsed.technique == "planar")
         return "group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0))); // your receiver's plane";
+    if (parsed.technique == "volume") return "group->addChild(new gnomon::ShadowVolumeTechnique);";
     if (parsed.technique == "traced") return "group->addChild(new gnomon::TracedShadowTechnique);";
     return "// none is needed";
 }

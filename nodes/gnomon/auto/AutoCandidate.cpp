@@ -47,6 +47,8 @@ std::string AutoCandidate::spec() const {
         return specOf(terrain);
     case Kind::Map:
         return specOf(map);
+    case Kind::Volume:
+        return "volume";
     case Kind::Traced:
         return "traced";
     default:

@@ -15,7 +15,7 @@ namespace gnomon {
 
 /// A way to draw a shadow, with what it is expected to come to.
 struct AutoCandidate {
-    enum class Kind { Nothing, Planar, Terrain, Map, Traced };
+    enum class Kind { Nothing, Planar, Terrain, Map, Volume, Traced };
 
     Kind kind = Kind::Nothing;
     ShadowMapOptions map = {};

@@ -7,6 +7,7 @@
 #include <gnomon/map/MapSettings.h>
 #include <gnomon/map/ShadowMapCache.h>
 #include <gnomon/mapfit/TexelDensity.h>
+#include <gnomon/volume/VolumeForecast.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +32,10 @@ constexpr MapQuality qualities[] = {
     {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.41, 0.27, 1.0}},
     {Map::BICUBIC, Map::SMOOTH, {0.35, 0.14, 4.0}}, {Map::FINE, Map::SMOOTH, {0.35, 0.06, 16.0}},
 };
-constexpr double callsAMap = 14.0;   // to switch to its framebuffer and back, and to fit it
-constexpr double callsAPiece = 0.06; // to see that it has not changed
-constexpr double mostStretch = 8.0;  // as TexelDensity has it
+constexpr double callsAMap = 14.0;     // to switch to its framebuffer and back, and to fit it
+constexpr double callsAPiece = 0.06;   // to see that it has not changed
+constexpr double mostStretch = 8.0;    // as TexelDensity has it
+constexpr double facedAnObject = 0.03; // to ask a triangle whether it faces the light; see ShadowWork::objects
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
 
 /// Why a candidate would leave a caster out; empty if it would not.
@@ -65,6 +67,7 @@ public:
         addPlanar(flat);
         addTerrain();
         addMaps();
+        addVolume();
         addTraced();
         for (AutoCandidate& candidate : _result.all)
             if (candidate.obstacle.empty()) candidate.obstacle = whyOnlyMaps(candidate, _view.casters);
@@ -111,7 +114,7 @@ private:
         planar.still = _compose;
         planar.still.calls += 2.0 * planes;
         planar.still.triangles = planes * _casters;
-        planar.still.pixels = _pixels;
+        planar.still.texels = _pixels; // stencil and depth alone, as in a map
         _result.all.push_back(planar);
     }
 
@@ -186,6 +189,20 @@ private:
     double stretch() const {
         if (_view.towards.w != 0.0) return 1.0;
         return std::min(1.0 / std::max(std::abs(_view.towards.z), 1e-6), mostStretch);
+    }
+
+    void addVolume() {
+        const VolumeForecast forecast = forecastVolumes(_view.frame, _view.casters, _view.towards);
+        AutoCandidate volume;
+        volume.kind = Kind::Volume;
+        volume.error = sampledEdge;
+        volume.obstacle = whyCutOut(_view.casters);
+        volume.still = _compose;
+        volume.still.calls += 3.0;
+        volume.still.triangles = 2.0 * forecast.sides;
+        volume.still.texels = forecast.pixels + _pixels; // counts become marks
+        volume.change.objects = forecast.sides + facedAnObject * _casters;
+        _result.all.push_back(volume);
     }
 
     void addTraced() {

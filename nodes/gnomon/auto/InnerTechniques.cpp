@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/auto/InnerTechniques.h>
@@ -13,6 +14,7 @@ using Kind = AutoCandidate::Kind;
 constexpr unsigned keptRounds = 60; // techniques that no view has chosen since are let go, with all that they keep
 
 osg::ref_ptr<ShadowTechnique> make(const AutoCandidate& candidate) {
+    if (candidate.kind == Kind::Volume) return new ShadowVolumeTechnique;
     if (candidate.kind == Kind::Traced) return new TracedShadowTechnique;
     if (candidate.kind == Kind::Terrain) {
         osg::ref_ptr<TerrainShadowGeode> terrain = new TerrainShadowGeode;

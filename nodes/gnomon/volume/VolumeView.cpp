@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/overlay/StencilBatches.h>
 #include <gnomon/silhouette/SightStart.h>
-#include <gnomon/silhouette/VolumeEnd.h>
+#include <gnomon/volume/VolumeHull.h>
 #include <gnomon/volume/VolumeView.h>
 
 #include <glm/common.hpp>
@@ -9,44 +9,11 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace gnomon {
 namespace {
-
-/// Corners of the part's bounds, and where its volume ends behind them.
-std::array<glm::dvec4, 16> hullOf(const SilhouetteMesh::Part& part, const glm::dvec4& end, const glm::dvec4& light,
-                                  const glm::dmat4& clipFromMesh) {
-    std::array<glm::dvec4, 16> points;
-    const glm::dvec3 low(part.low), high(part.high);
-    for (unsigned i = 0; i < 8; ++i) {
-        const glm::dvec3 corner(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
-        const glm::dvec3 away = awayFrom(light, corner);
-        const double length = lengthTo(end, corner, light);
-        points[i] = clipFromMesh * glm::dvec4(corner, 1.0);
-        points[i + 8] = clipFromMesh * (length < 0.0 ? glm::dvec4(away, 0.0) : glm::dvec4(corner + length * away, 1.0));
-    }
-    return points;
-}
-
-/// As screenBounds(), which is slower.
-std::optional<ScreenRect> boundsOf(const std::array<glm::dvec4, 16>& points) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    ScreenRect rect{glm::dvec2(infinity), glm::dvec2(-infinity)};
-    for (const glm::dvec4& point : points) {
-        if (!(point.w > 1e-6 * (std::abs(point.x) + std::abs(point.y))))
-            return screenBounds({points.begin(), points.end()});
-        const glm::dvec2 at = glm::dvec2(point) / point.w;
-        rect.low = glm::min(rect.low, at);
-        rect.high = glm::max(rect.high, at);
-    }
-    rect = common(rect, wholeScreen);
-    if (!overlap(rect, rect)) return std::nullopt;
-    return rect;
-}
 
 /// Where the volume of a part is across the light, in a plane of two coordinates; a lamp's are those of a globe.
 PrismLayers layersOf(const LightVolumes& of, unsigned index, unsigned capacity) {
@@ -119,7 +86,8 @@ void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes&
     const std::size_t before = all.parts.size();
     for (unsigned i = 0; i < mesh.parts.size(); ++i) {
         const ShadowVolumes::Part& volume = volumes.volumes().parts[i];
-        const auto hull = hullOf(mesh.parts[i], volume.end, volumes.volumes().light, clipFromMesh);
+        const VolumeHull hull = volumeHull(glm::dvec3(mesh.parts[i].low), glm::dvec3(mesh.parts[i].high), volume.end,
+                                           volumes.volumes().light, clipFromMesh);
         const auto bounds = boundsOf(hull);
         if (!bounds) continue;
         const bool cut = std::any_of(hull.begin(), hull.begin() + 8, [](const auto& at) { return at.z <= -at.w; });

@@ -13,7 +13,7 @@ struct ShadowWork {
     double relit = 0.0;     ///< triangles of the scene that are drawn once more.
     double filled = 0.0;    ///< pixels that those cover, or that are blended.
     double rays = 0.0;      ///< cast by the processor.
-    double objects = 0.0;   ///< shadows found on terrain.
+    double objects = 0.0;   ///< shadows found on terrain, or sides of shadow volumes.
 
     ShadowWork& operator+=(const ShadowWork& other);
 };
