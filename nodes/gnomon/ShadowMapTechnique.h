@@ -44,7 +44,8 @@ class ShadowMapCache;
 /// - Penumbras are streaky where a caster is nearer to the lamp than the lamp is wide.
 /// - Penumbras end at 128 texels, and at the borders of a lamp's maps.
 /// - Casters that draw themselves need bounds. Each costs as much as in the view, in every map that changes.
-/// - What one of them changes from frame to frame shows if it uses no display list, or its data variance is DYNAMIC.
+/// - A caster that draws itself is redrawn each frame if it has no display list or is DYNAMIC. Otherwise, changes of its
+///   place, bounds, state sets and uniforms show.
 /// - Blended casters cast as if they were solid.
 /// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.
 /// - Multisampled framebuffers are shadowed by pixel, from one sample.

@@ -205,6 +205,27 @@ TEST(CasterLevels, AreReadOnceOnAFlightToAndFro) {
     EXPECT_EQ(flight.reads(), 8) << "two levels at four places";
 }
 
+/// It plays to the end and again, as an animation does.
+TEST(CasterLevels, OfASequenceAreReadOnce) {
+    const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
+    const osg::ref_ptr<osg::Sequence> sequence = new osg::Sequence;
+    std::vector<osg::ref_ptr<Counted>> all;
+    for (int i = 0; i < 8; ++i) {
+        all.push_back(new Counted(i));
+        sequence->addChild(geodeOf(all.back().get()));
+    }
+    group->addChild(sequence);
+    const CasterView view = viewFrom({0, 0, 20}, group.get());
+    for (int step = 0; step < 40; ++step) {
+        sequence->setValue(step % 8);
+        const auto drawables = group->drawables(&view);
+        ASSERT_EQ(drawables->list.size(), 1u);
+        EXPECT_EQ(drawables->list.front()->drawable, all[std::size_t(step % 8)]);
+        EXPECT_EQ(group->casters(&view)->triangles(), 1u);
+    }
+    for (const auto& each : all) EXPECT_EQ(each->reads, 1);
+}
+
 TEST(CasterLevels, OfEachViewAreItsOwnAndStay) {
     const Flight flight;
     const CasterView near = viewFrom({0, 0, 20}, &near), far = viewFrom({0, 0, 500}, &far);

@@ -36,9 +36,9 @@ Mesh dome() { return insideOut(sphere({0.0, 0.0, 0.0}, 40.0, 16)); }
 
 std::vector<Mesh> skyBox() {
     const double a = 50.0;
-    return {box({-a, -a, a}, {a, a, a + 1.0}),   box({-a, -a, -a - 1.0}, {a, a, -a}),
-            box({a, -a, -a}, {a + 1.0, a, a}),   box({-a - 1.0, -a, -a}, {-a, a, a}),
-            box({-a, a, -a}, {a, a + 1.0, a}),   box({-a, -a - 1.0, -a}, {a, -a, a})};
+    return {box({-a, -a, a}, {a, a, a + 1.0}), box({-a, -a, -a - 1.0}, {a, a, -a}),
+            box({a, -a, -a}, {a + 1.0, a, a}), box({-a - 1.0, -a, -a}, {-a, a, a}),
+            box({-a, a, -a}, {a, a + 1.0, a}), box({-a, -a - 1.0, -a}, {a, -a, a})};
 }
 
 /// A bowl of hills around the ground, 30 high, and open above.
@@ -50,7 +50,8 @@ Mesh valley() {
         return glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), height);
     };
     for (int i = 0; i < sides; ++i) {
-        const glm::dvec3 a = at(i, 20.0, -1.0), b = at(i + 1, 20.0, -1.0), c = at(i + 1, 60.0, 30.0), d = at(i, 60.0, 30.0);
+        const glm::dvec3 a = at(i, 20.0, -1.0), b = at(i + 1, 20.0, -1.0), c = at(i + 1, 60.0, 30.0),
+                         d = at(i, 60.0, 30.0);
         for (const glm::dvec3& corner : {a, b, c, a, c, d}) mesh.push_back(corner);
     }
     return mesh;

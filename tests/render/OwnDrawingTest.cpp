@@ -41,7 +41,9 @@ public:
     META_Object(test, OwnBody)
 
     void drawImplementation(osg::RenderInfo&) const override {
-        ++draws;
+        GLint unit = 0;
+        glGetIntegerv(GL_ACTIVE_TEXTURE, &unit);
+        onFirstUnit = onFirstUnit && unit == GL_TEXTURE0;
         glBegin(GL_TRIANGLES);
         for (std::size_t i = 0; i < body.size(); ++i) {
             const glm::dvec3 normal = body[i];
@@ -56,7 +58,7 @@ public:
 
     float scale = 1.0f;
     bool bounded = true;
-    mutable int draws = 0;
+    mutable bool onFirstUnit = true; ///< in every draw.
 
 protected:
     ~OwnBody() override = default;
@@ -253,6 +255,18 @@ TEST(OwnDrawing, WithoutBoundsIsReported) {
     Trial trial(drawable, map());
     trial.frame();
     EXPECT_TRUE(trial.says("'teapot' draws itself and has no bounds, so it casts nothing"));
+}
+
+/// Evaluators, as osgteapot has, work with the first texture unit alone.
+TEST(OwnDrawing, IsDrawnOnTheFirstTextureUnit) {
+    const osg::ref_ptr<OwnBody> early = new OwnBody, late = new OwnBody;
+    for (const auto& drawable : {early, late}) drawable->setUseDisplayList(false);
+    late->getOrCreateStateSet()->setRenderBinDetails(10, "RenderBin");
+    Trial trial(early, map());
+    trial.place->getChild(0)->asGeode()->addDrawable(late);
+    for (int frame = 0; frame < 2; ++frame) trial.frame();
+    EXPECT_TRUE(early->onFirstUnit);
+    EXPECT_TRUE(late->onFirstUnit);
 }
 
 /// The map is drawn in the first frame alone: the second would differ from it where its state stayed.

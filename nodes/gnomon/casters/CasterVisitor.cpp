@@ -2,7 +2,6 @@
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/casters/DrawableTriangles.h>
-#include <gnomon/casters/OwnDrawing.h>
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
@@ -12,6 +11,7 @@
 #include <osg/MatrixTransform>
 #include <osg/PositionAttitudeTransform>
 #include <osg/Projection>
+#include <osg/Sequence>
 
 #include <algorithm>
 #include <cstring>
@@ -175,6 +175,12 @@ void CasterVisitor::apply(osg::LOD& lod) {
     const OnTheWay here(*this, lod);
     ++_atLevels;
     visitLevels(lod);
+    --_atLevels;
+}
+
+void CasterVisitor::apply(osg::Sequence& sequence) {
+    ++_atLevels;
+    apply(static_cast<osg::Node&>(sequence));
     --_atLevels;
 }
 

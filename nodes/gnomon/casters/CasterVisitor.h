@@ -43,6 +43,7 @@ public:
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geode& geode) override;
     void apply(osg::LOD& lod) override;
+    void apply(osg::Sequence& sequence) override;
     void apply(osg::Transform& transform) override;
     void apply(osg::Billboard&) override {}
     void apply(osg::Camera&) override {}
@@ -59,7 +60,7 @@ public:
     void setRule(const CastingRule& rule) { _rule = rule; }
     /// Default Levels::Chosen.
     void setLevels(Levels levels) { _levels = levels; }
-    /// Stands for the drawables that were met under LODs, wherever they are.
+    /// Stands for the drawables that were met under LODs and sequences, wherever they are.
     std::uint64_t choice() const { return _choice.value(); }
     /// Adds the arrays and primitive sets of a drawable that are read; the drawable itself if it is no geometry.
     static void holdSources(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources);
@@ -84,7 +85,7 @@ protected:
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
     /// Of the drawable being visited: nullopt, at no cost, if no state on the way to it switches one on.
     virtual std::optional<AlphaTest> alphaTest() const;
-    /// True while the drawable being visited is under an LOD: it may go and come back.
+    /// True while the drawable being visited is under an LOD or a sequence: it may go and come back.
     bool isOfLevels() const { return _atLevels > 0; }
 
 private:
@@ -107,7 +108,7 @@ private:
     QuadSplit _quads;
     std::unique_ptr<osg::CullStack> _cullStack; ///< of the view; null until an LOD by pixels is met.
     int _atPixelLevels = 0;                     ///< how many of them are on the way down.
-    int _atLevels = 0;                          ///< how many LODs are on the way down.
+    int _atLevels = 0;                          ///< how many LODs and sequences are on the way down.
     Fingerprint _choice;
     int _inside = 0;     ///< how often a selected node is on the way down.
     int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.

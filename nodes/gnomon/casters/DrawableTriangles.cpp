@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/DrawableTriangles.h>
 
+#include <osg/DispatchCompute>
+#include <osg/DrawPixels>
 #include <osg/Vec4>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <vector>
@@ -91,6 +94,18 @@ const osg::Array* verticesOf(const osg::Geometry& geometry) {
 bool hasTriangles(const osg::Drawable& drawable) {
     static const NoTriangles any;
     return drawable.asGeometry() || drawable.supports(any);
+}
+
+bool drawsItself(const osg::Drawable& drawable) {
+    if (const osg::Geometry* geometry = drawable.asGeometry()) {
+        const osg::Geometry::PrimitiveSetList& all = geometry->getPrimitiveSetList();
+        return std::any_of(all.begin(), all.end(),
+                           [](const auto& set) { return set->getMode() == osg::PrimitiveSet::PATCHES; });
+    }
+    if (hasTriangles(drawable)) return false;
+    for (const char* library : {"osgText", "osgParticle"}) // which the kit does not link
+        if (std::strcmp(drawable.libraryName(), library) == 0) return false;
+    return !dynamic_cast<const osg::DrawPixels*>(&drawable) && !dynamic_cast<const osg::DispatchCompute*>(&drawable);
 }
 
 } // namespace gnomon

@@ -23,4 +23,8 @@ const osg::Array* verticesOf(const osg::Geometry& geometry);
 /// True if OpenSceneGraph can hand out the drawable's triangles: not those of particles, for one.
 bool hasTriangles(const osg::Drawable& drawable);
 
+/// True if a drawable has a shape that it hands out no triangles of: of a class with drawImplementation() alone, or of
+/// patches. Text, particles, pixels and compute dispatches do not count: they cast nothing.
+bool drawsItself(const osg::Drawable& drawable);
+
 } // namespace gnomon

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/CasterFingerprint.h>
-#include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/casters/OwnDrawing.h>
 #include <gnomon/casters/PathState.h>
 
-#include <osg/DispatchCompute>
-#include <osg/DrawPixels>
-#include <osg/Geometry>
-
 #include <algorithm>
-#include <cstring>
 
 namespace gnomon {
 namespace {
@@ -52,10 +46,6 @@ bool changesUnseen(const osg::Drawable& drawable) {
     return !drawable.asGeometry() && !(drawable.getSupportsDisplayList() && drawable.getUseDisplayList());
 }
 
-bool isPatches(const osg::ref_ptr<osg::PrimitiveSet>& primitives) {
-    return primitives->getMode() == osg::PrimitiveSet::PATCHES;
-}
-
 } // namespace
 
 OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix)
@@ -82,17 +72,6 @@ std::uint64_t OwnDrawing::fingerprintOf(const osg::NodePath& path, const osg::Dr
     result.mix(std::uint64_t{changesUnseen(drawable)});
     for (const auto& set : statesAlong(path)) mixState(*set, result);
     return result.value();
-}
-
-bool drawsItself(const osg::Drawable& drawable) {
-    if (const osg::Geometry* geometry = drawable.asGeometry()) {
-        const osg::Geometry::PrimitiveSetList& all = geometry->getPrimitiveSetList();
-        return std::any_of(all.begin(), all.end(), isPatches);
-    }
-    if (hasTriangles(drawable)) return false;
-    for (const char* library : {"osgText", "osgParticle"}) // which the kit does not link
-        if (std::strcmp(drawable.libraryName(), library) == 0) return false;
-    return !dynamic_cast<const osg::DrawPixels*>(&drawable) && !dynamic_cast<const osg::DispatchCompute*>(&drawable);
 }
 
 } // namespace gnomon

@@ -14,7 +14,8 @@
 
 namespace gnomon {
 
-/// A caster whose shape only its own code or program knows, at one place in the graph: see drawsItself(). It never changes.
+/// A caster whose shape only its own code or program knows, at one place in the graph. It never changes.
+/// drawsItself() tells which drawables are such.
 ///
 /// Limits
 /// - It counts as changed by its place, bounds, arrays, state sets and their uniforms. What moves otherwise is DYNAMIC.
@@ -40,9 +41,5 @@ struct OwnDrawing : public osg::Referenced {
 protected:
     ~OwnDrawing() override = default;
 };
-
-/// True if a drawable has a shape that it hands out no triangles of: of a class with drawImplementation() alone, or of
-/// patches. Text, particles, pixels and compute dispatches do not count: they cast nothing.
-bool drawsItself(const osg::Drawable& drawable);
 
 } // namespace gnomon

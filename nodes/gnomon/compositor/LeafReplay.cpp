@@ -38,7 +38,9 @@ LeafReplay::LeafReplay(const CompositorStage& draw, const Overlay& overlay)
       _materials(draw.materials),
       _overlay(overlay),
       _lights(_state, _overlay.lightUniforms),
-      _stackSize(static_cast<unsigned>(_state.getStateSetStackSize())) {}
+      _stackSize(static_cast<unsigned>(_state.getStateSetStackSize())) {
+    _state.setActiveTextureUnit(0); // as drawables that draw themselves may take for granted
+}
 
 LeafReplay::~LeafReplay() {
     _state.popStateSetStackToSize(_stackSize);

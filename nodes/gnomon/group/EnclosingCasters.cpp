@@ -20,11 +20,11 @@
 namespace gnomon {
 namespace {
 
-constexpr unsigned patience = 60;               // frames in which something changes, until all is looked at again
-constexpr std::size_t mostKnown = 16;           // of groups and lights in a stage
-constexpr std::size_t mostReceivers = 7;        // nine points each: 63 rays to the light
-constexpr std::size_t mostTriangles = 200000;   // of an enclosing node: a tree of these takes a fifth of a second
-constexpr double nearlyAll = 0.95, cone = 0.5;  // the cosine of 60°
+constexpr unsigned patience = 60;              // frames in which something changes, until all is looked at again
+constexpr std::size_t mostKnown = 16;          // of groups and lights in a stage
+constexpr std::size_t mostReceivers = 7;       // nine points each: 63 rays to the light
+constexpr std::size_t mostTriangles = 200000;  // of an enclosing node: a tree of these takes a fifth of a second
+constexpr double nearlyAll = 0.95, cone = 0.5; // the cosine of 60°
 
 /// The drawables below a node that cast.
 struct CastingNode {
@@ -122,10 +122,12 @@ std::string find(const EnclosingCasters::View& view) {
     if (!node.node || node.triangles > mostTriangles) return {};
     const std::vector<osg::Vec3d> points = pointsIn(boxesOf(view, node));
     const auto isInside = [&](const osg::Vec3d& point) { return node.bounds.contains(point); };
-    if (points.empty() || !holdsForNearlyAll(points, isInside) || !encloses(node, points, view.light.inGroup)) return {};
-    return "nearly all that light " + std::to_string(view.light.number) + " could reach in this view is in the shadow of '" +
-           nameOf(*node.node) +
-           "', which stands around it. Take that node out of setCasters() by its node mask, or draw it at the far plane, "
+    if (points.empty() || !holdsForNearlyAll(points, isInside) || !encloses(node, points, view.light.inGroup))
+        return {};
+    return "nearly all that light " + std::to_string(view.light.number) +
+           " could reach in this view is in the shadow of '" + nameOf(*node.node) +
+           "', which stands around it. Take that node out of setCasters() by its node mask, or draw it at the far "
+           "plane, "
            "as skies are.";
 }
 

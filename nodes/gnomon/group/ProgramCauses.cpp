@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/base/ProgramText.h>
-#include <gnomon/casters/OwnDrawing.h>
+#include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/group/ProgramCauses.h>
 
 #include <algorithm>

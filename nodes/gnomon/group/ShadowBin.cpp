@@ -36,17 +36,16 @@ void reportOwnDrawings(const EnlistedTechnique& entry, const CasterDrawables::Ow
     if (own.empty()) return;
     const std::string first = ", the first in '" + own.front()->name + "'";
     if (!entry.technique->drawsCasters())
-        return entry.technique->report(entry.frameNumber,
-                                       "what draws itself or is made of patches casts nothing here: " +
-                                           std::to_string(own.size()) + first +
-                                           ". Use map, or let a node that is never drawn cast in its place.");
+        return entry.technique->report(
+            entry.frameNumber,
+            "what draws itself or is made of patches casts nothing here: " + std::to_string(own.size()) + first +
+                ". Use map, or let a node that is never drawn cast in its place.");
     const auto hasNone = [](const auto& drawing) { return !drawing->bounds.valid(); };
     const auto unbounded = std::find_if(own.begin(), own.end(), hasNone);
     if (unbounded != own.end())
-        entry.technique->report(entry.frameNumber,
-                                "'" + (*unbounded)->name +
-                                    "' draws itself and has no bounds, so it casts nothing. Give it "
-                                    "computeBoundingBox(), or call setInitialBound().");
+        entry.technique->report(entry.frameNumber, "'" + (*unbounded)->name +
+                                                       "' draws itself and has no bounds, so it casts nothing. Give it "
+                                                       "computeBoundingBox(), or call setInitialBound().");
 }
 
 bool areSome(const EnlistedTechnique& entry, const CasterDrawables& casters) {

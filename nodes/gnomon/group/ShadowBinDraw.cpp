@@ -52,8 +52,10 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*
     std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
     MaterialHistory materials(state, leaves, previous);
     popLeafState(state, previous);
+    const unsigned unit = state.getActiveTextureUnit();
     const std::string cause = compose(renderInfo, std::move(leaves), materials);
     materials.restore();
+    state.setActiveTextureUnit(unit);
     return cause;
 }
 

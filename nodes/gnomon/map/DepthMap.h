@@ -45,7 +45,7 @@ struct MapPicture : public osg::Referenced {
         bool operator==(const Layer& other) const;
     };
     Layer still, moving;
-    OwnCasters own; ///< they count as moving.
+    OwnCasters own;                                  ///< they count as moving.
     osg::ref_ptr<const osg::StateSet> program;       ///< see shaderProgram().
     osg::ref_ptr<const osg::StateSet> cutoutProgram; ///< the same with CUTOUT.
     int size = 0;                                    ///< of a tile's side, texels.

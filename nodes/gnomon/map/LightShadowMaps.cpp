@@ -74,8 +74,9 @@ void LightShadowMaps::begin() {
 double LightShadowMaps::clearance() {
     const glm::dvec3 lamp(_cause.light);
     if (!_clearOfStill) _clearOfStill = _cause.casters->still->clearanceOf(lamp);
-    if (!_clear) _clear = std::min({*_clearOfStill, _cause.casters->moving->clearanceOf(lamp),
-                                    clearanceOf(_cause.casters->own, lamp)});
+    if (!_clear)
+        _clear = std::min(
+            {*_clearOfStill, _cause.casters->moving->clearanceOf(lamp), clearanceOf(_cause.casters->own, lamp)});
     return *_clear;
 }
 

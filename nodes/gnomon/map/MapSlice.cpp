@@ -116,8 +116,7 @@ void MapSlice::takeBlockers(const MapRequest& cause) {
     const LayerOutlines moving = outlinesOf(cause, *cause.casters->moving, frame);
     MapOutline bodies = still.bodies;
     bodies.merge(moving.bodies);
-    for (const OwnCaster& caster : cause.casters->own)
-        bodies.addBox(caster.box.low, caster.box.high, glm::dmat4(1.0));
+    for (const OwnCaster& caster : cause.casters->own) bodies.addBox(caster.box.low, caster.box.high, glm::dmat4(1.0));
     add(bodies, {});
     addFlats(still, *cause.casters->still, bodies);
     addFlats(moving, *cause.casters->moving, bodies);

@@ -31,6 +31,7 @@ public:
         for (const auto& set : own.view.states) _state.pushStateSet(set);
         for (const auto& set : drawing.states) _state.pushStateSet(set);
         _state.apply();
+        _state.setActiveTextureUnit(0); // evaluators know no other
     }
     ~OwnState() {
         _state.popStateSetStackToSize(_size);

@@ -84,8 +84,7 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
     const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     const bool forPrograms = settings.programUnit >= 0;
     if (!bounds) return forPrograms ? new ProgramMaps(unsigned(settings.programUnit)) : nullptr;
-    map.update(*_resources, _bodies,
-               casters.own.empty() ? OwnView() : OwnView(scene.eyeFromScene, view.seen));
+    map.update(*_resources, _bodies, casters.own.empty() ? OwnView() : OwnView(scene.eyeFromScene, view.seen));
     MapLookupPass quad = map.quad(scene.clipFromScene);
     quad.resources = _resources;
     quad.pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
