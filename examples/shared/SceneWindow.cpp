@@ -86,7 +86,7 @@ SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, S
                          osgGA::GUIEventHandler& keys)
     : _usage(new osg::ApplicationUsage) {
     askForStencilBits();
-    askForAlphaBits(); // soft edges
+    askForAlphaBits();                                            // soft edges
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded); // keys change what another thread could be drawing
     _viewer.setLightingMode(osg::View::NO_LIGHT);
     openWindow(names, options);
