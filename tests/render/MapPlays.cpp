@@ -30,10 +30,10 @@ Play play(const std::string& name, const TracedCase& given = inSun()) { return {
 } // namespace
 
 /// By maps that never saw another moment, in a context of its own.
-Picture freshPicture(const Play& play, const Moment& moment, const View& view) {
+Picture freshPicture(const Play& play, const Moment& moment, const View& from) {
     Stage stage(play);
     stage.set(moment);
-    return test::render(stage.scene.root, view);
+    return test::render(stage.scene.root, from);
 }
 
 TracedCase inSun() { return {"sun", betweenPosts(), {0.9, 0.4, 1.2, 0.0}, view}; }

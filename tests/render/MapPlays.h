@@ -57,12 +57,12 @@ struct Stage {
 };
 
 /// By maps that never saw another moment, in a context of its own.
-Picture freshPicture(const Play& play, const Moment& moment, const View& view);
+Picture freshPicture(const Play& play, const Moment& moment, const View& from);
 
 /// The same, all in one context, which is sooner done.
 class FreshPictures {
 public:
-    explicit FreshPictures(const View& view) : _camera(new osg::Group, view) {}
+    explicit FreshPictures(const View& from) : _camera(new osg::Group, from) {}
 
     Picture of(const Play& play, const Moment& moment) {
         Stage stage(play);
