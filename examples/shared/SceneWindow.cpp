@@ -2,7 +2,7 @@
 #include "SceneWindow.h"
 #include "Legible.h"
 
-#include <osg/DisplaySettings>
+#include <gnomon/SceneProps.h>
 #include <osgGA/DriveManipulator>
 #include <osgGA/FirstPersonManipulator>
 #include <osgGA/FlightManipulator>
@@ -85,8 +85,8 @@ osgViewer::ScreenCaptureHandler* makeCapture(const std::string& program) {
 SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, SceneSetup& setup, Hud& hud,
                          osgGA::GUIEventHandler& keys)
     : _usage(new osg::ApplicationUsage) {
-    osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
-    osg::DisplaySettings::instance()->setMinimumNumAlphaBits(8);  // soft edges
+    askForStencilBits();
+    askForAlphaBits();                                            // soft edges
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded); // keys change what another thread could be drawing
     _viewer.setLightingMode(osg::View::NO_LIGHT);
     openWindow(names, options);

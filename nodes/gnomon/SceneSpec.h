@@ -7,7 +7,6 @@
 #include <osg/Node>
 #include <osg/ref_ptr>
 
-#include <optional>
 #include <string>
 #include <vector>
 

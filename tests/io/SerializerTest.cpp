@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Scene files keep every property, to the bit.
-#include "SceneText.h"
+#include "SceneFile.h"
 
-#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/HaloNode.h>
 #include <gnomon/HaloPulse.h>
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
-#include <gnomon/TerrainShadowGeode.h>
-#include <gnomon/ShadowVolumeTechnique.h>
-#include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <support/Picture.h>
 #include <support/Scene.h>
@@ -28,6 +24,8 @@ using gnomon::Selection;
 using gnomon::ShadowCasterGroup;
 using gnomon::ShadowLight;
 using gnomon::ShadowMapTechnique;
+using test::childOf;
+using test::SceneFile;
 
 /// KeyNumbers that six digits, or a reader that rounds carelessly, would change.
 const std::vector<osg::Vec4d> delicate = {
@@ -36,11 +34,6 @@ const std::vector<osg::Vec4d> delicate = {
     {6378137.0000000009, 123456789012345678.0, 5e-324, 2.2250738585072011e-308},
 };
 
-template <typename Class>
-Class& childOf(osg::Group& group, unsigned index) {
-    return dynamic_cast<Class&>(*group.getChild(index));
-}
-
 /// True if both have the same bits, which tells 0 from -0.
 bool sameBits(const osg::Vec4d& a, const osg::Vec4d& b) {
     for (int i = 0; i < 4; ++i)
@@ -48,23 +41,6 @@ bool sameBits(const osg::Vec4d& a, const osg::Vec4d& b) {
     return true;
 }
 
-class SceneFile : public testing::TestWithParam<const char*> {
-protected:
-    static void SetUpTestSuite() { test::usePluginsOfThisBuild(); }
-    std::string kind() const { return GetParam(); }
-
-    /// The scene's group is given its light; through a file and back it must look the same, shadow and all.
-    void expectSamePictureOnceLoaded(test::Scene& scene) const {
-        scene.group->addLight(scene.light);
-        const auto copy = test::throughFile(*scene.root, kind());
-        ASSERT_TRUE(copy);
-        const test::View view = test::perspective({-6.0, -8.0, 8.0}, {0.0, 0.0, 0.0});
-        const test::Picture before = test::render(scene.root, view);
-        EXPECT_EQ(test::render(copy, view).different(before), 0);
-        scene.group->removeChild(1);
-        EXPECT_GT(test::render(scene.root, view).different(before), 500) << "there is no shadow to compare";
-    }
-};
 INSTANTIATE_TEST_SUITE_P(EveryKind, SceneFile, testing::Values("osgt", "osgb", "osgx"),
                          [](const auto& test) { return std::string(test.param); });
 
@@ -353,63 +329,6 @@ TEST_P(SceneFile, DrawsTheSamePictureOnceLoaded) {
     expectSamePictureOnceLoaded(scene);
 }
 
-TEST_P(SceneFile, DrawsTheSameTracedPictureOnceLoaded) {
-    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
-    const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
-    technique->setReceiver({test::find(*scene.content, "ground")});
-    scene.addShadow(technique);
-    expectSamePictureOnceLoaded(scene);
-}
-
-TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
-    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
-    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
-    technique->setSize(20); // so that its own size and filter show
-    technique->setFilter(gnomon::ShadowMapTechnique::FINE);
-    scene.addShadow(technique);
-    expectSamePictureOnceLoaded(scene);
-}
-
-TEST_P(SceneFile, KeepsTheBudgetOfAutomaticChoice) {
-    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
-    technique->setError(1.0 / 3.0);
-    technique->setTime(0.7);
-    const auto loaded = test::throughFile(*technique, kind());
-    EXPECT_EQ(loaded->getError(), 1.0 / 3.0);
-    EXPECT_EQ(loaded->getTime(), 0.7);
-}
-
-TEST_P(SceneFile, KeepsTheCascadesOfMaps) {
-    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
-    technique->setCascades(3);
-    const auto loaded = test::throughFile(*technique, kind());
-    EXPECT_EQ(loaded->getCascades(), 3);
-}
-
-TEST_P(SceneFile, KeepsTheSoftEdgesAndTheViewOfMaps) {
-    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
-    technique->setEdges(gnomon::ShadowMapTechnique::SOFT);
-    technique->setSunAngle(0.1);
-    technique->setLampSize(1.0 / 3.0);
-    technique->setRadius(2.0 / 3.0);
-    technique->setView(gnomon::ShadowMapTechnique::CASCADES);
-    const auto loaded = test::throughFile(*technique, kind());
-    EXPECT_EQ(loaded->getEdges(), gnomon::ShadowMapTechnique::SOFT);
-    EXPECT_EQ(loaded->getSunAngle(), 0.1);
-    EXPECT_EQ(loaded->getLampSize(), 1.0 / 3.0);
-    EXPECT_EQ(loaded->getRadius(), 2.0 / 3.0);
-    EXPECT_EQ(loaded->getView(), gnomon::ShadowMapTechnique::CASCADES);
-}
-
-TEST_P(SceneFile, KeepsTheViewOfVolumesAndTheirPicture) {
-    const osg::ref_ptr<gnomon::ShadowVolumeTechnique> technique = new gnomon::ShadowVolumeTechnique;
-    technique->setView(gnomon::ShadowVolumeTechnique::VOLUMES);
-    EXPECT_EQ(test::throughFile(*technique, kind())->getView(), gnomon::ShadowVolumeTechnique::VOLUMES);
-    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
-    scene.addShadow(technique);
-    expectSamePictureOnceLoaded(scene);
-}
-
 TEST(SceneFileText, SaysNothingOfDefaults) {
     test::usePluginsOfThisBuild();
     const std::string start = "#Ascii Scene \n#Version 161 \n#Generator OpenSceneGraph 3.6.5 \n\n";
@@ -448,35 +367,6 @@ gnomon::ShadowCasterGroup {
     EXPECT_EQ(node.getReceiver().mask, 0xffu);
     EXPECT_EQ(node.getPlanes(), (std::vector<osg::Vec4d>{{0.0, 0.0, 1.0, -0.5}, {1.0, 0.0, 0.0, 3.0}}));
     EXPECT_TRUE(node.getStencilCure() && node.getOffsetCure() && !node.getClipCure());
-}
-
-TEST_P(SceneFile, KeepsATerrainShadowGeodeToTheBit) {
-    osg::ref_ptr<gnomon::TerrainShadowGeode> shadow = new gnomon::TerrainShadowGeode;
-    shadow->setMethod(gnomon::TerrainShadowGeode::DRAPE);
-    shadow->setError(1.0 / 3.0);
-    shadow->setObjectGraphic(test::node(test::box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}), "house"));
-    shadow->setObjectPos({433000.1, -1.0 / 3.0, 1e-300});
-    shadow->setObjectOrientation(0.1);
-    shadow->setObjectBounds({{-0.1, -0.2, -0.3}, {0.1, 0.2, 1.0 / 3.0}});
-    const osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(shadow);
-    root->addChild(new gnomon::TerrainShadowGeode);
-    const auto copy = test::throughFile(*root, kind());
-    ASSERT_TRUE(copy);
-    const auto& read = childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 0);
-    EXPECT_EQ(read.getMethod(), gnomon::TerrainShadowGeode::DRAPE);
-    EXPECT_EQ(read.getError(), 1.0 / 3.0);
-    ASSERT_TRUE(read.getObjectGraphic());
-    EXPECT_EQ(read.getObjectGraphic()->getName(), "house");
-    EXPECT_EQ(read.getObjectPos(), shadow->getObjectPos());
-    EXPECT_EQ(read.getObjectOrientation(), 0.1);
-    EXPECT_EQ(read.getObjectBounds()._min, shadow->getObjectBounds()._min);
-    EXPECT_EQ(read.getObjectBounds()._max, shadow->getObjectBounds()._max);
-    const auto& fresh = childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 1);
-    EXPECT_EQ(fresh.getMethod(), gnomon::TerrainShadowGeode::HULL);
-    EXPECT_EQ(fresh.getError(), 0.1);
-    EXPECT_FALSE(fresh.getObjectGraphic());
-    EXPECT_FALSE(fresh.getObjectBounds().valid());
 }
 
 } // namespace

@@ -82,7 +82,8 @@ TEST(ShadowWork, TakesWhatItsPartsTake) {
     rates.pixel = 0.002;
     rates.triangle = 0.01;
     EXPECT_DOUBLE_EQ(timeOf(still, rates), 2.0);
-    EXPECT_DOUBLE_EQ(timeOf(still + 0.5 * change, rates), 4.5);
+    still += 0.5 * change;
+    EXPECT_DOUBLE_EQ(timeOf(still, rates), 4.5);
 }
 
 TEST(EdgeError, IsThePixelsWhereTexelsAreSmallAndTheTexelsWhereTheyAreLarge) {

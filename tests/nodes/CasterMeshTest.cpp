@@ -118,14 +118,10 @@ TEST(CasterMesh, ASceneScaledByAPowerOfTwoIsScaledExactly) {
     }
 }
 
-TEST(CasterMesh, SaysHowManyTrianglesItLacksAndWhere) {
+TEST(CasterMesh, LacksTrianglesThatAreNotFinite) {
     osg::ref_ptr<osg::Geometry> broken = triangle();
-    broken->setName("fence");
     (*static_cast<osg::Vec3Array*>(broken->getVertexArray()))[1].x() = NAN;
-    const osg::ref_ptr<CasterMesh> mesh = meshOf(*broken);
-    EXPECT_TRUE(mesh->empty());
-    EXPECT_EQ(mesh->invalidTriangles, 1u);
-    EXPECT_EQ(mesh->invalidNode, "fence");
+    EXPECT_TRUE(meshOf(*broken)->empty());
 }
 
 TEST(CasterMesh, HoldsTheArraysItWasMadeOfSoThatNoLaterOneTakesTheirPlace) {

@@ -5,7 +5,7 @@
 #include "SideBySide.h"
 
 #include <OpenThreads/ScopedLock>
-#include <osg/DisplaySettings>
+#include <gnomon/SceneProps.h>
 #include <osgViewer/ViewerEventHandlers>
 
 #include <cstdlib>
@@ -53,8 +53,8 @@ ProgramRun* ProgramRun::ofProcess() {
 }
 
 ProgramRun::ProgramRun(const RunOptions& options) : _options(options) {
-    osg::DisplaySettings::instance()->setMinimumNumStencilBits(8);
-    osg::DisplaySettings::instance()->setMinimumNumAlphaBits(8);
+    askForStencilBits();
+    askForAlphaBits();
     met(metProgram);
     std::atexit([] { // where the program ends by itself
         if (programNeedsOsg()) ofProcess()->met(metOsg);

@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace gnomon {
 namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
-using Kind = AutoCandidate::Kind;
 
 constexpr unsigned keptRounds = 60;    // choices of views that are gone are let go
 constexpr double memory = 0.9;         // of motion, from a frame to the next

@@ -5,7 +5,6 @@
 #include <gnomon/auto/ConvexBodies.h>
 #include <gnomon/auto/TerrainFacts.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 

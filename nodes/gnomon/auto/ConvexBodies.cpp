@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/Plane.h>
 #include <gnomon/auto/ConvexBodies.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/geometry/Across.h>
 #include <gnomon/geometry/ConvexParts.h>
 
 #include <glm/common.hpp>
@@ -18,12 +20,6 @@ namespace {
 constexpr std::size_t mostTriangles = 4000; // of a drawable that is looked at: more would take 5 ms and more
 constexpr double touching = 1e-6;           // of a body's size: so close counts as beside it
 
-std::vector<glm::vec3> positionsOf(const CasterMesh& mesh) {
-    std::vector<glm::vec3> result;
-    for (const osg::Vec3& v : *mesh.vertices) result.emplace_back(v.x(), v.y(), v.z());
-    return result;
-}
-
 ConvexBody bodyOf(const ConvexHull& hull, const glm::dvec3& origin) {
     ConvexBody body;
     for (const glm::dvec3& vertex : hull.vertices) body.corners.push_back(vertex + origin);
@@ -35,10 +31,18 @@ ConvexBody bodyOf(const ConvexHull& hull, const glm::dvec3& origin) {
     return body;
 }
 
+/// For what is not known better.
 ConvexBody boxOf(const osg::BoundingBoxd& bounds) {
-    std::vector<glm::dvec3> corners;
-    for (unsigned i = 0; i < 8; ++i) corners.push_back(toGlm(osg::Vec3d(bounds.corner(i))));
-    return boxBody(corners, toGlm(osg::Vec3d(bounds._min)), toGlm(osg::Vec3d(bounds._max)));
+    ConvexBody body;
+    for (unsigned i = 0; i < 8; ++i) body.corners.push_back(toGlm(osg::Vec3d(bounds.corner(i))));
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {1.0, -1.0}) {
+            glm::dvec4 plane(0.0);
+            plane[axis] = side;
+            plane.w = -side * (side > 0.0 ? bounds._max : bounds._min)[axis];
+            body.planes.push_back(plane);
+        }
+    return body;
 }
 
 DrawableBodies look(const CasterDrawable& piece) {
@@ -46,13 +50,14 @@ DrawableBodies look(const CasterDrawable& piece) {
     result.looked = piece.triangles <= mostTriangles;
     if (result.looked) {
         const osg::ref_ptr<const CasterMesh> mesh = meshOf({&piece});
-        const std::vector<glm::vec3> positions = positionsOf(*mesh);
+        const glm::vec3* positions = positionsOf(*mesh);
+        const std::size_t corners = mesh->vertices->size();
         const unsigned* indices = mesh->triangles->empty() ? nullptr : &mesh->triangles->front();
         const std::size_t count = mesh->triangles->size();
-        const std::vector<ConvexPart> parts = convexParts(positions.data(), positions.size(), indices, count);
+        const std::vector<ConvexPart> parts = convexParts(positions, corners, indices, count);
         const auto bounds = [](const ConvexPart& part) { return part.front.has_value(); };
         result.convex = std::none_of(parts.begin(), parts.end(), bounds) &&
-                        parts.size() == connectedPoints(positions.data(), positions.size(), indices, count).size();
+                        parts.size() == connectedPoints(positions, corners, indices, count).size();
         if (result.convex)
             for (const ConvexPart& part : parts) result.bodies.push_back(bodyOf(part.hull, toGlm(mesh->origin)));
     }
@@ -67,12 +72,10 @@ double sizeOf(const ConvexBody& body) {
     return body.corners.empty() ? 0.0 : glm::distance(low, high);
 }
 
-double beyond(const glm::dvec4& plane, const glm::dvec3& point) { return glm::dot(glm::dvec3(plane), point) + plane.w; }
-
 /// True if all of the body is on the outer side of the plane, or in it.
 bool isOutside(const ConvexBody& body, const glm::dvec4& plane, double tolerance) {
     return std::all_of(body.corners.begin(), body.corners.end(),
-                       [&](const glm::dvec3& corner) { return beyond(plane, corner) >= -tolerance; });
+                       [&](const glm::dvec3& corner) { return distance(plane, corner) >= -tolerance; });
 }
 
 /// How far along a way a body reaches.
@@ -86,17 +89,9 @@ struct Reach {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-/// Two ways across a sun's.
-void across(const glm::dvec3& sun, glm::dvec3& u, glm::dvec3& v) {
-    const glm::dvec3 up = std::abs(sun.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-    u = glm::normalize(glm::cross(up, sun));
-    v = glm::cross(sun, u);
-}
-
 bool missSun(const ConvexBody& caster, const ConvexBody& body, const glm::dvec3& sun, double tolerance) {
     if (Reach(caster, sun).high <= Reach(body, sun).low + tolerance) return true; // all of it is behind the body
-    glm::dvec3 u, v;
-    across(sun, u, v);
+    const auto [u, v] = across(sun);
     for (const glm::dvec3& way : {u, v, (u + v) * std::sqrt(0.5), (u - v) * std::sqrt(0.5)}) {
         const Reach a(caster, way), b(body, way);
         if (a.high <= b.low + tolerance || b.high <= a.low + tolerance) return true;
@@ -105,19 +100,6 @@ bool missSun(const ConvexBody& caster, const ConvexBody& body, const glm::dvec3&
 }
 
 } // namespace
-
-ConvexBody boxBody(const std::vector<glm::dvec3>& corners, const glm::dvec3& low, const glm::dvec3& high) {
-    ConvexBody body;
-    body.corners = corners;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {1.0, -1.0}) {
-            glm::dvec4 plane(0.0);
-            plane[axis] = side;
-            plane.w = -side * (side > 0.0 ? high : low)[axis];
-            body.planes.push_back(plane);
-        }
-    return body;
-}
 
 const DrawableBodies& ConvexBodies::of(const CasterDrawable& piece) {
     const auto known = _known.find(&piece);
@@ -136,13 +118,10 @@ void ConvexBodies::keepMostly(const CasterDrawables& casters) {
 /// A plane between the two that the light is on the right side of tells that no ray meets both.
 bool mayShadow(const ConvexBody& caster, const ConvexBody& body, const glm::dvec4& light) {
     const double tolerance = touching * std::max(sizeOf(caster), sizeOf(body));
-    const auto towards = [&](const glm::dvec4& plane) {
-        return glm::dot(glm::dvec3(plane), glm::dvec3(light)) + plane.w * light.w;
-    };
     for (const glm::dvec4& plane : caster.planes)
-        if (towards(plane) >= 0.0 && isOutside(body, plane, tolerance)) return false;
+        if (glm::dot(plane, light) >= 0.0 && isOutside(body, plane, tolerance)) return false;
     for (const glm::dvec4& plane : body.planes)
-        if (towards(plane) <= 0.0 && isOutside(caster, plane, tolerance)) return false;
+        if (glm::dot(plane, light) <= 0.0 && isOutside(caster, plane, tolerance)) return false;
     return light.w != 0.0 || !missSun(caster, body, glm::dvec3(light), tolerance);
 }
 

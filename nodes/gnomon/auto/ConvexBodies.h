@@ -7,7 +7,6 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace gnomon {
@@ -25,9 +24,6 @@ struct DrawableBodies {
     bool convex = true;             ///< all parts that are connected are convex, so that none shadows itself.
     bool looked = true;             ///< else it has too many triangles to be looked at.
 };
-
-/// The box between two corners, for what is not known better.
-ConvexBody boxBody(const std::vector<glm::dvec3>& corners, const glm::dvec3& low, const glm::dvec3& high);
 
 /// What casts, as bodies: found once for each drawable, and only for those that are asked for.
 ///

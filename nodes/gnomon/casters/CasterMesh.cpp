@@ -69,8 +69,6 @@ CasterMesh::CasterMesh(const CasterExtraction& casters, const std::optional<osg:
       bounds(boundsOf(casters)),
       rounding(casters.getRounding()),
       drawn(casters.getDrawn()),
-      invalidTriangles(casters.getInvalidTriangles()),
-      invalidNode(casters.getInvalidNode()),
       sources(casters.getSources()) {
     // Attached here, for the first geometry to use the array would do so, perhaps in one of several threads.
     vertices->setVertexBufferObject(new osg::VertexBufferObject);

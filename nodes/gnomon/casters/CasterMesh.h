@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/casters/CasterExtraction.h>
 
+#include <glm/vec3.hpp>
 #include <osg/Array>
 #include <osg/BoundingBox>
 #include <osg/Geometry>
@@ -11,7 +12,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace gnomon {
@@ -44,8 +44,6 @@ public:
     double rounding = 0.0;    ///< Largest error of a vertex by its float source.
     std::vector<CasterExtraction::Drawn> drawn;    ///< Drawables of the triangles. `first` indexes `triangles`.
     std::vector<CasterExtraction::Cutout> cutouts; ///< Alpha-tested drawables. `firstVertex` indexes `vertices`.
-    unsigned invalidTriangles = 0;                 ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
-    std::string invalidNode;                       ///< Name of the first drawable with an invalid triangle.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
 
     /// The tree of rays over this mesh, as long as anyone holds it. RaySceneCache alone uses it, under its lock.
@@ -54,6 +52,12 @@ public:
 protected:
     ~CasterMesh() override = default;
 };
+
+/// The mesh's vertices as the maths takes them, as many as `vertices` has.
+inline const glm::vec3* positionsOf(const CasterMesh& mesh) {
+    static_assert(sizeof(glm::vec3) == sizeof(osg::Vec3));
+    return static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
+}
 
 /// Makes a drawable of some triangles of a mesh. It has positions only, and shares the mesh's buffers.
 osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElementsUInt* triangles);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/CasterRevisions.h>
 
 #include <OpenThreads/ScopedLock>

@@ -54,11 +54,8 @@ bool isOutside(const glm::dvec4& light, const std::vector<osg::BoundingBox>& box
 
 osg::ref_ptr<osg::DrawElementsUInt> noTriangles() { return new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES); }
 
-/// osg::Vec3 and glm::vec3 are three floats each.
 ClosedParts closedPartsOf(const CasterMesh& mesh, const osg::DrawElementsUInt& triangles) {
-    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
-    return closedParts(reinterpret_cast<const glm::vec3*>(mesh.vertices->getDataPointer()), mesh.vertices->size(),
-                       &triangles.front(), triangles.size());
+    return closedParts(positionsOf(mesh), mesh.vertices->size(), &triangles.front(), triangles.size());
 }
 
 CullableFaces::CullableFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids) {

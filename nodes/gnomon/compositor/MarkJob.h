@@ -15,6 +15,10 @@ namespace gnomon {
 
 class ScreenPass;
 
+/// Why marks that lie over each other, and are counted, cannot be drawn.
+constexpr const char* noCounter =
+    "overlapping shadows need another stencil bit. Leave one more out of CompositorOptions::reservedStencilBits.";
+
 /// One technique's share of one view: marks, in draw, the pixels that one light does not reach.
 class MarkJob : public osg::Referenced {
 public:

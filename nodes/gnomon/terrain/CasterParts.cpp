@@ -25,11 +25,6 @@ std::vector<unsigned> trianglesWithout(const CasterMesh& mesh, const std::set<co
     return result;
 }
 
-const glm::vec3* positionsOf(const CasterMesh& mesh) {
-    static_assert(sizeof(glm::vec3) == sizeof(osg::Vec3));
-    return reinterpret_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
-}
-
 void move(glm::dvec4& plane, const glm::dvec3& by) { plane.w -= glm::dot(glm::dvec3(plane), by); }
 
 void move(ConvexPart& part, const glm::dvec3& by) {

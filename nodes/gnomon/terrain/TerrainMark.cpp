@@ -89,9 +89,7 @@ std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, uns
     osg::State& state = *renderInfo.getState();
     const unsigned counters = pass.counters();
     const auto rounds = roundsOf(counters);
-    if (!counters && rounds.size() > 1)
-        return "overlapping shadows need another stencil bit. Leave one more out of "
-               "CompositorOptions::reservedStencilBits.";
+    if (!counters && rounds.size() > 1) return noCounter;
     for (const std::vector<LayerSlice>& round : rounds) {
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;

@@ -24,30 +24,39 @@ bool isSamePart(const DepthPicture& a, const DepthPicture& b) {
     return key(a) == key(b);
 }
 
+} // namespace
+
+std::shared_ptr<const TracedFrames::Pieces> TracedFrames::piecesOf(const CasterDrawables* casters) {
+    if (!casters) return nullptr;
+    auto pieces = std::make_shared<Pieces>();
+    pieces->reserve(casters->list.size());
+    for (const auto& piece : casters->list) pieces->push_back({piece->fingerprint, piece->bounds});
+    return pieces;
+}
+
 /// Adds the boxes of those that others lack. @return false if there are too many.
-bool addMissing(const CasterDrawables& pieces, const CasterDrawables& others, const osg::Vec3d& origin,
-                std::vector<RayBox>& boxes) {
+bool TracedFrames::addMissing(const Pieces& pieces, const Pieces& others, const osg::Vec3d& origin,
+                              std::vector<RayBox>& boxes) {
     std::unordered_set<std::uint64_t> known;
-    for (const auto& piece : others.list) known.insert(piece->fingerprint);
-    for (const auto& piece : pieces.list) {
-        if (known.count(piece->fingerprint) > 0 || !piece->bounds.valid()) continue;
+    for (const Piece& piece : others) known.insert(piece.fingerprint);
+    for (const Piece& piece : pieces) {
+        if (known.count(piece.fingerprint) > 0 || !piece.bounds.valid()) continue;
         if (boxes.size() == mostBoxes) return false;
-        boxes.push_back({toGlm(piece->bounds._min - origin), toGlm(piece->bounds._max - origin)});
+        boxes.push_back({toGlm(piece.bounds._min - origin), toGlm(piece.bounds._max - origin)});
     }
     return true;
 }
 
 /// Where what casts differs; nullopt if that may be anywhere.
-std::optional<std::vector<RayBox>> changesBetween(const TracedFrame& before, const TracedFrame& now) {
+std::optional<std::vector<RayBox>> TracedFrames::changesBetween(const Known& before, const Pieces* now,
+                                                                const osg::Vec3d& origin) {
     std::vector<RayBox> boxes;
-    const bool comparable = before.pieces && now.pieces && before.origin == now.origin;
-    if (!comparable || !addMissing(*before.pieces, *now.pieces, now.origin, boxes) ||
-        !addMissing(*now.pieces, *before.pieces, now.origin, boxes))
+    const bool comparable = before.pieces && now && before.frame.origin == origin;
+    if (!comparable || !addMissing(*before.pieces, *now, origin, boxes) ||
+        !addMissing(*now, *before.pieces, origin, boxes))
         return std::nullopt;
     return boxes;
 }
-
-} // namespace
 
 std::shared_ptr<const TracedFrames::Known> TracedFrames::find(const TracedFrame& frame) {
     Lock lock(_mutex);
@@ -67,17 +76,20 @@ void TracedFrames::keep(std::shared_ptr<const Known> known) {
 
 std::vector<std::uint8_t> TracedFrames::bitsOf(TracedFrame frame) {
     const std::shared_ptr<const Known> before = find(frame);
+    const bool sameScene = before && before->scene.lock() == frame.scene;
+    const auto pieces = sameScene ? before->pieces : piecesOf(frame.pieces.get());
+    frame.pieces = nullptr;
     std::optional<std::vector<RayBox>> changed;
     if (before && before->frame.clipFromScene == frame.clipFromScene &&
         before->frame.lightInScene == frame.lightInScene && isSamePart(before->frame.picture, frame.picture))
-        changed = before->scene.lock() == frame.scene ? std::vector<RayBox>() : changesBetween(before->frame, frame);
+        changed = sameScene ? std::vector<RayBox>() : changesBetween(*before, pieces.get(), frame.origin);
     std::optional<FormerShadow> former;
     if (changed) former.emplace(FormerShadow{before->frame.picture, before->bits, std::move(*changed)});
     const std::shared_ptr<const RayScene> scene = std::move(frame.scene);
     TracedBits found =
         depthBufferShadow(*scene, frame.picture, frame.clipFromScene, frame.lightInScene, former ? &*former : nullptr);
     _traced += found.traced;
-    keep(std::make_shared<const Known>(Known{std::move(frame), scene, found.bits}));
+    keep(std::make_shared<const Known>(Known{std::move(frame), scene, pieces, found.bits}));
     return std::move(found.bits);
 }
 

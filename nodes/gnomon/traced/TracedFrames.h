@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -44,13 +45,25 @@ public:
     std::size_t traced() const { return _traced; }
 
 private:
+    /// A caster, for comparisons.
+    struct Piece {
+        std::uint64_t fingerprint;
+        osg::BoundingBoxd bounds; ///< group frame.
+    };
+    using Pieces = std::vector<Piece>;
     struct Known {
-        TracedFrame frame;                   ///< without the scene, which may be large.
-        std::weak_ptr<const RayScene> scene; ///< of it.
+        TracedFrame frame;                    ///< without scene and pieces, which may be large.
+        std::weak_ptr<const RayScene> scene;  ///< of it.
+        std::shared_ptr<const Pieces> pieces; ///< of it; null if they are not known.
         std::vector<std::uint8_t> bits;
     };
     static constexpr std::size_t most = 8;
 
+    static std::shared_ptr<const Pieces> piecesOf(const CasterDrawables* casters);
+    static bool addMissing(const Pieces& pieces, const Pieces& others, const osg::Vec3d& origin,
+                           std::vector<RayBox>& boxes);
+    static std::optional<std::vector<RayBox>> changesBetween(const Known& before, const Pieces* now,
+                                                             const osg::Vec3d& origin);
     std::shared_ptr<const Known> find(const TracedFrame& frame);
     void keep(std::shared_ptr<const Known> known);
 

@@ -8,10 +8,8 @@ namespace gnomon {
 namespace {
 
 std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
-    static_assert(sizeof(osg::Vec3) == sizeof(glm::vec3));
     if (mesh.empty()) return std::make_shared<const SilhouetteMesh>();
-    const auto* vertices = static_cast<const glm::vec3*>(mesh.vertices->getDataPointer());
-    return std::make_shared<const SilhouetteMesh>(vertices, mesh.vertices->size(), &mesh.triangles->front(),
+    return std::make_shared<const SilhouetteMesh>(positionsOf(mesh), mesh.vertices->size(), &mesh.triangles->front(),
                                                   mesh.triangles->size());
 }
 

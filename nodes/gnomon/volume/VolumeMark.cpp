@@ -32,8 +32,6 @@ void unmarkFar(ScreenPass& pass, unsigned bit) {
     pass.drawQuad(1.0);
 }
 
-constexpr const char* noCounter =
-    "overlapping shadows need another stencil bit. Leave one more out of CompositorOptions::reservedStencilBits.";
 constexpr const char* overflow =
     "a connected caster may lie over itself more often than the stencil bits can count, so its shadow may have holes. "
     "Leave more bits out of CompositorOptions::reservedStencilBits, or use map for that caster.";

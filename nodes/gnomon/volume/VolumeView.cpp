@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/Across.h>
 #include <gnomon/overlay/StencilBatches.h>
 #include <gnomon/silhouette/SightStart.h>
 #include <gnomon/volume/VolumeHull.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace gnomon {
 namespace {
@@ -22,9 +22,7 @@ PrismLayers layersOf(const LightVolumes& of, unsigned index, unsigned capacity) 
     const glm::dvec3 low(part.low), high(part.high), middle = (low + high) / 2.0, half = (high - low) / 2.0;
     PrismLayers layers{glm::dvec2(-4.0), glm::dvec2(4.0), 1, std::min(of.volumes().parts[index].layers, capacity)};
     if (light.w == 0.0) {
-        const glm::dvec3 along(light);
-        const glm::dvec3 any = std::abs(along.z) < 0.7 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
-        const glm::dvec3 u = glm::normalize(glm::cross(any, along)), v = glm::cross(along, u);
+        const auto [u, v] = across(glm::dvec3(light));
         const glm::dvec2 at(glm::dot(middle, u), glm::dot(middle, v)),
             reach(glm::dot(half, glm::abs(u)), glm::dot(half, glm::abs(v)));
         layers.low = at - reach;

@@ -27,8 +27,6 @@ ShadowWork operator*(double share, ShadowWork work) {
     return work;
 }
 
-ShadowWork operator+(ShadowWork a, const ShadowWork& b) { return a += b; }
-
 double timeOf(const ShadowWork& work, const CostRates& rates) {
     double time = 0.0;
     for (const Kind& kind : kinds) time += work.*kind.count * rates.*kind.rate;

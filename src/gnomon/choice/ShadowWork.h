@@ -18,7 +18,6 @@ struct ShadowWork {
     ShadowWork& operator+=(const ShadowWork& other);
 };
 ShadowWork operator*(double share, ShadowWork work);
-ShadowWork operator+(ShadowWork a, const ShadowWork& b);
 
 /// What a unit of each kind of work takes, milliseconds of processor time. The defaults are those of one core of an AMD
 /// EPYC that draws with llvmpipe.

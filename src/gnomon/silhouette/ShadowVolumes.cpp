@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/Across.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/silhouette/VolumeEnd.h>
 
@@ -57,13 +58,14 @@ public:
         const unsigned most = part.edges / 3 + 1;
         if (most <= 8) return most;
         const glm::dvec3 middle = (glm::dvec3(_mesh.parts[index].low) + glm::dvec3(_mesh.parts[index].high)) / 2.0;
-        const Axes axes(glm::normalize(awayFrom(_volumes.light, middle)));
+        const glm::dvec3 along = glm::normalize(awayFrom(_volumes.light, middle));
+        const Across axes = across(along);
         std::vector<glm::dvec2> lines;
         for (const Outline *edge = _volumes.outline.data() + part.firstEdge, *end = edge + part.edges; edge != end;
              ++edge)
             for (const unsigned vertex : {edge->from, edge->to}) {
                 const glm::dvec3 away = awayFrom(_volumes.light, glm::dvec3(_mesh.vertices[vertex]));
-                const double depth = _volumes.light.w == 0.0 ? 1.0 : glm::dot(away, axes.along);
+                const double depth = _volumes.light.w == 0.0 ? 1.0 : glm::dot(away, along);
                 if (!(depth > 0.0)) return most; // on all sides of a lamp
                 const glm::dvec3 at = _volumes.light.w == 0.0 ? glm::dvec3(_mesh.vertices[vertex]) : away / depth;
                 lines.emplace_back(glm::dot(at, axes.u), glm::dot(at, axes.v));
@@ -72,15 +74,6 @@ public:
     }
 
 private:
-    struct Axes {
-        explicit Axes(const glm::dvec3& direction) : along(direction) {
-            const glm::dvec3 any = std::abs(along.z) < 0.7 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
-            u = glm::normalize(glm::cross(any, along));
-            v = glm::cross(along, u);
-        }
-        glm::dvec3 along, u, v;
-    };
-
     /// @param ends  two points an edge.
     static unsigned stabbed(const std::vector<glm::dvec2>& ends, int axis) {
         constexpr int bins = 1024;

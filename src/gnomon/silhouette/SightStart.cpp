@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/Across.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/silhouette/SightStart.h>
 
@@ -22,8 +23,7 @@ bool areBeyond(const std::vector<glm::dvec3>& points, const glm::dvec3& normal, 
 
 /// Whether a sun's volume of the part's bounds is nowhere near the eye.
 bool areApart(const glm::dvec3& eye, const SilhouetteMesh::Part& part, const glm::dvec3& sun) {
-    const glm::dvec3 any = std::abs(sun.z) < 0.7 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
-    const glm::dvec3 u = glm::normalize(glm::cross(any, sun)), v = glm::cross(sun, u);
+    const auto [u, v] = across(sun);
     const glm::dvec3 middle = (glm::dvec3(part.low) + glm::dvec3(part.high)) / 2.0, to = eye - middle;
     const glm::dvec3 half = (glm::dvec3(part.high) - middle) * (1.0 + 1e-6);
     const auto reach = [&half](const glm::dvec3& axis) { return glm::dot(glm::abs(axis), half); };

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Scene files keep the settings of each technique, and its picture.
+#include "SceneFile.h"
+
+#include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
+#include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/TracedShadowTechnique.h>
+
+namespace {
+
+using test::childOf;
+using test::SceneFile;
+
+TEST_P(SceneFile, DrawsTheSameTracedPictureOnceLoaded) {
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
+    technique->setReceiver({test::find(*scene.content, "ground")});
+    scene.addShadow(technique);
+    expectSamePictureOnceLoaded(scene);
+}
+
+TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
+    technique->setSize(20); // so that its own size and filter show
+    technique->setFilter(gnomon::ShadowMapTechnique::FINE);
+    scene.addShadow(technique);
+    expectSamePictureOnceLoaded(scene);
+}
+
+TEST_P(SceneFile, KeepsTheBudgetOfAutomaticChoice) {
+    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
+    technique->setError(1.0 / 3.0);
+    technique->setTime(0.7);
+    const auto loaded = test::throughFile(*technique, kind());
+    EXPECT_EQ(loaded->getError(), 1.0 / 3.0);
+    EXPECT_EQ(loaded->getTime(), 0.7);
+}
+
+TEST_P(SceneFile, KeepsTheCascadesOfMaps) {
+    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
+    technique->setCascades(3);
+    const auto loaded = test::throughFile(*technique, kind());
+    EXPECT_EQ(loaded->getCascades(), 3);
+}
+
+TEST_P(SceneFile, KeepsTheSoftEdgesAndTheViewOfMaps) {
+    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
+    technique->setEdges(gnomon::ShadowMapTechnique::SOFT);
+    technique->setSunAngle(0.1);
+    technique->setLampSize(1.0 / 3.0);
+    technique->setRadius(2.0 / 3.0);
+    technique->setView(gnomon::ShadowMapTechnique::CASCADES);
+    const auto loaded = test::throughFile(*technique, kind());
+    EXPECT_EQ(loaded->getEdges(), gnomon::ShadowMapTechnique::SOFT);
+    EXPECT_EQ(loaded->getSunAngle(), 0.1);
+    EXPECT_EQ(loaded->getLampSize(), 1.0 / 3.0);
+    EXPECT_EQ(loaded->getRadius(), 2.0 / 3.0);
+    EXPECT_EQ(loaded->getView(), gnomon::ShadowMapTechnique::CASCADES);
+}
+
+TEST_P(SceneFile, KeepsTheViewOfVolumesAndTheirPicture) {
+    const osg::ref_ptr<gnomon::ShadowVolumeTechnique> technique = new gnomon::ShadowVolumeTechnique;
+    technique->setView(gnomon::ShadowVolumeTechnique::VOLUMES);
+    EXPECT_EQ(test::throughFile(*technique, kind())->getView(), gnomon::ShadowVolumeTechnique::VOLUMES);
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    scene.addShadow(technique);
+    expectSamePictureOnceLoaded(scene);
+}
+
+TEST_P(SceneFile, KeepsATerrainShadowGeodeToTheBit) {
+    osg::ref_ptr<gnomon::TerrainShadowGeode> shadow = new gnomon::TerrainShadowGeode;
+    shadow->setMethod(gnomon::TerrainShadowGeode::DRAPE);
+    shadow->setError(1.0 / 3.0);
+    shadow->setObjectGraphic(test::node(test::box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}), "house"));
+    shadow->setObjectPos({433000.1, -1.0 / 3.0, 1e-300});
+    shadow->setObjectOrientation(0.1);
+    shadow->setObjectBounds({{-0.1, -0.2, -0.3}, {0.1, 0.2, 1.0 / 3.0}});
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(shadow);
+    root->addChild(new gnomon::TerrainShadowGeode);
+    const auto copy = test::throughFile(*root, kind());
+    ASSERT_TRUE(copy);
+    const auto& read = childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 0);
+    EXPECT_EQ(read.getMethod(), gnomon::TerrainShadowGeode::DRAPE);
+    EXPECT_EQ(read.getError(), 1.0 / 3.0);
+    ASSERT_TRUE(read.getObjectGraphic());
+    EXPECT_EQ(read.getObjectGraphic()->getName(), "house");
+    EXPECT_EQ(read.getObjectPos(), shadow->getObjectPos());
+    EXPECT_EQ(read.getObjectOrientation(), 0.1);
+    EXPECT_EQ(read.getObjectBounds()._min, shadow->getObjectBounds()._min);
+    EXPECT_EQ(read.getObjectBounds()._max, shadow->getObjectBounds()._max);
+    const auto& fresh = childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 1);
+    EXPECT_EQ(fresh.getMethod(), gnomon::TerrainShadowGeode::HULL);
+    EXPECT_EQ(fresh.getError(), 0.1);
+    EXPECT_FALSE(fresh.getObjectGraphic());
+    EXPECT_FALSE(fresh.getObjectBounds().valid());
+}
+
+} // namespace
