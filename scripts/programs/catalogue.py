@@ -19,16 +19,17 @@ class Program:
         return self.package == "openscenegraph-examples"
 
 
-def example(name, *arguments, unshadowed=""):
-    return Program(name, [name, *arguments], "openscenegraph-examples", unshadowed=unshadowed)
+def example(name, *arguments, frames=20, unshadowed=""):
+    return Program(name, [name, *arguments], "openscenegraph-examples", frames, unshadowed=unshadowed)
 
 
-QUICK = ["osgcompositeviewer", "osgshape", "osgteapot", "osgprerender", "osgcallback", "osgspotlight", "osghud", "osgscribe",
-         "osgfpdepth", "osgoit"]
+QUICK = ["osgcompositeviewer", "osgshape", "osgteapot", "osgprerender", "osgcallback", "osghud", "osgscribe", "osgreflect",
+         "osganimate", "osgmultitexture"]
 
 PROGRAMS = [
     Program("sumo", ["sumo-gui", "--osg-view", "-c", "town.sumocfg", "--start", "--breakpoints", "30", "-g", "view.xml",
-                     "--window-size", "800,800"], "sumo", frames=400),
+                     "--window-size", "800,800"], "sumo", frames=400,
+            options=["--light", "-1,-0.4,0.4,0"]),
     Program("dart", ["/usr/bin/python3", "scene.py"], "python3-dartpy"),
     Program("ifcplusplus", ["SimpleViewerExample", "house.ifc"], "ifcplusplus", frames=400,
             environment={"LC_ALL": "en_US.UTF-8"}, options=["--light", "-1,2,1.5,0"]),
@@ -43,7 +44,7 @@ PROGRAMS = [
     example("osgcubemap", "cow.osgt"),
     example("osgdepthpartition"),
     example("osgdistortion", "cow.osgt"),
-    example("osgdrawinstanced"),
+    example("osgdrawinstanced", unshadowed="a vertex shader places its quads"),
     example("osgforest"),
     example("osgfpdepth", "cow.osgt"),
     example("osggeometry"),
@@ -51,14 +52,14 @@ PROGRAMS = [
     example("osghangglide"),
     example("osghud", "cow.osgt"),
     example("osglight"),
-    example("osglogicop", "cow.osgt"),
+    example("osglogicop", "cow.osgt", unshadowed="what a logic operation combines receives nothing"),
     example("osgmultiplerendertargets"),
     example("osgmultitexture", "cow.osgt"),
     example("osgoit", "dumptruck.osg"),
     example("osgparametric"),
     example("osgparticle"),
     example("osgplanets"),
-    example("osgprerender"),
+    example("osgprerender", frames=60),
     example("osgreflect", "cow.osgt"),
     example("osgscribe", "cow.osgt"),
     example("osgsequence", "cow.osgt", "glider.osgt"),

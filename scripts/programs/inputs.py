@@ -17,6 +17,17 @@ osg::Geode {
   }
 }
 """
+# SUMO's roads are black: something beside them shows the shadows.
+MEADOW = """#Ascii Scene
+#Version 161
+#Generator by hand
+osg::Geode {
+  UniqueID 1
+  Drawables 1 {
+    osg::ShapeDrawable { UniqueID 2 Shape TRUE { osg::Box { UniqueID 3 Center 0 0 0 HalfLengths 90 90 0.2 } } }
+  }
+}
+"""
 MODELS_OF_SUMO = "/usr/share/sumo/data/3D"
 MODELS = ["cow.osgt", "glider.osgt", "cessna.osgt", "cessnafire.osgt", "dumptruck.osgt", "dumptruck.osg"]
 
@@ -127,8 +138,9 @@ def prepare_town(folder):
 <input><net-file value="town.net.xml"/><route-files value="town.rou.xml"/></input>
 </configuration>
 """)
+    write(folder, "meadow.osgt", MEADOW)
     write(folder, "view.xml", """<viewsettings>
-<scheme name="bright"><edges laneEdgeMode="0"><colorScheme name="uniform"><entry color="190,190,190"/></colorScheme></edges></scheme>
-<viewport x="140" y="-40" z="60" centerX="60" centerY="60" centerZ="0" angle="0"/>
+<viewport x="100" y="-30" z="40" centerX="60" centerY="50" centerZ="0" angle="0"/>
+<decal file="meadow.osgt" centerX="60" centerY="60" centerZ="-0.5"/>
 </viewsettings>
 """)

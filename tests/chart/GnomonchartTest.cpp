@@ -175,6 +175,15 @@ TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
     EXPECT_NE(refusal({"--stability", "Q9"}).find("no scene of the stability table is \"Q9\". Allowed: L1"),
               std::string::npos);
     EXPECT_NE(refusal({"--stability", "--scene", "room"}).find("--stability does not go with"), std::string::npos);
+    EXPECT_EQ(refusal({"--stability", "--frames", "9"}),
+              "--stability does not go with --frames. Allowed beside it: --technique, --out, --size, --quick, --again.\n");
+    EXPECT_NE(refusal({"--stability", "--flicker", "9"}).find("does not go with --flicker"), std::string::npos);
+    EXPECT_EQ(refusal({"--random", "5", "--size", "64x64"}),
+              "--random does not go with --size. Allowed beside it: --seed, --technique.\n");
+    EXPECT_NE(refusal({"--random", "5", "--out", "o"}).find("does not go with --out"), std::string::npos);
+    EXPECT_NE(refusal({"--random", "5", lab8}).find("does not go with files"), std::string::npos);
+    EXPECT_EQ(refusal({"--seed", "5"}), "--seed needs --random N.\n");
+    EXPECT_NE(refusal({"--again", "o", "--frames", "9"}).find("does not go with --frames"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--size", "16x16"}).find("32x32"), std::string::npos);
     EXPECT_NE(refusal({lab8, "--shadow", "planar"}).find("there is no option --shadow"), std::string::npos);
     folder.write("taken", "");

@@ -128,6 +128,13 @@ class ReportPage(unittest.TestCase):
                 self.assertEqual(values[len(there):], [None] * len(missing))
                 self.assertEqual(self.column(title)[1][-1], "–")
 
+    def test_the_stability_table_too_has_what_does_not_exist_last(self):
+        self.driver.get((FOLDER / "stability.html").as_uri())
+        for expected in (["2", "5", "–"], ["5", "2", "–"]):
+            self.column("p95 where left")[0].click()
+            self.assertEqual(self.column("p95 where left")[1], expected)
+        self.assertEqual([entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"], [])
+
     def test_numbers_are_those_of_the_results(self):
         texts = self.column(P95)[1]
         for text, point in zip(texts, self.points):

@@ -84,25 +84,60 @@ void setSize(ChartOptions& options, bool given) {
         throw std::invalid_argument("--size is too small to be judged. Allowed: 32x32 pixels or more.");
 }
 
-/// The arguments are no files.
-void takeStabilityScenes(ChartOptions& options) {
-    options.stabilityScenes.swap(options.view.files);
-    if (!options.scenes.empty() || options.resume)
-        throw std::invalid_argument("--stability does not go with --scene or --resume. Give its scenes as arguments.");
+/// Names of options that stand on the command line.
+std::vector<std::string> namesGiven(const osg::ArgumentParser& arguments, const Options& table) {
+    std::vector<std::string> names;
+    for (const Option& option : table)
+        if (arguments.find(option.name) > 0) names.push_back(option.name);
+    return names;
+}
+
+/// What a mode would not heed is refused.
+struct Mode {
+    std::string name;               ///< of its option.
+    std::vector<std::string> heeds; ///< options beside it.
+};
+
+const std::array<Mode, 3> modes{{{"--random", {"--seed", "--technique"}},
+                                 {"--again", {"--stability"}},
+                                 {"--stability", {"--technique", "--out", "--size", "--quick", "--again"}}}};
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+void refuseUnheeded(const std::vector<std::string>& given, bool withArguments) {
+    const auto holds = [](const std::vector<std::string>& names, Text name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (const Mode& mode : modes) {
+        if (!holds(given, mode.name)) continue;
+        const std::string allowed = " Allowed beside it: " + listed(mode.heeds) + ".";
+        for (const std::string& name : given)
+            if (name != mode.name && !holds(mode.heeds, name))
+                throw std::invalid_argument(mode.name + " does not go with " + name + "." + allowed);
+        if (withArguments && mode.name != "--stability")
+            throw std::invalid_argument(mode.name + " does not go with files or scenes." + allowed);
+        break; // the first one is what is done
+    }
+    if (holds(given, "--seed") && !holds(given, "--random")) throw std::invalid_argument("--seed needs --random N.");
 }
 
 } // namespace
 
 ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
     ChartOptions options;
+    const Options table = chartOptions(options);
+    const std::vector<std::string> given = namesGiven(arguments, table);
     const bool sized = arguments.find("--size") > 0;
-    readOptions(arguments, chartOptions(options));
+    readOptions(arguments, table);
     readOsgOptions(arguments);
     if (options.help || options.list) return options;
     takeFiles(arguments, options.view);
-    if (options.stability) takeStabilityScenes(options);
-    if (!options.again.empty() && !options.view.files.empty())
-        throw std::invalid_argument("--again and files exclude each other. Give one of them.");
+    refuseUnheeded(given, !options.view.files.empty());
+    if (options.stability) options.stabilityScenes.swap(options.view.files); // the arguments are no files
     if (!options.view.files.empty() && !options.scenes.empty())
         throw std::invalid_argument("--scene and files exclude each other. Give one of them.");
     requireConsistent(options.view);

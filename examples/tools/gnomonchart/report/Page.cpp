@@ -92,7 +92,7 @@ std::string pageOf(const ChartResults& results, const std::vector<DrawnFigure>& 
                                            {"DATA", data},
                                            {"JQUERY", inlineScript(page::jquery_min_js)},
                                            {"DATATABLES", inlineScript(page::jquery_dataTables_min_js)},
-                                           {"SCRIPT", inlineScript(page::chart_js)}});
+                                           {"SCRIPT", inlineScript(std::string(page::common_js) + page::chart_js)}});
 }
 
 } // namespace gnomon::examples

@@ -75,7 +75,7 @@ std::string pageOf(const StabilityResults& results, const std::string& folder) {
                                                {"DATA", data},
                                                {"JQUERY", inlineScript(page::jquery_min_js)},
                                                {"DATATABLES", inlineScript(page::jquery_dataTables_min_js)},
-                                               {"SCRIPT", inlineScript(page::stability_js)}});
+                                               {"SCRIPT", inlineScript(std::string(page::common_js) + page::stability_js)}});
 }
 
 } // namespace

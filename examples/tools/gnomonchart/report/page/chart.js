@@ -8,34 +8,6 @@ $(() => {
   const dialog = document.getElementById("point");
   let open = -1; // number of the point that the window shows
 
-  // Numbers -------------------------------------------------------------------------------------------------------
-
-  /// Three digits; a dash for what does not exist.
-  function shown(value) {
-    if (value === null) return "–";
-    if (typeof value !== "number") return value;
-    if (value !== 0 && Math.abs(value) < 0.001) return value.toExponential(1);
-    return Math.abs(value) >= 1000 ? String(Math.round(value)) : String(Number(value.toPrecision(3)));
-  }
-
-  /// What does not exist stays last, whichever way the table is sorted.
-  function compared(a, b, way) {
-    const [first, second] = [a, b].map(value => typeof value === "number" ? value : null);
-    if (first === null || second === null) return (first === null) - (second === null);
-    return way * (first - second);
-  }
-  $.fn.dataTable.ext.type.order["measured-asc"] = (a, b) => compared(a, b, 1);
-  $.fn.dataTable.ext.type.order["measured-desc"] = (a, b) => compared(a, b, -1);
-
-  // Small helpers -------------------------------------------------------------------------------------------------
-
-  function made(name, text = "", ...children) {
-    const element = document.createElement(name);
-    element.textContent = text;
-    element.append(...children);
-    return element;
-  }
-
   const sceneTitle = name => scenes.has(name) ? scenes.get(name).title : name;
   const pointName = point => `${point.kit} ${point.technique}, ${point.setting}`;
 
@@ -46,13 +18,7 @@ $(() => {
   columns.push({ title: "catastrophe", data: point => point.bad ? "yes" : "no" });
   data.numbers.forEach((number, i) => {
     if (!number.inTable) return;
-    columns.push({
-      title: `${number.title}<span class="unit">${number.unit}</span>`, // the program's own words
-      className: "number",
-      type: "measured",
-      data: point => point.values[i],
-      render: (value, purpose) => purpose === "display" ? $("<i>").text(shown(value)).html() : value
-    });
+    columns.push(measuredColumn(`${number.title}<span class="unit">${number.unit}</span>`, point => point.values[i]));
   });
 
   const table = $("#table").DataTable({

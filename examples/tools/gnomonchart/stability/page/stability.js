@@ -8,23 +8,11 @@ $(() => {
   const names = ["scene", "kit", "technique", "setting", "outcome"];
   const signs = { "held": "", "stated limit": "/", "elsewhere": "·", "left": "", "catastrophe": "×" };
 
-  function made(name, text = "", ...children) {
-    const element = document.createElement(name);
-    element.textContent = text;
-    element.append(...children);
-    return element;
-  }
-
   function svg(name, attributes, text = "") {
     const element = document.createElementNS("http://www.w3.org/2000/svg", name);
     for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
     element.textContent = text;
     return element;
-  }
-
-  /// Three digits; a dash for what does not exist.
-  function shown(value) {
-    return typeof value === "number" ? String(Number(value.toPrecision(3))) : "–";
   }
 
   const labelOf = row => row.technique + (row.setting === "defaults" ? "" : `, ${row.setting}`);
@@ -79,9 +67,7 @@ $(() => {
   const columns = names.map(name => ({ title: name, data: name, render: plain }));
   columns.push({ title: "left at", data: row => row.left === null ? "–" : valueOf(scenes.get(row.scene), row.left),
     render: plain, orderable: false });
-  for (const [title, value] of numbers)
-    columns.push({ title, className: "number", data: value,
-      render: (shownValue, purpose) => purpose === "display" ? shown(shownValue) : shownValue === null ? -1 : shownValue });
+  for (const [title, value] of numbers) columns.push(measuredColumn(title, value));
 
   const table = $("#table").DataTable({
     data: data.rows.map((row, number) => Object.assign(row, { number })),
