@@ -42,7 +42,7 @@ struct PlanarPrograms;
 /// - Without a receiver, a wall that stands in the plane is marked at its foot: up to an eighth of a pixel's slope and
 ///   32 depth steps high.
 /// - Without a receiver, what a polygon offset pulls forward is found where it is flat in its own frame: its drawable's box
-///   tells. Things that lie closely over it, within that offset, are marked, too.
+///   tells. Surfaces that lie closely over it, within that offset, are marked, too.
 /// - Without a receiver, a ground of many kilometres with a near plane of decimetres may lose the shadow.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
