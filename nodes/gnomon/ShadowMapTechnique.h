@@ -37,7 +37,9 @@ class ShadowMapCache;
 /// - A caster 10⁷ m from the others costs all of them their shadow. Up to 10⁶ m it does not.
 /// - An edge is off by a fraction of a texel, see ShadowMapOptions::Filter.
 /// - An object loses its shadow if it is less than about a texel off the receiver, measured along the light.
-/// - The same where it is nearer than OpenGL draws things off their place, by large coordinates in vertices.
+/// - A wall thinner than about two texels may let single pixels of light through where it stands on the floor.
+/// - An object also loses its shadow where it is nearer than OpenGL draws things off their place, by large
+///   coordinates in vertices.
 /// - A lamp inside a closed box may light single pixels along the box's edges.
 /// - A penumbra is that of one straight edge at the blockers' mean distance. Overlapping edges at several distances are
 ///   only estimated.
