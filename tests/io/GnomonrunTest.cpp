@@ -137,6 +137,21 @@ TEST_F(Gnomonrun, OneFrameIsComparedInEveryWay) {
     EXPECT_GT(table["disagree"]["none"]["traced"], 1000);
 }
 
+TEST_F(Gnomonrun, AWindowOfFourSamplesWithoutStencilHasTheSameShadow) {
+    for (const std::string technique : {"none", "traced", "map", "volume"}) {
+        const Ending ending = run("--shadow " + technique + " --frames 5 --out " + technique + ".png -- " +
+                                  built("scene") + " multisampled");
+        ASSERT_EQ(ending.status, 0) << ending.err;
+        ASSERT_NE(ending.out.find("4 samples, 0 stencil bits"), std::string::npos) << ending.out;
+        if (technique == "none") continue;
+        const osg::ref_ptr<osg::Image> without = picture("none.png"), with = picture(technique + ".png");
+        ASSERT_TRUE(without && with);
+        const Judged pixels = judged(*without, *with);
+        EXPECT_EQ(pixels.wrong, 0) << technique;
+        EXPECT_GT(pixels.dark, 1000) << technique;
+    }
+}
+
 TEST_F(Gnomonrun, WithFramesTheProgramsTimeIsThatOfSixtyFramesASecond) {
     for (const std::string technique : {"none", "traced"}) {
         const Ending ending =
