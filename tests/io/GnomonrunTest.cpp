@@ -35,7 +35,8 @@ bool isShadowed(double column, double row, double x = 0.0) {
 bool isClear(int x, int y, double box) {
     const bool here = isShadowed(x + 0.5, y + 0.5, box);
     for (const int d : {-1, 1})
-        if (isShadowed(x + 0.5 + d, y + 0.5, box) != here || isShadowed(x + 0.5, y + 0.5 + d, box) != here) return false;
+        if (isShadowed(x + 0.5 + d, y + 0.5, box) != here || isShadowed(x + 0.5, y + 0.5 + d, box) != here)
+            return false;
     return true;
 }
 
@@ -103,8 +104,8 @@ TEST_F(Gnomonrun, AProgramOfAnotherBuildSystemHasTheShadowThatRaysHave) {
 TEST_F(Gnomonrun, OsgviewerHasTheShadowsOfEveryTechniqueOrTheirCauses) {
     const Ending ending = run("--diagnose --frames 8 --light 1,1,2,0 -- osgviewer " GNOMON_DATA "/lab8.osgt");
     EXPECT_EQ(ending.status, 0) << ending.err;
-    for (const std::string technique : {"none: ", "planar: ", "box: ", "hull: ", "drape: ", "map: ", "volume: ", "traced: ",
-                                        "auto: "})
+    for (const std::string technique :
+         {"none: ", "planar: ", "box: ", "hull: ", "drape: ", "map: ", "volume: ", "traced: ", "auto: "})
         EXPECT_NE(ending.err.find("gnomonrun: " + technique), std::string::npos) << technique << ending.err;
     EXPECT_NE(ending.err.find(" of it for shadows"), std::string::npos) << ending.err;
 }
@@ -135,6 +136,21 @@ TEST_F(Gnomonrun, OneFrameIsComparedInEveryWay) {
         EXPECT_TRUE(names.count(name)) << name;
     EXPECT_EQ(table["disagree"]["map"]["traced"], 0);
     EXPECT_GT(table["disagree"]["none"]["traced"], 1000);
+}
+
+TEST_F(Gnomonrun, AWindowOfFourSamplesWithoutStencilHasTheSameShadow) {
+    for (const std::string technique : {"none", "traced", "map", "volume"}) {
+        const Ending ending = run("--shadow " + technique + " --frames 5 --out " + technique + ".png -- " +
+                                  built("scene") + " multisampled");
+        ASSERT_EQ(ending.status, 0) << ending.err;
+        ASSERT_NE(ending.out.find("4 samples, 0 stencil bits"), std::string::npos) << ending.out;
+        if (technique == "none") continue;
+        const osg::ref_ptr<osg::Image> without = picture("none.png"), with = picture(technique + ".png");
+        ASSERT_TRUE(without && with);
+        const Judged pixels = judged(*without, *with);
+        EXPECT_EQ(pixels.wrong, 0) << technique;
+        EXPECT_GT(pixels.dark, 1000) << technique;
+    }
 }
 
 TEST_F(Gnomonrun, WithFramesTheProgramsTimeIsThatOfSixtyFramesASecond) {
@@ -186,7 +202,8 @@ TEST_F(Gnomonrun, WhatCannotBeReachedIsSaid) {
     EXPECT_EQ(missing.lastLine(), "gnomonrun: ./nothing cannot be started: No such file or directory.");
     const Ending empty = run("--frames 5 -- " + built("scene") + " empty");
     EXPECT_EQ(empty.status, 1);
-    EXPECT_NE(empty.lastLine().find("gave no scene to osgViewer::View::setSceneData()"), std::string::npos) << empty.err;
+    EXPECT_NE(empty.lastLine().find("gave no scene to osgViewer::View::setSceneData()"), std::string::npos)
+        << empty.err;
     const Ending killed = run("-- /bin/sh -c 'kill -SEGV $$'");
     EXPECT_EQ(killed.status, 128 + 11);
     EXPECT_EQ(killed.lastLine(), "gnomonrun: /bin/sh was ended by signal 11.");
