@@ -41,7 +41,7 @@ public:
     /// A copy, as osg::Node makes it.
     osg::Object* clone(const osg::CopyOp& copyOp) const override { return new ShadowedScene(*this, copyOp); }
     /// An empty one, as osg::Node makes it.
-    osg::Object* cloneType() const override { return new ShadowedScene; }
+    osg::Object* cloneType() const override;
 
     /// Switches the shadows on, or off with null. Default: off.
     void setShadowTechnique(osgShadow::ShadowTechnique* technique);

@@ -27,6 +27,12 @@ ShadowedScene::ShadowedScene(const ShadowedScene& other, const osg::CopyOp& copy
 
 ShadowedScene::~ShadowedScene() = default;
 
+/// Settings are made by those that there are: this library is not linked to osgShadow, only its programs are.
+osg::Object* ShadowedScene::cloneType() const {
+    return new ShadowedScene(nullptr,
+                             _settings ? static_cast<osgShadow::ShadowSettings*>(_settings->cloneType()) : nullptr);
+}
+
 void ShadowedScene::setShadowTechnique(osgShadow::ShadowTechnique* technique) {
     _technique = technique;
     if (_shadow) _shadow->setNodeMask(technique ? ~0u : 0u);
