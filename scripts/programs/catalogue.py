@@ -23,7 +23,7 @@ def example(name, *arguments, frames=20, unshadowed=""):
     return Program(name, [name, *arguments], "openscenegraph-examples", frames, unshadowed=unshadowed)
 
 
-QUICK = ["osgcompositeviewer", "osgshape", "osgteapot", "osgprerender", "osgcallback", "osghud", "osgscribe", "osgreflect",
+QUICK = ["osgcompositeviewer", "osgshape", "osggeometry", "osgprerender", "osgcallback", "osghud", "osgscribe", "osgreflect",
          "osganimate", "osgmultitexture"]
 
 PROGRAMS = [

@@ -96,7 +96,10 @@ std::vector<Declaration> kitClassesIn(std::vector<Declaration> all) {
         for (Declaration& type : all)
             if (!type.named && derivesFromKit(type)) type.named = grown = true;
     }
-    all.erase(std::remove_if(all.begin(), all.end(), [](const Declaration& type) { return !type.named; }), all.end());
+    const auto isNotKept = [](const Declaration& type) {
+        return !type.named || type.name == "ShadowedScene"; // files hold the ShadowCasterGroup that it is
+    };
+    all.erase(std::remove_if(all.begin(), all.end(), isNotKept), all.end());
     return all;
 }
 
