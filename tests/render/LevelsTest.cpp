@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Levels of detail: what is drawn casts, in each view. Each picture equals that of the same drawables without levels.
+#include "Hills.h"
+
 #include <support/Picture.h>
 #include <support/Scene.h>
 
@@ -10,8 +12,6 @@
 #include <osg/MatrixTransform>
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace test;
 
@@ -55,34 +55,17 @@ Scene with(osg::Node* caster, const Technique& technique) {
     return scene;
 }
 
-/// Tiles of a hilly ground of 800 × 800 m. @param cells  on a side of each.
-osg::ref_ptr<osg::Geode> tile(int column, int row, int cells) {
-    const auto at = [&](int i, int k) {
-        const double x = 100.0 * (column - 4) + 100.0 * i / cells, y = 100.0 * (row - 4) + 100.0 * k / cells;
-        return glm::dvec3(x, y, 25.0 * std::sin(x / 37.0) * std::cos(y / 29.0));
-    };
-    Mesh mesh;
-    for (int i = 0; i < cells; ++i)
-        for (int k = 0; k < cells; ++k)
-            for (const glm::dvec3& corner :
-                 {at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k), at(i + 1, k + 1), at(i, k + 1)})
-                mesh.push_back(corner);
-    return node(mesh);
-}
-
 const osg::Vec3d hilltop(-380.0, -380.0, 90.0);
 const View overHills = perspective(hilltop, {0.0, 0.0, 0.0}, 400, 300, 45.0, 1.0, 2000.0);
 
 /// @param withLevels  else the tiles that a view shows from `hilltop`, without levels of detail.
 Scene hills(bool withLevels) {
-    const double elevation = osg::DegreesToRadians(35.0);
-    Scene scene = test::scene({std::cos(elevation), 0.3 * std::cos(elevation), std::sin(elevation), 0.0});
+    Scene scene = test::scene(sunOverHills());
     for (int column = 0; column < 8; ++column)
         for (int row = 0; row < 8; ++row) {
-            const osg::Vec3 centre(100.0f * static_cast<float>(column) - 350.0f,
-                                   100.0f * static_cast<float>(row) - 350.0f, 0.0f);
+            const osg::Vec3 centre = centreOfTile(column, row);
             const bool isNear = (osg::Vec3d(centre) - hilltop).length() < 260.0;
-            const osg::ref_ptr<osg::Node> near = tile(column, row, 20), distant = tile(column, row, 3);
+            const osg::ref_ptr<osg::Node> near = hillTile(column, row, 20), distant = hillTile(column, row, 3);
             if (withLevels)
                 scene.content->addChild(levels(near, distant, 260.0f, centre));
             else

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Nodes that choose what is drawn, beside LOD: tiles that an osgDB::DatabasePager loads, Sequence and Switch, and bodies that
 // move as a whole under levels of detail. Each picture equals that of what is drawn, without any choice.
+#include "Hills.h"
+
 #include <support/Picture.h>
 #include <support/Scene.h>
 
@@ -15,7 +17,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <set>
@@ -27,26 +28,8 @@ namespace {
 
 constexpr double finest = 260.0; // m: coarse beyond
 
-/// Tiles of a hilly ground of 800 × 800 m. @param cells  on a side of each.
-osg::ref_ptr<osg::Node> tile(int column, int row, int cells) {
-    const auto at = [&](int i, int k) {
-        const double x = 100.0 * (column - 4) + 100.0 * i / cells, y = 100.0 * (row - 4) + 100.0 * k / cells;
-        return glm::dvec3(x, y, 25.0 * std::sin(x / 37.0) * std::cos(y / 29.0));
-    };
-    Mesh mesh;
-    for (int i = 0; i < cells; ++i)
-        for (int k = 0; k < cells; ++k)
-            for (const glm::dvec3& corner :
-                 {at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k), at(i + 1, k + 1), at(i, k + 1)})
-                mesh.push_back(corner);
-    return node(mesh);
-}
-
-osg::ref_ptr<osg::Node> fineTile(int column, int row) { return tile(column, row, 16); }
-osg::ref_ptr<osg::Node> coarseTile(int column, int row) { return tile(column, row, 3); }
-osg::Vec3 centreOf(int column, int row) {
-    return {100.0f * float(column) - 350.0f, 100.0f * float(row) - 350.0f, 0.0f};
-}
+osg::ref_ptr<osg::Node> fineTile(int column, int row) { return hillTile(column, row, 16); }
+osg::ref_ptr<osg::Node> coarseTile(int column, int row) { return hillTile(column, row, 3); }
 
 /// Reads "COLUMN_ROW.gnomontile", in the pager's thread.
 class TileReader : public osgDB::ReaderWriter {
@@ -61,7 +44,7 @@ public:
 
 osg::ref_ptr<osg::PagedLOD> pagedTile(int column, int row) {
     const osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
-    lod->setCenter(centreOf(column, row));
+    lod->setCenter(centreOfTile(column, row));
     lod->setRadius(100.0f);
     lod->addChild(coarseTile(column, row), float(finest), 1e9f);
     lod->setFileName(1, std::to_string(column) + "_" + std::to_string(row) + ".gnomontile");
@@ -69,17 +52,12 @@ osg::ref_ptr<osg::PagedLOD> pagedTile(int column, int row) {
     return lod;
 }
 
-osg::Vec4d sunAt35() {
-    const double elevation = osg::DegreesToRadians(35.0);
-    return {std::cos(elevation), 0.3 * std::cos(elevation), std::sin(elevation), 0.0};
-}
-
 using Technique = std::function<osg::ref_ptr<gnomon::ShadowTechnique>()>;
 const Technique traced = [] { return new gnomon::TracedShadowTechnique; };
 const Technique mapped = [] { return new gnomon::ShadowMapTechnique; };
 
 Scene hills(const std::function<osg::ref_ptr<osg::Node>(int, int)>& tileAt, const Technique& technique) {
-    Scene scene = test::scene(sunAt35());
+    Scene scene = test::scene(sunOverHills());
     for (int column = 0; column < 8; ++column)
         for (int row = 0; row < 8; ++row) scene.content->addChild(tileAt(column, row));
     if (technique) scene.addShadow(technique());
@@ -91,7 +69,7 @@ View from(const osg::Vec3d& hilltop) { return perspective(hilltop, {0.0, 0.0, 0.
 /// As it is to look from there: tiles without levels.
 Picture expectedFrom(const osg::Vec3d& hilltop, const Technique& technique) {
     const auto tileAt = [&](int column, int row) {
-        const bool isNear = (osg::Vec3d(centreOf(column, row)) - hilltop).length() < finest;
+        const bool isNear = (osg::Vec3d(centreOfTile(column, row)) - hilltop).length() < finest;
         return isNear ? fineTile(column, row) : coarseTile(column, row);
     };
     return render(hills(tileAt, technique).root, from(hilltop));

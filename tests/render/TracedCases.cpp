@@ -95,4 +95,18 @@ TracedCase flatGround(double half, double height, double elevation, double near,
             perspective({-half / 2.0, -half / 2.0, height}, {0.0, 0.0, 0.0}, 320, 240, 40.0, near, far)};
 }
 
+CaseTrial drawnBy(gnomon::ShadowTechnique* given, const TracedCase& from) {
+    CaseTrial result;
+    const osg::ref_ptr<gnomon::ShadowTechnique> technique = given;
+    Scene lit = from.build(), dark = from.build(), shadowed = from.build();
+    dark.takeLightAway();
+    shadowed.addShadow(technique);
+    result.lit = render(lit.root, from.view);
+    result.dark = render(dark.root, from.view);
+    result.cast = render(shadowed.root, from.view);
+    result.comparison = compare(result.cast, result.lit, result.dark, from.truth());
+    result.causes = technique->diagnose();
+    return result;
+}
+
 } // namespace test

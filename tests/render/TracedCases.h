@@ -38,4 +38,12 @@ TracedCase longStreet(double azimuth, double elevation = 15.0);
 /// A level square of `side` × `side` small ones under a sun, see sunAt(), seen from `height`.
 TracedCase flatGround(double half, double height, double elevation, double near, double far, int side = 1);
 
+/// What a technique draws of a case, beside the truth.
+struct CaseTrial {
+    Picture lit, dark, cast;
+    TruthComparison comparison;
+    std::vector<std::string> causes;
+};
+CaseTrial drawnBy(gnomon::ShadowTechnique* given, const TracedCase& from);
+
 } // namespace test

@@ -10,6 +10,7 @@
 #include <iostream>
 #include <limits>
 
+using test::CaseTrial;
 using test::flatGround;
 using test::labEight;
 using test::Picture;
@@ -20,29 +21,11 @@ using test::TracedCase;
 
 namespace {
 
-struct Result {
-    Picture lit, dark, traced;
-    test::TruthComparison comparison;
-    std::vector<std::string> causes;
-};
-
-Result draw(const TracedCase& given) {
-    Result result;
-    Scene lit = given.build(), dark = given.build(), shadowed = given.build();
-    dark.takeLightAway();
-    const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
-    shadowed.addShadow(technique);
-    result.lit = test::render(lit.root, given.view);
-    result.dark = test::render(dark.root, given.view);
-    result.traced = test::render(shadowed.root, given.view);
-    result.comparison = test::compare(result.traced, result.lit, result.dark, given.truth());
-    result.causes = technique->diagnose();
-    return result;
-}
+CaseTrial draw(const TracedCase& given) { return test::drawnBy(new gnomon::TracedShadowTechnique, given); }
 
 TEST(Traced, IsAsGoodAsOneRayAPixelCanBe) {
     for (const TracedCase& given : {labEight(), townOfHouses(), room()}) {
-        const Result result = draw(given);
+        const CaseTrial result = draw(given);
         std::cout << given.name << ": " << result.comparison << "\n";
         EXPECT_TRUE(result.comparison.good()) << given.name << ": " << result.comparison;
         EXPECT_GT(result.comparison.shadowed, 2000) << given.name;
@@ -78,7 +61,7 @@ TEST(Traced, NothingLeaksWhereABoxStandsOnTheGround) {
     given.meshes = {test::square(8.0), test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})};
     given.view = test::perspective({2.0, 9.0, 2.0}, {0.0, 1.0, 0.0}, 640, 480, 20.0);
     given.light = {0.3, -1.0, 0.8, 0.0};
-    const Result result = draw(given);
+    const CaseTrial result = draw(given);
     std::cout << "contact: " << result.comparison << "\n";
     EXPECT_TRUE(result.comparison.good()) << result.comparison;
     EXPECT_LE(result.comparison.certain, result.comparison.pixels / 10000);
@@ -128,7 +111,7 @@ TEST(Traced, IsTheSamePictureFarFromTheOrigin) {
 
 TEST(Traced, BlendDarkensTheSamePixelsOnceAndLeavesTheSkyAlone) {
     const TracedCase given = labEight();
-    const Result relit = draw(given);
+    const CaseTrial relit = draw(given);
     Scene scene = given.build();
     scene.addShadow(new gnomon::TracedShadowTechnique);
     scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
@@ -136,7 +119,7 @@ TEST(Traced, BlendDarkensTheSamePixelsOnceAndLeavesTheSkyAlone) {
     int wrong = 0, ground = 0;
     for (std::size_t i = 0; i < blended.pixels.size(); ++i) {
         if (relit.lit.pixels[i] == relit.dark.pixels[i] && relit.lit.pixels[i] != 0xff400000u) continue; // unlit anyway
-        const bool marked = relit.traced.pixels[i] != relit.lit.pixels[i];
+        const bool marked = relit.cast.pixels[i] != relit.lit.pixels[i];
         ground += marked;
         const unsigned expected = ((relit.lit.pixels[i] & 0xffu) * (marked ? 1u : 2u) + 1u) / 2u;
         wrong += std::abs(int(blended.pixels[i] & 0xffu) - int(expected)) > (marked ? 1 : 0);

@@ -68,7 +68,7 @@ TEST(VolumeCompany, SeveralSamplesSmoothItsEdges) {
     shadowed.addShadow(new ShadowVolumeTechnique);
     dark.takeLightAway();
     const Picture lit = inSamples(all.build()), unlit = inSamples(dark), cast = inSamples(shadowed);
-    const test::VolumeTrial single = test::drawVolume(all);
+    const test::CaseTrial single = test::drawVolume(all);
     const double one = test::shareOff(single.cast, single.lit, single.dark, all.truth()),
                  four = test::shareOff(cast, lit, unlit, all.truth());
     EXPECT_LT(four, 0.6 * one);
@@ -77,7 +77,7 @@ TEST(VolumeCompany, SeveralSamplesSmoothItsEdges) {
 
 TEST(VolumeCompany, BlendDarkensWhatRelightDoes) {
     const TracedCase all = given({1.0, 0.4, 1.2, 0.0});
-    const test::VolumeTrial relit = test::drawVolume(all);
+    const test::CaseTrial relit = test::drawVolume(all);
     Scene blended = all.build();
     blended.addShadow(new ShadowVolumeTechnique);
     blended.group->setComposite(gnomon::ShadowCasterGroup::BLEND);

@@ -8,22 +8,10 @@
 
 namespace test {
 
-VolumeTrial drawVolume(const TracedCase& given) {
-    VolumeTrial result;
-    Scene lit = given.build(), dark = given.build(), shadowed = given.build();
-    dark.takeLightAway();
-    const osg::ref_ptr<gnomon::ShadowVolumeTechnique> technique = new gnomon::ShadowVolumeTechnique;
-    shadowed.addShadow(technique);
-    result.lit = render(lit.root, given.view);
-    result.dark = render(dark.root, given.view);
-    result.cast = render(shadowed.root, given.view);
-    result.comparison = compare(result.cast, result.lit, result.dark, given.truth());
-    result.causes = technique->diagnose();
-    return result;
-}
+CaseTrial drawVolume(const TracedCase& given) { return drawnBy(new gnomon::ShadowVolumeTechnique, given); }
 
 void expectFloor(const TracedCase& given, int least) {
-    const VolumeTrial trial = drawVolume(given);
+    const CaseTrial trial = drawVolume(given);
     const TruthComparison& found = trial.comparison;
     std::cout << given.name << ": " << found << "\n";
     EXPECT_LE(found.wrong, 1.10 * found.floor + 5) << given.name << ": " << found;

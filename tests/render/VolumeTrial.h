@@ -4,14 +4,7 @@
 
 namespace test {
 
-/// What a volume draws, beside the truth.
-struct VolumeTrial {
-    Picture lit, dark, cast;
-    TruthComparison comparison;
-    std::vector<std::string> causes;
-};
-
-VolumeTrial drawVolume(const TracedCase& given);
+CaseTrial drawVolume(const TracedCase& given);
 
 /// As good as one ray a pixel can be, but for a few pixels that the rasteriser decides; and nothing is complained of.
 /// @param least  pixels that are in shadow, or this shows nothing.
