@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/base/PlacedBox.h>
 #include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/OwnDrawing.h>
 #include <gnomon/casters/PathState.h>
@@ -32,13 +33,6 @@ void mixState(const osg::StateSet& set, Fingerprint& into) {
     }
 }
 
-osg::BoundingBoxd boundsOf(const osg::Drawable& drawable, const osg::Matrixd& groupFromLocal) {
-    osg::BoundingBoxd bounds;
-    const osg::BoundingBox& box = drawable.getBoundingBox();
-    for (unsigned i = 0; i < 8 && box.valid(); ++i) bounds.expandBy(osg::Vec3d(box.corner(i)) * groupFromLocal);
-    return bounds;
-}
-
 /// A display list, and arrays that count their changes, show the same again.
 bool changesUnseen(const osg::Drawable& drawable) {
     if (drawable.getDataVariance() != osg::Object::UNSPECIFIED)
@@ -54,7 +48,7 @@ OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, co
       groupFromLocal(matrix),
       states(statesAlong(path)),
       name(nameAlong(path)),
-      bounds(boundsOf(given, matrix)),
+      bounds(placedBox(given.getBoundingBox(), matrix)),
       byProgram(PathState(path).hasProgram()),
       mayChange(changesUnseen(given)) {
     CasterVisitor::holdSources(given, sources);

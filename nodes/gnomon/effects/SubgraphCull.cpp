@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowTechnique.h>
+#include <gnomon/base/PlacedBox.h>
 #include <gnomon/effects/SubgraphCull.h>
 
 #include <osg/OcclusionQueryNode>
@@ -69,10 +70,7 @@ void SubgraphCull::apply(osg::OcclusionQueryNode& node) { apply(static_cast<osg:
 bool isSubgraphCull(const osg::NodeVisitor& visitor) { return dynamic_cast<const SubgraphCull*>(&visitor) != nullptr; }
 
 osg::BoundingBoxd boxOf(const osgUtil::RenderLeaf& leaf, const osg::Matrixd& frameFromLocal) {
-    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    osg::BoundingBoxd inFrame;
-    for (unsigned i = 0; box.valid() && i < 8; ++i) inFrame.expandBy(osg::Vec3d(box.corner(i)) * frameFromLocal);
-    return inFrame;
+    return placedBox(leaf._drawable->getBoundingBox(), frameFromLocal);
 }
 
 void includeInDepths(osgUtil::CullVisitor& cull, const osg::BoundingBoxd& inEye, bool near) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/RayScene.h>
+#include <gnomon/base/PlacedBox.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/geometry/Across.h>
 #include <gnomon/group/EnclosingCasters.h>
 #include <gnomon/group/LocalLight.h>
 
@@ -63,9 +65,7 @@ std::vector<osg::BoundingBoxd> boxesOf(const EnclosingCasters::View& view, const
     for (const osgUtil::RenderLeaf* leaf : view.receivers) {
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
         if (!box.valid() || own.count(leaf->_drawable)) continue;
-        const osg::Matrixd groupFromLocal = modelviewOf(*leaf) * groupFromEye;
-        boxes.emplace_back();
-        for (unsigned i = 0; i < 8; ++i) boxes.back().expandBy(osg::Vec3d(box.corner(i)) * groupFromLocal);
+        boxes.push_back(placedBox(box, modelviewOf(*leaf) * groupFromEye));
     }
     const auto larger = [](const auto& a, const auto& b) { return a.radius() > b.radius(); };
     std::sort(boxes.begin(), boxes.end(), larger);
@@ -88,9 +88,8 @@ std::vector<osg::Vec3d> pointsIn(const std::vector<osg::BoundingBoxd>& boxes) {
 /// The i-th of directions that fill a cone evenly.
 glm::dvec3 directionAbout(const glm::dvec3& axis, std::size_t i, std::size_t count) {
     const double height = 1.0 - (1.0 - cone) * (double(i) + 0.5) / double(count), turn = double(i) * 2.399963; // golden
-    const glm::dvec3 other = std::abs(axis.x) < 0.6 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 right = glm::normalize(glm::cross(axis, other)), up = glm::cross(axis, right);
-    return height * axis + std::sqrt(1.0 - height * height) * (std::cos(turn) * right + std::sin(turn) * up);
+    const auto [u, v] = across(axis);
+    return height * axis + std::sqrt(1.0 - height * height) * (std::cos(turn) * u + std::sin(turn) * v);
 }
 
 template <class Test>
