@@ -49,8 +49,6 @@ struct TerrainShadows;
 /// - Walls and roofs receive nothing.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Casters stand on or in the ground. HULL shows no light below an overhang.
-/// - HULL: a corner that is buried in the ground casts as if it stood on the ground above. The shadow is slightly too
-///   large there. DRAPE is exact.
 /// - Terrain that overlaps itself in plan receives on all of its levels.
 /// - Shaders that move the terrain's vertices or discard its pixels are not known here.
 /// - In a town seen from afar, a shadow's edge may be off by 0.3 pixels, because far tiles are drawn as bitmaps.

@@ -176,6 +176,24 @@ TEST(TerrainShadow, OfWhatIsHalfBuriedOrFloatsIsRightAndOfWhatIsInTheGroundThere
     }
 }
 
+/// A pyramid of 40 × 40 m and 40 m, 2 m of it in the ground. 38 × 38 m and 38 m stand out: in a sun over one of its sides, 1 up
+/// in 2, the apex' shadow is 57 m off that side, and the shadow with what it stands on has 38² + 38 · 57 / 2 m².
+TEST(TerrainShadow, OfSlantingWallsInTheGroundIsOfWhatStandsOut) {
+    const HeightPyramid ground = level();
+    const auto hull = gnomon::convexHull(
+        {{780.0, 780.0, 1.0}, {820.0, 780.0, 1.0}, {820.0, 820.0, 1.0}, {780.0, 820.0, 1.0}, {800.0, 800.0, 41.0}});
+    for (const TerrainMethod method : {TerrainMethod::hull, TerrainMethod::drape}) {
+        const TerrainShadow shadow = terrainShadow(ground, {*hull, std::nullopt}, {2.0, 0.0, 1.0, 0.0}, method, 0.0);
+        double area = 0.0;
+        for (std::size_t k = 0; k + 2 < shadow.triangles.size(); k += 3) {
+            const glm::dvec3 a = shadow.triangles[k + 1] - shadow.triangles[k],
+                             b = shadow.triangles[k + 2] - shadow.triangles[k];
+            area += 0.5 * std::abs(a.x * b.y - a.y * b.x);
+        }
+        EXPECT_NEAR(area, 2527.0, 0.01) << "corners are floats about the first, off by some 2e-6 m";
+    }
+}
+
 TEST(TerrainShadow, OfAWallThatBridgesAValleyIsNotTakenForBuried) {
     const HeightPyramid ground = groundOf([](double x, double) { return std::abs(x - 800.0); }, posts);
     const Prism bridge = boxAt({800.0, 800.0}, {30.0, 4.0}, 0.0, 15.0, 20.0); // its ends are in the slopes

@@ -99,6 +99,7 @@ private:
     bool isGentle(const Entry& entry) const;
     bool landExactly(const Entry& entry);
     std::optional<glm::dvec3> exactEnd(const Entry& entry, const glm::dvec3& point, const KernelRay& ray) const;
+    bool isStoodTooWide(const Entry& entry) const;
     void finish(Entry& entry);
     double areaAt(const Entry& entry, std::size_t a, std::size_t b, std::size_t c) const;
     double simplify(Entry& entry, double most);

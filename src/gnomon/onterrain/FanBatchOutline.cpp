@@ -3,6 +3,8 @@
 #include <gnomon/ground/GroundIntersection.h>
 #include <gnomon/onterrain/FanBatch.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::size_t wantedTriangles = 12; // as many as the bounding-box method's
 constexpr double mostLost = 0.01;           // of what is seen, for fewer triangles
+constexpr double mostWide = 1e-3;           // of a part's size
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 } // namespace
@@ -67,13 +70,34 @@ void FanBatch::turn(const Entry& entry, std::size_t start) {
     for (std::size_t k = 0; k < entry.corners; ++k) setEnd(entry, k, _turned[k]);
 }
 
+/// Whether a corner that is in the ground, and was put on the ground over it, lies out of the shadow there: under a wall that
+/// slants. Under an upright one it lies in the wall.
+bool FanBatch::isStoodTooWide(const Entry& entry) const {
+    const KernelFan& fan = fanOf(entry);
+    const double margin = mostWide * entry.size;
+    const auto isOutside = [&](const glm::dvec4& plane, const glm::dvec3& point) {
+        const glm::dvec3 normal(plane);
+        return glm::dot(normal, point) + plane.w < -margin * glm::length(normal);
+    };
+    for (std::size_t e = 0; e < fan.edges; ++e) {
+        if (rayOf(entry, e).descent[entry.lane] != 0.0) continue;
+        const glm::dvec3 stood = endOf(entry, e);
+        if (stood.z <= silhouette(entry, e).z + margin) continue;
+        for (std::size_t k = 0; k < fan.edges; ++k)
+            if (isOutside(edgePlane(entry, k), stood)) return true;
+        for (std::size_t f = 0; f < fan.faces; ++f)
+            if (isOutside(facePlane(entry, f), stood)) return true;
+    }
+    return false;
+}
+
 /// Of a polygon that was measured.
 void FanBatch::finish(Entry& entry) {
     const KernelPart& part = partOf(entry);
     const std::size_t at = entry.lane;
     entry.corners = fanOf(entry).edges;
     entry.seen = std::max(0.0, part.area[at] - std::abs(part.under[at]));
-    entry.wrong = std::isnan(part.lenses[at]) ? infinite : part.lenses[at];
+    entry.wrong = std::isnan(part.lenses[at]) || isStoodTooWide(entry) ? infinite : part.lenses[at];
     const double lost = simplify(entry, mostLost * entry.seen);
     entry.wrong += lost;
     const bool isStart = lost == 0.0 && part.least[at] >= 0.0 && part.most[at] > 0.0;

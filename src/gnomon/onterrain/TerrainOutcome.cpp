@@ -13,8 +13,8 @@ const char* sentence(TerrainOutcome outcome) {
         return "draped instead, because the ground falls off nearly as steeply as the light. The shadow is right, but "
                "takes longer.";
     case TerrainOutcome::rough:
-        return "draped instead, because the ground between the corners is off the polygon. The shadow is right, but "
-               "takes longer.";
+        return "draped instead, because the ground between the corners is off the polygon, or a slanting wall stands "
+               "in the ground. The shadow is right, but takes longer.";
     case TerrainOutcome::noFan:
         return "draped instead, because a ray meets no ground or the polygon would overlap itself. The shadow is "
                "right, but takes longer.";

@@ -14,7 +14,7 @@ enum class TerrainOutcome : unsigned char {
     draped, ///< as requested.
     // As drape although hull was requested:
     steep,       ///< rays graze the ground.
-    rough,       ///< the ground between the corners' rays is not where the polygon is.
+    rough,       ///< the ground between the corners' rays is not where the polygon is, or a slanting wall is in it.
     noFan,       ///< a ray meets no ground, or the polygon overlaps itself.
     lightInside, ///< all of the ground, for the lamp is inside the part, or in its surface.
     // No shadow:
