@@ -9,6 +9,7 @@
 #include <osg/MatrixTransform>
 
 #include <algorithm>
+#include <optional>
 
 using gnomon::AutoShadowTechnique;
 using gnomon::ShadowDecision;
@@ -38,16 +39,15 @@ struct Trial {
         return all.size() == 1 ? all.front() : ShadowDecision();
     }
     std::string chosen() const { return decision().chosen.spec; }
-    const gnomon::ShadowCandidate* candidate(const std::string& start) {
-        last = decision();
+    std::optional<gnomon::ShadowCandidate> candidate(const std::string& start) const {
+        const ShadowDecision last = decision();
         for (const gnomon::ShadowCandidate& each : last.candidates)
-            if (each.spec.rfind(start, 0) == 0) return &each;
-        return nullptr;
+            if (each.spec.rfind(start, 0) == 0) return each;
+        return std::nullopt;
     }
 
     Scene scene;
     osg::ref_ptr<AutoShadowTechnique> technique;
-    ShadowDecision last;
 };
 
 /// The same scene by a technique that is named.
