@@ -84,7 +84,9 @@ osg::ref_ptr<osg::Geometry> transparent(const std::vector<osg::Vec3d>& triangles
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     for (const osg::Vec3d& corner : triangles) vertices->push_back(osg::Vec3(corner));
     geometry->setVertexArray(vertices);
-    geometry->setNormalArray(new osg::Vec3Array(1, new osg::Vec3(0.0f, 0.0f, 1.0f)), osg::Array::BIND_OVERALL);
+    osg::ref_ptr<osg::Vec3Array> normal = new osg::Vec3Array;
+    normal->push_back({0.0f, 0.0f, 1.0f});
+    geometry->setNormalArray(normal, osg::Array::BIND_OVERALL);
     osg::ref_ptr<osg::Vec4Array> colour = new osg::Vec4Array;
     colour->push_back({0.0f, 0.0f, 0.0f, 0.5f});
     geometry->setColorArray(colour, osg::Array::BIND_OVERALL);
