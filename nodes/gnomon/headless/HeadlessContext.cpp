@@ -194,6 +194,7 @@ void HeadlessContext::attach(osg::Camera& camera) const {
 }
 
 void HeadlessContext::attach(osg::Camera& camera, osg::Viewport* part) const {
+    const osg::ref_ptr<osg::Viewport> held = part; // also where it is refused
     if (!_window->valid())
         throw std::logic_error(
             "HeadlessContext: the viewer that used this context is gone. Make a new context for each viewer.");
