@@ -52,7 +52,7 @@ osgdepthpartition, whose two cameras share one scene of very different sizes. Ta
 SAYINGS = [("is unlit or its program does not read", "unlit: multiplied"),
            ("nothing casts", "nothing casts"), ("no light is on", "no light is on"), ("is black", "lights are black"),
            ("cleared to less than 1", "depth is inverted"), ("stencil test of its own", "blends instead"),
-           ("casts nothing", "some cast nothing")]
+           ("a logic operation combines", "a logic operation combines it"), ("casts nothing", "some cast nothing")]
 
 
 def convert(*arguments):

@@ -5,6 +5,7 @@
 #include <osg/BlendFunc>
 #include <osg/Depth>
 #include <osg/Image>
+#include <osg/LogicOp>
 #include <osg/Texture2D>
 
 using namespace test;
@@ -24,6 +25,12 @@ void useBin(osg::Node& node, int number, const std::string& name = "RenderBin") 
 /// As loaders leave what has, or might have, an alpha of less than 1.
 void blendLate(osg::Node& node) {
     node.getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+    node.getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+}
+
+/// Drawn late by a logic operation.
+void operateLate(osg::Node& node, osg::LogicOp::Opcode code) {
+    node.getOrCreateStateSet()->setAttributeAndModes(new osg::LogicOp(code));
     node.getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
@@ -79,6 +86,29 @@ TEST_P(AnyBin, ASceneThatBlendsWithAnAlphaOf1Receives) {
 
 TEST_P(AnyBin, AGroundAloneThatBlendsWithAnAlphaOf1Receives) {
     EXPECT_TRUE(isRightWith([](Scene& scene) { blendLate(*find(*scene.root, "ground")); }));
+}
+
+TEST_P(AnyBin, ASceneThatALogicOperationDrawsReceivesWhereItHidesWhatIsBehind) {
+    EXPECT_TRUE(isRightWith([](Scene& scene) { operateLate(*scene.content, osg::LogicOp::COPY_INVERTED); }, false));
+}
+
+TEST_P(AnyBin, ASceneThatALogicOperationCombinesWithWhatIsBehindIsNamedAsTheCause) {
+    const Trial trial = houseTrial();
+    Scene scene = trial.build();
+    osg::Node* ground = find(*scene.root, "ground");
+    const auto technique = castingTechnique(GetParam() == By::Hull || GetParam() == By::Drape ? ground : nullptr);
+    scene.addShadow(technique);
+    operateLate(*ground, osg::LogicOp::OR_INVERTED);
+    Camera camera(scene.root, trial.view);
+    camera.frame();
+    const std::vector<std::string> causes = technique->diagnose();
+    const auto isNamed = [](const std::string& cause) {
+        return cause.find("a logic operation combines 'ground'") != std::string::npos;
+    };
+    EXPECT_EQ(std::count_if(causes.begin(), causes.end(), isNamed), 1);
+    ground->getStateSet()->setAttributeAndModes(new osg::LogicOp(osg::LogicOp::COPY));
+    camera.frame();
+    EXPECT_TRUE(technique->diagnose().empty());
 }
 
 TEST_P(AnyBin, ANestedAndSortedBinReceives) {
@@ -144,7 +174,8 @@ TEST_P(AnyBin, ASceneThatWritesNoDepthIsNamedAsTheCause) {
     Camera camera(scene.root, trial.view);
     camera.frame();
     ASSERT_EQ(technique->diagnose().size(), 1u);
-    EXPECT_NE(technique->diagnose()[0].find("no receiver in this view writes depth"), std::string::npos) << technique->diagnose()[0];
+    EXPECT_NE(technique->diagnose()[0].find("no receiver in this view writes depth"), std::string::npos)
+        << technique->diagnose()[0];
     scene.content->getStateSet()->removeMode(GL_DEPTH_TEST);
     camera.frame();
     EXPECT_TRUE(technique->diagnose().empty());

@@ -8,6 +8,7 @@
 #include <osgViewer/CompositeViewer>
 
 #include <cstring>
+#include <memory>
 
 using namespace test;
 
@@ -116,6 +117,47 @@ TEST(PlanarInASceneView, WithoutAFrameNumberForgetsCausesThatAreGone) {
     technique->addPlane({0.0, 0.0, 1.0, 0.0});
     EXPECT_TRUE(shows(bare.draw(), truthOf(trial)));
     EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+}
+
+TEST(PlanarInTwoViewers, ThatCountAlikeForgetsTheOthersCauses) {
+    const Trial trial = boxOnGround();
+    Scene scene = trial.build();
+    osg::ref_ptr<gnomon::PlanarShadowNode> technique = new gnomon::PlanarShadowNode;
+    scene.addShadow(technique);
+    auto first = std::make_unique<Camera>(scene.root, trial.view),
+         second = std::make_unique<Camera>(scene.root, trial.view);
+    const auto causes = [&](Camera& camera) {
+        camera.frame();
+        return technique->diagnose().size();
+    };
+    EXPECT_EQ(causes(*first), 1u);
+    technique->addPlane({0.0, 0.0, 1.0, 0.0});
+    EXPECT_EQ(causes(*second), 0u);
+    ASSERT_EQ(first->viewer().getFrameStamp()->getFrameNumber(), second->viewer().getFrameStamp()->getFrameNumber());
+    technique->setPlanes({});
+    EXPECT_EQ(causes(*second), 1u);
+    technique->addPlane({0.0, 0.0, 1.0, 0.0});
+    EXPECT_EQ(causes(*first), 0u);
+}
+
+/// The second view sees the plane from behind, the first one does not.
+TEST(PlanarInTwoViews, TellsTheCausesOfBoth) {
+    const Trial trial = boxOnGround();
+    Scene scene = trial.build();
+    const osg::ref_ptr<gnomon::PlanarShadowNode> technique = planar();
+    scene.addShadow(technique);
+    for (const bool behindFirst : {true, false}) {
+        const gnomon::HeadlessContext context(2 * size, size);
+        osgViewer::CompositeViewer viewer;
+        viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
+        const View behind = perspective({0.0, -5.0, -5.0}, {0.0, 0.0, 0.0}, size, size);
+        addView(viewer, context, scene.root, behindFirst ? behind : trial.view, 0);
+        addView(viewer, context, scene.root, behindFirst ? trial.view : behind, size);
+        for (int frame = 0; frame < 2; ++frame) {
+            viewer.frame();
+            EXPECT_EQ(technique->diagnose().size(), 1u);
+        }
+    }
 }
 
 TEST_P(CompositeViewer, ShowsAnOrthographicAndAPerspectiveViewInItsFirstFrame) {

@@ -5,6 +5,10 @@
 #include <osg/FrameStamp>
 #include <osg/Notify>
 
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+
 namespace gnomon {
 namespace {
 
@@ -15,6 +19,12 @@ std::string withoutDigits(std::string text) {
     const auto isDigit = [](unsigned char letter) { return letter >= '0' && letter <= '9'; };
     text.erase(std::remove_if(text.begin(), text.end(), isDigit), text.end());
     return text;
+}
+
+/// Of a time, in 32 bits.
+unsigned scattered(double time) {
+    const std::uint64_t bits = std::hash<double>()(time);
+    return static_cast<unsigned>(bits ^ (bits >> 32));
 }
 
 } // namespace
@@ -49,7 +59,8 @@ void FrameDiagnosis::begin(unsigned frame, const void* view) {
 }
 
 unsigned frameOf(const osg::NodeVisitor& visitor) {
-    return visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : visitor.getTraversalNumber();
+    const osg::FrameStamp* stamp = visitor.getFrameStamp();
+    return stamp ? stamp->getFrameNumber() ^ scattered(stamp->getReferenceTime()) : visitor.getTraversalNumber();
 }
 
 std::string described(const osg::Object& node) {

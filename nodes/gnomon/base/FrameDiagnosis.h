@@ -22,8 +22,8 @@ public:
     /// is new, numbers aside, until somebody asks for all().
     /// @param who  described() of the node.
     void add(unsigned frame, const std::string& who, const std::string& cause);
-    /// Forgets the causes of frames before this one: `frame` is another number, or `view` (any address that stands for
-    /// it) has been met in it before, as where nobody counts frames.
+    /// Forgets the causes of frames before this one: `frame` is another one, see frameOf(), or `view` (any address
+    /// that stands for it) has been met in it before, as where nobody counts frames.
     void begin(unsigned frame, const void* view);
 
 protected:
@@ -42,7 +42,8 @@ private:
     std::set<const void*> _views; ///< met in that frame.
 };
 
-/// The frame that a traversal belongs to; where nobody counts frames, its own number.
+/// A number of the frame that a traversal belongs to, of its count and its time: one for all views of a viewer, another one
+/// for a viewer that counts alike. If nobody counts frames, it is the traversal's own number.
 unsigned frameOf(const osg::NodeVisitor& visitor);
 
 /// "PlanarShadowNode 'floor'": what a cause begins with.

@@ -5,6 +5,7 @@
 #include <osg/BlendEquation>
 #include <osg/BlendFunc>
 #include <osg/Geometry>
+#include <osg/LogicOp>
 #include <osg/Material>
 
 #include <algorithm>
@@ -26,6 +27,15 @@ bool alphaHides(const osgUtil::StateGraph* graph) {
     const GLenum source = function->getSource(), destination = function->getDestination();
     return (source == GL_SRC_ALPHA || source == GL_ONE) &&
            (destination == GL_ONE_MINUS_SRC_ALPHA || destination == GL_ZERO);
+}
+
+/// True if a logic operation, which takes the place of blending, hides what is behind.
+bool operationHides(const osgUtil::StateGraph* graph) {
+    const auto* operation = resolved<osg::LogicOp>(graph, A::LOGICOP);
+    if (!operation) return true; // OSG's default, COPY
+    const osg::LogicOp::Opcode code = operation->getOpcode();
+    return code == osg::LogicOp::COPY || code == osg::LogicOp::COPY_INVERTED || code == osg::LogicOp::CLEAR ||
+           code == osg::LogicOp::SET;
 }
 
 bool hasTexture(const osgUtil::StateGraph* graph) {
@@ -56,11 +66,12 @@ float mostAlpha(const osgUtil::RenderLeaf& leaf) {
 }
 
 /// What has no bounds draws something else than surfaces: a user interface, for one, which must not be drawn twice.
-bool canReceive(const osgUtil::RenderLeaf& leaf) {
-    const osgUtil::StateGraph* graph = leaf._parent;
-    if (!leaf._drawable->getBoundingBox().valid()) return false;
-    if (!writesDepth(graph) || isOn(graph, GL_COLOR_LOGIC_OP)) return false;
-    return !isOn(graph, GL_BLEND) || (alphaHides(graph) && mostAlpha(leaf) >= opaqueAlpha);
+bool isSurface(const osgUtil::RenderLeaf& leaf) {
+    return leaf._drawable->getBoundingBox().valid() && writesDepth(leaf._parent);
+}
+
+bool blendHides(const osgUtil::RenderLeaf& leaf) {
+    return !isOn(leaf._parent, GL_BLEND) || (alphaHides(leaf._parent) && mostAlpha(leaf) >= opaqueAlpha);
 }
 
 } // namespace
@@ -69,11 +80,16 @@ LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number) {
     LateReceivers late;
     const auto& bins = stage.getRenderBinList();
     for (auto bin = bins.lower_bound(number); bin != bins.end(); ++bin)
-        for (const DrawnLeaf& entry : leavesIn(*bin->second))
-            if (canReceive(*entry.leaf)) {
+        for (const DrawnLeaf& entry : leavesIn(*bin->second)) {
+            if (!isSurface(*entry.leaf)) continue;
+            const bool combines = isOn(entry.leaf->_parent, GL_COLOR_LOGIC_OP);
+            if (combines && !operationHides(entry.leaf->_parent)) {
+                late.combined.push_back(entry);
+            } else if (combines || blendHides(*entry.leaf)) {
                 late.leaves.push_back(entry);
                 late.last = bin->second.get();
             }
+        }
     return late;
 }
 

@@ -10,6 +10,8 @@ namespace gnomon {
 /// texture with an alpha channel among the transparent things.
 struct LateReceivers {
     std::vector<DrawnLeaf> leaves;
+    std::vector<DrawnLeaf>
+        combined; ///< do not receive, because a logic operation combines them with what stands behind.
     osgUtil::RenderBin* last = nullptr; ///< the stage's last bin that draws some of them; null if there are none.
 };
 

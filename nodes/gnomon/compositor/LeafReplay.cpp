@@ -61,7 +61,8 @@ void LeafReplay::draw(const DrawnLeaf& entry, unsigned dark) {
     darken(faded ? 0 : dark);
     if (faded) return drawFaded(*entry.leaf);
     _lights.darken(dark);
-    const bool tested = _overlay.hidingOnly && _state.getLastAppliedMode(GL_BLEND);
+    const bool tested = _overlay.hidingOnly && _state.getLastAppliedMode(GL_BLEND) &&
+                        !_state.getLastAppliedMode(GL_COLOR_LOGIC_OP); // which takes the place of blending
     if (tested) layAlphaOver();
     drawGeometry(*entry.leaf);
     if (tested) forgetAlpha();

@@ -145,6 +145,17 @@ void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUt
                                 nameOf(**shaded) + "'. Switch GL_DEPTH_TEST and the mask of osg::Depth on.");
 }
 
+/// What stands behind would need its own shadow and that of what is combined with it.
+void reportCombined(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
+    const auto receiving = receivingOf(entry, drawn.late.combined, stage);
+    const auto first = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(*leaf); });
+    if (first != receiving.end())
+        entry.technique->report(entry.frameNumber,
+                                "a logic operation combines '" + nameOf(**first) +
+                                    "' with what stands behind it, in a bin above 8, so it receives no shadow. Draw it "
+                                    "in a bin below 8, or switch GL_COLOR_LOGIC_OP off.");
+}
+
 /// Where leaves can be seen.
 std::optional<ScreenRect> boundsOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
     std::optional<ScreenRect> all;
@@ -336,6 +347,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
     const auto receiving = receivingOf(entry, drawn.early, *getStage());
     const auto lateOnes = receivingOf(entry, drawn.late.leaves, *getStage());
     drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, receiving, lateOnes);
+    reportCombined(entry, drawn, *getStage());
     if (entry.technique->hasReceiver() && receiving.empty() && lateOnes.empty())
         return reportNoReceiver(entry, *getStage());
     if (lateOnes.empty()) reportNoDepth(entry, receiving);

@@ -51,7 +51,8 @@ struct EnlistedTechnique {
 ///         colour of its own and takes that of the leaf before it may take another. Reversed depth is refused.
 ///         Of several colour attachments the first alone is shadowed; the others stay as the leaves have drawn them.
 ///         What is drawn in bin 8 or later receives where it writes depth and its alpha is 1. What lets anything shine
-///         through receives nothing there; nor does what is seen through it, if it writes depth and both are late.
+///         through receives nothing there; nor does what is seen through it, if it writes depth and both are late. A leaf
+///         that a logic operation draws receives there if it hides what is behind; diagnose() names the others.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
 class ShadowBin : public osgUtil::RenderBin {
 public:
