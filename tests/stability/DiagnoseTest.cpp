@@ -107,7 +107,7 @@ TEST(Diagnose, TellsOfNamedNodesThatNothingElseKept) {
     site.scene.group->setCasters({node(square(1.0))});
     EXPECT_TRUE(says(site.causes(), "the node given to setCasters()", "and name them anew"));
     site.scene.group->setCasters({});
-    site.scene.group->addLight(new osg::LightSource);
+    site.scene.group->addLight(osg::ref_ptr<osg::LightSource>(new osg::LightSource));
     EXPECT_TRUE(says(site.causes(), "a LightSource given to ShadowCasterGroup::addLight() is gone",
                      "and give it to the group anew"));
     site.scene.group->removeLights();

@@ -128,7 +128,7 @@ TEST(NamedNodes, ThatAreGoneSelectNothing) {
     Graph graph;
     graph.technique->setReceiver({node(square(1.0))});
     graph.group->setCasters({node(square(1.0))});
-    graph.group->addLight(new osg::LightSource);
+    graph.group->addLight(osg::ref_ptr<osg::LightSource>(new osg::LightSource));
     EXPECT_TRUE(graph.technique->isReceiverGone());
     EXPECT_TRUE(graph.technique->hasReceiver());
     EXPECT_EQ(graph.technique->getReceiver(), Selection({nullptr, 0u}));
