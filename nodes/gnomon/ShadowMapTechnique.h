@@ -45,7 +45,6 @@ class ShadowMapCache;
 ///   only estimated.
 /// - Penumbras are streaky where a caster is nearer to the lamp than the lamp is wide.
 /// - Penumbras end at 128 texels, and at the borders of a lamp's maps.
-/// - On Mesa, a caster that draws itself and sets no colour may be lit by another ambient colour once a map has drawn it.
 /// - Casters that draw themselves need bounds. Each costs as much as in the view, in every map that changes.
 /// - A caster that draws itself is redrawn each frame if it has no display list or is DYNAMIC. Otherwise, changes of its
 ///   place, bounds, state sets and uniforms show.

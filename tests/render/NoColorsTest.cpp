@@ -5,6 +5,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/Material>
 
@@ -24,9 +25,38 @@ osg::ref_ptr<osg::Material> material(float ambient) {
     return result;
 }
 
+/// As osgteapot's: OpenGL alone knows it, and it sets no colour.
+class OwnBody : public osg::Drawable {
+public:
+    explicit OwnBody(const osg::Geometry& geometry) : _geometry(&geometry) {}
+    OwnBody() = default;
+    OwnBody(const OwnBody& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)
+        : osg::Drawable(other, copyOp), _geometry(other._geometry) {}
+    META_Object(test, OwnBody)
+
+    void drawImplementation(osg::RenderInfo&) const override {
+        const auto& vertices = static_cast<const osg::Vec3Array&>(*_geometry->getVertexArray());
+        const auto& normals = static_cast<const osg::Vec3Array&>(*_geometry->getNormalArray());
+        glBegin(GL_TRIANGLES);
+        for (unsigned i = 0; i < vertices.size(); ++i) {
+            glNormal3fv(normals[i].ptr());
+            glVertex3fv(vertices[i].ptr());
+        }
+        glEnd();
+    }
+    osg::BoundingBox computeBoundingBox() const override { return _geometry->getBoundingBox(); }
+
+protected:
+    ~OwnBody() override = default;
+
+private:
+    osg::ref_ptr<const osg::Geometry> _geometry;
+};
+
 struct Case {
     std::string name;
     std::function<void(Scene&)> change;
+    bool byMap = false; ///< instead of by planar, which casts what it can read.
 };
 std::ostream& operator<<(std::ostream& out, const Case& given) { return out << given.name; }
 
@@ -40,6 +70,17 @@ void paint(osg::Node& node, const osg::Vec4& color = {0.2f, 0.7f, 0.3f, 1.0f}) {
 /// As osg::ShapeDrawable does: the colour is that of osg::Material.
 void paintAllAsMaterials(Scene& scene) {
     for (unsigned i = 0; i < scene.content->getNumChildren(); ++i) paint(childOf(scene, i), {0.8f, 0.8f, 0.8f, 1.0f});
+}
+
+void drawByItself(osg::Node& node, bool displayList) {
+    osg::Geode& geode = *node.asGeode();
+    const osg::ref_ptr<OwnBody> own = new OwnBody(*geode.getDrawable(0)->asGeometry());
+    own->setUseDisplayList(displayList);
+    geode.setDrawable(0, own);
+}
+
+void drawAllByThemselves(Scene& scene, bool displayList) {
+    for (unsigned i = 0; i < scene.content->getNumChildren(); ++i) drawByItself(childOf(scene, i), displayList);
 }
 
 const Case cases[] = {
@@ -62,6 +103,9 @@ const Case cases[] = {
          state.setMode(GL_BLEND, osg::StateAttribute::ON);
          state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
      }},
+    {"OnAGroundThatDrawsItself", [](Scene& scene) { drawByItself(childOf(scene, 0), true); }},
+    {"OfBodiesThatDrawThemselves", [](Scene& scene) { drawAllByThemselves(scene, false); }, true},
+    {"OfBodiesInDisplayLists", [](Scene& scene) { drawAllByThemselves(scene, true); }, true},
 };
 
 /// Without any colour or material: osgViewer's lets colours be materials.
@@ -72,7 +116,10 @@ Scene build(const Case& given, bool shadow, bool dark) {
     scene.root->getStateSet()->removeAttribute(osg::StateAttribute::MATERIAL);
     given.change(scene);
     if (dark) scene.takeLightAway();
-    if (shadow) scene.addShadow(planar());
+    if (shadow && given.byMap)
+        scene.addShadow(new gnomon::ShadowMapTechnique);
+    else if (shadow)
+        scene.addShadow(planar());
     return scene;
 }
 
@@ -88,7 +135,7 @@ TEST_P(NoColors, LoseTheLightAlone) {
     Camera litCamera(lit.root, slanted), darkCamera(dark.root, slanted), camera(shadowed.root, slanted);
     for (int frame = 1; frame <= 4; ++frame) {
         const Picture actual = camera.frame();
-        const Comparison found = compare(actual, litCamera.frame(), darkCamera.frame(), mask);
+        const Comparison found = compare(actual, litCamera.frame(), darkCamera.frame(), mask, GetParam().byMap ? 2 : 1);
         EXPECT_EQ(found.wrongInside, 0) << "frame " << frame;
         EXPECT_EQ(found.wrongAtEdge, 0) << "frame " << frame;
     }

@@ -249,6 +249,11 @@ TEST(OwnDrawing, AutoTakesAMap) {
         EXPECT_NE(candidate.obstacle.empty(), candidate.spec.substr(0, 3) != "map") << candidate.spec;
 }
 
+TEST(OwnDrawing, AutoTakesAMapForOneThatIsAlone) {
+    Trial trial(new OwnBody, new gnomon::AutoShadowTechnique, sun, false), mapped(new OwnBody, map(), sun, false);
+    EXPECT_GT(trial.frame().count(shadowedGround), mapped.frame().count(shadowedGround) / 2);
+}
+
 TEST(OwnDrawing, WithoutBoundsIsReported) {
     const osg::ref_ptr<OwnBody> drawable = new OwnBody;
     drawable->bounded = false;

@@ -63,6 +63,7 @@ private:
     void lookAtCasters() {
         const std::string cutOut = whyCutOut(_view.casters);
         if (!cutOut.empty()) refuse(cutOut);
+        if (!_view.casters.own.empty()) refuse("a caster draws itself, so nobody knows where its shadow falls");
     }
 
     void lookAt(const osgUtil::RenderLeaf& leaf) {

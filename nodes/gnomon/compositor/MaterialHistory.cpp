@@ -26,10 +26,16 @@ osg::Vec4 trackedColor(const osg::Material& material) {
                                                              : material.getDiffuse(osg::Material::FRONT);
 }
 
-/// OpenGL's current colour after a drawable with this material; nullopt if nobody knows.
+osg::Vec4 colorNow() {
+    osg::Vec4 color;
+    glGetFloatv(GL_CURRENT_COLOR, color.ptr());
+    return color;
+}
+
+/// OpenGL's current colour after a drawable with this material, which has just been drawn; nullopt if nobody knows.
 std::optional<osg::Vec4> colorAfter(const osg::Drawable& drawable, const osg::Material& material) {
     const osg::Geometry* geometry = drawable.asGeometry();
-    if (!geometry) return std::nullopt;
+    if (!geometry) return colorNow();
     const osg::Array* colors = geometry->getColorArray();
     if (!colors) return trackedColor(material);
     const auto* overall = dynamic_cast<const osg::Vec4Array*>(colors);
