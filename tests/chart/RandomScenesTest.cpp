@@ -14,7 +14,7 @@ using namespace gnomon::examples;
 
 constexpr unsigned inCi = 500; // of the 10,000 that gnomonchart --random 10000 draws
 
-bool goOn(std::size_t, std::size_t, const std::string&) { return true; }
+bool goOn(std::size_t, const std::string&) { return true; }
 
 /// Each seed has 3 or more of them, so that two cores do all in a minute.
 std::vector<StabilityContender> techniques(const std::set<std::string>& names) {

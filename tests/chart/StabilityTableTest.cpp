@@ -69,6 +69,16 @@ TEST(StabilityOutcomes, AreTheWorstOfTheSweep) {
     EXPECT_EQ(rowOf({rightOnItsReceiver(lostCell()), rightCell()}).outcome(), Outcome::ELSEWHERE);
 }
 
+TEST(StabilityOutcomes, DoNotTakeARemarkForALimit) {
+    StabilityCell wrong = wrongCell(), lost = lostCell();
+    wrong.diagnosis = {"TerrainShadowGeode: 1 of 2 casters: draped instead. The shadow is right, but takes longer."};
+    lost.diagnosis = {"ShadowMapTechnique: invalid triangles are left out: 3, the first in 'a'."};
+    EXPECT_EQ(rowOf({wrong}).outcome(), Outcome::LEFT);
+    EXPECT_EQ(rowOf({lost}).outcome(), Outcome::CATASTROPHE);
+    lost.diagnosis.push_back("ShadowMapTechnique: no light is on in this view.");
+    EXPECT_EQ(rowOf({lost}).outcome(), Outcome::STATED);
+}
+
 TEST(StabilityOutcomes, AreCatastrophesWhateverIsSaidAfterACrashOrNaN) {
     StabilityCell notFinite = saying(rightOnItsReceiver(rightCell())), crashed;
     notFinite.notFinite = 1;
@@ -89,6 +99,14 @@ TEST(StabilityOutcomes, TakeAPixelAtThe95thPercentileAsTheLimit) {
     cell.everywhere.p95 = 1.0;
     EXPECT_TRUE(cell.inBudget());
     cell.everywhere.p95 = 1.001;
+    EXPECT_FALSE(cell.inBudget());
+}
+
+TEST(StabilityOutcomes, AskNoMoreThanAPictureOfOneRayAPixelHas) {
+    StabilityCell cell = rightCell();
+    cell.everywhere.p95 = cell.everywhere.floor = 1.8;
+    EXPECT_TRUE(cell.inBudget());
+    cell.everywhere.p95 = 1.81;
     EXPECT_FALSE(cell.inBudget());
 }
 
@@ -126,6 +144,17 @@ TEST(StabilityJudge, FindsThePictureOfRaysRight) {
     EXPECT_GT(judgement.shadow, 400u); // 15 columns without the picture's rim
 }
 
+/// A shadow that lies between two rows of pixel centres is in no picture of one ray a pixel.
+TEST(StabilityJudge, HasTheFloorOfAPictureOfRays) {
+    metrics::TruthMaps truth = halfShadowed();
+    for (int y = 2; y < 30; ++y) truth.lit.at(24, y) = 0.4;
+    const metrics::PixelSets sets = metrics::pixelSets(truth, centreRays());
+    const StabilityJudgement judgement = judge(centreRays(), truth, sets, sets.agreeing);
+    EXPECT_GT(judgement.floor, 5.0); // of 8 columns to the next edge
+    EXPECT_EQ(judgement.p95, judgement.floor);
+    EXPECT_TRUE(judgement.inBudget());
+}
+
 TEST(StabilityJudge, CountsAWrongPixelAwayFromEdgesButNotOneBesideThem) {
     metrics::Picture picture = centreRays();
     picture.at(18, 10) = 0.0; // two from the edge's column
@@ -148,7 +177,7 @@ TEST(StabilityFiles, KeepEverything) {
     results.scenes = {{"T1", "tests", "Box, \"large\"", "About.", "size", "m", {1.0, 0.1, 1e7}}};
     results.rows = {rowOf({rightCell(), rightOnItsReceiver(saying(wrongCell())), lostCell()})};
     results.rows[0].settings = {{"size", "4096"}};
-    results.rows[0].crawl = 0.125;
+    results.rows[0].flicker.crawl = 0.125;
     const auto folder = std::filesystem::temp_directory_path() / ("stability-" + std::to_string(getpid()));
     std::filesystem::create_directory(folder);
     saveStability(results, folder.string());
@@ -160,8 +189,8 @@ TEST(StabilityFiles, KeepEverything) {
     EXPECT_EQ(read.scenes[0].values, results.scenes[0].values);
     EXPECT_EQ(read.scenes[0].title, results.scenes[0].title);
     EXPECT_EQ(read.rows[0].settings, results.rows[0].settings);
-    EXPECT_EQ(read.rows[0].crawl, results.rows[0].crawl);
-    EXPECT_EQ(read.rows[0].flickerEnergy, std::nullopt);
+    EXPECT_EQ(read.rows[0].flicker.crawl, results.rows[0].flicker.crawl);
+    EXPECT_EQ(read.rows[0].flicker.energy, std::nullopt);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(jsonOf(read.rows[0].cells[i]), jsonOf(results.rows[0].cells[i]));
     const std::string line = "T1,size,0.1,m,Gnomon,planar,defaults,catastrophe,,0.5,7,0,0.8,0.5,0,1,0,no,no,yes,";
     EXPECT_NE(csv.str().find(line), std::string::npos) << csv.str();

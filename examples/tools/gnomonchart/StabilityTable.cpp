@@ -55,7 +55,7 @@ void dropUnfinished(StabilityResults& results) {
 template <class Work>
 auto withProgress(std::size_t steps, const std::function<bool()>& stops, const Work& work) {
     ProgressLine progress(static_cast<double>(steps));
-    return work([&](std::size_t done, std::size_t, const std::string& doing) {
+    return work([&](std::size_t done, const std::string& doing) {
         if (done) progress.show(double(done), doing);
         return !stops();
     });

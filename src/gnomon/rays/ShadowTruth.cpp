@@ -41,7 +41,10 @@ private:
     glm::dvec3 unproject(double x, double y, double depth) const;
     glm::dvec3 towardsLight(const glm::dvec3& from) const;
     Ray rayToLight(const Place& place, const glm::dvec3& towards) const;
-    double lit(const Place& place, std::mt19937& random) const;
+    template <class Lit>
+    TruthPixel pixel(int x, int y, const Lit& lit) const;
+    double litByPoint(const Place& place) const;
+    double litByDisc(const Place& place, std::mt19937& random) const;
     void fillCentre(TruthPixel& pixel, const Place& place) const;
 
     const RayScene& _seen;
@@ -80,10 +83,13 @@ Ray Tracer::rayToLight(const Place& place, const glm::dvec3& towards) const {
 }
 
 /// Share of the light that arrives.
-double Tracer::lit(const Place& place, std::mt19937& random) const {
+double Tracer::litByPoint(const Place& place) const {
+    const glm::dvec3 towards = towardsLight(place.position);
+    return glm::dot(place.normal, towards) > 0.0 && !_casters.blocked(rayToLight(place, towards)) ? 1.0 : 0.0;
+}
+
+double Tracer::litByDisc(const Place& place, std::mt19937& random) const {
     const glm::dvec3 middle = towardsLight(place.position);
-    if (_disc.radius == 0.0)
-        return glm::dot(place.normal, middle) > 0.0 && !_casters.blocked(rayToLight(place, middle)) ? 1.0 : 0.0;
     const glm::dvec3 side = std::abs(middle.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
     const glm::dvec3 u = glm::normalize(glm::cross(side, middle)), v = glm::cross(middle, u);
     std::uniform_real_distribution<double> within;
@@ -112,15 +118,22 @@ void Tracer::fillCentre(TruthPixel& pixel, const Place& place) const {
     pixel.blockerDistance = hit.distance * glm::length(ray.along);
 }
 
+/// Dice are made for a disc alone: they cost as much as a third of a point light's rays.
 TruthPixel Tracer::pixel(int x, int y) const {
-    TruthPixel result;
+    if (_disc.radius == 0.0) return pixel(x, y, [this](const Place& place) { return litByPoint(place); });
     std::mt19937 random(static_cast<unsigned>(y * _view.width + x)); // the same picture every time
+    return pixel(x, y, [&](const Place& place) { return litByDisc(place, random); });
+}
+
+template <class Lit>
+TruthPixel Tracer::pixel(int x, int y, const Lit& litAt) const {
+    TruthPixel result;
     double lit = 0.0;
     int seen = 0;
     for (int i = 0; i < grid * grid; ++i) {
         const Place place = look(x + (i % grid + 0.5) / grid, y + (i / grid + 0.5) / grid);
         if (place.triangle == RayHit::none) continue;
-        lit += this->lit(place, random);
+        lit += litAt(place);
         ++seen;
     }
     if (seen > 0) result.lit = static_cast<float>(lit / seen);

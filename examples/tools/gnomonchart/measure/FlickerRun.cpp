@@ -19,14 +19,27 @@ SceneCamera shifted(const ChartScene& scene, int step) {
     return camera;
 }
 
-/// Without what the meter does not read.
-metrics::TruthMaps slim(metrics::TruthMaps maps) {
-    maps.blocker = {};
-    maps.edgeLength = {};
-    return maps;
+/// What the meter reads.
+metrics::TruthMaps slim(const metrics::TruthMaps& maps) {
+    metrics::TruthMaps result;
+    result.lit = maps.lit;
+    result.litCentre = maps.litCentre;
+    result.receiver = maps.receiver;
+    result.position = maps.position;
+    return result;
 }
 
 } // namespace
+
+metrics::FlickerFrame flickerFrame(const metrics::TruthMaps& truth, const osg::Vec3d& origin, const SceneCamera& camera,
+                                   metrics::Picture visibility, metrics::Mask facing) {
+    metrics::FlickerFrame frame;
+    frame.visibility = std::move(visibility);
+    frame.truth = slim(truth);
+    frame.facing = std::move(facing);
+    frame.clipFromPosition = toGlm(osg::Matrixd::translate(origin) * camera.view * camera.projection);
+    return frame;
+}
 
 Film::Film(const Yardstick& yardstick, Motion motion, int frames, const std::function<bool()>& stops)
     : _origin(yardstick.truth().origin()) {
@@ -35,7 +48,9 @@ Film::Film(const Yardstick& yardstick, Motion motion, int frames, const std::fun
         Frame frame;
         frame.camera = motion == Motion::CAMERA ? shifted(scene, k) : scene.camera;
         frame.light = motion == Motion::LIGHT ? movedLight(scene, stepDegrees * k) : scene.light;
-        frame.truth = slim(yardstick.truth().maps(frame.camera, frame.light));
+        frame.truth = yardstick.truth().maps(frame.camera, frame.light);
+        frame.truth.blocker = {}; // nobody reads them here
+        frame.truth.edgeLength = {};
         _frames.push_back(std::move(frame));
     }
 }
@@ -46,12 +61,9 @@ metrics::FlickerMeter Film::measure(Sight& sight, const std::function<bool()>& s
         if (stops()) break;
         sight.setCamera(frame.camera);
         sight.setLight(frame.light);
-        metrics::FlickerFrame seen;
-        seen.visibility = sight.visibility().value;
-        seen.facing = metrics::pixelSets(frame.truth, seen.visibility).facing;
-        seen.clipFromPosition = toGlm(osg::Matrixd::translate(_origin) * frame.camera.view * frame.camera.projection);
-        seen.truth = frame.truth;
-        meter.add(std::move(seen));
+        metrics::Picture visibility = sight.visibility().value;
+        metrics::Mask facing = metrics::pixelSets(frame.truth, visibility).facing;
+        meter.add(flickerFrame(frame.truth, _origin, frame.camera, std::move(visibility), std::move(facing)));
     }
     return meter;
 }

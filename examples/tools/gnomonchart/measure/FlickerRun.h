@@ -9,6 +9,10 @@
 
 namespace gnomon::examples {
 
+/// One frame for the meter. @param origin  of the truth's positions.
+metrics::FlickerFrame flickerFrame(const metrics::TruthMaps& truth, const osg::Vec3d& origin, const SceneCamera& camera,
+                                   metrics::Picture visibility, metrics::Mask facing);
+
 /// A short film of a scene and the truth of each frame, for metrics::FlickerMeter. Steps are about an eighth of a texel of
 /// a map of 1024 over the scene: what snaps to texels is seen snapping.
 ///

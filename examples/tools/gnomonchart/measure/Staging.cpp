@@ -29,7 +29,10 @@ osg::ref_ptr<osg::StateSet> rootState(Look look) {
     state->setAttributeAndModes(model);
     state->setMode(GL_LIGHTING, osg::StateAttribute::ON);
     state->setMode(GL_LIGHT0, osg::StateAttribute::ON);
-    if (look == Look::VISIBILITY) state->setAttributeAndModes(white());
+    if (look == Look::VISIBILITY) {
+        state->setAttributeAndModes(white());
+        state->setMode(GL_NORMALIZE, osg::StateAttribute::ON); // or a scene under a scale is too dark to be judged
+    }
     return state;
 }
 

@@ -28,15 +28,6 @@ ShadedPicture mixed(const ShadedPicture& lit, const ShadedPicture& dark, const m
     return result;
 }
 
-/// What a renderer shows that asks one ray a pixel: its centre's.
-metrics::Visibility centreRays(const metrics::TruthMaps& maps) {
-    metrics::Visibility result;
-    result.value = metrics::Picture(maps.litCentre.width, maps.litCentre.height);
-    for (std::size_t i = 0; i < result.value.cells.size(); ++i)
-        result.value.cells[i] = maps.litCentre.cells[i] ? 1.0 : 0.0;
-    return result;
-}
-
 /// Share of R+ where the centre's ray says other than most of the pixel's.
 double misclassifiedFloor(const metrics::TruthMaps& maps, const metrics::Mask& facing) {
     std::size_t wrong = 0;
@@ -60,6 +51,14 @@ std::string numbers(const std::initializer_list<double>& values) {
 }
 
 } // namespace
+
+metrics::Visibility centreRays(const metrics::TruthMaps& maps) {
+    metrics::Visibility result;
+    result.value = metrics::Picture(maps.litCentre.width, maps.litCentre.height);
+    for (std::size_t i = 0; i < result.value.cells.size(); ++i)
+        result.value.cells[i] = maps.litCentre.cells[i] ? 1.0 : 0.0;
+    return result;
+}
 
 Yardstick::Yardstick(const ChartScene& scene, bool withDisc, osg::Node* seen)
     : _scene(scene), _truth(seen ? *seen : *scene.content), _maps(_truth.maps(scene.camera, scene.light)) {

@@ -10,6 +10,9 @@ namespace gnomon::examples {
 
 using ShadedPicture = metrics::Grid<glm::dvec3>; ///< linear light.
 
+/// What a renderer shows that asks one ray a pixel: its centre's.
+metrics::Visibility centreRays(const metrics::TruthMaps& maps);
+
 /// What is true of one scene: all that its contenders are measured against, made once.
 ///
 /// Cost    34 rays a pixel, and 256 more with the disc.

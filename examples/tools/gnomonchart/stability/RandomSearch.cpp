@@ -43,7 +43,7 @@ StabilityCell cellOf(const RandomSearch& search, const StabilityContender& conte
     plan.scenes = {{"plainer", "", "", "", "", "", {0.0}, [scene](double, int width, int height) {
                         return caseOf(scene, width, height);
                     }}};
-    return runStability(plan, [](std::size_t, std::size_t, const std::string&) { return true; }).rows[0].cells[0];
+    return runStability(plan, [](std::size_t, const std::string&) { return true; }).rows[0].cells[0];
 }
 
 RandomFault shrunk(const RandomSearch& search, const StabilityContender& contender, unsigned seed,
@@ -72,9 +72,8 @@ bool isRandomFault(const StabilityCell& cell) {
     return cell.failure.empty() && cell.diagnosis.empty() && judged.shadow > leastShadow && judged.iou < lostBelow;
 }
 
-std::vector<RandomFault>
-searchRandomScenes(const RandomSearch& search,
-                   const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
+std::vector<RandomFault> searchRandomScenes(const RandomSearch& search,
+                                            const std::function<bool(std::size_t, const std::string&)>& progress) {
     const StabilityResults results = runStability(planOf(search), progress);
     std::vector<RandomFault> faults;
     for (std::size_t i = 0; i < results.rows.size(); ++i) {

@@ -29,9 +29,8 @@ bool isRandomFault(const StabilityCell& cell);
 
 /// Measures random scenes, and makes each fault's scene plainer for as long as the fault stays.
 /// @param progress  see runStability().
-std::vector<RandomFault>
-searchRandomScenes(const RandomSearch& search,
-                   const std::function<bool(std::size_t done, std::size_t all, const std::string&)>& progress);
+std::vector<RandomFault> searchRandomScenes(const RandomSearch& search,
+                                            const std::function<bool(std::size_t done, const std::string&)>& progress);
 
 /// A sentence a fault, with all that makes its scene.
 std::string faultText(const RandomFault& fault);

@@ -48,10 +48,6 @@ double processorSeconds(pid_t id) {
     return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-std::optional<double> numberIn(const json& number) {
-    return number.is_number() ? std::optional<double>(number.get<double>()) : std::nullopt;
-}
-
 } // namespace
 
 SceneProcess::SceneProcess(const StabilityPlan& plan, const StabilityScene& scene, StabilityRow* rows)
@@ -154,9 +150,7 @@ void SceneProcess::take(const std::string& line) {
         readField(told, "settings", row.settings);
         _begun = false;
     } else if (told.contains("flicker")) {
-        row.flickerEnergy = numberIn(told["flicker"][0]);
-        row.flickerShare = numberIn(told["flicker"][1]);
-        row.crawl = numberIn(told["flicker"][2]);
+        row.flicker = flickerOf(told["flicker"]);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "SceneSweep.h"
 
 #include "../measure/Errors.h"
+#include "../measure/FlickerRun.h"
 #include "../measure/Pictures.h"
 #include "../measure/Sweep.h"
 #include "OutputFile.h"
@@ -27,16 +28,6 @@ metrics::Mask objectsUpTo(const metrics::Grid<int>& receiver, int last) {
     for (std::size_t i = 0; i < mask.cells.size(); ++i)
         mask.cells[i] = receiver.cells[i] > 0 && receiver.cells[i] <= last;
     return mask;
-}
-
-metrics::FlickerFrame frameOf(const ChartScene& scene, const metrics::TruthMaps& truth,
-                              const metrics::Picture& visibility, const metrics::Mask& facing) {
-    metrics::FlickerFrame frame;
-    frame.visibility = visibility;
-    frame.truth = truth;
-    frame.facing = facing;
-    frame.clipFromPosition = toGlm(osg::Matrixd::translate(scene.center) * scene.camera.view * scene.camera.projection);
-    return frame;
 }
 
 } // namespace
@@ -87,7 +78,8 @@ void SceneSweep::Run::measure(std::size_t place, StabilityCell& cell) {
         cell.onReceiver = judge(seen.value, value.maps, sets, objectsUpTo(value.maps.receiver, last));
     }
     cell.measured = true;
-    _flicker.add(frameOf(value.yardstick.scene(), value.maps, seen.value, sets.facing));
+    const ChartScene& scene = value.yardstick.scene();
+    _flicker.add(flickerFrame(value.maps, scene.center, scene.camera, seen.value, sets.facing));
     addPicture(place, seen.value, cell);
 }
 

@@ -2,7 +2,6 @@
 #include "StabilityChild.h"
 
 #include "../measure/Complaints.h"
-#include "JsonFields.h"
 #include "SceneSweep.h"
 #include "StabilityFiles.h"
 
@@ -52,10 +51,7 @@ json StabilityLines::begin(const StabilityPlace& place) { return {{"begin", {pla
 json StabilityLines::cell(const StabilityCell& cell) { return {{"cell", jsonOf(cell)}}; }
 json StabilityLines::settings(const Settings& settings) { return {{"settings", settings}}; }
 json StabilityLines::flicker(const metrics::FlickerMeter& meter) {
-    json numbers = json::array();
-    for (const std::optional<double>& number : {meter.energy(), meter.share(), meter.crawl()})
-        numbers.push_back(examples::jsonOf(number));
-    return {{"flicker", numbers}};
+    return {{"flicker", jsonOf(StabilityFlicker{meter.energy(), meter.share(), meter.crawl()})}};
 }
 
 void measureScene(const StabilityPlan& plan, const StabilityScene& scene, StabilityPlace from, const Settings& settings,

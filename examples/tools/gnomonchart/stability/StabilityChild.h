@@ -20,7 +20,7 @@ struct StabilityPlace {
 ///     {"begin": [contender, value]}     before anything is done there
 ///     {"cell": …}                       what came of it
 ///     {"settings": [["size", "4096"]]}  what came of the search for the best
-///     {"flicker": [energy, share, crawl]}  after the last value, if the child made all of them
+///     {"flicker": …}                    after the last value, if the child made all of them
 struct StabilityLines {
     static nlohmann::json begin(const StabilityPlace& place);
     static nlohmann::json cell(const StabilityCell& cell);

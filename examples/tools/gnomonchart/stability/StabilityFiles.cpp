@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 template <class Way>
 static void fields(Way& way, PartOf<Way, StabilityJudgement> judgement) {
     way.field("p95Pixels", judgement.p95);
+    way.field("floorPixels", judgement.floor);
     way.field("wrong", judgement.wrong);
     way.field("shadow", judgement.shadow);
     way.field("iou", judgement.iou);
@@ -40,6 +41,13 @@ static void fields(Way& way, PartOf<Way, StabilityCell> cell) {
 }
 
 template <class Way>
+static void fields(Way& way, PartOf<Way, StabilityFlicker> flicker) {
+    way.field("flickerEnergy", flicker.energy);
+    way.field("flickerShare", flicker.share);
+    way.field("crawlPixels", flicker.crawl);
+}
+
+template <class Way>
 static void fields(Way& way, PartOf<Way, StabilityRow> row) {
     way.field("scene", row.scene);
     way.field("kit", row.kit);
@@ -48,9 +56,7 @@ static void fields(Way& way, PartOf<Way, StabilityRow> row) {
     way.field("settings", row.settings);
     way.derived("outcome", std::string(nameOf(row.outcome())));
     way.derived("reach", row.reach());
-    way.field("flickerEnergy", row.flickerEnergy);
-    way.field("flickerShare", row.flickerShare);
-    way.field("crawlPixels", row.crawl);
+    fields(way, row.flicker);
     way.list("cells", row.cells);
 }
 
@@ -120,16 +126,21 @@ json written(const Part& part) {
     return object;
 }
 
+template <class Part>
+Part partOf(const json& object) {
+    Part part;
+    FieldReader way(object);
+    fields(way, part);
+    return part;
+}
+
 } // namespace
 
 json jsonOf(const StabilityCell& cell) { return written(cell); }
+json jsonOf(const StabilityFlicker& flicker) { return written(flicker); }
 
-StabilityCell cellOf(const json& object) {
-    StabilityCell cell;
-    FieldReader way(object);
-    fields(way, cell);
-    return cell;
-}
+StabilityCell cellOf(const json& object) { return partOf<StabilityCell>(object); }
+StabilityFlicker flickerOf(const json& object) { return partOf<StabilityFlicker>(object); }
 
 void saveStability(const StabilityResults& results, const std::string& folder) {
     ordered_json object;

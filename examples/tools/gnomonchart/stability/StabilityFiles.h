@@ -14,8 +14,10 @@ void saveStability(const StabilityResults& results, const std::string& folder);
 /// Reads a stability.json back. @throws std::runtime_error, one sentence, if it is missing, no JSON, or lacks something.
 StabilityResults loadStability(const std::string& file);
 
-/// One cell as a child process hands it over.
+/// What a child process hands over.
 nlohmann::json jsonOf(const StabilityCell& cell);
+nlohmann::json jsonOf(const StabilityFlicker& flicker);
 StabilityCell cellOf(const nlohmann::json& json);
+StabilityFlicker flickerOf(const nlohmann::json& json);
 
 } // namespace gnomon::examples

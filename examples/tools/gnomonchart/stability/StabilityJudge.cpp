@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "StabilityJudge.h"
 
+#include "../measure/Yardstick.h"
+
 #include <gnomon/metrics/BoundaryDistance.h>
 #include <gnomon/metrics/Confusion.h>
 
@@ -46,8 +48,10 @@ StabilityJudgement judge(const metrics::Picture& visibility, const metrics::Trut
     const metrics::Mask certain = both(sets.certain, within);
     const metrics::Confusion counts = metrics::confusion(visibility, truth, certain);
     StabilityJudgement judged;
-    if (const auto boundary = metrics::boundaryDistance(visibility, truth.lit, both(sets.facing, within)))
-        judged.p95 = boundary->p95;
+    const metrics::Mask facing = both(sets.facing, within);
+    if (const auto boundary = metrics::boundaryDistance(visibility, truth.lit, facing)) judged.p95 = boundary->p95;
+    if (const auto boundary = metrics::boundaryDistance(centreRays(truth).value, truth.lit, facing))
+        judged.floor = boundary->p95;
     judged.wrong = wrongAwayFromEdges(visibility, truth, certain);
     judged.shadow = counts.shadow + counts.falseLit;
     judged.iou = counts.intersectionOverUnion();

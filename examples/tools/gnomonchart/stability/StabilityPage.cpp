@@ -46,8 +46,8 @@ ordered_json rowJson(const StabilityRow& row, PagePictures& pictures) {
             {"reach", row.reach()},
             {"colour", reachColour(row.reach())},
             {"left", left ? ordered_json(*left) : ordered_json(nullptr)},
-            {"flicker", jsonOf(row.flickerEnergy)},
-            {"crawl", jsonOf(row.crawl)},
+            {"flicker", jsonOf(row.flicker.energy)},
+            {"crawl", jsonOf(row.flicker.crawl)},
             {"cells", cells}};
 }
 
@@ -68,14 +68,15 @@ std::string pageOf(const StabilityResults& results, const std::string& folder) {
     const std::string data = scriptJson(dataOf(results, pictures));
     const std::string state =
         results.complete ? "" : element("p", "The run was interrupted: cells are missing.", "class=\"warning\"");
-    return fillTemplate(page::stability_html, {{"CSS", std::string(page::chart_css) + page::stability_css},
-                                               {"STATE", state},
-                                               {"SHRUNK", shrunkText(pictures.shrunk())},
-                                               {"MADE", madeHtml(results.made)},
-                                               {"DATA", data},
-                                               {"JQUERY", inlineScript(page::jquery_min_js)},
-                                               {"DATATABLES", inlineScript(page::jquery_dataTables_min_js)},
-                                               {"SCRIPT", inlineScript(std::string(page::common_js) + page::stability_js)}});
+    return fillTemplate(page::stability_html,
+                        {{"CSS", std::string(page::chart_css) + page::stability_css},
+                         {"STATE", state},
+                         {"SHRUNK", shrunkText(pictures.shrunk())},
+                         {"MADE", madeHtml(results.made)},
+                         {"DATA", data},
+                         {"JQUERY", inlineScript(page::jquery_min_js)},
+                         {"DATATABLES", inlineScript(page::jquery_dataTables_min_js)},
+                         {"SCRIPT", inlineScript(std::string(page::common_js) + page::stability_js)}});
 }
 
 } // namespace

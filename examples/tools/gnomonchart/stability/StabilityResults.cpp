@@ -2,10 +2,28 @@
 #include "StabilityResults.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 #include <tuple>
 
 namespace gnomon::examples {
+
+namespace {
+
+/// What diagnose() says besides limits: nothing of the shadow is missing then.
+constexpr const char* remarks[] = {"The shadow is right", "invalid triangles are left out"};
+
+bool isLimit(const std::string& cause) {
+    return std::none_of(std::begin(remarks), std::end(remarks),
+                        [&](const char* remark) { return cause.find(remark) != std::string::npos; });
+}
+
+} // namespace
+
+bool StabilityCell::stated() const {
+    if (!failure.empty()) return failure == "refused";
+    return std::any_of(diagnosis.begin(), diagnosis.end(), isLimit);
+}
 
 bool StabilityCell::catastrophe() const {
     if (failure == "crashed" || failure == "hung" || notFinite > 0) return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,13 +11,14 @@ namespace gnomon::examples {
 /// How right a picture's shadow is, over some of its pixels.
 struct StabilityJudgement {
     std::optional<double> p95; ///< 95th percentile of the boundary distance, px; none without both boundaries.
+    double floor = 0.0;        ///< the same of a picture that asks one ray a pixel: nothing hard-edged has less.
     std::size_t wrong = 0;     ///< certain pixels that are wrong, away from edges.
     std::size_t shadow = 0;    ///< certain pixels that are truly shadowed.
     double iou = 1.0;          ///< intersection over union of the shadow's certain pixels.
     bool lost = false;         ///< a catastrophe: IoU below 0.2 where shadow or false shadow is of 50 pixels or more.
 
-    /// At most 1 px at the 95th percentile, no wrong pixels away from edges.
-    bool inBudget() const { return !lost && wrong == 0 && p95.value_or(0.0) <= 1.0; }
+    /// At most 1 px at the 95th percentile, or as much as the floor, and no wrong pixels away from edges.
+    bool inBudget() const { return !lost && wrong == 0 && p95.value_or(0.0) <= std::max(1.0, floor + 1e-9); }
 };
 
 /// One technique in one scene at one value.
@@ -32,8 +34,8 @@ struct StabilityCell {
     std::string picture;                          ///< file of the errors' overlay; empty: none.
 
     bool inBudget() const { return failure.empty() && notFinite == 0 && everywhere.inBudget(); }
-    /// Whether the technique says that it cannot do this.
-    bool stated() const { return failure == "refused" || (failure.empty() && !diagnosis.empty()); }
+    /// Whether the technique says that its shadow is missing or wrong.
+    bool stated() const;
     /// Whether it is right where it shadows at all.
     bool rightOnReceiver() const { return failure.empty() && notFinite == 0 && onReceiver && onReceiver->inBudget(); }
     /// A crash, a hang, NaN in the picture, or a lost shadow that nothing is said of.
@@ -49,12 +51,17 @@ enum class StabilityOutcome {
     CATASTROPHE ///< see StabilityCell::catastrophe().
 };
 
+/// How a sweep flickers, see metrics::FlickerMeter.
+struct StabilityFlicker {
+    std::optional<double> energy, share, crawl;
+};
+
 /// One technique in one scene.
 struct StabilityRow {
     std::string scene, kit, technique, setting;
     std::vector<std::pair<std::string, std::string>> settings; ///< that differ from the technique's defaults.
     std::vector<StabilityCell> cells;                          ///< a value each.
-    std::optional<double> flickerEnergy, flickerShare, crawl;  ///< along the sweep; see metrics::FlickerMeter.
+    StabilityFlicker flicker;                                  ///< along the sweep.
 
     StabilityOutcome outcome() const;
     /// The first value's place at which the budget is left; nullopt if it holds.

@@ -22,23 +22,21 @@ std::vector<StabilityRow> rowsOf(const StabilityPlan& plan) {
         for (const StabilityContender& entry : plan.contenders) {
             const Contender& contender = entry.contender;
             rows.push_back(
-                {scene.id, contender.kit, contender.technique, contender.setting, contender.settings, {}, {}, {}, {}});
+                {scene.id, contender.kit, contender.technique, contender.setting, contender.settings, {}, {}});
         }
     return rows;
 }
 
 class Runner {
 public:
-    Runner(const StabilityPlan& plan, std::vector<StabilityRow>& rows) : _plan(plan), _rows(rows) {
-        for (const StabilityScene& scene : plan.scenes) _all += scene.values.size() * plan.contenders.size();
-    }
+    Runner(const StabilityPlan& plan, std::vector<StabilityRow>& rows) : _plan(plan), _rows(rows) {}
 
     template <typename Progress>
     bool run(const Progress& progress) {
         while (true) {
             fill();
             if (_processes.empty()) return true;
-            if (!progress(cells(), _all, _processes.front()->doing())) return false;
+            if (!progress(cells(), _processes.front()->doing())) return false;
             turn();
         }
     }
@@ -72,13 +70,13 @@ private:
     const StabilityPlan& _plan;
     std::vector<StabilityRow>& _rows;
     std::vector<std::unique_ptr<SceneProcess>> _processes;
-    std::size_t _next = 0, _finished = 0, _all = 0;
+    std::size_t _next = 0, _finished = 0;
 };
 
 } // namespace
 
 StabilityResults runStability(const StabilityPlan& plan,
-                              const std::function<bool(std::size_t, std::size_t, const std::string&)>& progress) {
+                              const std::function<bool(std::size_t, const std::string&)>& progress) {
     StabilityResults results;
     results.made = plan.made;
     for (const StabilityScene& scene : plan.scenes) results.scenes.push_back(textOf(scene));

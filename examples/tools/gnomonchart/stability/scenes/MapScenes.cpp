@@ -138,10 +138,7 @@ SceneParts orthographic(double half) {
 SceneParts lowEye(double height) {
     SceneParts parts = street();
     const osg::Vec3d to(432100.25, 6400000.5, 812.0);
-    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(to));
-    for (unsigned i = 0; i < parts.content->getNumChildren(); ++i) place->addChild(parts.content->getChild(i));
-    parts.content = new osg::Group;
-    parts.content->addChild(place);
+    parts.enclose(osg::Matrixd::translate(to));
     parts.eye = to + osg::Vec3d(0.0, -20.0, height);
     parts.center = to + osg::Vec3d(0.0, 0.0, 0.5 * height);
     return parts;

@@ -24,22 +24,10 @@ SceneParts village() {
     return parts;
 }
 
-osg::ref_ptr<osg::MatrixTransform> placed(osg::Group& content, const osg::Matrixd& matrix) {
-    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(matrix);
-    for (unsigned i = 0; i < content.getNumChildren(); ++i) place->addChild(content.getChild(i));
-    return place;
-}
-
-void enclose(SceneParts& parts, const osg::Matrixd& matrix) {
-    osg::ref_ptr<osg::MatrixTransform> place = placed(*parts.content, matrix);
-    parts.content = new osg::Group;
-    parts.content->addChild(place);
-}
-
 SceneParts farFromOrigin(double metres) {
     SceneParts parts = village();
     const osg::Vec3d to(metres, 0.7 * metres, 0.1 * metres);
-    enclose(parts, osg::Matrixd::translate(to));
+    parts.enclose(osg::Matrixd::translate(to));
     parts.eye += to;
     parts.center += to;
     return parts;
@@ -54,7 +42,7 @@ SceneParts lampFarFromOrigin(double metres) {
 
 SceneParts ofScale(double scale) {
     SceneParts parts = village();
-    enclose(parts, osg::Matrixd::scale(scale, scale, scale));
+    parts.enclose(osg::Matrixd::scale(scale, scale, scale));
     parts.eye *= scale;
     parts.center *= scale;
     parts.radius *= scale;
@@ -77,6 +65,18 @@ SceneParts nested(double depth) {
     return parts;
 }
 
+/// OpenSceneGraph does not draw what is infinitely large.
+class BoundsOf : public osg::Drawable::ComputeBoundingBoxCallback {
+public:
+    explicit BoundsOf(const Mesh& mesh) {
+        for (const glm::dvec3& corner : mesh) _bounds.expandBy(float(corner.x), float(corner.y), float(corner.z));
+    }
+    osg::BoundingBox computeBound(const osg::Drawable&) const override { return _bounds; }
+
+private:
+    osg::BoundingBox _bounds;
+};
+
 /// Triangles that are none, in the casters' own drawable.
 SceneParts withBadTriangles(double count) {
     SceneParts parts = onGround();
@@ -85,11 +85,14 @@ SceneParts withBadTriangles(double count) {
     for (const Mesh& mesh : houses()) parts.truth->addChild(node(mesh));
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
     const glm::dvec3 bad[] = {{nan, nan, nan}, {infinite, 0.0, 1.0}, {0.0, -infinite, 1.0}, {0.0, 0.0, nan}};
-    for (Mesh mesh : houses()) {
+    for (const Mesh& whole : houses()) {
+        Mesh mesh = whole;
         const glm::dvec3 corner = mesh.front();
         for (int i = 0; i < int(count); ++i)
             mesh.insert(mesh.begin() + 3 * i, {i % 3 ? bad[i % 4] : corner, corner, corner}); // some have no area
-        parts.add(mesh);
+        const osg::ref_ptr<osg::Geode> caster = node(mesh);
+        caster->getDrawable(0)->setComputeBoundingBoxCallback(new BoundsOf(whole));
+        parts.add(caster);
     }
     return parts;
 }
@@ -99,8 +102,8 @@ SceneParts depthRange(double ratio) {
     SceneParts parts = onGround(1200.0);
     parts.add(boxAt({0.0, 800.0, 0.0}, {40.0, 40.0, 60.0}));
     parts.add(boxAt({-10.0, 60.0, 0.0}, {6.0, 6.0, 8.0}));
-    parts.eye = {0.0, 0.0, 60.0};
-    parts.center = {0.0, 700.0, 0.0};
+    parts.eye = {-480.0, 300.0, 420.0};
+    parts.center = {-20.0, 800.0, 10.0};
     parts.fovy = 30.0;
     parts.far = 1000.0;
     parts.near = 1000.0 / ratio;

@@ -6,6 +6,7 @@
 #include <gnomon/NamedNode.h>
 
 #include <glm/trigonometric.hpp>
+#include <osg/MatrixTransform>
 
 #include <cmath>
 #include <utility>
@@ -33,6 +34,13 @@ SceneCamera cameraOf(const SceneParts& parts, const osg::BoundingBoxd& bounds, i
 } // namespace
 
 void SceneParts::add(const Mesh& mesh, const std::string& name) { content->addChild(node(mesh, name)); }
+
+void SceneParts::enclose(const osg::Matrixd& matrix) {
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(matrix);
+    for (unsigned i = 0; i < content->getNumChildren(); ++i) place->addChild(content->getChild(i));
+    content = new osg::Group;
+    content->addChild(place);
+}
 
 StabilityCase stabilityCase(const SceneParts& parts, int width, int height) {
     StabilityCase result;

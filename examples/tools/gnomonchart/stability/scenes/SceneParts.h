@@ -23,6 +23,8 @@ struct SceneParts {
 
     void add(const Mesh& mesh, const std::string& name = "");
     void add(osg::Node* node) { content->addChild(node); }
+    /// Puts all content below a transform. Light and camera stay.
+    void enclose(const osg::Matrixd& matrix);
 };
 
 StabilityCase stabilityCase(const SceneParts& parts, int width, int height);
