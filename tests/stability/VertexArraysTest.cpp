@@ -50,6 +50,12 @@ std::set<std::string> onAfterFrames(const Scene& scene, const View& view) {
     return arrays->on;
 }
 
+/// The trial with the light on its other side.
+Trial mirrored(Trial trial) {
+    trial.light.x() = -trial.light.x();
+    return trial;
+}
+
 GNOMON_BY_TECHNIQUE(VertexArrays);
 
 } // namespace
@@ -64,5 +70,30 @@ TEST_P(VertexArrays, AreOnWhereTheyAreWithoutShadows) {
         EXPECT_FALSE(without.empty()); // there is something to be seen
         EXPECT_TRUE(std::includes(without.begin(), without.end(), with.begin(), with.end()))
             << testing::PrintToString(with) << " instead of " << testing::PrintToString(without);
+    }
+}
+
+/// OSG tells arrays by their addresses and takes one for another that was there before. Drawables in display lists set none
+/// between.
+TEST_P(VertexArrays, OfATechniqueThatIsGoneAreNotTakenForThoseOfTheNext) {
+    Trial trial{{house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0)}};
+    trial.view = fromAbove(4.0, 64);
+    const Truth truths[] = {truthOf(trial), truthOf(mirrored(trial))};
+    for (const bool relights : {true, false}) {
+        Scene scene = trial.build();
+        osg::ref_ptr<gnomon::ShadowTechnique> technique = castingTechnique(find(*scene.root, "ground"));
+        scene.addShadow(technique);
+        scene.group->setComposite(relights ? gnomon::ShadowCasterGroup::RELIGHT : gnomon::ShadowCasterGroup::BLEND);
+        scene.group->setDark(0.0f);
+        Camera camera(scene.root, trial.view);
+        for (int turn = 0; turn < 12; ++turn) {
+            scene.light->getLight()->setPosition(turn % 2 ? mirrored(trial).light : trial.light);
+            const Truth& truth = truths[turn % 2];
+            ASSERT_TRUE(relights ? shows(camera.frame(), truth) : showsInBlack(camera.frame(), truth)) << turn;
+            scene.group->removeChild(technique);
+            technique = nullptr;
+            technique = castingTechnique(find(*scene.root, "ground"));
+            scene.group->addChild(technique);
+        }
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/compositor/ForgottenArrays.h>
 #include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ProgramVisibilityJob.h>
@@ -84,10 +85,12 @@ void PrepassBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::Render
         if (!_colors->save(*renderInfo.getState(), *getStage()->getViewport())) _colors.reset();
     }
     if (_job.marks) {
+        forgetArrays(*renderInfo.getState());
         popLeafState(*renderInfo.getState(), previous);
         const CleanState clean(*renderInfo.getState(), getStage()->getViewport());
         const std::string cause = _job.programMarks()->drawAhead(renderInfo);
         _job.report(cause);
+        forgetArrays(*renderInfo.getState());
     }
     if (_colors || _job.marks) MaterialHistory::restoreDefault(*renderInfo.getState());
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);

@@ -2,6 +2,7 @@
 // ShadowBin: its part of a draw traversal.
 #include <gnomon/compositor/Compositor.h>
 #include <gnomon/compositor/CompositorTarget.h>
+#include <gnomon/compositor/ForgottenArrays.h>
 #include <gnomon/compositor/SoftMarkJob.h>
 #include <gnomon/compositor/StageVerdict.h>
 #include <gnomon/group/ShadowBin.h>
@@ -53,8 +54,10 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*
     MaterialHistory materials(state, leaves, previous);
     popLeafState(state, previous);
     const unsigned unit = state.getActiveTextureUnit();
+    forgetArrays(state);
     const std::string cause = compose(renderInfo, std::move(leaves), materials);
     materials.restore();
+    forgetArrays(state);
     state.setActiveTextureUnit(unit);
     return cause;
 }
