@@ -20,27 +20,30 @@ endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
-set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "${PROJECT_HOMEPAGE_URL}")
+if(PROJECT_HOMEPAGE_URL) # an empty one is no field
+  set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "${PROJECT_HOMEPAGE_URL}")
+endif()
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(same_version "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 
-# gnomon_package(COMPONENT NAME SECTION SHORT LONG) describes one package.
+# gnomon_package(COMPONENT NAME SECTION SHORT LONG) describes one package. All descriptions begin alike.
+set(GNOMON_DESCRIPTION "Gnomon adds shadows to OpenSceneGraph scenes: exact shadows on planes, shadows
+of buildings on terrain, shadow maps, stencil volumes, and shadows by traced
+rays.")
 macro(gnomon_package component name section short long)
   string(TOUPPER ${component} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
-  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${short}\n${long}")
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION
+    "shadow NodeKit for OpenSceneGraph - ${short}\n${GNOMON_DESCRIPTION}\n.\n${long}")
   set(document_folder ${CMAKE_INSTALL_DATADIR}/doc/${name})
   install(FILES ${PROJECT_BINARY_DIR}/package/copyright ${PROJECT_BINARY_DIR}/package/changelog.Debian.gz
     ${PROJECT_BINARY_DIR}/package/changelog.gz DESTINATION ${document_folder} COMPONENT ${component} OPTIONAL)
 endmacro()
 
-gnomon_package(runtime libgnomon1 libs "shadow NodeKit for OpenSceneGraph - library and plugins"
-"Gnomon adds shadows to OpenSceneGraph scenes: exact shadows on planes, shadows
-of buildings on terrain, shadow maps, and shadows by traced rays.
-.
-This package holds the shared library, and plugins by which osgviewer and any
+gnomon_package(runtime libgnomon1 libs "library and plugins"
+"This package holds the shared library, and plugins by which osgviewer and any
 other program that loads files shows shadows without code.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/package/triggers ${PROJECT_BINARY_DIR}/package/shlibs)
@@ -48,31 +51,22 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/package/tri
 # What find_package(gnomon) looks for.
 set(GNOMON_DEV_PACKAGES "libopenscenegraph-dev, libglm-dev, libembree-dev, libtbb-dev, libhwy-dev, libqhull-dev")
 string(APPEND GNOMON_DEV_PACKAGES ", libnova-dev, libosmesa6-dev, libegl-dev, libgl-dev, pkg-config")
-gnomon_package(dev libgnomon-dev libdevel "shadow NodeKit for OpenSceneGraph - development files"
-"Gnomon adds shadows to OpenSceneGraph scenes: exact shadows on planes, shadows
-of buildings on terrain, shadow maps, and shadows by traced rays.
-.
-This package holds headers, static libraries, and package files for CMake and
+gnomon_package(dev libgnomon-dev libdevel "development files"
+"This package holds headers, static libraries, and package files for CMake and
 pkg-config.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libgnomon1 ${same_version}, ${GNOMON_DEV_PACKAGES}")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "gnomon-doc")
 
-gnomon_package(tools gnomon-tools graphics "shadow NodeKit for OpenSceneGraph - programs"
-"Gnomon adds shadows to OpenSceneGraph scenes: exact shadows on planes, shadows
-of buildings on terrain, shadow maps, and shadows by traced rays.
-.
-This package holds programs that show scenes with shadows, draw pictures
+gnomon_package(tools gnomon-tools graphics "programs"
+"This package holds programs that show scenes with shadows, draw pictures
 without a display, put shadows into other programs, and measure speed and
 accuracy.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libgnomon1 ${same_version}")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "openscenegraph")
 
-gnomon_package(doc gnomon-doc doc "shadow NodeKit for OpenSceneGraph - documentation"
-"Gnomon adds shadows to OpenSceneGraph scenes: exact shadows on planes, shadows
-of buildings on terrain, shadow maps, and shadows by traced rays.
-.
-This package holds the guide and an example.")
+gnomon_package(doc gnomon-doc doc "documentation"
+"This package holds the guide and an example.")
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 
 # What Debian wants in each package's folder of documents.

@@ -3,6 +3,7 @@
 #include "Legible.h"
 
 #include <gnomon/SceneProps.h>
+#include <gnomon/ShadowStats.h>
 #include <osgGA/DriveManipulator>
 #include <osgGA/FirstPersonManipulator>
 #include <osgGA/FlightManipulator>
@@ -120,6 +121,7 @@ void SceneWindow::addHandlers(const WindowNames& names, Hud& hud, osgGA::GUIEven
 
 void SceneWindow::addOverlays(const WindowNames& names) {
     osg::ref_ptr<osgViewer::StatsHandler> stats = new osgViewer::StatsHandler;
+    addShadowStats(*stats);
     keepLegible(*stats->getCamera()->getOrCreateStateSet());
     _viewer.addEventHandler(stats);
     _usage->setDescription(names.program + " " + names.does);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "ShadowControls.h"
 
-#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -117,27 +115,13 @@ std::vector<std::string> ShadowControls::describe() const {
     std::vector<std::string> lines = {"shadow: " + techniqueNames(_choices[_chosen]),
                                       std::string("composite: ") + (blends ? "blend" : "relight"),
                                       "light: " + describeLight(), "cures: " + describeCures()};
-    for (const std::string& line : describeChoice()) lines.push_back(line);
+    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
+        for (const ShadowDecision& decision : technique->lastDecision()) lines.push_back(decision.text());
+        if (_showsReports) lines.push_back(technique->lastReport().text());
+    }
     lines.push_back("h shows all keys, g hides this text");
     if (!_refusal.empty()) lines.push_back(_refusal);
     for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
-    return lines;
-}
-
-/// What auto has chosen for each light.
-std::vector<std::string> ShadowControls::describeChoice() const {
-    std::vector<std::string> lines;
-    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
-        const auto* automatic = dynamic_cast<const AutoShadowTechnique*>(technique.get());
-        if (!automatic) continue;
-        for (const ShadowDecision& decision : automatic->lastDecision()) {
-            std::ostringstream line;
-            line.precision(2);
-            line << "light " << decision.light << ": " << decision.chosen.spec << ", predicted " << decision.chosen.error
-                 << " px and " << decision.chosen.time << " ms; " << decision.reason;
-            lines.push_back(line.str());
-        }
-    }
     return lines;
 }
 

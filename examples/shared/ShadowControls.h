@@ -26,6 +26,8 @@ public:
     void toggle(bool PlanarCures::*cure);
     /// Next of the views of shadow maps.
     void nextView();
+    /// Whether describe() says what each technique did in the last frame.
+    void toggleReports() { _showsReports = !_showsReports; }
 
     /// How things stand, a line each, and why shadows are missing.
     std::vector<std::string> describe() const;
@@ -35,7 +37,6 @@ private:
 
     void cast();
     void applySwitches();
-    std::vector<std::string> describeChoice() const;
     std::string describeLight() const;
     std::string describeCures() const;
 
@@ -47,7 +48,7 @@ private:
     SceneLights::Direction _moved{0.0, 0.0};
     PlanarCures _cures;
     ShadowMapTechnique::View _view = ShadowMapTechnique::NOTHING;
-    bool _showsVolumes = false;
+    bool _showsVolumes = false, _showsReports = false;
 };
 
 } // namespace gnomon::examples

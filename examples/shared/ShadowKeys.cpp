@@ -25,6 +25,8 @@ const std::vector<Key<ShadowControls>>& shadowKeys() {
          [](ShadowControls& c, Hud&) { c.toggle(&PlanarCures::clip); }},
         {'v', "Show shadow maps, their texels, their cascades; or shadow volumes; or nothing.",
          [](ShadowControls& c, Hud&) { c.nextView(); }},
+        {'i', "Show or hide what each technique did in the last frame.",
+         [](ShadowControls& c, Hud&) { c.toggleReports(); }},
         {'g', "Hide or show Gnomon's text.", [](ShadowControls&, Hud& hud) { hud.toggle(); }},
     };
     return keys;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/AutoShadowOptions.h>
-#include <gnomon/ShadowDecision.h>
 #include <gnomon/ShadowTechnique.h>
 
 #include <memory>
@@ -77,7 +76,9 @@ public:
 
     /// The choice for each light in the view that was drawn last, in the order of the lights' numbers.
     /// Empty before the first frame, and if no light or no caster was there.
-    std::vector<ShadowDecision> lastDecision() const;
+    std::vector<ShadowDecision> lastDecision() const override;
+    /// That of all techniques which it has chosen so far.
+    unsigned passes() const override;
 
     /// Decides if need be, and asks the chosen technique. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Export.h>
+
 #include <string>
 #include <vector>
 
@@ -17,7 +19,7 @@ struct ShadowCandidate {
 };
 
 /// The choice of an AutoShadowTechnique for one light in one view, and its reason.
-struct ShadowDecision {
+struct GNOMON_EXPORT ShadowDecision {
     int light = 0;           ///< OpenGL light number.
     ShadowCandidate chosen;  ///< The candidate that is drawn.
     std::string reason;      ///< In a few words: "the cheapest that keeps 1 px".
@@ -25,6 +27,9 @@ struct ShadowDecision {
     unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.
     unsigned changes = 0;    ///< How often another candidate was chosen since the first.
     std::vector<ShadowCandidate> candidates; ///< All candidates, the usable ones first, by their times.
+
+    /// In a line: "light 0: volume, predicted 0.5 px and 1.2 ms; the cheapest that keeps 1 px".
+    std::string text() const;
 };
 
 } // namespace gnomon

@@ -97,18 +97,20 @@ class ShadowMapCache;
 ///     }
 class GNOMON_EXPORT ShadowMapTechnique : public ShadowTechnique {
 public:
-    using Filter = ShadowMapOptions::Filter; ///< See ShadowMapOptions::Filter.
-    using Edges = ShadowMapOptions::Edges;   ///< See ShadowMapOptions::Edges.
-    using View = ShadowMapOptions::View;     ///< See ShadowMapOptions::View.
-    /// The same values, by shorter names.
-    static constexpr Filter NEAREST = ShadowMapOptions::NEAREST, BILINEAR = ShadowMapOptions::BILINEAR,
-                            BICUBIC = ShadowMapOptions::BICUBIC, FINE = ShadowMapOptions::FINE;
-    /// The same values, by shorter names.
-    static constexpr Edges HARD = ShadowMapOptions::HARD, SMOOTH = ShadowMapOptions::SMOOTH,
-                           SOFT = ShadowMapOptions::SOFT;
-    /// The same values, by shorter names.
-    static constexpr View NOTHING = ShadowMapOptions::NOTHING, MAP = ShadowMapOptions::MAP,
-                          TEXELS = ShadowMapOptions::TEXELS, CASCADES = ShadowMapOptions::CASCADES;
+    using Filter = ShadowMapOptions::Filter;                       ///< See ShadowMapOptions::Filter.
+    using Edges = ShadowMapOptions::Edges;                         ///< See ShadowMapOptions::Edges.
+    using View = ShadowMapOptions::View;                           ///< See ShadowMapOptions::View.
+    static constexpr Filter NEAREST = ShadowMapOptions::NEAREST;   ///< See ShadowMapOptions::NEAREST.
+    static constexpr Filter BILINEAR = ShadowMapOptions::BILINEAR; ///< See ShadowMapOptions::BILINEAR.
+    static constexpr Filter BICUBIC = ShadowMapOptions::BICUBIC;   ///< See ShadowMapOptions::BICUBIC.
+    static constexpr Filter FINE = ShadowMapOptions::FINE;         ///< See ShadowMapOptions::FINE.
+    static constexpr Edges HARD = ShadowMapOptions::HARD;          ///< See ShadowMapOptions::HARD.
+    static constexpr Edges SMOOTH = ShadowMapOptions::SMOOTH;      ///< See ShadowMapOptions::SMOOTH.
+    static constexpr Edges SOFT = ShadowMapOptions::SOFT;          ///< See ShadowMapOptions::SOFT.
+    static constexpr View NOTHING = ShadowMapOptions::NOTHING;     ///< See ShadowMapOptions::NOTHING.
+    static constexpr View MAP = ShadowMapOptions::MAP;             ///< See ShadowMapOptions::MAP.
+    static constexpr View TEXELS = ShadowMapOptions::TEXELS;       ///< See ShadowMapOptions::TEXELS.
+    static constexpr View CASCADES = ShadowMapOptions::CASCADES;   ///< See ShadowMapOptions::CASCADES.
 
     /// A technique with the default properties.
     ShadowMapTechnique();
@@ -167,7 +169,7 @@ public:
 
     /// Number of maps drawn so far, over all lights, views and contexts. It rises only if something changed.
     /// A map counts once a frame if any caster is drawn into it.
-    unsigned passes() const;
+    unsigned passes() const override;
 
     /// Updates the maps of one light and makes the jobs that look them up. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,

@@ -6,6 +6,7 @@
 #include <gnomon/NodeReference.h>
 #include <gnomon/Selection.h>
 #include <gnomon/ShadowLight.h>
+#include <gnomon/ShadowReport.h>
 
 #include <glm/vec3.hpp>
 #include <osg/Geode>
@@ -24,6 +25,7 @@ class FrameCasters;
 class MarkJob;
 class ShadowCasterGroup;
 struct FrameReport;
+struct FrameWork;
 struct ShadowProbe;
 struct ViewFrame;
 
@@ -61,6 +63,15 @@ public:
     /// @return one sentence a cause, with the node and the remedy; empty if all is well.
     std::vector<std::string> diagnose() const;
 
+    /// The technique's work in the last frame: marks, passes, time. The first call starts the record, which then holds
+    /// the frames that follow.
+    ShadowReport lastReport() const;
+    /// How often the technique has made anew what it draws with, because something changed: maps drawn, volumes found,
+    /// tiles computed, ray scenes built. Over all lights, views and contexts. Default 0.
+    virtual unsigned passes() const { return 0; }
+    /// The choice for each light, of a technique that chooses. Default: none.
+    virtual std::vector<ShadowDecision> lastDecision() const { return {}; }
+
     /// Registers the technique with the compositor in a cull traversal.
     void traverse(osg::NodeVisitor& visitor) override;
 
@@ -95,6 +106,10 @@ public:
     void beginFrame(unsigned frame, const void* view) const;
     /// A reporter for one frame, for jobs that outlive the frame's cull. It does as report().
     FrameReport reportIn(unsigned frame) const;
+    /// True if lastReport() has been called: then record() is to be.
+    bool isRecorded() const;
+    /// Adds to lastReport(). Call it in cull or draw.
+    void record(const FrameWork& work) const;
     /// Class and name, for messages: "PlanarShadowNode 'floor'".
     std::string describe() const;
 

@@ -53,9 +53,9 @@ class VolumeCache;
 ///     }
 class GNOMON_EXPORT ShadowVolumeTechnique : public ShadowTechnique {
 public:
-    using View = ShadowVolumeOptions::View; ///< See ShadowVolumeOptions::View.
-    /// The same values, by shorter names.
-    static constexpr View NOTHING = ShadowVolumeOptions::NOTHING, VOLUMES = ShadowVolumeOptions::VOLUMES;
+    using View = ShadowVolumeOptions::View;                       ///< See ShadowVolumeOptions::View.
+    static constexpr View NOTHING = ShadowVolumeOptions::NOTHING; ///< See ShadowVolumeOptions::NOTHING.
+    static constexpr View VOLUMES = ShadowVolumeOptions::VOLUMES; ///< See ShadowVolumeOptions::VOLUMES.
 
     /// A technique with every opaque drawable as receiver.
     ShadowVolumeTechnique();
@@ -74,6 +74,8 @@ public:
 
     /// Number of times that volumes were found so far: once for each change of a light or the casters.
     unsigned builds() const;
+    /// The same.
+    unsigned passes() const override { return builds(); }
 
     /// Finds the volumes of one light, and makes the job that draws them. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,

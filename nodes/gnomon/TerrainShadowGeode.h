@@ -91,10 +91,10 @@ struct TerrainShadows;
 ///     }
 class GNOMON_EXPORT TerrainShadowGeode : public ShadowTechnique {
 public:
-    using Method = TerrainShadowOptions::Method; ///< See TerrainShadowOptions::Method.
-    /// The same values, by shorter names.
-    static constexpr Method BOX = TerrainShadowOptions::BOX, HULL = TerrainShadowOptions::HULL,
-                            DRAPE = TerrainShadowOptions::DRAPE;
+    using Method = TerrainShadowOptions::Method;                 ///< See TerrainShadowOptions::Method.
+    static constexpr Method BOX = TerrainShadowOptions::BOX;     ///< See TerrainShadowOptions::BOX.
+    static constexpr Method HULL = TerrainShadowOptions::HULL;   ///< See TerrainShadowOptions::HULL.
+    static constexpr Method DRAPE = TerrainShadowOptions::DRAPE; ///< See TerrainShadowOptions::DRAPE.
 
     /// A technique with the default properties.
     TerrainShadowGeode();
@@ -150,6 +150,8 @@ public:
 
     /// Number of computations so far. Each computed tile adds one, and each compute() that finds a new shadow.
     unsigned builds() const;
+    /// The same.
+    unsigned passes() const override { return builds(); }
 
     /// Makes the job that marks the tiles in view. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,

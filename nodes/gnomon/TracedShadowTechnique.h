@@ -67,6 +67,8 @@ public:
     /// Number of revisions of the casters that needed ray trees over triangles, whatever the views and lights.
     /// A tree that a ShadowQuery or another technique has of the same casters is shared and does not count.
     unsigned builds() const;
+    /// The same.
+    unsigned passes() const override { return builds(); }
 
     /// Number of pixels that rays were cast for so far, over all views and lights.
     std::size_t tracedPixels() const;

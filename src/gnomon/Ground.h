@@ -19,8 +19,10 @@ using PlaneSet = std::uint64_t;
 
 /// Bounds of the ground over a rectangle; see Ground::range().
 struct GroundRange {
-    double low, high, steepest; ///< Least and greatest height, and greatest slope as a tangent.
-    bool holes = false;         ///< True if rays may pass through holes there and hit ground behind.
+    double low;         ///< Least height.
+    double high;        ///< Greatest height.
+    double steepest;    ///< Greatest slope, as a tangent.
+    bool holes = false; ///< True if rays may pass through holes there and hit ground behind.
 };
 
 /// Terrain that shadows fall on: triangles, z up, in double. groundOf() reads one from a scene graph.

@@ -13,7 +13,8 @@ namespace gnomon {
 /// A view and a light to trace. Rays go from the near to the far plane.
 struct TruthView {
     glm::dmat4 clipFromWorld{1.0}; ///< Perspective or orthographic. World is the frame of the scenes' rays.
-    int width = 0, height = 0;     ///< Size of the picture, pixels.
+    int width = 0;                 ///< Width of the picture, pixels.
+    int height = 0;                ///< Height of the picture, pixels.
     glm::dvec4 light{0.0};         ///< Homogeneous: w = 0 is the direction towards a sun, w = 1 a lamp's position.
 };
 
@@ -36,7 +37,8 @@ struct TruthPixel {
 
 /// The true shadows of a picture. Pixels stand row by row, the bottom row first, as in OpenGL.
 struct TruthImage {
-    int width = 0, height = 0;      ///< Size, pixels.
+    int width = 0;                  ///< Width, pixels.
+    int height = 0;                 ///< Height, pixels.
     std::vector<TruthPixel> pixels; ///< width * height of them.
 
     /// The pixel in column x of row y.

@@ -9,7 +9,8 @@ namespace gnomon {
 
 /// Position of the sun in the sky, degrees.
 struct SunPosition {
-    double azimuth, elevation; ///< Azimuth from north through east, 0 … 360. Elevation above the horizon.
+    double azimuth;   ///< From north through east, 0 … 360.
+    double elevation; ///< Above the horizon.
 };
 
 /// Converts a moment, "2026-06-21T15:00:00Z", to a Julian day, UTC. Seconds may have decimals.

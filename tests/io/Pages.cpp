@@ -143,7 +143,8 @@ unsigned wordsOf(const std::string& sentence) {
 std::vector<std::string> codeLinesOf(const std::string& markdown) {
     std::vector<std::string> lines;
     for (const Line& line : linesOf(markdown))
-        if (line.kind == Kind::Code) lines.push_back(line.text.substr(line.text.find_first_not_of(' ')));
+        if (line.kind == Kind::Code)
+            lines.push_back(line.text.substr(std::min(line.text.find_first_not_of(' '), line.text.size())));
     return lines;
 }
 

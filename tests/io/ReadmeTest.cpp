@@ -84,6 +84,35 @@ TEST(Readme, QuotesTheLinesOfTheExample) {
         EXPECT_EQ(between(repositoryFile(page), "```cpp", "```", 0), example) << page;
 }
 
+/// What a page says that a program has: "<!-- examples/tutorial/main.cpp: town -->", then code.
+struct Quotation {
+    std::string file, part, code;
+};
+
+std::vector<Quotation> quotationsOf(const std::string& markdown) {
+    std::vector<Quotation> found;
+    const std::regex quoted("<!-- (examples/[^ :]+)(: ([a-z]+))? -->\n```[a-z]+\n");
+    for (std::sregex_iterator it(markdown.begin(), markdown.end(), quoted), none; it != none; ++it) {
+        const auto begin = static_cast<std::size_t>(it->position() + it->length());
+        found.push_back({(*it)[1], (*it)[3], markdown.substr(begin, markdown.find("```", begin) - begin)});
+    }
+    return found;
+}
+
+TEST(Pages, QuoteProgramsAsTheyAre) {
+    std::size_t found = 0;
+    for (const Page& page : pages())
+        for (const Quotation& one : quotationsOf(page.text)) {
+            const std::string file = repositoryFile(one.file), begin = "// [" + one.part + "]";
+            const std::size_t indent = file.find("\n    " + begin) == std::string::npos ? 0 : 4;
+            const std::string code = one.part.empty() ? file : between(file, begin, "// [/" + one.part + "]", indent);
+            EXPECT_FALSE(code.empty()) << page.path << ": " << one.part;
+            EXPECT_EQ(one.code, code) << page.path << ": " << one.part;
+            ++found;
+        }
+    EXPECT_GE(found, 9u);
+}
+
 TEST(Readme, HasAHundredAndFiftyLinesAtMost) {
     const std::string text = repositoryFile("README.md");
     EXPECT_LE(std::count(text.begin(), text.end(), '\n'), mostReadmeLines);

@@ -4,7 +4,6 @@
 #include "SceneBounds.h"
 #include "SceneTruth.h"
 
-#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/VertexTraverser.h>
@@ -104,8 +103,7 @@ nlohmann::json Shot::measure() {
 std::vector<ShadowDecision> Shot::decisions() const {
     std::vector<ShadowDecision> result;
     for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques)
-        if (const auto* automatic = dynamic_cast<const AutoShadowTechnique*>(technique.get()))
-            for (const ShadowDecision& decision : automatic->lastDecision()) result.push_back(decision);
+        for (const ShadowDecision& decision : technique->lastDecision()) result.push_back(decision);
     return result;
 }
 

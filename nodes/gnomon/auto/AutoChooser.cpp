@@ -180,6 +180,11 @@ std::vector<ShadowDecision> AutoChooser::lastDecision() const {
     return result;
 }
 
+unsigned AutoChooser::passes() const {
+    Lock lock(_mutex);
+    return _inner.passes();
+}
+
 void AutoChooser::forEach(const std::function<void(ShadowTechnique&)>& visit) const {
     Lock lock(_mutex);
     _inner.forEach(visit);

@@ -28,6 +28,8 @@ public:
 
     /// Of the view that asked last.
     std::vector<ShadowDecision> lastDecision() const;
+    /// See InnerTechniques::passes().
+    unsigned passes() const;
     void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
 
 private:

@@ -42,6 +42,8 @@ void AutoShadowTechnique::setTime(double milliseconds) { setOptions({_options.er
 
 std::vector<ShadowDecision> AutoShadowTechnique::lastDecision() const { return _chooser->lastDecision(); }
 
+unsigned AutoShadowTechnique::passes() const { return _chooser->passes(); }
+
 std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                                 const FrameCasters& casters) const {
     const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));

@@ -46,8 +46,18 @@ osg::ref_ptr<const ShadowTechnique> InnerTechniques::of(const AutoCandidate& can
     }
     made->lastRound = round;
     const osg::ref_ptr<const ShadowTechnique> result = made->technique;
-    _made.dropWhile([round](const Made& entry) { return round - entry.lastRound > keptRounds; });
+    _made.dropWhile([this, round](const Made& entry) {
+        const bool isOld = round - entry.lastRound > keptRounds;
+        if (isOld) _passesOfGone += entry.technique->passes();
+        return isOld;
+    });
     return result;
+}
+
+unsigned InnerTechniques::passes() const {
+    unsigned all = _passesOfGone;
+    for (const Made& made : _made) all += made.technique->passes();
+    return all;
 }
 
 void InnerTechniques::forEach(const std::function<void(ShadowTechnique&)>& visit) const {

@@ -18,6 +18,8 @@ public:
     osg::ref_ptr<const ShadowTechnique> of(const AutoCandidate& candidate, const Selection& receiver, unsigned round);
     /// Calls `visit` with each that is there.
     void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
+    /// ShadowTechnique::passes() of all, those included that were let go.
+    unsigned passes() const;
 
 private:
     struct Made {
@@ -27,6 +29,7 @@ private:
         unsigned lastRound;
     };
     RecentCache<Made> _made;
+    unsigned _passesOfGone = 0;
 };
 
 } // namespace gnomon

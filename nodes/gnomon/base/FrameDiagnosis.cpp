@@ -47,15 +47,41 @@ bool FrameDiagnosis::isNewsOf(unsigned frame, const std::string& sentence) {
     return !_asked && _warned.insert(withoutDigits(sentence)).second;
 }
 
-void FrameDiagnosis::begin(unsigned frame, const void* view) {
+bool FrameDiagnosis::begin(unsigned frame, const void* view) {
     Lock lock(_mutex);
-    if (frame != _frame || _views.count(view)) {
+    const bool begins = frame != _frame || _views.count(view);
+    if (begins) {
         _frame = frame;
         _causes.clear();
         _known.clear();
         _views.clear();
     }
     _views.insert(view);
+    return begins;
+}
+
+FrameWork FrameDiagnosis::work() const {
+    Lock lock(_mutex);
+    _recorded = true;
+    return _work;
+}
+
+void FrameDiagnosis::beginWork(unsigned frame, unsigned passes) {
+    Lock lock(_mutex);
+    _work = {};
+    _work.known = true;
+    _work.frame = frame;
+    _work.passesBefore = passes;
+}
+
+void FrameDiagnosis::addWork(const FrameWork& work) {
+    Lock lock(_mutex);
+    if (!_work.known || work.frame != _work.frame) return;
+    _work.lights += work.lights;
+    _work.marks += work.marks;
+    _work.pixels += work.pixels;
+    _work.cull += work.cull;
+    _work.draw += work.draw;
 }
 
 unsigned frameOf(const osg::NodeVisitor& visitor) {

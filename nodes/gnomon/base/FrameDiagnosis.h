@@ -4,6 +4,7 @@
 #include <OpenThreads/Mutex>
 #include <osg/NodeVisitor>
 
+#include <atomic>
 #include <set>
 #include <string>
 #include <unordered_set>
@@ -11,7 +12,18 @@
 
 namespace gnomon {
 
-/// Why a node could not draw what it is for: the causes of the last frame, over all views.
+/// What a technique does in a frame, over all views. See ShadowReport.
+struct FrameWork {
+    bool known = false; ///< a frame has been recorded.
+    unsigned frame = 0;
+    unsigned lights = 0, marks = 0;
+    double pixels = 0.0;
+    double cull = 0.0, draw = 0.0; ///< milliseconds.
+    unsigned passesBefore = 0;     ///< the technique's count when the frame began.
+};
+
+/// What became of a node in the last frame, over all views: why it could not draw what it is for, and, once somebody has
+/// asked, what it did.
 ///
 /// Threads any number.
 class FrameDiagnosis : public osg::Referenced {
@@ -24,7 +36,17 @@ public:
     void add(unsigned frame, const std::string& who, const std::string& cause);
     /// Forgets the causes of frames before this one: `frame` is another one, see frameOf(), or `view` (any address
     /// that stands for it) has been met in it before, as where nobody counts frames.
-    void begin(unsigned frame, const void* view);
+    /// @return true if a frame begins with it.
+    bool begin(unsigned frame, const void* view);
+
+    /// What was recorded. The first call starts the record, from the next frame on.
+    FrameWork work() const;
+    /// True if somebody has asked for work().
+    bool isRecorded() const { return _recorded; }
+    /// Begins a frame's record. @param passes  of the technique so far.
+    void beginWork(unsigned frame, unsigned passes);
+    /// Adds to the record of this frame; nothing if another has begun.
+    void addWork(const FrameWork& work);
 
 protected:
     ~FrameDiagnosis() override = default;
@@ -35,6 +57,8 @@ private:
 
     mutable OpenThreads::Mutex _mutex;
     mutable bool _asked = false;
+    mutable std::atomic<bool> _recorded{false};
+    FrameWork _work;
     std::vector<std::string> _causes;
     std::unordered_set<std::string> _known; ///< the same.
     std::set<std::string> _warned;          ///< without their digits.

@@ -303,11 +303,9 @@ void ShadowBin::prepareAll() {
             _waiting.push_back(entry.technique->reportIn(entry.frameNumber));
             continue;
         }
-        const FrameCasters& casters = castersOf(entry, *getStage(), known);
-        if (!hasCasters(entry, casters)) continue;
-        const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
-        for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
-        prepare(entry, found.lights, casters, drawn);
+        const std::optional<Start> start = startIfWatched(entry);
+        const std::size_t lights = prepareOf(entry, drawn, known);
+        if (start) recordCull(entry, *start, lights);
     }
     PrepassBin::show(_jobs, *getStage());
     PrepassBin::show(_lateJobs, *getStage());
@@ -318,6 +316,17 @@ void ShadowBin::prepareAll() {
     }
     saveColorsIfBlended(drawn);
     handOnLateJobs(drawn.late.last);
+}
+
+/// @return how many lights were asked for.
+std::size_t ShadowBin::prepareOf(const EnlistedTechnique& entry, const StageLeaves& drawn,
+                                 std::deque<FrameCasters>& known) {
+    const FrameCasters& casters = castersOf(entry, *getStage(), known);
+    if (!hasCasters(entry, casters)) return 0;
+    const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
+    for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
+    prepare(entry, found.lights, casters, drawn);
+    return found.lights.size();
 }
 
 /// What is relit is drawn anew, and leaves that blend need the colours from before the stage, where it clears none.

@@ -13,6 +13,7 @@
 #include <osgUtil/RenderBin>
 #include <osgUtil/RenderStage>
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -89,8 +90,17 @@ private:
     std::string compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves, MaterialHistory& materials);
     TargetNeeds needs(const std::vector<DrawnLeaf>& leaves) const;
     void tell(const std::string& cause);
+    struct Start {
+        double time; ///< seconds, of osg::Timer.
+        std::size_t jobs, lateJobs;
+    };
+    std::optional<Start> startIfWatched(const EnlistedTechnique& entry) const;
+    void recordCull(const EnlistedTechnique& entry, const Start& start, std::size_t lights) const;
+    std::optional<double> drawStartIfWatched() const;
+    void recordDraw(double begin) const;
     void sortAsAsked();
     void prepareAll();
+    std::size_t prepareOf(const EnlistedTechnique& entry, const StageLeaves& drawn, std::deque<FrameCasters>& known);
     void saveColorsIfBlended(const StageLeaves& drawn);
     void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const FrameCasters& casters,
                  const StageLeaves& drawn);

@@ -26,7 +26,30 @@ FrameReport ShadowTechnique::reportIn(unsigned frame) const { return {_diagnosis
 
 void ShadowTechnique::report(unsigned frame, const std::string& cause) const { reportIn(frame)(cause); }
 
-void ShadowTechnique::beginFrame(unsigned frame, const void* view) const { _diagnosis->begin(frame, view); }
+void ShadowTechnique::beginFrame(unsigned frame, const void* view) const {
+    if (_diagnosis->begin(frame, view) && isRecorded()) _diagnosis->beginWork(frame, passes());
+}
+
+ShadowReport ShadowTechnique::lastReport() const {
+    const FrameWork work = _diagnosis->work();
+    ShadowReport report;
+    report.technique = describe();
+    report.causes = diagnose();
+    if (!work.known) return report;
+    report.frame = work.frame;
+    report.lights = work.lights;
+    report.marks = work.marks;
+    report.pixels = work.pixels;
+    report.passes = passes() - work.passesBefore;
+    report.cull = work.cull;
+    report.draw = work.draw;
+    report.decisions = lastDecision();
+    return report;
+}
+
+bool ShadowTechnique::isRecorded() const { return _diagnosis->isRecorded(); }
+
+void ShadowTechnique::record(const FrameWork& work) const { _diagnosis->addWork(work); }
 
 std::string ShadowTechnique::describe() const { return described(*this); }
 

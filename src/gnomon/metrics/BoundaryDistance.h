@@ -11,11 +11,12 @@ namespace gnomon::metrics {
 /// nearest point of the other boundary, weighted by its length.
 /// For metres, use an orthographic camera that looks straight down: pixels of a perspective view are not metres.
 struct BoundaryDistance {
-    double mean = 0.0;       ///< Mean distance.
-    double p95 = 0.0;        ///< 95th percentile of the distances: the headline of accuracy.
-    double max = 0.0;        ///< Greatest (Hausdorff) distance. A single pixel of acne sets it: a flag of stability.
-    double signedMean = 0.0; ///< Mean with a sign: + if the drawn shadow is too large, - if it is too small.
-    double drawnLength = 0.0, trueLength = 0.0; ///< Lengths of the two boundaries.
+    double mean = 0.0;        ///< Mean distance.
+    double p95 = 0.0;         ///< 95th percentile of the distances: the headline of accuracy.
+    double max = 0.0;         ///< Greatest (Hausdorff) distance. A single pixel of acne sets it: a flag of stability.
+    double signedMean = 0.0;  ///< Mean with a sign: + if the drawn shadow is too large, - if it is too small.
+    double drawnLength = 0.0; ///< Length of the drawn boundary.
+    double trueLength = 0.0;  ///< Length of the true boundary.
 };
 
 /// Measures M4.

@@ -19,8 +19,10 @@ struct Confusion {
     std::size_t pixels() const { return shadow + falseShadow + falseLit + lit; }
     /// M1: (FS + FL) / all, 0 … 1. Do not use it alone: it is small if the shadow is small.
     std::optional<double> misclassified() const;
-    /// The halves of M2: FS / !t and FL / t, 0 … 1.
-    std::optional<double> falseShadowShare() const, falseLitShare() const;
+    /// A half of M2: FS / !t, 0 … 1.
+    std::optional<double> falseShadowShare() const;
+    /// The other half of M2: FL / t, 0 … 1.
+    std::optional<double> falseLitShare() const;
     /// M2: mean of the two halves, 0 … 1. If the truth is all lit or all shadow, the half that exists.
     std::optional<double> balancedError() const;
     /// M3: |s & t| / |s | t|, 0 … 1. It is 1 if no pixel is shadowed or should be.

@@ -10,8 +10,9 @@ namespace gnomon::metrics {
 /// Pixel (0, 0) is the lower left one, as in OpenGL. Its centre lies at (0.5, 0.5) px.
 template <typename T>
 struct Grid {
-    int width = 0, height = 0; ///< Size, px.
-    std::vector<T> cells;      ///< width * height values, row by row, the lowest row first.
+    int width = 0;        ///< Width, px.
+    int height = 0;       ///< Height, px.
+    std::vector<T> cells; ///< width * height values, row by row, the lowest row first.
 
     /// A grid without pixels.
     Grid() = default;

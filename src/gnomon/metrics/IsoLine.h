@@ -7,7 +7,8 @@ namespace gnomon::metrics {
 
 /// A straight piece of a line in a picture, at most √2 px long.
 struct Segment {
-    glm::dvec2 from, to; ///< Ends, px.
+    glm::dvec2 from; ///< Start, px.
+    glm::dvec2 to;   ///< End, px.
 };
 
 /// Length of a segment, px.

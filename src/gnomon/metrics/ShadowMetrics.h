@@ -25,17 +25,22 @@ struct Catastrophes {
 ///
 /// Use FlickerMeter for M7, which needs a sequence of pictures.
 struct ShadowMetrics {
-    std::size_t agreeing = 0, facing = 0, certain = 0; ///< Number of pixels in R, R+ and Rc; see PixelSets.
-    std::size_t unmeasured = 0;                        ///< Number of pixels facing the light without a V.
-    double droppedShare = 0.0;                         ///< See PixelSets::droppedShare.
-    bool sound = true;                                 ///< See PixelSets::sound().
-    Confusion headline, raw;                           ///< On Rc and on R+.
-    Confusion terminator, selfShadowed;                ///< On the sets of these names, reported apart.
-    std::optional<BoundaryDistance> boundary;          ///< M4; nullopt without both boundaries.
-    CauseSplit causes;                                 ///< M5.
-    IntensityError pointSun, discSun;                  ///< M6. The second is empty without TruthMaps::litByDisc.
-    IntensityError thin;                               ///< M6 for a point sun, after a filter of 4 x 4 px.
-    Catastrophes catastrophes;                         ///< M8.
+    std::size_t agreeing = 0;                 ///< Number of pixels in R, see PixelSets.
+    std::size_t facing = 0;                   ///< Number of pixels in R+.
+    std::size_t certain = 0;                  ///< Number of pixels in Rc.
+    std::size_t unmeasured = 0;               ///< Number of pixels facing the light without a V.
+    double droppedShare = 0.0;                ///< See PixelSets::droppedShare.
+    bool sound = true;                        ///< See PixelSets::sound().
+    Confusion headline;                       ///< On Rc.
+    Confusion raw;                            ///< On R+.
+    Confusion terminator;                     ///< On the set of this name, reported apart.
+    Confusion selfShadowed;                   ///< On the set of this name, reported apart.
+    std::optional<BoundaryDistance> boundary; ///< M4; nullopt without both boundaries.
+    CauseSplit causes;                        ///< M5.
+    IntensityError pointSun;                  ///< M6 for a point sun.
+    IntensityError discSun;                   ///< M6 for the sun's disc. Empty without TruthMaps::litByDisc.
+    IntensityError thin;                      ///< M6 for a point sun, after a filter of 4 x 4 px.
+    Catastrophes catastrophes;                ///< M8.
 };
 
 /// Measures one picture by all these metrics. The functions for single metrics stand in the other headers.
