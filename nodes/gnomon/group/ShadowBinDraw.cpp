@@ -53,7 +53,9 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*
     MaterialHistory materials(state, leaves, previous);
     popLeafState(state, previous);
     const unsigned unit = state.getActiveTextureUnit();
+    for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->begin(renderInfo);
     const std::string cause = compose(renderInfo, std::move(leaves), materials);
+    for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->end(renderInfo);
     materials.restore();
     state.setActiveTextureUnit(unit);
     return cause;
