@@ -45,6 +45,20 @@ Selection selectCasters(const std::string& casters, osg::Node& root) {
     return selection;
 }
 
+/// Whether a scene casts shadows by techniques of its own.
+bool castsByItself(osg::Node& scene) {
+    struct Finder : public osg::NodeVisitor {
+        Finder() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+        void apply(osg::Node& node) override {
+            found = found || dynamic_cast<ShadowTechnique*>(&node);
+            if (!found) traverse(node);
+        }
+        bool found = false;
+    } finder;
+    scene.accept(finder);
+    return finder.found;
+}
+
 double aspectOf(const ViewOptions& o) { return double(o.width) / o.height; }
 
 osg::Vec3d framedEye(const ViewOptions& o, const osg::Vec3d& center, double radius) {
@@ -124,7 +138,7 @@ void SceneSetup::furnish(const ViewOptions& options) {
     if (ground) lights->shineOn(*ground);
     group->setCasters(selectCasters(options.casters, *group));
     receiver = options.receiver;
-    cast(options.shadows);
+    if (!options.isUsual || !castsByItself(scene)) cast(options.shadows);
 }
 
 SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {

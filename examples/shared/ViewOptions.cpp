@@ -119,11 +119,12 @@ void requireDepthRange(const ViewOptions& o) {
 } // namespace
 
 void addShadowOptions(Options& table, ViewOptions& into) {
-    table.push_back({"--shadow", "SPEC", "shadow technique and its keys, see SPEC below", "none",
+    table.push_back({"--shadow", "SPEC", "shadow technique and its keys, see SPEC below", into.usualShadow,
                      [&into](Text t) { into.shadows.push_back(parseShadowSpec(t)); }, true});
-    table.push_back({"--receiver", "NODENAME",
-                     "nodes of this name receive shadows, if SPEC names none; map, volume and traced then receive there alone",
-                     "as SPEC says", [&into](Text t) { into.receiver = t; }});
+    table.push_back(
+        {"--receiver", "NODENAME",
+         "nodes of this name receive shadows, if SPEC names none; map, volume and traced then receive there alone",
+         "as SPEC says", [&into](Text t) { into.receiver = t; }});
     table.push_back({"--casters", "all|none|NODENAME", "nodes that cast shadows: all of that name", "all",
                      [&into](Text t) { into.casters = t; }});
     table.push_back(
@@ -171,6 +172,11 @@ void takeFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
 void readFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
     takeFiles(arguments, into);
     if (into.files.empty()) refuse("no scene file is given. See --help.");
+}
+
+void takeUsualShadow(ViewOptions& into) {
+    into.isUsual = into.shadows.empty();
+    if (into.isUsual) into.shadows = {parseShadowSpec(into.usualShadow)};
 }
 
 std::string techniqueNames(const std::vector<ShadowSpec>& specs) {

@@ -24,6 +24,8 @@ struct SunMoment {
 struct ViewOptions {
     std::vector<std::string> files;
     std::vector<ShadowSpec> shadows;
+    std::string usualShadow = "auto"; ///< specification that takeUsualShadow() takes.
+    bool isUsual = false;           ///< the shadow is the usual one: files that hold techniques of their own need none.
     std::vector<osg::Vec4d> lights; ///< homogeneous, world.
     std::optional<SunMoment> sun;   ///< where one of them comes from.
     std::optional<double> ambient;
@@ -60,6 +62,9 @@ void addSize(Options& table, ViewOptions& into);
 void takeFiles(osg::ArgumentParser& arguments, ViewOptions& into);
 /// The same where one is needed. @throws std::invalid_argument if there is none, too.
 void readFiles(osg::ArgumentParser& arguments, ViewOptions& into);
+
+/// Takes the usual shadow where none is given.
+void takeUsualShadow(ViewOptions& into);
 
 /// Names of several specifications, "none" without any.
 std::string techniqueNames(const std::vector<ShadowSpec>& specs);

@@ -28,13 +28,18 @@ class AutoChooser;
 /// Prediction
 /// - Error and time of each candidate are predicted from the casters, the receivers in sight, the light and the view.
 /// - lastDecision() gives them, with the choice and its reason.
+/// - A self-test in the first frame finds what work takes on the renderer. The user's cache folder keeps it. Measured frames
+///   correct it.
+/// - The environment variable GNOMON_AUTO_RATES=fixed switches both off, for runs that choose alike.
 /// Changes
 /// - A scene that stands still is judged once, and once more if the light or a caster comes to rest.
-/// - In a scene that moves, candidates are judged again every 16 frames or more seldom, and whenever the one that is
+/// - In a scene that moves, candidates are judged again every 16 to 64 frames, and whenever the one that is
 ///   drawn would become wrong.
 /// - Another candidate takes over only if it saves a fifth of the time. Both keep the error.
 /// Cost
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
+/// - The self-test: some 100 ms, once a renderer and user.
+/// - A measured frame waits for OpenGL. There are seven after a decision; while things move, every 64th.
 /// - A decision: a few visits of the boxes of casters and receivers. The candidate that is drawn costs what it costs alone.
 /// Needs
 /// - The needs of the chosen technique.
@@ -83,6 +88,11 @@ public:
     /// Decides if need be, and asks the chosen technique. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
+
+    /// True while it draws by techniques of which this is true.
+    bool takesDrawables() const override;
+    /// Learns what frames take. See ShadowTechnique::watch().
+    osg::ref_ptr<DrawWatch> watch(const ViewFrame& view, bool alone) const override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

@@ -22,7 +22,7 @@ namespace gnomon {
 /// Syntax: items with "+" between them, each NAME or NAME:key=value,key=value; ";" may stand for ",". The names are
 /// those of the techniques, and ground, sun and nosun. sceneSpecHelp() lists all keys.
 struct SceneSpec {
-    std::vector<ShadowSpec> shadows; ///< Never empty after parseSceneSpec(): without a technique it is map.
+    std::vector<ShadowSpec> shadows; ///< Never empty after parseSceneSpec(): without a technique it is auto.
     bool hasGround = false;          ///< Puts a white ground under the scene, see makeGround().
     double groundSide = 0.0;         ///< Side of that ground, scene's unit. Default, 0: four times the scene's radius.
     /// Adds a sun if the scene has no light. It is light 0, in the place of a viewer's headlight. Default: true.
@@ -32,7 +32,7 @@ struct SceneSpec {
     double sunElevation = 45.0;  ///< Elevation of that sun, degrees.
 };
 
-/// Parses a string of items. An empty string stands for "map".
+/// Parses a string of items. An empty string stands for "auto".
 /// @throws std::invalid_argument with one sentence that names the mistake and lists what is allowed.
 GNOMON_EXPORT SceneSpec parseSceneSpec(const std::string& text);
 
@@ -44,8 +44,8 @@ GNOMON_EXPORT std::string sceneSpecHelp();
 
 /// Puts a scene under a new ShadowCasterGroup with the shadows, the sun and the ground of `spec`.
 ///
-/// The scene's LightSources cast, or else the sun. It asks for stencil bits, and for alpha bits if edges are smooth or
-/// soft, for windows that are made later.
+/// The scene's LightSources cast, or else the sun. It asks for stencil bits, and for alpha bits if edges may be smooth
+/// or soft, for windows that are made later.
 /// @throws std::invalid_argument with one sentence, as addShadows().
 GNOMON_EXPORT osg::ref_ptr<ShadowCasterGroup> shadowedScene(osg::Node& scene, const SceneSpec& spec);
 

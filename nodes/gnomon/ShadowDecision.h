@@ -24,6 +24,9 @@ struct GNOMON_EXPORT ShadowDecision {
     ShadowCandidate chosen;  ///< The candidate that is drawn.
     std::string reason;      ///< In a few words: "the cheapest that keeps 1 px".
     bool keepsBudget = true; ///< False if no candidate keeps the error and the time that are asked for.
+    /// Milliseconds that the shadows of all lights of the view took in the frame that was measured last. 0 before, and if
+    /// nothing is measured.
+    double measured = 0.0;
     unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.
     unsigned changes = 0;    ///< How often another candidate was chosen since the first.
     std::vector<ShadowCandidate> candidates; ///< All candidates, the usable ones first, by their times.

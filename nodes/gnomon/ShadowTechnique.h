@@ -20,6 +20,7 @@ class CullVisitor;
 
 namespace gnomon {
 
+class DrawWatch;
 class FrameDiagnosis;
 class FrameCasters;
 class MarkJob;
@@ -82,6 +83,11 @@ public:
                                                        const FrameCasters& casters) const = 0;
     /// True if prepare() uses only the casters' pieces. The group then makes no meshes of them. Default false.
     virtual bool takesDrawables() const { return false; }
+
+    /// A watch that is told of the compositor's work on one view in draw. The compositor asks once a view, after prepare().
+    /// Default: null.
+    /// @param alone  true if the compositor draws nothing else there.
+    virtual osg::ref_ptr<DrawWatch> watch(const ViewFrame& view, bool alone) const;
 
     /// True if it draws casters that have no triangles to read, by their own code. Else the compositor reports them.
     /// Default false.

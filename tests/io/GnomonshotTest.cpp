@@ -81,10 +81,26 @@ TEST_F(Gnomonshot, WritesEveryFormatThatOsgWrites) {
     }
 }
 
-TEST_F(Gnomonshot, DrawsNoShadowUnlessAsked) {
-    const osg::ref_ptr<osg::Image> without = shoot({scene});
-    EXPECT_EQ(countDifferent(*without, *shoot({scene, "--shadow", "none"})), 0);
+TEST_F(Gnomonshot, DrawsTheShadowsOfAutoUnlessAskedForOthers) {
+    const osg::ref_ptr<osg::Image> usual = shoot({scene}), without = shoot({scene, "--shadow", "none"});
+    EXPECT_EQ(countDifferent(*usual, *shoot({scene, "--shadow", "auto"})), 0);
+    EXPECT_GT(countDifferent(*usual, *without), 40);
     EXPECT_GT(countDifferent(*without, *shoot({scene, "--shadow", "planar"})), 40);
+}
+
+TEST_F(Gnomonshot, LeavesScenesThatHoldTechniquesToThem) {
+    folder.write("own.osgt", R"(#Ascii Scene
+#Version 161
+#Generator by hand
+gnomon::ShadowCasterGroup { UniqueID 1 Children 2 {
+  osg::Geode { UniqueID 2 Drawables 1 { osg::ShapeDrawable { UniqueID 3
+    Shape TRUE { osg::Box { UniqueID 4 Center 0 0 0.5 HalfLengths 0.5 0.5 0.5 } } } } }
+  gnomon::PlanarShadowNode { UniqueID 5 Planes 1 { 0 0 1 0 } } } }
+)");
+    setenv("OSG_LIBRARY_PATH", GNOMON_LIBRARIES, 1); // for the plugin
+    run({"own.osgt", "--size", "40x30", "--frames", "1", "--stats", "s.json"});
+    EXPECT_TRUE(nlohmann::json::parse(readFile(folder.path() / "s.json")).at("decisions").empty());
+    EXPECT_EQ(run({"own.osgt", "--size", "40x30", "--recommend"}).out.rfind("light 0: ", 0), 0u);
 }
 
 TEST_F(Gnomonshot, DrawsTheSamePictureEveryTime) {
@@ -119,7 +135,7 @@ TEST_F(Gnomonshot, ASunAt45DegreesMovesTheShadowByTheHeight) {
 }
 
 TEST_F(Gnomonshot, BlendMultipliesByTheFactor) {
-    const osg::ref_ptr<osg::Image> lit = shoot({scene});
+    const osg::ref_ptr<osg::Image> lit = shoot({scene, "--shadow", "none"});
     const osg::ref_ptr<osg::Image> half = shoot({scene, "--shadow", "planar:composite=blend,dark=0.5"});
     const osg::ref_ptr<osg::Image> black = shoot({scene, "--shadow", "planar:composite=blend,dark=0"});
     ASSERT_GT(countDifferent(*lit, *half), 40);
@@ -164,15 +180,13 @@ osg::Group { UniqueID 1
 TEST_F(Gnomonshot, LightsItsGroundByTheScenesOwnLights) {
     folder.write("lit.osgt", boxUnderItsLight);
     const Arguments above = {"lit.osgt", "--eye", "0,0,6", "--center", "0,0,0", "--viewup", "0,1,0"};
-    Arguments shadowed = above;
-    shadowed.insert(shadowed.end(), {"--shadow", "planar"});
-    const auto plain = shoot(above);
+    const auto plain = shoot(above + Arguments{"--shadow", "none"});
     EXPECT_GT(red(*plain, 110, 60), 150);
-    EXPECT_GT(countDifferent(*plain, *shoot(shadowed)), 50);
+    EXPECT_GT(countDifferent(*plain, *shoot(above + Arguments{"--shadow", "planar"})), 50);
 }
 
 TEST_F(Gnomonshot, CastsOnlyWhatIsNamed) {
-    const osg::ref_ptr<osg::Image> lit = shoot({scene});
+    const osg::ref_ptr<osg::Image> lit = shoot({scene, "--shadow", "none"});
     const long all = countDifferent(*lit, *shoot({scene, "--shadow", "planar"}));
     const long cube = countDifferent(*lit, *shoot({scene, "--shadow", "planar", "--casters", "cube"}));
     EXPECT_GT(cube, 0);
@@ -181,7 +195,7 @@ TEST_F(Gnomonshot, CastsOnlyWhatIsNamed) {
 }
 
 TEST_F(Gnomonshot, UsesNearAndFarExactly) {
-    const Arguments view = {scene, "--eye", "0,-5,0.25", "--center", "0,0,0.25"};
+    const Arguments view = {scene, "--shadow", "none", "--eye", "0,-5,0.25", "--center", "0,0,0.25"};
     const osg::ref_ptr<osg::Image> whole = shoot(view);
     EXPECT_EQ(countDifferent(*whole, *shoot(view + Arguments{"--near", "0.1", "--far", "100"})), 0);
     EXPECT_GT(countDifferent(*whole, *shoot(view + Arguments{"--near", "0.1", "--far", "4.8"})), 200);

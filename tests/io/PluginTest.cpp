@@ -74,11 +74,11 @@ TEST_F(Suffix, AddsTechniquesInEitherSpelling) {
     }
 }
 
-TEST_F(Suffix, IsMapWhereNoTechniqueIsNamed) {
+TEST_F(Suffix, IsAutoWhereNoTechniqueIsNamed) {
     for (const char* suffix : {".osgt.gnomon", ".osgt.().gnomon"}) {
         const osg::ref_ptr<osg::Node> scene = read(suffix).takeNode();
         ASSERT_TRUE(scene) << suffix;
-        EXPECT_EQ(child(*scene, 1), "ShadowMapTechnique map") << suffix;
+        EXPECT_EQ(child(*scene, 1), "AutoShadowTechnique auto") << suffix;
     }
 }
 

@@ -12,6 +12,9 @@ namespace gnomon::testing {
 namespace fs = std::filesystem;
 namespace {
 
+/// Costs are those of every machine, however a test is started.
+const int fixedRates = setenv("GNOMON_AUTO_RATES", "fixed", 0);
+
 std::string quoted(const std::string& text) {
     std::string result = "'";
     for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);

@@ -41,11 +41,11 @@ osg::ref_ptr<ShadowCasterGroup> shadowed(osg::Node& scene, const std::string& te
 
 } // namespace
 
-TEST(SceneSpec, IsMapWithASunWhereNothingIsTold) {
-    for (const char* text : {"", "map", "ground", "nosun"}) {
+TEST(SceneSpec, IsAutoWithASunWhereNothingIsTold) {
+    for (const char* text : {"", "auto", "ground", "nosun"}) {
         const SceneSpec spec = parseSceneSpec(text);
         ASSERT_EQ(spec.shadows.size(), 1u) << text;
-        EXPECT_EQ(spec.shadows.front().technique, "map") << text;
+        EXPECT_EQ(spec.shadows.front().technique, "auto") << text;
         EXPECT_EQ(spec.hasGround, std::string(text) == "ground") << text;
         EXPECT_EQ(spec.addsSun, std::string(text) != "nosun") << text;
         EXPECT_FALSE(spec.hasSun) << text;
@@ -129,6 +129,9 @@ TEST(ShadowedScene, AsksForTheBitsThatItsShadowsNeed) {
     shadowed(*boxScene(), "map");
     EXPECT_EQ(settings.getMinimumNumStencilBits(), 8u);
     EXPECT_EQ(settings.getMinimumNumAlphaBits(), 0u);
-    shadowed(*boxScene(), "map:edges=smooth");
-    EXPECT_EQ(settings.getMinimumNumAlphaBits(), 8u);
+    for (const char* wide : {"map:edges=smooth", "auto"}) {
+        settings.setMinimumNumAlphaBits(0);
+        shadowed(*boxScene(), wide);
+        EXPECT_EQ(settings.getMinimumNumAlphaBits(), 8u) << wide;
+    }
 }

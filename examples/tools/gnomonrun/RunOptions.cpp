@@ -35,6 +35,7 @@ Options runOptions(RunOptions& into) {
 } // namespace
 
 RunOptions::RunOptions() {
+    view.usualShadow = "map";
     view.ground = "none";
     view.keepLights = true;
 }
@@ -56,7 +57,7 @@ RunOptions readRunOptions(const std::vector<std::string>& given) {
     if (!options.compare.empty() && options.frames == 0) throw std::invalid_argument("--compare needs --frames N.");
     if (options.diagnose + !options.out.empty() + !options.compare.empty() > 1)
         throw std::invalid_argument("--diagnose, --out and --compare exclude one another. Give one of them.");
-    if (options.view.shadows.empty()) options.view.shadows = {parseShadowSpec("map")};
+    takeUsualShadow(options.view);
     return options;
 }
 
@@ -77,7 +78,7 @@ std::string runHelp() {
     RunOptions defaults;
     return "gnomonrun [OPTION...] -- PROGRAM [ARGUMENT...]\n"
            "Runs a program that shows its scene by osgViewer, and puts shadows into it. Nothing is rebuilt.\n\n"
-           "Without --shadow it is map. Without --light or --sun the program's own lights cast; where it has none but "
+           "Without --light or --sun the program's own lights cast; where it has none but "
            "the\nlight at the eye, whose shadows nobody sees, a sun takes its place.\n\n" +
            describeOptions(runOptions(defaults)) +
            "\nIt reaches scenes that the program gives to osgViewer::View::setSceneData(). It does not reach programs\n"

@@ -45,9 +45,9 @@ void requireOutput(const ShotOptions& options) {
 }
 
 void requireAuto(ShotOptions& options) {
-    std::vector<ShadowSpec>& shadows = options.view.shadows;
+    const std::vector<ShadowSpec>& shadows = options.view.shadows;
     if (!options.recommend) return;
-    if (shadows.empty()) shadows = {parseShadowSpec("auto")};
+    options.view.isUsual = false;
     if (shadows.size() > 1 || shadows.front().technique != "auto")
         throw std::invalid_argument(
             "--recommend needs --shadow auto and no other. Leave --shadow out, or give its budget.");
@@ -61,6 +61,7 @@ ShotOptions readShotOptions(osg::ArgumentParser& arguments) {
     readOsgOptions(arguments);
     if (options.help) return options;
     readFiles(arguments, options.view);
+    takeUsualShadow(options.view);
     requireOutput(options);
     requireConsistent(options.view);
     requireAuto(options);
@@ -72,7 +73,7 @@ std::string shotHelp() {
     return "gnomonshot FILE... [OPTION...]\nRenders scene files with shadows to an image, without a display or "
            "GPU.\n\nLengths are in the scene's unit. The z axis points up.\n\n" +
            describeOptions(shotOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp() +
-           "\nExample: gnomonshot bunny.obj --shadow planar --out bunny.png\n";
+           "\nExample: gnomonshot bunny.obj --out bunny.png\n";
 }
 
 } // namespace gnomon::examples

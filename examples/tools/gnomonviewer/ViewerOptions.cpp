@@ -24,6 +24,7 @@ ViewerOptions readViewerOptions(osg::ArgumentParser& arguments) {
     readOsgOptions(arguments);
     if (options.help) return options;
     readFiles(arguments, options.view);
+    takeUsualShadow(options.view);
     requireConsistent(options.view);
     if (options.sunSpeed > 0.0 && (!options.view.sun || options.view.lights.size() != 1))
         throw std::invalid_argument("--sun-speed needs exactly one --sun and no --light.");
@@ -36,7 +37,7 @@ std::string viewerHelp() {
            "scene's unit. The z axis points up.\n\n" +
            describeOptions(viewerOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp() + "\nKEYS\n" +
            keysHelp(shadowKeys()) + windowKeysHelp("gnomonviewer") +
-           "\nExample: gnomonviewer data/lab8.osgt --shadow planar\n";
+           "\nExample: gnomonviewer data/lab8.osgt\n";
 }
 
 } // namespace gnomon::examples

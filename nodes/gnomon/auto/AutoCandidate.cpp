@@ -63,12 +63,12 @@ bool AutoCandidate::isSame(const AutoCandidate& other) const {
                                  map.cascades == other.map.cascades && map.edges == other.map.edges);
 }
 
-double AutoCandidate::time(const CostRates& rates, double moving) const {
-    return timeOf(still, rates) + moving * timeOf(change, rates);
+double AutoCandidate::time(const AutoCosts& costs, double moving) const {
+    return costs.factors[std::size_t(kind)] * (timeOf(still, costs.rates) + moving * timeOf(change, costs.rates));
 }
 
-ShadowCandidate AutoCandidate::judged(const CostRates& rates, double moving) const {
-    return {spec(), error, time(rates, moving), time(rates, 0.0), time(rates, 1.0), obstacle};
+ShadowCandidate AutoCandidate::judged(const AutoCosts& costs, double moving) const {
+    return {spec(), error, time(costs, moving), time(costs, 0.0), time(costs, 1.0), obstacle};
 }
 
 } // namespace gnomon

@@ -8,10 +8,13 @@
 
 #include <osg/Vec4d>
 
+#include <array>
 #include <string>
 #include <vector>
 
 namespace gnomon {
+
+struct AutoCosts;
 
 /// A way to draw a shadow, with what it is expected to come to.
 struct AutoCandidate {
@@ -31,8 +34,16 @@ struct AutoCandidate {
     /// True if it is drawn alike, wherever the planes are.
     bool isSame(const AutoCandidate& other) const;
     /// Milliseconds a frame. @param moving  share of the frames in which the light or a caster moves, or a map is drawn again.
-    double time(const CostRates& rates, double moving) const;
-    ShadowCandidate judged(const CostRates& rates, double moving) const;
+    double time(const AutoCosts& costs, double moving) const;
+    ShadowCandidate judged(const AutoCosts& costs, double moving) const;
+};
+
+/// What work takes: by the renderer, and corrected for each kind of candidate.
+struct AutoCosts {
+    static constexpr std::size_t kinds = 6; ///< see AutoCandidate::Kind.
+
+    CostRates rates = {};
+    std::array<double, kinds> factors = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 };
 
 } // namespace gnomon

@@ -19,6 +19,7 @@ constexpr double memory = 0.9;         // of motion, from a frame to the next
 constexpr double refits = 0.15;        // share of the frames of a moving view in which a map is drawn again
 constexpr double atRest = 0.01;        // share of frames: 44 without motion after one with it
 constexpr unsigned leastPatience = 16; // frames between two decisions that nothing forces
+constexpr double mostPatience = 64.0;  // the same; the first decision takes long, for it knows nothing
 constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on average
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -60,9 +61,9 @@ std::string causeOf(ChoiceReason reason, const ChoiceBudget& budget, const Shado
     return {};
 }
 
-std::vector<ShadowCandidate> judgedOf(const std::vector<AutoCandidate>& all, const CostRates& rates, double moving) {
+std::vector<ShadowCandidate> judgedOf(const std::vector<AutoCandidate>& all, const AutoCosts& costs, double moving) {
     std::vector<ShadowCandidate> result;
-    for (const AutoCandidate& candidate : all) result.push_back(candidate.judged(rates, moving));
+    for (const AutoCandidate& candidate : all) result.push_back(candidate.judged(costs, moving));
     std::stable_sort(result.begin(), result.end(), [](const ShadowCandidate& a, const ShadowCandidate& b) {
         return std::make_pair(!a.obstacle.empty(), a.time) < std::make_pair(!b.obstacle.empty(), b.time);
     });
@@ -105,11 +106,11 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
     ++choice.frames;
     if (choice.decision.decisions == 0) return true;
     const bool same = now.isSame(choice.last);
-    const double motion = !now.hasSameMotion(choice.last) ? 1.0 : now.hasSameView(choice.last) ? 0.0 : refits;
-    choice.moving = memory * choice.moving + (1.0 - memory) * motion;
+    choice.motion = !now.hasSameMotion(choice.last) ? 1.0 : now.hasSameView(choice.last) ? 0.0 : refits;
+    choice.moving = memory * choice.moving + (1.0 - memory) * choice.motion;
     if (choice.moving < atRest) choice.moving = 0.0;
     choice.last = now;
-    if (!now.asks(choice.decided)) return true;
+    if (!now.asks(choice.decided) || choice.learnt != _costs->generation()) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
     const bool cameToRest = choice.moving == 0.0 && choice.movingThen > 0.0;
     return choice.frames >= choice.patience && (cameToRest || !now.isSame(choice.decided));
@@ -119,12 +120,14 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
                          const AutoShadowOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     const ChoiceBudget budget = budgetOf(options);
+    choice.learnt = _costs->generation();
+    const AutoCosts costs = _costs->now();
     const CandidateList list = listCandidates(view, receiver, budget.error, _known);
     std::vector<ChoiceCandidate> judged;
     std::optional<std::size_t> before;
     for (const AutoCandidate& candidate : list.all) {
         if (choice.decision.decisions > 0 && candidate.isSame(choice.candidate)) before = judged.size();
-        judged.push_back({candidate.obstacle.empty(), candidate.error, candidate.time(_rates, choice.moving)});
+        judged.push_back({candidate.obstacle.empty(), candidate.error, candidate.time(costs, choice.moving)});
     }
     const auto chosen = chooseCandidate(judged, budget, before);
     const std::size_t index = chosen ? chosen->index : 0;
@@ -133,18 +136,19 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     const bool changes = decision.decisions > 0 && !list.all[index].isSame(choice.candidate);
     choice.candidate = list.all[index];
     decision.light = view.light.number;
-    decision.chosen = choice.candidate.judged(_rates, choice.moving);
+    decision.chosen = choice.candidate.judged(costs, choice.moving);
     decision.reason = list.nothing.empty() ? reasonFor(reason, budget) : "none is needed: " + list.nothing;
     decision.keepsBudget = reason != ChoiceReason::ErrorTooSmall && reason != ChoiceReason::TimeTooShort;
-    decision.candidates = judgedOf(list.all, _rates, choice.moving);
+    decision.candidates = judgedOf(list.all, costs, choice.moving);
     decision.changes += changes ? 1 : 0;
+    if (changes) choice.taken = std::make_shared<std::atomic<double>>(0.0);
     ++decision.decisions;
     choice.cause = list.nothing.empty() ? causeOf(reason, budget, decision.chosen) : "";
     choice.decided = choice.last = now;
     choice.movingThen = choice.moving;
     choice.frames = 0;
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    choice.patience = std::max(leastPatience, unsigned(std::min(took.count() / decisionTime, 1e4)));
+    choice.patience = std::max(leastPatience, unsigned(std::min(took.count() / decisionTime, mostPatience)));
 }
 
 AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& receiver,
@@ -168,14 +172,50 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                    options.error,
                    options.time};
     if (isDue(choice, now, view, receiver)) decide(choice, now, view, receiver, options);
-    return {_inner.of(choice.candidate, receiver, _round), choice.cause};
+    return {_inner.of(choice.candidate, receiver, _round), choice.cause, isMeasured(choice)};
+}
+
+/// A few frames after a decision, and one now and then while things move: measuring waits for OpenGL. A map that another
+/// view may or may not have drawn again tells nothing.
+bool AutoChooser::isMeasured(const Choice& choice) const {
+    const unsigned since = choice.frames;
+    const bool early = (since >= 3 && since <= 5) || (since <= 64 && since >= 8 && (since & (since - 1)) == 0);
+    const bool known =
+        choice.candidate.kind != AutoCandidate::Kind::Map || choice.motion == 0.0 || choice.motion == 1.0;
+    return _costs->areMeasured() && choice.candidate.kind != AutoCandidate::Kind::Nothing && known &&
+           (early || (choice.moving > 0.0 && since % 64 == 0 && since > 0));
+}
+
+void AutoChooser::prepared(const void* stage, int light, double time) {
+    Lock lock(_mutex);
+    for (const auto& choice : _choices)
+        if (choice->stage == stage && choice->light == light) choice->prepared = time;
+}
+
+osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, bool alone) {
+    if (!_costs->areMeasured()) return nullptr;
+    Lock lock(_mutex);
+    std::optional<FrameCosts::Frame> frame;
+    for (const auto& choice : _choices) {
+        if (choice->stage != stage || choice->lastRound != _round) continue;
+        if (!isMeasured(*choice) || (frame && frame->kind != choice->candidate.kind)) alone = false;
+        if (!frame) frame = FrameCosts::Frame{choice->candidate.kind, {}, 0.0, choice->taken};
+        frame->work += choice->candidate.still;
+        if (choice->motion == 1.0) frame->work += choice->candidate.change;
+        frame->prepared += choice->prepared;
+    }
+    if (!alone) frame.reset();
+    return frame || !_costs->knowRenderer() ? new CostWatch(*_costs, frame) : nullptr;
 }
 
 std::vector<ShadowDecision> AutoChooser::lastDecision() const {
     Lock lock(_mutex);
     std::vector<ShadowDecision> result;
     for (const auto& choice : _choices)
-        if (choice->stage == _lastStage && choice->lastRound == _round) result.push_back(choice->decision);
+        if (choice->stage == _lastStage && choice->lastRound == _round) {
+            result.push_back(choice->decision);
+            result.back().measured = *choice->taken;
+        }
     std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.light < b.light; });
     return result;
 }
@@ -183,6 +223,12 @@ std::vector<ShadowDecision> AutoChooser::lastDecision() const {
 unsigned AutoChooser::passes() const {
     Lock lock(_mutex);
     return _inner.passes();
+}
+
+bool AutoChooser::takesDrawables() const {
+    Lock lock(_mutex);
+    const auto does = [](const auto& choice) { return choice->candidate.kind == AutoCandidate::Kind::Terrain; };
+    return _choices.begin() != _choices.end() && std::all_of(_choices.begin(), _choices.end(), does);
 }
 
 void AutoChooser::forEach(const std::function<void(ShadowTechnique&)>& visit) const {

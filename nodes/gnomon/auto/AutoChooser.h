@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateList.h>
+#include <gnomon/auto/FrameCosts.h>
 #include <gnomon/auto/InnerTechniques.h>
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/choice/CandidateChoice.h>
@@ -23,13 +24,21 @@ public:
     struct Drawn {
         osg::ref_ptr<const ShadowTechnique> technique; ///< null: no shadow is drawn.
         std::string cause;                             ///< for ShadowTechnique::report(): the budget cannot be kept.
+        bool timed = false; ///< this frame is measured: prepared() wants to know how long its cull took.
     };
     Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
+
+    /// How long choose()'s technique took to prepare a light in a view. @param time  milliseconds.
+    void prepared(const void* stage, int light, double time);
+    /// What is to be learnt in the view's draw; null: nothing. @param alone  nothing else is drawn by the compositor there.
+    osg::ref_ptr<DrawWatch> watch(const void* stage, bool alone);
 
     /// Of the view that asked last.
     std::vector<ShadowDecision> lastDecision() const;
     /// See InnerTechniques::passes().
     unsigned passes() const;
+    /// True if all that was chosen takes the casters drawable by drawable.
+    bool takesDrawables() const;
     void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
 
 private:
@@ -63,8 +72,13 @@ private:
         double moving = 0.0;     ///< share of the recent frames in which maps had to be drawn again.
         std::string cause;       ///< see Drawn.
         double movingThen = 0.0; ///< when the candidates were compared.
+        unsigned learnt = 0;     ///< FrameCosts::generation() then.
+        double motion = 0.0;     ///< of this frame: share of a change that it takes.
+        double prepared = 0.0;   ///< milliseconds, of a frame that is measured.
+        std::shared_ptr<std::atomic<double>> taken = std::make_shared<std::atomic<double>>(0.0);
     };
     Choice& find(const AutoView& view);
+    bool isMeasured(const Choice& choice) const;
     bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
     void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver,
                 const AutoShadowOptions& options);
@@ -72,7 +86,7 @@ private:
     mutable OpenThreads::Mutex _mutex;
     InnerTechniques _inner;
     AutoKnowledge _known;
-    CostRates _rates;
+    const osg::ref_ptr<FrameCosts> _costs = new FrameCosts;
     osg::ref_ptr<const CasterDrawables> _casters; ///< that the knowledge is of.
     RecentCache<std::unique_ptr<Choice>> _choices;
     unsigned _round = 0, _frame = 0;

@@ -2,6 +2,7 @@
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/compositor/MarkJob.h>
+#include <gnomon/gl/DrawClock.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/LocalLight.h>
 #include <gnomon/group/ViewFrame.h>
@@ -52,15 +53,23 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
         return {};
     }
     const AutoChooser::Drawn drawn =
-        _chooser->choose({view, light, casters.layers(), casters.drawables(), *usable}, getReceiver(), _options);
+        _chooser->choose({view, light, casters, casters.drawables(), *usable}, getReceiver(), _options);
     if (!drawn.cause.empty()) report(view.frameNumber, drawn.cause);
     if (!drawn.technique) return {};
     ViewFrame here = view;
     here.groupFromTechnique = osg::Matrixd(); // planes are the group's
     drawn.technique->beginFrame(view.frameNumber, view.stage);
+    const double from = drawn.timed ? processorMilliseconds() : 0.0;
     const std::vector<osg::ref_ptr<MarkJob>> jobs = drawn.technique->prepare(here, light, casters);
+    if (drawn.timed) _chooser->prepared(view.stage, light.number, processorMilliseconds() - from);
     for (const std::string& cause : causesOf(*drawn.technique)) report(view.frameNumber, cause);
     return jobs;
+}
+
+bool AutoShadowTechnique::takesDrawables() const { return _chooser->takesDrawables(); }
+
+osg::ref_ptr<DrawWatch> AutoShadowTechnique::watch(const ViewFrame& view, bool alone) const {
+    return _chooser->watch(view.stage, alone);
 }
 
 void AutoShadowTechnique::resizeGLObjectBuffers(unsigned maxSize) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
-#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/ViewFrame.h>
 
 #include <glm/vec4.hpp>
@@ -15,7 +15,7 @@ namespace gnomon {
 struct AutoView {
     const ViewFrame& frame;
     const ShadowLight& light;
-    const CasterLayers& layers;
+    const FrameCasters& meshes;     ///< of the casters; a decision alone asks for them.
     const CasterDrawables& casters; ///< the same, drawable by drawable.
     glm::dvec4 towards;             ///< the light, group frame: w = 0 and length 1, or w = 1.
 };

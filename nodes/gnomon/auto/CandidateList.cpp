@@ -51,8 +51,8 @@ public:
           _receiver(receiver),
           _error(error),
           _known(known),
-          _boxes(new MapCasters(view.layers, MapLayer::boxesOf(*view.layers.still),
-                                MapLayer::boxesOf(*view.layers.moving))) {}
+          _layers(view.meshes.layers()),
+          _boxes(new MapCasters(_layers, MapLayer::boxesOf(*_layers.still), MapLayer::boxesOf(*_layers.moving))) {}
 
     CandidateList list() {
         _one = forecast(1, sizes[0]);
@@ -96,7 +96,7 @@ private:
     /// What every technique costs: the compositor's part.
     void measure() {
         _pixels = pixelsOf(_view.frame, *_one.bounds);
-        _casters = double(_view.layers.triangles());
+        _casters = double(_layers.triangles());
         _compose.calls = 2.0 + callsAPiece * double(_view.casters.list.size());
         _compose.filled = _pixels;
         if (blends()) return;
@@ -220,6 +220,7 @@ private:
     const Selection& _receiver;
     const double _error;
     AutoKnowledge& _known;
+    const CasterLayers& _layers;
     const osg::ref_ptr<const MapCasters> _boxes;
     MapForecast _one;
     double _pixels = 0.0, _casters = 0.0;

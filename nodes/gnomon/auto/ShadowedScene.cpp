@@ -63,8 +63,9 @@ unsigned ShadowedScene::getCastsShadowTraversalMask() const {
 
 void ShadowedScene::setShadow(ShadowTechnique* shadow) {
     if (!shadow) {
-        OSG_WARN << "gnomon: ShadowedScene::setShadow() takes no null. Set no technique of osgShadow to switch shadows off."
-                 << std::endl;
+        OSG_WARN
+            << "gnomon: ShadowedScene::setShadow() takes no null. Set no technique of osgShadow to switch shadows off."
+            << std::endl;
         return;
     }
     const osg::ref_ptr<ShadowTechnique> kept = shadow;

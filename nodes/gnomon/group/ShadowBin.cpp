@@ -282,6 +282,7 @@ void ShadowBin::reset() {
     _lateJobs.clear();
     _composesBelow.reset();
     _effects.clear();
+    _watches.clear();
     _waiting.clear();
     _sharesStencil = false;
     _options = {};
@@ -384,6 +385,8 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
         }
     };
     if (!receiving.empty() || lateOnes.empty()) addAll(receiving, false);
+    const bool alone = _enlisted.size() == 1 && _effects.empty() && index == 1 && lateOnes.empty();
+    if (const auto watch = entry.technique->watch(view, alone)) _watches.push_back(watch);
     addAll(lateOnes, true);
 }
 

@@ -3,6 +3,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/compositor/CompositorTarget.h>
+#include <gnomon/compositor/DrawWatch.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/ShadowJob.h>
@@ -111,6 +112,7 @@ private:
     std::vector<ShadowJob> _lateJobs;  ///< for the bin that composes what is drawn later.
     std::optional<int> _composesBelow; ///< set of that bin: what the stage draws before this number.
     std::vector<osg::ref_ptr<ViewEffect>> _effects;
+    std::vector<osg::ref_ptr<DrawWatch>> _watches; ///< never null.
     std::vector<FrameReport> _waiting; ///< of techniques, for that the stage can be composed in, see StageVerdict.
     bool _sharesStencil = false;       ///< leaves of the stage test or mark the stencil buffer themselves.
     CompositorOptions _options;        ///< of all that were enlisted.

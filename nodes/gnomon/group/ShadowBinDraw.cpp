@@ -57,7 +57,9 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*
     popLeafState(state, previous);
     const unsigned unit = state.getActiveTextureUnit();
     forgetArrays(state);
+    for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->begin(renderInfo);
     const std::string cause = compose(renderInfo, std::move(leaves), materials);
+    for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->end(renderInfo);
     materials.restore();
     forgetArrays(state);
     state.setActiveTextureUnit(unit);

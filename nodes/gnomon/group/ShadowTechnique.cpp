@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/base/FrameReport.h>
+#include <gnomon/compositor/DrawWatch.h>
 #include <gnomon/group/ShadowProbe.h>
 
 namespace gnomon {
@@ -13,6 +14,8 @@ ShadowTechnique::ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp
     : osg::Geode(other, copyOp), _receiver(other._receiver, other), _diagnosis(new FrameDiagnosis) {
     setCullingActive(false);
 }
+
+osg::ref_ptr<DrawWatch> ShadowTechnique::watch(const ViewFrame&, bool) const { return nullptr; }
 
 bool ShadowTechnique::isLit(const ShadowProbe& probe, const glm::dvec3& point) const {
     return probe.reachesFrom(point);

@@ -141,7 +141,8 @@ void light(ShadowCasterGroup& group, const SceneSpec& spec) {
     for (const osg::ref_ptr<osg::LightSource>& source : lights) group.addLight(source);
 }
 
-bool hasWideEdges(const ShadowSpec& spec) {
+bool mayHaveWideEdges(const ShadowSpec& spec) {
+    if (spec.technique == "auto") return true;
     return spec.technique == "map" && spec.map.edges != ShadowMapOptions::HARD;
 }
 
@@ -153,7 +154,7 @@ SceneSpec parseSceneSpec(const std::string& text) {
     if (!text.empty())
         for (const std::string& item : itemsOf(text)) takeItem(spec, item, seen);
     if (spec.hasSun && !spec.addsSun) refuse("sun and nosun cannot be mixed. Give one of them.");
-    if (spec.shadows.empty()) spec.shadows = {parseShadowSpec("map")};
+    if (spec.shadows.empty()) spec.shadows = {parseShadowSpec("auto")};
     return spec;
 }
 
@@ -181,7 +182,7 @@ osg::ref_ptr<ShadowCasterGroup> shadowedScene(osg::Node& scene, const SceneSpec&
     addShadows(*group, spec.shadows);
     light(*group, spec);
     askForStencilBits();
-    if (std::any_of(spec.shadows.begin(), spec.shadows.end(), hasWideEdges)) askForAlphaBits();
+    if (std::any_of(spec.shadows.begin(), spec.shadows.end(), mayHaveWideEdges)) askForAlphaBits();
     return group;
 }
 

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/auto/FrameCosts.h>
+#include <gnomon/auto/RendererCosts.h>
+#include <gnomon/gl/DrawClock.h>
+
+#include <OpenThreads/ScopedLock>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+} // namespace
+
+FrameCosts::FrameCosts() : _measured(RendererCosts::areMeasured()) {
+    const std::optional<CostRates> known = _measured ? RendererCosts::latest() : std::nullopt;
+    if (!known) return;
+    _rates = *known;
+    _knowRenderer = true;
+}
+
+AutoCosts FrameCosts::now() const {
+    Lock lock(_mutex);
+    AutoCosts result{_rates, {}};
+    for (std::size_t i = 0; i < _corrections.size(); ++i) result.factors[i] = _corrections[i].factor();
+    return result;
+}
+
+void FrameCosts::learn(osg::RenderInfo& renderInfo) {
+    if (_knowRenderer) return;
+    const CostRates rates = RendererCosts::of(renderInfo);
+    Lock lock(_mutex);
+    _rates = rates;
+    _knowRenderer = true;
+    ++_generation;
+}
+
+void FrameCosts::add(const Frame& frame, double drawn) {
+    const double taken = frame.prepared + drawn;
+    *frame.taken = taken;
+    Lock lock(_mutex);
+    if (_corrections[std::size_t(frame.kind)].add(taken, timeOf(frame.work, _rates))) ++_generation;
+}
+
+CostWatch::CostWatch(FrameCosts& costs, std::optional<FrameCosts::Frame> frame)
+    : _costs(&costs), _frame(std::move(frame)) {}
+
+CostWatch::~CostWatch() = default;
+
+void CostWatch::begin(osg::RenderInfo& renderInfo) {
+    _costs->learn(renderInfo);
+    if (!_frame) return;
+    _clock = std::make_unique<DrawClock>(*renderInfo.getState());
+    _clock->start();
+}
+
+void CostWatch::end(osg::RenderInfo&) {
+    if (_clock) _costs->add(*_frame, _clock->stop());
+    _clock.reset();
+}
+
+} // namespace gnomon

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/auto/AutoCandidate.h>
+#include <gnomon/choice/CostCorrection.h>
+#include <gnomon/compositor/DrawWatch.h>
+
+#include <OpenThreads/Mutex>
+#include <osg/Referenced>
+
+#include <array>
+#include <atomic>
+#include <memory>
+#include <optional>
+
+namespace gnomon {
+
+/// What an AutoShadowTechnique has learnt of what work takes: from its renderer, and from frames.
+///
+/// Threads
+/// - Any number. Cull asks, draw tells.
+class FrameCosts : public osg::Referenced {
+public:
+    FrameCosts();
+
+    /// False if costs are fixed, see RendererCosts::areMeasured().
+    bool areMeasured() const { return _measured; }
+    AutoCosts now() const;
+    /// Rises whenever now() changes.
+    unsigned generation() const { return _generation; }
+    /// False before the renderer's costs are known.
+    bool knowRenderer() const { return _knowRenderer; }
+
+    /// In draw: takes the renderer's costs.
+    void learn(osg::RenderInfo& renderInfo);
+
+    /// A frame that is measured.
+    struct Frame {
+        AutoCandidate::Kind kind;
+        ShadowWork work;                            ///< counted before.
+        double prepared = 0.0;                      ///< milliseconds in cull.
+        std::shared_ptr<std::atomic<double>> taken; ///< gets the milliseconds that it took.
+    };
+    void add(const Frame& frame, double drawn);
+
+protected:
+    ~FrameCosts() override = default;
+
+private:
+    const bool _measured;
+    mutable OpenThreads::Mutex _mutex;
+    CostRates _rates;
+    std::array<CostCorrection, AutoCosts::kinds> _corrections;
+    std::atomic<unsigned> _generation{0};
+    std::atomic<bool> _knowRenderer{false};
+};
+
+/// Learns from one frame of one view, in draw.
+class CostWatch : public DrawWatch {
+public:
+    /// @param frame  nullopt: only the renderer's costs are asked for.
+    CostWatch(FrameCosts& costs, std::optional<FrameCosts::Frame> frame);
+    void begin(osg::RenderInfo& renderInfo) override;
+    void end(osg::RenderInfo& renderInfo) override;
+
+protected:
+    ~CostWatch() override;
+
+private:
+    const osg::ref_ptr<FrameCosts> _costs;
+    const std::optional<FrameCosts::Frame> _frame;
+    std::unique_ptr<class DrawClock> _clock;
+};
+
+} // namespace gnomon

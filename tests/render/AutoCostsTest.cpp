@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// What work takes: found once a renderer, kept in the user's cache, and corrected by what frames take.
+#include "GlComplaints.h"
+#include "GlSnapshot.h"
+
+#include "../io/Program.h"
+
+#include <support/Scene.h>
+
+#include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/auto/FrameCosts.h>
+#include <gnomon/auto/RendererCosts.h>
+#include <gnomon/choice/RatioFile.h>
+#include <gtest/gtest.h>
+#include <osg/Notify>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace fs = std::filesystem;
+using namespace test;
+using gnomon::RendererCosts;
+
+namespace {
+
+const osg::Vec4d sun(1.0, 0.4, 1.2, 0.0);
+const Mesh cube = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
+
+/// What osg::notify() is given.
+struct Notes : public osg::NotifyHandler {
+    void notify(osg::NotifySeverity, const char* message) override { text += message; }
+    std::string text;
+};
+
+/// One for the whole program: Mesa keeps shaders beside, and does not look where else they might be.
+const fs::path& cacheOfAll() {
+    static const gnomon::testing::TemporaryFolder folder;
+    static const fs::path path = folder.path();
+    return path;
+}
+
+/// Measured costs, as a user's program has them, with a cache of its own.
+class AutoCosts : public testing::Test {
+protected:
+    AutoCosts() {
+        fs::remove_all(cache / "gnomon");
+        setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+        setenv("GNOMON_AUTO_RATES", "measured", 1);
+        RendererCosts::forget();
+        osg::setNotifyHandler(notes);
+    }
+    ~AutoCosts() override {
+        osg::setNotifyHandler(new osg::StandardNotifyHandler);
+        setenv("GNOMON_AUTO_RATES", "fixed", 1);
+        unsetenv("XDG_CACHE_HOME");
+        RendererCosts::forget();
+    }
+    /// Frames of a scene under automatic choice, in a program that knows nothing yet.
+    gnomon::ShadowDecision draw(int frames = 2) {
+        RendererCosts::forget();
+        notes->text.clear();
+        Scene scene = groundScene({cube}, 8.0, sun);
+        const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
+        scene.addShadow(technique);
+        Camera camera(scene.root, perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 96, 72));
+        for (int i = 0; i < frames; ++i) camera.frame();
+        return technique->lastDecision().at(0);
+    }
+    std::vector<fs::path> kept() const {
+        std::vector<fs::path> files;
+        if (fs::is_directory(cache / "gnomon"))
+            for (const auto& entry : fs::directory_iterator(cache / "gnomon")) files.push_back(entry.path());
+        return files;
+    }
+    long sentences() const { return std::count(notes->text.begin(), notes->text.end(), '\n'); }
+
+    const fs::path& cache = cacheOfAll();
+    const osg::ref_ptr<Notes> notes = new Notes;
+};
+
+/// What comes after a first frame finds in OpenGL.
+GlSnapshot afterFrame(const char* rates) {
+    setenv("GNOMON_AUTO_RATES", rates, 1);
+    Scene scene = groundScene({cube}, 8.0, sun);
+    scene.addShadow(new gnomon::AutoShadowTechnique);
+    Camera camera(scene.root, perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 96, 72));
+    const osg::ref_ptr<GlProbeCallback> end = new GlProbeCallback;
+    camera.viewer().getCamera()->setFinalDrawCallback(end);
+    const GlComplaints complaints(camera);
+    camera.frame();
+    EXPECT_EQ(complaints.all(), std::vector<std::string>());
+    return end->seen();
+}
+
+} // namespace
+
+TEST_F(AutoCosts, AreMeasuredWithoutATraceInOpenGl) {
+    const GlSnapshot expected = afterFrame("fixed"), actual = afterFrame("measured");
+    EXPECT_TRUE(RendererCosts::latest()) << "the self-test has run";
+    EXPECT_EQ(difference(expected, actual), "");
+}
+
+TEST_F(AutoCosts, AreKeptInTheUsersCacheAndReadByTheNextProgram) {
+    draw();
+    ASSERT_EQ(kept().size(), 1u);
+    ASSERT_TRUE(RendererCosts::latest());
+    const double measured = RendererCosts::latest()->call / gnomon::CostRates().call;
+    EXPECT_GT(measured, 0.05);
+    EXPECT_LT(measured, 20.0);
+    std::ifstream in(kept().front());
+    std::string text(std::istreambuf_iterator<char>(in), {});
+    const std::size_t from = text.find("\ncall ") + 6;
+    text.replace(from, text.find('\n', from) - from, "7.5");
+    std::ofstream(kept().front()) << text;
+    draw();
+    EXPECT_DOUBLE_EQ(RendererCosts::latest()->call, 7.5 * gnomon::CostRates().call) << "read, not measured again";
+    EXPECT_EQ(notes->text, "");
+}
+
+TEST_F(AutoCosts, AreMeasuredAnewWhereTheCacheIsBroken) {
+    draw();
+    ASSERT_EQ(kept().size(), 1u);
+    std::ofstream(kept().front()) << "\xff\xfe nonsense";
+    EXPECT_EQ(draw().chosen.spec, "planar");
+    EXPECT_EQ(sentences(), 1) << notes->text;
+    EXPECT_NE(notes->text.find("cannot be read as measured costs"), std::string::npos) << notes->text;
+    std::ifstream in(kept().front());
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}).rfind("gnomon cost ratios 1\n", 0), 0u)
+        << "it is whole";
+}
+
+TEST_F(AutoCosts, AreMeasuredEachTimeWhereTheCacheCannotBeWritten) {
+    std::ofstream(cache / "gnomon") << "a file where the folder should be\n";
+    EXPECT_EQ(draw().chosen.spec, "planar");
+    EXPECT_TRUE(RendererCosts::latest());
+    EXPECT_EQ(sentences(), 1) << notes->text;
+    EXPECT_NE(notes->text.find("cannot be written, so the next program measures costs again"), std::string::npos);
+}
+
+TEST_F(AutoCosts, AreFixedWhereTheEnvironmentSaysSo) {
+    setenv("GNOMON_AUTO_RATES", "fixed", 1);
+    EXPECT_EQ(draw(12).measured, 0.0);
+    EXPECT_FALSE(RendererCosts::latest());
+    EXPECT_TRUE(kept().empty());
+}
+
+TEST_F(AutoCosts, TellWhatFramesTook) { EXPECT_GT(draw(12).measured, 0.0); }
+
+TEST_F(AutoCosts, FollowFramesThatTakeLongerThanPredicted) {
+    const osg::ref_ptr<gnomon::FrameCosts> costs = new gnomon::FrameCosts;
+    gnomon::FrameCosts::Frame frame{
+        gnomon::AutoCandidate::Kind::Volume, {}, 1.0, std::make_shared<std::atomic<double>>()};
+    frame.work.calls = 2.0 / gnomon::CostRates().call; // 2 ms
+    const unsigned before = costs->generation();
+    for (int i = 0; i < 2; ++i) costs->add(frame, 5.0);
+    EXPECT_EQ(costs->generation(), before);
+    costs->add(frame, 5.0);
+    EXPECT_GT(costs->generation(), before) << "candidates are compared again";
+    EXPECT_DOUBLE_EQ(*frame.taken, 6.0);
+    EXPECT_NEAR(costs->now().factors[std::size_t(frame.kind)], 3.0, 1e-9);
+    gnomon::AutoCandidate volume, map;
+    volume.kind = gnomon::AutoCandidate::Kind::Volume;
+    map.kind = gnomon::AutoCandidate::Kind::Map;
+    volume.still = map.still = frame.work;
+    EXPECT_NEAR(volume.time(costs->now(), 0.0), 6.0, 1e-9);
+    EXPECT_NEAR(map.time(costs->now(), 0.0), 2.0, 1e-9) << "of one kind only";
+}
