@@ -21,7 +21,6 @@ const int reach = 2; // to the next pixel
 const int reach = 1;
 #endif
 
-#if defined(ODD) || !defined(HALVES)
 // From `here` to its neighbour in a direction, or, of that nothing is known, to the one on the other side.
 ivec2 known(ivec2 here, ivec2 step) {
     ivec2 to = here + step;
@@ -41,7 +40,6 @@ float changeIn(float e, ivec2 here, ivec2 axis, bool beyond) {
 }
 
 float smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
-#endif
 
 #ifdef SMOOTH
 bool isAtRim = false; // of a surface: beside the pixel there is another, or this one bends
@@ -55,13 +53,11 @@ vec2 changeOf(float e, ivec2 here) {
 #else
     vec2 change = vec2(dFdx(e), dFdy(e));
 #endif
-#ifndef HALVES
     vec2 other = vec2(changeIn(e, here, ivec2(1, 0), true), changeIn(e, here, ivec2(0, 1), true));
 #ifdef SMOOTH
     isAtRim = any(greaterThan(abs(change - other), 0.75 * max(abs(change), abs(other)) + 4.0 * depthError.x));
 #endif
     change = vec2(smaller(change.x, other.x), smaller(change.y, other.y));
-#endif
     return change;
 }
 
