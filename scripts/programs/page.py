@@ -44,8 +44,8 @@ Each strip shows the frame without shadows, with `map`, and with osgShadow::Shad
 brighter than without shadows. "`volume` apart": pixels away from edges where `volume` and `traced` differ. Mesa's llvmpipe, OpenSceneGraph 3.6.5. A sun stands at azimuth 135°, elevation 45° if the
 program's only light is at the eye.*
 
-`volume` differs from `traced` in osgspheresegment, whose terrain is open, and in osgdepthpartition, whose two cameras share
-one scene of very different sizes. Take `map` or `traced` there.
+`volume` needs closed casters or thin sheets. It is wrong on osgspheresegment's and osgshape's open terrain, and in
+osgdepthpartition, whose two cameras share one scene of very different sizes. Take `map` or `traced` there.
 """
 
 # What the causes of diagnose() have in common, and how the table has it. The first that fits counts.

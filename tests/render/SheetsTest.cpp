@@ -5,7 +5,6 @@
 #include <support/Scene.h>
 
 #include <gnomon/ShadowMapTechnique.h>
-#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 
@@ -59,9 +58,7 @@ TEST(Sheets, SeenFromBehindDoNotShadowThemselves) {
     for (const double near : {1.0, 0.01}) { // whose depths are coarse
         const Picture lit = pictureOf(inside, near, nullptr);
         const Picture traced = pictureOf(inside, near, new gnomon::TracedShadowTechnique),
-                      mapped = pictureOf(inside, near, new gnomon::ShadowMapTechnique),
-                      volumes = pictureOf(inside, near, new gnomon::ShadowVolumeTechnique);
-        EXPECT_EQ(differentAwayFromEdges(volumes, lit, inside, 1), 0) << near;
+                      mapped = pictureOf(inside, near, new gnomon::ShadowMapTechnique);
         EXPECT_EQ(differentAwayFromEdges(traced, lit, inside, 1), 0) << near;
         EXPECT_EQ(differentAwayFromEdges(mapped, lit, inside, 2), 0) << near; // a texel is less than a pixel
     }
@@ -73,54 +70,13 @@ TEST(Sheets, OfTwoFacesTheOuterOneIsInShadow) {
     test::Mesh room = inside;
     room.insert(room.end(), outside.begin(), outside.end());
     const Picture lit = pictureOf(room, 1.0, nullptr), traced = pictureOf(room, 1.0, new gnomon::TracedShadowTechnique),
-                  mapped = pictureOf(room, 1.0, new gnomon::ShadowMapTechnique),
-                  volumes = pictureOf(room, 1.0, new gnomon::ShadowVolumeTechnique);
+                  mapped = pictureOf(room, 1.0, new gnomon::ShadowMapTechnique);
     Picture dark = lit; // half as bright where anything is seen
     for (std::uint32_t& pixel : dark.pixels)
         if (pixel != lit.at(0, 0)) pixel = test::grey(((pixel & 0xffu) + 1u) / 2u);
     EXPECT_GT(dark.different(lit), 3000);
     EXPECT_EQ(differentAwayFromEdges(traced, dark, outside, 1), 0);
     EXPECT_EQ(differentAwayFromEdges(mapped, dark, outside, 2), 0);
-    EXPECT_EQ(differentAwayFromEdges(volumes, dark, outside, 1), 0);
-}
-
-/// A terrain seen from below, as osgshape's, and a box over it: only the box keeps the sun from it. The eye is in the terrain's
-/// volume. Another near plane cuts the terrain, so that its volume is counted from behind.
-TEST(Sheets, OfATerrainSeenFromBelowIsInTheShadowOfOthersAlone) {
-    const test::Mesh over = test::box({-1.0, -1.0, 2.0}, {1.0, 1.0, 3.0});
-    test::Mesh terrain;
-    const auto at = [](int x, int y) { return glm::dvec3(x, y, 0.02 * (x * x - y * y)); };
-    for (int y = -4; y < 4; ++y)
-        for (int x = -4; x < 4; ++x)
-            for (const auto& [right, up] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}})
-                terrain.push_back(at(x + right, y + up));
-    const osg::Vec4d sun(0.3, 0.2, 1.0, 0.0);
-    for (const double near : {0.5, 5.5}) {
-        const View view = test::perspective({-3.0, -5.0, -4.0}, {0.0, 0.0, 0.0}, 160, 120, 50.0, near);
-        const auto picture = [&](gnomon::ShadowTechnique* technique) {
-            Scene scene = test::scene(sun);
-            for (const test::Mesh& mesh : {terrain, over}) scene.content->addChild(test::node(mesh));
-            if (technique) scene.addShadow(technique);
-            if (technique) scene.group->setComposite(ShadowCasterGroup::BLEND);
-            return test::render(scene.root, view);
-        };
-        const Picture lit = picture(nullptr), volumes = picture(new gnomon::ShadowVolumeTechnique);
-        const Picture traced = picture(new gnomon::TracedShadowTechnique);
-        const test::Mask mask = test::castRays(terrain, {over}, sun, view);
-        int wrong = 0, wrongTraced = 0, dark = 0;
-        for (int y = 0; y < lit.height; ++y)
-            for (int x = 0; x < lit.width; ++x) {
-                if (mask.at(x, y) == test::Seen::Nothing || mask.at(x, y) == test::Seen::Caster || mask.atEdge(x, y))
-                    continue;
-                const bool isDark = mask.at(x, y) == test::Seen::ShadowedReceiver;
-                wrong += isDark != (volumes.at(x, y) != lit.at(x, y));
-                wrongTraced += isDark != (traced.at(x, y) != lit.at(x, y));
-                dark += isDark;
-            }
-        EXPECT_EQ(wrong, 0) << near;
-        EXPECT_EQ(wrongTraced, 0) << near;
-        EXPECT_GT(dark, 300) << near;
-    }
 }
 
 } // namespace

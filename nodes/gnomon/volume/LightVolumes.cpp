@@ -37,62 +37,36 @@ void LightVolumes::set(const VolumeCaster& caster, const glm::dvec4& light, cons
     _receivers = receivers;
     findShadowVolumes(*caster.mesh, lightIn(caster, light), endsIn(caster, receivers), _volumes);
     _sides->set(_volumes.vertices, _volumes.corners);
-    _caps.parts.clear();
-    _backs.parts.clear();
-}
-
-template <class Append>
-void LightVolumes::Surfaces::set(const std::vector<unsigned>& some, const glm::dvec4& from, const Append& append) {
-    if (!geometry || geometry->referenceCount() > 1) geometry = new VolumeGeometry;
-    VolumeCaps found;
-    ranges.clear();
-    for (const unsigned part : some) {
-        const auto first = static_cast<unsigned>(found.corners.size());
-        append(part, found);
-        ranges.push_back({first, static_cast<unsigned>(found.corners.size()) - first});
-    }
-    geometry->set(found.vertices, found.corners);
-    parts = some;
-    eye = from;
+    _capped.clear();
 }
 
 osg::ref_ptr<const VolumeGeometry> LightVolumes::capsOf(const std::vector<unsigned>& parts,
-                                                        std::vector<VolumeGeometry::Range>& ranges,
-                                                        std::vector<VolumeGeometry::Range>& ends) {
+                                                        std::vector<VolumeGeometry::Range>& ranges) {
     if (parts.empty()) return nullptr;
-    if (!_caps.areOf(parts, glm::dvec4(0.0))) {
-        _surfaces.clear();
-        _caps.set(parts, glm::dvec4(0.0), [this](unsigned part, VolumeCaps& into) {
-            _surfaces.push_back(appendCaps(*_caster.mesh, _volumes, part, into));
-        });
+    if (parts != _capped) {
+        if (!_caps || _caps->referenceCount() > 1) _caps = new VolumeGeometry;
+        VolumeCaps caps;
+        _ranges.clear();
+        for (const unsigned part : parts) {
+            const auto first = static_cast<unsigned>(caps.corners.size());
+            appendCaps(*_caster.mesh, _volumes, part, caps);
+            _ranges.push_back({first, static_cast<unsigned>(caps.corners.size()) - first});
+        }
+        _caps->set(caps.vertices, caps.corners);
+        _capped = parts;
     }
-    ranges = ends = _caps.ranges;
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-        ranges[i].count = _surfaces[i];
-        ends[i] = {ends[i].first + _surfaces[i], ends[i].count - _surfaces[i]};
-    }
-    return _caps.geometry;
-}
-
-osg::ref_ptr<const VolumeGeometry> LightVolumes::backsOf(const std::vector<unsigned>& parts, const glm::dvec4& eye,
-                                                         std::vector<VolumeGeometry::Range>& ranges) {
-    if (parts.empty()) return nullptr;
-    const auto append = [&](unsigned part, VolumeCaps& into) { appendBacks(*_caster.mesh, _volumes, part, eye, into); };
-    if (!_backs.areOf(parts, eye)) _backs.set(parts, eye, append);
-    ranges = _backs.ranges;
-    return _backs.geometry;
+    ranges = _ranges;
+    return _caps;
 }
 
 void LightVolumes::resizeGLObjectBuffers(unsigned maxSize) {
     _sides->resizeGLObjectBuffers(maxSize);
-    for (const Surfaces* surfaces : {&_caps, &_backs})
-        if (surfaces->geometry) surfaces->geometry->resizeGLObjectBuffers(maxSize);
+    if (_caps) _caps->resizeGLObjectBuffers(maxSize);
 }
 
 void LightVolumes::releaseGLObjects(osg::State* state) const {
     _sides->releaseGLObjects(state);
-    for (const Surfaces* surfaces : {&_caps, &_backs})
-        if (surfaces->geometry) surfaces->geometry->releaseGLObjects(state);
+    if (_caps) _caps->releaseGLObjects(state);
 }
 
 } // namespace gnomon

@@ -20,13 +20,9 @@ public:
     const ShadowVolumes& volumes() const { return _volumes; }
     const VolumeGeometry& sides() const { return *_sides; }
     /// What closes the volumes of these parts, each in its range; made once for the same ones.
-    /// @param parts  of the mesh. @param ranges  by part: of the surface that casts. @param ends  of what else closes them.
+    /// @param parts  of the mesh. @param ranges  by part.
     osg::ref_ptr<const VolumeGeometry> capsOf(const std::vector<unsigned>& parts,
-                                              std::vector<VolumeGeometry::Range>& ranges,
-                                              std::vector<VolumeGeometry::Range>& ends);
-    /// The same of their sheets that an eye sees from the side away from the light. @param eye  see appendBacks().
-    osg::ref_ptr<const VolumeGeometry> backsOf(const std::vector<unsigned>& parts, const glm::dvec4& eye,
-                                               std::vector<VolumeGeometry::Range>& ranges);
+                                              std::vector<VolumeGeometry::Range>& ranges);
 
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
@@ -35,28 +31,14 @@ protected:
     ~LightVolumes() override = default;
 
 private:
-    /// Of some parts, as an eye sees them.
-    struct Surfaces {
-        std::vector<unsigned> parts;
-        glm::dvec4 eye{0.0};
-        std::vector<VolumeGeometry::Range> ranges; ///< by part.
-        osg::ref_ptr<VolumeGeometry> geometry;
-
-        bool areOf(const std::vector<unsigned>& some, const glm::dvec4& from) const {
-            return geometry && parts == some && eye == from;
-        }
-        /// @param append  those of a part to VolumeCaps.
-        template <class Append>
-        void set(const std::vector<unsigned>& some, const glm::dvec4& from, const Append& append);
-    };
-
     VolumeCaster _caster;
     glm::dvec4 _light{0.0}; ///< in the scene.
     ReceiverBox _receivers{};
     ShadowVolumes _volumes;
     const osg::ref_ptr<VolumeGeometry> _sides;
-    Surfaces _caps, _backs;
-    std::vector<unsigned> _surfaces; ///< corners of the caps' first ranges, by part.
+    std::vector<unsigned> _capped;              ///< those that have caps,
+    std::vector<VolumeGeometry::Range> _ranges; ///< and where.
+    osg::ref_ptr<VolumeGeometry> _caps;
 };
 
 /// A light in the frame of a mesh.

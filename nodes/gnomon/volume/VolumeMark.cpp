@@ -32,21 +32,6 @@ void unmarkFar(ScreenPass& pass, unsigned bit) {
     pass.drawQuad(1.0);
 }
 
-/// Clip space is left-handed.
-GLenum frontOf(const MeshInView& mesh) { return glm::determinant(mesh.clipFromMesh) > 0.0 ? GL_CW : GL_CCW; }
-
-/// By a polygon offset: away from the eye by so much of its slope, and by so many steps of the depth buffer.
-void drawMoved(osg::RenderInfo& renderInfo, const VolumeGeometry& surfaces,
-               const std::vector<VolumeGeometry::Range>& ranges, double slopes, double steps) {
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(static_cast<GLfloat>(slopes), static_cast<GLfloat>(steps));
-    surfaces.draw(renderInfo, ranges);
-    glPolygonOffset(0.0f, 0.0f);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-}
-
-constexpr double pulledSlopes = -1.0 / 16.0; // of a pixel, for what is thin would be passed through
-
 constexpr const char* overflow =
     "a connected caster may lie over itself more often than the stencil bits can count, so its shadow may have holes. "
     "Leave more bits out of CompositorOptions::reservedStencilBits, or use map for that caster.";
@@ -57,41 +42,28 @@ constexpr const char* overflow =
 /// seen. A whole pixel's slope, for OpenGL draws the two by different numbers.
 void VolumeMark::drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps,
                           const std::vector<VolumeGeometry::Range>& ranges) const {
-    drawMoved(renderInfo, caps, ranges, 1.0 + std::max(0.0, pushedBack.x()), 8.0 + std::max(0.0, pushedBack.y()));
-}
-
-/// Seen from the side away from the light, a sheet is as lit as on its other side: its cap is before it.
-void VolumeMark::countBacks(osg::RenderInfo& renderInfo, const MeshInView& mesh,
-                            const VolumeRound::Share& share) const {
-    if (!share.enteredBacks.empty()) drawMoved(renderInfo, *mesh.backs, share.enteredBacks, pulledSlopes, -8.0);
-}
-
-/// The same of caps that have been counted behind their sheets: back and forth.
-void VolumeMark::moveBacks(osg::RenderInfo& renderInfo, const MeshInView& mesh, const VolumeRound::Share& share) const {
-    if (share.leftBacks.empty()) return;
-    glFrontFace(frontOf(mesh) == GL_CW ? GL_CCW : GL_CW);
-    drawCaps(renderInfo, *mesh.backs, share.leftBacks);
-    glFrontFace(frontOf(mesh));
-    drawMoved(renderInfo, *mesh.backs, share.leftBacks, pulledSlopes, -8.0);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(static_cast<GLfloat>(1.0 + std::max(0.0, pushedBack.x())),
+                    static_cast<GLfloat>(8.0 + std::max(0.0, pushedBack.y())));
+    caps.draw(renderInfo, ranges);
+    glPolygonOffset(0.0f, 0.0f);
+    glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
 void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                        const VolumeRound::Share& share) const {
     osg::State& state = *renderInfo.getState();
     const glm::dvec4& light = mesh.volumes->volumes().light;
-    glFrontFace(frontOf(mesh));
+    glFrontFace(glm::determinant(mesh.clipFromMesh) > 0.0 ? GL_CW : GL_CCW); // clip space is left-handed
     place(state, mesh.clipFromMesh, light);
-    if (!share.entered.empty() || !share.enteredBacks.empty()) {
+    if (!share.entered.empty()) {
         pass.countEntered(counters);
         mesh.volumes->sides().draw(renderInfo, share.entered);
-        countBacks(renderInfo, mesh, share);
     }
     if (!share.caps.empty()) {
         pass.countHolding(counters);
         mesh.volumes->sides().draw(renderInfo, share.left);
         drawCaps(renderInfo, *mesh.caps, share.caps);
-        mesh.caps->draw(renderInfo, share.ends);
-        moveBacks(renderInfo, mesh, share);
     }
     glFrontFace(GL_CCW);
 }

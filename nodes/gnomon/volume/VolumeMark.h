@@ -27,8 +27,6 @@ protected:
 private:
     void count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                const VolumeRound::Share& share) const;
-    void countBacks(osg::RenderInfo& renderInfo, const MeshInView& mesh, const VolumeRound::Share& share) const;
-    void moveBacks(osg::RenderInfo& renderInfo, const MeshInView& mesh, const VolumeRound::Share& share) const;
     void drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps,
                   const std::vector<VolumeGeometry::Range>& ranges) const;
 };

@@ -60,8 +60,6 @@ void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
     const ShadowVolumes::Part& part = volumeOf(all, seen);
     append(seen.holding ? share.entered : share.left, {part.first, part.count});
     append(share.caps, seen.caps);
-    append(share.ends, seen.ends);
-    append(seen.holding ? share.enteredBacks : share.leftBacks, seen.backs);
     round.holding += seen.holding.value_or(0);
 }
 
@@ -70,31 +68,11 @@ osg::ref_ptr<const VolumeGeometry> giveCaps(LightVolumes& volumes, std::vector<S
     std::vector<unsigned> capped;
     for (std::size_t i = first; i < parts.size(); ++i)
         if (!parts[i].holding) capped.push_back(parts[i].part);
-    std::vector<VolumeGeometry::Range> ranges, ends;
-    osg::ref_ptr<const VolumeGeometry> caps = volumes.capsOf(capped, ranges, ends);
-    for (std::size_t i = first, next = 0; i < parts.size(); ++i) {
-        if (parts[i].holding) continue;
-        parts[i].caps = ranges[next];
-        parts[i].ends = ends[next++];
-    }
-    return caps;
-}
-
-/// To those from `first` on whose sheets may be seen from behind.
-osg::ref_ptr<const VolumeGeometry> giveBacks(LightVolumes& volumes, const glm::dvec4& eye, std::vector<SeenPart>& parts,
-                                             std::size_t first) {
-    const std::vector<SilhouetteMesh::Part>& all = volumes.caster().mesh->parts;
-    std::vector<unsigned> sheets;
-    std::vector<SeenPart*> of;
-    for (std::size_t i = first; i < parts.size(); ++i) {
-        if (!castsBySheets(all[parts[i].part], volumes.volumes().light)) continue;
-        sheets.push_back(parts[i].part);
-        of.push_back(&parts[i]);
-    }
     std::vector<VolumeGeometry::Range> ranges;
-    osg::ref_ptr<const VolumeGeometry> backs = volumes.backsOf(sheets, eye, ranges);
-    for (std::size_t i = 0; i < of.size(); ++i) of[i]->backs = ranges[i];
-    return backs;
+    osg::ref_ptr<const VolumeGeometry> caps = volumes.capsOf(capped, ranges);
+    for (std::size_t i = first, next = 0; i < parts.size(); ++i)
+        if (!parts[i].holding) parts[i].caps = ranges[next++];
+    return caps;
 }
 
 /// Adds the parts of a mesh that can be seen.
@@ -117,8 +95,7 @@ void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes&
         all.parts.push_back({all.meshes.size(), i, holding, {0, 0}});
     }
     if (all.parts.size() == before) return;
-    all.meshes.push_back({&volumes, clipFromMesh, giveCaps(volumes, all.parts, before),
-                          giveBacks(volumes, start.towardsEye, all.parts, before)});
+    all.meshes.push_back({&volumes, clipFromMesh, giveCaps(volumes, all.parts, before)});
 }
 
 } // namespace

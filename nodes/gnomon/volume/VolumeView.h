@@ -15,24 +15,22 @@ namespace gnomon {
 struct MeshInView {
     osg::ref_ptr<const LightVolumes> volumes;
     glm::dmat4 clipFromMesh{1.0};
-    osg::ref_ptr<const VolumeGeometry> caps, backs; ///< null: none are needed.
+    osg::ref_ptr<const VolumeGeometry> caps; ///< null: none are needed.
 };
 
 /// A part whose volume can be seen.
 struct SeenPart {
     std::size_t mesh; ///< among those in view.
     unsigned part;
-    std::optional<int> holding;        ///< see volumesHolding().
-    VolumeGeometry::Range caps{0, 0};  ///< without `holding`: the surface that casts,
-    VolumeGeometry::Range ends{0, 0};  ///< and what else closes it.
-    VolumeGeometry::Range backs{0, 0}; ///< its sheets that are seen from the side away from the light.
+    std::optional<int> holding;       ///< see volumesHolding().
+    VolumeGeometry::Range caps{0, 0}; ///< without `holding`.
 };
 
 /// Volumes that are counted together: not more of them hold any one point than a counter can count.
 struct VolumeRound {
-    /// Of one mesh: sides to count from the eye, and from behind; and caps for those. Backs of either.
+    /// Of one mesh: sides to count from the eye, and from behind; and caps for those.
     struct Share {
-        std::vector<VolumeGeometry::Range> entered, left, caps, ends, enteredBacks, leftBacks;
+        std::vector<VolumeGeometry::Range> entered, left, caps;
     };
     std::map<std::size_t, Share> shares; ///< by mesh.
     int holding = 0;                     ///< those counted from the eye that the eye is in.

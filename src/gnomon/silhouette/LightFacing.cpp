@@ -53,8 +53,6 @@ void faceLight(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& l
 
 } // namespace
 
-bool castsBySheets(const Part& part, const glm::dvec4& light) { return !part.closed || holds(part, light); }
-
 void faceLight(const SilhouetteMesh& mesh, const glm::dvec4& light, FacingWeights& weights) {
     weights.resize(mesh.triangles() + 1);
     weights.back() = 0;

@@ -19,9 +19,6 @@ using FacingWeights = std::vector<std::int8_t>;
 /// Cost  linear in the triangles, in parallel.
 void faceLight(const SilhouetteMesh& mesh, const glm::dvec4& light, FacingWeights& weights);
 
-/// True if a part casts by all of its triangles: an open one, or a closed one in whose bounds a lamp is.
-bool castsBySheets(const SilhouetteMesh::Part& part, const glm::dvec4& light);
-
 /// From the light to a place, of a lamp with its length; else of length 1.
 inline glm::dvec3 awayFrom(const glm::dvec4& light, const glm::dvec3& place) {
     return light.w * place - glm::dvec3(light);

@@ -158,22 +158,19 @@ void findOutline(const SilhouetteMesh& mesh, ShadowVolumes& into) {
     }
 }
 
-/// One that casts, turned to the light; or at infinity, turned away.
-void appendTriangle(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t i, bool atInfinity,
-                    VolumeCaps& into) {
-    const unsigned* of = mesh.corners.data() + 3 * i;
-    const bool turned = (volumes.weights[i] < 0) != atInfinity;
-    for (const unsigned corner : {of[0], of[turned ? 2 : 1], of[turned ? 1 : 2]}) {
-        into.corners.push_back(static_cast<unsigned>(into.vertices.size()));
-        into.vertices.emplace_back(mesh.vertices[corner], atInfinity ? -1.0f : 0.0f);
-    }
-}
-
+/// The triangles that cast, turned to the light; or at infinity, turned away.
 void appendSurface(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, bool atInfinity,
                    VolumeCaps& into) {
     const SilhouetteMesh::Part& part = mesh.parts[index];
-    for (std::size_t i = part.firstTriangle; i < std::size_t(part.firstTriangle) + part.triangles; ++i)
-        if (volumes.weights[i] != 0) appendTriangle(mesh, volumes, i, atInfinity, into);
+    for (std::size_t i = part.firstTriangle; i < std::size_t(part.firstTriangle) + part.triangles; ++i) {
+        if (volumes.weights[i] == 0) continue;
+        const unsigned* of = mesh.corners.data() + 3 * i;
+        const bool turned = (volumes.weights[i] < 0) != atInfinity;
+        for (const unsigned corner : {of[0], of[turned ? 2 : 1], of[turned ? 1 : 2]}) {
+            into.corners.push_back(static_cast<unsigned>(into.vertices.size()));
+            into.vertices.emplace_back(mesh.vertices[corner], atInfinity ? -1.0f : 0.0f);
+        }
+    }
 }
 
 /// From one of its vertices over the whole end: what it covers twice, it covers from either side.
@@ -206,27 +203,13 @@ void findShadowVolumes(const SilhouetteMesh& mesh, const glm::dvec4& light, cons
     }
 }
 
-unsigned appendCaps(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into) {
+void appendCaps(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into) {
     const ShadowVolumes::Part& volume = volumes.parts[index];
-    const std::size_t before = into.corners.size();
     appendSurface(mesh, volumes, index, false, into);
-    const auto surface = static_cast<unsigned>(into.corners.size() - before);
     if (volume.end != glm::dvec4(0.0))
         appendFan(volumes, volume, into);
     else if (volumes.light.w != 0.0)
         appendSurface(mesh, volumes, index, true, into);
-    return surface;
-}
-
-void appendBacks(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, const glm::dvec4& eye,
-                 VolumeCaps& into) {
-    const SilhouetteMesh::Part& part = mesh.parts[index];
-    if (!castsBySheets(part, volumes.light)) return;
-    const double *x = mesh.planeX.data(), *y = mesh.planeY.data(), *z = mesh.planeZ.data(), *d = mesh.planeD.data();
-    for (std::size_t i = part.firstTriangle; i < std::size_t(part.firstTriangle) + part.triangles; ++i) {
-        const double side = x[i] * eye.x + y[i] * eye.y + z[i] * eye.z + d[i] * eye.w;
-        if (side * volumes.weights[i] < 0.0) appendTriangle(mesh, volumes, i, false, into);
-    }
 }
 
 } // namespace gnomon

@@ -44,13 +44,6 @@ struct VolumeCaps {
     std::vector<glm::vec4> vertices;
     std::vector<unsigned> corners;
 };
-/// @return corners of the surface, which come first.
-unsigned appendCaps(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
-
-/// The triangles of a part's sheets that an eye sees from the side away from the light, turned as appendCaps() has them. None
-/// of a part that does not cast by sheets.
-/// @param eye  homogeneous, in the mesh's frame.
-void appendBacks(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, const glm::dvec4& eye,
-                 VolumeCaps& into);
+void appendCaps(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
 
 } // namespace gnomon
