@@ -107,9 +107,11 @@ public:
     /// Adds a cause to diagnose(). Repeated causes count once. Call it in cull or draw.
     /// @param cause  the end of a sentence that begins with describe().
     void report(unsigned frame, const std::string& cause) const;
-    /// Forgets the causes of earlier frames. A frame begins when `frame` changes, or when `view` comes a second time.
+    /// Forgets the causes of earlier frames. A frame begins when `frame` or `time` changes, or when `view` comes a second
+    /// time.
+    /// @param time  seconds, by which viewers that count frames alike differ.
     /// @param view  any address that identifies the view.
-    void beginFrame(unsigned frame, const void* view) const;
+    void beginFrame(unsigned frame, double time, const void* view) const;
     /// A reporter for one frame, for jobs that outlive the frame's cull. It does as report().
     FrameReport reportIn(unsigned frame) const;
     /// True if lastReport() has been called: then record() is to be.

@@ -58,7 +58,7 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
     if (!drawn.technique) return {};
     ViewFrame here = view;
     here.groupFromTechnique = osg::Matrixd(); // planes are the group's
-    drawn.technique->beginFrame(view.frameNumber, view.stage);
+    drawn.technique->beginFrame(view.frameNumber, view.frameTime, view.stage);
     const double from = drawn.timed ? processorMilliseconds() : 0.0;
     const std::vector<osg::ref_ptr<MarkJob>> jobs = drawn.technique->prepare(here, light, casters);
     if (drawn.timed) _chooser->prepared(view.stage, light.number, processorMilliseconds() - from);

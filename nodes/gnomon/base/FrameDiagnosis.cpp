@@ -6,8 +6,6 @@
 #include <osg/Notify>
 
 #include <algorithm>
-#include <cstdint>
-#include <functional>
 
 namespace gnomon {
 namespace {
@@ -19,12 +17,6 @@ std::string withoutDigits(std::string text) {
     const auto isDigit = [](unsigned char letter) { return letter >= '0' && letter <= '9'; };
     text.erase(std::remove_if(text.begin(), text.end(), isDigit), text.end());
     return text;
-}
-
-/// Of a time, in 32 bits.
-unsigned scattered(double time) {
-    const std::uint64_t bits = std::hash<double>()(time);
-    return static_cast<unsigned>(bits ^ (bits >> 32));
 }
 
 } // namespace
@@ -47,11 +39,12 @@ bool FrameDiagnosis::isNewsOf(unsigned frame, const std::string& sentence) {
     return !_asked && _warned.insert(withoutDigits(sentence)).second;
 }
 
-bool FrameDiagnosis::begin(unsigned frame, const void* view) {
+bool FrameDiagnosis::begin(unsigned frame, double time, const void* view) {
     Lock lock(_mutex);
-    const bool begins = frame != _frame || _views.count(view);
+    const bool begins = frame != _frame || time != _time || _views.count(view);
     if (begins) {
         _frame = frame;
+        _time = time;
         _causes.clear();
         _known.clear();
         _views.clear();
@@ -85,8 +78,11 @@ void FrameDiagnosis::addWork(const FrameWork& work) {
 }
 
 unsigned frameOf(const osg::NodeVisitor& visitor) {
-    const osg::FrameStamp* stamp = visitor.getFrameStamp();
-    return stamp ? stamp->getFrameNumber() ^ scattered(stamp->getReferenceTime()) : visitor.getTraversalNumber();
+    return visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : visitor.getTraversalNumber();
+}
+
+double timeOf(const osg::NodeVisitor& visitor) {
+    return visitor.getFrameStamp() ? visitor.getFrameStamp()->getReferenceTime() : 0.0;
 }
 
 std::string described(const osg::Object& node) {

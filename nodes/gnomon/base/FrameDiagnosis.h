@@ -34,10 +34,11 @@ public:
     /// is new, numbers aside, until somebody asks for all().
     /// @param who  described() of the node.
     void add(unsigned frame, const std::string& who, const std::string& cause);
-    /// Forgets the causes of frames before this one: `frame` is another one, see frameOf(), or `view` (any address
-    /// that stands for it) has been met in it before, as where nobody counts frames.
+    /// Forgets the causes of frames before this one: its number or its time is another one, as that of a viewer that
+    /// counts alike, or `view` (any address that stands for it) has been met in it before, as where nobody counts frames.
+    /// @param time  see timeOf().
     /// @return true if a frame begins with it.
-    bool begin(unsigned frame, const void* view);
+    bool begin(unsigned frame, double time, const void* view);
 
     /// What was recorded. The first call starts the record, from the next frame on.
     FrameWork work() const;
@@ -63,12 +64,14 @@ private:
     std::unordered_set<std::string> _known; ///< the same.
     std::set<std::string> _warned;          ///< without their digits.
     unsigned _frame = 0;
+    double _time = 0.0;
     std::set<const void*> _views; ///< met in that frame.
 };
 
-/// A number of the frame that a traversal belongs to, of its count and its time: one for all views of a viewer, another one
-/// for a viewer that counts alike. If nobody counts frames, it is the traversal's own number.
+/// The frame that a traversal belongs to; where nobody counts frames, its own number.
 unsigned frameOf(const osg::NodeVisitor& visitor);
+/// Seconds, as the viewer of the frame counts them: the same in all of its views. 0 where nobody counts.
+double timeOf(const osg::NodeVisitor& visitor);
 
 /// "PlanarShadowNode 'floor'": what a cause begins with.
 std::string described(const osg::Object& node);

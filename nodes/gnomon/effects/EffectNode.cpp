@@ -33,7 +33,7 @@ void EffectNode::ascend(osg::NodeVisitor& visitor) {
 
 void EffectNode::enlist(osgUtil::CullVisitor& cull) {
     osgUtil::RenderStage* stage = cull.getCurrentRenderBin()->getStage();
-    _diagnosis->begin(frameOf(cull), stage);
+    _diagnosis->begin(frameOf(cull), timeOf(cull), stage);
     if (cull.getViewport() != stage->getViewport())
         report(frameOf(cull), "a nested camera above this node has a viewport of its own, where the effect would be "
                               "drawn in the wrong place. Set that camera's render order to PRE_RENDER or POST_RENDER.");

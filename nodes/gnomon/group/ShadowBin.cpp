@@ -92,6 +92,7 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
     view.dark = entry.group->getDark();
     view.options = entry.group->getCompositorOptions();
     view.frameNumber = entry.frameNumber;
+    view.frameTime = entry.frameTime;
     return view;
 }
 

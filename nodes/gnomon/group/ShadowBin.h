@@ -31,6 +31,7 @@ struct EnlistedTechnique {
     float lodScale = 1.0f;                   ///< of the cull.
     QuadSplit quads{};                       ///< of the driver that draws.
     unsigned frameNumber = 0;
+    double frameTime = 0.0; ///< seconds, see timeOf().
 };
 
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.

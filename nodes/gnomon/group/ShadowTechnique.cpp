@@ -29,8 +29,8 @@ FrameReport ShadowTechnique::reportIn(unsigned frame) const { return {_diagnosis
 
 void ShadowTechnique::report(unsigned frame, const std::string& cause) const { reportIn(frame)(cause); }
 
-void ShadowTechnique::beginFrame(unsigned frame, const void* view) const {
-    if (_diagnosis->begin(frame, view) && isRecorded()) _diagnosis->beginWork(frame, passes());
+void ShadowTechnique::beginFrame(unsigned frame, double time, const void* view) const {
+    if (_diagnosis->begin(frame, time, view) && isRecorded()) _diagnosis->beginWork(frame, passes());
 }
 
 ShadowReport ShadowTechnique::lastReport() const {

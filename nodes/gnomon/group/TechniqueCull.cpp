@@ -42,7 +42,7 @@ QuadSplit quadsOf(osgUtil::CullVisitor& cull) {
 void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     const unsigned frame = frameOf(cull);
     osgUtil::RenderStage* stage = cull.getCurrentRenderBin()->getStage();
-    beginFrame(frame, stage);
+    beginFrame(frame, timeOf(cull), stage);
     const GroupAbove above = groupAbove(cull.getNodePath());
     if (!above.group) {
         report(frame,
@@ -64,6 +64,7 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     entry.lodScale = cull.getLODScale();
     entry.quads = quadsOf(cull);
     entry.frameNumber = frame;
+    entry.frameTime = timeOf(cull);
     ShadowBin::of(stage).enlist(entry);
 }
 

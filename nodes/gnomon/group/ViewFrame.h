@@ -25,6 +25,7 @@ struct ViewFrame {
     float dark = 0.5f;         ///< of the ShadowCasterGroup.
     CompositorOptions options; ///< of the ShadowCasterGroup.
     unsigned frameNumber = 0;
+    double frameTime = 0.0;                       ///< seconds, see timeOf().
     const void* stage = nullptr;                  ///< whose view it is: tells views apart.
     const LeafSet* receivers = nullptr;           ///< leaves of the named receiver; null if none is named.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.

@@ -238,7 +238,7 @@ TerrainShadowGeode::Request TerrainShadowGeode::requestFor(const osg::Vec4d& lig
 bool TerrainShadowGeode::compute(const osg::Vec4d& light) { return compute(requestFor(light)); }
 
 bool TerrainShadowGeode::compute(const Request& with) {
-    beginFrame(0, this);
+    beginFrame(0, 0.0, this);
     _triangles.clear();
     removeDrawables(0, getNumDrawables());
     if (with.refusal) {
