@@ -164,7 +164,9 @@ TEST(ShadowReport, IsALineToRead) {
     EXPECT_EQ(report.text(), "PlanarShadowNode 'floor': 1 light, 0 marks, 0 passes, cull 0.25 ms, draw 0 ms");
     report.marks = 2;
     report.pixels = 1234567.0;
+    report.draw = 352.6;
     EXPECT_NE(report.text().find("2 marks within 1234567 pixels"), std::string::npos) << report.text();
+    EXPECT_NE(report.text().find("draw 353 ms"), std::string::npos) << report.text();
 }
 
 TEST(ShadowStats, StandInThoseOfTheViewWhileTheCameraCollects) {

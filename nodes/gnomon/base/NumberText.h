@@ -15,6 +15,14 @@ std::string textOf(Number number) {
     return exponent == std::string::npos ? result : result.erase(exponent + 1, 2);
 }
 
+/// A number of at least 0 to two digits that count, without an exponent: "0.0012", "3.5", "353".
+inline std::string roundedText(double number) {
+    int decimals = 0;
+    for (double scaled = number; number > 0.0 && scaled < 9.95 && decimals < 6; scaled *= 10.0) ++decimals;
+    char text[64];
+    return std::string(text, std::to_chars(text, text + sizeof text, number, std::chars_format::fixed, decimals).ptr);
+}
+
 /// The whole text as a number; nullopt if it is none, or not within the limits.
 template <typename Number>
 std::optional<Number> numberIn(const std::string& text, Number low, Number high) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowReport.h>
+#include <gnomon/base/NumberText.h>
 
 #include <sstream>
 
@@ -14,10 +15,10 @@ std::string counted(unsigned number, const std::string& one, const std::string& 
 
 std::string ShadowReport::text() const {
     std::ostringstream line;
-    line.precision(2);
     line << technique << ": " << counted(lights, "light", "lights") << ", " << counted(marks, "mark", "marks");
     if (marks > 0) line << " within " << static_cast<long long>(pixels + 0.5) << " pixels";
-    line << ", " << counted(passes, "pass", "passes") << ", cull " << cull << " ms, draw " << draw << " ms";
+    line << ", " << counted(passes, "pass", "passes") << ", cull " << roundedText(cull) << " ms, draw " << roundedText(draw)
+         << " ms";
     return line.str();
 }
 
