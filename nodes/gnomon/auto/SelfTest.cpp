@@ -208,6 +208,7 @@ std::optional<CostRatios> measureCosts(osg::RenderInfo& renderInfo) {
     const osg::GLExtensions& gl = *state.get<osg::GLExtensions>();
     if (!gl.isFrameBufferObjectSupported || !gl.glGenFramebuffers) return std::nullopt;
     const unsigned unit = state.getActiveTextureUnit();
+    const osg::Viewport* const before = state.getCurrentViewport();
     GLint scissor[4];
     glGetIntegerv(GL_SCISSOR_BOX, scissor);
     std::optional<CostRatios> result;
@@ -234,6 +235,10 @@ std::optional<CostRatios> measureCosts(osg::RenderInfo& renderInfo) {
         result->call = drawsByProcessor() ? result->processor : ratio(&Pieces::call, draws, reference.call);
     }
     state.setActiveTextureUnit(unit);
+    if (before)
+        state.applyAttribute(before); // osg::State must not remember the test's own, which is gone
+    else
+        state.haveAppliedAttribute(osg::StateAttribute::VIEWPORT);
     leaveDefaults(state);
     glScissor(scissor[0], scissor[1], scissor[2], scissor[3]);
     return result->clamped();
