@@ -68,6 +68,8 @@ osg::ref_ptr<osg::Node> nodeOf(const Sheet& sheet) {
         else
             geometry->addPrimitiveSet(new osg::DrawArrays(sheet.mode, int(first), int(each)));
     }
+    if (sheet.buffers && sheet.listed) // OSG fills it list after list, of which Mesa complains where it is static
+        geometry->getOrCreateElementBufferObject()->setUsage(GL_DYNAMIC_DRAW);
     const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     geode->addDrawable(geometry);
     return geode;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/gl/ChangingBuffers.h>
 #include <gnomon/gl/TriangleClusters.h>
 #include <gnomon/overlay/ShadowPrisms.h>
 #include <gnomon/terrain/TileMesh.h>
@@ -8,10 +9,9 @@
 namespace gnomon {
 
 TileMesh::TileMesh() : _geometry(new osg::Geometry) {
-    _geometry->setUseDisplayList(false);
-    _geometry->setUseVertexBufferObjects(true);
     _geometry->setVertexArray(new osg::Vec3Array);
     _geometry->addPrimitiveSet(new osg::DrawElementsUInt(GL_TRIANGLES));
+    keepInChangingBuffers(*_geometry);
 }
 
 osg::Vec3Array& TileMesh::vertices() { return static_cast<osg::Vec3Array&>(*_geometry->getVertexArray()); }

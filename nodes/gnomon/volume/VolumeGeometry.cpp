@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/gl/ChangingBuffers.h>
 #include <gnomon/volume/VolumeGeometry.h>
 
 namespace gnomon {
 
 VolumeGeometry::VolumeGeometry()
     : _geometry(new osg::Geometry), _vertices(new osg::Vec4Array), _corners(new osg::DrawElementsUInt(GL_TRIANGLES)) {
-    _geometry->setUseDisplayList(false);
-    _geometry->setUseVertexBufferObjects(true);
     _geometry->setVertexArray(_vertices);
     _geometry->addPrimitiveSet(_corners);
+    keepInChangingBuffers(*_geometry);
 }
 
 void VolumeGeometry::set(const std::vector<glm::vec4>& vertices, const std::vector<unsigned>& corners) {
