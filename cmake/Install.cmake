@@ -5,20 +5,36 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
-install(TARGETS gnomon gnomon_math gnomon_metrics gnomon_headless gnomon_headless_egl EXPORT gnomonTargets
-  LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
-  ARCHIVE COMPONENT dev
-  FILE_SET HEADERS COMPONENT dev)
-install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION ${package_folder} COMPONENT dev)
+set(libraries gnomon gnomon_metrics)
+# gnomon_install(EXPORT TARGET...): each export is a file of targets of its own, for find_package() reads those that it can.
+function(gnomon_install export)
+  install(TARGETS ${ARGN} EXPORT ${export}
+    LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
+    ARCHIVE COMPONENT dev
+    FILE_SET HEADERS COMPONENT dev)
+  install(EXPORT ${export} NAMESPACE gnomon:: DESTINATION ${package_folder} COMPONENT dev)
+endfunction()
+gnomon_install(gnomonTargets gnomon gnomon_metrics)
+foreach(pair Headless:gnomon_headless HeadlessEgl:gnomon_headless_egl)
+  string(REGEX MATCH "(.*):(.*)" pair ${pair})
+  if(TARGET ${CMAKE_MATCH_2})
+    list(APPEND libraries ${CMAKE_MATCH_2})
+    gnomon_install(gnomon${CMAKE_MATCH_1}Targets ${CMAKE_MATCH_2})
+  endif()
+endforeach()
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_SOURCE_DIR}/cmake/gnomonConfig.cmake ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
-  ${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake DESTINATION ${package_folder} COMPONENT dev)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/gnomonConfig.cmake.in ${PROJECT_BINARY_DIR}/gnomonConfig.cmake @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/gnomonConfig.cmake ${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/OsgTargets.cmake ${PROJECT_SOURCE_DIR}/cmake/OSMesa.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/MathLibraries.cmake DESTINATION ${package_folder} COMPONENT dev)
 
 # pkg-config finds the rest from the place of its own file.
 file(RELATIVE_PATH pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" pc_prefix ${pc_prefix})
 configure_file(${PROJECT_SOURCE_DIR}/cmake/gnomon.pc.in ${PROJECT_BINARY_DIR}/gnomon.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/gnomon.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+if(BUILD_SHARED_LIBS) # CMake knows what a static library needs
+  install(FILES ${PROJECT_BINARY_DIR}/gnomon.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+endif()
 
 file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.png ${PROJECT_SOURCE_DIR}/docs/*.svg)
 install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/gnomon-doc/pages COMPONENT doc)
@@ -29,8 +45,10 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/addshadows
 
 # All that is installed: cmake --build build --target packaged
 get_property(tools GLOBAL PROPERTY GNOMON_TOOLS)
-add_custom_target(packaged DEPENDS
-  gnomon gnomon_math gnomon_metrics gnomon_headless gnomon_headless_egl osgdb_gnomon osgdb_serializers_gnomon ${tools})
+if(BUILD_SHARED_LIBS)
+  list(APPEND libraries osgdb_gnomon osgdb_serializers_gnomon)
+endif()
+add_custom_target(packaged DEPENDS ${libraries} ${tools})
 if(tools)
   add_dependencies(packaged man_pages)
 endif()

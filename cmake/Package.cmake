@@ -48,13 +48,12 @@ other program that loads files shows shadows without code.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/package/triggers ${PROJECT_BINARY_DIR}/package/shlibs)
 
-# What find_package(gnomon) looks for.
-set(GNOMON_DEV_PACKAGES "libopenscenegraph-dev, libglm-dev, libembree-dev, libtbb-dev, libhwy-dev, libqhull-dev")
-string(APPEND GNOMON_DEV_PACKAGES ", libnova-dev, libosmesa6-dev, libegl-dev, libgl-dev, pkg-config")
 gnomon_package(dev libgnomon-dev libdevel "development files"
 "This package holds headers, static libraries, and package files for CMake and
 pkg-config.")
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libgnomon1 ${same_version}, ${GNOMON_DEV_PACKAGES}")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libgnomon1 ${same_version}, libopenscenegraph-dev, libglm-dev")
+# For the components headless and headless_egl of find_package(gnomon).
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libosmesa6-dev, libegl-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "gnomon-doc")
 
 gnomon_package(tools gnomon-tools graphics "programs"

@@ -37,7 +37,7 @@ struct ShadowProbe;
 /// - To make one: a ray tree over the casters, see RayScene. Queries and TracedShadowTechnique share trees.
 /// - To ask: a ray, less than a microsecond.
 /// Needs
-/// - Embree. No OpenGL and no view.
+/// - Embree: see OptionalPart::Traced. No OpenGL and no view.
 /// Limits
 /// - It has no view: the most detailed children of an LOD cast.
 /// - Casters that draw themselves, or are made of patches, are not asked.
@@ -52,7 +52,7 @@ public:
     ///                   counts.
     /// @param light      the light to ask about.
     /// @throws std::invalid_argument if no group is above the technique, or the light is zero or not finite.
-    /// @throws std::runtime_error if Embree fails, see RayScene.
+    /// @throws std::runtime_error if Embree is missing or fails, see RayScene.
     ShadowQuery(const ShadowTechnique& technique, const ShadowLight& light);
     /// Copies share what they have found.
     ShadowQuery(const ShadowQuery& other);

@@ -37,10 +37,11 @@ struct ShadowSpec {
 };
 
 /// Parses a specification string. Settings that it leaves out have their defaults.
-/// @throws std::invalid_argument with one sentence that names the mistake and lists what is allowed.
+/// @throws std::invalid_argument with one sentence that names the mistake and lists what is allowed, or says which library
+///         this build lacks.
 GNOMON_EXPORT ShadowSpec parseShadowSpec(const std::string& text);
 
-/// Names of the techniques that can be used, "none" included.
+/// Names of the techniques that this build can draw, and "none".
 GNOMON_EXPORT std::vector<std::string> shadowTechniques();
 
 /// Table of the techniques and their keys, ranges, units and defaults, for --help. Lines have at most 120 characters.

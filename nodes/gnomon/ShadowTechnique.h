@@ -64,6 +64,10 @@ public:
     /// @return one sentence a cause, with the node and the remedy; empty if all is well.
     std::vector<std::string> diagnose() const;
 
+    /// Says which library this build lacks for the technique, and what to install. Default, empty: none.
+    /// The compositor then draws no shadow, and diagnose() says the same. A scene file keeps the node.
+    virtual std::string whyUnavailable() const { return {}; }
+
     /// The technique's work in the last frame: marks, passes, time. The first call starts the record, which then holds
     /// the frames that follow.
     ShadowReport lastReport() const;

@@ -44,6 +44,7 @@ struct TerrainShadows;
 /// Needs
 /// - A named receiver, see setReceiver(). It casts no shadow of this kind.
 /// - z up in the group's frame.
+/// - Qhull for HULL and DRAPE: see OptionalPart::Terrain.
 /// - One stencil bit; two for shadows off a grid; three if those overlap. More bits save passes.
 /// Limits
 /// - Walls and roofs receive nothing.
@@ -152,6 +153,9 @@ public:
     unsigned builds() const;
     /// The same.
     unsigned passes() const override { return builds(); }
+
+    /// See OptionalPart::Terrain. BOX is in every build.
+    std::string whyUnavailable() const override;
 
     /// Makes the job that marks the tiles in view. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,

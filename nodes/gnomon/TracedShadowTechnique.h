@@ -29,7 +29,7 @@ class TracedFrames;
 ///   keeps its tree.
 /// - If stderr is a terminal, a build of more than a second shows its progress there.
 /// Needs
-/// - Embree, and a depth buffer that can be read.
+/// - Embree: see OptionalPart::Traced. A depth buffer that can be read.
 /// - One stencil bit a light, and one more where a receiver is named.
 /// Limits
 /// - One sample a pixel: edges are hard.
@@ -63,6 +63,9 @@ public:
     /// Makes the job that casts the rays of one light. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
+
+    /// See OptionalPart::Traced.
+    std::string whyUnavailable() const override;
 
     /// Number of revisions of the casters that needed ray trees over triangles, whatever the views and lights.
     /// A tree that a ShadowQuery or another technique has of the same casters is shared and does not count.

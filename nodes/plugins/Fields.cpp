@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
 
+#include <gnomon/ShadowTechnique.h>
+
+#include <osg/Notify>
+
 #include <iomanip>
 
 namespace gnomon::fields {
@@ -41,6 +45,12 @@ bool writeOthers(osgDB::OutputStream& out, const Selection& selection) {
 Selection withOthers(osgDB::InputStream& in, Selection selection) {
     selection.others = readList(in, [&] { return in.readObjectOfType<osg::Node>(); });
     return selection;
+}
+
+void UnavailableWarning::objectRead(osgDB::InputStream&, osg::Object& object) {
+    const auto& technique = dynamic_cast<const ShadowTechnique&>(object);
+    const std::string why = technique.whyUnavailable();
+    if (!why.empty()) OSG_WARN << "gnomon: " << technique.describe() << " is in the file. " << why << std::endl;
 }
 
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options) {

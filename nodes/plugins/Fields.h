@@ -93,6 +93,12 @@ Selection withOthers(osgDB::InputStream& in, Selection selection);
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options);
 CompositorOptions readOptions(osgDB::InputStream& in);
 
+/// Warns of a technique that has been read, if this build lacks a library for it.
+class UnavailableWarning : public osgDB::FinishedObjectReadCallback {
+public:
+    void objectRead(osgDB::InputStream& in, osg::Object& object) override;
+};
+
 /// Keeps a class's getCompositorOptions(), where they are not the defaults.
 template <typename Class>
 void addCompositorOptions(osgDB::ObjectWrapper& wrapper) {

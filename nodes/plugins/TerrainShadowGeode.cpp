@@ -53,4 +53,5 @@ REGISTER_OBJECT_WRAPPER(gnomon_TerrainShadowGeode, new gnomon::TerrainShadowGeod
                                                                     &MyClass::setObjectOrientation),
                            osgDB::BaseSerializer::RW_DOUBLE);
     ADD_USER_SERIALIZER(ObjectBounds);
+    wrapper->addFinishedObjectReadCallback(new fields::UnavailableWarning);
 }

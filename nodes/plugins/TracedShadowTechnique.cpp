@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "Fields.h"
+
 #include <gnomon/TracedShadowTechnique.h>
 
 #include <osgDB/ObjectWrapper>
@@ -6,5 +8,5 @@
 REGISTER_OBJECT_WRAPPER(gnomon_TracedShadowTechnique, new gnomon::TracedShadowTechnique, gnomon::TracedShadowTechnique,
                         "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
                         "gnomon::TracedShadowTechnique") {
-    static_cast<void>(wrapper); // it has no property of its own
+    wrapper->addFinishedObjectReadCallback(new gnomon::fields::UnavailableWarning);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Export.h>
+
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -34,7 +36,7 @@ struct GroundRange {
 /// - height() and hit() use a spatial structure, and do not visit all triangles.
 /// Threads
 /// - Any number, once the ground is built.
-class Ground {
+class GNOMON_EXPORT Ground {
 public:
     virtual ~Ground() = default;
 
@@ -60,6 +62,6 @@ public:
 ///
 /// The values -9999, -99999, -32767 and -32768 stand for missing data, as do non-finite values and values beyond 10¹⁸.
 /// All are refused, because OpenSceneGraph's readers do not say which of them a file uses.
-bool isHeight(float value);
+GNOMON_EXPORT bool isHeight(float value);
 
 } // namespace gnomon

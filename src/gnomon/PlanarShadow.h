@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Export.h>
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
@@ -27,7 +29,7 @@ namespace gnomon {
 /// Source
 /// - J. Blinn, "Me and My (Fake) Shadow", IEEE CG&A 8(1), 1988.
 /// - The four planar documents, see docs/sources.md.
-std::optional<glm::dmat4> planarShadowMatrix(const glm::dvec4& plane, const glm::dvec4& light);
+GNOMON_EXPORT std::optional<glm::dmat4> planarShadowMatrix(const glm::dvec4& plane, const glm::dvec4& light);
 
 /// The half-spaces that a caster is clipped to before it is flattened.
 ///
@@ -39,6 +41,6 @@ struct PlanarClipPlanes {
 
 /// Makes the clip planes for one plane and light.
 /// @pre planarShadowMatrix(plane, light) has a value.
-PlanarClipPlanes planarClipPlanes(const glm::dvec4& plane, const glm::dvec4& light);
+GNOMON_EXPORT PlanarClipPlanes planarClipPlanes(const glm::dvec4& plane, const glm::dvec4& light);
 
 } // namespace gnomon

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Export.h>
+
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -19,14 +21,15 @@ namespace gnomon {
 ///
 /// Source
 /// - GusOnGames, clf_getPlaneEquation; M. Kilgard, halomagic.c, findPlane.
-std::optional<glm::dvec4> planeFromPoints(const glm::dvec3& p1, const glm::dvec3& p2, const glm::dvec3& p3);
+GNOMON_EXPORT std::optional<glm::dvec4> planeFromPoints(const glm::dvec3& p1, const glm::dvec3& p2,
+                                                        const glm::dvec3& p3);
 
 /// Scales a plane to a unit normal.
 /// @return nullopt if the normal is zero or a value is not finite.
-std::optional<glm::dvec4> normalizedPlane(const glm::dvec4& plane);
+GNOMON_EXPORT std::optional<glm::dvec4> normalizedPlane(const glm::dvec4& plane);
 
 /// Signed distance of `point` from `plane` (unit normal), in the points' unit. Positive on the lit side.
-double distance(const glm::dvec4& plane, const glm::dvec3& point);
+GNOMON_EXPORT double distance(const glm::dvec4& plane, const glm::dvec3& point);
 
 /// Largest distance between the unit normals of float triangles that count as lying in one plane.
 constexpr double alikeNormals = 1e-3;
@@ -48,6 +51,6 @@ bool isPlaneOf(const glm::dvec4& plane, const glm::dvec3& normal, const Points& 
 /// @param plane             plane in the source frame, any length of normal.
 /// @return                  plane in the target frame with a unit normal; nullopt if the matrix is singular to within
 ///                          rounding, or a value is not finite.
-std::optional<glm::dvec4> transformedPlane(const glm::dmat4& targetFromSource, const glm::dvec4& plane);
+GNOMON_EXPORT std::optional<glm::dvec4> transformedPlane(const glm::dmat4& targetFromSource, const glm::dvec4& plane);
 
 } // namespace gnomon

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -72,7 +74,7 @@ struct PlacedRayScene {
 /// - Memory: 90 bytes a triangle if corners are shared, 120 if not, and 30 more while building.
 /// - To cast: less than a microsecond a ray on one core.
 /// Needs
-/// - Embree 3 (libembree3) on x86-64 with SSE2, or ARM.
+/// - Embree 3 or 4 on x86-64 with SSE2, or ARM: see OptionalPart::Traced.
 /// Limits
 /// - A triangle's edges are right to about 10⁻⁶ of the distance between ray and origin. Smaller triangles are hit or
 ///   missed by chance.
@@ -84,13 +86,13 @@ struct PlacedRayScene {
 /// Source
 /// - I. Wald et al., "Embree: A Kernel Framework for Efficient CPU Ray Tracing", ACM TOG 33(4), 2014.
 /// - RTC_SCENE_FLAG_ROBUST keeps rays from slipping through shared edges.
-class RayScene {
+class GNOMON_EXPORT RayScene {
 public:
     /// Receives the finished share of a build, 0 … 1. The building threads call it, possibly several at once.
     using ProgressLine = std::function<void(double)>;
 
     /// Builds the tree.
-    /// @throws std::runtime_error with one sentence if Embree cannot start or there is not enough memory.
+    /// @throws std::runtime_error with one sentence if Embree is missing or cannot start, or there is not enough memory.
     explicit RayScene(const TriangleSoup& triangles, const ProgressLine& progress = {});
     /// Builds a tree of two levels over scenes that are there: a microsecond a part. It shares their triangles.
     /// Parts with a matrix that is not affine, finite and invertible are left out, and so are empty ones.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Export.h>
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
@@ -14,6 +16,6 @@ namespace gnomon {
 ///
 /// Source
 /// - M. Kilgard, halomagic.c: its glScalef(1, -1, 1) mirrors in y = 0.
-glm::dmat4 reflectionMatrix(const glm::dvec4& plane);
+GNOMON_EXPORT glm::dmat4 reflectionMatrix(const glm::dvec4& plane);
 
 } // namespace gnomon

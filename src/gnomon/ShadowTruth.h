@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Export.h>
 #include <gnomon/RayScene.h>
 
 #include <glm/mat4x4.hpp>
@@ -36,7 +37,7 @@ struct TruthPixel {
 };
 
 /// The true shadows of a picture. Pixels stand row by row, the bottom row first, as in OpenGL.
-struct TruthImage {
+struct GNOMON_EXPORT TruthImage {
     int width = 0;                  ///< Width, pixels.
     int height = 0;                 ///< Height, pixels.
     std::vector<TruthPixel> pixels; ///< width * height of them.
@@ -68,7 +69,7 @@ struct TruthImage {
 /// - Normals are geometric: a facet near the terminator may shadow itself where smooth shading would light it.
 /// Threads
 /// - Uses all cores.
-TruthImage shadowTruth(const RayScene& seen, const RayScene& casters, const TruthView& view);
+GNOMON_EXPORT TruthImage shadowTruth(const RayScene& seen, const RayScene& casters, const TruthView& view);
 
 /// Traces the true soft shadow of a sun with a disc. Use it as shadowTruth(), for penumbras.
 ///
@@ -77,7 +78,7 @@ TruthImage shadowTruth(const RayScene& seen, const RayScene& casters, const Trut
 ///
 /// @param degrees  angular diameter of the sun; 0.533 for the sun in the sky.
 /// @param strata   rows and columns of places on the disc, at least 1.
-TruthImage softShadowTruth(const RayScene& seen, const RayScene& casters, const TruthView& view, double degrees,
-                           int strata);
+GNOMON_EXPORT TruthImage softShadowTruth(const RayScene& seen, const RayScene& casters, const TruthView& view,
+                                         double degrees, int strata);
 
 } // namespace gnomon

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Export.h>
+
 #include <glm/vec3.hpp>
 
 #include <optional>
@@ -15,10 +17,10 @@ struct SunPosition {
 
 /// Converts a moment, "2026-06-21T15:00:00Z", to a Julian day, UTC. Seconds may have decimals.
 /// @return nullopt if there is no such moment.
-std::optional<double> julianDay(const std::string& moment);
+GNOMON_EXPORT std::optional<double> julianDay(const std::string& moment);
 
 /// Converts a Julian day, UTC, to a moment, to the nearest second: "2026-06-21T15:00:00Z".
-std::string momentOf(double julianDay);
+GNOMON_EXPORT std::string momentOf(double julianDay);
 
 /// Computes the sun's position for a place on earth at any time.
 ///
@@ -30,7 +32,7 @@ std::string momentOf(double julianDay);
 /// Cost
 /// - Microseconds a moment.
 /// Needs
-/// - libnova. No OpenGL.
+/// - libnova: see OptionalPart::Sun. No OpenGL.
 /// Limits
 /// - The error is below a hundredth of a degree from 1900 to 2100.
 /// - Refraction is that of air at 10 °C and 1010 mbar, at sea level.
@@ -39,11 +41,12 @@ std::string momentOf(double julianDay);
 /// Source
 /// - VSOP87 and J. Meeus, "Astronomical Algorithms", 1991, by libnova.
 /// - Refraction: G. G. Bennett, 1982.
-class SunClock {
+class GNOMON_EXPORT SunClock {
 public:
     /// A clock for one place.
     /// @param latitude,longitude  degrees, north and east positive, -90 … 90 and -180 … 180.
     /// @throws std::invalid_argument with one sentence if either is out of range.
+    /// @throws std::runtime_error with one sentence if libnova is missing.
     SunClock(double latitude, double longitude);
 
     /// Apparent position of the sun's centre. Refraction raises it by half a degree at the horizon.

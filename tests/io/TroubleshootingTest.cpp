@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <regex>
 #include <sstream>
 
 namespace {
@@ -97,9 +98,22 @@ Texts messagesOf(const std::string& code) {
     return messages;
 }
 
-/// Of src/ and nodes/.
-Texts allMessages() {
+/// Why parts are missing, as cmake/OptionalParts.cmake says it of each in cmake/Dependencies.cmake.
+Texts missingParts() {
+    const std::string sentence = readFile(GNOMON_ROOT "/cmake/OptionalParts.cmake");
+    const std::string parts = readFile(GNOMON_ROOT "/cmake/Dependencies.cmake");
+    EXPECT_NE(sentence.find("\"This Gnomon was built without ${library}, which ${work}. Install "), std::string::npos);
+    const std::regex part("gnomon_optional_part\\(\\w+ (\\w+) \\w+ [a-z0-9-]+ \"(.*)\"\\)");
     Texts all;
+    for (std::sregex_iterator found(parts.begin(), parts.end(), part), end; found != end; ++found)
+        all.push_back("This Gnomon was built without " + found->str(1) + ", which " + found->str(2) + ". Install it.");
+    EXPECT_EQ(all.size(), 5u);
+    return all;
+}
+
+/// Of src/, nodes/ and the optional parts.
+Texts allMessages() {
+    Texts all = missingParts();
     for (const char* folder : {GNOMON_ROOT "/src/gnomon", GNOMON_ROOT "/nodes/gnomon"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
             const std::string ending = entry.path().extension().string();

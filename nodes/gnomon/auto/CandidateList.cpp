@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/auto/FlatReceivers.h>
@@ -209,7 +210,7 @@ private:
         AutoCandidate traced;
         traced.kind = Kind::Traced;
         traced.error = sampledEdge;
-        traced.obstacle = whyCutOut(_view.casters);
+        traced.obstacle = hasPart(OptionalPart::Traced) ? whyCutOut(_view.casters) : "this build has no Embree";
         traced.still = _compose;
         traced.still.pixels = 2.0 * _pixels;
         traced.still.rays = _pixels;

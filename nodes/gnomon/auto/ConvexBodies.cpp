@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/OptionalParts.h>
 #include <gnomon/Plane.h>
 #include <gnomon/auto/ConvexBodies.h>
 #include <gnomon/casters/CasterMesh.h>
@@ -47,7 +48,7 @@ ConvexBody boxOf(const osg::BoundingBoxd& bounds) {
 
 DrawableBodies look(const CasterDrawable& piece) {
     DrawableBodies result;
-    result.looked = piece.triangles <= mostTriangles;
+    result.looked = piece.triangles <= mostTriangles && hasPart(OptionalPart::Terrain);
     if (result.looked) {
         const osg::ref_ptr<const CasterMesh> mesh = meshOf({&piece});
         const glm::vec3* positions = positionsOf(*mesh);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/OptionalParts.h>
 #include <gnomon/auto/SelfTest.h>
 #include <gnomon/geometry/ConvexHull.h>
 #include <gnomon/gl/DrawClock.h>
@@ -230,7 +231,7 @@ std::optional<CostRatios> measureCosts(osg::RenderInfo& renderInfo) {
         result->tap = ratio(&Pieces::tap, pixels, reference.tap);
         result->relit = ratio(&Pieces::relit, triangles, reference.relit);
         result->filled = ratio(&Pieces::filled, pixels, reference.filled);
-        result->processor = reckoned() / reference.processor;
+        result->processor = hasPart(OptionalPart::Terrain) ? reckoned() / reference.processor : 1.0;
         // On llvmpipe the same calls take forty times as long in some contexts as in others, but they are the processor's.
         result->call = drawsByProcessor() ? result->processor : ratio(&Pieces::call, draws, reference.call);
     }

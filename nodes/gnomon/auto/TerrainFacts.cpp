@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/TerrainFacts.h>
 #include <gnomon/compositor/ResolvedState.h>
@@ -30,6 +31,10 @@ std::optional<double> bend(const Ground& ground, const osg::BoundingBoxd& caster
 
 TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receiver) {
     TerrainFacts facts;
+    if (!hasPart(OptionalPart::Terrain)) {
+        facts.obstacle = "this build has no Qhull";
+        return facts;
+    }
     const glm::dvec3 sun(view.towards);
     const double across = glm::length(glm::dvec2(sun));
     if (!view.frame.receivers) facts.obstacle = "no terrain is named as receiver";

@@ -355,6 +355,8 @@ void ShadowBin::sortAsAsked() {
 
 void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
                         const FrameCasters& casters, const StageLeaves& drawn) {
+    if (const std::string why = entry.technique->whyUnavailable(); !why.empty())
+        return entry.technique->report(entry.frameNumber, "there is no shadow. " + why);
     const auto receiving = receivingOf(entry, drawn.early, *getStage());
     const auto lateOnes = receivingOf(entry, drawn.late.leaves, *getStage());
     drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, receiving, lateOnes);

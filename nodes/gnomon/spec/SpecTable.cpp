@@ -185,11 +185,16 @@ const std::vector<SpecTechnique>& specTechniques() {
         {"hull",
          "polygons on terrain: silhouettes of the casters' convex parts, one ray for each corner",
          ground,
-         {errorKey()}},
-        {"drape", "the terrain's triangles, cut by the casters' shadows to within error", ground, {errorKey()}},
+         {errorKey()},
+         OptionalPart::Terrain},
+        {"drape",
+         "the terrain's triangles, cut by the casters' shadows to within error",
+         ground,
+         {errorKey()},
+         OptionalPart::Terrain},
         {"map", "shadow maps; on every visible surface", "", mapKeys()},
         {"volume", "stencil volumes; exact on every visible surface", "", volumeKeys()},
-        {"traced", "one ray for each pixel by Embree; exact on every visible surface"},
+        {"traced", "one ray for each pixel by Embree; exact on every visible surface", "", {}, OptionalPart::Traced},
         {"auto", "the cheapest of the others that keeps an error, or the most accurate within a time", "", autoKeys()},
     };
     return table;
@@ -197,8 +202,12 @@ const std::vector<SpecTechnique>& specTechniques() {
 
 const SpecTechnique& requireTechnique(const std::string& name) {
     const std::string allowed = " Allowed: " + listed(shadowTechniques()) + ".";
-    for (const SpecTechnique& technique : specTechniques())
-        if (name == technique.name) return technique;
+    for (const SpecTechnique& technique : specTechniques()) {
+        if (name != technique.name) continue;
+        if (const std::string why = technique.whyUnavailable(); !why.empty())
+            throw std::invalid_argument("the technique " + name + " cannot be used. " + why);
+        return technique;
+    }
     throw std::invalid_argument("\"" + name + "\" is not a shadow technique." + allowed);
 }
 
@@ -218,7 +227,8 @@ std::string listed(const std::vector<std::string>& words) {
 
 std::vector<std::string> shadowTechniques() {
     std::vector<std::string> names;
-    for (const SpecTechnique& technique : specTechniques()) names.push_back(technique.name);
+    for (const SpecTechnique& technique : specTechniques())
+        if (technique.whyUnavailable().empty()) names.push_back(technique.name);
     return names;
 }
 

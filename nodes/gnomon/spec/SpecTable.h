@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowSpec.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,14 +29,18 @@ struct SpecKey {
 struct SpecTechnique {
     std::string name;
     std::string meaning = {};
-    std::string receiver = {};      ///< name of the node that receives where none is named; empty: everything.
-    std::vector<SpecKey> keys = {}; ///< its own.
+    std::string receiver = {};             ///< name of the node that receives where none is named; empty: everything.
+    std::vector<SpecKey> keys = {};        ///< its own.
+    std::optional<OptionalPart> part = {}; ///< that it needs; empty: it is in every build.
+
+    /// See whyMissing().
+    std::string whyUnavailable() const { return part ? whyMissing(*part) : ""; }
 };
 
-/// The table of techniques.
+/// The table of techniques, of those that this build lacks, too.
 const std::vector<SpecTechnique>& specTechniques();
 /// The technique of that name.
-/// @throws std::invalid_argument if there is none.
+/// @throws std::invalid_argument if there is none, or this build lacks a library for it.
 const SpecTechnique& requireTechnique(const std::string& name);
 
 /// Keys that every technique has.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/base/FrameDiagnosis.h>
@@ -103,7 +104,7 @@ osg::ref_ptr<osg::Geometry> transparent(const std::vector<osg::Vec3d>& triangles
 } // namespace
 
 struct TerrainShadowGeode::Request {
-    const char* refusal = nullptr; ///< why there can be no shadow; else the rest holds.
+    std::string refusal; ///< why there can be no shadow; empty: the rest holds.
     glm::dvec4 light{0.0};
     TerrainSettings settings;
     std::uint64_t object = 0; ///< revision of the placed object.
@@ -141,6 +142,10 @@ void TerrainShadowGeode::setError(double error) {
     else
         OSG_WARN << "gnomon: " << describe() << ": an error of " << error
                  << " is refused. Give a length of 0 or more, in the scene's unit." << std::endl;
+}
+
+std::string TerrainShadowGeode::whyUnavailable() const {
+    return getMethod() == BOX ? "" : whyMissing(OptionalPart::Terrain);
 }
 
 unsigned TerrainShadowGeode::builds() const { return _foundAlone + _cache->found(); }
@@ -225,7 +230,8 @@ TerrainShadowGeode::Request TerrainShadowGeode::requestFor(const osg::Vec4d& lig
         result.refusal = "the terrain given to setReceiver() is gone, because nothing else kept it. Add it to the "
                          "scene, and name it anew.";
     if (!usable) result.refusal = "the light has no finite position or direction. Give one of them.";
-    if (result.refusal) return result;
+    if (const std::string why = whyUnavailable(); !why.empty()) result.refusal = "there is no shadow. " + why;
+    if (!result.refusal.empty()) return result;
     osg::BoundingBoxd box = _bounds;
     if (box.valid()) box._min += _position, box._max += _position;
     const osg::ref_ptr<osg::Node> object = placedObject();
@@ -241,7 +247,7 @@ bool TerrainShadowGeode::compute(const Request& with) {
     beginFrame(0, 0.0, this);
     _triangles.clear();
     removeDrawables(0, getNumDrawables());
-    if (with.refusal) {
+    if (!with.refusal.empty()) {
         report(0, with.refusal);
         return false;
     }
@@ -267,7 +273,7 @@ osg::ref_ptr<const CasterMesh> TerrainShadowGeode::meshOf(std::uint64_t object) 
 
 bool TerrainShadowGeode::update(const osg::Vec4d& light) {
     const Request with = requestFor(light);
-    const bool same = !with.refusal && _shown && getNumDrawables() > 0 && _shown->light == with.light &&
+    const bool same = with.refusal.empty() && _shown && getNumDrawables() > 0 && _shown->light == with.light &&
                       _shown->settings == with.settings && _shownObject == with.object &&
                       _shown->scene->drawn->revision == terrain().revision();
     return same || compute(with);

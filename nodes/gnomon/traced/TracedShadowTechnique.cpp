@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/OptionalParts.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/group/FrameCasters.h>
@@ -53,6 +54,8 @@ std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFram
     }
     return {mark};
 }
+
+std::string TracedShadowTechnique::whyUnavailable() const { return whyMissing(OptionalPart::Traced); }
 
 unsigned TracedShadowTechnique::builds() const { return _casters->builds(); }
 

@@ -2,7 +2,11 @@
 #pragma once
 #include <gnomon/RayScene.h>
 
+#if GNOMON_EMBREE == 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -12,6 +16,12 @@
 #include <vector>
 
 namespace gnomon {
+
+#if GNOMON_EMBREE == 4
+using RayContext = RTCRayQueryContext;
+#else
+using RayContext = RTCIntersectContext;
+#endif
 
 [[noreturn]] void failInEmbree(const char* what, RTCError error);
 
@@ -40,7 +50,7 @@ struct RayScene::Embree {
         glm::dmat4 outerFromPart, partFromOuter; ///< from and to what the part's triangles are relative to.
     };
     /// What the filter knows of the ray that is cast.
-    struct Cast : RTCIntersectContext {
+    struct Cast : RayContext {
         Cast(const Ray& ray, const Embree& embree);
         LocalRay local;
         const Embree& outer;

@@ -58,6 +58,27 @@ double stepsAbove(float value, int steps) {
     return static_cast<double>(moved) - static_cast<double>(value);
 }
 
+// Embree 4 takes the context among further arguments.
+#if GNOMON_EMBREE == 4
+void init(RayContext& context) { rtcInitRayQueryContext(&context); }
+void intersect(RTCScene scene, RayContext& context, RTCRayHit& ray) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &context;
+    rtcIntersect1(scene, &ray, &arguments);
+}
+void occlude(RTCScene scene, RayContext& context, RTCRay& ray) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &context;
+    rtcOccluded1(scene, &ray, &arguments);
+}
+#else
+void init(RayContext& context) { rtcInitIntersectContext(&context); }
+void intersect(RTCScene scene, RayContext& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
+void occlude(RTCScene scene, RayContext& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
+#endif
+
 } // namespace
 
 [[noreturn]] void failInEmbree(const char* what, RTCError error) {
@@ -79,7 +100,7 @@ RayScene::Embree::Embree() : scene(rtcNewScene(embreeDevice())) {
 
 RayScene::Embree::Cast::Cast(const Ray& ray, const Embree& embree)
     : local{ray.start - embree.origin, ray.along, ray.reach, 0.0}, outer(embree) {
-    rtcInitIntersectContext(this);
+    init(*this);
     if (!std::isinf(ray.reach)) local.endSize = largestOf(local.start + ray.reach * ray.along);
 }
 
@@ -220,7 +241,7 @@ RayHit RayScene::closest(const Ray& given) const {
     query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     Embree::Cast how(given, *_embree);
     how.overEnd = true;
-    rtcIntersect1(_embree->scene, &how, &query);
+    intersect(_embree->scene, how, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return _embree->refined(how, query.hit);
 }
@@ -229,7 +250,7 @@ bool RayScene::blocked(const Ray& given) const {
     RTCRay query = _embree->ray(given);
     if (query.tfar < 0.0f) return false;
     Embree::Cast how(given, *_embree);
-    rtcOccluded1(_embree->scene, &how, &query);
+    occlude(_embree->scene, how, query);
     return query.tfar < 0.0f;
 }
 
