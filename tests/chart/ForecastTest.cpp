@@ -4,6 +4,9 @@
 
 #include "Forecasts.h"
 
+#include <support/Mesh.h>
+#include <support/Picture.h>
+
 #include <gtest/gtest.h>
 
 using namespace gnomon::examples;
@@ -51,20 +54,31 @@ TEST(Forecasts, AreForAllSettingsThatAutoMightTake) {
                              "volume", "volume:composite=blend", "traced"}) {
         const auto prediction = expectedOf(spec);
         ASSERT_TRUE(prediction) << spec;
-        EXPECT_GT(prediction->error, 0.0) << spec;
+        EXPECT_GT(prediction->error.value(), 0.0) << spec;
         EXPECT_GT(prediction->steady.time, 0.0) << spec;
         EXPECT_GE(prediction->moving.time, prediction->steady.time) << spec;
         EXPECT_EQ(prediction->spec, prediction->moving.spec);
     }
-    EXPECT_TRUE(expectedOf("planar", Receives::FLAT));
+    EXPECT_TRUE(expectedOf("planar", Receives::FLAT)->error) << "nothing but the ground gets shadow";
     EXPECT_TRUE(expectedOf("hull", Receives::TERRAIN));
     for (const char* spec : {"map:edges=soft", "map:size=1536", "auto"}) EXPECT_FALSE(expectedOf(spec)) << spec;
     EXPECT_FALSE(expectedOf("box", Receives::TERRAIN));
     EXPECT_FALSE(expectedOf("hull")) << "no terrain receives alone";
 }
 
+TEST(Forecasts, ExpectNoErrorOfOneReceiverWhereOthersGetShadowToo) {
+    ChartScene scene = test::smallScene();
+    scene.content->addChild(test::node(test::box({-0.5, -0.5, 0.0}, {0.5, 0.5, 0.5}))); // in the house's shadow
+    Forecasts forecasts(scene);
+    const auto planar = forecasts.of(gnomonContender("planar", Receives::FLAT));
+    ASSERT_TRUE(planar);
+    EXPECT_FALSE(planar->error);
+    EXPECT_GT(planar->steady.time, 0.0);
+    EXPECT_TRUE(forecasts.of(gnomonContender("volume", Receives::EVERYTHING))->error);
+}
+
 TEST(Forecasts, KnowWhatIsCoarserAndWhatIsCheaper) {
-    EXPECT_GT(expectedOf("map:size=512")->error, expectedOf("map:size=2048")->error);
-    EXPECT_LT(expectedOf("map:size=512")->moving.time, expectedOf("map:size=2048")->moving.time);
+    EXPECT_GT(expectedOf("map:filter=nearest")->error.value(), expectedOf("map:edges=smooth")->error.value());
+    EXPECT_LT(expectedOf("map:filter=nearest")->moving.time, expectedOf("map:edges=smooth")->moving.time);
     EXPECT_LT(expectedOf("volume:composite=blend")->steady.time, expectedOf("volume")->steady.time);
 }

@@ -92,7 +92,7 @@ TEST_F(Gnomonchart, PointsHaveWhatAutoPredictsBesideWhatWasMeasured) {
     for (const ChartPoint& point : results("o").points) {
         techniques.insert(point.technique);
         ASSERT_TRUE(point.prediction && point.cost && point.errors) << point.setting << ": " << point.failure;
-        EXPECT_GT(point.prediction->error, 0.0);
+        EXPECT_GT(point.prediction->error.value(), 0.0);
         EXPECT_GT(point.prediction->steady.time, 0.0);
         EXPECT_GT(point.prediction->moving.time, 0.0);
         for (const std::string& spec :

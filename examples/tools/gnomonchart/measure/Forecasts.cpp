@@ -51,6 +51,12 @@ const std::vector<ShadowCandidate>& Forecasts::candidates(const Way& way) {
     return known->second;
 }
 
+/// Where planar could draw all of the shadow.
+bool Forecasts::isAllOnPlanes(bool blends) {
+    const ShadowCandidate* planar = candidateOf(candidates({blends, Receives::EVERYTHING}), parseShadowSpec("planar"));
+    return planar && planar->obstacle.empty();
+}
+
 std::optional<ChartPrediction> Forecasts::of(const Contender& contender) {
     const std::string* text = specOf(contender);
     if (!text) return std::nullopt;
@@ -58,7 +64,9 @@ std::optional<ChartPrediction> Forecasts::of(const Contender& contender) {
     const bool blends = spec.composite == ShadowCasterGroup::BLEND;
     const ShadowCandidate* found = candidateOf(candidates({blends, contender.receives}), spec);
     if (!found || !found->obstacle.empty()) return std::nullopt;
-    return ChartPrediction{found->spec, found->error, {found->spec, found->flying}, {found->spec, found->moving}};
+    ChartPrediction result{found->spec, std::nullopt, {found->spec, found->flying}, {found->spec, found->moving}};
+    if (contender.receives == Receives::EVERYTHING || isAllOnPlanes(blends)) result.error = found->error;
+    return result;
 }
 
 } // namespace gnomon::examples

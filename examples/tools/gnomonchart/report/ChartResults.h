@@ -36,8 +36,9 @@ struct PredictedTime {
 
 /// What auto's model expects of a point: for a point of auto what it chose, for a fixed setting the candidate that is it.
 struct ChartPrediction {
-    std::string spec;             ///< of the still picture.
-    double error = 0.0;           ///< px, 95th percentile, of the still picture.
+    std::string spec; ///< of the still picture.
+    std::optional<double>
+        error; ///< px, 95th percentile, of the still picture; none if other things may get shadow, too.
     PredictedTime steady, moving; ///< as ChartCost has them.
 };
 

@@ -34,9 +34,9 @@ struct Panel {
 Panel errorsOf(const ChartResults& results, const std::string& scene) {
     Panel panel{"errors", "Boundary error, 95th percentile", "px", leastShownError, errorFactor, {}};
     for (const ChartPoint& point : results.points) {
-        if (!point.prediction || !point.errors || !point.errors->boundary) continue;
+        if (!point.prediction || !point.prediction->error || !point.errors || !point.errors->boundary) continue;
         if (!scene.empty() && point.scene != scene) continue;
-        panel.pairs.push_back({&point, point.prediction->error, point.errors->boundary->p95, ""});
+        panel.pairs.push_back({&point, *point.prediction->error, point.errors->boundary->p95, ""});
     }
     return panel;
 }

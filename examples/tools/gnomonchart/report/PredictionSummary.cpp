@@ -43,9 +43,9 @@ double predictedTimeOf(const ChartPrediction& prediction, LightMotion light) {
 
 void addPoint(PredictionShare& share, const ChartPoint& point) {
     if (!point.prediction || !point.failure.empty()) return;
-    if (point.errors && (point.errors->boundary || point.catastrophic())) {
+    if (point.prediction->error && point.errors && (point.errors->boundary || point.catastrophic())) {
         ++share.errors;
-        share.errorsHeld += isWithin(point.prediction->error, errorOf(point), errorFactor) ? 1 : 0;
+        share.errorsHeld += isWithin(*point.prediction->error, errorOf(point), errorFactor) ? 1 : 0;
     }
     if (!point.cost) return;
     for (const LightMotion light : motions) {
