@@ -19,7 +19,7 @@ class AutoChooser;
 ///     group->addChild(shadow);
 ///
 /// Candidates
-/// - No shadow at all, if none could be seen.
+/// - No shadow at all, if none could be seen, or if RELIGHT would change no channel by 2/255.
 /// - PlanarShadowNode, if only flat receivers get shadow.
 /// - TerrainShadowGeode with HULL or DRAPE, if a terrain is named as receiver and does not shadow itself.
 /// - ShadowMapTechnique, with all sizes, numbers of cascades, filters, and hard or smooth edges.

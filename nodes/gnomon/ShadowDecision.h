@@ -13,8 +13,9 @@ struct ShadowCandidate {
     double error = 0.0; ///< Predicted error of the shadow's edge: 95th percentile, pixels.
     /// Predicted time that it adds to a frame, milliseconds of processor time, as the scene moves now.
     double time = 0.0;
-    double still = 0.0;   ///< The same of a frame in which neither the light nor a caster moves.
-    double moving = 0.0;  ///< The same of a frame in which one of them moves.
+    double still = 0.0;   ///< The same of a frame in which nothing moves.
+    double flying = 0.0;  ///< The same of a frame in which the view moves alone, over many frames.
+    double moving = 0.0;  ///< The same of a frame in which the light or a caster moves.
     std::string obstacle; ///< Why it cannot be used here. Empty if it can.
 };
 
@@ -27,8 +28,8 @@ struct GNOMON_EXPORT ShadowDecision {
     /// Milliseconds that the shadows of all lights of the view took in the frame that was measured last. 0 before, and if
     /// nothing is measured.
     double measured = 0.0;
-    unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.
-    unsigned changes = 0;    ///< How often another candidate was chosen since the first.
+    unsigned decisions = 0; ///< How often the candidates have been compared so far, for this light and view.
+    unsigned changes = 0;   ///< How often another candidate was chosen since the first.
     std::vector<ShadowCandidate> candidates; ///< All candidates, the usable ones first, by their times.
 
     /// In a line: "light 0: volume, predicted 0.5 px and 1.2 ms; the cheapest that keeps 1 px".

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <set>
 
 namespace {
 
@@ -78,6 +79,28 @@ TEST_F(Gnomonchart, AFileOfOnesOwnGetsItsNumbersAndPictures) {
     }
     EXPECT_TRUE(fs::exists(folder.path() / "o" / "results.csv"));
     EXPECT_NE(readFile(folder.path() / "o" / "index.html").find("lab8"), std::string::npos);
+}
+
+TEST_F(Gnomonchart, PointsHaveWhatAutoPredictsBesideWhatWasMeasured) {
+    Arguments both = small("o", "auto");
+    both.insert(both.end(), {"--technique", "volume"});
+    const Ending ending = run(both);
+    ASSERT_EQ(ending.status, 0) << ending.err;
+    EXPECT_NE(ending.out.find("predicted errors are within a factor of 1.5."), std::string::npos) << ending.out;
+    EXPECT_NE(ending.out.find("auto keeps "), std::string::npos) << ending.out;
+    std::set<std::string> techniques;
+    for (const ChartPoint& point : results("o").points) {
+        techniques.insert(point.technique);
+        ASSERT_TRUE(point.prediction && point.cost && point.errors) << point.setting << ": " << point.failure;
+        EXPECT_GT(point.prediction->error.value(), 0.0);
+        EXPECT_GT(point.prediction->steady.time, 0.0);
+        EXPECT_GT(point.prediction->moving.time, 0.0);
+        for (const std::string& spec :
+             {point.prediction->spec, point.prediction->steady.spec, point.prediction->moving.spec})
+            EXPECT_FALSE(spec.empty() || spec.rfind("auto", 0) == 0) << spec;
+    }
+    EXPECT_EQ(techniques, (std::set<std::string>{"auto", "volume"}));
+    EXPECT_TRUE(fs::exists(folder.path() / "o" / "predicted.svg"));
 }
 
 TEST_F(Gnomonchart, TwoRunsGiveTheSameErrorsToTheDigit) {
@@ -168,6 +191,8 @@ TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
     EXPECT_NE(refusal({"--scene", "moon"}).find("no scene is named \"moon\". Allowed: lab8-45"), std::string::npos);
     EXPECT_EQ(refusal({lab8, "--technique", "volumetric"}),
               "no technique's name contains \"volumetric\". See --list.\n");
+    EXPECT_EQ(refusal({lab8, "--technique", "map", "--technique", "volumetric"}),
+              "no technique's name contains \"volumetric\". See --list.\n");
     EXPECT_NE(refusal({"missing.obj"}).find("missing.obj"), std::string::npos);
     EXPECT_EQ(refusal({lab8, "--scene", "room"}), "--scene and files exclude each other. Give one of them.\n");
     EXPECT_NE(refusal({lab8, "--frames", "1"}).find("2 to 10000"), std::string::npos);
@@ -175,8 +200,9 @@ TEST_F(Gnomonchart, WhatCannotBeDoneIsSaidInOneSentence) {
     EXPECT_NE(refusal({"--stability", "Q9"}).find("no scene of the stability table is \"Q9\". Allowed: L1"),
               std::string::npos);
     EXPECT_NE(refusal({"--stability", "--scene", "room"}).find("--stability does not go with"), std::string::npos);
-    EXPECT_EQ(refusal({"--stability", "--frames", "9"}),
-              "--stability does not go with --frames. Allowed beside it: --technique, --out, --size, --quick, --again.\n");
+    EXPECT_EQ(
+        refusal({"--stability", "--frames", "9"}),
+        "--stability does not go with --frames. Allowed beside it: --technique, --out, --size, --quick, --again.\n");
     EXPECT_NE(refusal({"--stability", "--flicker", "9"}).find("does not go with --flicker"), std::string::npos);
     EXPECT_EQ(refusal({"--random", "5", "--size", "64x64"}),
               "--random does not go with --size. Allowed beside it: --seed, --technique.\n");

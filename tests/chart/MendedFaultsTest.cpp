@@ -17,7 +17,7 @@ StabilityRow measured(const std::string& scene, double value) {
     StabilityPlan plan;
     plan.scenes = stabilityScenes(std::vector<std::string>{scene});
     plan.scenes[0].values = {value};
-    plan.contenders = stabilityContenders("map", false);
+    plan.contenders = stabilityContenders({"map"}, false);
     plan.contenders.resize(1);
     return runStability(plan, [](std::size_t, const std::string&) { return true; }).rows.at(0);
 }

@@ -18,7 +18,7 @@ bool goOn(std::size_t, const std::string&) { return true; }
 
 /// Each seed has 3 or more of them, so that two cores do all in a minute.
 std::vector<StabilityContender> techniques(const std::set<std::string>& names) {
-    std::vector<StabilityContender> all = stabilityContenders("", false);
+    std::vector<StabilityContender> all = stabilityContenders({}, false);
     const auto isOther = [&](const StabilityContender& each) { return !names.count(each.contender.technique); };
     all.erase(std::remove_if(all.begin(), all.end(), isOther), all.end());
     return all;

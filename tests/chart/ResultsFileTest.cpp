@@ -74,6 +74,7 @@ ChartPoint fullPoint() {
     point.flickerEnergy = next.number();
     point.flickerShare = next.number();
     point.crawl = next.number();
+    point.prediction = {{"volume", next.number(), {"map", next.number()}, {"map:size=512", next.number()}}};
     point.picture = "pictures/a b.png";
     point.overlay = "pictures/ö.png";
     point.notes = {"GL_INVALID_ENUM in\n\"glEnable\"", "影"};
@@ -108,6 +109,9 @@ auto tied(const IntensityError& e) { return std::tie(e.all, e.penumbra); }
 auto tied(const ShadowMetrics& m) {
     return std::tie(m.agreeing, m.facing, m.certain, m.unmeasured, m.droppedShare, m.sound, m.catastrophes.notFinite,
                     m.catastrophes.allShadowed, m.catastrophes.allLit, m.catastrophes.lostShadow);
+}
+auto tied(const ChartPrediction& p) {
+    return std::tie(p.spec, p.error, p.steady.spec, p.steady.time, p.moving.spec, p.moving.time);
 }
 auto tied(const ChartPoint& p) {
     return std::tie(p.scene, p.kit, p.technique, p.setting, p.settings, p.shadedRmse, p.flickerEnergy, p.flickerShare,
@@ -179,7 +183,9 @@ TEST_F(ResultsFile, EveryFieldComesBackToTheBit) {
     EXPECT_EQ(tied(back.points[0]), tied(results.points[0]));
     expectSame(back.points[0].cost.value(), results.points[0].cost.value());
     expectSame(back.points[0].errors.value(), results.points[0].errors.value());
+    EXPECT_EQ(tied(back.points[0].prediction.value()), tied(results.points[0].prediction.value()));
     EXPECT_EQ(tied(back.points[1]), tied(results.points[1]));
+    EXPECT_FALSE(back.points[1].prediction);
 }
 
 TEST_F(ResultsFile, WhatDoesNotExistComesBackAsNothing) {
@@ -302,7 +308,10 @@ const std::vector<const char*> countedPlaces{"/cost/firstMs",
                                              "/shadedRmse",
                                              "/flickerEnergy",
                                              "/flickerShare",
-                                             "/crawlPixels"};
+                                             "/crawlPixels",
+                                             "/prediction/boundaryP95Pixels",
+                                             "/prediction/steadyProcessor/ms",
+                                             "/prediction/movingProcessor/ms"};
 
 TEST_F(ResultsFile, EveryNumberStandsUnderItsOwnName) { // one list serves both ways: two names swapped would come back
     saveResults(fullResults(), folder.path().string());
@@ -331,7 +340,10 @@ TEST_F(ResultsFile, TheCsvHasALineAPointWithNamesUnitsAndEveryNumber) {
     EXPECT_EQ(std::stod(row["boundary_p95_px"].get<std::string>()), results.points[0].errors->boundary->p95);
     EXPECT_EQ(row["acne_px"], std::to_string(results.points[0].errors->causes.acne));
     EXPECT_EQ(std::stod(row["flicker_share_percent"].get<std::string>()), 100.0 * *results.points[0].flickerShare);
-    EXPECT_EQ(row.size(), 10 + pointNumbers().size());
+    EXPECT_EQ(row["predicted_spec"], "volume");
+    EXPECT_EQ(row["predicted_moving_spec"], "map:size=512");
+    EXPECT_EQ(std::stod(row["predicted_boundary_p95_px"].get<std::string>()), results.points[0].prediction->error);
+    EXPECT_EQ(row.size(), 13 + pointNumbers().size());
     EXPECT_FALSE(row.contains("null")); // Python's name for what is beyond the header
     EXPECT_EQ(found[1]["failure"], "It crashed: signal 11.");
     EXPECT_EQ(found[1]["added_first_ms"], "");
@@ -353,7 +365,7 @@ TEST_F(ResultsFile, RefusesABrokenFileInOneSentence) {
     EXPECT_EQ(refusalOf(whole.substr(0, whole.size() / 2)), begin + "it is not a complete JSON file.");
     EXPECT_EQ(refusalOf(""), begin + "it is not a complete JSON file.");
     EXPECT_EQ(refusalOf("[]"), begin + "\"gnomonchart\" is missing.");
-    EXPECT_EQ(changed("\"gnomonchart\": 1", "\"gnomonchart\": 2"), begin + "its version is 2. Allowed: 1.");
+    EXPECT_EQ(changed("\"gnomonchart\": 2", "\"gnomonchart\": 1"), begin + "its version is 1. Allowed: 2.");
     EXPECT_EQ(changed("\"complete\": true", "\"complete\": 1"), begin + "\"complete\" is neither true nor false.");
     EXPECT_EQ(changed("\"triangles\": 3000000", "\"triangles\": -3"),
               begin + "scenes[0]: \"triangles\" is not a whole number of 0 or more.");

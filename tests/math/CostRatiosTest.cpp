@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -102,6 +103,27 @@ TEST(RatioFile, IsReadAsItWasWrittenAndSaysWhatItCannotRead) {
     EXPECT_NE(file.write(given).find("cannot be written"), std::string::npos);
     EXPECT_EQ(std::distance(fs::directory_iterator(file.path().parent_path()), {}), 1)
         << "nothing half-written is left";
+    fs::remove_all(folder);
+}
+
+TEST(RatioFile, ThatWasUsedLastIsKnownWithoutItsRenderer) {
+    const fs::path folder = fs::temp_directory_path() / ("gnomon-last-" + std::to_string(getpid()));
+    EXPECT_FALSE(gnomon::RatioFile::usedLast(folder)) << "there is none";
+    const gnomon::RatioFile first(folder, "a"), second(folder, "b"), broken(folder, "c");
+    CostRatios one, two;
+    one.call = 1.5;
+    two.call = 2.5;
+    for (const auto& [file, ratios] : {std::make_pair(&first, one), {&second, two}, {&broken, one}})
+        EXPECT_EQ(file->write(ratios), "");
+    std::ofstream(broken.path()) << "nonsense";
+    std::ofstream(folder / "notes.txt") << "gnomon cost ratios 1\nd\n" << CostRatios().text();
+    const auto now = fs::file_time_type::clock::now();
+    fs::last_write_time(first.path(), now - std::chrono::hours(2));
+    fs::last_write_time(second.path(), now - std::chrono::hours(1));
+    ASSERT_TRUE(gnomon::RatioFile::usedLast(folder));
+    EXPECT_EQ(gnomon::RatioFile::usedLast(folder)->call, 2.5);
+    first.touch();
+    EXPECT_EQ(gnomon::RatioFile::usedLast(folder)->call, 1.5);
     fs::remove_all(folder);
 }
 

@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 #include <osg/Notify>
 
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -73,6 +75,15 @@ protected:
             for (const auto& entry : fs::directory_iterator(cache / "gnomon")) files.push_back(entry.path());
         return files;
     }
+    /// Leaves what a file begins with: kind and renderer.
+    static void writeTenfold(const fs::path& file) {
+        std::ifstream in(file);
+        std::string head, renderer;
+        std::getline(in, head);
+        std::getline(in, renderer);
+        const gnomon::CostRatios ten{10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0};
+        std::ofstream(file) << head << "\n" << renderer << "\n" << ten.text();
+    }
     long sentences() const { return std::count(notes->text.begin(), notes->text.end(), '\n'); }
 
     const fs::path& cache = cacheOfAll();
@@ -116,6 +127,34 @@ TEST_F(AutoCosts, AreKeptInTheUsersCacheAndReadByTheNextProgram) {
     draw();
     EXPECT_DOUBLE_EQ(RendererCosts::latest()->call, 7.5 * gnomon::CostRates().call) << "read, not measured again";
     EXPECT_EQ(notes->text, "");
+}
+
+TEST_F(AutoCosts, OfAnEarlierProgramCountInTheFirstFrame) {
+    setenv("GNOMON_AUTO_RATES", "fixed", 1);
+    const double fixed = draw(1).chosen.still;
+    setenv("GNOMON_AUTO_RATES", "measured", 1);
+    draw();
+    ASSERT_EQ(kept().size(), 1u);
+    writeTenfold(kept().front());
+    EXPECT_NEAR(draw(1).chosen.still, 10.0 * fixed, 1e-6 * fixed);
+    EXPECT_EQ(draw(2).decisions, 1u) << "the renderer is the same, so that nothing is compared again";
+}
+
+TEST_F(AutoCosts, OfAnotherRendererGiveWayToItsOwnInTheSecondFrame) {
+    setenv("GNOMON_AUTO_RATES", "fixed", 1);
+    const double fixed = draw(1).chosen.still;
+    setenv("GNOMON_AUTO_RATES", "measured", 1);
+    draw();
+    ASSERT_EQ(kept().size(), 1u);
+    const fs::path other = kept().front().parent_path() / "costs-0.txt";
+    fs::rename(kept().front(), other);
+    writeTenfold(other);
+    EXPECT_NEAR(draw(1).chosen.still, 10.0 * fixed, 1e-6 * fixed);
+    fs::last_write_time(other, fs::file_time_type::clock::now() + std::chrono::hours(1));
+    const gnomon::ShadowDecision second = draw(2);
+    EXPECT_EQ(second.decisions, 2u);
+    EXPECT_GT(std::abs(second.chosen.still - 10.0 * fixed), 1e-3 * fixed) << "no two machines agree to a thousandth";
+    EXPECT_EQ(kept().size(), 2u);
 }
 
 TEST_F(AutoCosts, AreMeasuredAnewWhereTheCacheIsBroken) {
@@ -163,6 +202,24 @@ TEST_F(AutoCosts, FollowFramesThatTakeLongerThanPredicted) {
     volume.kind = gnomon::AutoCandidate::Kind::Volume;
     map.kind = gnomon::AutoCandidate::Kind::Map;
     volume.still = map.still = frame.work;
-    EXPECT_NEAR(volume.time(costs->now(), 0.0), 6.0, 1e-9);
-    EXPECT_NEAR(map.time(costs->now(), 0.0), 2.0, 1e-9) << "of one kind only";
+    EXPECT_NEAR(volume.time(costs->now(), {}), 6.0, 1e-9);
+    EXPECT_NEAR(map.time(costs->now(), {}), 2.0, 1e-9) << "of one kind only";
+}
+
+TEST(AutoCandidate, OfMapsAloneAMovingViewChangesWhatWasDrawn) {
+    gnomon::AutoCandidate volume, map;
+    volume.kind = gnomon::AutoCandidate::Kind::Volume;
+    map.kind = gnomon::AutoCandidate::Kind::Map;
+    for (gnomon::AutoCandidate* each : {&volume, &map}) {
+        each->still.calls = 2.0 / gnomon::CostRates().call; // 2 ms
+        each->change.calls = 10.0 / gnomon::CostRates().call;
+    }
+    const gnomon::ShadowCandidate sides = volume.judged({}, {0.5, 0.5}), texels = map.judged({}, {0.5, 0.5});
+    EXPECT_NEAR(sides.still, 2.0, 1e-9);
+    EXPECT_NEAR(sides.flying, 2.0, 1e-9) << "outlines are the light's and the casters'";
+    EXPECT_NEAR(sides.moving, 12.0, 1e-9);
+    EXPECT_NEAR(sides.time, 7.0, 1e-9);
+    EXPECT_GT(texels.flying, 3.0);
+    EXPECT_LT(texels.flying, 4.0) << "one frame in seven, about";
+    EXPECT_NEAR(texels.time, (texels.flying + texels.moving) / 2.0, 1e-9);
 }

@@ -7,6 +7,7 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
+#include <osg/Program>
 
 #include <algorithm>
 #include <optional>
@@ -164,6 +165,35 @@ TEST(Auto, DrawsNothingWhereNoShadowCanBeSeen) {
     EXPECT_EQ(tiny.chosen(), "none");
     EXPECT_NE(tiny.decision().reason.find("narrower than half a pixel"), std::string::npos);
     for (Trial* trial : {&bare, &away, &tiny}) EXPECT_EQ(trial->technique->diagnose(), std::vector<std::string>());
+}
+
+TEST(Auto, DrawsNothingWhereTheLightIsTooFaintToMissIt) {
+    Trial trial({cube});
+    osg::Light& light = *trial.scene.light->getLight();
+    const auto shines = [&](float diffuse, float specular) {
+        light.setDiffuse({diffuse, diffuse, 0.0f, 1.0f});
+        light.setSpecular({specular, specular, 0.0f, 1.0f});
+    };
+    shines(1.0f / 255.0f, 0.0f);
+    Camera camera(trial.scene.root, view());
+    const auto chosen = [&] {
+        camera.frame();
+        return trial.chosen();
+    };
+    EXPECT_EQ(chosen(), "none");
+    EXPECT_NE(trial.decision().reason.find("so faint that nobody could see its shadow"), std::string::npos);
+    EXPECT_EQ(trial.technique->diagnose(), std::vector<std::string>());
+    shines(1.0f / 255.0f, 1.5f / 255.0f);
+    EXPECT_EQ(chosen(), "planar") << "both together can be seen, at once though nothing moves";
+    shines(1.9f / 255.0f, 0.0f);
+    EXPECT_EQ(chosen(), "none");
+    trial.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    EXPECT_EQ(chosen(), "planar") << "a factor does not ask for the light";
+    trial.scene.group->setComposite(gnomon::ShadowCasterGroup::RELIGHT);
+    EXPECT_EQ(chosen(), "none");
+    trial.scene.content->getOrCreateStateSet()->setAttributeAndModes(new osg::Program, osg::StateAttribute::OVERRIDE |
+                                                                                           osg::StateAttribute::ON);
+    EXPECT_EQ(chosen(), "planar") << "a program may make much of little light";
 }
 
 TEST(Auto, ComparesTheCandidatesOfAStillSceneOnce) {

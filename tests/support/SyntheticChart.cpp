@@ -125,21 +125,14 @@ ChartPoint pointOf(const Scene& scene, const Technique& technique, int size, std
 /// Some fail, some are catastrophic, some lack numbers; one of osgShadow's wins.
 void spoil(ChartPoint& point) {
     if (point.technique == "ShadowTexture" && point.scene == "room") {
-        point = {point.scene,
-                 point.kit,
-                 point.technique,
-                 point.setting,
-                 point.settings,
-                 {},
-                 {},
-                 {},
-                 {},
-                 {},
-                 {},
-                 {},
-                 {},
-                 {},
-                 "It ended by signal 11 <b>at once</b>."};
+        ChartPoint failed;
+        failed.scene = point.scene;
+        failed.kit = point.kit;
+        failed.technique = point.technique;
+        failed.setting = point.setting;
+        failed.settings = point.settings;
+        failed.failure = "It ended by signal 11 <b>at once</b>.";
+        point = failed;
     } else if (point.technique == "ViewDependentShadowMap" && point.scene == "tree") {
         point.errors->catastrophes.lostShadow = true;
         point.notes = {"OpenGL said: \"invalid <enumerant>\"."};

@@ -23,7 +23,7 @@ void addChartOptions(Options& table, ChartOptions& into) {
     table.push_back({"--scene", "NAME", "built-in scene, see --list", "all, if no FILE is given",
                      [&into](Text t) { into.scenes.push_back(t); }, true});
     table.push_back({"--technique", "TEXT", "measure only techniques whose name contains this, see --list", "all",
-                     [&into](Text t) { into.technique = t; }});
+                     [&into](Text t) { into.techniques.push_back(t); }, true});
     table.push_back({"--out", "FOLDER", "folder for results and pictures; created if missing", "chart-out",
                      [&into](Text t) { into.out = t; }});
     table.push_back({"--quick", "",

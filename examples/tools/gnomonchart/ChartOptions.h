@@ -12,7 +12,7 @@ namespace gnomon::examples {
 struct ChartOptions {
     ViewOptions view;                         ///< files, and how they are seen; its size is that of all pictures.
     std::vector<std::string> scenes;          ///< names of built-in ones.
-    std::string technique;                    ///< part of a technique's name; empty: all.
+    std::vector<std::string> techniques;      ///< parts of techniques' names; none: all.
     std::string out = "chart-out";            ///< folder.
     std::string again;                        ///< folder of results to be drawn again; empty: measure.
     std::optional<int> frames;                ///< 60, or 12 with quick.

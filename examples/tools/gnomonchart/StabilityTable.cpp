@@ -31,7 +31,7 @@ StabilityPlan planOf(const ChartOptions& options) {
     StabilityPlan plan;
     plan.scenes = stabilityScenes(options.stabilityScenes);
     if (options.quick) std::transform(plan.scenes.begin(), plan.scenes.end(), plan.scenes.begin(), coarse);
-    plan.contenders = stabilityContenders(options.technique, !options.quick);
+    plan.contenders = stabilityContenders(options.techniques, !options.quick);
     plan.width = options.view.width;
     plan.height = options.view.height;
     plan.workers = std::max(1u, std::thread::hardware_concurrency());
@@ -88,7 +88,7 @@ bool searchRandom(const ChartOptions& options, const std::function<bool()>& stop
     RandomSearch search;
     search.first = options.seed;
     search.count = options.random.value_or(search.count);
-    search.contenders = stabilityContenders(options.technique, false);
+    search.contenders = stabilityContenders(options.techniques, false);
     const auto isRough = [](const StabilityContender& each) {
         return each.contender.kit != "Gnomon" || each.contender.technique == "box"; // box: shadows of bounding boxes
     };

@@ -3,9 +3,11 @@
 #include "ChartOptions.h"
 #include "ChartReport.h"
 #include "ChartRun.h"
+#include "Contender.h"
 #include "Findings.h"
 #include "Kept.h"
 #include "OutputFile.h"
+#include "PredictionSummary.h"
 #include "ResultsFile.h"
 #include "SceneFile.h"
 #include "StabilityScene.h"
@@ -77,7 +79,7 @@ void planBuiltIn(const ChartOptions& options, ChartPlan& plan) {
 ChartPlan planOf(const ChartOptions& options) {
     ChartPlan plan;
     options.view.files.empty() ? planBuiltIn(options, plan) : planFiles(options, plan);
-    plan.technique = options.technique;
+    plan.techniques = options.techniques;
     plan.folder = options.out;
     plan.frames = options.frameCount();
     if (options.quick) plan.seconds = quickSeconds;
@@ -101,7 +103,9 @@ void printWinners(const ChartResults& results) {
 }
 
 void printReport(const ChartResults& results, const std::string& folder) {
-    std::cout << findingsSummary(findings(results)) << "\nthe chart is " << folder << "/index.html\n";
+    std::cout << findingsSummary(findings(results)) << "\n";
+    for (const std::string& sentence : sentencesOf(predictionSummary(results))) std::cout << sentence << "\n";
+    std::cout << "the chart is " << folder << "/index.html\n";
 }
 
 int chart(const ChartOptions& options, const std::string& command) {

@@ -5,6 +5,8 @@
 namespace gnomon {
 namespace {
 
+constexpr double refits = 0.15; // share of the frames of a moving view in which a map is drawn again
+
 /// "NAME", or "NAME:key=value,key=value".
 class SpecText {
 public:
@@ -63,12 +65,14 @@ bool AutoCandidate::isSame(const AutoCandidate& other) const {
                                  map.cascades == other.map.cascades && map.edges == other.map.edges);
 }
 
-double AutoCandidate::time(const AutoCosts& costs, double moving) const {
-    return costs.factors[std::size_t(kind)] * (timeOf(still, costs.rates) + moving * timeOf(change, costs.rates));
+double AutoCandidate::time(const AutoCosts& costs, const AutoMotion& motion) const {
+    const double changes = motion.scene + (kind == Kind::Map ? refits * motion.view : 0.0);
+    return costs.factors[std::size_t(kind)] * (timeOf(still, costs.rates) + changes * timeOf(change, costs.rates));
 }
 
-ShadowCandidate AutoCandidate::judged(const AutoCosts& costs, double moving) const {
-    return {spec(), error, time(costs, moving), time(costs, 0.0), time(costs, 1.0), obstacle};
+ShadowCandidate AutoCandidate::judged(const AutoCosts& costs, const AutoMotion& motion) const {
+    return {spec(),  error, time(costs, motion), time(costs, {}), time(costs, {0.0, 1.0}), time(costs, {1.0, 0.0}),
+            obstacle};
 }
 
 } // namespace gnomon

@@ -16,6 +16,12 @@ namespace gnomon {
 
 struct AutoCosts;
 
+/// Shares of the frames in which things move.
+struct AutoMotion {
+    double scene = 0.0; ///< the light or a caster.
+    double view = 0.0;  ///< the view alone.
+};
+
 /// A way to draw a shadow, with what it is expected to come to.
 struct AutoCandidate {
     enum class Kind { Nothing, Planar, Terrain, Map, Volume, Traced };
@@ -33,9 +39,9 @@ struct AutoCandidate {
     std::string spec() const;
     /// True if it is drawn alike, wherever the planes are.
     bool isSame(const AutoCandidate& other) const;
-    /// Milliseconds a frame. @param moving  share of the frames in which the light or a caster moves, or a map is drawn again.
-    double time(const AutoCosts& costs, double moving) const;
-    ShadowCandidate judged(const AutoCosts& costs, double moving) const;
+    /// Milliseconds a frame, over many frames.
+    double time(const AutoCosts& costs, const AutoMotion& motion) const;
+    ShadowCandidate judged(const AutoCosts& costs, const AutoMotion& motion) const;
 };
 
 /// What work takes: by the renderer, and corrected for each kind of candidate.

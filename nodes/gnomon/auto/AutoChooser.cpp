@@ -16,7 +16,6 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 constexpr unsigned keptRounds = 60;    // choices of views that are gone are let go
 constexpr double memory = 0.9;         // of motion, from a frame to the next
-constexpr double refits = 0.15;        // share of the frames of a moving view in which a map is drawn again
 constexpr double atRest = 0.01;        // share of frames: 44 without motion after one with it
 constexpr unsigned leastPatience = 16; // frames between two decisions that nothing forces
 constexpr double mostPatience = 64.0;  // the same; the first decision takes long, for it knows nothing
@@ -61,14 +60,23 @@ std::string causeOf(ChoiceReason reason, const ChoiceBudget& budget, const Shado
     return {};
 }
 
-std::vector<ShadowCandidate> judgedOf(const std::vector<AutoCandidate>& all, const AutoCosts& costs, double moving) {
+std::vector<ShadowCandidate> judgedOf(const std::vector<AutoCandidate>& all, const AutoCosts& costs,
+                                      const AutoMotion& motion) {
     std::vector<ShadowCandidate> result;
-    for (const AutoCandidate& candidate : all) result.push_back(candidate.judged(costs, moving));
+    for (const AutoCandidate& candidate : all) result.push_back(candidate.judged(costs, motion));
     std::stable_sort(result.begin(), result.end(), [](const ShadowCandidate& a, const ShadowCandidate& b) {
         return std::make_pair(!a.obstacle.empty(), a.time) < std::make_pair(!b.obstacle.empty(), b.time);
     });
     return result;
 }
+
+/// A share of the recent frames, one frame later.
+double followed(double share, double now) {
+    const double next = memory * share + (1.0 - memory) * now;
+    return next < atRest ? 0.0 : next;
+}
+
+bool isMoving(const AutoMotion& motion) { return motion.scene > 0.0 || motion.view > 0.0; }
 
 } // namespace
 
@@ -81,9 +89,9 @@ bool AutoChooser::Seen::hasSameView(const Seen& other) const {
 }
 
 bool AutoChooser::Seen::asks(const Seen& other) const {
-    return pixels == other.pixels && composite == other.composite && dark == other.dark && receiver == other.receiver &&
-           error == other.error && time == other.time && light.inGroup.w() == other.light.inGroup.w() &&
-           casters->list.size() == other.casters->list.size();
+    return pixels == other.pixels && composite == other.composite && dark == other.dark && faint == other.faint &&
+           receiver == other.receiver && error == other.error && time == other.time &&
+           light.inGroup.w() == other.light.inGroup.w() && casters->list.size() == other.casters->list.size();
 }
 
 AutoChooser::Choice& AutoChooser::find(const AutoView& view) {
@@ -106,13 +114,14 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
     ++choice.frames;
     if (choice.decision.decisions == 0) return true;
     const bool same = now.isSame(choice.last);
-    choice.motion = !now.hasSameMotion(choice.last) ? 1.0 : now.hasSameView(choice.last) ? 0.0 : refits;
-    choice.moving = memory * choice.moving + (1.0 - memory) * choice.motion;
-    if (choice.moving < atRest) choice.moving = 0.0;
+    const bool moves = !now.hasSameMotion(choice.last), flies = !moves && !now.hasSameView(choice.last);
+    choice.motion = {moves ? 1.0 : 0.0, flies ? 1.0 : 0.0};
+    choice.moving = {followed(choice.moving.scene, choice.motion.scene),
+                     followed(choice.moving.view, choice.motion.view)};
     choice.last = now;
     if (!now.asks(choice.decided) || choice.learnt != _costs->generation()) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
-    const bool cameToRest = choice.moving == 0.0 && choice.movingThen > 0.0;
+    const bool cameToRest = !isMoving(choice.moving) && isMoving(choice.movingThen);
     return choice.frames >= choice.patience && (cameToRest || !now.isSame(choice.decided));
 }
 
@@ -168,6 +177,7 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                    fingerprintOf(view.frame.seen),
                    view.frame.group->getComposite(),
                    view.frame.dark,
+                   isFaint(view),
                    receiver,
                    options.error,
                    options.time};
@@ -180,10 +190,9 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
 bool AutoChooser::isMeasured(const Choice& choice) const {
     const unsigned since = choice.frames;
     const bool early = (since >= 3 && since <= 5) || (since <= 64 && since >= 8 && (since & (since - 1)) == 0);
-    const bool known =
-        choice.candidate.kind != AutoCandidate::Kind::Map || choice.motion == 0.0 || choice.motion == 1.0;
+    const bool known = choice.candidate.kind != AutoCandidate::Kind::Map || choice.motion.view == 0.0;
     return _costs->areMeasured() && choice.candidate.kind != AutoCandidate::Kind::Nothing && known &&
-           (early || (choice.moving > 0.0 && since % 64 == 0 && since > 0));
+           (early || (isMoving(choice.moving) && since % 64 == 0 && since > 0));
 }
 
 void AutoChooser::prepared(const void* stage, int light, double time) {
@@ -201,7 +210,7 @@ osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, bool alone) {
         if (!isMeasured(*choice) || (frame && frame->kind != choice->candidate.kind)) alone = false;
         if (!frame) frame = FrameCosts::Frame{choice->candidate.kind, {}, 0.0, choice->taken};
         frame->work += choice->candidate.still;
-        if (choice->motion == 1.0) frame->work += choice->candidate.change;
+        if (choice->motion.scene > 0.0) frame->work += choice->candidate.change;
         frame->prepared += choice->prepared;
     }
     if (!alone) frame.reset();

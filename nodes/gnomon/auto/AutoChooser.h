@@ -51,6 +51,7 @@ private:
         std::uint64_t leaves = 0;
         ShadowCasterGroup::Composite composite = ShadowCasterGroup::RELIGHT;
         float dark = 0.0f;
+        bool faint = false;
         Selection receiver;
         double error = 0.0, time = 0.0;
 
@@ -67,14 +68,14 @@ private:
         AutoCandidate candidate;
         ShadowDecision decision;
         unsigned lastRound = 0;
-        unsigned frames = 0;     ///< since the candidates were compared.
-        unsigned patience = 0;   ///< frames that have to pass before they are compared again, if nothing forces it.
-        double moving = 0.0;     ///< share of the recent frames in which maps had to be drawn again.
-        std::string cause;       ///< see Drawn.
-        double movingThen = 0.0; ///< when the candidates were compared.
-        unsigned learnt = 0;     ///< FrameCosts::generation() then.
-        double motion = 0.0;     ///< of this frame: share of a change that it takes.
-        double prepared = 0.0;   ///< milliseconds, of a frame that is measured.
+        unsigned frames = 0;   ///< since the candidates were compared.
+        unsigned patience = 0; ///< frames that have to pass before they are compared again, if nothing forces it.
+        AutoMotion moving;     ///< of the recent frames.
+        std::string cause;     ///< see Drawn.
+        AutoMotion movingThen; ///< when the candidates were compared.
+        unsigned learnt = 0;   ///< FrameCosts::generation() then.
+        AutoMotion motion;     ///< of this frame.
+        double prepared = 0.0; ///< milliseconds, of a frame that is measured.
         std::shared_ptr<std::atomic<double>> taken = std::make_shared<std::atomic<double>>(0.0);
     };
     Choice& find(const AutoView& view);

@@ -1,16 +1,44 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/AutoView.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/ResolvedState.h>
 
 #include <osg/Geometry>
+#include <osg/Material>
+
+#include <algorithm>
 
 namespace gnomon {
 namespace {
 
 constexpr double ofAShape = 200.0; // triangles: a ShapeDrawable's sphere has some hundred, its box 12
 
+bool isMoreThanWhite(const osg::Material& material) {
+    for (const osg::Material::Face face : {osg::Material::FRONT, osg::Material::BACK})
+        for (const osg::Vec4& color : {material.getDiffuse(face), material.getSpecular(face)})
+            if (std::max({color.r(), color.g(), color.b()}) > 1.0f) return true;
+    return false;
+}
+
+/// True if what is drawn so shows no more of a light than the light gives.
+bool isShadedByOpenGl(const osgUtil::StateGraph* graph) {
+    if (!isOn(graph, GL_LIGHTING) || resolvedAttribute(graph, osg::StateAttribute::PROGRAM)) return false;
+    const auto* material = resolved<osg::Material>(graph, osg::StateAttribute::MATERIAL);
+    return !material || !isMoreThanWhite(*material);
+}
+
 } // namespace
+
+bool isFaint(const AutoView& view) {
+    const auto found = view.frame.strengths.find(view.light.number);
+    if (view.frame.group->getComposite() != ShadowCasterGroup::RELIGHT || found == view.frame.strengths.end() ||
+        !(found->second < leastContrast))
+        return false;
+    return std::all_of(view.frame.seen.begin(), view.frame.seen.end(),
+                       [](const osgUtil::RenderLeaf* leaf) { return isShadedByOpenGl(leaf->_parent); });
+}
 
 std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
     Fingerprint value;

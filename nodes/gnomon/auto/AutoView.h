@@ -20,8 +20,14 @@ struct AutoView {
     glm::dvec4 towards;             ///< the light, group frame: w = 0 and length 1, or w = 1.
 };
 
+/// The least change of a channel that can be seen.
+constexpr double leastContrast = 2.0 / 255.0;
+
 /// Stands for the drawables that can receive, and where they are in the view.
 std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leaves);
+
+/// True if nobody could see that the receivers lose a light: it gives them less than two of 255 steps of any channel.
+bool isFaint(const AutoView& view);
 
 /// Why casters need a technique that knows their textures; empty if they do not.
 std::string whyCutOut(const CasterDrawables& casters);

@@ -19,7 +19,6 @@ namespace {
 using Map = ShadowMapOptions;
 using Kind = AutoCandidate::Kind;
 
-constexpr double leastContrast = 2.0 / 255.0;
 constexpr double leastShadow = 0.5; // pixels across
 
 struct MapQuality {
@@ -80,6 +79,7 @@ private:
         if (_view.frame.seen.empty()) return "no receiver is in sight";
         if (_one.maps == 0) return "no shadow can fall on what is in sight";
         if (_one.texels < leastShadow) return "the shadow is narrower than half a pixel";
+        if (isFaint(_view)) return "the light is so faint that nobody could see its shadow";
         if (blends() && _view.frame.dark >= 1.0f - float(leastContrast))
             return "the shadow would not be seen, as its factor is 1";
         return {};

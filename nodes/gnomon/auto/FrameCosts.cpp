@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/auto/FrameCosts.h>
-#include <gnomon/auto/RendererCosts.h>
 #include <gnomon/gl/DrawClock.h>
 
 #include <OpenThreads/ScopedLock>
@@ -12,16 +11,10 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 } // namespace
 
-FrameCosts::FrameCosts() : _measured(RendererCosts::areMeasured()) {
-    const std::optional<CostRates> known = _measured ? RendererCosts::latest() : std::nullopt;
-    if (!known) return;
-    _rates = *known;
-    _knowRenderer = true;
-}
-
-AutoCosts FrameCosts::now() const {
+AutoCosts FrameCosts::now() {
     Lock lock(_mutex);
-    AutoCosts result{_rates, {}};
+    if (!_rates) _rates = (_measured ? RendererCosts::expected() : std::nullopt).value_or(CostRates());
+    AutoCosts result{*_rates, {}};
     for (std::size_t i = 0; i < _corrections.size(); ++i) result.factors[i] = _corrections[i].factor();
     return result;
 }
@@ -30,16 +23,17 @@ void FrameCosts::learn(osg::RenderInfo& renderInfo) {
     if (_knowRenderer) return;
     const CostRates rates = RendererCosts::of(renderInfo);
     Lock lock(_mutex);
+    if (!(_rates == rates)) ++_generation;
     _rates = rates;
     _knowRenderer = true;
-    ++_generation;
 }
 
 void FrameCosts::add(const Frame& frame, double drawn) {
     const double taken = frame.prepared + drawn;
     *frame.taken = taken;
     Lock lock(_mutex);
-    if (_corrections[std::size_t(frame.kind)].add(taken, timeOf(frame.work, _rates))) ++_generation;
+    if (_corrections[std::size_t(frame.kind)].add(taken, timeOf(frame.work, _rates.value_or(CostRates()))))
+        ++_generation;
 }
 
 CostWatch::CostWatch(FrameCosts& costs, std::optional<FrameCosts::Frame> frame)

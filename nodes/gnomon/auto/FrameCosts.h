@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/auto/AutoCandidate.h>
+#include <gnomon/auto/RendererCosts.h>
 #include <gnomon/choice/CostCorrection.h>
 #include <gnomon/compositor/DrawWatch.h>
 
@@ -20,11 +21,12 @@ namespace gnomon {
 /// - Any number. Cull asks, draw tells.
 class FrameCosts : public osg::Referenced {
 public:
-    FrameCosts();
+    FrameCosts() = default;
 
     /// False if costs are fixed, see RendererCosts::areMeasured().
     bool areMeasured() const { return _measured; }
-    AutoCosts now() const;
+    /// The first call may read the user's cache: in the first frame's cull, no renderer can be asked.
+    AutoCosts now();
     /// Rises whenever now() changes.
     unsigned generation() const { return _generation; }
     /// False before the renderer's costs are known.
@@ -46,9 +48,9 @@ protected:
     ~FrameCosts() override = default;
 
 private:
-    const bool _measured;
-    mutable OpenThreads::Mutex _mutex;
-    CostRates _rates;
+    const bool _measured = RendererCosts::areMeasured();
+    OpenThreads::Mutex _mutex;
+    std::optional<CostRates> _rates; ///< nullopt before the first call of now() or learn().
     std::array<CostCorrection, AutoCosts::kinds> _corrections;
     std::atomic<unsigned> _generation{0};
     std::atomic<bool> _knowRenderer{false};

@@ -42,7 +42,10 @@ CostRates find(osg::RenderInfo& renderInfo, const std::optional<std::filesystem:
     if (file) {
         const RatioFile::Read kept = file->read();
         tell(kept.trouble);
-        if (kept.ratios) return kept.ratios->rates();
+        if (kept.ratios) {
+            file->touch();
+            return kept.ratios->rates();
+        }
     }
     const std::optional<CostRatios> measured = measureCosts(renderInfo);
     if (!measured) return {};
@@ -71,6 +74,13 @@ CostRates RendererCosts::of(osg::RenderInfo& renderInfo) {
 std::optional<CostRates> RendererCosts::latest() {
     Lock lock(known().mutex);
     return known().latest;
+}
+
+std::optional<CostRates> RendererCosts::expected() {
+    if (const std::optional<CostRates> now = latest()) return now;
+    const std::optional<std::filesystem::path> folder = userCache();
+    const std::optional<CostRatios> kept = folder ? RatioFile::usedLast(*folder) : std::nullopt;
+    return kept ? std::optional<CostRates>(kept->rates()) : std::nullopt;
 }
 
 void RendererCosts::forget() {

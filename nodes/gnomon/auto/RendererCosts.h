@@ -22,6 +22,8 @@ public:
     static CostRates of(osg::RenderInfo& renderInfo);
     /// Of the renderer that was asked for last. nullopt before.
     static std::optional<CostRates> latest();
+    /// The same before the first draw: of the renderer that another run used last, by the user's cache.
+    static std::optional<CostRates> expected();
     /// Forgets all, as a new run does. For tests.
     static void forget();
 };

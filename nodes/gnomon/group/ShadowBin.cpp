@@ -5,7 +5,6 @@
 #include <gnomon/group/EnclosingCasters.h>
 #include <gnomon/group/ShadowBin.h>
 #include <gnomon/group/ViewFrame.h>
-#include <gnomon/group/ViewLights.h>
 
 #include <OpenThreads/ScopedLock>
 #include <osg/Notify>
@@ -327,7 +326,7 @@ std::size_t ShadowBin::prepareOf(const EnlistedTechnique& entry, const StageLeav
     if (!hasCasters(entry, casters)) return 0;
     const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
     for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
-    prepare(entry, found.lights, casters, drawn);
+    prepare(entry, found, casters, drawn);
     return found.lights.size();
 }
 
@@ -353,8 +352,8 @@ void ShadowBin::sortAsAsked() {
         }
 }
 
-void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
-                        const FrameCasters& casters, const StageLeaves& drawn) {
+void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+                        const StageLeaves& drawn) {
     if (const std::string why = entry.technique->whyUnavailable(); !why.empty())
         return entry.technique->report(entry.frameNumber, "there is no shadow. " + why);
     const auto receiving = receivingOf(entry, drawn.early, *getStage());
@@ -365,11 +364,12 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
         return reportNoReceiver(entry, *getStage());
     if (lateOnes.empty()) reportNoDepth(entry, receiving);
     reportFog(entry, drawn);
-    reportEnclosers(entry, lights, casters.drawables(), receiving, *getStage());
+    reportEnclosers(entry, found.lights, casters.drawables(), receiving, *getStage());
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
+    view.strengths = found.strengths;
     view.options.filter = _options.filter; // as all who share this bin want it
     const auto add = [&](auto& to, const Leaves& those, std::optional<ScreenRect> within, bool alone, bool programs) {
-        for (ShadowJob& job : jobsFor({entry, lights, casters, view, those, within}, alone))
+        for (ShadowJob& job : jobsFor({entry, found.lights, casters, view, those, within}, alone))
             if (programs || !job.programMarks()) to.push_back(std::move(job));
     };
     int index = 0;

@@ -10,6 +10,7 @@
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/StageLeaves.h>
+#include <gnomon/group/ViewLights.h>
 
 #include <osgUtil/RenderBin>
 #include <osgUtil/RenderStage>
@@ -104,7 +105,7 @@ private:
     void prepareAll();
     std::size_t prepareOf(const EnlistedTechnique& entry, const StageLeaves& drawn, std::deque<FrameCasters>& known);
     void saveColorsIfBlended(const StageLeaves& drawn);
-    void prepare(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const FrameCasters& casters,
+    void prepare(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
                  const StageLeaves& drawn);
     void handOnLateJobs(osgUtil::RenderBin* last);
 

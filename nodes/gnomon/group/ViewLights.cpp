@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 
 namespace gnomon {
 namespace {
@@ -74,6 +75,30 @@ void addSetLights(const ShadowCasterGroup& group, const std::map<int, StageLight
     }
 }
 
+/// True if programs take the light from a uniform.
+bool hasUniform(const ShadowCasterGroup& group, int number) {
+    const auto& uniforms = group.getLightUniforms();
+    return std::any_of(uniforms.begin(), uniforms.end(),
+                       [number](const LightUniform& uniform) { return uniform.number == number; });
+}
+
+/// By OpenGL's own shading; programs may make more of a light. nullopt if it may grow near a lamp.
+std::optional<double> strengthOf(const osg::Light& light) {
+    if (light.getPosition().w() != 0.0f && light.getConstantAttenuation() < 1.0f) return std::nullopt;
+    double most = 0.0;
+    for (int channel = 0; channel < 3; ++channel)
+        most = std::max(most, double{light.getDiffuse()[channel]} + double{light.getSpecular()[channel]});
+    return most;
+}
+
+void addStrengths(const ShadowCasterGroup& group, const std::map<int, StageLight>& inStage, GroupLights& result) {
+    for (const ShadowLight& light : result.lights) {
+        const auto found = inStage.find(light.number);
+        if (found == inStage.end() || hasUniform(group, light.number)) continue;
+        if (const auto strength = strengthOf(*found->second.light)) result.strengths[light.number] = *strength;
+    }
+}
+
 bool isBlack(const osg::Vec4& color) { return color.r() == 0.0f && color.g() == 0.0f && color.b() == 0.0f; }
 
 /// RELIGHT takes away what a light gives. @return why nobody sees that; empty if somebody may.
@@ -82,12 +107,8 @@ std::string whyAllIsDark(const ShadowCasterGroup& group, const std::map<int, Sta
     if (group.getComposite() != ShadowCasterGroup::RELIGHT || lights.empty()) return "";
     const auto mayShine = [&](const ShadowLight& light) {
         const auto found = inStage.find(light.number);
-        const auto& uniforms = group.getLightUniforms();
-        const bool inPrograms = std::any_of(uniforms.begin(), uniforms.end(), [&](const LightUniform& uniform) {
-            return uniform.number == light.number;
-        });
-        return inPrograms || found == inStage.end() || !isBlack(found->second.light->getDiffuse()) ||
-               !isBlack(found->second.light->getSpecular());
+        return hasUniform(group, light.number) || found == inStage.end() ||
+               !isBlack(found->second.light->getDiffuse()) || !isBlack(found->second.light->getSpecular());
     };
     if (std::any_of(lights.begin(), lights.end(), mayShine)) return "";
     return "each light in this view is black, so there is no shadow to be seen. Give it a diffuse or specular colour.";
@@ -104,6 +125,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
     };
     if (!group.getLights().empty() || group.getNumLightSources() > 0) {
         addSetLights(group, inStage, groupFromEye, result);
+        addStrengths(group, inStage, result);
         addCause(whyAllIsDark(group, inStage, result.lights));
         return result;
     }
@@ -113,6 +135,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
             result.causes.push_back(notOpenGL(number));
         else if (isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(number)))
             result.lights.push_back(light.in(groupFromEye));
+    addStrengths(group, inStage, result);
     if (result.lights.empty() && (inStage.empty() || !leaves.empty())) // with nothing in sight, nobody can tell
         result.causes.push_back("no light is on in this view. Add an osg::LightSource and switch its mode on, or set a "
                                 "light with ShadowCasterGroup::addLight().");

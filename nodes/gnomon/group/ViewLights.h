@@ -6,6 +6,7 @@
 #include <osg/Matrixd>
 #include <osgUtil/RenderStage>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace gnomon {
 struct GroupLights {
     std::vector<ShadowLight> lights;
     std::vector<std::string> causes;
+    /// The most that each light can give to a channel of a colour, by its number. Lights of which that is not known are
+    /// missing.
+    std::map<int, double> strengths;
 };
 
 /// After the whole cull: the lights set on the group, or else those that are on in the stage (LightSources wherever

@@ -13,7 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kind = "gnomon cost ratios 1";
-constexpr std::uintmax_t mostBytes = 65536; // no file of ours is as long
+constexpr const char *begin = "costs-", *ending = ".txt"; // of a file's name
+constexpr std::uintmax_t mostBytes = 65536;               // no file of ours is as long
 
 /// FNV-1a: the same in every run.
 std::string hashOf(const std::string& text) {
@@ -36,6 +37,24 @@ std::optional<fs::path> absolutePath(const char* variable) {
     return fs::path(value);
 }
 
+/// Empty if it is no file of ours, or cannot be read.
+std::string textOf(const fs::path& path) {
+    std::error_code error;
+    const std::uintmax_t size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
+    if (error || size > mostBytes) return {};
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream all;
+    all << in.rdbuf();
+    return all.str();
+}
+
+/// In the text of a file of any renderer.
+std::optional<CostRatios> ratiosIn(const std::string& text) {
+    const std::size_t renderer = text.find('\n'), ratios = text.find('\n', renderer + 1);
+    if (text.substr(0, renderer) != kind || renderer == text.npos || ratios == text.npos) return std::nullopt;
+    return CostRatios::parse(text.substr(ratios + 1));
+}
+
 /// Another one for each process and thread, so that two that write do not meet.
 fs::path scratchFor(const fs::path& path) {
     std::ostringstream name;
@@ -54,23 +73,38 @@ std::optional<fs::path> userCache() {
 
 RatioFile::RatioFile(const fs::path& folder, const std::string& renderer)
     : _folder(folder),
-      _path(folder / ("costs-" + hashOf(renderer) + ".txt")),
+      _path(folder / (begin + hashOf(renderer) + ending)),
       _head(std::string(kind) + '\n' + oneLine(renderer) + '\n') {}
 
 RatioFile::Read RatioFile::read() const {
     std::error_code error;
     if (fs::status(_path, error).type() == fs::file_type::not_found) return {};
-    const std::string trouble =
-        "\"" + _path.string() +
-        "\" cannot be read as measured costs, so they are measured anew. Delete it if this comes again.";
-    const std::uintmax_t size = fs::is_regular_file(_path, error) ? fs::file_size(_path, error) : 0;
-    if (error || size == 0 || size > mostBytes) return {std::nullopt, trouble};
-    std::ifstream in(_path, std::ios::binary);
-    std::ostringstream all;
-    all << in.rdbuf();
-    const std::string text = all.str();
+    const std::string text = textOf(_path);
     const auto ratios = text.rfind(_head, 0) == 0 ? CostRatios::parse(text.substr(_head.size())) : std::nullopt;
-    return {ratios, ratios ? "" : trouble};
+    if (ratios) return {ratios, ""};
+    return {std::nullopt,
+            "\"" + _path.string() +
+                "\" cannot be read as measured costs, so they are measured anew. Delete it if this comes again."};
+}
+
+void RatioFile::touch() const {
+    std::error_code ignored; // of a folder that cannot be written, another file may stay the last
+    fs::last_write_time(_path, fs::file_time_type::clock::now(), ignored);
+}
+
+std::optional<CostRatios> RatioFile::usedLast(const fs::path& folder) {
+    std::optional<CostRatios> last;
+    fs::file_time_type when;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        const std::string name = entry->path().filename().string();
+        if (name.rfind(begin, 0) != 0 || entry->path().extension() != ending) continue;
+        std::error_code gone; // meanwhile
+        const fs::file_time_type used = entry->last_write_time(gone);
+        if (gone || (last && used <= when)) continue;
+        if (const auto ratios = ratiosIn(textOf(entry->path()))) last = ratios, when = used;
+    }
+    return last;
 }
 
 std::string RatioFile::write(const CostRatios& ratios) const {

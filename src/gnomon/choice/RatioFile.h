@@ -30,6 +30,11 @@ public:
     /// Takes the place of the file before, whole or not at all.
     /// @return one sentence if it cannot; else empty.
     std::string write(const CostRatios& ratios) const;
+    /// Makes it the file that was used last.
+    void touch() const;
+
+    /// Those in a folder that were used last, of whichever renderer. nullopt if no file there can be used.
+    static std::optional<CostRatios> usedLast(const std::filesystem::path& folder);
 
 private:
     const std::filesystem::path _folder, _path;

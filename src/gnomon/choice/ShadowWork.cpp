@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/choice/ShadowWork.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace gnomon {
 namespace {
 
@@ -16,6 +19,11 @@ constexpr Kind kinds[] = {{&ShadowWork::calls, &CostRates::call},    {&ShadowWor
                           {&ShadowWork::objects, &CostRates::object}};
 
 } // namespace
+
+bool CostRates::operator==(const CostRates& other) const {
+    return std::all_of(std::begin(kinds), std::end(kinds),
+                       [&](const Kind& kind) { return this->*kind.rate == other.*kind.rate; });
+}
 
 ShadowWork& ShadowWork::operator+=(const ShadowWork& other) {
     for (const Kind& kind : kinds) this->*kind.count += other.*kind.count;

@@ -31,6 +31,8 @@ struct CostRates {
     double filled = 6e-6;
     double ray = 2e-4;
     double object = 2.5e-4;
+
+    bool operator==(const CostRates& other) const;
 };
 
 /// Milliseconds.

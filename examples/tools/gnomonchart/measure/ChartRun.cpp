@@ -4,6 +4,7 @@
 #include "Contender.h"
 #include "Errors.h"
 #include "FlickerRun.h"
+#include "Forecasts.h"
 #include "Machine.h"
 #include "OutputFile.h"
 #include "Overlay.h"
@@ -18,7 +19,6 @@
 #include <exception>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
@@ -32,18 +32,16 @@ struct Entry {
     const Peer* peer = nullptr;
 };
 
-bool isAsked(const std::string& technique, const std::string& part) { return technique.find(part) != technique.npos; }
-
-std::vector<Entry> entries(const std::string& part) {
+std::vector<Entry> entries(const std::vector<std::string>& parts) {
+    requireKnown(parts);
     std::vector<Entry> result;
     for (const Contender& contender : gnomonContenders())
-        if (isAsked(contender.technique, part)) result.push_back({contender});
+        if (isAsked(contender.technique, parts)) result.push_back({contender});
     for (const Peer& peer : peers()) {
-        if (!isAsked(peer.name, part)) continue;
+        if (!isAsked(peer.name, parts)) continue;
         result.push_back({peerContender(peer, "defaults", {})});
         if (!peer.knobs.empty()) result.push_back({peerContender(peer, "best", {}), &peer});
     }
-    if (result.empty()) throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
     return result;
 }
 
@@ -68,7 +66,7 @@ public:
         : _plan(plan),
           _save(save),
           _stops(stops),
-          _entries(entries(plan.technique)),
+          _entries(entries(plan.techniques)),
           _scenes(scenesLeft(plan)),
           _progress(sceneWork() * double(_scenes.size())) {
         _results = plan.kept;
@@ -135,6 +133,7 @@ private:
         _done += truthWork;
         makeFilms(yardstick);
         _field = {_results.points.size(), {}, {}};
+        _forecasts.emplace(yardstick.scene());
         for (const Entry& entry : _entries) {
             if (_stops()) return;
             measureContender(entry, yardstick);
@@ -142,6 +141,7 @@ private:
             _save(_results);
         }
         _films.clear();
+        _forecasts.reset();
         raceAll(yardstick.scene());
     }
 
@@ -215,12 +215,20 @@ private:
         Sight sight(contender, yardstick.scene());
         const metrics::Visibility visibility = sight.visibility();
         point.notes = sight.diagnosis();
+        point.prediction = _forecasts->of(contender);
+        if (!sight.decisions().empty()) point.prediction = predictionOf(sight.decisions().front());
         point.errors = metrics::shadowMetrics(visibility, yardstick.maps(), yardstick.limits());
         write(*errorOverlay(visibility.value, yardstick.maps()), point.overlay = base + "-errors.png");
         const ShadedPicture shaded = shadedPicture(contender, yardstick.scene());
         point.shadedRmse = metrics::shadedError(shaded, yardstick.shaded(), yardstick.agreeing());
         write(*bytesOf(shaded), point.picture = base + ".png");
         measureFlicker(sight, point);
+    }
+
+    /// What auto expects of its choice. The race has its own for the times.
+    static ChartPrediction predictionOf(const ShadowDecision& decision) {
+        const ShadowCandidate& chosen = decision.chosen;
+        return {chosen.spec, chosen.error, {chosen.spec, chosen.flying}, {chosen.spec, chosen.moving}};
     }
 
     /// Of the two films the worse.
@@ -253,6 +261,8 @@ private:
     static void setCost(const RaceResult& result, ChartPoint& point) {
         point.cost = result.cost;
         if (point.failure.empty()) point.failure = result.failure;
+        if (point.prediction && result.steady) point.prediction->steady = *result.steady;
+        if (point.prediction && result.moving) point.prediction->moving = *result.moving;
     }
 
     void write(const osg::Image& image, const std::string& file) const {
@@ -276,7 +286,8 @@ private:
     ProgressLine _progress;
     double _done = 0.0;
     Field _field;
-    std::vector<Film> _films; ///< of the scene that is being measured.
+    std::optional<Forecasts> _forecasts; ///< of the scene that is being measured.
+    std::vector<Film> _films;            ///< of the scene that is being measured.
     ChartResults _results;
 };
 
@@ -285,14 +296,6 @@ private:
 ChartResults runChart(const ChartPlan& plan, const std::function<void(const ChartResults&)>& save,
                       const std::function<bool()>& stops) {
     return Run(plan, save, stops).run();
-}
-
-std::vector<std::string> chartTechniques() {
-    std::vector<std::string> names;
-    for (const Contender& contender : gnomonContenders())
-        if (names.empty() || names.back() != contender.technique) names.push_back(contender.technique);
-    for (const Peer& peer : peers()) names.push_back(peer.name);
-    return names;
 }
 
 } // namespace gnomon::examples

@@ -14,7 +14,7 @@ namespace gnomon::examples {
 struct ChartPlan {
     std::vector<std::string> scenes;                          ///< by name.
     std::function<ChartScene(const std::string& name)> scene; ///< makes one of them.
-    std::string technique;                                    ///< part of the names of those to measure; empty: all.
+    std::vector<std::string> techniques;                      ///< parts of the names of those to measure; none: all.
     std::string folder;                                       ///< for pictures; is there.
     double seconds = 1e9;   ///< no scene is begun that would not be done by then; the first always is.
     int frames = 60;        ///< timed, of each motion.
@@ -31,11 +31,8 @@ struct ChartPlan {
 /// @param save   called after each point with all there is so far.
 /// @param stops  asked often: true ends the run soon, and what it has stays.
 /// @return the results, complete unless stopped.
-/// @throws std::invalid_argument if no technique has `technique` in its name.
+/// @throws std::invalid_argument if one of `techniques` is in no technique's name.
 ChartResults runChart(const ChartPlan& plan, const std::function<void(const ChartResults&)>& save,
                       const std::function<bool()>& stops);
-
-/// Names of all techniques that are measured.
-std::vector<std::string> chartTechniques();
 
 } // namespace gnomon::examples

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "Contender.h"
+#include "../report/ChartResults.h"
 #include "GnomonStaging.h"
 #include "PeerStaging.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -67,24 +69,15 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"traced", "blend", "traced:composite=blend", Receives::EVERYTHING},
 };
 
-ShadowSpec specFor(const GnomonPoint& point, const ChartScene& scene) {
-    ShadowSpec spec = parseShadowSpec(point.spec);
-    if (point.receives == Receives::EVERYTHING) return spec;
-    const bool flat = point.receives == Receives::FLAT;
+ShadowSpec specFor(const std::string& text, Receives receives, const ChartScene& scene) {
+    ShadowSpec spec = parseShadowSpec(text);
+    if (receives == Receives::EVERYTHING) return spec;
+    const bool flat = receives == Receives::FLAT;
     spec.receiver = flat ? scene.receiver : scene.terrain;
     if (spec.receiver.empty())
         throw std::invalid_argument(spec.technique + " needs a " + (flat ? "flat receiver" : "terrain") +
                                     ", but the scene names none.");
     return spec;
-}
-
-Contender gnomonContender(const GnomonPoint& point) {
-    Contender result{"Gnomon", point.technique, point.setting, {{"--shadow", point.spec}}, {}};
-    result.receives = point.receives;
-    result.stage = [point](const ChartScene& scene, Look look) {
-        return std::make_unique<GnomonStaging>(specFor(point, scene), scene, look);
-    };
-    return result;
 }
 
 } // namespace
@@ -97,8 +90,41 @@ Contender plainContender() {
 
 std::vector<Contender> gnomonContenders() {
     std::vector<Contender> result;
-    for (const GnomonPoint& point : gnomonPoints) result.push_back(gnomonContender(point));
+    for (const GnomonPoint& point : gnomonPoints) {
+        result.push_back(gnomonContender(point.spec, point.receives));
+        result.back().technique = point.technique;
+        result.back().setting = point.setting;
+    }
     return result;
+}
+
+Contender gnomonContender(const std::string& spec, Receives receives) {
+    Contender result{ourKit, "", "", {{"--shadow", spec}}, {}};
+    result.receives = receives;
+    result.stage = [spec, receives](const ChartScene& scene, Look look) {
+        return std::make_unique<GnomonStaging>(specFor(spec, receives, scene), scene, look);
+    };
+    return result;
+}
+
+std::vector<std::string> chartTechniques() {
+    std::vector<std::string> names;
+    for (const GnomonPoint& point : gnomonPoints)
+        if (names.empty() || names.back() != point.technique) names.emplace_back(point.technique);
+    for (const Peer& peer : peers()) names.push_back(peer.name);
+    return names;
+}
+
+bool isAsked(const std::string& technique, const std::vector<std::string>& parts) {
+    const auto isIn = [&](const std::string& part) { return technique.find(part) != std::string::npos; };
+    return parts.empty() || std::any_of(parts.begin(), parts.end(), isIn);
+}
+
+void requireKnown(const std::vector<std::string>& parts) {
+    const std::vector<std::string> names = chartTechniques();
+    for (const std::string& part : parts)
+        if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return isAsked(name, {part}); }))
+            throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
 }
 
 Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings) {

@@ -31,6 +31,17 @@ Contender plainContender();
 /// Gnomon's techniques, each over its quality knob. A new one is a line of the table in Contender.cpp.
 std::vector<Contender> gnomonContenders();
 
+/// Gnomon's technique of a specification, at a point that is on no chart.
+/// @param spec  see gnomon::ShadowSpec; without receiver.
+Contender gnomonContender(const std::string& spec, Receives receives);
+
+/// Names of all techniques that are measured.
+std::vector<std::string> chartTechniques();
+/// Whether a technique's name holds one of these parts; without parts, every technique is asked for.
+bool isAsked(const std::string& technique, const std::vector<std::string>& parts);
+/// @throws std::invalid_argument, one sentence, if a part is in no technique's name.
+void requireKnown(const std::vector<std::string>& parts);
+
 /// A peer at these settings. `setting` names the point.
 Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings);
 

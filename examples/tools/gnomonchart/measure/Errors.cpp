@@ -16,6 +16,7 @@ metrics::Picture Sight::frame() {
 metrics::Visibility Sight::visibility() {
     const metrics::Picture casting = frame();
     _diagnosis = _viewer.staging().diagnose();
+    _decisions = _viewer.staging().decisions();
     _viewer.staging().setCasting(false);
     const metrics::Picture notCasting = frame();
     _viewer.staging().setCasting(true);

@@ -22,12 +22,15 @@ public:
     metrics::Visibility visibility();
     /// Why shadows were missing in the last visibility.
     const std::vector<std::string>& diagnosis() const { return _diagnosis; }
+    /// How its shadow was chosen, see Staging::decisions().
+    const std::vector<ShadowDecision>& decisions() const { return _decisions; }
 
 private:
     metrics::Picture frame();
 
     StageViewer _viewer;
     std::vector<std::string> _diagnosis;
+    std::vector<ShadowDecision> _decisions;
 };
 
 /// The contender's picture as a user sees it.

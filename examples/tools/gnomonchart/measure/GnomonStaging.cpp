@@ -27,4 +27,6 @@ void GnomonStaging::setCasting(bool casts) {
 
 std::vector<std::string> GnomonStaging::diagnose() const { return diagnoses(_techniques); }
 
+std::vector<ShadowDecision> GnomonStaging::decisions() const { return _techniques.front()->lastDecision(); }
+
 } // namespace gnomon::examples

@@ -14,6 +14,7 @@ public:
     void setLight(const osg::Vec4d& light) override;
     void setCasting(bool casts) override;
     std::vector<std::string> diagnose() const override;
+    std::vector<ShadowDecision> decisions() const override;
 
 private:
     osg::ref_ptr<ShadowCasterGroup> _group;

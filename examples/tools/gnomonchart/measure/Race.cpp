@@ -76,6 +76,15 @@ struct Runner {
     std::size_t draws = 0, primitives = 0;
     unsigned passes = 0;
     std::string failure;
+    std::optional<PredictedTime> expectedSteady, expectedMoving;
+
+    /// @param time  of the motion that was drawn.
+    std::optional<PredictedTime> expected(double ShadowCandidate::*time) const {
+        const std::vector<ShadowDecision> decisions = viewer->staging().decisions();
+        if (decisions.empty()) return std::nullopt;
+        const ShadowCandidate& chosen = decisions.front().chosen;
+        return PredictedTime{chosen.spec, chosen.*time};
+    }
 
     void start(const Contender& contender, const ChartScene& scene, const ShaderCache& shaders) {
         shaders.empty();
@@ -139,6 +148,7 @@ private:
             runner.viewer->setCamera(camera);
             const FrameTime time = runner.viewer->time();
             if (round >= warmUp) runner.steady.add(time);
+            runner.expectedSteady = runner.expected(&ShadowCandidate::flying);
         });
     }
 
@@ -149,6 +159,7 @@ private:
             runner.viewer->staging().setLight(light);
             const FrameTime time = runner.viewer->time();
             if (round >= warmUp) runner.moving.add(time);
+            runner.expectedMoving = runner.expected(&ShadowCandidate::moving);
         });
     }
 
@@ -170,7 +181,7 @@ private:
     }
 
     static RaceResult resultOf(const Runner& runner, const Runner& plain) {
-        if (!runner.failure.empty()) return {std::nullopt, runner.failure};
+        if (!runner.failure.empty()) return {std::nullopt, runner.failure, {}, {}};
         if (runner.steady.wall.empty() || runner.moving.wall.empty()) return {};
         ChartCost cost;
         cost.first = runner.first - plain.first;
@@ -182,7 +193,7 @@ private:
         cost.draws = static_cast<unsigned>(runner.draws);
         cost.passes = runner.passes;
         cost.triangles = runner.primitives;
-        return {cost, ""};
+        return {cost, "", runner.expectedSteady, runner.expectedMoving};
     }
 
     const ChartScene& _scene;

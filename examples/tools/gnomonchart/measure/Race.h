@@ -14,6 +14,8 @@ namespace gnomon::examples {
 struct RaceResult {
     std::optional<ChartCost> cost; ///< none if it could not be staged or drawn, or the race was stopped at once.
     std::string failure;           ///< then why.
+    /// Of a contender that chooses: what it expected of its choice in the last frame of either motion.
+    std::optional<PredictedTime> steady, moving;
 };
 
 struct RaceResults {

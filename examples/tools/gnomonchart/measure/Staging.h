@@ -2,6 +2,8 @@
 #pragma once
 #include "../scenes/ChartScene.h"
 
+#include <gnomon/ShadowDecision.h>
+
 #include <osg/Light>
 #include <osg/MatrixTransform>
 
@@ -39,6 +41,8 @@ public:
     virtual void setCasting(bool casts) = 0;
     /// Why shadows were missing in the last frame, where the contender can say it.
     virtual std::vector<std::string> diagnose() const { return {}; }
+    /// How each light's shadow was chosen in the last frame, where a technique chooses.
+    virtual std::vector<ShadowDecision> decisions() const { return {}; }
 
 protected:
     /// Makes the root with its light, and the content for this look: the scene's own, or a white copy.

@@ -28,6 +28,20 @@ struct ChartCost {
     std::size_t triangles = 0; ///< handed to OpenGL in it.
 };
 
+/// A time that auto's model expects, and of which technique.
+struct PredictedTime {
+    std::string spec;  ///< without composite and receiver; of a fixed setting its own.
+    double time = 0.0; ///< ms of processor time that shadows add to a frame.
+};
+
+/// What auto's model expects of a point: for a point of auto what it chose, for a fixed setting the candidate that is it.
+struct ChartPrediction {
+    std::string spec; ///< of the still picture.
+    std::optional<double>
+        error; ///< px, 95th percentile, of the still picture; none if other things may get shadow, too.
+    PredictedTime steady, moving; ///< as ChartCost has them.
+};
+
 /// One technique at one setting in one scene.
 struct ChartPoint {
     std::string scene;     ///< ChartScene::name.
@@ -37,7 +51,8 @@ struct ChartPoint {
     std::vector<std::pair<std::string, std::string>> settings; ///< all that differ from the technique's own defaults.
     std::optional<ChartCost> cost;
     std::optional<metrics::ShadowMetrics> errors;
-    std::optional<double> shadedRmse; ///< of the shaded picture against the traced one, linear, 0 to 1.
+    std::optional<ChartPrediction> prediction; ///< none if auto has no such candidate, or holds it for wrong here.
+    std::optional<double> shadedRmse;          ///< of the shaded picture against the traced one, linear, 0 to 1.
     std::optional<double> flickerEnergy, flickerShare, crawl; ///< see metrics::FlickerMeter.
     std::string picture, overlay;   ///< PNG files, relative to the results' folder; may be empty.
     std::vector<std::string> notes; ///< diagnosis, complaints of OpenGL.

@@ -3,9 +3,11 @@
 
 #include "FigureSvg.h"
 #include "Findings.h"
+#include "GnuplotText.h"
 #include "InputFile.h"
 #include "PageData.h"
 #include "PageParts.h"
+#include "PredictionSummary.h"
 #include "TextTemplate.h"
 
 #include <gnomon_page.h>
@@ -68,6 +70,33 @@ std::string findingsHtml(const ChartResults& results) {
     return element("p", summary, "class=\"summary\"") + element("details", element("summary", "Scene by scene") + html);
 }
 
+std::string outcomeHtml(const AutoOutcome& outcome) {
+    const std::string ratio = outcome.ratio ? shortNumber(*outcome.ratio) : "";
+    std::string cells;
+    for (const std::string& text :
+         {outcome.scene, outcome.setting, std::string(outcome.light == LightMotion::Still ? "still" : "moving"),
+          shortNumber(outcome.error), shortNumber(outcome.time), std::string(outcome.keepsBudget ? "yes" : "no"),
+          outcome.best, ratio})
+        cells += element("td", escaped(text));
+    return element("tr", cells);
+}
+
+/// Nothing if there are no predictions.
+std::string predictionsHtml(const ChartResults& results) {
+    const PredictionSummary summary = predictionSummary(results);
+    std::string items, heads, rows;
+    for (const std::string& sentence : sentencesOf(summary)) items += element("li", escaped(sentence));
+    if (items.empty()) return "";
+    for (const char* head :
+         {"scene", "auto", "light", "error (px)", "time (ms)", "budget kept", "best fixed setting", "ratio to it"})
+        heads += element("th", head);
+    for (const PredictionHalf* half : {&summary.tuned, &summary.other})
+        for (const AutoOutcome& outcome : half->outcomes) rows += outcomeHtml(outcome);
+    const std::string table = element("table", element("tr", heads) + rows, "id=\"budgets\"");
+    return element("h2", "Predicted and measured") + element("ul", items) +
+           element("details", element("summary", "The budgets of auto") + table);
+}
+
 std::string stateOf(const ChartResults& results) {
     if (results.complete) return "";
     return element("p",
@@ -85,6 +114,7 @@ std::string pageOf(const ChartResults& results, const std::vector<DrawnFigure>& 
                                            {"STATE", stateOf(results)},
                                            {"FINDINGS", findingsHtml(results)},
                                            {"SCENES", sceneOptions(results)},
+                                           {"PREDICTIONS", predictionsHtml(results)},
                                            {"FIGURES", figuresHtml(figures, folder)},
                                            {"SHRUNK", shrunkText(pictures.shrunk())},
                                            {"METRICS", metricsHtml()},

@@ -35,6 +35,17 @@ Number ofConfusion(const ChartPoint& point) {
     return percent(((*point.errors).*Set.*Share)());
 }
 
+Number predictedError(const ChartPoint& point) {
+    if (!point.prediction) return std::nullopt;
+    return point.prediction->error;
+}
+
+template <auto Motion>
+Number predictedTime(const ChartPoint& point) {
+    if (!point.prediction) return std::nullopt;
+    return ((*point.prediction).*Motion).time;
+}
+
 Number intersectionOverUnion(const ChartPoint& point) {
     if (!point.errors) return std::nullopt;
     return point.errors->headline.intersectionOverUnion();
@@ -125,6 +136,10 @@ const std::vector<PointNumber>& pointNumbers() {
         {"over_dark_px", "over-dark", "px", "causes", false, ofCause<&CauseSplit::overDark>},
         {"over_bright_px", "over-bright", "px", "causes", false, ofCause<&CauseSplit::overBright>},
         {"contact_gap_m", "gap at contact", "m", "causes", false, gap},
+
+        {"predicted_boundary_p95_px", "boundary error that auto predicts", "px", "prediction", false, predictedError},
+        {"predicted_steady_processor_ms", "processor time that auto predicts, still light", "ms", "prediction", false, predictedTime<&ChartPrediction::steady>},
+        {"predicted_moving_processor_ms", "processor time that auto predicts, moving light", "ms", "prediction", false, predictedTime<&ChartPrediction::moving>},
 
         {"flicker_energy", "flicker energy", "", "stability", true, ofPoint<&ChartPoint::flickerEnergy>},
         {"flicker_share_percent", "pixels that flicker", "%", "stability", false, flickerShare},

@@ -4,6 +4,7 @@
 #include "CausesFigure.h"
 #include "Gnuplot.h"
 #include "GnuplotText.h"
+#include "PredictionFigure.h"
 
 #include <algorithm>
 #include <cctype>
@@ -92,16 +93,27 @@ const char* causesCaption =
     "Peter-panning, leak and erosion are missed shadow, at the foot of the caster, inside a shadow or at its edge. The "
     "right column shows the share of the judged pixels that are wrong.";
 
+const char* predictedCaption =
+    "What the model of auto predicts before anything is drawn, and what was measured. Each marker is one setting in "
+    "one "
+    "scene. On the line both are equal. Within the dashed lines, an error is right to a factor of 1.5 and a time to a "
+    "factor of 2. Each setting has two times: with a still and with a moving light.";
+
 void addScene(std::vector<DrawnFigure>& drawn, const ChartResults& results, const CurveStyles& styles,
               const std::string& scene, const std::string& folder) {
     const Figure figure = figureOf(results, scene);
     drawFigure(figure, styles, folder);
     drawn.push_back({figure.name, scene, captionOf(figure, scene)});
-    const std::string name = fileName("causes", scene);
-    const auto causes = causesScript(results, styles, name, titleOf(results, scene) + ": why pixels are wrong", scene);
-    if (!causes) return;
-    drawScript(name, *causes, folder);
-    drawn.push_back({name, scene, causesCaption});
+    const std::string title = titleOf(results, scene);
+    const auto add = [&](const std::string& name, const std::optional<FigureScript>& script, const char* caption) {
+        if (!script) return;
+        drawScript(name, *script, folder);
+        drawn.push_back({name, scene, caption});
+    };
+    const std::string causes = fileName("causes", scene), predicted = fileName("predicted", scene);
+    add(causes, causesScript(results, styles, causes, title + ": why pixels are wrong", scene), causesCaption);
+    add(predicted, predictionScript(results, styles, predicted, title + ": what auto predicts", scene),
+        predictedCaption);
 }
 
 } // namespace

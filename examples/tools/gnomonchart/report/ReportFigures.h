@@ -14,8 +14,8 @@ struct DrawnFigure {
     std::string caption; ///< what is shown and how, in sentences; plain text.
 };
 
-/// Draws the figure over all scenes ("figure"), one a scene ("figure-SCENE"), and the causes of wrong pixels likewise
-/// ("causes", "causes-SCENE"). What was not measured is left out.
+/// Draws the figure over all scenes ("figure"), one a scene ("figure-SCENE"), and likewise the causes of wrong pixels
+/// ("causes", "causes-SCENE") and what auto predicts ("predicted", "predicted-SCENE"). What was not measured is left out.
 /// @throws std::runtime_error, one sentence, see drawScript().
 std::vector<DrawnFigure> drawFigures(const ChartResults& results, const std::string& folder);
 

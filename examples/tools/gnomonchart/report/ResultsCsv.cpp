@@ -11,8 +11,19 @@
 namespace gnomon::examples {
 namespace {
 
-constexpr std::array textColumns = {"scene",   "kit",          "technique", "setting", "settings",
-                                    "failure", "catastrophic", "notes",     "picture", "overlay"};
+constexpr std::array textColumns = {"scene",
+                                    "kit",
+                                    "technique",
+                                    "setting",
+                                    "settings",
+                                    "failure",
+                                    "catastrophic",
+                                    "notes",
+                                    "picture",
+                                    "overlay",
+                                    "predicted_spec",
+                                    "predicted_steady_spec",
+                                    "predicted_moving_spec"};
 
 constexpr const char* between = "; "; // texts of one field
 
@@ -44,6 +55,7 @@ std::string header() {
 }
 
 std::string line(const ChartPoint& point) {
+    const ChartPrediction predicted = point.prediction.value_or(ChartPrediction());
     const std::array<std::string, textColumns.size()> texts = {point.scene,
                                                                point.kit,
                                                                point.technique,
@@ -53,7 +65,10 @@ std::string line(const ChartPoint& point) {
                                                                point.catastrophic() ? "yes" : "no",
                                                                joined(point.notes, between),
                                                                point.picture,
-                                                               point.overlay};
+                                                               point.overlay,
+                                                               predicted.spec,
+                                                               predicted.steady.spec,
+                                                               predicted.moving.spec};
     std::string result;
     for (const std::string& text : texts) result += csvField(utf8(text)) + ",";
     for (const PointNumber& number : pointNumbers()) {

@@ -2,6 +2,7 @@
 #include "ResultsJson.h"
 
 #include "JsonFields.h"
+#include "PredictionSummary.h"
 #include "Report.h"
 
 #include <stdexcept>
@@ -11,7 +12,7 @@ namespace gnomon::examples {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-static constexpr unsigned version = 1;
+static constexpr unsigned version = 2;
 
 template <class Way>
 static void fields(Way& way, PartOf<Way, AddedTime> time) {
@@ -34,6 +35,20 @@ static void fields(Way& way, PartOf<Way, ChartCost> cost) {
 }
 
 template <class Way>
+static void fields(Way& way, PartOf<Way, PredictedTime> predicted) {
+    way.field("spec", predicted.spec);
+    way.field("ms", predicted.time);
+}
+
+template <class Way>
+static void fields(Way& way, PartOf<Way, ChartPrediction> prediction) {
+    way.field("spec", prediction.spec);
+    way.field("boundaryP95Pixels", prediction.error);
+    way.object("steadyProcessor", prediction.steady);
+    way.object("movingProcessor", prediction.moving);
+}
+
+template <class Way>
 static void fields(Way& way, PartOf<Way, ChartPoint> point) {
     way.field("scene", point.scene);
     way.field("kit", point.kit);
@@ -44,6 +59,7 @@ static void fields(Way& way, PartOf<Way, ChartPoint> point) {
     way.derived("catastrophic", point.catastrophic());
     way.object("cost", point.cost);
     way.object("errors", point.errors, reportJson, reportOf);
+    way.object("prediction", point.prediction);
     way.field("shadedRmse", point.shadedRmse);
     way.field("flickerEnergy", point.flickerEnergy);
     way.field("flickerShare", point.flickerShare);
@@ -72,6 +88,7 @@ static void fields(Way& way, PartOf<Way, ChartResults> results) {
     way.field("complete", results.complete);
     way.list("scenes", results.scenes);
     way.list("points", results.points);
+    way.derived("predictions", jsonOf(predictionSummary(results)));
 }
 
 ordered_json jsonOf(const ChartResults& results) {
@@ -84,7 +101,7 @@ ordered_json jsonOf(const ChartResults& results) {
 ChartResults chartResultsOf(const json& from) {
     unsigned found = 0;
     readField(from, "gnomonchart", found);
-    if (found != version) throw std::runtime_error("its version is " + std::to_string(found) + ". Allowed: 1.");
+    if (found != version) throw std::runtime_error("its version is " + std::to_string(found) + ". Allowed: 2.");
     ChartResults results;
     FieldReader way(from);
     fields(way, results);

@@ -15,20 +15,22 @@ bool isAtDefaults(const Contender& contender) {
 
 } // namespace
 
-std::vector<StabilityContender> stabilityContenders(const std::string& part, bool best) {
-    const auto isAsked = [&](const std::string& name) { return name.find(part) != std::string::npos; };
+std::vector<StabilityContender> stabilityContenders(const std::vector<std::string>& parts, bool best) {
+    requireKnown(parts);
     std::vector<StabilityContender> chosen;
     for (Contender& contender : gnomonContenders()) {
-        if (!isAtDefaults(contender) || !isAsked(contender.technique)) continue;
+        if (!isAtDefaults(contender) || !isAsked(contender.technique, parts)) continue;
         contender.setting = "defaults";
         chosen.push_back({std::move(contender)});
     }
     for (const Peer& peer : peers()) {
-        if (!isAsked(peer.name)) continue;
+        if (!isAsked(peer.name, parts)) continue;
         chosen.push_back({peerContender(peer, "defaults", {})});
         if (best && !peer.knobs.empty()) chosen.push_back({peerContender(peer, "best", {}), &peer});
     }
-    if (chosen.empty()) throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
+    if (chosen.empty())
+        throw std::invalid_argument("no technique whose name contains \"" + parts.front() +
+                                    "\" has defaults. See --list.");
     return chosen;
 }
 

@@ -25,8 +25,8 @@ struct StabilityPlan {
 };
 
 /// Gnomon's techniques at their defaults and osgShadow's, those at their best too if asked for.
-/// @param part  of the technique's name; empty: all.
-/// @throws std::invalid_argument, one sentence, if no technique has it in its name.
-std::vector<StabilityContender> stabilityContenders(const std::string& part, bool best);
+/// @param parts  of techniques' names; none: all.
+/// @throws std::invalid_argument, one sentence, if one of them is in no technique's name.
+std::vector<StabilityContender> stabilityContenders(const std::vector<std::string>& parts, bool best);
 
 } // namespace gnomon::examples

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// What auto's model expects of fixed settings, asked for a small scene.
+#include "SmallScene.h"
+
+#include "Forecasts.h"
+
+#include <support/Mesh.h>
+#include <support/Picture.h>
+
+#include <gtest/gtest.h>
+
+using namespace gnomon::examples;
+using gnomon::parseShadowSpec;
+using gnomon::ShadowCandidate;
+
+namespace {
+
+std::vector<ShadowCandidate> candidatesOf(const std::vector<std::string>& specs) {
+    std::vector<ShadowCandidate> all(specs.size());
+    for (std::size_t i = 0; i < specs.size(); ++i) all[i].spec = specs[i];
+    return all;
+}
+
+std::string found(const char* spec) {
+    const std::vector<ShadowCandidate> some = candidatesOf(
+        {"volume", "map:size=512", "map:size=512,cascades=1", "map:size=2048,cascades=1", "drape:error=0"});
+    const ShadowCandidate* candidate = candidateOf(some, parseShadowSpec(spec));
+    return candidate ? candidate->spec : "";
+}
+
+/// What auto expects in the small scene.
+std::optional<ChartPrediction> expectedOf(const char* spec, Receives receives = Receives::EVERYTHING) {
+    static const ChartScene scene = test::smallScene();
+    static Forecasts forecasts(scene);
+    return forecasts.of(gnomonContender(spec, receives));
+}
+
+} // namespace
+
+TEST(Forecasts, FindTheCandidateThatDrawsAsASettingDoes) {
+    EXPECT_EQ(found("volume:composite=blend"), "volume");
+    EXPECT_EQ(found("map:size=512"), "map:size=512");
+    EXPECT_EQ(found("map:cascades=1,size=512"), "map:size=512,cascades=1");
+    EXPECT_EQ(found("map:size=2048"), "map:size=2048,cascades=1") << "as many cascades as it asks for are one";
+    EXPECT_EQ(found("map:size=2048,cascades=2"), "");
+    EXPECT_EQ(found("map:size=512,edges=smooth"), "");
+    EXPECT_EQ(found("drape:error=0"), "drape:error=0");
+    EXPECT_EQ(found("drape"), "");
+    EXPECT_EQ(found("auto"), "");
+}
+
+TEST(Forecasts, AreForAllSettingsThatAutoMightTake) {
+    for (const char* spec : {"map", "map:size=512", "map:filter=nearest,composite=blend,cascades=1", "map:edges=smooth",
+                             "volume", "volume:composite=blend", "traced"}) {
+        const auto prediction = expectedOf(spec);
+        ASSERT_TRUE(prediction) << spec;
+        EXPECT_GT(prediction->error.value(), 0.0) << spec;
+        EXPECT_GT(prediction->steady.time, 0.0) << spec;
+        EXPECT_GE(prediction->moving.time, prediction->steady.time) << spec;
+        EXPECT_EQ(prediction->spec, prediction->moving.spec);
+    }
+    EXPECT_TRUE(expectedOf("planar", Receives::FLAT)->error) << "nothing but the ground gets shadow";
+    EXPECT_TRUE(expectedOf("hull", Receives::TERRAIN));
+    for (const char* spec : {"map:edges=soft", "map:size=1536", "auto"}) EXPECT_FALSE(expectedOf(spec)) << spec;
+    EXPECT_FALSE(expectedOf("box", Receives::TERRAIN));
+    EXPECT_FALSE(expectedOf("hull")) << "no terrain receives alone";
+}
+
+TEST(Forecasts, ExpectNoErrorOfOneReceiverWhereOthersGetShadowToo) {
+    ChartScene scene = test::smallScene();
+    scene.content->addChild(test::node(test::box({-0.5, -0.5, 0.0}, {0.5, 0.5, 0.5}))); // in the house's shadow
+    Forecasts forecasts(scene);
+    const auto planar = forecasts.of(gnomonContender("planar", Receives::FLAT));
+    ASSERT_TRUE(planar);
+    EXPECT_FALSE(planar->error);
+    EXPECT_GT(planar->steady.time, 0.0);
+    EXPECT_TRUE(forecasts.of(gnomonContender("volume", Receives::EVERYTHING))->error);
+}
+
+TEST(Forecasts, KnowWhatIsCoarserAndWhatIsCheaper) {
+    EXPECT_GT(expectedOf("map:filter=nearest")->error.value(), expectedOf("map:edges=smooth")->error.value());
+    EXPECT_LT(expectedOf("map:filter=nearest")->moving.time, expectedOf("map:edges=smooth")->moving.time);
+    EXPECT_LT(expectedOf("volume:composite=blend")->steady.time, expectedOf("volume")->steady.time);
+}
