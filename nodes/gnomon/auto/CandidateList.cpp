@@ -32,9 +32,12 @@ constexpr MapQuality qualities[] = {
     {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.41, 0.27, 1.0}},
     {Map::BICUBIC, Map::SMOOTH, {0.35, 0.14, 4.0}}, {Map::FINE, Map::SMOOTH, {0.35, 0.06, 16.0}},
 };
-constexpr double callsAMap = 14.0;     // to switch to its framebuffer and back, and to fit it
-constexpr double callsAPiece = 0.06;   // to see that it has not changed
-constexpr double mostStretch = 8.0;    // as TexelDensity has it
+constexpr double callsAMap = 14.0;   // to switch to its framebuffer and back, and to fit it
+constexpr double callsAPiece = 0.06; // to see that it has not changed
+constexpr double mostStretch = 8.0;  // as TexelDensity has it
+/// Width of the texels at most edges, by that of the widest in sight. Fitted to the tuning scenes of gnomonchart: 0.3 to 0.45
+/// where the scene is an object, and less where the view goes from near to far.
+constexpr double usualWidth = 0.4;
 constexpr double facedAnObject = 0.03; // to ask a triangle whether it faces the light; see ShadowWork::objects
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
 
@@ -174,7 +177,7 @@ private:
         map.map.cascades = cascades;
         const double wish = MapSettings(map.map).pixels;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
-        map.error = mapEdgeError(quality.edge, forecast.texels / texels / stretch());
+        map.error = mapEdgeError(quality.edge, usualWidth * forecast.texels / texels / stretch());
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
         map.still.calls += 3.0 * passes;
