@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/LateReceivers.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/group/ProgramCauses.h>
@@ -16,6 +17,14 @@ struct StageLeaves {
         if (!all) return;
         programs = ProgramCauses(stage);
         for (const auto* leaves : {&early, &late.leaves}) findDisplaced(*leaves);
+    }
+
+    /// Of what is drawn, wherever it is.
+    std::uint64_t fingerprint() const {
+        Fingerprint drawables;
+        for (const auto* leaves : {&early, &late.leaves})
+            for (const DrawnLeaf& entry : *leaves) drawables.mix(entry.leaf->_drawable.get());
+        return drawables.value();
     }
 
     std::vector<DrawnLeaf> early; ///< before the bin.
