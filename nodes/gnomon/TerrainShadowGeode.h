@@ -48,6 +48,8 @@ struct TerrainShadows;
 /// Limits
 /// - Walls and roofs receive nothing. diagnose() names one in view that stays lit.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
+/// - Far from a very close near plane, depths are too coarse to place shadows off a regular grid. diagnose() names such a
+///   caster.
 /// - Casters stand on or in the ground. HULL shows no light below an overhang.
 /// - Terrain that overlaps itself in plan receives on all of its levels.
 /// - Shaders that move the terrain's vertices or discard its pixels are not known here.

@@ -22,20 +22,20 @@ RecalledCauses& RecalledCauses::of(osgUtil::RenderStage& stage) {
     return *fresh;
 }
 
-RecalledCauses::Known& RecalledCauses::knownOf(const void* who, int number) {
+RecalledCauses::Known& RecalledCauses::knownOf(Kind kind, const void* who, int number) {
     const auto found = std::find_if(_known.begin(), _known.end(), [&](const Known& known) {
-        return known.who == who && known.number == number;
+        return known.kind == kind && known.who == who && known.number == number;
     });
     if (found != _known.end()) return *found;
     if (_known.size() >= mostKnown) _known.erase(_known.begin());
-    _known.push_back({who, number});
+    _known.push_back({kind, who, number});
     _known.back().frames = patience;
     return _known.back();
 }
 
-std::string RecalledCauses::causeOf(const void* who, const LitView& view, const State& state,
+std::string RecalledCauses::causeOf(Kind kind, const void* who, const LitView& view, const State& state,
                                     const std::function<std::string()>& find) {
-    Known& known = knownOf(who, view.light.number);
+    Known& known = knownOf(kind, who, view.light.number);
     ++known.frames;
     const bool same = known.casters == view.casters.fingerprint && known.light == view.light.inGroup &&
                       known.state.seen == state.seen;

@@ -36,6 +36,8 @@ public:
     /// The memory of a stage, made if it has none.
     static RecalledCauses& of(osgUtil::RenderStage& stage);
 
+    /// Kinds of causes: of one asker, a light has one of each.
+    enum class Kind { EnclosingNode, UnshadowedSurface, CoarseDepth };
     /// What a cause depends on besides casters and light.
     struct State {
         std::uint64_t seen = 0;     ///< of what is in view.
@@ -44,7 +46,7 @@ public:
     /// A cause for ShadowTechnique::report(); empty if there is none.
     /// @param who   what asks: an address, never followed.
     /// @param find  finds it anew.
-    std::string causeOf(const void* who, const LitView& view, const State& state,
+    std::string causeOf(Kind kind, const void* who, const LitView& view, const State& state,
                         const std::function<std::string()>& find);
 
 protected:
@@ -52,6 +54,7 @@ protected:
 
 private:
     struct Known {
+        Kind kind;
         const void* who;
         int number; ///< the light's, by which lights are told apart.
         std::uint64_t casters = 0;
@@ -61,7 +64,7 @@ private:
         unsigned frames = 0; ///< since it was looked for.
         std::string cause = {};
     };
-    Known& knownOf(const void* who, int number);
+    Known& knownOf(Kind kind, const void* who, int number);
 
     std::vector<Known> _known;
 };

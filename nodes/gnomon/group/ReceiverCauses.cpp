@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/group/CoarseDepth.h>
 #include <gnomon/group/EnclosingCasters.h>
 #include <gnomon/group/ReceiverCauses.h>
 #include <gnomon/group/UnshadowedSurfaces.h>
@@ -49,7 +50,7 @@ void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
 
 void reportEnclosers(const EnlistedTechnique& entry, const LitView& view, osgUtil::RenderStage& stage) {
     const std::string cause = RecalledCauses::of(stage).causeOf(
-        entry.group.get(), view, {view.receivers.size(), 0}, [&] { return enclosingCause(view); });
+        RecalledCauses::Kind::EnclosingNode, entry.group.get(), view, {view.receivers.size(), 0}, [&] { return enclosingCause(view); });
     if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
 }
 
@@ -133,7 +134,7 @@ void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<Enlisted
     const Leaves none;
     for (const ShadowLight& light : lights) {
         const std::string cause = RecalledCauses::of(stage).causeOf(
-            entry.technique.get(), {*entry.group, light, casters, none, entry.eyeFromGroup}, state,
+            RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(), {*entry.group, light, casters, none, entry.eyeFromGroup}, state,
             [&] { return unshadowedCause(entry, all, light, casters, drawn, stage); });
         if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
     }
@@ -190,6 +191,26 @@ void reportMissingShadows(const EnlistedTechnique& entry, const std::vector<Enli
     for (const ShadowLight& light : lights)
         reportEnclosers(entry, {*entry.group, light, casters, receiving.early, entry.eyeFromGroup}, stage);
     reportUnshadowed(entry, all, lights, casters, receiving.drawn, stage);
+}
+
+void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,
+                       osgUtil::RenderStage& stage) {
+    const osg::Vec2d pixels(stage.getViewport()->width(), stage.getViewport()->height());
+    const Leaves none;
+    const LitView view{*entry.group, light, casters, none, entry.eyeFromGroup};
+    if (!reachesCoarseDepth(view, *entry.projection, pixels)) return;
+    Fingerprint seen;
+    seen.mix(entry.eyeFromGroup);
+    seen.mix(*entry.projection);
+    const std::string cause = RecalledCauses::of(stage).causeOf(
+        RecalledCauses::Kind::CoarseDepth, entry.technique.get(), view, {seen.value(), 0}, [&] {
+            const std::string name = coarselyPlaced(view, *entry.projection, pixels);
+            if (name.empty()) return name;
+            return "depths cannot tell where the shadow of '" + name +
+                   "' falls, because their steps are longer there than a pixel is wide. Move the near plane out, or "
+                   "let OpenSceneGraph compute it.";
+        });
+    if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
 }
 
 } // namespace gnomon

@@ -31,4 +31,8 @@ void reportMissingShadows(const EnlistedTechnique& entry, const std::vector<Enli
                           const std::vector<ShadowLight>& lights, const CasterDrawables& casters,
                           const Receiving& receiving, osgUtil::RenderStage& stage);
 
+/// Says that the shadows of what is far away cannot be placed by depth. For techniques whose marks depend on it.
+void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,
+                       osgUtil::RenderStage& stage);
+
 } // namespace gnomon

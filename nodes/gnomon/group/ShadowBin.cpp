@@ -285,6 +285,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
         for (ShadowJob& job : jobsFor({entry, lights, casters, view, those, within}, alone))
             if (programs || !job.programMarks()) to.push_back(std::move(job));
     };
+    const std::size_t before = _jobs.size(), lateBefore = _lateJobs.size();
     int index = 0;
     bool programs = true; // are served once
     const auto addAll = [&](const Leaves& all, bool late) {
@@ -304,6 +305,10 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
     const bool alone = _enlisted.size() == 1 && _effects.empty() && index == 1 && lateOnes.empty();
     if (const auto watch = entry.technique->watch(view, alone)) _watches.push_back(watch);
     addAll(lateOnes, true);
+    const auto placesByDepth = [](const ShadowJob& job) { return job.marks->placesByDepth(); };
+    if (std::any_of(_jobs.begin() + before, _jobs.end(), placesByDepth) ||
+        std::any_of(_lateJobs.begin() + lateBefore, _lateJobs.end(), placesByDepth))
+        reportCoarseDepth(entry, lights.front(), casters.drawables(), *getStage());
 }
 
 /// To a bin of its own, after the last one that draws what receives late.
