@@ -38,7 +38,6 @@ class TracedFrames;
 /// - Alpha-tested casters cast as if they were solid.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.
-/// - Far from a very close near plane, depths are too coarse to place shadows. diagnose() names such a caster.
 /// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.
 /// - Multisampled framebuffers are shadowed by pixel, from one sample. In multisampled windows an edge may be off by a
 ///   pixel.
