@@ -72,7 +72,7 @@ TEST(CoarseDepth, BeginsWhereAStepIsAsLongAsAPixelIsWide) {
     for (const double near : {0.001, 0.1, 10.0}) {
         const osg::Matrixd lens = osg::Matrixd::perspective(30.0, double(width) / height, near, 1000.0);
         const long double distance = gnomon::coarseDepthFrom(lens, {width, height});
-        const long double pixel = 2.0L * distance * std::tan(osg::DegreesToRadians(15.0L)) / height;
+        const long double pixel = 2.0L * distance * static_cast<long double>(std::tan(osg::DegreesToRadians(15.0))) / height;
         const long double step = std::ldexp(1.0L, -24);
         // Over a small part of that pixel, for depth is no straight line there.
         const long double part = 1e-4L * pixel;
