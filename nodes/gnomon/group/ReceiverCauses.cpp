@@ -14,15 +14,10 @@
 namespace gnomon {
 namespace {
 
-/// True if a shadow could be expected on what is drawn so, unlike on a sky.
-bool isShaded(const osgUtil::RenderLeaf& leaf) {
-    return isOn(leaf._parent, GL_LIGHTING) || resolvedAttribute(leaf._parent, osg::StateAttribute::PROGRAM);
-}
-
 /// Shadows are found by the depths that stand.
 void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUtil::RenderLeaf*>& receiving) {
     const auto hasDepth = [](const auto* leaf) { return writesDepth(leaf->_parent); };
-    const auto shaded = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(*leaf); });
+    const auto shaded = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
     if (shaded == receiving.end() || std::any_of(receiving.begin(), receiving.end(), hasDepth)) return;
     entry.technique->report(entry.frameNumber,
                             "no receiver in this view writes depth, so there is no shadow; the first is '" +
@@ -32,7 +27,7 @@ void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUt
 /// What stands behind would need its own shadow and that of what is combined with it.
 void reportCombined(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
     const auto receiving = receivingOf(entry, drawn.late.combined, stage);
-    const auto first = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(*leaf); });
+    const auto first = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
     if (first != receiving.end())
         entry.technique->report(entry.frameNumber,
                                 "a logic operation combines '" + nameOf(**first) +
@@ -74,8 +69,8 @@ Leaves surfacesOf(const EnlistedTechnique& entry, const StageLeaves& drawn) {
     const auto canReceive = [&](const osgUtil::RenderLeaf& leaf) {
         const auto displaced = drawn.displaced.find(&leaf);
         const bool isSky = displaced != drawn.displaced.end() && displaced->second.nearest == displaced->second.farthest;
-        return !isSky && isSameLens(projectionOf(leaf), *entry.projection) && isShaded(leaf) &&
-               writesDepth(leaf._parent);
+        return !isSky && isSameLens(projectionOf(leaf), *entry.projection) && isShaded(leaf._parent) &&
+               writesDepth(leaf._parent) && !drawn.programs.moves(leaf);
     };
     Leaves surfaces;
     for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
@@ -130,7 +125,9 @@ void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<Enlisted
                       const std::vector<ShadowLight>& lights, const CasterDrawables& casters, const StageLeaves& drawn,
                       osgUtil::RenderStage& stage) {
     if (entry.technique->surfacesKey() == 0) return;
-    const RecalledCauses::State state{drawn.fingerprint(), settingsOf(*entry.group, all)};
+    const std::optional<std::uint64_t> seen = drawn.shadedFingerprint();
+    if (!seen) return;
+    const RecalledCauses::State state{*seen, settingsOf(*entry.group, all)};
     const Leaves none;
     for (const ShadowLight& light : lights) {
         const std::string cause = RecalledCauses::of(stage).causeOf(

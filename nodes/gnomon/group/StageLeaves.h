@@ -6,6 +6,7 @@
 #include <gnomon/group/ProgramCauses.h>
 
 #include <map>
+#include <optional>
 
 namespace gnomon {
 
@@ -19,11 +20,18 @@ struct StageLeaves {
         for (const auto* leaves : {&early, &late.leaves}) findDisplaced(*leaves);
     }
 
-    /// Of what is drawn, wherever it is.
-    std::uint64_t fingerprint() const {
+    /// Of what is drawn and shaded, wherever it is; nullopt if nothing is.
+    std::optional<std::uint64_t> shadedFingerprint() const {
         Fingerprint drawables;
+        const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
+        bool shaded = false, any = false;
         for (const auto* leaves : {&early, &late.leaves})
-            for (const DrawnLeaf& entry : *leaves) drawables.mix(entry.leaf->_drawable.get());
+            for (const DrawnLeaf& entry : *leaves) {
+                if (entry.leaf->_parent != graph) shaded = isShaded(graph = entry.leaf->_parent);
+                if (shaded) drawables.mix(entry.leaf->_drawable.get());
+                any = any || shaded;
+            }
+        if (!any) return std::nullopt;
         return drawables.value();
     }
 

@@ -221,7 +221,7 @@ std::uint64_t PlanarShadowNode::surfacesKey() const {
     Fingerprint planes;
     for (const osg::Vec4d& plane : _planes)
         for (int i = 0; i < 4; ++i) planes.mix(plane[i]);
-    return planes.value() | 1;
+    return _planes.empty() ? 0 : planes.value() | 1;
 }
 
 /// A ray from the foot of the point in the plane, lifted off it: what lies in the plane never casts.
