@@ -96,7 +96,7 @@ public:
     virtual bool drawsCasters() const { return false; }
 
     /// True if the technique can shadow a surface that is among its receivers. Default true.
-    /// @param leaf  of a surface in view.
+    /// @param leaf  a leaf of the surface, in view.
     virtual bool shadowsSurface(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const;
     /// Changes with what shadowsSurface() says. If it is not 0, the default, the compositor names a surface that its shadow
     /// could reach and that no technique shadows.

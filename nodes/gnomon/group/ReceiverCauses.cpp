@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/group/CoarseDepth.h>
 #include <gnomon/group/EnclosingCasters.h>
 #include <gnomon/group/ReceiverCauses.h>

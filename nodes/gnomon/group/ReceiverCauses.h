@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/group/ShadowBin.h>
+#include <gnomon/group/EnlistedTechnique.h>
+#include <gnomon/group/StageLeaves.h>
 #include <gnomon/group/ViewFrame.h>
 
 #include <vector>
