@@ -18,7 +18,8 @@ bool isBlocked(const dvec3& point, const dvec4& light, const AlignedBox& caster)
     const dvec3 way = dvec3(light) - light.w * point;
     double from = 0.0, to = light.w > 0.0 ? 1.0 / light.w : 1e9;
     for (int axis = 0; axis < 3; ++axis) {
-        const double a = (caster.low[axis] - point[axis]) / way[axis], b = (caster.high[axis] - point[axis]) / way[axis];
+        const double a = (caster.low[axis] - point[axis]) / way[axis],
+                     b = (caster.high[axis] - point[axis]) / way[axis];
         from = std::max(from, std::min(a, b));
         to = std::min(to, std::max(a, b));
     }

@@ -35,7 +35,8 @@ Causes said(gnomon::ShadowTechnique& technique, const Scene& scene, const View& 
 
 /// A tower on a wide ground.
 struct Trial {
-    explicit Trial(osg::ref_ptr<gnomon::ShadowTechnique> with, const Mesh& caster = tower) : technique(std::move(with)) {
+    explicit Trial(osg::ref_ptr<gnomon::ShadowTechnique> with, const Mesh& caster = tower)
+        : technique(std::move(with)) {
         scene = test::scene({1.0, 0.0, 1.0, 0.0});
         scene.content->addChild(node(square(1200.0), "ground"));
         scene.content->addChild(node(caster, "tower"));
@@ -52,9 +53,10 @@ std::vector<osg::ref_ptr<gnomon::ShadowTechnique>> thatReadDepths() {
 }
 
 Causes tooCoarse(const Trial& trial) {
-    return {trial.technique->describe() +
-            ": depths cannot tell where the shadow of 'tower' falls, because their steps are longer there than a pixel is "
-            "wide. Move the near plane out, or let OpenSceneGraph compute it."};
+    return {
+        trial.technique->describe() +
+        ": depths cannot tell where the shadow of 'tower' falls, because their steps are longer there than a pixel is "
+        "wide. Move the near plane out, or let OpenSceneGraph compute it."};
 }
 
 /// Depth in the buffer, 0 … 1, of a point so far from the eye.
@@ -72,7 +74,8 @@ TEST(CoarseDepth, BeginsWhereAStepIsAsLongAsAPixelIsWide) {
     for (const double near : {0.001, 0.1, 10.0}) {
         const osg::Matrixd lens = osg::Matrixd::perspective(30.0, double(width) / height, near, 1000.0);
         const long double distance = gnomon::coarseDepthFrom(lens, {width, height});
-        const long double pixel = 2.0L * distance * static_cast<long double>(std::tan(osg::DegreesToRadians(15.0))) / height;
+        const long double pixel =
+            2.0L * distance * static_cast<long double>(std::tan(osg::DegreesToRadians(15.0))) / height;
         const long double step = std::ldexp(1.0L, -24);
         // Over a small part of that pixel, for depth is no straight line there.
         const long double part = 1e-4L * pixel;

@@ -110,8 +110,7 @@ TEST(UnshadowedSurfaces, ARoomOfOneMeshIsNamed) {
 }
 
 TEST(UnshadowedSurfaces, WhatNoShadowReachesIsNot) {
-    const auto expectSilent = [](const char* what, const osg::ref_ptr<osg::Node>& more,
-                                 const osg::Vec4d& light = sun) {
+    const auto expectSilent = [](const char* what, const osg::ref_ptr<osg::Node>& more, const osg::Vec4d& light = sun) {
         Trial trial(more, planar(), light);
         EXPECT_TRUE(namesNone(trial.said())) << what;
         Trial onGround(more, onTerrain(gnomon::TerrainShadowOptions::HULL), light);

@@ -41,15 +41,14 @@ bool isSeen(const Corners& corners, const osg::Vec2d& pixels) {
 /// goes from -1 to 1, is w² 2^(1 - bits) / |a e - b c| long, and a pixel 2 w / (scale · pixels) wide.
 double coarseDepthFrom(const osg::Matrixd& projection, const osg::Vec2d& pixels) {
     const double change = std::abs(projection(2, 2) * projection(3, 3) - projection(3, 2) * projection(2, 3));
-    const double across =
-        std::max(std::abs(projection(0, 0)) * pixels.x(), std::abs(projection(1, 1)) * pixels.y());
+    const double across = std::max(std::abs(projection(0, 0)) * pixels.x(), std::abs(projection(1, 1)) * pixels.y());
     return std::ldexp(change, depthBits) / across;
 }
 
 bool reachesCoarseDepth(const LitView& view, const osg::Matrixd& projection, const osg::Vec2d& pixels) {
     const osg::BoundingBoxd& box = view.casters.bounds;
-    return box.valid() && farthestOf(cornersOf(box, toGlm(view.eyeFromGroup * projection))) >
-                              coarseDepthFrom(projection, pixels);
+    return box.valid() &&
+           farthestOf(cornersOf(box, toGlm(view.eyeFromGroup * projection))) > coarseDepthFrom(projection, pixels);
 }
 
 std::string coarselyPlaced(const LitView& view, const osg::Matrixd& projection, const osg::Vec2d& pixels) {

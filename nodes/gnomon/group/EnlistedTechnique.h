@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
-#include <gnomon/gl/QuadSplit.h>
+#include <gnomon/casters/CasterView.h>
 
 #include <osg/Matrixd>
 #include <osg/Vec3>

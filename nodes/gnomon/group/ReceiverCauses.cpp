@@ -18,7 +18,8 @@ namespace {
 /// Shadows are found by the depths that stand.
 void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUtil::RenderLeaf*>& receiving) {
     const auto hasDepth = [](const auto* leaf) { return writesDepth(leaf->_parent); };
-    const auto shaded = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
+    const auto shaded =
+        std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
     if (shaded == receiving.end() || std::any_of(receiving.begin(), receiving.end(), hasDepth)) return;
     entry.technique->report(entry.frameNumber,
                             "no receiver in this view writes depth, so there is no shadow; the first is '" +
@@ -28,7 +29,8 @@ void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUt
 /// What stands behind would need its own shadow and that of what is combined with it.
 void reportCombined(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
     const auto receiving = receivingOf(entry, drawn.late.combined, stage);
-    const auto first = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
+    const auto first =
+        std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
     if (first != receiving.end())
         entry.technique->report(entry.frameNumber,
                                 "a logic operation combines '" + nameOf(**first) +
@@ -42,12 +44,6 @@ void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
         (isModeOn(drawn.early, GL_FOG) || isModeOn(drawn.late.leaves, GL_FOG)))
         entry.technique->report(entry.frameNumber, "fog is on, and BLEND darkens it with the surface behind it. Set "
                                                    "RELIGHT, or switch GL_FOG off.");
-}
-
-void reportEnclosers(const EnlistedTechnique& entry, const LitView& view, osgUtil::RenderStage& stage) {
-    const std::string cause = RecalledCauses::of(stage).causeOf(
-        RecalledCauses::Kind::EnclosingNode, entry.group.get(), view, {view.receivers.size(), 0}, [&] { return enclosingCause(view); });
-    if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
 }
 
 /// What decides on which surfaces a group's techniques shadow.
@@ -69,7 +65,8 @@ std::uint64_t settingsOf(const ShadowCasterGroup& group, const std::vector<Enlis
 Leaves surfacesOf(const EnlistedTechnique& entry, const StageLeaves& drawn) {
     const auto canReceive = [&](const osgUtil::RenderLeaf& leaf) {
         const auto displaced = drawn.displaced.find(&leaf);
-        const bool isSky = displaced != drawn.displaced.end() && displaced->second.nearest == displaced->second.farthest;
+        const bool isSky =
+            displaced != drawn.displaced.end() && displaced->second.nearest == displaced->second.farthest;
         return !isSky && isSameLens(projectionOf(leaf), *entry.projection) && isShaded(leaf._parent) &&
                writesDepth(leaf._parent) && !drawn.programs.moves(leaf);
     };
@@ -121,23 +118,6 @@ std::string unshadowedCause(const EnlistedTechnique& entry, const std::vector<En
            "', which this technique leaves lit. Use map, volume or traced, or add a technique that receives there.";
 }
 
-/// What is in view, and moves with it, is looked at again from time to time.
-void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                      const std::vector<ShadowLight>& lights, const CasterDrawables& casters, const StageLeaves& drawn,
-                      osgUtil::RenderStage& stage) {
-    if (entry.technique->surfacesKey() == 0) return;
-    const std::optional<std::uint64_t> seen = drawn.shadedFingerprint();
-    if (!seen) return;
-    const RecalledCauses::State state{*seen, settingsOf(*entry.group, all)};
-    const Leaves none;
-    for (const ShadowLight& light : lights) {
-        const std::string cause = RecalledCauses::of(stage).causeOf(
-            RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(), {*entry.group, light, casters, none, entry.eyeFromGroup}, state,
-            [&] { return unshadowedCause(entry, all, light, casters, drawn, stage); });
-        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
-    }
-}
-
 } // namespace
 
 ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) {
@@ -154,8 +134,7 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
     return view;
 }
 
-Leaves receivingOf(const EnlistedTechnique& entry,
-                                                    const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
+Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
     const bool named = entry.technique->hasReceiver();
     LeafSet receivers;
     if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
@@ -183,12 +162,33 @@ void reportReceiverStates(const EnlistedTechnique& entry, const Receiving& recei
     if (!early.empty() || !late.empty()) reportFog(entry, drawn);
 }
 
-void reportMissingShadows(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                          const std::vector<ShadowLight>& lights, const CasterDrawables& casters,
-                          const Receiving& receiving, osgUtil::RenderStage& stage) {
-    for (const ShadowLight& light : lights)
-        reportEnclosers(entry, {*entry.group, light, casters, receiving.early, entry.eyeFromGroup}, stage);
-    reportUnshadowed(entry, all, lights, casters, receiving.drawn, stage);
+void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
+                     const CasterDrawables& casters, const Leaves& receiving, osgUtil::RenderStage& stage) {
+    for (const ShadowLight& light : lights) {
+        const LitView view{*entry.group, light, casters, receiving, entry.eyeFromGroup};
+        const std::string cause =
+            RecalledCauses::of(stage).causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), view,
+                                              {receiving.size(), 0}, [&] { return enclosingCause(view); });
+        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+    }
+}
+
+void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
+                      const std::vector<ShadowLight>& lights, const CasterDrawables& casters, const StageLeaves& drawn,
+                      osgUtil::RenderStage& stage) {
+    if (entry.technique->surfacesKey() == 0) return;
+    const std::optional<std::uint64_t> seen = drawn.shadedFingerprint();
+    if (!seen) return;
+    const RecalledCauses::State state{*seen, settingsOf(*entry.group, all)};
+    const Leaves none;
+    for (const ShadowLight& light : lights) {
+        const std::string cause =
+            RecalledCauses::of(stage).causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(),
+                                              {*entry.group, light, casters, none, entry.eyeFromGroup}, state, [&] {
+                                                  return unshadowedCause(entry, all, light, casters, drawn, stage);
+                                              });
+        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+    }
 }
 
 void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,

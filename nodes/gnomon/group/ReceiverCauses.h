@@ -26,11 +26,15 @@ struct Receiving {
 /// Says what of the receivers' states keeps shadows from them, or makes them wrong.
 void reportReceiverStates(const EnlistedTechnique& entry, const Receiving& receiving, osgUtil::RenderStage& stage);
 
-/// Says what keeps lights from all that is seen, and which surfaces stay lit where they should not.
-/// @param all  techniques of the stage, whose shadows those surfaces may have.
-void reportMissingShadows(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                          const std::vector<ShadowLight>& lights, const CasterDrawables& casters,
-                          const Receiving& receiving, osgUtil::RenderStage& stage);
+/// Says what keeps lights from all that is seen.
+void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
+                     const CasterDrawables& casters, const Leaves& receiving, osgUtil::RenderStage& stage);
+
+/// Says which surface stays lit though a shadow can reach it. For techniques that shadow some of what is in view.
+/// @param all  techniques of the stage, whose shadows that surface may have.
+void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
+                      const std::vector<ShadowLight>& lights, const CasterDrawables& casters, const StageLeaves& drawn,
+                      osgUtil::RenderStage& stage);
 
 /// Says that the shadows of what is far away cannot be placed by depth. For techniques whose marks depend on it.
 void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,

@@ -278,7 +278,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
     reportReceiverStates(entry, {receiving, lateOnes, drawn}, *getStage());
     if (entry.technique->hasReceiver() && receiving.empty() && lateOnes.empty())
         return reportNoReceiver(entry, *getStage());
-    reportMissingShadows(entry, _enlisted, lights, casters.drawables(), {receiving, lateOnes, drawn}, *getStage());
+    reportEnclosers(entry, lights, casters.drawables(), receiving, *getStage());
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
     view.options.filter = _options.filter; // as all who share this bin want it
     const auto add = [&](auto& to, const Leaves& those, std::optional<ScreenRect> within, bool alone, bool programs) {
@@ -305,6 +305,8 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const std::vector<Shadow
     const bool alone = _enlisted.size() == 1 && _effects.empty() && index == 1 && lateOnes.empty();
     if (const auto watch = entry.technique->watch(view, alone)) _watches.push_back(watch);
     addAll(lateOnes, true);
+    if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
+    reportUnshadowed(entry, _enlisted, lights, casters.drawables(), drawn, *getStage());
     const auto placesByDepth = [](const ShadowJob& job) { return job.marks->placesByDepth(); };
     if (std::any_of(_jobs.begin() + before, _jobs.end(), placesByDepth) ||
         std::any_of(_lateJobs.begin() + lateBefore, _lateJobs.end(), placesByDepth))

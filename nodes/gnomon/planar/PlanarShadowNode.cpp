@@ -67,8 +67,7 @@ bool endsIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
     const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
     if (!box.valid() || !plane) return false;
     double highest = -std::numeric_limits<double>::infinity();
-    for (unsigned i = 0; i < 8; ++i)
-        highest = std::max(highest, distance(*plane, toGlm(osg::Vec3d(box.corner(i)))));
+    for (unsigned i = 0; i < 8; ++i) highest = std::max(highest, distance(*plane, toGlm(osg::Vec3d(box.corner(i)))));
     return std::abs(highest) <= unevenness * 2.0 * box.radius();
 }
 

@@ -14,8 +14,9 @@
 namespace gnomon {
 namespace {
 
-constexpr int grid = 4;                    // rays a pixel and side
-constexpr double aboutCentre = 1.0 / 16.0; // pixels: rasterisers snap to 1/256, but 24 bits of depth move places by more
+constexpr int grid = 4; // rays a pixel and side
+constexpr double aboutCentre =
+    1.0 / 16.0; // pixels: rasterisers snap to 1/256, but 24 bits of depth move places by more
 
 /// A place that a line of sight met.
 struct Place {
