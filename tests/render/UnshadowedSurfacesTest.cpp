@@ -130,6 +130,16 @@ TEST(UnshadowedSurfaces, WhatNoShadowReachesIsNot) {
     expectSilent("what is not lit", unlit);
 }
 
+/// As in data/lab8.osgt: the shadow of the cube meets the ball where it turns away from the sun, and in the floor.
+TEST(UnshadowedSurfaces, ABallThatIsSunkInTheFloorIsNotNamedForItsLowerHalf) {
+    Scene scene = groundScene({box({0.25, -0.25, 0.0}, {0.75, 0.25, 0.5}), sphere({-0.5, 0.0, 0.25}, 0.5, 24)}, 2.0,
+                              {0.5, -0.5, 0.707, 0.0});
+    const auto technique = planar();
+    scene.addShadow(technique);
+    render(scene.root, fromTheSide);
+    EXPECT_EQ(technique->diagnose(), nothing);
+}
+
 TEST(UnshadowedSurfaces, AFloorMayBeTheTopOfASlab) {
     Trial trial(nullptr);
     trial.scene.content->replaceChild(find(*trial.scene.root, "ground"),

@@ -111,8 +111,9 @@ std::string unshadowedCause(const EnlistedTechnique& entry, const std::vector<En
         surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isShadowed), surfaces.end());
     }
     if (surfaces.empty()) return {};
-    const std::string name = unshadowedSurface({*entry.group, light, casters, surfaces, entry.eyeFromGroup},
-                                               notCastingBy(entry, shadowedBy(entry, drawn, stage), casters));
+    const LeafSet own = shadowedBy(entry, drawn, stage);
+    const std::string name = unshadowedSurface({*entry.group, light, casters, surfaces, entry.eyeFromGroup}, own,
+                                               notCastingBy(entry, own, casters));
     if (name.empty()) return {};
     return "the casters' shadow can fall on '" + name +
            "', which this technique leaves lit. Use map, volume or traced, or add a technique that receives there.";
