@@ -105,7 +105,7 @@ Grid<int> drawnIds(const TruthImage& truth, const Grid<int>& receiver, const Tru
 metrics::TruthMaps emptyMaps(int width, int height) {
     metrics::TruthMaps maps;
     maps.lit = maps.blockerDistance = maps.facing = maps.edgeLength = Picture(width, height);
-    maps.litCentre = metrics::Mask(width, height);
+    maps.litCentre = maps.undecided = metrics::Mask(width, height);
     maps.receiver = maps.blocker = Grid<int>(width, height);
     maps.position = Grid<glm::dvec3>(width, height);
     return maps;
@@ -123,6 +123,7 @@ metrics::TruthMaps mapsOf(const TruthImage& truth, const SceneTriangles& triangl
         maps.lit.cells[i] = double(pixel.lit);
         if (!pixel.seen()) continue;
         maps.litCentre.cells[i] = pixel.litCentre;
+        maps.undecided.cells[i] = pixel.undecided;
         maps.blockerDistance.cells[i] = pixel.blockerDistance;
         maps.receiver.cells[i] = idOf(triangles, pixel.receiver);
         maps.blocker.cells[i] = idOf(triangles, pixel.blocker);

@@ -35,7 +35,7 @@ struct PlanarPrograms;
 /// Needs
 /// - One stencil bit a light, and one more for several planes or techniques of one light.
 /// Limits
-/// - Receivers are flat. Casters do not shadow one another.
+/// - Receivers are flat. Casters do not shadow one another. diagnose() names a surface in view that stays lit.
 /// - A plane receives on its lit side only.
 /// - Alpha-tested casters cast as if they were solid.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
@@ -44,6 +44,7 @@ struct PlanarPrograms;
 /// - Without a receiver, what a polygon offset pulls forward is found where it is flat in its own frame: its drawable's box
 ///   tells. Surfaces that lie closely over it, within that offset, are marked, too.
 /// - Without a receiver, a ground of many kilometres with a near plane of decimetres may lose the shadow.
+///   diagnose() names a caster that is too far away for the depth buffer's steps.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
 /// Source
@@ -103,6 +104,11 @@ public:
     /// False for a point in one of the planes if a caster above that plane blocks the light. True for any other point.
     /// A point is in a plane if it is nearer than 10⁻⁵ of the casters' size.
     bool isLit(const ShadowProbe& probe, const glm::dvec3& point) const override;
+
+    /// True if the surface's box ends in one of the planes, as seen along its normal.
+    bool shadowsSurface(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const override;
+    /// Changes with the planes.
+    std::uint64_t surfacesKey() const override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

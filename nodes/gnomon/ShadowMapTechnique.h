@@ -40,6 +40,7 @@ class ShadowMapCache;
 /// - A wall thinner than about two texels may let single pixels of light through where it stands on the floor.
 /// - An object also loses its shadow where it is nearer than OpenGL draws things off their place, by large
 ///   coordinates in vertices.
+/// - Far from a very close near plane, depths are too coarse to place shadows. diagnose() names such a caster.
 /// - A lamp inside a closed box may light single pixels along the box's edges.
 /// - A penumbra is that of one straight edge at the blockers' mean distance. Overlapping edges at several distances are
 ///   only estimated.

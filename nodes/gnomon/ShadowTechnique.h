@@ -11,11 +11,13 @@
 #include <glm/vec3.hpp>
 #include <osg/Geode>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace osgUtil {
 class CullVisitor;
+class RenderLeaf;
 }
 
 namespace gnomon {
@@ -96,6 +98,13 @@ public:
     /// True if it draws casters that have no triangles to read, by their own code. Else the compositor reports them.
     /// Default false.
     virtual bool drawsCasters() const { return false; }
+
+    /// True if the technique can shadow a surface that is among its receivers. Default true.
+    /// @param leaf  a leaf of the surface, in view.
+    virtual bool shadowsSurface(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const;
+    /// Changes with what shadowsSurface() says. If it is not 0, the default, the compositor names a surface that its shadow
+    /// could reach and that no technique shadows.
+    virtual std::uint64_t surfacesKey() const { return 0; }
 
     /// True if the light reaches a point, as this technique draws it. ShadowQuery calls it.
     /// Default: true if a ray from the point to the light meets no caster.

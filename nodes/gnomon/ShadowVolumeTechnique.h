@@ -36,6 +36,7 @@ class VolumeCache;
 /// - Counts have up to seven bits. More casters between a light and a place take several rounds. If one connected mesh
 ///   lies over itself more often, its shadow may have holes, and diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.
+/// - Far from a very close near plane, depths are too coarse to place shadows. diagnose() names such a caster.
 /// - Drawables that write no depth do not receive.
 /// - A spot casts as a lamp: its cone is as OpenGL draws it, by vertex.
 /// Threads

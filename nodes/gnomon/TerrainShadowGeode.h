@@ -47,8 +47,10 @@ struct TerrainShadows;
 /// - Qhull for HULL and DRAPE: see OptionalPart::Terrain.
 /// - One stencil bit; two for shadows off a grid; three if those overlap. More bits save passes.
 /// Limits
-/// - Walls and roofs receive nothing.
+/// - Walls and roofs receive nothing. diagnose() names one in view that stays lit.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
+/// - Far from a very close near plane, depths are too coarse to place shadows off a regular grid. diagnose() names such a
+///   caster.
 /// - Casters stand on or in the ground. HULL shows no light below an overhang.
 /// - Terrain that overlaps itself in plan receives on all of its levels.
 /// - Shaders that move the terrain's vertices or discard its pixels are not known here.
@@ -162,6 +164,8 @@ public:
                                                const FrameCasters& casters) const override;
     /// True: the technique keeps casters by drawable.
     bool takesDrawables() const override { return true; }
+    /// 1: it shadows its receiver alone.
+    std::uint64_t surfacesKey() const override { return 1; }
 
     /// Computes all shadows of one light, for isLit().
     osg::ref_ptr<const osg::Referenced> answersFor(const ShadowProbe& probe) const override;

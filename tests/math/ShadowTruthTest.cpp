@@ -140,6 +140,29 @@ void addPrism(Soup& soup, const Ground& ground, double top) {
     }
 }
 
+TEST(ShadowTruth, IsUndecidedWithinASixteenthOfAPixelFromAnEdge) {
+    // A plate from x = 10 on, 10 m up, under a sun at 45°: its shadow begins at x = 0. A picture of 10 m that is slid along
+    // in steps of a hundredth of a pixel.
+    Soup soup;
+    soup.ground(40.0);
+    soup.quad({10.0, -20.0, 10.0}, {30.0, 0.0, 0.0}, {0.0, 40.0, 0.0});
+    constexpr int side = 20;
+    constexpr double pixel = 10.0 / side;
+    int undecided = 0;
+    for (int step = 0; step < 100; ++step) {
+        const double slid = step * pixel / 100.0;
+        const glm::dmat4 clip = plan(5.0) * glm::translate(glm::dmat4(1.0), glm::dvec3(-slid, 0.0, 0.0));
+        const TruthImage image = truthOf(soup, {clip, side, side, {1.0, 0.0, 1.0, 0.0}});
+        for (int x = 0; x < side; ++x) {
+            const double fromEdge = std::abs((x + 0.5) * pixel - 5.0 + slid) / pixel;
+            if (std::abs(fromEdge - 1.0 / 16.0) < 1e-4) continue; // rounding
+            ASSERT_EQ(image.at(x, 7).undecided, fromEdge < 1.0 / 16.0) << x << ", " << step;
+            undecided += image.at(x, 7).undecided;
+        }
+    }
+    EXPECT_EQ(undecided, 13) << "hundredths in two sixteenths";
+}
+
 TEST(ShadowTruth, OfABoxOnAPlaneIsAPolygon) {
     Soup soup = onGround();
     soup.box({-1.0, -1.2, 0.0}, {1.3, 1.0, 2.0});

@@ -3,6 +3,7 @@
 // that the application uses too.
 #include "IntoTexture.h"
 #include "TwoGrounds.h"
+#include <support/Causes.h>
 
 #include <osg/ClearNode>
 #include <osg/ColorMask>
@@ -42,8 +43,8 @@ struct Rtt {
     const Mask mask = place.mask();
     if (auto first = judge(actual.first, litPicture, darkPicture, mask); !first) return first << ", first frame";
     if (auto third = judge(actual.third, litPicture, darkPicture, mask); !third) return third << ", third frame";
-    if (!shadowed.technique->diagnose().empty())
-        return ::testing::AssertionFailure() << shadowed.technique->diagnose()[0];
+    const std::vector<std::string> causes = causesButLitSurfaces(*shadowed.technique); // the right ground may be lit
+    if (!causes.empty()) return ::testing::AssertionFailure() << causes[0];
     if (!shadowed.complaints->all().empty()) return ::testing::AssertionFailure() << shadowed.complaints->all()[0];
     return ::testing::AssertionSuccess();
 }
@@ -135,7 +136,7 @@ TEST_P(Buffers, FourSamplesSmoothTheShadowsEdges) {
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(outside, 0);
     EXPECT_GT(smooth, 50);
-    EXPECT_EQ(shadowed.technique->diagnose(), std::vector<std::string>());
+    EXPECT_EQ(causesButLitSurfaces(*shadowed.technique), std::vector<std::string>());
     EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
 }
 
@@ -146,8 +147,9 @@ TEST_P(Buffers, FourSamplesWhoseColorsAreNotClearedAndBlendedWithAreDarkenedAndS
     shadowed.into->into->setClearMask(GL_DEPTH_BUFFER_BIT);
     shadowed.into->into->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
     shadowed.camera->frame();
-    ASSERT_FALSE(shadowed.technique->diagnose().empty());
-    EXPECT_NE(shadowed.technique->diagnose()[0].find("colours that the camera does not clear"), std::string::npos);
+    ASSERT_FALSE(causesButLitSurfaces(*shadowed.technique).empty());
+    EXPECT_NE(causesButLitSurfaces(*shadowed.technique)[0].find("colours that the camera does not clear"),
+              std::string::npos);
     EXPECT_EQ(shadowed.complaints->all(), std::vector<std::string>());
 }
 
@@ -213,7 +215,7 @@ TEST_P(Buffers, ReservedBitsKeepWhatTheApplicationWroteThereAndOursNeedNotBeZero
             const auto end = stencil->data() + stencil->getTotalSizeInBytes();
             EXPECT_TRUE(
                 std::all_of(stencil->data(), end, [=](auto v) { return (v & reserved) == (filled & reserved); }));
-            EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+            EXPECT_EQ(causesButLitSurfaces(*technique), std::vector<std::string>());
         }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a user's graph may hold against the compositor: the right pixel, or the reason why not.
+#include <support/Causes.h>
 #include <support/Picture.h>
 #include <support/Scene.h>
 
@@ -22,7 +23,7 @@ const View slanted = perspective({-6.0, -10.0, 6.0}, {0.0, 0.0, 0.0}, 300, 200);
 Scene boxScene() { return groundScene({box({-1.0, -1.0, 1.0}, {1.0, 1.0, 2.0})}); }
 
 void expectOneCause(const gnomon::ShadowTechnique& technique, const std::string& part) {
-    const std::vector<std::string> causes = technique.diagnose();
+    const std::vector<std::string> causes = causesButLitSurfaces(technique); // some casters shadow each other
     ASSERT_EQ(causes.size(), 1u) << (causes.size() > 1 ? causes[1] : "");
     EXPECT_NE(causes[0].find(part), std::string::npos) << causes[0];
 }

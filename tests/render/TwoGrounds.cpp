@@ -2,6 +2,7 @@
 #include "TwoGrounds.h"
 
 #include "GlComplaints.h"
+#include <support/Causes.h>
 
 #include <algorithm>
 
@@ -29,7 +30,7 @@ std::string joined(const std::vector<std::string>& sentences) {
 }
 
 bool saysJust(const gnomon::ShadowTechnique& technique, const std::string& part) {
-    const std::vector<std::string> causes = technique.diagnose();
+    const std::vector<std::string> causes = causesButLitSurfaces(technique); // the screen stands before the house
     return part.empty() ? causes.empty() : causes.size() == 1 && causes[0].find(part) != std::string::npos;
 }
 

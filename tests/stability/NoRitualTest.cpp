@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Nothing to remember: any camera, any place in the graph, the first frame, with or without a viewer.
 #include "Trial.h"
+#include <support/Causes.h>
 
 #include <osg/MatrixTransform>
 #include <osg/Switch>
@@ -116,7 +117,7 @@ TEST(PlanarInASceneView, WithoutAFrameNumberForgetsCausesThatAreGone) {
     EXPECT_EQ(technique->diagnose().size(), 1u);
     technique->addPlane({0.0, 0.0, 1.0, 0.0});
     EXPECT_TRUE(shows(bare.draw(), truthOf(trial)));
-    EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+    EXPECT_EQ(causesButLitSurfaces(*technique), std::vector<std::string>()) << "the ball's shadow falls on the box";
 }
 
 TEST(PlanarInTwoViewers, ThatCountAlikeForgetsTheOthersCauses) {
@@ -128,7 +129,7 @@ TEST(PlanarInTwoViewers, ThatCountAlikeForgetsTheOthersCauses) {
          second = std::make_unique<Camera>(scene.root, trial.view);
     const auto causes = [&](Camera& camera) {
         camera.frame();
-        return technique->diagnose().size();
+        return causesButLitSurfaces(*technique).size(); // the ball's shadow falls on the box
     };
     EXPECT_EQ(causes(*first), 1u);
     technique->addPlane({0.0, 0.0, 1.0, 0.0});
@@ -155,7 +156,7 @@ TEST(PlanarInTwoViews, TellsTheCausesOfBoth) {
         addView(viewer, context, scene.root, behindFirst ? trial.view : behind, size);
         for (int frame = 0; frame < 2; ++frame) {
             viewer.frame();
-            EXPECT_EQ(technique->diagnose().size(), 1u);
+            EXPECT_EQ(causesButLitSurfaces(*technique).size(), 1u);
         }
     }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <support/Causes.h>
 #include <support/TwoReceivers.h>
 
 #include <osg/NodeVisitor>
@@ -211,7 +212,7 @@ ReceiverVerdict ReceiverTruth::judge(Receiving receiving) const {
     const std::vector<Picture> frames = threeFrames(shadowed, viewOfTwoReceivers());
     ReceiverVerdict verdict;
     for (std::size_t i = 0; i < frames.size(); ++i) add(verdict, frames[i], _lit[i], _dark[i], _mask);
-    verdict.causes = technique->diagnose();
+    verdict.causes = causesButLitSurfaces(*technique); // the screens receive nothing
     return verdict;
 }
 

@@ -45,24 +45,14 @@ bool nearlyEqual(const osg::Matrixd& a, const osg::Matrixd& b) {
     return difference <= 1e-9 * size; // the same product of doubles taken in another order
 }
 
-/// Tells the leaves of a receiver. Looks at each node and each drawable's ways once, however many leaves share them.
-class ReceiverTest {
+/// Tells what lies under a selection. Looks at each node once.
+class WaysUnder {
 public:
-    ReceiverTest(const Selection& selection, const osg::Matrixd& eyeFromWorld)
-        : _mask(selection.mask), _eyeFromWorld(eyeFromWorld) {
+    explicit WaysUnder(const Selection& selection) : _mask(selection.mask) {
         for (const auto& root : selection.roots()) _roots.insert(root.get());
     }
 
-    bool operator()(const osgUtil::RenderLeaf& leaf) {
-        const Ways ways = waysUnder(*leaf._drawable);
-        return ways.some && (ways.all || isInstance(leaf));
-    }
-
-private:
-    /// Instances of one drawable under the selection, by the x of where they stand in eye space.
-    using Places = std::multimap<double, osg::Matrixd>;
-
-    Ways waysUnder(const osg::Node& node) {
+    Ways operator()(const osg::Node& node) {
         const auto [known, isNew] = _ways.insert({&node, {false, false}});
         if (!isNew || !(node.getNodeMask() & _mask)) return known->second;
         Ways ways;
@@ -72,12 +62,44 @@ private:
         else if (node.getNumParents() == 0)
             ways = {_roots.empty(), _roots.empty()};
         for (unsigned i = 0; !isRoot && i < node.getNumParents(); ++i) {
-            const Ways way = waysUnder(*node.getParent(i));
+            const Ways way = (*this)(*node.getParent(i));
             ways.some = ways.some || way.some;
             ways.all = ways.all && way.all;
         }
         return _ways[&node] = ways;
     }
+
+    /// True if this way from above leads through the selection.
+    bool holds(const osg::NodePath& path) const {
+        bool under = _roots.empty();
+        bool visible = true;
+        for (const osg::Node* node : path) {
+            under = under || _roots.count(node);
+            visible = visible && (!under || (node->getNodeMask() & _mask));
+        }
+        return under && visible;
+    }
+
+private:
+    const osg::Node::NodeMask _mask;
+    std::unordered_set<const osg::Node*> _roots; ///< empty: any node.
+    std::unordered_map<const osg::Node*, Ways> _ways;
+};
+
+/// Tells the leaves of a receiver. Looks at each drawable's ways once, however many leaves share them.
+class ReceiverTest {
+public:
+    ReceiverTest(const Selection& selection, const osg::Matrixd& eyeFromWorld)
+        : _under(selection), _eyeFromWorld(eyeFromWorld) {}
+
+    bool operator()(const osgUtil::RenderLeaf& leaf) {
+        const Ways ways = _under(*leaf._drawable);
+        return ways.some && (ways.all || isInstance(leaf));
+    }
+
+private:
+    /// Instances of one drawable under the selection, by the x of where they stand in eye space.
+    using Places = std::multimap<double, osg::Matrixd>;
 
     /// One of several instances of a drawable: one whose way from above gives this leaf's modelview.
     bool isInstance(const osgUtil::RenderLeaf& leaf) {
@@ -94,23 +116,15 @@ private:
     Places placesOf(const osg::Drawable& drawable) const {
         Places places;
         for (const osg::NodePath& path : drawable.getParentalNodePaths()) {
-            bool under = _roots.empty();
-            bool visible = true;
-            for (const osg::Node* node : path) {
-                under = under || _roots.count(node);
-                visible = visible && (!under || (node->getNodeMask() & _mask));
-            }
-            if (!under || !visible) continue;
+            if (!_under.holds(path)) continue;
             const osg::Matrixd place = osg::computeLocalToWorld(path) * _eyeFromWorld;
             places.insert({place(3, 0), place});
         }
         return places;
     }
 
-    const osg::Node::NodeMask _mask;
-    std::unordered_set<const osg::Node*> _roots; ///< empty: any node.
+    WaysUnder _under;
     const osg::Matrixd& _eyeFromWorld;
-    std::unordered_map<const osg::Node*, Ways> _ways;
     std::unordered_map<const osg::Drawable*, Places> _places;
 };
 
@@ -180,6 +194,15 @@ LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& re
     LeafSet result;
     for (const DrawnLeaf& entry : leaves)
         if (isReceiver(*entry.leaf)) result.insert(entry.leaf);
+    return result;
+}
+
+std::set<const osg::Drawable*> drawablesUnder(const Selection& selection,
+                                              const std::vector<const osg::Drawable*>& drawables) {
+    WaysUnder waysUnder(selection);
+    std::set<const osg::Drawable*> result;
+    for (const osg::Drawable* drawable : drawables)
+        if (waysUnder(*drawable).some) result.insert(drawable);
     return result;
 }
 

@@ -42,6 +42,10 @@ using LeafSet = std::unordered_set<const osgUtil::RenderLeaf*>;
 LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,
                        const osg::Matrixd& eyeFromWorld);
 
+/// Those of some drawables that lie under `selection`, by some way from above. Reads the scene graph: call in cull.
+std::set<const osg::Drawable*> drawablesUnder(const Selection& selection,
+                                              const std::vector<const osg::Drawable*>& drawables);
+
 /// Why none of the leaves that a stage draws before its ShadowBin is of `selection`, as a cause for diagnose(); empty if
 /// it merely is out of sight. @param role  what the selection is to be: "receiver". @param from  a node of the graph.
 std::string whyMissing(const Selection& selection, const char* role, const osg::Node& from,

@@ -40,6 +40,9 @@ public:
     /// True if mark() needs ScreenPass::counters().
     virtual bool counts() const { return false; }
 
+    /// False if its marks are right however coarse the depths are.
+    virtual bool placesByDepth() const { return true; }
+
     /// True of what relighting alone must darken: what OpenGL has drawn without the light, as far as it could.
     virtual bool relightsOnly() const { return false; }
 

@@ -69,6 +69,10 @@ DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph) {
     return placement;
 }
 
+bool isShaded(const osgUtil::StateGraph* graph) {
+    return isOn(graph, GL_LIGHTING) || resolvedAttribute(graph, osg::StateAttribute::PROGRAM);
+}
+
 bool writesDepth(const osgUtil::StateGraph* graph) {
     const auto* depth = resolved<osg::Depth>(graph, osg::StateAttribute::DEPTH);
     return isOn(graph, GL_DEPTH_TEST, true) && (!depth || depth->getWriteMask());

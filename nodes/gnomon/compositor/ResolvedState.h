@@ -24,6 +24,9 @@ const Attribute* resolved(const osgUtil::StateGraph* graph, osg::StateAttribute:
 /// True if what is drawn so leaves its depth: depth test and depth mask are on.
 bool writesDepth(const osgUtil::StateGraph* graph);
 
+/// True if a shadow could be expected on what is drawn so, unlike on a sky: it is lit, or a program draws it.
+bool isShaded(const osgUtil::StateGraph* graph);
+
 /// Where a state puts depths, besides where the projection does.
 struct DepthPlacement {
     double nearest = 0.0, farthest = 1.0; ///< osg::Depth's range.

@@ -9,11 +9,9 @@
 #include <gnomon/group/EnclosingCasters.h>
 #include <gnomon/group/LocalLight.h>
 
-#include <glm/geometric.hpp>
-#include <osg/UserDataContainer>
-
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 #include <set>
@@ -22,8 +20,6 @@
 namespace gnomon {
 namespace {
 
-constexpr unsigned patience = 60;              // frames in which something changes, until all is looked at again
-constexpr std::size_t mostKnown = 16;          // of groups and lights in a stage
 constexpr std::size_t mostReceivers = 7;       // nine points each: 63 rays to the light
 constexpr std::size_t mostTriangles = 200000;  // of an enclosing node: a tree of these takes a fifth of a second
 constexpr double nearlyAll = 0.95, cone = 0.5; // the cosine of 60°
@@ -57,7 +53,7 @@ CastingNode largestNode(const CasterDrawables& casters) {
 }
 
 /// Boxes of what is seen in the group's frame, but for a node's own; the largest.
-std::vector<osg::BoundingBoxd> boxesOf(const EnclosingCasters::View& view, const CastingNode& without) {
+std::vector<osg::BoundingBoxd> boxesOf(const LitView& view, const CastingNode& without) {
     std::set<const osg::Drawable*> own;
     for (const auto& piece : without.pieces) own.insert(piece->drawable);
     const osg::Matrixd groupFromEye = osg::Matrixd::inverse(view.eyeFromGroup);
@@ -116,7 +112,7 @@ bool encloses(const CastingNode& node, const std::vector<osg::Vec3d>& points, co
     });
 }
 
-std::string find(const EnclosingCasters::View& view) {
+std::string find(const LitView& view) {
     const CastingNode node = largestNode(view.casters);
     if (!node.node || node.triangles > mostTriangles) return {};
     const std::vector<osg::Vec3d> points = pointsIn(boxesOf(view, node));
@@ -132,43 +128,12 @@ std::string find(const EnclosingCasters::View& view) {
 
 } // namespace
 
-EnclosingCasters& EnclosingCasters::of(osgUtil::RenderStage& stage) {
-    osg::UserDataContainer& kept = *stage.getOrCreateUserDataContainer();
-    for (unsigned i = 0; i < kept.getNumUserObjects(); ++i)
-        if (auto* known = dynamic_cast<EnclosingCasters*>(kept.getUserObject(i))) return *known;
-    const osg::ref_ptr<EnclosingCasters> fresh = new EnclosingCasters;
-    kept.addUserObject(fresh);
-    return *fresh;
-}
-
-EnclosingCasters::Known& EnclosingCasters::knownOf(const View& view) {
-    const auto found = std::find_if(_known.begin(), _known.end(), [&](const Known& known) {
-        return known.group == &view.group && known.number == view.light.number;
-    });
-    if (found != _known.end()) return *found;
-    if (_known.size() >= mostKnown) _known.erase(_known.begin());
-    _known.push_back({&view.group, view.light.number});
-    _known.back().frames = patience;
-    return _known.back();
-}
-
-std::string EnclosingCasters::causeOf(const View& view) {
-    Known& known = knownOf(view);
-    ++known.frames;
-    const bool same = known.casters == view.casters.fingerprint && known.light == view.light.inGroup &&
-                      known.receivers == view.receivers.size();
-    if (same || (known.frames < patience && known.pieces == view.casters.list.size())) return known.cause;
-    known.casters = view.casters.fingerprint;
-    known.pieces = view.casters.list.size();
-    known.receivers = view.receivers.size();
-    known.light = view.light.inGroup;
-    known.frames = 0;
+std::string enclosingCause(const LitView& view) {
     try {
-        known.cause = find(view);
+        return find(view);
     } catch (const std::runtime_error&) { // no tree for rays: traced tells why
-        known.cause.clear();
+        return {};
     }
-    return known.cause;
 }
 
 } // namespace gnomon

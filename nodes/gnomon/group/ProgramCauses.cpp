@@ -40,6 +40,10 @@ ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage
     }
 }
 
+bool ProgramCauses::moves(const osgUtil::RenderLeaf& leaf) const {
+    return std::any_of(_moving.begin(), _moving.end(), [&](const DrawnLeaf& entry) { return entry.leaf == &leaf; });
+}
+
 void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
                            const Leaves& receivingLate) const {
     for (const Leaves* leaves : {&receiving, &receivingLate}) {

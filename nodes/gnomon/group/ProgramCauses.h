@@ -23,6 +23,9 @@ public:
     void report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
                 const Leaves& receivingLate) const;
 
+    /// True if the leaf's program moves its vertices, so that it is not where its box is.
+    bool moves(const osgUtil::RenderLeaf& leaf) const;
+
 private:
     std::vector<DrawnLeaf> _moving;                  ///< Their program moves vertices.
     std::set<const osgUtil::RenderLeaf*> _ownDepths; ///< Their program sets a depth of its own.

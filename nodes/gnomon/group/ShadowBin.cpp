@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/PrepassBin.h>
-#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/StageVerdict.h>
-#include <gnomon/group/EnclosingCasters.h>
+#include <gnomon/group/ReceiverCauses.h>
 #include <gnomon/group/ShadowBin.h>
 #include <gnomon/group/ViewFrame.h>
+#include <gnomon/group/ViewLights.h>
 
 #include <OpenThreads/ScopedLock>
 #include <osg/Notify>
@@ -71,30 +71,6 @@ bool hasCasters(const EnlistedTechnique& entry, const FrameCasters& casters) {
     return areSome(entry, entry.technique->takesDrawables() ? casters.drawables() : *casters.layers().pieces);
 }
 
-/// A receiver that is out of sight is nothing to report; one that can never be seen to receive is.
-void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage) {
-    if (entry.technique->isReceiverGone())
-        return entry.technique->report(entry.frameNumber, "the node given to setReceiver() is gone, because nothing "
-                                                          "else kept it. Add the receiver to the scene, and name it "
-                                                          "anew.");
-    const std::string cause = whyMissing(entry.technique->getReceiver(), "receiver", *entry.group, stage);
-    if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
-}
-
-ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) {
-    ViewFrame view;
-    view.pixels = {viewport.width(), viewport.height()};
-    view.eyeFromGroup = entry.eyeFromGroup;
-    view.groupFromTechnique = entry.groupFromTechnique;
-    view.projection = *entry.projection;
-    view.group = entry.group.get();
-    view.dark = entry.group->getDark();
-    view.options = entry.group->getCompositorOptions();
-    view.frameNumber = entry.frameNumber;
-    view.frameTime = entry.frameTime;
-    return view;
-}
-
 /// Asked for once for all techniques that share a group and a view of it.
 const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderStage& stage,
                               std::deque<FrameCasters>& known) {
@@ -117,45 +93,6 @@ ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     return job;
 }
 
-/// Those of the leaves that receive from a technique: its named receiver's, or all that its lens sees.
-std::vector<const osgUtil::RenderLeaf*> receivingOf(const EnlistedTechnique& entry,
-                                                    const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
-    const bool named = entry.technique->hasReceiver();
-    LeafSet receivers;
-    if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
-    std::vector<const osgUtil::RenderLeaf*> receiving;
-    for (const DrawnLeaf& leaf : leaves)
-        if (named ? receivers.count(leaf.leaf) > 0 : isSameLens(projectionOf(*leaf.leaf), *entry.projection))
-            receiving.push_back(leaf.leaf);
-    return receiving;
-}
-
-/// True if a shadow could be expected on what is drawn so, unlike on a sky.
-bool isShaded(const osgUtil::RenderLeaf& leaf) {
-    return isOn(leaf._parent, GL_LIGHTING) || resolvedAttribute(leaf._parent, osg::StateAttribute::PROGRAM);
-}
-
-/// Shadows are found by the depths that stand.
-void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUtil::RenderLeaf*>& receiving) {
-    const auto hasDepth = [](const auto* leaf) { return writesDepth(leaf->_parent); };
-    const auto shaded = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(*leaf); });
-    if (shaded == receiving.end() || std::any_of(receiving.begin(), receiving.end(), hasDepth)) return;
-    entry.technique->report(entry.frameNumber,
-                            "no receiver in this view writes depth, so there is no shadow; the first is '" +
-                                nameOf(**shaded) + "'. Switch GL_DEPTH_TEST and the mask of osg::Depth on.");
-}
-
-/// What stands behind would need its own shadow and that of what is combined with it.
-void reportCombined(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
-    const auto receiving = receivingOf(entry, drawn.late.combined, stage);
-    const auto first = std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(*leaf); });
-    if (first != receiving.end())
-        entry.technique->report(entry.frameNumber,
-                                "a logic operation combines '" + nameOf(**first) +
-                                    "' with what stands behind it, in a bin above 8, so it receives no shadow. Draw it "
-                                    "in a bin below 8, or switch GL_COLOR_LOGIC_OP off.");
-}
-
 /// Where leaves can be seen.
 std::optional<ScreenRect> boundsOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
     std::optional<ScreenRect> all;
@@ -164,23 +101,6 @@ std::optional<ScreenRect> boundsOf(const std::vector<const osgUtil::RenderLeaf*>
         if (const std::optional<ScreenRect> place = filled(*leaf) ? screenBoundsOf(*leaf) : wholeScreen)
             all = all ? united(*all, *place) : *place;
     return all;
-}
-
-/// A factor is for what is seen, fog and all.
-void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
-    if (entry.group->getComposite() == ShadowCasterGroup::BLEND &&
-        (isModeOn(drawn.early, GL_FOG) || isModeOn(drawn.late.leaves, GL_FOG)))
-        entry.technique->report(entry.frameNumber, "fog is on, and BLEND darkens it with the surface behind it. Set "
-                                                   "RELIGHT, or switch GL_FOG off.");
-}
-
-void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
-                     const CasterDrawables& casters, const Leaves& receiving, osgUtil::RenderStage& stage) {
-    for (const ShadowLight& light : lights) {
-        const std::string cause =
-            EnclosingCasters::of(stage).causeOf({*entry.group, light, casters, receiving, entry.eyeFromGroup});
-        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
-    }
 }
 
 /// Leaves whose depths belong together. What all lies at one depth, as a sky does, receives nothing.
@@ -358,12 +278,9 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
         return entry.technique->report(entry.frameNumber, "there is no shadow. " + why);
     const auto receiving = receivingOf(entry, drawn.early, *getStage());
     const auto lateOnes = receivingOf(entry, drawn.late.leaves, *getStage());
-    drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, receiving, lateOnes);
-    reportCombined(entry, drawn, *getStage());
+    reportReceiverStates(entry, {receiving, lateOnes, drawn}, *getStage());
     if (entry.technique->hasReceiver() && receiving.empty() && lateOnes.empty())
         return reportNoReceiver(entry, *getStage());
-    if (lateOnes.empty()) reportNoDepth(entry, receiving);
-    reportFog(entry, drawn);
     reportEnclosers(entry, found.lights, casters.drawables(), receiving, *getStage());
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
     view.strengths = found.strengths;
@@ -372,6 +289,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
         for (ShadowJob& job : jobsFor({entry, found.lights, casters, view, those, within}, alone))
             if (programs || !job.programMarks()) to.push_back(std::move(job));
     };
+    const std::size_t before = _jobs.size(), lateBefore = _lateJobs.size();
     int index = 0;
     bool programs = true; // are served once
     const auto addAll = [&](const Leaves& all, bool late) {
@@ -391,6 +309,12 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
     const bool alone = _enlisted.size() == 1 && _effects.empty() && index == 1 && lateOnes.empty();
     if (const auto watch = entry.technique->watch(view, alone)) _watches.push_back(watch);
     addAll(lateOnes, true);
+    if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
+    reportUnshadowed(entry, _enlisted, found.lights, casters.drawables(), drawn, *getStage());
+    const auto placesByDepth = [](const ShadowJob& job) { return job.marks->placesByDepth(); };
+    if (std::any_of(_jobs.begin() + before, _jobs.end(), placesByDepth) ||
+        std::any_of(_lateJobs.begin() + lateBefore, _lateJobs.end(), placesByDepth))
+        reportCoarseDepth(entry, found.lights.front(), casters.drawables(), *getStage());
 }
 
 /// To a bin of its own, after the last one that draws what receives late.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/ShadowTechnique.h>
 #include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/DrawWatch.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/ViewEffect.h>
+#include <gnomon/group/EnlistedTechnique.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/StageLeaves.h>
 #include <gnomon/group/ViewLights.h>
@@ -20,20 +19,6 @@
 #include <vector>
 
 namespace gnomon {
-
-/// A technique met in the cull of one stage, and what it needs to know of the view.
-struct EnlistedTechnique {
-    osg::ref_ptr<const ShadowTechnique> technique;
-    osg::ref_ptr<const ShadowCasterGroup> group;
-    osg::Matrixd eyeFromGroup;
-    osg::Matrixd groupFromTechnique;
-    osg::ref_ptr<osg::RefMatrix> projection; ///< shared with the leaves: near and far are set in it after the cull.
-    osg::Vec3 viewPoint;                     ///< eye space, see CasterView.
-    float lodScale = 1.0f;                   ///< of the cull.
-    QuadSplit quads{};                       ///< of the driver that draws.
-    unsigned frameNumber = 0;
-    double frameTime = 0.0; ///< seconds, see timeOf().
-};
 
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
 ///

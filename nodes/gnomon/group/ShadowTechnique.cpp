@@ -17,6 +17,8 @@ ShadowTechnique::ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp
 
 osg::ref_ptr<DrawWatch> ShadowTechnique::watch(const ViewFrame&, bool) const { return nullptr; }
 
+bool ShadowTechnique::shadowsSurface(const ViewFrame&, const osgUtil::RenderLeaf&) const { return true; }
+
 bool ShadowTechnique::isLit(const ShadowProbe& probe, const glm::dvec3& point) const {
     return probe.reachesFrom(point);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/LateReceivers.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/group/ProgramCauses.h>
 
 #include <map>
+#include <optional>
 
 namespace gnomon {
 
@@ -16,6 +18,21 @@ struct StageLeaves {
         if (!all) return;
         programs = ProgramCauses(stage);
         for (const auto* leaves : {&early, &late.leaves}) findDisplaced(*leaves);
+    }
+
+    /// Of what is drawn and shaded, wherever it is; nullopt if nothing is.
+    std::optional<std::uint64_t> shadedFingerprint() const {
+        Fingerprint drawables;
+        const osgUtil::StateGraph* graph = nullptr; // leaves of one state mostly follow each other
+        bool shaded = false, any = false;
+        for (const auto* leaves : {&early, &late.leaves})
+            for (const DrawnLeaf& entry : *leaves) {
+                if (entry.leaf->_parent != graph) shaded = isShaded(graph = entry.leaf->_parent);
+                if (shaded) drawables.mix(entry.leaf->_drawable.get());
+                any = any || shaded;
+            }
+        if (!any) return std::nullopt;
+        return drawables.value();
     }
 
     std::vector<DrawnLeaf> early; ///< before the bin.

@@ -43,6 +43,7 @@ public:
 
     /// True if the leaf's box comes to the plane but for a hundredth of its size.
     bool canReach(const osgUtil::RenderLeaf& leaf) const override;
+    bool placesByDepth() const override { return cutToPlane; }
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
 
 protected:

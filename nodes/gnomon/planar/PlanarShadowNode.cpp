@@ -3,6 +3,8 @@
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
+#include <gnomon/base/Fingerprint.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/FrameCasters.h>
@@ -56,6 +58,17 @@ bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
         if (!(std::abs(distance(*plane, corner)) <= rounding)) return false;
     }
     return true;
+}
+
+/// True if a leaf ends in the plane, as its bounding box tells: a floor, or the top of a slab.
+bool endsIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
+    constexpr double unevenness = 0.01; // share of the box's size
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
+    if (!box.valid() || !plane) return false;
+    double highest = -std::numeric_limits<double>::infinity();
+    for (unsigned i = 0; i < 8; ++i) highest = std::max(highest, distance(*plane, toGlm(osg::Vec3d(box.corner(i)))));
+    return std::abs(highest) <= unevenness * 2.0 * box.radius();
 }
 
 /// Leaves of one state follow each other.
@@ -194,6 +207,20 @@ osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const 
     mark->screenBounds = *bounds;
     mark->depth = *depth;
     return mark;
+}
+
+bool PlanarShadowNode::shadowsSurface(const ViewFrame& view, const osgUtil::RenderLeaf& leaf) const {
+    return std::any_of(_planes.begin(), _planes.end(), [&](const osg::Vec4d& given) {
+        const auto plane = transformedPlane(toGlm(view.eyeFromGroup) * toGlm(view.groupFromTechnique), toGlm(given));
+        return plane && endsIn(leaf, *plane);
+    });
+}
+
+std::uint64_t PlanarShadowNode::surfacesKey() const {
+    Fingerprint planes;
+    for (const osg::Vec4d& plane : _planes)
+        for (int i = 0; i < 4; ++i) planes.mix(plane[i]);
+    return _planes.empty() ? 0 : planes.value() | 1;
 }
 
 /// A ray from the foot of the point in the plane, lifted off it: what lies in the plane never casts.

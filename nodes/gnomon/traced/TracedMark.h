@@ -19,6 +19,8 @@ public:
     double rounding = 0.0;                   ///< of the casters' vertices.
     glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
 
+    /// Rays find the surface within what a depth may mean.
+    bool placesByDepth() const override { return false; }
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
 
 protected:

@@ -45,13 +45,18 @@ bool isInside(const glm::dvec2& place, const Mask& mask) {
     return place.x >= 0.0 && place.y >= 0.0 && place.x <= mask.width - 1 && place.y <= mask.height - 1;
 }
 
-/// Adds one of the four pixels; false if it is not the same surface.
+bool isUndecided(const TruthMaps& truth, std::size_t pixel) {
+    return !truth.undecided.empty() && truth.undecided.cells[pixel];
+}
+
+/// Adds one of the four pixels; false if it is not the same surface, or undecided.
 bool addPixel(const FlickerFrame& last, int receiver, int x, int y, double weight, std::size_t slot, Fetch& fetch) {
     if (!(weight > 0.0)) return true;
     fetch.pixel[slot] =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(last.facing.width) + static_cast<std::size_t>(x);
     fetch.weight[slot] = weight;
-    return last.facing.cells[fetch.pixel[slot]] && last.truth.receiver.cells[fetch.pixel[slot]] == receiver;
+    return last.facing.cells[fetch.pixel[slot]] && last.truth.receiver.cells[fetch.pixel[slot]] == receiver &&
+           !isUndecided(last.truth, fetch.pixel[slot]);
 }
 
 Fetch fetchFrom(const FlickerFrame& last, const FlickerFrame& frame, std::size_t pixel) {
@@ -77,7 +82,8 @@ Changes changesBetween(const FlickerFrame& last, const FlickerFrame& frame) {
     Changes changes{Picture(frame.facing.width, frame.facing.height, -1.0),
                     Picture(frame.facing.width, frame.facing.height)};
     for (std::size_t i = 0; i < frame.facing.cells.size(); ++i) {
-        const Fetch fetch = frame.facing.cells[i] ? fetchFrom(last, frame, i) : Fetch();
+        const bool counts = frame.facing.cells[i] && !isUndecided(frame.truth, i);
+        const Fetch fetch = counts ? fetchFrom(last, frame, i) : Fetch();
         if (!fetch.known) continue;
         changes.shown.cells[i] = std::abs(frame.visibility.cells[i] - fetch.of(last.visibility));
         changes.truth.cells[i] = std::max(std::abs(frame.truth.lit.cells[i] - fetch.of(last.truth.lit)),

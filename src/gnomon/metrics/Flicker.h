@@ -9,8 +9,8 @@ namespace gnomon::metrics {
 /// One frame of a sequence. All frames and grids have one size.
 struct FlickerFrame {
     Picture visibility;            ///< V.
-    TruthMaps truth;               ///< Uses lit, litCentre, receiver and position. A surface point must keep its
-                                   ///< position, even if the object moves.
+    TruthMaps truth;               ///< Uses lit, litCentre, undecided, receiver and position. A surface point must keep
+                                   ///< its position, even if the object moves.
     Mask facing;                   ///< R+.
     glm::dmat4 clipFromPosition{}; ///< The camera, as OpenGL's projection * modelview.
 };
@@ -22,7 +22,7 @@ struct FlickerFrame {
 ///     e(p) = max(0, |V_k(p) - V_{k-1}(p')| - max over 3 x 3 of |T_k - T_{k-1}|)
 ///
 /// p' is the same surface point one frame before, fetched bilinearly. It is known if all fetched pixels were R+ of
-/// the same receiver. The change of T is the greater one of T_a and T_c. A perfect picture therefore has no flicker,
+/// the same receiver. Pixels that the truth leaves undecided are left out, in both frames. The change of T is the greater one of T_a and T_c. A perfect picture therefore has no flicker,
 /// whether its edges are smooth or hard.
 class FlickerMeter {
 public:

@@ -18,6 +18,8 @@ struct TruthMaps {
     Picture litByDisc;            ///< Optional: T_a for the sun's disc, 0.533 degrees across.
     Grid<int> blocker;            ///< Optional: id of the object that blocks the centre ray; 0 is none.
     Picture edgeLength;           ///< Optional: metres, longest edge of the receiver's triangle.
+    Mask undecided;               ///< Optional: 1 where an edge of the shadow comes so close to the pixel's centre that a
+                                  ///< rasteriser may decide otherwise than T_c.
     Grid<glm::dvec3> position;    ///< Optional: metres, surface point at the pixel's centre.
     glm::dvec3 towardsLight{0.0}; ///< Optional: direction to the light, any length; zero is unknown.
     glm::dvec3 up{0.0, 0.0, 1.0}; ///< Unit vector upwards.

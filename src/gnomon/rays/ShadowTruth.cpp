@@ -15,6 +15,8 @@ namespace gnomon {
 namespace {
 
 constexpr int grid = 4; // rays a pixel and side
+constexpr double aboutCentre =
+    1.0 / 16.0; // pixels: rasterisers snap to 1/256, but 24 bits of depth move places by more
 
 /// A place that a line of sight met.
 struct Place {
@@ -45,6 +47,7 @@ private:
     TruthPixel pixel(int x, int y, const Lit& lit) const;
     double litByPoint(const Place& place) const;
     double litByDisc(const Place& place, std::mt19937& random) const;
+    bool isUndecided(double x, double y, bool lit) const;
     void fillCentre(TruthPixel& pixel, const Place& place) const;
 
     const RayScene& _seen;
@@ -118,9 +121,22 @@ void Tracer::fillCentre(TruthPixel& pixel, const Place& place) const {
     pixel.blockerDistance = hit.distance * glm::length(ray.along);
 }
 
+/// Whether a place close by is otherwise than a pixel's centre.
+bool Tracer::isUndecided(double x, double y, bool lit) const {
+    for (int i = 0; i < 4; ++i) {
+        const Place place = look(x + (i % 2 ? aboutCentre : -aboutCentre), y + (i / 2 ? aboutCentre : -aboutCentre));
+        if (place.triangle != RayHit::none && (litByPoint(place) > 0.0) != lit) return true;
+    }
+    return false;
+}
+
 /// Dice are made for a disc alone: they cost as much as a third of a point light's rays.
 TruthPixel Tracer::pixel(int x, int y) const {
-    if (_disc.radius == 0.0) return pixel(x, y, [this](const Place& place) { return litByPoint(place); });
+    if (_disc.radius == 0.0) {
+        TruthPixel result = pixel(x, y, [this](const Place& place) { return litByPoint(place); });
+        result.undecided = result.seen() && result.isEdge() && isUndecided(x + 0.5, y + 0.5, result.litCentre);
+        return result;
+    }
     std::mt19937 random(static_cast<unsigned>(y * _view.width + x)); // the same picture every time
     return pixel(x, y, [&](const Place& place) { return litByDisc(place, random); });
 }

@@ -98,6 +98,26 @@ TEST(Flicker, AShadowThatGoesWithTheCameraFlickers) {
     EXPECT_GT(meter.crawl().value(), 0.5);
 }
 
+TEST(Flicker, APixelWhoseCentreIsOnAnEdgeMayBeEitherWay) {
+    constexpr int x = 70, y = 40; // the shadow's end, by 0.3 px
+    for (const bool undecided : {false, true})
+        for (const int wrong : {1, 2}) { // now, and one frame before
+            FlickerMeter meter;
+            for (int k = 0; k < 3; ++k) {
+                FlickerFrame frame = trueFrame({}, true);
+                frame.truth.undecided = Mask(BoxOnGround::width, BoxOnGround::height);
+                frame.truth.undecided.at(x, y) = undecided;
+                if (k == wrong) frame.visibility.at(x, y) = 1.0 - frame.visibility.at(x, y);
+                meter.add(frame);
+            }
+            if (undecided) {
+                EXPECT_EQ(meter.energy(), 0.0) << wrong;
+            } else {
+                EXPECT_GT(meter.energy().value(), 0.0) << wrong;
+            }
+        }
+}
+
 TEST(Flicker, WhatWasAnotherSurfaceOrOutsideTheSetHasNoPast) {
     FlickerFrame last = trueFrame({});
     last.visibility = Picture(BoxOnGround::width, BoxOnGround::height, 0.0);

@@ -24,6 +24,7 @@ metrics::TruthMaps slim(const metrics::TruthMaps& maps) {
     metrics::TruthMaps result;
     result.lit = maps.lit;
     result.litCentre = maps.litCentre;
+    result.undecided = maps.undecided;
     result.receiver = maps.receiver;
     result.position = maps.position;
     return result;

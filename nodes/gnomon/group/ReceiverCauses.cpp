@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/base/Fingerprint.h>
+#include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/compositor/ShadowJob.h>
+#include <gnomon/group/CoarseDepth.h>
+#include <gnomon/group/EnclosingCasters.h>
+#include <gnomon/group/ReceiverCauses.h>
+#include <gnomon/group/UnshadowedSurfaces.h>
+
+#include <osgUtil/StateGraph>
+
+#include <algorithm>
+#include <set>
+
+namespace gnomon {
+namespace {
+
+/// Shadows are found by the depths that stand.
+void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUtil::RenderLeaf*>& receiving) {
+    const auto hasDepth = [](const auto* leaf) { return writesDepth(leaf->_parent); };
+    const auto shaded =
+        std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
+    if (shaded == receiving.end() || std::any_of(receiving.begin(), receiving.end(), hasDepth)) return;
+    entry.technique->report(entry.frameNumber,
+                            "no receiver in this view writes depth, so there is no shadow; the first is '" +
+                                nameOf(**shaded) + "'. Switch GL_DEPTH_TEST and the mask of osg::Depth on.");
+}
+
+/// What stands behind would need its own shadow and that of what is combined with it.
+void reportCombined(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
+    const auto receiving = receivingOf(entry, drawn.late.combined, stage);
+    const auto first =
+        std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
+    if (first != receiving.end())
+        entry.technique->report(entry.frameNumber,
+                                "a logic operation combines '" + nameOf(**first) +
+                                    "' with what stands behind it, in a bin above 8, so it receives no shadow. Draw it "
+                                    "in a bin below 8, or switch GL_COLOR_LOGIC_OP off.");
+}
+
+/// A factor is for what is seen, fog and all.
+void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
+    if (entry.group->getComposite() == ShadowCasterGroup::BLEND &&
+        (isModeOn(drawn.early, GL_FOG) || isModeOn(drawn.late.leaves, GL_FOG)))
+        entry.technique->report(entry.frameNumber, "fog is on, and BLEND darkens it with the surface behind it. Set "
+                                                   "RELIGHT, or switch GL_FOG off.");
+}
+
+/// What decides on which surfaces a group's techniques shadow.
+std::uint64_t settingsOf(const ShadowCasterGroup& group, const std::vector<EnlistedTechnique>& all) {
+    Fingerprint settings;
+    for (const EnlistedTechnique& entry : all) {
+        if (entry.group.get() != &group) continue;
+        settings.mix(entry.technique.get());
+        settings.mix(entry.technique->surfacesKey());
+        settings.mix(entry.groupFromTechnique);
+        const Selection receiver = entry.technique->getReceiver();
+        settings.mix(std::uint64_t{receiver.mask});
+        for (const auto& root : receiver.roots()) settings.mix(root.get());
+    }
+    return settings.value();
+}
+
+/// Surfaces on which a shadow could be expected, to be looked through.
+Leaves surfacesOf(const EnlistedTechnique& entry, const StageLeaves& drawn) {
+    const auto canReceive = [&](const osgUtil::RenderLeaf& leaf) {
+        const auto displaced = drawn.displaced.find(&leaf);
+        const bool isSky =
+            displaced != drawn.displaced.end() && displaced->second.nearest == displaced->second.farthest;
+        return !isSky && isSameLens(projectionOf(leaf), *entry.projection) && isShaded(leaf._parent) &&
+               writesDepth(leaf._parent) && !drawn.programs.moves(leaf);
+    };
+    Leaves surfaces;
+    for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
+        for (const DrawnLeaf& drawnLeaf : *leaves)
+            if (canReceive(*drawnLeaf.leaf)) surfaces.push_back(drawnLeaf.leaf);
+    return surfaces;
+}
+
+/// Those of the surfaces that a technique shadows.
+LeafSet shadowedBy(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
+    const ViewFrame view = viewOf(entry, *stage.getViewport());
+    LeafSet shadowed;
+    for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
+        for (const osgUtil::RenderLeaf* leaf : receivingOf(entry, *leaves, stage))
+            if (entry.technique->shadowsSurface(view, *leaf)) shadowed.insert(leaf);
+    return shadowed;
+}
+
+/// Drawables that cast nothing by a technique: what its shadow lies on.
+std::set<const osg::Drawable*> notCastingBy(const EnlistedTechnique& entry, const LeafSet& shadowed,
+                                            const CasterDrawables& casters) {
+    std::set<const osg::Drawable*> result;
+    for (const osgUtil::RenderLeaf* leaf : shadowed) result.insert(leaf->_drawable.get());
+    if (!entry.technique->hasReceiver()) return result;
+    std::vector<const osg::Drawable*> all;
+    for (const auto& piece : casters.list) all.push_back(piece->drawable);
+    const std::set<const osg::Drawable*> named = drawablesUnder(entry.technique->getReceiver(), all);
+    result.insert(named.begin(), named.end());
+    return result;
+}
+
+std::string unshadowedCause(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
+                            const ShadowLight& light, const CasterDrawables& casters, const StageLeaves& drawn,
+                            osgUtil::RenderStage& stage) {
+    Leaves surfaces = surfacesOf(entry, drawn);
+    for (const EnlistedTechnique& other : all) {
+        if (other.group != entry.group || surfaces.empty()) continue;
+        const LeafSet shadowed = shadowedBy(other, drawn, stage);
+        const auto isShadowed = [&](const osgUtil::RenderLeaf* leaf) { return shadowed.count(leaf) > 0; };
+        surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), isShadowed), surfaces.end());
+    }
+    if (surfaces.empty()) return {};
+    const LeafSet own = shadowedBy(entry, drawn, stage);
+    const std::string name = unshadowedSurface({*entry.group, light, casters, surfaces, entry.eyeFromGroup}, own,
+                                               notCastingBy(entry, own, casters));
+    if (name.empty()) return {};
+    return "the casters' shadow can fall on '" + name +
+           "', which this technique leaves lit. Use map, volume or traced, or add a technique that receives there.";
+}
+
+} // namespace
+
+ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) {
+    ViewFrame view;
+    view.pixels = {viewport.width(), viewport.height()};
+    view.eyeFromGroup = entry.eyeFromGroup;
+    view.groupFromTechnique = entry.groupFromTechnique;
+    view.projection = *entry.projection;
+    view.group = entry.group.get();
+    view.dark = entry.group->getDark();
+    view.options = entry.group->getCompositorOptions();
+    view.frameNumber = entry.frameNumber;
+    view.frameTime = entry.frameTime;
+    return view;
+}
+
+Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
+    const bool named = entry.technique->hasReceiver();
+    LeafSet receivers;
+    if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
+    Leaves receiving;
+    for (const DrawnLeaf& leaf : leaves)
+        if (named ? receivers.count(leaf.leaf) > 0 : isSameLens(projectionOf(*leaf.leaf), *entry.projection))
+            receiving.push_back(leaf.leaf);
+    return receiving;
+}
+
+void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage) {
+    if (entry.technique->isReceiverGone())
+        return entry.technique->report(entry.frameNumber, "the node given to setReceiver() is gone, because nothing "
+                                                          "else kept it. Add the receiver to the scene, and name it "
+                                                          "anew.");
+    const std::string cause = whyMissing(entry.technique->getReceiver(), "receiver", *entry.group, stage);
+    if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+}
+
+void reportReceiverStates(const EnlistedTechnique& entry, const Receiving& receiving, osgUtil::RenderStage& stage) {
+    const auto& [early, late, drawn] = receiving;
+    drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, early, late);
+    reportCombined(entry, drawn, stage);
+    if (late.empty()) reportNoDepth(entry, early);
+    if (!early.empty() || !late.empty()) reportFog(entry, drawn);
+}
+
+void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
+                     const CasterDrawables& casters, const Leaves& receiving, osgUtil::RenderStage& stage) {
+    for (const ShadowLight& light : lights) {
+        const LitView view{*entry.group, light, casters, receiving, entry.eyeFromGroup};
+        const std::string cause =
+            RecalledCauses::of(stage).causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), view,
+                                              {receiving.size(), 0}, [&] { return enclosingCause(view); });
+        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+    }
+}
+
+void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
+                      const std::vector<ShadowLight>& lights, const CasterDrawables& casters, const StageLeaves& drawn,
+                      osgUtil::RenderStage& stage) {
+    if (entry.technique->surfacesKey() == 0) return;
+    const std::optional<std::uint64_t> seen = drawn.shadedFingerprint();
+    if (!seen) return;
+    const RecalledCauses::State state{*seen, settingsOf(*entry.group, all)};
+    const Leaves none;
+    for (const ShadowLight& light : lights) {
+        const std::string cause =
+            RecalledCauses::of(stage).causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(),
+                                              {*entry.group, light, casters, none, entry.eyeFromGroup}, state, [&] {
+                                                  return unshadowedCause(entry, all, light, casters, drawn, stage);
+                                              });
+        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+    }
+}
+
+void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,
+                       osgUtil::RenderStage& stage) {
+    const osg::Vec2d pixels(stage.getViewport()->width(), stage.getViewport()->height());
+    const Leaves none;
+    const LitView view{*entry.group, light, casters, none, entry.eyeFromGroup};
+    if (!reachesCoarseDepth(view, *entry.projection, pixels)) return;
+    Fingerprint seen;
+    seen.mix(entry.eyeFromGroup);
+    seen.mix(*entry.projection);
+    const std::string cause = RecalledCauses::of(stage).causeOf(
+        RecalledCauses::Kind::CoarseDepth, entry.technique.get(), view, {seen.value(), 0}, [&] {
+            const std::string name = coarselyPlaced(view, *entry.projection, pixels);
+            if (name.empty()) return name;
+            return "depths cannot tell where the shadow of '" + name +
+                   "' falls, because their steps are longer there than a pixel is wide. Move the near plane out, or "
+                   "let OpenSceneGraph compute it.";
+        });
+    if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+}
+
+} // namespace gnomon

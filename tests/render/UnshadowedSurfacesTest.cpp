@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// What a technique leaves lit although its casters' shadow falls there is named. What no shadow reaches is not, nor what another
+// technique shadows.
+#include <support/Picture.h>
+#include <support/Scene.h>
+
+#include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/TerrainShadowGeode.h>
+#include <gtest/gtest.h>
+#include <osg/MatrixTransform>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace test;
+
+namespace {
+
+using Causes = std::vector<std::string>;
+
+/// From the side of the light; the tower's shadow falls towards the far left.
+const osg::Vec4d sun(1.0, 0.0, 1.0, 0.0);
+const osg::Vec4d groundPlane(0.0, 0.0, 1.0, 0.0), wallPlane(1.0, 0.0, 0.0, 3.0);
+const Mesh tower = box({-0.5, -0.5, 0.0}, {0.5, 0.5, 5.0});
+/// Three metres behind the tower: its shadow climbs two metres up there.
+const Mesh wall = box({-4.0, -3.0, 0.0}, {-3.0, 3.0, 4.0});
+const View fromTheSide = perspective({9.0, -12.0, 9.0}, {-1.0, 0.0, 1.0}, 160, 120);
+
+osg::ref_ptr<gnomon::ShadowTechnique> onTerrain(gnomon::TerrainShadowOptions::Method method) {
+    const osg::ref_ptr<gnomon::TerrainShadowGeode> technique = new gnomon::TerrainShadowGeode;
+    technique->setMethod(method);
+    return technique;
+}
+
+/// The tower on its ground, and what else a test puts there.
+struct Trial {
+    explicit Trial(const osg::ref_ptr<osg::Node>& more, osg::ref_ptr<gnomon::ShadowTechnique> with = planar(),
+                   const osg::Vec4d& light = sun)
+        : scene(groundScene({tower}, 8.0, light)), technique(std::move(with)) {
+        if (more) scene.content->addChild(more);
+        technique->setName("floor");
+        scene.addShadow(technique);
+    }
+    Trial& named() {
+        technique->setReceiver({find(*scene.root, "ground")});
+        return *this;
+    }
+    Causes said() {
+        if (!camera) camera = std::make_unique<Camera>(scene.root, fromTheSide);
+        camera->frame();
+        return technique->diagnose();
+    }
+    Causes saidAfter(int frames) {
+        for (int i = 1; i < frames; ++i) said();
+        return said();
+    }
+
+    Scene scene;
+    osg::ref_ptr<gnomon::ShadowTechnique> technique;
+    std::unique_ptr<Camera> camera;
+};
+
+bool namesNone(const Causes& causes) {
+    for (const std::string& cause : causes)
+        if (cause.find("leaves lit") != std::string::npos) return false;
+    return true;
+}
+
+Causes leavesLit(const Trial& trial, const std::string& surface) {
+    return {trial.technique->describe() + ": the casters' shadow can fall on '" + surface +
+            "', which this technique leaves lit. Use map, volume or traced, or add a technique that receives there."};
+}
+
+osg::ref_ptr<osg::Node> placed(const Mesh& mesh, const char* name, const osg::Matrixd& place) {
+    const osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(place);
+    transform->addChild(node(mesh, name));
+    return transform;
+}
+
+const Causes nothing;
+
+} // namespace
+
+TEST(UnshadowedSurfaces, AWallBehindATowerIsNamed) {
+    const auto expectNamed = [](osg::ref_ptr<gnomon::ShadowTechnique> technique, bool named, const char* what) {
+        Trial trial(node(wall, "wall"), technique);
+        if (named) trial.named();
+        EXPECT_EQ(trial.said(), leavesLit(trial, "wall")) << what;
+        EXPECT_EQ(trial.said(), leavesLit(trial, "wall")) << what << ", in a frame in which nothing changed, too";
+    };
+    expectNamed(planar(), false, "planar");
+    expectNamed(planar(), true, "planar with a receiver");
+    expectNamed(onTerrain(gnomon::TerrainShadowOptions::BOX), true, "box");
+    expectNamed(onTerrain(gnomon::TerrainShadowOptions::HULL), true, "hull");
+    expectNamed(onTerrain(gnomon::TerrainShadowOptions::DRAPE), true, "drape");
+}
+
+TEST(UnshadowedSurfaces, ASecondFloorIsNamed) {
+    // Under a low sun the tower's shadow goes on over the ground's edge, 8 m away, and down 2.5 m.
+    Trial trial(node(box({-30.0, -7.0, -3.0}, {8.0, 7.0, -2.5}), "lower floor"), planar(), {3.0, 0.0, 1.0, 0.0});
+    EXPECT_EQ(trial.said(), leavesLit(trial, "lower floor"));
+}
+
+TEST(UnshadowedSurfaces, ARoomOfOneMeshIsNamed) {
+    const Mesh room = joined({quad({-4.0, -4.0, 0.0}, {0.0, 8.0, 0.0}, {0.0, 0.0, 4.0}),
+                              quad({-4.0, 4.0, 0.0}, {8.0, 0.0, 0.0}, {0.0, 0.0, 4.0})});
+    Trial trial(node(room, "room"), planar(), {2.0, -2.0, 7.0, 1.0});
+    EXPECT_EQ(trial.said(), leavesLit(trial, "room"));
+}
+
+TEST(UnshadowedSurfaces, WhatNoShadowReachesIsNot) {
+    const auto expectSilent = [](const char* what, const osg::ref_ptr<osg::Node>& more, const osg::Vec4d& light = sun) {
+        Trial trial(more, planar(), light);
+        EXPECT_TRUE(namesNone(trial.said())) << what;
+        Trial onGround(more, onTerrain(gnomon::TerrainShadowOptions::HULL), light);
+        EXPECT_TRUE(namesNone(onGround.named().said())) << what << ", hull";
+    };
+    expectSilent("a tower alone", nullptr);
+    expectSilent("a wall beside the shadow", placed(wall, "wall", osg::Matrixd::translate(0.0, 5.0, 0.0)));
+    expectSilent("a wall behind the end of the shadow", node(box({-8.0, -3.0, 0.0}, {-7.0, 3.0, 1.0}), "wall"));
+    // Along the shadow and 1.2 m beside its middle, of which the shadow takes 0.7; the box along the axes reaches over it.
+    expectSilent("a wall askew",
+                 placed(box({-1.6, -0.1, 0.0}, {1.6, 0.1, 4.0}), "wall",
+                        osg::Matrixd::rotate(osg::PI_4, osg::Z_AXIS) * osg::Matrixd::translate(-3.35, -1.65, 0.0)),
+                 {1.0, 1.0, 1.0, 0.0});
+    expectSilent("a roof above the lamp", node(box({-5.0, -5.0, 7.0}, {5.0, 5.0, 7.5}), "roof"), {0.0, 0.0, 6.0, 1.0});
+    const osg::ref_ptr<osg::Node> unlit = node(wall, "picture");
+    unlit->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    expectSilent("what is not lit", unlit);
+}
+
+/// As in data/lab8.osgt: the shadow of the cube meets the ball where it turns away from the sun, and in the floor.
+TEST(UnshadowedSurfaces, ABallThatIsSunkInTheFloorIsNotNamedForItsLowerHalf) {
+    Scene scene = groundScene({box({0.25, -0.25, 0.0}, {0.75, 0.25, 0.5}), sphere({-0.5, 0.0, 0.25}, 0.5, 24)}, 2.0,
+                              {0.5, -0.5, 0.707, 0.0});
+    const auto technique = planar();
+    scene.addShadow(technique);
+    render(scene.root, fromTheSide);
+    EXPECT_EQ(technique->diagnose(), nothing);
+}
+
+TEST(UnshadowedSurfaces, AFloorMayBeTheTopOfASlab) {
+    Trial trial(nullptr);
+    trial.scene.content->replaceChild(find(*trial.scene.root, "ground"),
+                                      node(box({-8.0, -8.0, -1.0}, {8.0, 8.0, 0.0}), "ground"));
+    EXPECT_EQ(trial.said(), nothing);
+}
+
+TEST(UnshadowedSurfaces, APlaneForTheWallIsTheRemedy) {
+    const osg::ref_ptr<gnomon::PlanarShadowNode> technique = planar();
+    const Mesh flat = quad({-3.0, -3.0, 0.0}, {0.0, 6.0, 0.0}, {0.0, 0.0, 4.0});
+    Trial trial(node(flat, "wall"), technique);
+    EXPECT_EQ(trial.said(), leavesLit(trial, "wall"));
+    technique->addPlane(wallPlane);
+    EXPECT_EQ(trial.said(), nothing) << "in the very next frame";
+    technique->setPlanes({groundPlane});
+    EXPECT_EQ(trial.said(), leavesLit(trial, "wall"));
+}
+
+TEST(UnshadowedSurfaces, AnotherTechniqueIsTheRemedy) {
+    Trial trial(node(wall, "wall"));
+    EXPECT_EQ(trial.named().said(), leavesLit(trial, "wall"));
+    const osg::ref_ptr<gnomon::ShadowMapTechnique> map = new gnomon::ShadowMapTechnique;
+    trial.scene.group->addChild(map);
+    EXPECT_EQ(trial.said(), nothing);
+    EXPECT_EQ(map->diagnose(), nothing);
+    map->setReceiver({find(*trial.scene.root, "ground")});
+    EXPECT_EQ(trial.said(), leavesLit(trial, "wall")) << "on the same ground";
+    map->setReceiver({find(*trial.scene.root, "wall")});
+    EXPECT_EQ(trial.said(), nothing);
+}
+
+TEST(UnshadowedSurfaces, IsForgottenOnceTheLightIsElsewhere) {
+    Trial trial(node(wall, "wall"));
+    EXPECT_EQ(trial.said(), leavesLit(trial, "wall"));
+    trial.scene.light->getLight()->setPosition({0.0f, 1.0f, 1.0f, 0.0f});
+    EXPECT_EQ(trial.saidAfter(61), nothing) << "where things move, one frame in 60 looks";
+}
