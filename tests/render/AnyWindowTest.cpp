@@ -6,6 +6,7 @@
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/gl/WorkBuffers.h>
 #include <gnomon/group/ViewFrame.h>
+#include <support/Causes.h>
 #include <support/Oracle.h>
 #include <support/Scene.h>
 
@@ -80,7 +81,7 @@ std::vector<std::string> causesOf(const Scene& scene) {
     std::vector<std::string> all;
     for (unsigned i = 0; i < scene.group->getNumChildren(); ++i)
         if (const auto* technique = dynamic_cast<gnomon::ShadowTechnique*>(scene.group->getChild(i)))
-            for (const std::string& cause : technique->diagnose()) all.push_back(cause);
+            for (const std::string& cause : causesButLitSurfaces(*technique)) all.push_back(cause); // one casts on another
     return all;
 }
 
