@@ -89,6 +89,7 @@ osg::ref_ptr<const GroundRevision> TerrainPlace::drawn(const osg::ref_ptr<const 
     drawn->hasLevels = visitor.hasLevels;
     drawn->hasQuads = visitor.hasQuads;
     drawn->ground = groundOf(root, terrain, groundFromRoot);
+    drawn->steepest = drawn->ground->steepest({});
     return drawn;
 }
 

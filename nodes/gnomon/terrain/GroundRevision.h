@@ -21,6 +21,7 @@ struct GroundRevision : public osg::Referenced {
     bool hasLevels = false; ///< what is drawn may be coarser than this ground, for there are levels of detail.
     bool hasQuads = false;  ///< which a driver cuts into triangles by its own rule.
     std::shared_ptr<const Ground> ground;
+    double steepest = 0.0; ///< slope of all of it, as a tangent.
 
 protected:
     ~GroundRevision() override = default;

@@ -50,6 +50,11 @@ bool isFromAbove(const ViewFrame& view, const TileGround& ground) {
     return height && place.z > *height;
 }
 
+/// Ground that is steeper than a sun's rays lies in its own shadow, or throws one. A lamp's rays are as flat as one likes somewhere.
+bool mayShadowItself(const GroundRevision& drawn, const glm::dvec4& light) {
+    return light.w == 0.0 && light.z > 0.0 && drawn.steepest * glm::length(glm::dvec2(light)) > light.z;
+}
+
 bool isInside(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::dvec3& p) {
     const double sides[] = {doubleArea(a, b, p), doubleArea(b, c, p), doubleArea(c, a, p)};
     return std::all_of(sides, sides + 3, [](double side) { return side >= 0.0; }) ||
@@ -125,6 +130,9 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
         _found += tiles.found() - before;
         frame = {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
                  isFromAbove(view, ground)};
+        if (!frame.tiles.empty() && mayShadowItself(*town.drawn, light))
+            frame.causes.push_back("the terrain is steeper than the sun in places, and its shadow on itself is not drawn. Use map, "
+                                   "volume or traced, or raise the sun.");
     });
     return frame;
 }
