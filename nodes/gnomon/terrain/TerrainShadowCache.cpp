@@ -78,6 +78,8 @@ bool covers(const TileShadows& tile, const glm::dvec3& p) {
     return false;
 }
 
+bool holdsAny(const osg::ref_ptr<const TileShadows>& tile) { return tile->found.size() > 0; }
+
 } // namespace
 
 bool TerrainAnswer::covers(const glm::dvec2& place) const {
@@ -130,7 +132,7 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
         _found += tiles.found() - before;
         frame = {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
                  isFromAbove(view, ground)};
-        if (!frame.tiles.empty() && mayShadowItself(*town.drawn, light))
+        if (std::any_of(frame.tiles.begin(), frame.tiles.end(), holdsAny) && mayShadowItself(*town.drawn, light))
             frame.causes.push_back("the terrain is steeper than the sun in places, and its shadow on itself is not drawn. Use map, "
                                    "volume or traced, or raise the sun.");
     });
