@@ -6,6 +6,7 @@
 
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/group/RecalledCauses.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 
@@ -79,6 +80,30 @@ osg::ref_ptr<osg::Node> placed(const Mesh& mesh, const char* name, const osg::Ma
 }
 
 const Causes nothing;
+
+// Eight lights of five techniques in one still stage: each is looked for once.
+TEST(RecalledCauses, AreKeptForManyTechniquesAndLights) {
+    const osg::ref_ptr<gnomon::RecalledCauses> memory = new gnomon::RecalledCauses;
+    const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
+    const osg::ref_ptr<const gnomon::CasterDrawables> casters =
+        new gnomon::CasterDrawables(gnomon::CasterDrawables::List(), 1);
+    const std::vector<const osgUtil::RenderLeaf*> receivers;
+    const osg::Matrixd eyeFromGroup;
+    const char techniques[5] = {};
+    int searches = 0;
+    for (int frame = 0; frame < 3; ++frame)
+        for (const char& technique : techniques)
+            for (int number = 0; number < 8; ++number) {
+                gnomon::ShadowLight light;
+                light.number = number;
+                memory->causeOf(gnomon::RecalledCauses::Kind::UnshadowedSurface, &technique,
+                                {*group, light, *casters, receivers, eyeFromGroup}, {}, [&] {
+                                    ++searches;
+                                    return std::string();
+                                });
+            }
+    EXPECT_EQ(searches, 40);
+}
 
 } // namespace
 

@@ -9,7 +9,7 @@ namespace gnomon {
 namespace {
 
 constexpr unsigned patience = 60;     // frames in which something changes, until all is looked at again
-constexpr std::size_t mostKnown = 16; // of askers and lights in a stage
+constexpr std::size_t mostKnown = 512; // of askers and lights in a stage: what is forgotten is looked for in each frame
 
 } // namespace
 

@@ -28,8 +28,11 @@ struct StageLeaves {
         for (const auto* leaves : {&early, &late.leaves})
             for (const DrawnLeaf& entry : *leaves) {
                 if (entry.leaf->_parent != graph) shaded = isShaded(graph = entry.leaf->_parent);
-                if (shaded) drawables.mix(entry.leaf->_drawable.get());
                 any = any || shaded;
+                if (!shaded) continue;
+                drawables.mix(entry.leaf->_drawable.get());
+                if (const osg::RefMatrix* place = entry.leaf->_modelview.get())
+                    for (int i = 0; i < 3; ++i) drawables.mix((*place)(3, i));
             }
         if (!any) return std::nullopt;
         return drawables.value();

@@ -133,8 +133,8 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
         frame = {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
                  isFromAbove(view, ground)};
         if (std::any_of(frame.tiles.begin(), frame.tiles.end(), holdsAny) && mayShadowItself(*town.drawn, light))
-            frame.causes.push_back("the terrain is steeper than the sun in places, and its shadow on itself is not drawn. Use map, "
-                                   "volume or traced, or raise the sun.");
+            frame.causes.push_back("the terrain is steeper than the sun in places, and what it throws on itself is not drawn. Use "
+                                   "map, volume or traced, or raise the sun.");
     });
     return frame;
 }
