@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <osg/Object>
-#include <osgUtil/RenderStage>
 
 #include <atomic>
 
 namespace gnomon {
 
 /// Whether anything could be composed when a stage was last drawn. Only draw can tell, and cull wants to know: the stage
-/// keeps it among its user objects.
+/// keeps it, see keptBy().
 class StageVerdict : public osg::Object {
 public:
     StageVerdict() = default;
     StageVerdict(const StageVerdict& other, const osg::CopyOp& copyOp) : osg::Object(other, copyOp) {}
     META_Object(gnomon, StageVerdict)
-
-    /// The verdict of a stage, made if it has none.
-    static StageVerdict& of(osgUtil::RenderStage& stage);
 
     void refuse(bool refused) { _refused = refused; }
     bool isRefused() const { return _refused; }

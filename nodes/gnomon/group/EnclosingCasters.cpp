@@ -9,9 +9,10 @@
 #include <gnomon/group/EnclosingCasters.h>
 #include <gnomon/group/LocalLight.h>
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <map>
 #include <set>

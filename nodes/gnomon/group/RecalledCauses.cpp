@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/group/RecalledCauses.h>
 
-#include <osg/UserDataContainer>
-
 #include <algorithm>
 
 namespace gnomon {
@@ -12,15 +10,6 @@ constexpr unsigned patience = 60;     // frames in which something changes, unti
 constexpr std::size_t mostKnown = 512; // of askers and lights in a stage: what is forgotten is looked for in each frame
 
 } // namespace
-
-RecalledCauses& RecalledCauses::of(osgUtil::RenderStage& stage) {
-    osg::UserDataContainer& kept = *stage.getOrCreateUserDataContainer();
-    for (unsigned i = 0; i < kept.getNumUserObjects(); ++i)
-        if (auto* known = dynamic_cast<RecalledCauses*>(kept.getUserObject(i))) return *known;
-    const osg::ref_ptr<RecalledCauses> fresh = new RecalledCauses;
-    kept.addUserObject(fresh);
-    return *fresh;
-}
 
 RecalledCauses::Known& RecalledCauses::knownOf(Kind kind, const void* who, int number) {
     const auto found = std::find_if(_known.begin(), _known.end(), [&](const Known& known) {

@@ -6,7 +6,6 @@
 
 #include <osg/Object>
 #include <osgUtil/RenderLeaf>
-#include <osgUtil/RenderStage>
 
 #include <cstdint>
 #include <functional>
@@ -24,7 +23,7 @@ struct LitView {
     const osg::Matrixd& eyeFromGroup;
 };
 
-/// Causes that take long to find, as a stage has found them before. The stage keeps them among its user objects.
+/// Causes that take long to find, as a stage has found them before. The stage keeps them, see keptBy().
 ///
 /// Cost    nothing where nothing has changed. Where something moves, one search every 60th frame.
 class RecalledCauses : public osg::Object {
@@ -32,9 +31,6 @@ public:
     RecalledCauses() = default;
     RecalledCauses(const RecalledCauses& other, const osg::CopyOp& copyOp) : osg::Object(other, copyOp) {}
     META_Object(gnomon, RecalledCauses)
-
-    /// The memory of a stage, made if it has none.
-    static RecalledCauses& of(osgUtil::RenderStage& stage);
 
     /// Kinds of causes: of one asker, a light has one of each.
     enum class Kind { EnclosingNode, UnshadowedSurface, CoarseDepth };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/Fingerprint.h>
+#include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/group/CoarseDepth.h>
@@ -168,7 +169,7 @@ void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLig
     for (const ShadowLight& light : lights) {
         const LitView view{*entry.group, light, casters, receiving, entry.eyeFromGroup};
         const std::string cause =
-            RecalledCauses::of(stage).causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), view,
+            keptBy<RecalledCauses>(stage).causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), view,
                                               {receiving.size(), 0}, [&] { return enclosingCause(view); });
         if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
     }
@@ -184,7 +185,7 @@ void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<Enlisted
     const Leaves none;
     for (const ShadowLight& light : lights) {
         const std::string cause =
-            RecalledCauses::of(stage).causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(),
+            keptBy<RecalledCauses>(stage).causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(),
                                               {*entry.group, light, casters, none, entry.eyeFromGroup}, state, [&] {
                                                   return unshadowedCause(entry, all, light, casters, drawn, stage);
                                               });
@@ -201,7 +202,7 @@ void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light,
     Fingerprint seen;
     seen.mix(entry.eyeFromGroup);
     seen.mix(*entry.projection);
-    const std::string cause = RecalledCauses::of(stage).causeOf(
+    const std::string cause = keptBy<RecalledCauses>(stage).causeOf(
         RecalledCauses::Kind::CoarseDepth, entry.technique.get(), view, {seen.value(), 0}, [&] {
             const std::string name = coarselyPlaced(view, *entry.projection, pixels);
             if (name.empty()) return name;

@@ -31,7 +31,7 @@ void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLig
                      const CasterDrawables& casters, const Leaves& receiving, osgUtil::RenderStage& stage);
 
 /// Says which surface stays lit though a shadow can reach it. For techniques that shadow some of what is in view.
-/// @param all  techniques of the stage, whose shadows that surface may have.
+/// @param all  techniques of the stage: that surface may have the shadow of another one of the same group.
 void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
                       const std::vector<ShadowLight>& lights, const CasterDrawables& casters, const StageLeaves& drawn,
                       osgUtil::RenderStage& stage);

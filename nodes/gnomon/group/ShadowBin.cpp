@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/StageVerdict.h>
 #include <gnomon/group/ReceiverCauses.h>
@@ -218,7 +219,7 @@ void ShadowBin::prepareAll() {
     _jobs.clear();
     std::deque<FrameCasters> known;
     const StageLeaves drawn(*getStage(), getBinNum(), !_enlisted.empty());
-    const bool refused = StageVerdict::of(*getStage()).isRefused();
+    const bool refused = keptBy<StageVerdict>(*getStage()).isRefused();
     for (const EnlistedTechnique& entry : _enlisted) {
         if (refused) {
             _waiting.push_back(entry.technique->reportIn(entry.frameNumber));

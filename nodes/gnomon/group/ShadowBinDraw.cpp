@@ -4,6 +4,7 @@
 #include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/ForgottenArrays.h>
 #include <gnomon/compositor/SoftMarkJob.h>
+#include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/StageVerdict.h>
 #include <gnomon/group/ShadowBin.h>
 
@@ -106,7 +107,7 @@ void ShadowBin::tell(const std::string& cause) {
     for (const osg::ref_ptr<ViewEffect>& effect : _effects) effect->report(cause);
     const auto isForPrograms = [](const ShadowJob& job) { return job.programMarks() != nullptr; };
     const bool served = std::any_of(_jobs.begin(), _jobs.end(), isForPrograms);
-    StageVerdict::of(*getStage()).refuse(!cause.empty() && !served);
+    keptBy<StageVerdict>(*getStage()).refuse(!cause.empty() && !served);
 }
 
 } // namespace gnomon
