@@ -53,8 +53,7 @@ const std::vector<ShadowCandidate>& Forecasts::candidates(const Way& way) {
 
 /// Where planar could draw all of the shadow.
 bool Forecasts::isAllOnPlanes(bool blends) {
-    const ShadowCandidate* planar = candidateOf(candidates({blends, Receives::EVERYTHING}), parseShadowSpec("planar"));
-    return planar && planar->obstacle.empty();
+    return candidateOf(candidates({blends, Receives::EVERYTHING}), parseShadowSpec("planar")) != nullptr;
 }
 
 std::optional<ChartPrediction> Forecasts::of(const Contender& contender) {
@@ -63,7 +62,7 @@ std::optional<ChartPrediction> Forecasts::of(const Contender& contender) {
     const ShadowSpec spec = parseShadowSpec(*text);
     const bool blends = spec.composite == ShadowCasterGroup::BLEND;
     const ShadowCandidate* found = candidateOf(candidates({blends, contender.receives}), spec);
-    if (!found || !found->obstacle.empty()) return std::nullopt;
+    if (!found) return std::nullopt;
     ChartPrediction result{found->spec, std::nullopt, {found->spec, found->flying}, {found->spec, found->moving}};
     if (contender.receives == Receives::EVERYTHING || isAllOnPlanes(blends)) result.error = found->error;
     return result;

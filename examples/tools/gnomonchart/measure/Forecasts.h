@@ -36,7 +36,7 @@ private:
     std::map<Way, std::vector<ShadowCandidate>> _candidates;
 };
 
-/// The candidate that draws as a specification of a fixed technique does; null if there is none.
+/// The candidate that draws as a specification of a fixed technique does; null if there is none that can be used.
 const ShadowCandidate* candidateOf(const std::vector<ShadowCandidate>& candidates, const ShadowSpec& spec);
 
 } // namespace gnomon::examples
