@@ -75,6 +75,14 @@ protected:
             for (const auto& entry : fs::directory_iterator(cache / "gnomon")) files.push_back(entry.path());
         return files;
     }
+    /// The time that fixed costs expect of a first frame. Measured ones are in the cache afterwards.
+    double fixedThenMeasured() {
+        setenv("GNOMON_AUTO_RATES", "fixed", 1);
+        const double fixed = draw(1).chosen.still;
+        setenv("GNOMON_AUTO_RATES", "measured", 1);
+        draw();
+        return fixed;
+    }
     /// Leaves what a file begins with: kind and renderer.
     static void writeTenfold(const fs::path& file) {
         std::ifstream in(file);
@@ -130,10 +138,7 @@ TEST_F(AutoCosts, AreKeptInTheUsersCacheAndReadByTheNextProgram) {
 }
 
 TEST_F(AutoCosts, OfAnEarlierProgramCountInTheFirstFrame) {
-    setenv("GNOMON_AUTO_RATES", "fixed", 1);
-    const double fixed = draw(1).chosen.still;
-    setenv("GNOMON_AUTO_RATES", "measured", 1);
-    draw();
+    const double fixed = fixedThenMeasured();
     ASSERT_EQ(kept().size(), 1u);
     writeTenfold(kept().front());
     EXPECT_NEAR(draw(1).chosen.still, 10.0 * fixed, 1e-6 * fixed);
@@ -141,10 +146,7 @@ TEST_F(AutoCosts, OfAnEarlierProgramCountInTheFirstFrame) {
 }
 
 TEST_F(AutoCosts, OfAnotherRendererGiveWayToItsOwnInTheSecondFrame) {
-    setenv("GNOMON_AUTO_RATES", "fixed", 1);
-    const double fixed = draw(1).chosen.still;
-    setenv("GNOMON_AUTO_RATES", "measured", 1);
-    draw();
+    const double fixed = fixedThenMeasured();
     ASSERT_EQ(kept().size(), 1u);
     const fs::path other = kept().front().parent_path() / "costs-0.txt";
     fs::rename(kept().front(), other);
