@@ -50,7 +50,7 @@ bool isFromAbove(const ViewFrame& view, const TileGround& ground) {
     return height && place.z > *height;
 }
 
-/// Ground that is steeper than a sun's rays lies in its own shadow, or throws one. A lamp's rays are as flat as one likes somewhere.
+/// Ground that is steeper than a sun's rays and turned away from it throws a shadow. Lamps are not looked at.
 bool mayShadowItself(const GroundRevision& drawn, const glm::dvec4& light) {
     return light.w == 0.0 && light.z > 0.0 && drawn.steepest * glm::length(glm::dvec2(light)) > light.z;
 }

@@ -22,8 +22,8 @@ struct FlickerFrame {
 ///     e(p) = max(0, |V_k(p) - V_{k-1}(p')| - max over 3 x 3 of |T_k - T_{k-1}|)
 ///
 /// p' is the same surface point one frame before, fetched bilinearly. It is known if all fetched pixels were R+ of
-/// the same receiver. Pixels that the truth leaves undecided are left out, in both frames. The change of T is the greater one of T_a and T_c. A perfect picture therefore has no flicker,
-/// whether its edges are smooth or hard.
+/// the same receiver. Pixels that the truth leaves undecided are left out, in both frames. The change of T is the
+/// greater one of T_a and T_c. A perfect picture therefore has no flicker, whether its edges are smooth or hard.
 class FlickerMeter {
 public:
     /// Adds the next frame.
