@@ -46,6 +46,7 @@ std::string remarkOf(const ChartResults& results) {
 }
 
 std::string titleOf(const ChartResults& results, const std::string& scene) {
+    if (scene.empty() && results.scenes.size() == 1) return results.scenes.front().title;
     if (scene.empty()) return std::to_string(results.scenes.size()) + " scenes";
     for (const ChartSceneResult& each : results.scenes)
         if (each.name == scene) return each.title;
