@@ -27,6 +27,7 @@ struct RunAlongX : osg::NodeCallback {
 
 osg::GraphicsContext* multisampledWindow() {
     osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
+    traits->readDISPLAY(); // else it is a window of the first X server
     traits->width = 320;
     traits->height = 240;
     traits->doubleBuffer = true;
