@@ -8,7 +8,8 @@ namespace gnomon {
 
 /// Which triangles are connected, which bound a solid, whole or with holes, and which vertices stand at the same place.
 struct ClosedParts {
-    /// For each vertex the first vertex of exactly the same position (-0 and 0 are the same).
+    /// For each vertex one of exactly the same position (-0 and 0 are the same), or across a seam of open edges one that
+    /// rounding alone keeps apart from it, as at the poles of a ball.
     std::vector<unsigned> welded;
     /// For each triangle the number of its connected part, over welded vertices: a vertex of the part.
     std::vector<unsigned> part;
