@@ -48,7 +48,7 @@ struct TerrainShadows;
 /// - One stencil bit; two for shadows off a grid; three if those overlap. More bits save passes.
 /// Limits
 /// - Walls and roofs receive nothing. diagnose() names one in view that stays lit.
-/// - The terrain casts nothing on itself. diagnose() says so if the sun is lower than its steepest slope.
+/// - The terrain casts nothing on itself. diagnose() says so if some of it is turned away from the light.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Far from a very close near plane, depths are too coarse to place shadows off a regular grid. diagnose() names such a
 ///   caster.

@@ -50,11 +50,6 @@ bool isFromAbove(const ViewFrame& view, const TileGround& ground) {
     return height && place.z > *height;
 }
 
-/// Ground that is steeper than a sun's rays and turned away from it throws a shadow. Lamps are not looked at.
-bool mayShadowItself(const GroundRevision& drawn, const glm::dvec4& light) {
-    return light.w == 0.0 && light.z > 0.0 && drawn.steepest * glm::length(glm::dvec2(light)) > light.z;
-}
-
 bool isInside(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::dvec3& p) {
     const double sides[] = {doubleArea(a, b, p), doubleArea(b, c, p), doubleArea(c, a, p)};
     return std::all_of(sides, sides + 3, [](double side) { return side >= 0.0; }) ||
@@ -78,7 +73,7 @@ bool covers(const TileShadows& tile, const glm::dvec3& p) {
     return false;
 }
 
-bool holdsAny(const osg::ref_ptr<const TileShadows>& tile) { return tile->found.size() > 0; }
+bool holdsAny(const CasterTiles::Tile& tile) { return tile.size() > 0; }
 
 } // namespace
 
@@ -132,9 +127,12 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
         _found += tiles.found() - before;
         frame = {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
                  isFromAbove(view, ground)};
-        if (std::any_of(frame.tiles.begin(), frame.tiles.end(), holdsAny) && mayShadowItself(*town.drawn, light))
-            frame.causes.push_back("the terrain is steeper than the sun in places, and what it throws on itself is not drawn. Use "
-                                   "map, volume or traced, or raise the sun.");
+        const auto& all =
+            town.casters.tiles(); // seen or not: the terrain's own shadow may be in view where theirs are not
+        if (std::any_of(all.begin(), all.end(), holdsAny) && tiles.groundShadowsItself())
+            frame.causes.push_back(
+                "the terrain is turned away from the light in places, and what it throws on itself is not "
+                "drawn. Use map, volume or traced, or raise the light.");
     });
     return frame;
 }
