@@ -337,13 +337,13 @@ TEST(TriangleGround, HasHolesWhereAnEdgeIsOfOneTriangleButAtItsEnds) {
 double roof(double, double y) { return 50.0 - std::abs(y - 100.0) * std::tan(glm::radians(30.0)); }
 
 TEST(TriangleGround, IsTurnedAwayFromLightsThatAreBelowTheFartherSideOfARoof) {
-    const HeightPyramid field = test::groundOf(roof, 21);
+    const HeightPyramid field = test::groundOf(roof, 21, 1000.0);
     const TriangleGround triangles = cellsOf(field.field());
     const auto sun = [](double x, double y, double degrees) {
         const double elevation = glm::radians(degrees);
         return glm::dvec4(3.0 * x * std::cos(elevation), 3.0 * y * std::cos(elevation), 3.0 * std::sin(elevation), 0.0);
     };
-    const auto lamp = [](double y, double over) { return glm::dvec4(90.0, y, roof(0.0, y) + over, 1.0); };
+    const auto lamp = [](double y, double over) { return glm::dvec4(90.0, y, 1000.0 + roof(0.0, y) + over, 1.0); };
     const double farther =
         2.0 * 60.0 * std::tan(glm::radians(30.0)); // plane of one side over the other 60 m from the ridge
     for (const Ground* ground : {static_cast<const Ground*>(&field), static_cast<const Ground*>(&triangles)}) {
