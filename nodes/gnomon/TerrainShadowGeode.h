@@ -34,7 +34,7 @@ struct TerrainShadows;
 ///   takes four triangles. If the rays fail, for example at cliffs and holes, it drapes; diagnose() says how often.
 /// - DRAPE: cuts the ground's triangles by the caster's shadow, within setError() in plan.
 /// - BOX: the bounding-box method of ARL-TN-156, as published. It is wrong for casters that are no upright boxes along
-///   the axes.
+///   the axes; diagnose() counts them.
 /// Cost
 /// - Shadows are computed on all cores, only for tiles in view, and kept.
 /// - Each frame: 4 to 10 triangles a house on a regular grid, 20 elsewhere, stencil only.
@@ -53,6 +53,7 @@ struct TerrainShadows;
 /// - Far from a very close near plane, depths are too coarse to place shadows off a regular grid. diagnose() names such a
 ///   caster.
 /// - Casters stand on or in the ground. HULL shows no light below an overhang.
+/// - BOX spans rough ground between its eleven points, and closes openings in a box.
 /// - Terrain that overlaps itself in plan receives on all of its levels.
 /// - Shaders that move the terrain's vertices or discard its pixels are not known here.
 /// - In a town seen from afar, a shadow's edge may be off by 0.3 pixels, because far tiles are drawn as bitmaps.

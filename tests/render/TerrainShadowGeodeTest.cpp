@@ -255,6 +255,22 @@ TEST(TerrainShadowGeode, SaysWhereTheTerrainsShadowOnItselfIsMissing) {
         EXPECT_TRUE(causes(light).empty()) << light.x() << ' ' << light.y() << ' ' << light.z();
 }
 
+TEST(TerrainShadowGeode, AsBoxSaysHowManyCastersAreNoBoxes) {
+    const auto causes = [](TerrainShadowGeode::Method method) {
+        Scene scene = test::groundScene(
+            {test::box({-1.0, -1.0, -1.0}, {1.0, 1.0, 3.0}), test::box({4.0, -1.0, 0.5}, {6.0, 1.0, 3.0})}, // floats
+            20.0, sun);
+        const auto shadow = shadowOn(test::find(*scene.root, "ground"), method);
+        scene.addShadow(shadow);
+        test::render(scene.root, above);
+        return test::causesButLitSurfaces(*shadow);
+    };
+    EXPECT_TRUE(causes(TerrainShadowGeode::HULL).empty());
+    const std::vector<std::string> box = causes(TerrainShadowGeode::BOX);
+    ASSERT_EQ(box.size(), 1u);
+    EXPECT_NE(box[0].find("1 of 2 casters: its shadow is that of its bounding box"), std::string::npos) << box[0];
+}
+
 /// Fifteen shadows over one place, whichever way the bits that are left count them.
 TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAreLeft) {
     std::vector<test::Mesh> houses;

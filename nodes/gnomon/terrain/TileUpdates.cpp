@@ -37,7 +37,7 @@ void add(PackedShadows& found, const TerrainShadow& shadow) {
     }
     found.cornerEnds.push_back(unsigned(found.corners.size()));
     found.indexEnds.push_back(unsigned(found.indices.size()));
-    found.outcomes.push_back(shadow.outcome == TerrainOutcome::fan ? TerrainOutcome::draped : shadow.outcome);
+    found.outcomes.push_back(shadow.outcome);
 }
 
 PackedShadows boxShadows(const Ground& ground, const CasterTiles::Tile& tile, const glm::dvec4& light,
