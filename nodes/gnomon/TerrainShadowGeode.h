@@ -54,6 +54,8 @@ struct TerrainShadows;
 ///   caster.
 /// - Casters stand on or in the ground. HULL shows no light below an overhang.
 /// - BOX spans rough ground between its eleven points, and closes openings in a box.
+/// - Shadows are found on the terrain's finest level of detail. On a coarser one they lie beside their places, by the
+///   difference of heights over the light's tangent. diagnose() says so if one is drawn.
 /// - Terrain that overlaps itself in plan receives on all of its levels.
 /// - Shaders that move the terrain's vertices or discard its pixels are not known here.
 /// - In a town seen from afar, a shadow's edge may be off by 0.3 pixels, because far tiles are drawn as bitmaps.

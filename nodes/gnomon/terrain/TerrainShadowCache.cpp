@@ -6,6 +6,7 @@
 
 #include <OpenThreads/ScopedLock>
 #include <glm/matrix.hpp>
+#include <osgUtil/RenderLeaf>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -73,8 +74,6 @@ bool covers(const TileShadows& tile, const glm::dvec3& p) {
     return false;
 }
 
-bool holdsAny(const CasterTiles::Tile& tile) { return tile.size() > 0; }
-
 } // namespace
 
 bool TerrainAnswer::covers(const glm::dvec2& place) const {
@@ -127,14 +126,28 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
         _found += tiles.found() - before;
         frame = {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
                  isFromAbove(view, ground)};
-        const auto& all =
-            town.casters.tiles(); // seen or not: the terrain's own shadow may be in view where theirs are not
-        if (std::any_of(all.begin(), all.end(), holdsAny) && tiles.groundShadowsItself())
-            frame.causes.push_back(
-                "the terrain is turned away from the light in places, and what it throws on itself is not "
-                "drawn. Use map, volume or traced, or raise the light.");
+        addLimits(view, town, tiles, frame.causes);
     });
     return frame;
+}
+
+/// What is not drawn or lies elsewhere although all shadows are found. Casters count wherever they are: what the terrain
+/// throws on itself may be in view where their shadows are not.
+void TerrainShadowCache::addLimits(const ViewFrame& view, const Town& town, const TileUpdates& tiles,
+                                   std::vector<std::string>& causes) {
+    const auto holdsAny = [](const CasterTiles::Tile& tile) { return tile.size() > 0; };
+    if (std::none_of(town.casters.tiles().begin(), town.casters.tiles().end(), holdsAny)) return;
+    if (tiles.groundShadowsItself())
+        causes.push_back(
+            "the terrain is turned away from the light in places, and what it throws on itself is not drawn. Use "
+            "map, volume or traced, or raise the light.");
+    const auto isCoarse = [&](const osgUtil::RenderLeaf* leaf) {
+        return town.drawn->coarse.count(leaf->getDrawable()) > 0;
+    };
+    if (!town.drawn->coarse.empty() && std::any_of(view.seen.begin(), view.seen.end(), isCoarse))
+        causes.push_back(
+            "a coarser level of detail of the terrain is drawn than its shadows are found on, so they may lie "
+            "beside their places. Switch levels farther away, or use map, volume or traced.");
 }
 
 osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterGroup& group,
