@@ -8,6 +8,7 @@
 #include <osg/LOD>
 
 #include <algorithm>
+#include <iterator>
 
 namespace gnomon {
 namespace {
@@ -20,10 +21,11 @@ bool isOfQuads(const osg::Drawable& drawable) {
            std::any_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), isQuads);
 }
 
-/// The terrain's drawables at all levels of detail, for views may show any, and what they are made of.
+/// The terrain's drawables, and what they are made of.
 class TerrainVisitor : public CasterVisitor {
 public:
-    explicit TerrainVisitor(const Selection& terrain) : CasterVisitor(terrain) { setLevels(Levels::All); }
+    /// @param levels  All, for views may show any, or those of the ground.
+    TerrainVisitor(const Selection& terrain, Levels levels) : CasterVisitor(terrain) { setLevels(levels); }
     using CasterVisitor::apply;
     void apply(osg::LOD& lod) override {
         const unsigned before = _met;
@@ -77,14 +79,25 @@ std::uint64_t TerrainPlace::revision() const {
     return revision.value();
 }
 
+/// Those of all levels that groundOf() leaves out.
+std::set<const osg::Drawable*> TerrainPlace::coarseOf(const std::set<const osg::Drawable*>& all) const {
+    TerrainVisitor finest(terrain, CasterVisitor::Levels::Chosen);
+    root.accept(finest);
+    std::set<const osg::Drawable*> coarse;
+    std::set_difference(all.begin(), all.end(), finest.drawables.begin(), finest.drawables.end(),
+                        std::inserter(coarse, coarse.end()));
+    return coarse;
+}
+
 osg::ref_ptr<const GroundRevision> TerrainPlace::drawn(const osg::ref_ptr<const GroundRevision>& known) const {
     const std::uint64_t now = revision();
     if (known && known->revision == now) return known;
-    TerrainVisitor visitor(terrain);
+    TerrainVisitor visitor(terrain, CasterVisitor::Levels::All);
     root.accept(visitor);
     osg::ref_ptr<GroundRevision> drawn = new GroundRevision;
     drawn->revision = now;
     drawn->drawables = std::move(visitor.drawables);
+    if (visitor.hasLevels) drawn->coarse = coarseOf(drawn->drawables);
     drawn->sources = std::move(visitor.sources);
     drawn->hasLevels = visitor.hasLevels;
     drawn->hasQuads = visitor.hasQuads;
