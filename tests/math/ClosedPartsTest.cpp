@@ -17,7 +17,7 @@ struct Soup {
     ClosedParts parts() const {
         std::vector<unsigned> indices(positions.size());
         for (unsigned i = 0; i < indices.size(); ++i) indices[i] = i;
-        return closedParts(positions.data(), positions.size(), indices.data(), indices.size());
+        return closedParts(positions.data(), positions.size(), indices.data(), indices.size(), true);
     }
     /// How many of the triangles bound a solid.
     long closedTriangles() const {

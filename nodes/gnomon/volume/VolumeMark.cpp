@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/gl/GlState.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
@@ -81,11 +82,13 @@ void VolumeMark::uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, uns
     if (share.backs.empty()) return;
     place(*renderInfo.getState(), mesh);
     pass.uncount(counters);
+    glDisable(depthClamp); // what is cut away before the near plane is not seen
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     drawOffset(renderInfo, *mesh.caps, share.backs, glm::min(pushedBack, 0.0) - before);
     glCullFace(GL_BACK);
     glDisable(GL_CULL_FACE);
+    glEnable(depthClamp);
 }
 
 std::string VolumeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {

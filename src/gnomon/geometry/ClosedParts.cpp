@@ -188,18 +188,17 @@ std::vector<unsigned> endsOf(const std::vector<OpenEdge>& edges) {
 } // namespace
 
 ClosedParts closedParts(const glm::vec3* positions, std::size_t vertexCount, const unsigned* indices,
-                        std::size_t indexCount) {
+                        std::size_t indexCount, bool overSeams) {
     ClosedParts result;
     result.welded = weld(positions, vertexCount);
     std::vector<unsigned> corners(indexCount);
     for (std::size_t i = 0; i < indexCount; ++i) corners[i] = result.welded[indices[i]];
     std::vector<OpenEdge> open = openEdges(corners);
-    const std::vector<unsigned> first = withoutSeams(endsOf(open), positions, vertexCount);
-    if (!first.empty()) {
-        for (unsigned& vertex : result.welded) vertex = first[vertex];
-        for (unsigned& corner : corners) corner = first[corner];
-        open = openEdges(corners);
-    }
+    const std::vector<unsigned> first =
+        overSeams ? withoutSeams(endsOf(open), positions, vertexCount) : std::vector<unsigned>();
+    for (unsigned& corner : corners)
+        if (!first.empty()) corner = first[corner];
+    if (!first.empty()) open = openEdges(corners);
     Parts(positions, vertexCount, std::move(corners), open).describe(result);
     return result;
 }
