@@ -36,12 +36,12 @@ if(BUILD_SHARED_LIBS) # CMake knows what a static library needs
   install(FILES ${PROJECT_BINARY_DIR}/gnomon.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endif()
 
-file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.png ${PROJECT_SOURCE_DIR}/docs/*.svg)
-install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/gnomon-doc/pages COMPONENT doc)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/gallery DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/gnomon-doc/pages COMPONENT doc)
-install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/gnomon-doc COMPONENT doc)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/addshadows
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/gnomon-doc/examples COMPONENT doc)
+# The guide, with what it links to, as it lies in the repository: so its links hold.
+set(guide ${CMAKE_INSTALL_DATADIR}/doc/gnomon-doc)
+install(FILES README.md CONTRIBUTING.md DESTINATION ${guide} COMPONENT doc)
+install(FILES data/SOURCES.md DESTINATION ${guide}/data COMPONENT doc)
+install(DIRECTORY docs DESTINATION ${guide} COMPONENT doc PATTERN site EXCLUDE)
+install(DIRECTORY examples/addshadows examples/tutorial DESTINATION ${guide}/examples COMPONENT doc)
 
 # All that is installed: cmake --build build --target packaged
 get_property(tools GLOBAL PROPERTY GNOMON_TOOLS)

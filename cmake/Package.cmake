@@ -65,7 +65,7 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libgnomon1 ${same_version}")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "openscenegraph")
 
 gnomon_package(doc gnomon-doc doc "documentation"
-"This package holds the guide and an example.")
+"This package holds the guide and two examples.")
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 
 # What Debian wants in each package's folder of documents.
@@ -79,6 +79,8 @@ string(REPLACE "\n" "\n " licence " ${licence}")
 configure_file(cmake/package/copyright.in ${folder}/copyright @ONLY)
 configure_file(cmake/package/changelog.Debian.in ${folder}/changelog.Debian @ONLY)
 configure_file(CHANGELOG.md ${folder}/changelog COPYONLY)
+file(CREATE_LINK copyright ${folder}/LICENSE SYMBOLIC) # to which the guide has links
+install(FILES ${folder}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/gnomon-doc COMPONENT doc)
 configure_file(cmake/package/triggers ${folder}/triggers COPYONLY)
 file(CONFIGURE OUTPUT ${folder}/shlibs CONTENT "libgnomon 1 libgnomon1 (>= @PROJECT_VERSION@)\n")
 foreach(file changelog changelog.Debian)

@@ -87,6 +87,7 @@ osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string
 }
 
 void writePicture(const ExampleText& text, const ExampleOptions& options, SceneSetup& setup, OutputFile& file) {
+    setup.diagnose(); // who asks is not warned by osg::notify() besides
     const osg::ref_ptr<osg::Image> picture =
         ScenePicture(options.view, setup, options.stencilBits).draw(options.frames);
     for (const std::string& cause : setup.diagnose()) std::cerr << text.program << ": note: " << cause << std::endl;

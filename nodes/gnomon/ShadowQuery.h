@@ -52,7 +52,8 @@ public:
     ///                   counts.
     /// @param light      the light to ask about.
     /// @throws std::invalid_argument if no group is above the technique, or the light is zero or not finite.
-    /// @throws std::runtime_error if Embree is missing or fails, see RayScene.
+    /// @throws std::runtime_error if Embree is missing or fails, see RayScene, or if this build lacks what the technique
+    ///         needs, see ShadowTechnique::whyUnavailable().
     ShadowQuery(const ShadowTechnique& technique, const ShadowLight& light);
     /// Copies share what they have found.
     ShadowQuery(const ShadowQuery& other);

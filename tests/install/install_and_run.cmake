@@ -22,6 +22,32 @@ set(ENV{PKG_CONFIG_PATH} ${package})
 run(sh -c "${CXX} -std=c++17 ${PLAIN}/main.cpp $(pkg-config --cflags --libs gnomon) -o ${SCRATCH}/plain")
 run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libraries} ${SCRATCH}/plain)
 
+# The guide is there with its pictures: what a page has a link to lies beside it.
+file(GLOB_RECURSE pages ${installed}/*.md)
+foreach(page ${pages})
+  get_filename_component(folder ${page} DIRECTORY)
+  file(READ ${page} text)
+  string(REPLACE "](" "\r" text "${text}") # a list of CMake's takes no single bracket
+  string(REGEX MATCHALL "\r[^ ):#]+[)#]" links "${text}")
+  foreach(link ${links})
+    string(REGEX REPLACE "^.(.*).$" "\\1" link ${link})
+    if(NOT EXISTS ${folder}/${link})
+      message(FATAL_ERROR "${page} has a link to ${link}, which is not installed.")
+    endif()
+  endforeach()
+endforeach()
+list(LENGTH pages count)
+if(count LESS 20)
+  message(FATAL_ERROR "The guide has ${count} pages.")
+endif()
+
+# Examples build as they lie there.
+foreach(example addshadows tutorial)
+  run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${installed}/share/doc/gnomon-doc/examples/${example} -B ${SCRATCH}/${example}
+    -DCMAKE_PREFIX_PATH=${installed})
+  run(${CMAKE_COMMAND} --build ${SCRATCH}/${example})
+endforeach()
+
 # Each program runs from where it lies, and has a page for man and completion.
 file(GLOB programs RELATIVE ${installed}/bin ${installed}/bin/*)
 if(NOT "gnomonshot" IN_LIST programs)

@@ -84,6 +84,10 @@ TEST_F(GusShadow, LiesWhereRaysToTheLightAreBlocked) {
     EXPECT_EQ(misplaced(unlitFloor(*picture({})), rays, width), 0);
 }
 
+TEST_F(GusShadow, HasNothingToSay) {
+    EXPECT_EQ(run({"--out", "gus.png"}).err, "");
+}
+
 TEST_F(GusShadow, LiesOnOtherPlanesToo) {
     const Place level = {{0.0, 0.0, 5.0}, {0.0, -6.0, 5.0}, {9.0, -6.0, 5.0}};
     const Mask rays = shadow(level, {3.0, -4.0, 12.0, 1.0});

@@ -2,6 +2,7 @@
 // halomagic: shadow, reflection and halo, each where it belongs and nowhere else; each switch and the fault it shows.
 #include "ExampleProgram.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -54,6 +55,12 @@ bool isBlue(const osg::Vec3d& c) {
 } // the sphere; the floor's rings too
 
 } // namespace
+
+// Who asks a technique is not warned by osg::notify() besides.
+TEST_F(Halomagic, TellsEachCauseOnce) {
+    const std::string said = run({"--out", "magic.png"}).err;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+}
 
 TEST_F(Halomagic, MirrorsInTheFloorAndNowhereElse) {
     const auto with = keys(""), without = keys("d");

@@ -3,6 +3,8 @@
 #include "SceneFile.h"
 
 #include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/HaloNode.h>
+#include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
@@ -28,6 +30,49 @@ TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
     technique->setFilter(gnomon::ShadowMapTechnique::FINE);
     scene.addShadow(technique);
     expectSamePictureOnceLoaded(scene);
+}
+
+TEST_P(SceneFile, DrawsTheSamePicturesOnTerrainOnceLoaded) {
+    for (const auto method :
+         {gnomon::TerrainShadowGeode::HULL, gnomon::TerrainShadowGeode::DRAPE, gnomon::TerrainShadowGeode::BOX}) {
+        test::Scene scene =
+            test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+        const osg::ref_ptr<gnomon::TerrainShadowGeode> technique = new gnomon::TerrainShadowGeode;
+        technique->setMethod(method);
+        technique->setReceiver({test::find(*scene.content, "ground")});
+        scene.addShadow(technique);
+        expectSamePictureOnceLoaded(scene);
+    }
+}
+
+TEST_P(SceneFile, DrawsTheSameAutomaticPictureOnceLoaded) {
+    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
+    technique->setError(0.2);
+    scene.addShadow(technique);
+    expectSamePictureOnceLoaded(scene);
+}
+
+TEST_P(SceneFile, DrawsTheSameMirrorAndHaloOnceLoaded) {
+    test::Scene scene = test::groundScene({test::box({2.0, 2.0, 0.5}, {3.0, 3.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    const osg::ref_ptr<gnomon::HaloNode> halo = new gnomon::HaloNode;
+    halo->addChild(test::node(test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0}), "ringed"));
+    halo->setScale(1.3);
+    const osg::ref_ptr<gnomon::PlanarReflectionNode> mirror = new gnomon::PlanarReflectionNode;
+    mirror->addChild(test::node(test::box({-4.0, 0.0, 0.5}, {-3.0, 1.0, 2.0}), "mirrored"));
+    mirror->setSurface({test::find(*scene.content, "ground")});
+    mirror->setReflectance({0.9f, 0.5f, 0.1f});
+    scene.content->addChild(halo);
+    scene.content->addChild(mirror);
+    scene.addShadow(test::planar(test::find(*scene.content, "ground")));
+    expectSamePictureOnceLoaded(scene);
+    const test::View view = test::perspective({-6.0, -8.0, 8.0}, {0.0, 0.0, 0.0});
+    const test::Picture both = test::render(scene.root, view);
+    mirror->setSurface({});
+    const test::Picture unmirrored = test::render(scene.root, view);
+    EXPECT_GT(both.different(unmirrored), 100) << "there is no mirror image to compare";
+    halo->setScale(1.0);
+    EXPECT_GT(test::render(scene.root, view).different(unmirrored), 100) << "there is no halo to compare";
 }
 
 TEST_P(SceneFile, KeepsTheBudgetOfAutomaticChoice) {

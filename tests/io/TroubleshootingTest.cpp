@@ -103,7 +103,7 @@ Texts missingParts() {
     const std::string sentence = readFile(GNOMON_ROOT "/cmake/OptionalParts.cmake");
     const std::string parts = readFile(GNOMON_ROOT "/cmake/Dependencies.cmake");
     EXPECT_NE(sentence.find("\"This Gnomon was built without ${library}, which ${work}. Install "), std::string::npos);
-    const std::regex part("gnomon_optional_part\\(\\w+ (\\w+) \\w+ [a-z0-9-]+ \"(.*)\"\\)");
+    const std::regex part("gnomon_optional_part\\(\\w+ (\\w+) [\\w:]+ [a-z0-9-]+ \"(.*)\"\\)");
     Texts all;
     for (std::sregex_iterator found(parts.begin(), parts.end(), part), end; found != end; ++found)
         all.push_back("This Gnomon was built without " + found->str(1) + ", which " + found->str(2) + ". Install it.");
@@ -111,9 +111,19 @@ Texts missingParts() {
     return all;
 }
 
-/// Of src/, nodes/ and the optional parts.
+/// What cmake/gnomonConfig.cmake.in says to those who use a static library.
+Texts missingLibraries() {
+    const std::string config = readFile(GNOMON_ROOT "/cmake/gnomonConfig.cmake.in");
+    const std::regex refusal("gnomon_NOT_FOUND_MESSAGE \"([A-Z][^$]*)\\$\\{\\w+\\}([^\"$]*)\"");
+    std::smatch found;
+    EXPECT_TRUE(std::regex_search(config, found, refusal));
+    return {found.str(1) + gap + found.str(2)};
+}
+
+/// Of src/, nodes/, the optional parts and the package's file.
 Texts allMessages() {
     Texts all = missingParts();
+    for (const std::string& text : missingLibraries()) all.push_back(text);
     for (const char* folder : {GNOMON_ROOT "/src/gnomon", GNOMON_ROOT "/nodes/gnomon"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
             const std::string ending = entry.path().extension().string();

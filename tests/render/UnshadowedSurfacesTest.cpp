@@ -165,6 +165,21 @@ TEST(UnshadowedSurfaces, ABallThatIsSunkInTheFloorIsNotNamedForItsLowerHalf) {
     EXPECT_EQ(technique->diagnose(), nothing);
 }
 
+// The box of its vertices is a metre high.
+TEST(UnshadowedSurfaces, ASlantedFloorGetsItsShadow) {
+    for (const bool named : {false, true}) {
+        Scene slanted = scene(sun);
+        slanted.content->addChild(node(quad({-4.0, -3.0, 0.0}, {8.0, 0.0, 0.0}, {0.0, 6.0, 1.0}), "ground"));
+        slanted.content->addChild(node(box({-0.5, -0.5, 1.5}, {0.5, 0.5, 2.5}), "box"));
+        const osg::ref_ptr<gnomon::PlanarShadowNode> technique =
+            new gnomon::PlanarShadowNode(osg::Vec4d(0.0, -1.0, 6.0, -3.0));
+        if (named) technique->setReceiver({find(*slanted.content, "ground")});
+        slanted.addShadow(technique);
+        render(slanted.root, fromTheSide);
+        EXPECT_EQ(technique->diagnose(), nothing) << "receiver named: " << named;
+    }
+}
+
 TEST(UnshadowedSurfaces, AFloorMayBeTheTopOfASlab) {
     Trial trial(nullptr);
     trial.scene.content->replaceChild(find(*trial.scene.root, "ground"),

@@ -60,7 +60,28 @@ bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
     return true;
 }
 
-/// True if a leaf ends in the plane, as its bounding box tells: a floor, or the top of a slab.
+/// The height of a drawable's highest vertex over a plane, both in the drawable's frame.
+struct HighestVertex : osg::Drawable::ConstAttributeFunctor {
+    explicit HighestVertex(const glm::dvec4& plane) : plane(plane) {}
+    void apply(osg::Drawable::AttributeType type, unsigned count, const osg::Vec3* array) override {
+        take(type, count, array);
+    }
+    void apply(osg::Drawable::AttributeType type, unsigned count, const osg::Vec3d* array) override {
+        take(type, count, array);
+    }
+    template <typename Vector>
+    void take(osg::Drawable::AttributeType type, unsigned count, const Vector* array) {
+        if (type != osg::Drawable::VERTICES || count > most) return;
+        for (unsigned i = 0; i < count; ++i) height = std::max(height, distance(plane, toGlm(osg::Vec3d(array[i]))));
+    }
+
+    static constexpr unsigned most = 1000; // vertices that are looked at: floors have few
+    glm::dvec4 plane;
+    double height = -std::numeric_limits<double>::infinity();
+};
+
+/// True if a leaf ends in the plane, as its bounding box tells, or the vertices of a simple one: a floor, or the top of a
+/// slab.
 bool endsIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
     // What PlanarMark takes for the plane at the far plane: 32 steps of 24 bits of depth, where the near plane is at
     // 0.0005 of the distance, as OpenSceneGraph computes it. A surface as large as its distance may be off by so much.
@@ -68,9 +89,13 @@ bool endsIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
     const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
     if (!box.valid() || !plane) return false;
+    const auto isInPlane = [&](double height) { return std::abs(height) <= unevenness * 2.0 * box.radius(); };
     double highest = -std::numeric_limits<double>::infinity();
     for (unsigned i = 0; i < 8; ++i) highest = std::max(highest, distance(*plane, toGlm(osg::Vec3d(box.corner(i)))));
-    return std::abs(highest) <= unevenness * 2.0 * box.radius();
+    if (isInPlane(highest)) return true;
+    HighestVertex vertices(*plane); // the box of a slanted floor is not flat
+    leaf._drawable->accept(vertices);
+    return isInPlane(vertices.height);
 }
 
 /// Leaves of one state follow each other.

@@ -37,6 +37,7 @@ std::vector<std::uint8_t> forEach(std::size_t count, Answer answer) {
 } // namespace
 
 ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& light) : _technique(&technique) {
+    if (const std::string why = technique.whyUnavailable(); !why.empty()) throw std::runtime_error(why);
     osg::NodePath path = pathFromGroup(technique);
     const auto& group = dynamic_cast<const ShadowCasterGroup&>(*path.front());
     path.erase(path.begin());
