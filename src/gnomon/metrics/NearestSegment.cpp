@@ -60,7 +60,7 @@ NearestSegment::~NearestSegment() = default;
 
 double NearestSegment::distance(const glm::dvec2& point) const {
     Nearest nearest{_tree->segments, point};
-    if (!_tree->segments.empty()) _tree->index.findNeighbors(nearest, glm::value_ptr(point), nanoflann::SearchParams());
+    if (!_tree->segments.empty()) _tree->index.findNeighbors(nearest, glm::value_ptr(point), {});
     return nearest.best;
 }
 
