@@ -50,9 +50,9 @@ bool isFromAbove(const ViewFrame& view, const TileGround& ground) {
     return height && place.z > *height;
 }
 
-/// Ground that is steeper than a sun's rays and turned away from it throws a shadow. Lamps are not looked at.
+/// Lamps are not looked at.
 bool mayShadowItself(const GroundRevision& drawn, const glm::dvec4& light) {
-    return light.w == 0.0 && light.z > 0.0 && drawn.steepest * glm::length(glm::dvec2(light)) > light.z;
+    return light.w == 0.0 && light.z > 0.0 && drawn.isAsSteepAs(glm::dvec3(light));
 }
 
 bool isInside(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::dvec3& p) {
