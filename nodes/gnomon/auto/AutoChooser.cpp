@@ -22,6 +22,9 @@ constexpr unsigned settling = 8;       // frames of motion after a rest: a singl
 constexpr unsigned leastPatience = 16; // frames between two decisions that nothing forces
 constexpr double mostPatience = 64.0;  // the same; the first decision takes long, for it knows nothing
 constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on average
+/// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
+/// small one is taken.
+constexpr double rarely = 0.02;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string rounded(double number) {
@@ -139,11 +142,12 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     choice.learnt = _costs->generation();
     const AutoCosts costs = _costs->now();
     const CandidateList list = listCandidates(view, receiver, budget.error, _known);
+    const AutoMotion expected{std::max(choice.moving.scene, rarely), choice.moving.view};
     std::vector<ChoiceCandidate> judged;
     std::optional<std::size_t> before;
     for (const AutoCandidate& candidate : list.all) {
         if (choice.decision.decisions > 0 && candidate.isSame(choice.candidate)) before = judged.size();
-        judged.push_back({candidate.obstacle.empty(), candidate.error, candidate.time(costs, choice.moving)});
+        judged.push_back({candidate.obstacle.empty(), candidate.error, candidate.time(costs, expected)});
     }
     const auto chosen = chooseCandidate(judged, budget, before);
     const std::size_t index = chosen ? chosen->index : 0;
