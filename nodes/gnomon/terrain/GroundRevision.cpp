@@ -3,6 +3,7 @@
 #include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/terrain/GroundRevision.h>
 
+#include <glm/geometric.hpp>
 #include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/LOD>
@@ -61,6 +62,10 @@ osg::NodePath belowCamera(const osg::NodePath& path) {
 }
 
 } // namespace
+
+bool GroundRevision::isAsSteepAs(const glm::dvec3& towardsSun, double share) const {
+    return !(steepest * glm::length(glm::dvec2(towardsSun)) < share * towardsSun.z);
+}
 
 TerrainPlace TerrainPlace::inFrameOf(const osg::Node& group, const Selection& terrain) {
     const auto root = const_cast<osg::Node*>(&group); // visitors ask for more than they need

@@ -24,6 +24,10 @@ struct GroundRevision : public osg::Referenced {
     std::shared_ptr<const Ground> ground;
     double steepest = 0.0; ///< slope of all of it, as a tangent.
 
+    /// True if some of it may be as steep as a sun's rays, or as that share of their slope: it throws shadows then, wherever
+    /// it is turned away from the sun.
+    bool isAsSteepAs(const glm::dvec3& towardsSun, double share = 1.0) const;
+
 protected:
     ~GroundRevision() override = default;
 };
