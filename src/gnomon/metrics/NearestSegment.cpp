@@ -30,6 +30,8 @@ struct Middles {
 /// What nanoflann asks of a result: the nearest segment so far, to whose distance `reach` must be added before a middle
 /// is too far away to matter.
 struct Nearest {
+    using DistanceType = double;
+
     const std::vector<Segment>& segments;
     const glm::dvec2& point;
     double best = std::numeric_limits<double>::infinity();
@@ -41,6 +43,7 @@ struct Nearest {
         best = std::min(best, distance(segments[i], point));
         return true;
     }
+    void sort() {} // there is one; nanoflann asks since 1.5
 };
 
 using Index =
