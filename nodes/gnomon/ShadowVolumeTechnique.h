@@ -22,7 +22,7 @@ class VolumeCache;
 /// - When a light moves: a pass over the casters' triangles and edges, and an upload of the outlines.
 /// - When a caster moves as a whole: the same for it alone. Small casters that are joined are searched again.
 /// - Volumes end below all that receives. Volumes out of sight are not drawn.
-/// - If the eye may be inside a volume, its caster's triangles are drawn, too.
+/// - If the eye may be inside a volume, or sees the back of an open sheet, its caster's triangles are drawn, too.
 /// Needs
 /// - OpenGL 3.0 with GLSL 1.30, its two-sided stencil and depth clamp.
 /// - One stencil bit a light, one more where a receiver is named, and one or more that count.
@@ -32,8 +32,8 @@ class VolumeCache;
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
 /// - Alpha-tested casters cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
-/// - A caster that the view does not draw, by a mask or by face culling of an open sheet, can leave false light or shadow
-///   where one looks through it.
+/// - A caster that the view draws without depth, or not at all, can leave false light or shadow where one looks through it.
+///   Examples are glass, a mask, and face culling of an open sheet.
 /// - Counts have up to seven bits. More casters between a light and a place take several rounds. If one connected mesh
 ///   lies over itself more often, its shadow may have holes, and diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.

@@ -121,6 +121,12 @@ osg::ref_ptr<osg::Geode> stencilMarks() {
     return marks;
 }
 
+/// Of this scene alone box has a cause in any window: it casts bounding boxes, which differ from these casters.
+void expectNoCausesButThoseOfBox(const std::string& spec, const Scene& scene, const Scene& withStencil) {
+    EXPECT_EQ(causesOf(scene), causesOf(withStencil));
+    if (spec != "box") EXPECT_EQ(causesOf(scene), std::vector<std::string>());
+}
+
 class AnyWindowBy : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(AnyWindow, AnyWindowBy,
                          testing::Values("planar", "planar:composite=blend", "box", "hull", "hull:composite=blend",
@@ -139,7 +145,7 @@ TEST_P(AnyWindowBy, WithoutStencilShowsTheSameBits) {
         EXPECT_GT(with.different(inWindow(shadowed("", lights).root, 8)), 300);
         const Scene scene = shadowed(GetParam(), lights);
         EXPECT_EQ(inWindow(scene.root, 0).different(with), 0) << lights;
-        EXPECT_EQ(causesOf(scene), causesOf(withStencil));
+        expectNoCausesButThoseOfBox(GetParam(), scene, withStencil);
     }
 }
 
@@ -152,7 +158,7 @@ TEST_P(AnyWindowBy, AnObjectWithoutStencilAndOneWithoutAlphaShowTheSameBits) {
         const Scene scene = shadowed(GetParam());
         EXPECT_EQ(inObject(scene.root, without(samples)).different(with), 0) << samples;
         EXPECT_EQ(inObject(shadowed(GetParam()).root, without(samples, GL_RGB8)).different(with), 0) << samples;
-        EXPECT_EQ(causesOf(scene), causesOf(withStencil));
+        expectNoCausesButThoseOfBox(GetParam(), scene, withStencil);
     }
 }
 

@@ -67,6 +67,32 @@ TEST(Sheets, SeenFromBehindDoNotShadowThemselves) {
     }
 }
 
+/// From below, with a box on the sheet and a sun above both. What is dark of the back is what the box shadows.
+TEST(Sheets, SeenFromBehindTakeTheShadowsOfOthers) {
+    const test::Mesh sheet = test::square(4.0, 1.0), box = test::box({-0.5, -0.5, 1.0}, {0.5, 0.5, 3.0});
+    const osg::Vec4d sun(1.0, -0.6, 1.4, 0.0);
+    const View view = test::perspective({1.0, -7.0, -6.0}, {0.0, 0.0, 1.0}, 160, 120);
+    const test::Mask truth = test::castRays(sheet, {box}, sun, view);
+    ASSERT_GT(truth.count(test::Seen::ShadowedReceiver), 300);
+    for (const unsigned reserved : {0u, 0xf8u}) { // of three bits not more than two count
+        Scene lit = test::scene(sun), scene = test::scene(sun);
+        for (Scene* each : {&lit, &scene}) {
+            each->content->addChild(test::node(sheet));
+            each->content->addChild(test::node(box));
+        }
+        scene.addShadow(new gnomon::ShadowVolumeTechnique);
+        scene.group->setComposite(ShadowCasterGroup::BLEND);
+        test::reserving(scene.root, reserved);
+        const Picture plain = test::render(lit.root, view), shadowed = test::render(scene.root, view);
+        int wrong = 0;
+        for (int y = 0; y < view.height; ++y)
+            for (int x = 0; x < view.width; ++x)
+                if (truth.at(x, y) >= test::Seen::LitReceiver && !truth.atEdge(x, y, 1))
+                    wrong += (truth.at(x, y) == test::Seen::ShadowedReceiver) != (shadowed.at(x, y) != plain.at(x, y));
+        EXPECT_EQ(wrong, 0) << reserved;
+    }
+}
+
 /// The same room with walls of 0.1: their outer faces are seen from before, and face away from the lamp.
 TEST(Sheets, OfTwoFacesTheOuterOneIsInShadow) {
     const test::Mesh outside = test::box({-4.1, -4.1, -0.1}, {4.1, 4.1, 3.1});

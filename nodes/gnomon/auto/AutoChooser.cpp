@@ -24,7 +24,7 @@ constexpr double mostPatience = 64.0;  // the same; the first decision takes lon
 constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on average
 /// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
 /// small one is taken.
-constexpr double rarely = 0.02;
+constexpr double rarely = 1e-4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string rounded(double number) {
@@ -125,7 +125,7 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
     ++choice.seen;
     choice.moving = {followed(choice.moving.scene, choice.motion.scene, choice.seen),
                      followed(choice.moving.view, choice.motion.view, choice.seen)};
-    choice.since = rested ? 0 : choice.since + 1;
+    choice.since = rested ? 0 : choice.since + (moves || flies);
     choice.last = now;
     if (!now.asks(choice.decided) || choice.learnt != _costs->generation()) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;

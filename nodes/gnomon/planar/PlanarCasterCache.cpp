@@ -20,12 +20,20 @@ osg::ref_ptr<PlanarCasters> PlanarCasterCache::make(const CasterLayers& layers, 
     for (const auto& entry : _entries)
         if (entry->isOf(groupPlane, under)) before.push_back(entry);
     const SceneFrame scene(layers.origin);
+    std::size_t next = 0;
     return new PlanarCasters(
         layers, groupPlane, under,
         [&](const PlacedMesh& placed, const glm::dvec4& plane) -> osg::ref_ptr<const PlanarParts> {
-            if (placed.isBody && !under)
+            const std::size_t place = next++;
+            if (placed.isBody && !under) {
+                const osg::ref_ptr<const PlanarMesh> whole = wholeOf(*placed.mesh, frame);
+                for (const auto& entry : before) {
+                    const auto known = entry->plane == plane ? entry->at(place, placed) : nullptr;
+                    if (known && known->whole == whole) return known; // it stands still while others move
+                }
                 return new PlanarParts(placed, plane, scene.point(placed.bounds._min), scene.point(placed.bounds._max),
-                                       *wholeOf(*placed.mesh, frame));
+                                       *whole);
+            }
             osg::ref_ptr<const PlanarParts> known;
             for (const auto& entry : before)
                 if (!known && entry->plane == plane) known = entry->find(placed);

@@ -44,6 +44,10 @@ osg::ref_ptr<const PlanarParts> PlanarCasters::find(const PlacedMesh& placed) co
     return found == _meshes.end() ? nullptr : *found;
 }
 
+osg::ref_ptr<const PlanarParts> PlanarCasters::at(std::size_t place, const PlacedMesh& placed) const {
+    return place < _meshes.size() && _meshes[place]->madeFrom(placed) ? _meshes[place] : nullptr;
+}
+
 void PlanarCasters::resizeGLObjectBuffers(unsigned maxSize) {
     for (const PlanarPart& part : parts) part.geometry->resizeGLObjectBuffers(maxSize);
 }

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -32,6 +33,8 @@ public:
     bool seeksSolids(unsigned frame) const;
     /// Of a mesh where it is; null if it is none of these.
     osg::ref_ptr<const PlanarParts> find(const PlacedMesh& placed) const;
+    /// The same, if it is at this place among the layers' meshes.
+    osg::ref_ptr<const PlanarParts> at(std::size_t place, const PlacedMesh& placed) const;
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 

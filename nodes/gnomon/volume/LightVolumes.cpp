@@ -38,6 +38,15 @@ void LightVolumes::set(const VolumeCaster& caster, const glm::dvec4& light, cons
     findShadowVolumes(*caster.mesh, lightIn(caster, light), endsIn(caster, receivers), _volumes);
     _sides->set(_volumes.vertices, _volumes.corners);
     _capped.clear();
+    _showBacks.clear();
+}
+
+bool LightVolumes::showsBack(const SightStart& start, unsigned part, bool mayBeCut) {
+    if (_towardsEye != start.towardsEye) _showBacks.clear();
+    _towardsEye = start.towardsEye;
+    const auto [known, isNew] = _showBacks.try_emplace({part, mayBeCut}, false);
+    if (isNew) known->second = mayShowBack(start, *_caster.mesh, _volumes, part, mayBeCut);
+    return known->second;
 }
 
 osg::ref_ptr<const VolumeGeometry> LightVolumes::capsOf(const std::vector<CapsWanted>& wanted,

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/silhouette/ShadowVolumes.h>
+#include <gnomon/silhouette/SightStart.h>
 #include <gnomon/volume/ReceiverBox.h>
 #include <gnomon/volume/VolumeCasters.h>
 #include <gnomon/volume/VolumeGeometry.h>
+
+#include <map>
+#include <utility>
 
 namespace gnomon {
 
@@ -31,6 +35,8 @@ public:
     const VolumeCaster& caster() const { return _caster; }
     const ShadowVolumes& volumes() const { return _volumes; }
     const VolumeGeometry& sides() const { return *_sides; }
+    /// See mayShowBack(); asked once for the same eye.
+    bool showsBack(const SightStart& start, unsigned part, bool mayBeCut);
     /// What closes the volumes of some parts; made once for the same ones.
     /// @param ranges  for each of `wanted`.
     osg::ref_ptr<const VolumeGeometry> capsOf(const std::vector<CapsWanted>& wanted, std::vector<CapRanges>& ranges);
@@ -47,6 +53,8 @@ private:
     ReceiverBox _receivers{};
     ShadowVolumes _volumes;
     const osg::ref_ptr<VolumeGeometry> _sides;
+    glm::dvec4 _towardsEye{0.0};
+    std::map<std::pair<unsigned, bool>, bool> _showBacks; ///< by part and mayBeCut, seen from there.
     std::vector<CapsWanted> _capped; ///< those that have caps,
     std::vector<CapRanges> _ranges;  ///< and where.
     osg::ref_ptr<VolumeGeometry> _caps;

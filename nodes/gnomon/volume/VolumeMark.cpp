@@ -56,12 +56,8 @@ constexpr const char* overflow =
 
 } // namespace
 
-/// A cap lies in the surface that casts, which is as lit as its light's side: so it is behind that, from wherever it is
-/// seen.
-void VolumeMark::drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps, const Ranges& ranges) const {
-    drawOffset(renderInfo, caps, ranges, glm::max(pushedBack, 0.0) + behind);
-}
-
+/// A light cap lies in the surface that casts, which is as lit as its light's side: so it is behind that, from wherever it
+/// is seen. A dark cap is where it is, close before the lowest surface for an eye below all.
 void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                        const VolumeRound::Share& share) const {
     place(*renderInfo.getState(), mesh);
@@ -69,10 +65,11 @@ void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned c
         pass.countEntered(counters);
         mesh.volumes->sides().draw(renderInfo, share.entered);
     }
-    if (!share.caps.empty()) {
+    if (!share.lightCaps.empty()) {
         pass.countHolding(counters);
         mesh.volumes->sides().draw(renderInfo, share.left);
-        drawCaps(renderInfo, *mesh.caps, share.caps);
+        mesh.caps->draw(renderInfo, share.darkCaps);
+        drawOffset(renderInfo, *mesh.caps, share.lightCaps, glm::max(pushedBack, 0.0) + behind);
     }
 }
 

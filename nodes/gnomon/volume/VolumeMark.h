@@ -27,8 +27,6 @@ protected:
 private:
     void count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                const VolumeRound::Share& share) const;
-    using Ranges = std::vector<VolumeGeometry::Range>;
-    void drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps, const Ranges& ranges) const;
     void uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                       const VolumeRound::Share& share) const;
 };

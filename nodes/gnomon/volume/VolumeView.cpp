@@ -59,22 +59,32 @@ void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
     VolumeRound::Share& share = round.shares[seen.mesh];
     const ShadowVolumes::Part& part = volumeOf(all, seen);
     append(seen.holding ? share.entered : share.left, {part.first, part.count});
-    if (!seen.holding) append(share.caps, seen.caps.light);
-    if (!seen.holding) append(share.caps, seen.caps.dark);
+    if (!seen.holding) append(share.lightCaps, seen.caps.light);
+    append(share.darkCaps, seen.caps.dark);
     if (seen.showsBack) append(share.backs, seen.caps.light);
     round.holding += seen.holding.value_or(0);
 }
 
 /// To those from `first` on that are counted from behind, or may be seen from there.
 osg::ref_ptr<const VolumeGeometry> giveCaps(LightVolumes& volumes, std::vector<SeenPart>& parts, std::size_t first) {
-    const auto needsCaps = [](const SeenPart& part) { return !part.holding || part.showsBack; };
+    const SilhouetteMesh& mesh = *volumes.caster().mesh;
+    const bool anyBack = std::any_of(parts.begin() + std::ptrdiff_t(first), parts.end(),
+                                     [](const SeenPart& part) { return part.showsBack; });
     std::vector<CapsWanted> wanted;
-    for (std::size_t i = first; i < parts.size(); ++i)
-        if (needsCaps(parts[i])) wanted.push_back({parts[i].part, !parts[i].holding});
+    std::vector<SeenPart*> of; // those in view
+    std::size_t next = first;
+    for (unsigned i = 0; i < mesh.parts.size(); ++i) {
+        SeenPart* seen = next < parts.size() && parts[next].part == i ? &parts[next++] : nullptr;
+        const bool isClosed = seen && !seen->holding, showsBack = seen && seen->showsBack;
+        // If one open part shows its back, the next view may have another: all of them are there then, and stay.
+        if (!isClosed && !showsBack && !(anyBack && !mesh.parts[i].closed)) continue;
+        wanted.push_back({i, isClosed});
+        of.push_back(seen);
+    }
     std::vector<CapRanges> ranges;
     osg::ref_ptr<const VolumeGeometry> caps = volumes.capsOf(wanted, ranges);
-    for (std::size_t i = first, next = 0; i < parts.size(); ++i)
-        if (needsCaps(parts[i])) parts[i].caps = ranges[next++];
+    for (std::size_t i = 0; i < of.size(); ++i)
+        if (of[i]) of[i]->caps = ranges[i];
     return caps;
 }
 
@@ -95,7 +105,7 @@ void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes&
         const std::optional<int> holding = volumesHolding(start, mesh, volumes.volumes(), i, cut);
         if (holding == 0 && volume.count == 0) continue;
         all.bounds = all.parts.empty() ? *bounds : united(all.bounds, *bounds);
-        const bool showsBack = mayShowBack(start, mesh, volumes.volumes(), i, cut);
+        const bool showsBack = volumes.showsBack(start, i, cut);
         all.parts.push_back({all.meshes.size(), i, holding, showsBack, {}});
     }
     if (all.parts.size() == before) return;

@@ -71,7 +71,7 @@ std::vector<Hole> holesOf(const std::vector<OpenEdge>& open, Sets& parts, std::s
 }
 
 constexpr double widest = 0.5;                 // a hole, of its part: about a wider one are most of the faces
-constexpr std::size_t mostOpenEdges = 1 << 14; // of more, as leaves have, no holes are made
+constexpr std::size_t mostOpenEdges = 1 << 14; // of more, as leaves have, no holes and seams are closed
 
 /// The triangles of all parts, over welded vertices.
 class Parts {
@@ -195,7 +195,8 @@ ClosedParts closedParts(const glm::vec3* positions, std::size_t vertexCount, con
     for (std::size_t i = 0; i < indexCount; ++i) corners[i] = result.welded[indices[i]];
     std::vector<OpenEdge> open = openEdges(corners);
     const std::vector<unsigned> first =
-        overSeams ? withoutSeams(endsOf(open), positions, vertexCount) : std::vector<unsigned>();
+        overSeams && open.size() <= mostOpenEdges ? withoutSeams(endsOf(open), positions, vertexCount)
+                                                  : std::vector<unsigned>();
     for (unsigned& corner : corners)
         if (!first.empty()) corner = first[corner];
     if (!first.empty()) open = openEdges(corners);

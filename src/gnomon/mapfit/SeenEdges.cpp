@@ -125,6 +125,7 @@ void SeenEdges::addCasters(const std::vector<Box>& boxes, const glm::dmat4& mapF
         for (int y = bin(bounds->low.y); y <= bin(bounds->high.y); ++y)
             for (int x = bin(bounds->low.x); x <= bin(bounds->high.x); ++x)
                 for (Cell* cell : binned[std::size_t(y) * bins + x]) {
+                    if (cell->dark) continue;
                     const glm::dvec3 place = cell->place().place, way = glm::dvec3(_light) - _light.w * place;
                     const Passage passage = passageOf(box, place, way);
                     const bool before = _light.w == 0.0 || passage.in < 1.0;

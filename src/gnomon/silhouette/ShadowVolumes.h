@@ -10,7 +10,7 @@ namespace gnomon {
 ///
 /// A vertex is a place and how far it goes on, away from the light, in lengths of awayFrom(): below 0 to infinity.
 struct ShadowVolumes {
-    /// Of one part: its sides. What closes them, see appendCaps().
+    /// Of one part: its sides. What closes them, see appendLightCap() and appendDarkCap().
     struct Part {
         unsigned first = 0, count = 0;     ///< in `corners`.
         unsigned firstEdge = 0, edges = 0; ///< in `outline`.
