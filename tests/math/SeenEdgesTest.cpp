@@ -99,6 +99,11 @@ TEST(SeenEdges, OfHillsLieHalfWayUp) {
     const std::vector<SeenPlace> edges = edgesOf(sun, plan(), map, {hills, house});
     ASSERT_GT(edges.size(), 20u);
     for (const SeenPlace& edge : edges) EXPECT_NEAR(edge.place.z, 0.0, 1e-9);
+
+    SeenEdges whole(plan(), wholeScreen, sun);
+    whole.addReceiver(hills, here, SeenEdges::Relief::Whole);
+    ASSERT_FALSE(whole.facing().empty());
+    for (const SeenPlace& place : whole.facing()) EXPECT_NEAR(place.place.z, 0.5, 1e-9);
 }
 
 TEST(SeenEdges, AreOnlyWhereTheLightShinesAndTheEyeSees) {

@@ -24,7 +24,7 @@ constexpr double mostPatience = 64.0;  // the same; the first decision takes lon
 constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on average
 /// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
 /// small one is taken.
-constexpr double rarely = 1e-4;
+constexpr double rarely = 0.02;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string rounded(double number) {
@@ -156,10 +156,10 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     const bool changes = decision.decisions > 0 && !list.all[index].isSame(choice.candidate);
     choice.candidate = list.all[index];
     decision.light = view.light.number;
-    decision.chosen = choice.candidate.judged(costs, choice.moving);
+    decision.chosen = choice.candidate.judged(costs, expected);
     decision.reason = list.nothing.empty() ? reasonFor(reason, budget) : "none is needed: " + list.nothing;
     decision.keepsBudget = reason != ChoiceReason::ErrorTooSmall && reason != ChoiceReason::TimeTooShort;
-    decision.candidates = judgedOf(list.all, costs, choice.moving);
+    decision.candidates = judgedOf(list.all, costs, expected);
     decision.changes += changes ? 1 : 0;
     if (changes) choice.taken = std::make_shared<std::atomic<double>>(0.0);
     ++decision.decisions;

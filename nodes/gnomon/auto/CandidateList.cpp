@@ -31,7 +31,7 @@ struct MapQuality {
 /// Spread: of hard edges at random; of smooth ones on the tuning scenes of gnomonchart. Pixel: of a sphere and a cube on a ground, with small texels.
 constexpr MapQuality qualities[] = {
     {Map::NEAREST, Map::HARD, {0.51, 0.42, 0.25}},  {Map::BILINEAR, Map::HARD, {0.41, 0.41, 1.0}},
-    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.18, 0.30, 1.0}},
+    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.25, 0.36, 1.0}},
     {Map::BICUBIC, Map::SMOOTH, {0.22, 0.15, 4.0}}, {Map::FINE, Map::SMOOTH, {0.15, 0.075, 16.0}},
 };
 constexpr double callsAMap = 14.0;     // to switch to its framebuffer and back, and to fit it

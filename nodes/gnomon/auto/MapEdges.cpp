@@ -22,6 +22,14 @@ bool holds(const MapForecast::Map& map, const glm::dvec3& place) {
                        [&](const glm::dvec4& half) { return glm::dot(half, here) >= 0.0; });
 }
 
+std::vector<SeenEdges::Box> boxesOf(const MapCasters& casters) {
+    std::vector<SeenEdges::Box> result;
+    for (const MapLayer* layer : {casters.still.get(), casters.moving.get()})
+        for (const auto* some : {&layer->bodyBoxes, &layer->flatBoxes})
+            for (const MapLayer::Box& box : *some) result.push_back({box.low, box.high});
+    return result;
+}
+
 } // namespace
 
 MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast)
@@ -29,16 +37,20 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
     const glm::dvec3 origin = toGlm(boxes.layers->origin);
     const SceneFrame scene(origin);
     _clipFromScene = scene.clipFromScene(view.frame);
-    SeenEdges seen(_clipFromScene, *forecast.bounds, view.towards - view.towards.w * glm::dvec4(origin, 0.0));
-    for (const MapReceiver& receiver : receiversOf(view.frame, scene.eyeFromScene(view.frame)))
-        seen.addReceiver({receiver.low, receiver.high}, receiver.sceneFromBox);
-    std::vector<SeenEdges::Box> casters;
-    for (const MapLayer* layer : {boxes.still.get(), boxes.moving.get()})
-        for (const auto* some : {&layer->bodyBoxes, &layer->flatBoxes})
-            for (const MapLayer::Box& box : *some) casters.push_back({box.low, box.high});
+    const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(origin, 0.0);
+    const std::vector<MapReceiver> receivers = receiversOf(view.frame, scene.eyeFromScene(view.frame));
+    const auto seenOf = [&](SeenEdges::Relief relief) {
+        SeenEdges seen(_clipFromScene, *forecast.bounds, light);
+        for (const MapReceiver& receiver : receivers)
+            seen.addReceiver({receiver.low, receiver.high}, receiver.sceneFromBox, relief);
+        return seen;
+    };
+    SeenEdges seen = seenOf(SeenEdges::Relief::HalfWay);
+    const std::vector<SeenEdges::Box> casters = boxesOf(boxes);
     for (const MapForecast::Map& map : forecast.each) seen.addCasters(casters, map.mapFromScene);
     _places = seen.edges();
-    if (_places.empty()) _places = seen.facing();
+    if (_places.empty())
+        _places = seenOf(SeenEdges::Relief::Whole).facing(); // a terrain shadows itself, who knows where
 }
 
 std::optional<double> MapEdges::widthOf(const MapForecast& forecast) const {

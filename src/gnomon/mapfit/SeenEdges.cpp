@@ -72,10 +72,10 @@ SeenEdges::SeenEdges(const glm::dmat4& clipFromScene, const ScreenRect& within, 
         }
 }
 
-void SeenEdges::addReceiver(const Box& given, const glm::dmat4& sceneFromBox) {
+void SeenEdges::addReceiver(const Box& given, const glm::dmat4& sceneFromBox, Relief relief) {
     Box box = given;
-    if (const auto flat = flatAxis(box.low, box.high, sceneFromBox))
-        box.low[*flat] = box.high[*flat] = (box.low[*flat] + box.high[*flat]) / 2.0;
+    const auto flat = flatAxis(box.low, box.high, sceneFromBox);
+    if (flat && relief == Relief::HalfWay) box.low[*flat] = box.high[*flat] = (box.low[*flat] + box.high[*flat]) / 2.0;
     const int first = 6 * _receivers++;
     const auto bounds = boundsOf(box, _clipFromScene * sceneFromBox);
     if (!bounds) return;

@@ -27,8 +27,12 @@ public:
     /// @param light          in the scene: w = 0, or w = 1.
     SeenEdges(const glm::dmat4& clipFromScene, const ScreenRect& within, const glm::dvec4& light);
 
-    /// One that is flat, as hills are, counts as the level half-way up.
-    void addReceiver(const Box& box, const glm::dmat4& sceneFromBox);
+    /// What a box that is flat, as that of hills is, counts as.
+    enum class Relief {
+        HalfWay, ///< its middle level: where most of it is.
+        Whole,   ///< its sides, nearer to the viewer than most of it.
+    };
+    void addReceiver(const Box& box, const glm::dmat4& sceneFromBox, Relief relief = Relief::HalfWay);
 
     /// Boxes of the scene, after all receivers. They darken what is seen within a map: x/w and y/w are 0 to 1 there.
     void addCasters(const std::vector<Box>& boxes, const glm::dmat4& mapFromScene);
