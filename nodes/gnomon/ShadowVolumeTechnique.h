@@ -28,6 +28,7 @@ class VolumeCache;
 /// - One stencil bit a light, one more where a receiver is named, and one or more that count.
 /// Limits
 /// - Dense meshes have thousands of edges one before the other: maps are faster there.
+/// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
 /// - Alpha-tested casters cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.

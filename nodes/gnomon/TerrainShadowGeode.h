@@ -34,7 +34,7 @@ struct TerrainShadows;
 ///   takes four triangles. If the rays fail, for example at cliffs and holes, it drapes; diagnose() says how often.
 /// - DRAPE: cuts the ground's triangles by the caster's shadow, within setError() in plan.
 /// - BOX: the bounding-box method of ARL-TN-156, as published. It is wrong for casters that are no upright boxes along
-///   the axes.
+///   the axes; diagnose() counts them.
 /// Cost
 /// - Shadows are computed on all cores, only for tiles in view, and kept.
 /// - Each frame: 4 to 10 triangles a house on a regular grid, 20 elsewhere, stencil only.
@@ -48,11 +48,14 @@ struct TerrainShadows;
 /// - One stencil bit; two for shadows off a grid; three if those overlap. More bits save passes.
 /// Limits
 /// - Walls and roofs receive nothing. diagnose() names one in view that stays lit.
-/// - The terrain casts nothing on itself. diagnose() says so if the sun is lower than its steepest slope.
+/// - The terrain casts nothing on itself. diagnose() says so if some of it is turned away from the light.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Far from a very close near plane, depths are too coarse to place shadows off a regular grid. diagnose() names such a
 ///   caster.
 /// - Casters stand on or in the ground. HULL shows no light below an overhang.
+/// - BOX spans rough ground between its eleven points, and closes openings in a box.
+/// - Shadows are found on the terrain's finest level of detail. On a coarser one they lie beside their places, by the
+///   difference of heights over the light's tangent. diagnose() says so if one is drawn.
 /// - Terrain that overlaps itself in plan receives on all of its levels.
 /// - Shaders that move the terrain's vertices or discard its pixels are not known here.
 /// - In a town seen from afar, a shadow's edge may be off by 0.3 pixels, because far tiles are drawn as bitmaps.

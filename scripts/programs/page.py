@@ -44,8 +44,12 @@ Each strip shows the frame without shadows, with `map`, and with osgShadow::Shad
 brighter than without shadows. "`volume` apart": pixels away from edges where `volume` and `traced` differ. Mesa's llvmpipe, OpenSceneGraph 3.6.5. A sun stands at azimuth 135°, elevation 45° if the
 program's only light is at the eye.*
 
-`volume` needs closed casters or thin sheets. It is wrong on osgspheresegment's and osgshape's open terrain, and in
-osgdepthpartition, whose two cameras share one scene of very different sizes. Take `map` or `traced` there.
+`volume` and `traced` differ away from edges in three programs:
+
+- osgdepthpartition has an earth and a sun at their true distance. Floats hold casters of such a scene to kilometres, so
+  `traced` and `map` leave facets at the terminator lit. `volume` has them in shadow.
+- osgsimpleshaders discards a whole block that casts, and one looks through it. `volume` cannot know that: see its Limits.
+- osgspheresegment shows glass before a terrain that is seen from below. The cause is not known.
 """
 
 # What the causes of diagnose() have in common, and how the table has it. The first that fits counts.

@@ -102,6 +102,9 @@ TEST(RandomFaults, AreLargeShadowsLostWithoutAWord) {
     right.everywhere.iou = 0.5;
     elsewhere.onReceiver = right.everywhere;
     for (const StabilityCell& fine : {small, said, right, elsewhere}) EXPECT_FALSE(isRandomFault(fine));
+    StabilityCell remarked = cell; // which is no limit
+    remarked.diagnosis = {"draped instead. The shadow is right, but takes longer."};
+    EXPECT_TRUE(isRandomFault(remarked));
     said.failure = "crashed";
     EXPECT_TRUE(isRandomFault(said));
 }

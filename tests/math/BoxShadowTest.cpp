@@ -143,4 +143,57 @@ TEST(BoxShadow, OfTurnedHousesIsOffByAsMuchAsTheMethodIs) {
     EXPECT_LT(shares[10], 0.95);
 }
 
+/// Turned houses in all suns: where the outline is said to be the house's, all of its shadow is found and nothing else;
+/// elsewhere a part is not.
+TEST(BoxShadow, KnowsWhetherItsOutlineIsThatOfATurnedHouse) {
+    const HeightPyramid ground = levelGround();
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    int right = 0, wrong = 0;
+    for (int turn = 0; turn <= 85; turn += 5)
+        for (int azimuth = 2; azimuth < 360; azimuth += 15) {
+            const House house{{200.0, 200.0}, {8.0, 5.0}, turn * degree, 23.0};
+            const glm::dvec3 sun = sunAt(azimuth, 30.0);
+            const auto mesh = shadowOf(ground, house, glm::dvec4(sun, 0.0));
+            ASSERT_TRUE(mesh);
+            int differ = 0;
+            for (int k = 0; k < 2000; ++k) {
+                const glm::dvec2 p = house.middle + 50.0 * glm::dvec2(unit(random), unit(random));
+                if (glm::length(glm::max(glm::abs(house.local(p - house.middle)) - house.half, 0.0)) == 0.0) continue;
+                differ += house.blocks({p.x, p.y, 3.0}, sun) != (test::over(*mesh, p) > 0);
+            }
+            const bool is = gnomon::isBoxOutline(ground, house.corners(), boxOf(house, 3.0), glm::dvec4(sun, 0.0));
+            EXPECT_EQ(is, differ == 0) << turn << " turned, sun from " << azimuth << ", " << differ;
+            ++(is ? right : wrong);
+        }
+    EXPECT_GT(right, 100);
+    EXPECT_GT(wrong, 50);
+}
+
+TEST(BoxShadow, KnowsThatItsOutlineIsNotThatOfAnythingButAnUprightBlockInTheGround) {
+    const HeightPyramid ground = levelGround();
+    const House house{{200.0, 200.0}, {8.0, 5.0}, 0.0, 23.0};
+    const auto isOutline = [&](std::vector<glm::dvec3> points, const glm::dvec4& light) {
+        BoxCaster caster = boxOf(house, 3.0);
+        caster.nearestVertex = [points](const glm::dvec2& at) {
+            return glm::dvec2(*std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
+                return glm::length(glm::dvec2(a) - at) < glm::length(glm::dvec2(b) - at);
+            }));
+        };
+        return gnomon::isBoxOutline(ground, points, caster, light);
+    };
+    const glm::dvec4 sun(sunAt(30.0, 30.0), 0.0);
+    const std::vector<glm::dvec3> block = house.corners();
+    EXPECT_TRUE(isOutline(block, sun));
+    EXPECT_TRUE(isOutline(block, {220.0, 230.0, 60.0, 1.0})) << "a lamp over a corner";
+    EXPECT_FALSE(isOutline(block, {200.0, 230.0, 60.0, 1.0})) << "a lamp before one side";
+    std::vector<glm::dvec3> gable = block, floating = block, sheet = block, porch = block;
+    for (glm::dvec3& corner : gable)
+        if (corner.z > 0.0 && corner.x < 200.0) corner.z = 15.0;
+    for (glm::dvec3& corner : floating) corner.z = std::max(corner.z, 4.0);
+    for (glm::dvec3& corner : sheet) corner.y = 195.0 + (corner.x - 192.0) * 10.0 / 16.0;
+    porch.emplace_back(212.0, 200.0, 3.0);
+    for (const auto& points : {gable, floating, sheet, porch}) EXPECT_FALSE(isOutline(points, sun));
+}
+
 } // namespace

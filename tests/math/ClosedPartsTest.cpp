@@ -17,7 +17,7 @@ struct Soup {
     ClosedParts parts() const {
         std::vector<unsigned> indices(positions.size());
         for (unsigned i = 0; i < indices.size(); ++i) indices[i] = i;
-        return closedParts(positions.data(), positions.size(), indices.data(), indices.size());
+        return closedParts(positions.data(), positions.size(), indices.data(), indices.size(), true);
     }
     /// How many of the triangles bound a solid.
     long closedTriangles() const {
@@ -270,6 +270,34 @@ TEST(ClosedParts, WithSharedVerticesAreTheSameAsWithout) {
     const ClosedParts found = closedParts(corners.data(), corners.size(), faces.data(), faces.size());
     EXPECT_EQ(found.closed, std::vector<bool>(4, true));
     EXPECT_EQ(found.welded, (std::vector<unsigned>{0, 1, 2, 3}));
+}
+
+/// A ball of slices and stacks by sine and cosine: sin(pi) is not 0 and sin(2 pi) not sin(0), so its seam is open.
+Soup ball(int slices) {
+    const auto at = [slices](int stack, int slice) {
+        const double v = glm::pi<double>() * stack / (slices / 2), u = 2.0 * glm::pi<double>() * slice / slices;
+        return glm::vec3(std::sin(v) * std::cos(u), std::sin(v) * std::sin(u), std::cos(v));
+    };
+    Soup soup;
+    for (int stack = 0; stack < slices / 2; ++stack)
+        for (int slice = 0; slice < slices; ++slice) {
+            soup.add(at(stack, slice), at(stack + 1, slice), at(stack + 1, slice + 1));
+            soup.add(at(stack, slice), at(stack + 1, slice + 1), at(stack, slice + 1));
+        }
+    return soup;
+}
+
+TEST(ClosedParts, OfABallWhoseSeamRoundingLeavesOpenAreClosed) {
+    const Soup round = ball(16);
+    ASSERT_NE(round.positions[1], ball(16).positions[3 * 2 * 15 + 2]); // the seam: one angle, two values
+    EXPECT_EQ(round.closedTriangles(), long(round.positions.size() / 3));
+    EXPECT_EQ(round.turned().closedTriangles(), 0);
+}
+
+TEST(ClosedParts, StayOpenWhereASeamIsWiderThanRounding) {
+    Soup gaping = tetrahedron();
+    for (std::size_t i = 9; i < 12; ++i) gaping.positions[i] += 4e-6f; // the slanted face, off by 33 steps of float
+    EXPECT_EQ(gaping.closedTriangles(), 0);
 }
 
 TEST(ClosedParts, OfNothingAreNone) {

@@ -148,7 +148,10 @@ TEST(ShadowVolumes, HoldAPointAsOftenAsTrianglesAreBetweenItAndTheLight) {
             ShadowVolumes volumes;
             gnomon::findShadowVolumes(mesh, light, planes, volumes);
             gnomon::VolumeCaps caps;
-            for (unsigned i = 0; i < mesh.parts.size(); ++i) gnomon::appendCaps(mesh, volumes, i, caps);
+            for (unsigned i = 0; i < mesh.parts.size(); ++i) {
+                gnomon::appendLightCap(mesh, volumes, i, caps);
+                gnomon::appendDarkCap(mesh, volumes, i, caps);
+            }
             int held = 0;
             for (int i = 0; i < 200; ++i) {
                 const glm::dvec3 point(place(random), place(random), 1.2 * place(random) + 1.5);

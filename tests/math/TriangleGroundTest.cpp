@@ -333,6 +333,37 @@ TEST(TriangleGround, HasHolesWhereAnEdgeIsOfOneTriangleButAtItsEnds) {
     EXPECT_GT(whole, 100);
 }
 
+/// A roof with its ridge along x at y = 100, 50 high, and walls that fall to either side at 30 degrees.
+double roof(double, double y) { return 50.0 - std::abs(y - 100.0) * std::tan(glm::radians(30.0)); }
+
+TEST(TriangleGround, IsTurnedAwayFromLightsThatAreBelowTheFartherSideOfARoof) {
+    const HeightPyramid field = test::groundOf(roof, 21, 1000.0);
+    const TriangleGround triangles = cellsOf(field.field());
+    const auto sun = [](double x, double y, double degrees) {
+        const double elevation = glm::radians(degrees);
+        return glm::dvec4(3.0 * x * std::cos(elevation), 3.0 * y * std::cos(elevation), 3.0 * std::sin(elevation), 0.0);
+    };
+    const auto lamp = [](double y, double over) { return glm::dvec4(90.0, y, 1000.0 + roof(0.0, y) + over, 1.0); };
+    const double farther =
+        2.0 * 60.0 * std::tan(glm::radians(30.0)); // plane of one side over the other 60 m from the ridge
+    for (const Ground* ground : {static_cast<const Ground*>(&field), static_cast<const Ground*>(&triangles)}) {
+        EXPECT_TRUE(ground->isTurnedAway(sun(0.0, 1.0, 29.0)));
+        EXPECT_FALSE(ground->isTurnedAway(sun(0.0, 1.0, 31.0)));
+        EXPECT_FALSE(ground->isTurnedAway(sun(1.0, 0.0, 1.0))) << "along the ridge";
+        EXPECT_TRUE(ground->isTurnedAway(lamp(40.0, farther - 1.0)));
+        EXPECT_FALSE(ground->isTurnedAway(lamp(40.0, farther + 1.0)));
+        EXPECT_TRUE(ground->isTurnedAway(lamp(160.0, farther - 1.0)));
+        EXPECT_FALSE(ground->isTurnedAway(lamp(100.0, 1.0))) << "over the ridge";
+    }
+}
+
+TEST(TriangleGround, HasACliffThatIsTurnedAwayUnlessTheLightIsInItsPlane) {
+    const TriangleGround cliff = groundOf(terraces());
+    EXPECT_TRUE(cliff.isTurnedAway({-1.0, 0.0, 5.0, 0.0}));
+    EXPECT_FALSE(cliff.isTurnedAway({0.0, 0.0, 1.0, 0.0}));
+    EXPECT_FALSE(cliff.isTurnedAway({0.0, 1.0, 0.1, 0.0}));
+}
+
 /// Seconds of processor time for 20 000 heights and rays on a field of posts².
 double seconds(int side) {
     const HeightPyramid field = test::groundOf(hills, side);

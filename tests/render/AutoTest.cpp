@@ -130,6 +130,20 @@ TEST(Auto, AsksForNoMoreThanTheErrorNeeds) {
     EXPECT_GT(coarse.decision().chosen.error, fine.decision().chosen.error);
 }
 
+TEST(Auto, TakesTheSmallestMapOfThoseThatTakeTheSameWhileNothingMoves) {
+    Trial trial({test::sphere({-1.0, 0.0, 2.0}, 1.2, 200), below}, {4.0, 0.0});
+    test::render(trial.scene.root, test::perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 1280, 960));
+    const ShadowDecision decision = trial.decision();
+    EXPECT_TRUE(startsWith(decision.chosen.spec, "map")) << decision.chosen.spec;
+    int dearer = 0;
+    for (const gnomon::ShadowCandidate& each : decision.candidates) {
+        if (each.still != decision.chosen.still || each.error > 4.0) continue;
+        EXPECT_GE(each.moving, decision.chosen.moving) << each.spec;
+        dearer += each.moving > decision.chosen.moving;
+    }
+    EXPECT_GT(dearer, 0) << "the scene has no such maps";
+}
+
 TEST(Auto, TakesTheMostAccurateWithinATime) {
     Trial little({cube, below}, {0.0, 0.3}), much({cube, below}, {0.0, 100.0});
     test::render(little.scene.root, view());
@@ -196,6 +210,35 @@ TEST(Auto, DrawsNothingWhereTheLightIsTooFaintToMissIt) {
     EXPECT_EQ(chosen(), "planar") << "a program may make much of little light";
 }
 
+// 1.2 and 1.3 of 255 steps are 2.5 together: where both shadows fall, that can be seen.
+TEST(Auto, CountsFaintLightsTogether) {
+    Trial trial({cube});
+    const osg::ref_ptr<osg::LightSource> other = new osg::LightSource(*trial.scene.light, osg::CopyOp::DEEP_COPY_ALL);
+    other->getLight()->setLightNum(1);
+    trial.scene.root->addChild(other);
+    trial.scene.group->addLight(trial.scene.light);
+    trial.scene.group->addLight(other);
+    const auto shine = [](osg::LightSource& source, float strength) {
+        source.getLight()->setDiffuse({strength, strength, strength, 1.0f});
+        source.getLight()->setSpecular({0.0f, 0.0f, 0.0f, 1.0f});
+    };
+    shine(*trial.scene.light, 1.3f / 255.0f);
+    shine(*other, 1.2f / 255.0f);
+    Camera camera(trial.scene.root, view());
+    const auto chosenOf = [&](int light) {
+        for (const ShadowDecision& decision : trial.technique->lastDecision())
+            if (decision.light == light) return decision.chosen.spec;
+        return std::string("no decision");
+    };
+    camera.frame();
+    EXPECT_EQ(chosenOf(0), "planar") << "the stronger one is drawn";
+    EXPECT_EQ(chosenOf(1), "none") << "what is left is too faint";
+    shine(*other, 0.6f / 255.0f);
+    camera.frame();
+    EXPECT_EQ(chosenOf(0), "none");
+    EXPECT_EQ(chosenOf(1), "none");
+}
+
 TEST(Auto, ComparesTheCandidatesOfAStillSceneOnce) {
     for (const std::vector<test::Mesh>& casters : {std::vector{cube, beside}, std::vector{cube, below}}) {
         Trial trial(casters);
@@ -204,6 +247,47 @@ TEST(Auto, ComparesTheCandidatesOfAStillSceneOnce) {
         EXPECT_EQ(trial.decision().decisions, 1u);
         EXPECT_EQ(trial.decision().changes, 0u);
     }
+}
+
+// The first frame cannot know. Where things stand still a map is drawn once, where they move once a frame.
+TEST(Auto, KnowsInTheThirdFrameWhatMovesFromTheStart) {
+    Trial trial({test::sphere({-1.0, 0.0, 2.0}, 1.2, 36), below});
+    Camera camera(trial.scene.root, view());
+    std::vector<std::string> chosen;
+    for (int i = 0; i < 3; ++i) {
+        trial.scene.light->getLight()->setPosition(osg::Vec4(1.0f, 0.4f + 0.01f * float(i), 1.2f, 0.0f));
+        camera.frame();
+        chosen.push_back(trial.chosen());
+    }
+    const ShadowDecision last = trial.decision();
+    double cheapest = last.chosen.moving;
+    for (const gnomon::ShadowCandidate& each : last.candidates) {
+        if (!each.obstacle.empty() || each.error > 1.0) continue;
+        cheapest = std::min(cheapest, each.moving);
+        if (each.spec == chosen[0]) EXPECT_GT(each.moving, 1.25 * last.chosen.moving) << "right at once by chance";
+    }
+    EXPECT_NE(chosen[0], chosen[2]);
+    EXPECT_EQ(last.chosen.time, last.chosen.moving);
+    EXPECT_EQ(last.chosen.moving, cheapest);
+    EXPECT_EQ(last.decisions, 2u);
+}
+
+TEST(Auto, ChangesNothingForASingleFrameOfMotion) {
+    Trial trial({test::sphere({-1.0, 0.0, 2.0}, 1.2, 36), below});
+    Camera camera(trial.scene.root, view());
+    const auto draw = [&](int frames) {
+        for (int i = 0; i < frames; ++i) camera.frame();
+        return trial.chosen();
+    };
+    const std::string still = draw(70); // the next comparison may come at once
+    trial.scene.light->getLight()->setPosition(osg::Vec4(1.0f, 0.41f, 1.2f, 0.0f));
+    EXPECT_EQ(draw(60), still);
+    EXPECT_EQ(trial.decision().changes, 0u);
+    for (int i = 0; i < 60; ++i) {
+        trial.scene.light->getLight()->setPosition(osg::Vec4(1.0f, 0.42f + 0.01f * float(i), 1.2f, 0.0f));
+        camera.frame();
+    }
+    EXPECT_NE(trial.chosen(), still) << "by now it is known that the light moves on";
 }
 
 TEST(Auto, SeesAtOnceThatAnObjectMovesIntoAShadow) {

@@ -217,6 +217,29 @@ INSTANTIATE_TEST_SUITE_P(All, ChartScenes, testing::ValuesIn(sceneNames()), [](c
     return name;
 });
 
+/// What is before this near plane is not seen in any of them.
+ChartScene withNearPlaneAt(double share, ChartScene scene) {
+    double fovy = 0.0, aspect = 0.0, near = 0.0, far = 0.0;
+    scene.camera.projection.getPerspective(fovy, aspect, near, far);
+    scene.camera.projection.makePerspective(fovy, aspect, share * far, far);
+    return scene;
+}
+
+/// The same views with depths in finer steps: what judgeVolume() allows for is theirs, and not the volumes'.
+TEST(ChartScenesOfFineDepths, AreDrawnByVolumesAsWellAsOneRayAPixelCanBe) {
+    for (const std::string name : {"mountains-10", "room"}) {
+        const ChartScene scene = withNearPlaneAt(0.01, whitened(name));
+        SceneTruth truth(*scene.content);
+        const test::Picture lit = picture(scene, nullptr), dark = picture(scene, nullptr, true);
+        const TruthMaps maps = truth.maps(scene.camera, scene.light);
+        const test::Picture actual = picture(scene, new gnomon::ShadowVolumeTechnique);
+        const Judgement volume = judge(visibility(actual, lit, dark), maps, std::nullopt);
+        std::cout << name << " " << volume << "\n";
+        EXPECT_LE(volume.wrong, 1.10 * volume.floor + 5) << name << ": " << volume;
+        EXPECT_EQ(volume.certain, 0) << name << ": " << volume;
+    }
+}
+
 TEST(ChartScene, ANameThatIsNotThereIsRefusedWithThoseThatAre) {
     try {
         gnomon::examples::chartScene("moon", 8, 8);

@@ -32,7 +32,9 @@ TEST_P(MapLayersOf, ShowEachFrameAsMapsDoThatSawNoOther) {
     for (std::size_t i = 0; i < toAndFro.size(); ++i) {
         stage.set(toAndFro[i]);
         const Picture picture = camera.frame();
-        EXPECT_EQ(picture.different(fresh.of(play, toAndFro[i])), 0) << i;
+        // Balls are drawn without the faces that are turned away, once these are known. At an outline both are as near, and
+        // rounding tells which is nearer.
+        EXPECT_LE(picture.different(fresh.of(play, toAndFro[i])), 5) << i;
         const bool changes = i > 0 && toAndFro[i] != toAndFro[i - 1];
         EXPECT_TRUE(!changes || picture.different(before) > 20) << i << ": a change shows";
         before = picture;

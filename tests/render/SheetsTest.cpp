@@ -5,6 +5,7 @@
 #include <support/Scene.h>
 
 #include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 
@@ -58,8 +59,10 @@ TEST(Sheets, SeenFromBehindDoNotShadowThemselves) {
     for (const double near : {1.0, 0.01}) { // whose depths are coarse
         const Picture lit = pictureOf(inside, near, nullptr);
         const Picture traced = pictureOf(inside, near, new gnomon::TracedShadowTechnique),
-                      mapped = pictureOf(inside, near, new gnomon::ShadowMapTechnique);
+                      mapped = pictureOf(inside, near, new gnomon::ShadowMapTechnique),
+                      volume = pictureOf(inside, near, new gnomon::ShadowVolumeTechnique);
         EXPECT_EQ(differentAwayFromEdges(traced, lit, inside, 1), 0) << near;
+        EXPECT_EQ(differentAwayFromEdges(volume, lit, inside, 1), 0) << near;
         EXPECT_EQ(differentAwayFromEdges(mapped, lit, inside, 2), 0) << near; // a texel is less than a pixel
     }
 }
@@ -70,12 +73,14 @@ TEST(Sheets, OfTwoFacesTheOuterOneIsInShadow) {
     test::Mesh room = inside;
     room.insert(room.end(), outside.begin(), outside.end());
     const Picture lit = pictureOf(room, 1.0, nullptr), traced = pictureOf(room, 1.0, new gnomon::TracedShadowTechnique),
-                  mapped = pictureOf(room, 1.0, new gnomon::ShadowMapTechnique);
+                  mapped = pictureOf(room, 1.0, new gnomon::ShadowMapTechnique),
+                  volume = pictureOf(room, 1.0, new gnomon::ShadowVolumeTechnique);
     Picture dark = lit; // half as bright where anything is seen
     for (std::uint32_t& pixel : dark.pixels)
         if (pixel != lit.at(0, 0)) pixel = test::grey(((pixel & 0xffu) + 1u) / 2u);
     EXPECT_GT(dark.different(lit), 3000);
     EXPECT_EQ(differentAwayFromEdges(traced, dark, outside, 1), 0);
+    EXPECT_EQ(differentAwayFromEdges(volume, dark, outside, 1), 0);
     EXPECT_EQ(differentAwayFromEdges(mapped, dark, outside, 2), 0);
 }
 

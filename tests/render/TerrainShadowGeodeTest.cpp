@@ -222,26 +222,6 @@ TEST(TerrainShadowGeode, TerrainCastsNothingOnItself) {
     EXPECT_NE(shadow->diagnose().front().find("every caster is part of the receiver"), std::string::npos);
 }
 
-/// A slope of 30°, and suns across it: below 30° above the horizon it may lie in its own shadow.
-TEST(TerrainShadowGeode, SaysThatSteepTerrainCastsNothingOnItself) {
-    for (const bool isLow : {true, false}) {
-        const double elevation = osg::DegreesToRadians(isLow ? 28.0 : 32.0);
-        Scene scene = test::scene(osg::Vec4d(3.0 * std::cos(elevation), 0.0, 3.0 * std::sin(elevation), 0.0));
-        osg::ref_ptr<osg::MatrixTransform> slope =
-            new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(30.0), osg::X_AXIS));
-        slope->addChild(test::node(test::square(20.0), "ground"));
-        scene.content->addChild(slope);
-        scene.content->addChild(test::node(test::box({-1.0, -1.0, -1.0}, {1.0, 1.0, 3.0})));
-        const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::DRAPE);
-        scene.addShadow(shadow);
-        test::render(scene.root, above);
-        const std::vector<std::string> causes = test::causesButLitSurfaces(*shadow);
-        EXPECT_EQ(causes.size(), isLow ? 1u : 0u);
-        if (isLow && !causes.empty())
-            EXPECT_NE(causes.front().find("what it throws on itself is not drawn"), std::string::npos) << causes.front();
-    }
-}
-
 /// Fifteen shadows over one place, whichever way the bits that are left count them.
 TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAreLeft) {
     std::vector<test::Mesh> houses;

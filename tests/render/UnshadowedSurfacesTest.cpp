@@ -187,6 +187,14 @@ TEST(UnshadowedSurfaces, AFloorMayBeTheTopOfASlab) {
     EXPECT_EQ(trial.said(), nothing);
 }
 
+/// 12 m wide: what is 2 cm out of the plane may be taken for a part of it by depths; what is 10 cm out of it is not.
+TEST(UnshadowedSurfaces, ACarpetThatStandsOutOfThePlaneIsNamed) {
+    const auto carpet = [](double height) { return node(box({-9.0, -6.0, -0.3}, {3.0, 6.0, height}), "carpet"); };
+    Trial thick(carpet(0.1)), thin(carpet(0.02));
+    EXPECT_EQ(thick.said(), leavesLit(thick, "carpet"));
+    EXPECT_EQ(thin.said(), nothing);
+}
+
 TEST(UnshadowedSurfaces, APlaneForTheWallIsTheRemedy) {
     const osg::ref_ptr<gnomon::PlanarShadowNode> technique = planar();
     const Mesh flat = quad({-3.0, -3.0, 0.0}, {0.0, 6.0, 0.0}, {0.0, 0.0, 4.0});

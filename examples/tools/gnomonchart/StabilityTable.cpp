@@ -99,7 +99,8 @@ bool searchRandom(const ChartOptions& options, const std::function<bool()>& stop
     const std::vector<RandomFault> faults =
         withProgress(cells, stops, [&](const auto& progress) { return searchRandomScenes(search, progress); });
     for (const RandomFault& fault : faults) std::cout << faultText(fault) << "\n";
-    std::cout << search.count << " random scenes from seed " << search.first << ", " << faults.size() << " faults\n";
+    std::cout << (stops() ? "interrupted before the end of " : "") << search.count << " random scenes from seed "
+              << search.first << ", " << faults.size() << " faults\n";
     return faults.empty() && !stops();
 }
 

@@ -17,9 +17,14 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 constexpr unsigned keptRounds = 60;    // choices of views that are gone are let go
 constexpr double memory = 0.9;         // of motion, from a frame to the next
 constexpr double atRest = 0.01;        // share of frames: 44 without motion after one with it
+constexpr unsigned firstLook = 2;      // frames after the first: what moves from the start is known by then
+constexpr unsigned settling = 8;       // frames of motion after a rest: a single one should change nothing
 constexpr unsigned leastPatience = 16; // frames between two decisions that nothing forces
 constexpr double mostPatience = 64.0;  // the same; the first decision takes long, for it knows nothing
 constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on average
+/// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
+/// small one is taken.
+constexpr double rarely = 0.02;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string rounded(double number) {
@@ -70,9 +75,9 @@ std::vector<ShadowCandidate> judgedOf(const std::vector<AutoCandidate>& all, con
     return result;
 }
 
-/// A share of the recent frames, one frame later.
-double followed(double share, double now) {
-    const double next = memory * share + (1.0 - memory) * now;
+/// A share of the recent frames, one frame later. All of the first frames count alike.
+double followed(double share, double now, unsigned frames) {
+    const double weight = std::max(1.0 - memory, 1.0 / frames), next = (1.0 - weight) * share + weight * now;
     return next < atRest ? 0.0 : next;
 }
 
@@ -116,13 +121,18 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
     const bool same = now.isSame(choice.last);
     const bool moves = !now.hasSameMotion(choice.last), flies = !moves && !now.hasSameView(choice.last);
     choice.motion = {moves ? 1.0 : 0.0, flies ? 1.0 : 0.0};
-    choice.moving = {followed(choice.moving.scene, choice.motion.scene),
-                     followed(choice.moving.view, choice.motion.view)};
+    const bool rested = !isMoving(choice.moving);
+    ++choice.seen;
+    choice.moving = {followed(choice.moving.scene, choice.motion.scene, choice.seen),
+                     followed(choice.moving.view, choice.motion.view, choice.seen)};
+    choice.since = rested ? 0 : choice.since + 1;
     choice.last = now;
     if (!now.asks(choice.decided) || choice.learnt != _costs->generation()) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
+    if (choice.seen == firstLook && isMoving(choice.moving)) return true; // the first decision took all to stand still
     const bool cameToRest = !isMoving(choice.moving) && isMoving(choice.movingThen);
-    return choice.frames >= choice.patience && (cameToRest || !now.isSame(choice.decided));
+    const bool isSettled = !isMoving(choice.moving) || choice.since >= settling;
+    return choice.frames >= choice.patience && isSettled && (cameToRest || !now.isSame(choice.decided));
 }
 
 void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver,
@@ -132,11 +142,12 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     choice.learnt = _costs->generation();
     const AutoCosts costs = _costs->now();
     const CandidateList list = listCandidates(view, receiver, budget.error, _known);
+    const AutoMotion expected{std::max(choice.moving.scene, rarely), choice.moving.view};
     std::vector<ChoiceCandidate> judged;
     std::optional<std::size_t> before;
     for (const AutoCandidate& candidate : list.all) {
         if (choice.decision.decisions > 0 && candidate.isSame(choice.candidate)) before = judged.size();
-        judged.push_back({candidate.obstacle.empty(), candidate.error, candidate.time(costs, choice.moving)});
+        judged.push_back({candidate.obstacle.empty(), candidate.error, candidate.time(costs, expected)});
     }
     const auto chosen = chooseCandidate(judged, budget, before);
     const std::size_t index = chosen ? chosen->index : 0;

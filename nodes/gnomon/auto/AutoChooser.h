@@ -70,6 +70,8 @@ private:
         unsigned lastRound = 0;
         unsigned frames = 0;   ///< since the candidates were compared.
         unsigned patience = 0; ///< frames that have to pass before they are compared again, if nothing forces it.
+        unsigned seen = 0;     ///< frames that could be held against one before.
+        unsigned since = 0;    ///< frames since things began to move after a rest.
         AutoMotion moving;     ///< of the recent frames.
         std::string cause;     ///< see Drawn.
         AutoMotion movingThen; ///< when the candidates were compared.

@@ -31,11 +31,16 @@ bool isShadedByOpenGl(const osgUtil::StateGraph* graph) {
 
 } // namespace
 
+/// Shadows of lights that are fainter may fall on the same place, and are left out, too.
 bool isFaint(const AutoView& view) {
     const auto found = view.frame.strengths.find(view.light.number);
-    if (view.frame.group->getComposite() != ShadowCasterGroup::RELIGHT || found == view.frame.strengths.end() ||
-        !(found->second < leastContrast))
+    if (view.frame.group->getComposite() != ShadowCasterGroup::RELIGHT || found == view.frame.strengths.end())
         return false;
+    const auto own = std::make_pair(found->second, found->first);
+    double together = 0.0;
+    for (const auto& [number, strength] : view.frame.strengths)
+        if (std::make_pair(strength, number) <= own) together += strength;
+    if (!(together < leastContrast)) return false;
     return std::all_of(view.frame.seen.begin(), view.frame.seen.end(),
                        [](const osgUtil::RenderLeaf* leaf) { return isShadedByOpenGl(leaf->_parent); });
 }

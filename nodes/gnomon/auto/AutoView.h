@@ -26,7 +26,8 @@ constexpr double leastContrast = 2.0 / 255.0;
 /// Stands for the drawables that can receive, and where they are in the view.
 std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leaves);
 
-/// True if nobody could see that the receivers lose a light: it gives them less than two of 255 steps of any channel.
+/// True if nobody could see that the receivers lose a light: with all that are fainter it gives them less than two of 255
+/// steps of any channel.
 bool isFaint(const AutoView& view);
 
 /// Why casters need a technique that knows their textures; empty if they do not.

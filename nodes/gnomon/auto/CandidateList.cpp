@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/auto/FlatReceivers.h>
+#include <gnomon/auto/MapEdges.h>
 #include <gnomon/choice/EdgeError.h>
 #include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapSettings.h>
@@ -26,18 +28,14 @@ struct MapQuality {
     Map::Edges edges;
     EdgeFilter edge;
 };
-/// Spread: of edges at random, see docs/performance.md. Pixel: of a sphere and a cube on a ground, with small texels.
+/// Spread: of hard edges at random; of smooth ones on the tuning scenes of gnomonchart. Pixel: of a sphere and a cube on a ground, with small texels.
 constexpr MapQuality qualities[] = {
     {Map::NEAREST, Map::HARD, {0.51, 0.42, 0.25}},  {Map::BILINEAR, Map::HARD, {0.41, 0.41, 1.0}},
-    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.41, 0.27, 1.0}},
-    {Map::BICUBIC, Map::SMOOTH, {0.35, 0.14, 4.0}}, {Map::FINE, Map::SMOOTH, {0.35, 0.06, 16.0}},
+    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.18, 0.30, 1.0}},
+    {Map::BICUBIC, Map::SMOOTH, {0.22, 0.15, 4.0}}, {Map::FINE, Map::SMOOTH, {0.15, 0.075, 16.0}},
 };
-constexpr double callsAMap = 14.0;   // to switch to its framebuffer and back, and to fit it
-constexpr double callsAPiece = 0.06; // to see that it has not changed
-constexpr double mostStretch = 8.0;  // as TexelDensity has it
-/// Width of the texels at most edges, by that of the widest in sight. Fitted to the tuning scenes of gnomonchart: 0.3 to 0.45
-/// where the scene is an object, and less where the view goes from near to far.
-constexpr double usualWidth = 0.4;
+constexpr double callsAMap = 14.0;     // to switch to its framebuffer and back, and to fit it
+constexpr double callsAPiece = 0.06;   // to see that it has not changed
 constexpr double facedAnObject = 0.03; // to ask a triangle whether it faces the light; see ShadowWork::objects
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
 
@@ -160,15 +158,19 @@ private:
 
     /// One map, and as many as the size asks for, where those are more.
     void addMaps() {
+        const MapEdges edges(_view, *_boxes, _one);
+        const double width = edges.widthOf(_one).value_or(_one.texels);
         for (const int size : sizes) {
-            for (const MapQuality& quality : qualities) addMap(_one, 1, size, quality);
+            for (const MapQuality& quality : qualities) addMap(_one, width, 1, size, quality);
             const MapForecast several = _view.towards.w == 0.0 ? forecast(0, size) : _one;
             if (several.maps == _one.maps) continue;
-            for (const MapQuality& quality : qualities) addMap(several, 0, size, quality);
+            const double each = edges.widthOf(several).value_or(several.texels);
+            for (const MapQuality& quality : qualities) addMap(several, each, 0, size, quality);
         }
     }
 
-    void addMap(const MapForecast& forecast, int cascades, int size, const MapQuality& quality) {
+    /// @param width  see MapEdges::widthOf().
+    void addMap(const MapForecast& forecast, double width, int cascades, int size, const MapQuality& quality) {
         AutoCandidate map;
         map.kind = Kind::Map;
         map.map.size = size;
@@ -177,7 +179,7 @@ private:
         map.map.cascades = cascades;
         const double wish = MapSettings(map.map).pixels;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
-        map.error = mapEdgeError(quality.edge, usualWidth * forecast.texels / texels / stretch());
+        map.error = mapEdgeError(quality.edge, width / texels);
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
         map.still.calls += 3.0 * passes;
@@ -187,12 +189,6 @@ private:
         map.change.texels = double(forecast.maps) * texels * texels;
         map.change.triangles = double(forecast.maps) * _casters;
         _result.all.push_back(map);
-    }
-
-    /// Texels are stretched on level ground along a sun's way, where few of the edges run across it.
-    double stretch() const {
-        if (_view.towards.w != 0.0) return 1.0;
-        return std::min(1.0 / std::max(std::abs(_view.towards.z), 1e-6), mostStretch);
     }
 
     void addVolume() {

@@ -48,7 +48,7 @@ TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receive
     _drawn = TerrainPlace::inFrameOf(*view.frame.group, receiver).drawn(_drawn);
     const Ground& ground = *_drawn->ground;
     const double slope = _drawn->steepest;
-    if (!(slope < steepShare * sun.z / std::max(across, 1e-12))) {
+    if (_drawn->isAsSteepAs(sun, steepShare)) {
         facts.obstacle = "the terrain is so steep that it may shadow itself";
         return facts;
     }

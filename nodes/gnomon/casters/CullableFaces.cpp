@@ -55,7 +55,7 @@ bool isOutside(const glm::dvec4& light, const std::vector<osg::BoundingBox>& box
 osg::ref_ptr<osg::DrawElementsUInt> noTriangles() { return new osg::DrawElementsUInt(osg::PrimitiveSet::TRIANGLES); }
 
 ClosedParts closedPartsOf(const CasterMesh& mesh, const osg::DrawElementsUInt& triangles) {
-    return closedParts(positionsOf(mesh), mesh.vertices->size(), &triangles.front(), triangles.size());
+    return closedParts(positionsOf(mesh), mesh.vertices->size(), &triangles.front(), triangles.size(), true);
 }
 
 CullableFaces::CullableFaces(const CasterMesh& mesh, osg::DrawElementsUInt* triangles, bool findSolids) {

@@ -93,6 +93,14 @@ void ScreenPass::countHolding(unsigned bits) { count(bits, true); }
 /// Source: T. Heidmann, "Real Shadows, Real Time", Iris Universe 18, 1991.
 void ScreenPass::countEntered(unsigned bits) { count(bits, false); }
 
+void ScreenPass::uncount(unsigned bits) {
+    const bool single = (bits & (bits - 1)) == 0;
+    testDepth(GL_LESS);
+    _pattern.test(GL_NOTEQUAL, 0, bits);
+    glStencilOp(GL_KEEP, GL_KEEP, single ? GL_INVERT : GL_DECR_WRAP);
+    glStencilMask(bits);
+}
+
 void ScreenPass::setCount(unsigned bits, unsigned value) {
     glDisable(GL_DEPTH_TEST);
     stencilEqual(value, 0, bits);

@@ -51,6 +51,8 @@ public:
     /// What is drawn next, sides of volumes whose other faces no line of sight meets, counts in `bits` how many of them hold
     /// what stands in the depth buffer, beyond those that hold the eye (z-pass).
     void countEntered(unsigned bits);
+    /// What is drawn next takes one from the number in `bits`, if there is any, wherever it is nearer than what stands there.
+    void uncount(unsigned bits);
     /// Sets the number in `bits`.
     void setCount(unsigned bits, unsigned value);
     /// Sets `mark` wherever any of `bits` is set and something stands in the depth buffer; and those to 0.

@@ -201,13 +201,16 @@ void LightShadowMaps::findLamp(MapSlice& far, MapSlice& near, const std::vector<
     find(far, {fartherThan(far.frame, split)});
 }
 
-MapForecast LightShadowMaps::forecast() const {
+MapForecast LightShadowMaps::forecast(const glm::dmat4& clipFromScene) const {
     MapForecast result;
     result.maps = mapsNeeded();
     result.most = largestTexture / std::clamp(result.maps, 1, columns());
     for (const MapSlice& face : _faces) {
         if (face.needed.empty()) continue;
-        const glm::dvec2 size = fitOf(face).size;
+        const MapFit fit = fitOf(face);
+        const glm::dvec2 size = fit.size;
+        result.each.push_back(
+            {fit.mapFromScene, face.frame.sun ? viewPart(clipFromScene, _splits, face.part) : face.frame.halfSpaces});
         result.pixel = std::min(result.pixel, face.texel);
         result.texels = std::max(result.texels, std::max(size.x, size.y) / face.texel);
     }

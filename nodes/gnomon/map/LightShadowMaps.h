@@ -29,7 +29,7 @@ public:
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
     void update(const MapPrograms& resources, MapBodies& bodies, const OwnView& view);
     /// What the maps would be like if they were made after find().
-    MapForecast forecast() const;
+    MapForecast forecast(const glm::dmat4& clipFromScene) const;
     /// Without what a cone adds.
     MapLookupPass quad(const glm::dmat4& clipFromScene) const;
 

@@ -105,7 +105,7 @@ MapForecast ShadowMapCache::forecast(const ViewFrame& view, const ShadowLight& l
     LightShadowMaps maps(nullptr, light.number);
     maps.setCause({*usable, spotOf(light), &boxes, anyIsBetween(boxes, *usable, receivers), settings});
     const auto corners = maps.find(receivers, scene.clipFromScene, {view.pixels.x(), view.pixels.y()});
-    MapForecast result = maps.forecast();
+    MapForecast result = maps.forecast(scene.clipFromScene);
     result.bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     if (!result.bounds) result.maps = 0;
     return result;

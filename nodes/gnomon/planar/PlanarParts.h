@@ -41,7 +41,7 @@ protected:
 struct PlanarParts : public osg::Referenced {
     /// Each triangle for itself. @param plane  unit normal, scene. @param under  keep what lies under the plane, too.
     PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool under, bool findSolids, unsigned frame);
-    /// As a whole, cut by the plane if its box may touch it.
+    /// As a whole, cut by the plane if a triangle reaches below it or lies in it.
     PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, const glm::dvec3& low, const glm::dvec3& high,
                 const PlanarMesh& whole);
 

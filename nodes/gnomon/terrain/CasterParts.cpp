@@ -81,9 +81,11 @@ std::vector<ObjectPoints> objectsOf(const CasterMesh& mesh, const std::set<const
 TerrainShadow boxShadowOf(const Ground& ground, const ObjectPoints& points, const osg::BoundingBoxd& given,
                           const glm::dvec4& light) {
     if (light.w == 0.0 && !(light.z > 0.0)) return {{}, TerrainOutcome::lightBelow};
-    auto box = boxShadow(ground, boxOf(points, given), light);
+    const BoxCaster caster = boxOf(points, given);
+    auto box = boxShadow(ground, caster, light);
     if (!box) return {{}, TerrainOutcome::noGround};
-    return {std::move(*box), TerrainOutcome::fan};
+    return {std::move(*box),
+            isBoxOutline(ground, points, caster, light) ? TerrainOutcome::draped : TerrainOutcome::boxed};
 }
 
 void OutcomeCounts::add(const OutcomeCounts& other) {

@@ -3,11 +3,13 @@
 #include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/terrain/GroundRevision.h>
 
+#include <glm/geometric.hpp>
 #include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/LOD>
 
 #include <algorithm>
+#include <iterator>
 
 namespace gnomon {
 namespace {
@@ -20,10 +22,11 @@ bool isOfQuads(const osg::Drawable& drawable) {
            std::any_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), isQuads);
 }
 
-/// The terrain's drawables at all levels of detail, for views may show any, and what they are made of.
+/// The terrain's drawables, and what they are made of.
 class TerrainVisitor : public CasterVisitor {
 public:
-    explicit TerrainVisitor(const Selection& terrain) : CasterVisitor(terrain) { setLevels(Levels::All); }
+    /// @param levels  All, for views may show any, or those of the ground.
+    TerrainVisitor(const Selection& terrain, Levels levels) : CasterVisitor(terrain) { setLevels(levels); }
     using CasterVisitor::apply;
     void apply(osg::LOD& lod) override {
         const unsigned before = _met;
@@ -60,6 +63,10 @@ osg::NodePath belowCamera(const osg::NodePath& path) {
 
 } // namespace
 
+bool GroundRevision::isAsSteepAs(const glm::dvec3& towardsSun, double share) const {
+    return !(steepest * glm::length(glm::dvec2(towardsSun)) < share * towardsSun.z);
+}
+
 TerrainPlace TerrainPlace::inFrameOf(const osg::Node& group, const Selection& terrain) {
     const auto root = const_cast<osg::Node*>(&group); // visitors ask for more than they need
     const auto roots = terrain.roots();
@@ -77,14 +84,25 @@ std::uint64_t TerrainPlace::revision() const {
     return revision.value();
 }
 
+/// Those of all levels that groundOf() leaves out.
+std::set<const osg::Drawable*> TerrainPlace::coarseOf(const std::set<const osg::Drawable*>& all) const {
+    TerrainVisitor finest(terrain, CasterVisitor::Levels::Chosen);
+    root.accept(finest);
+    std::set<const osg::Drawable*> coarse;
+    std::set_difference(all.begin(), all.end(), finest.drawables.begin(), finest.drawables.end(),
+                        std::inserter(coarse, coarse.end()));
+    return coarse;
+}
+
 osg::ref_ptr<const GroundRevision> TerrainPlace::drawn(const osg::ref_ptr<const GroundRevision>& known) const {
     const std::uint64_t now = revision();
     if (known && known->revision == now) return known;
-    TerrainVisitor visitor(terrain);
+    TerrainVisitor visitor(terrain, CasterVisitor::Levels::All);
     root.accept(visitor);
     osg::ref_ptr<GroundRevision> drawn = new GroundRevision;
     drawn->revision = now;
     drawn->drawables = std::move(visitor.drawables);
+    if (visitor.hasLevels) drawn->coarse = coarseOf(drawn->drawables);
     drawn->sources = std::move(visitor.sources);
     drawn->hasLevels = visitor.hasLevels;
     drawn->hasQuads = visitor.hasQuads;

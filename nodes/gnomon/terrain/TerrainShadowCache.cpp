@@ -6,6 +6,7 @@
 
 #include <OpenThreads/ScopedLock>
 #include <glm/matrix.hpp>
+#include <osgUtil/RenderLeaf>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -50,11 +51,6 @@ bool isFromAbove(const ViewFrame& view, const TileGround& ground) {
     return height && place.z > *height;
 }
 
-/// Ground that is steeper than a sun's rays and turned away from it throws a shadow. Lamps are not looked at.
-bool mayShadowItself(const GroundRevision& drawn, const glm::dvec4& light) {
-    return light.w == 0.0 && light.z > 0.0 && drawn.steepest * glm::length(glm::dvec2(light)) > light.z;
-}
-
 bool isInside(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::dvec3& p) {
     const double sides[] = {doubleArea(a, b, p), doubleArea(b, c, p), doubleArea(c, a, p)};
     return std::all_of(sides, sides + 3, [](double side) { return side >= 0.0; }) ||
@@ -77,8 +73,6 @@ bool covers(const TileShadows& tile, const glm::dvec3& p) {
         if (covers(tile.found[i], p)) return true;
     return false;
 }
-
-bool holdsAny(const osg::ref_ptr<const TileShadows>& tile) { return tile->found.size() > 0; }
 
 } // namespace
 
@@ -132,11 +126,28 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
         _found += tiles.found() - before;
         frame = {tiles.shadows(), tiles.bitmapsIn(seen, ground), tiles.causes(), town.casters.origin(),
                  isFromAbove(view, ground)};
-        if (std::any_of(frame.tiles.begin(), frame.tiles.end(), holdsAny) && mayShadowItself(*town.drawn, light))
-            frame.causes.push_back("the terrain is steeper than the sun in places, and what it throws on itself is not drawn. Use "
-                                   "map, volume or traced, or raise the sun.");
+        addLimits(view, town, tiles, frame.causes);
     });
     return frame;
+}
+
+/// What is not drawn or lies elsewhere although all shadows are found. Casters count wherever they are: what the terrain
+/// throws on itself may be in view where their shadows are not.
+void TerrainShadowCache::addLimits(const ViewFrame& view, const Town& town, const TileUpdates& tiles,
+                                   std::vector<std::string>& causes) {
+    const auto holdsAny = [](const CasterTiles::Tile& tile) { return tile.size() > 0; };
+    if (std::none_of(town.casters.tiles().begin(), town.casters.tiles().end(), holdsAny)) return;
+    if (tiles.groundShadowsItself())
+        causes.push_back(
+            "the terrain is turned away from the light in places, and what it throws on itself is not drawn. Use "
+            "map, volume or traced, or raise the light.");
+    const auto isCoarse = [&](const osgUtil::RenderLeaf* leaf) {
+        return town.drawn->coarse.count(leaf->getDrawable()) > 0;
+    };
+    if (!town.drawn->coarse.empty() && std::any_of(view.seen.begin(), view.seen.end(), isCoarse))
+        causes.push_back(
+            "a coarser level of detail of the terrain is drawn than its shadows are found on, so they may lie "
+            "beside their places. Switch levels farther away, or use map, volume or traced.");
 }
 
 osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterGroup& group,

@@ -66,6 +66,8 @@ private:
     Town* findTown(const ShadowCasterGroup& group, const CasterDrawables& casters, const void* stage, bool asBoxes);
     Town& townOf(const ShadowCasterGroup& group, const CasterDrawables& casters, const void* stage,
                  const TerrainPlace& place, bool asBoxes);
+    static void addLimits(const ViewFrame& view, const Town& town, const TileUpdates& tiles,
+                          std::vector<std::string>& causes);
 
     mutable OpenThreads::Mutex _mutex;
     RecentCache<std::unique_ptr<Town>> _towns;

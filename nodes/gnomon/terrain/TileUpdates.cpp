@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ProgressLine.h>
+#include <gnomon/onterrain/PartShadow.h>
 #include <gnomon/overlay/ShadowDecals.h>
 #include <gnomon/overlay/ShadowPrisms.h>
 #include <gnomon/terrain/TileUpdates.h>
@@ -36,7 +37,7 @@ void add(PackedShadows& found, const TerrainShadow& shadow) {
     }
     found.cornerEnds.push_back(unsigned(found.corners.size()));
     found.indexEnds.push_back(unsigned(found.indices.size()));
-    found.outcomes.push_back(shadow.outcome == TerrainOutcome::fan ? TerrainOutcome::draped : shadow.outcome);
+    found.outcomes.push_back(shadow.outcome);
 }
 
 PackedShadows boxShadows(const Ground& ground, const CasterTiles::Tile& tile, const glm::dvec4& light,
@@ -134,6 +135,7 @@ TileUpdates::TileUpdates() : _none(drawable()) {}
 void TileUpdates::groundChanged() {
     _states.clear();
     _lowest = std::nullopt;
+    _groundShadowsItself = std::nullopt;
 }
 
 bool TileUpdates::isSame(const glm::dvec4& light) const {
@@ -145,6 +147,8 @@ void TileUpdates::update(const CasterTiles& town, const TileGround& ground, cons
     const Clock::time_point start = Clock::now();
     const bool still = isSame(light);
     if (!still) _light = light;
+    if (!still || !_groundShadowsItself)
+        _groundShadowsItself = !isLightBelow(ground.found, light) && ground.found.isTurnedAway(light);
     if (!(settings == _settings)) _states.clear();
     _settings = settings;
     const std::vector<CasterTiles::Tile>& tiles = town.tiles();

@@ -53,7 +53,9 @@ public:
     /// or one too coarse, or far too fine.
     Bitmaps bitmapsIn(const TileVisibility& view, const TileGround& ground);
     const std::vector<std::string>& causes() const { return _causes; } ///< of all that are kept.
-    unsigned found() const { return _found; }                          ///< how many tiles' shadows, so far.
+    /// Whether some of the ground is turned away from the light: it may throw a shadow that is not among these.
+    bool groundShadowsItself() const { return _groundShadowsItself.value_or(false); }
+    unsigned found() const { return _found; } ///< how many tiles' shadows, so far.
 
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
@@ -94,6 +96,7 @@ private:
     unsigned _calls = 0;                            ///< for bitmaps.
     std::vector<std::uint64_t> _states;             ///< revisions of the tiles that the shadows are of; 0: of none.
     std::optional<double> _lowest;                  ///< of the ground, its frame.
+    std::optional<bool> _groundShadowsItself;       ///< in this light.
     std::vector<osg::ref_ptr<TileShadows>> _spare;
     TerrainSettings _settings;
     glm::dvec4 _light{0.0};

@@ -40,20 +40,26 @@ void LightVolumes::set(const VolumeCaster& caster, const glm::dvec4& light, cons
     _capped.clear();
 }
 
-osg::ref_ptr<const VolumeGeometry> LightVolumes::capsOf(const std::vector<unsigned>& parts,
-                                                        std::vector<VolumeGeometry::Range>& ranges) {
-    if (parts.empty()) return nullptr;
-    if (parts != _capped) {
+osg::ref_ptr<const VolumeGeometry> LightVolumes::capsOf(const std::vector<CapsWanted>& wanted,
+                                                        std::vector<CapRanges>& ranges) {
+    if (wanted.empty()) return nullptr;
+    if (!(wanted == _capped)) {
         if (!_caps || _caps->referenceCount() > 1) _caps = new VolumeGeometry;
         VolumeCaps caps;
+        const auto end = [&caps] { return static_cast<unsigned>(caps.corners.size()); };
         _ranges.clear();
-        for (const unsigned part : parts) {
-            const auto first = static_cast<unsigned>(caps.corners.size());
-            appendCaps(*_caster.mesh, _volumes, part, caps);
-            _ranges.push_back({first, static_cast<unsigned>(caps.corners.size()) - first});
+        for (const CapsWanted& of : wanted) {
+            CapRanges range;
+            range.light.first = end();
+            appendLightCap(*_caster.mesh, _volumes, of.part, caps);
+            range.dark.first = end();
+            range.light.count = range.dark.first - range.light.first;
+            if (of.dark) appendDarkCap(*_caster.mesh, _volumes, of.part, caps);
+            range.dark.count = end() - range.dark.first;
+            _ranges.push_back(range);
         }
         _caps->set(caps.vertices, caps.corners);
-        _capped = parts;
+        _capped = wanted;
     }
     ranges = _ranges;
     return _caps;

@@ -7,6 +7,18 @@
 
 namespace gnomon {
 
+/// Caps of a part of the mesh.
+struct CapsWanted {
+    unsigned part;
+    bool dark; ///< the end, too; else the surface that casts alone.
+
+    bool operator==(const CapsWanted& other) const { return part == other.part && dark == other.dark; }
+};
+/// The surface that casts, and after it the end.
+struct CapRanges {
+    VolumeGeometry::Range light{0, 0}, dark{0, 0};
+};
+
 /// The volumes of one mesh behind one light.
 class LightVolumes : public osg::Referenced {
 public:
@@ -19,10 +31,9 @@ public:
     const VolumeCaster& caster() const { return _caster; }
     const ShadowVolumes& volumes() const { return _volumes; }
     const VolumeGeometry& sides() const { return *_sides; }
-    /// What closes the volumes of these parts, each in its range; made once for the same ones.
-    /// @param parts  of the mesh. @param ranges  by part.
-    osg::ref_ptr<const VolumeGeometry> capsOf(const std::vector<unsigned>& parts,
-                                              std::vector<VolumeGeometry::Range>& ranges);
+    /// What closes the volumes of some parts; made once for the same ones.
+    /// @param ranges  for each of `wanted`.
+    osg::ref_ptr<const VolumeGeometry> capsOf(const std::vector<CapsWanted>& wanted, std::vector<CapRanges>& ranges);
 
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
@@ -36,8 +47,8 @@ private:
     ReceiverBox _receivers{};
     ShadowVolumes _volumes;
     const osg::ref_ptr<VolumeGeometry> _sides;
-    std::vector<unsigned> _capped;              ///< those that have caps,
-    std::vector<VolumeGeometry::Range> _ranges; ///< and where.
+    std::vector<CapsWanted> _capped; ///< those that have caps,
+    std::vector<CapRanges> _ranges;  ///< and where.
     osg::ref_ptr<VolumeGeometry> _caps;
 };
 

@@ -39,7 +39,7 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowVolumeTechnique::prepare(const ViewFram
     mark->seen = std::move(*seen);
     mark->screenBounds = mark->seen.bounds;
     mark->program = _cache->program;
-    mark->pushedBack = view.pushedBack;
+    mark->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
     mark->showsVolumes = _options.view == VOLUMES;
     return {mark};
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/gl/GlState.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/volume/VolumeMark.h>
 
+#include <glm/common.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
-
-#include <algorithm>
 
 namespace gnomon {
 namespace {
@@ -19,10 +19,28 @@ double endlessIn(const glm::dmat4& clipFromMesh, const glm::dvec4& light) {
     return parallel && light.w != 0.0 ? 1e7 : -1.0;
 }
 
-void place(osg::State& state, const glm::dmat4& clipFromMesh, const glm::dvec4& light) {
-    setUniform(state, "clipFromVertex", clipFromMesh);
+void place(osg::State& state, const MeshInView& mesh) {
+    const glm::dvec4& light = mesh.volumes->volumes().light;
+    setUniform(state, "clipFromVertex", mesh.clipFromMesh);
     setUniform(state, "light", light);
-    setUniform(state, "endless", endlessIn(clipFromMesh, light));
+    setUniform(state, "endless", endlessIn(mesh.clipFromMesh, light));
+    glFrontFace(glm::determinant(mesh.clipFromMesh) > 0.0 ? GL_CW : GL_CCW); // clip space is left-handed
+}
+
+/// Of a cap from its surface: pixels of the slope, and steps of the depth buffer. OpenGL draws the two by different numbers.
+constexpr glm::dvec2 behind(1.0, 8.0);
+/// Drivers snap vertices to a 256th of a pixel. A larger part of it would reach what is close before a surface, such as the
+/// outer face of a wall, or the lit side of a ridge.
+constexpr glm::dvec2 before(1.0 / 64.0, 8.0);
+
+/// @param by  pixels of the slope, and steps of the depth buffer.
+void drawOffset(osg::RenderInfo& renderInfo, const VolumeGeometry& caps,
+                const std::vector<VolumeGeometry::Range>& ranges, const glm::dvec2& by) {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(static_cast<GLfloat>(by.x), static_cast<GLfloat>(by.y));
+    caps.draw(renderInfo, ranges);
+    glPolygonOffset(0.0f, 0.0f);
+    glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
 /// Where nothing stands.
@@ -39,23 +57,14 @@ constexpr const char* overflow =
 } // namespace
 
 /// A cap lies in the surface that casts, which is as lit as its light's side: so it is behind that, from wherever it is
-/// seen. A whole pixel's slope, for OpenGL draws the two by different numbers.
-void VolumeMark::drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps,
-                          const std::vector<VolumeGeometry::Range>& ranges) const {
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(static_cast<GLfloat>(1.0 + std::max(0.0, pushedBack.x())),
-                    static_cast<GLfloat>(8.0 + std::max(0.0, pushedBack.y())));
-    caps.draw(renderInfo, ranges);
-    glPolygonOffset(0.0f, 0.0f);
-    glDisable(GL_POLYGON_OFFSET_FILL);
+/// seen.
+void VolumeMark::drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps, const Ranges& ranges) const {
+    drawOffset(renderInfo, caps, ranges, glm::max(pushedBack, 0.0) + behind);
 }
 
 void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                        const VolumeRound::Share& share) const {
-    osg::State& state = *renderInfo.getState();
-    const glm::dvec4& light = mesh.volumes->volumes().light;
-    glFrontFace(glm::determinant(mesh.clipFromMesh) > 0.0 ? GL_CW : GL_CCW); // clip space is left-handed
-    place(state, mesh.clipFromMesh, light);
+    place(*renderInfo.getState(), mesh);
     if (!share.entered.empty()) {
         pass.countEntered(counters);
         mesh.volumes->sides().draw(renderInfo, share.entered);
@@ -65,7 +74,21 @@ void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned c
         mesh.volumes->sides().draw(renderInfo, share.left);
         drawCaps(renderInfo, *mesh.caps, share.caps);
     }
-    glFrontFace(GL_CCW);
+}
+
+/// A sheet does not shadow its own back, which OpenGL lights as its front: where that is seen, its volume does not count.
+void VolumeMark::uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+                              const VolumeRound::Share& share) const {
+    if (share.backs.empty()) return;
+    place(*renderInfo.getState(), mesh);
+    pass.uncount(counters);
+    glDisable(depthClamp); // what is cut away before the near plane is not seen
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+    drawOffset(renderInfo, *mesh.caps, share.backs, glm::min(pushedBack, 0.0) - before);
+    glCullFace(GL_BACK);
+    glDisable(GL_CULL_FACE);
+    glEnable(depthClamp);
 }
 
 std::string VolumeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
@@ -79,6 +102,8 @@ std::string VolumeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
         for (const auto& [mesh, share] : round.shares) count(renderInfo, pass, counters, seen.meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) uncountBacks(renderInfo, pass, counters, seen.meshes[mesh], share);
+        glFrontFace(GL_CCW);
         state.apply();
         if (pass.counters())
             pass.takeCount(counters, bit);
@@ -97,12 +122,13 @@ void VolumeMark::drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int) co
     glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     for (const VolumeRound& round : seen.rounds(~0u))
         for (const auto& [mesh, share] : round.shares) {
-            place(state, seen.meshes[mesh].clipFromMesh, seen.meshes[mesh].volumes->volumes().light);
+            place(state, seen.meshes[mesh]);
             setUniform(state, "wire", glm::dvec4(1.0, 0.85, 0.0, 1.0));
             seen.meshes[mesh].volumes->sides().draw(renderInfo, share.entered);
             setUniform(state, "wire", glm::dvec4(1.0, 0.2, 0.1, 1.0));
             seen.meshes[mesh].volumes->sides().draw(renderInfo, share.left);
         }
+    glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     state.apply();
 }

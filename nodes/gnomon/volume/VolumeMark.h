@@ -3,8 +3,8 @@
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/volume/VolumeView.h>
 
+#include <glm/vec2.hpp>
 #include <osg/StateSet>
-#include <osg/Vec2d>
 
 namespace gnomon {
 
@@ -13,7 +13,7 @@ class VolumeMark : public MarkJob {
 public:
     SeenVolumes seen;
     osg::ref_ptr<const osg::StateSet> program;
-    osg::Vec2d pushedBack; ///< see ViewFrame.
+    glm::dvec2 pushedBack{0.0}; ///< see ViewFrame.
     bool showsVolumes = false;
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
@@ -27,8 +27,10 @@ protected:
 private:
     void count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                const VolumeRound::Share& share) const;
-    void drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps,
-                  const std::vector<VolumeGeometry::Range>& ranges) const;
+    using Ranges = std::vector<VolumeGeometry::Range>;
+    void drawCaps(osg::RenderInfo& renderInfo, const VolumeGeometry& caps, const Ranges& ranges) const;
+    void uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+                      const VolumeRound::Share& share) const;
 };
 
 } // namespace gnomon

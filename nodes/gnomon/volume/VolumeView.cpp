@@ -59,19 +59,22 @@ void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
     VolumeRound::Share& share = round.shares[seen.mesh];
     const ShadowVolumes::Part& part = volumeOf(all, seen);
     append(seen.holding ? share.entered : share.left, {part.first, part.count});
-    append(share.caps, seen.caps);
+    if (!seen.holding) append(share.caps, seen.caps.light);
+    if (!seen.holding) append(share.caps, seen.caps.dark);
+    if (seen.showsBack) append(share.backs, seen.caps.light);
     round.holding += seen.holding.value_or(0);
 }
 
-/// To those from `first` on that are counted from behind.
+/// To those from `first` on that are counted from behind, or may be seen from there.
 osg::ref_ptr<const VolumeGeometry> giveCaps(LightVolumes& volumes, std::vector<SeenPart>& parts, std::size_t first) {
-    std::vector<unsigned> capped;
+    const auto needsCaps = [](const SeenPart& part) { return !part.holding || part.showsBack; };
+    std::vector<CapsWanted> wanted;
     for (std::size_t i = first; i < parts.size(); ++i)
-        if (!parts[i].holding) capped.push_back(parts[i].part);
-    std::vector<VolumeGeometry::Range> ranges;
-    osg::ref_ptr<const VolumeGeometry> caps = volumes.capsOf(capped, ranges);
+        if (needsCaps(parts[i])) wanted.push_back({parts[i].part, !parts[i].holding});
+    std::vector<CapRanges> ranges;
+    osg::ref_ptr<const VolumeGeometry> caps = volumes.capsOf(wanted, ranges);
     for (std::size_t i = first, next = 0; i < parts.size(); ++i)
-        if (!parts[i].holding) parts[i].caps = ranges[next++];
+        if (needsCaps(parts[i])) parts[i].caps = ranges[next++];
     return caps;
 }
 
@@ -92,7 +95,8 @@ void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes&
         const std::optional<int> holding = volumesHolding(start, mesh, volumes.volumes(), i, cut);
         if (holding == 0 && volume.count == 0) continue;
         all.bounds = all.parts.empty() ? *bounds : united(all.bounds, *bounds);
-        all.parts.push_back({all.meshes.size(), i, holding, {0, 0}});
+        const bool showsBack = mayShowBack(start, mesh, volumes.volumes(), i, cut);
+        all.parts.push_back({all.meshes.size(), i, holding, showsBack, {}});
     }
     if (all.parts.size() == before) return;
     all.meshes.push_back({&volumes, clipFromMesh, giveCaps(volumes, all.parts, before)});

@@ -22,15 +22,17 @@ struct MeshInView {
 struct SeenPart {
     std::size_t mesh; ///< among those in view.
     unsigned part;
-    std::optional<int> holding;       ///< see volumesHolding().
-    VolumeGeometry::Range caps{0, 0}; ///< without `holding`.
+    std::optional<int> holding; ///< see volumesHolding().
+    bool showsBack;             ///< see mayShowBack().
+    CapRanges caps;             ///< without `holding`; of what shows its back, the surface that casts in any case.
 };
 
 /// Volumes that are counted together: not more of them hold any one point than a counter can count.
 struct VolumeRound {
-    /// Of one mesh: sides to count from the eye, and from behind; and caps for those.
+    /// Of one mesh: sides to count from the eye, and from behind; caps for those; and surfaces that cast, which do not count
+    /// where they are seen from behind.
     struct Share {
-        std::vector<VolumeGeometry::Range> entered, left, caps;
+        std::vector<VolumeGeometry::Range> entered, left, caps, backs;
     };
     std::map<std::size_t, Share> shares; ///< by mesh.
     int holding = 0;                     ///< those counted from the eye that the eye is in.

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <glm/vec2.hpp>
+#include <vector>
 
 namespace gnomon {
 
@@ -34,5 +35,14 @@ int boxQuadrant(const glm::dvec2& away);
 /// Source: ARL-TN-156, "Real-Time Shadows for Terrain Objects by the Bounding-Box Method".
 std::optional<Drape> boxShadow(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light,
                                const BoxLifts& lifts = {});
+
+/// Whether the method's outline is the caster's own: an upright block of four corners and a flat roof, standing in the
+/// ground, with those two sides turned away from the light that the method takes for it.
+/// @param points  the caster's. Only they are looked at: walls that are missing between them, and rough ground under the
+///                shadow, are not found.
+///
+/// Cost  linear in the points.
+bool isBoxOutline(const Ground& ground, const std::vector<glm::dvec3>& points, const BoxCaster& caster,
+                  const glm::dvec4& light);
 
 } // namespace gnomon

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/geometry/ClosedParts.h>
 #include <gnomon/geometry/MeshEdges.h>
+#include <gnomon/geometry/NearWeld.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -75,7 +76,8 @@ constexpr std::size_t mostOpenEdges = 1 << 14; // of more, as leaves have, no ho
 /// The triangles of all parts, over welded vertices.
 class Parts {
 public:
-    Parts(const glm::vec3* positions, std::size_t vertexCount, std::vector<unsigned> corners)
+    Parts(const glm::vec3* positions, std::size_t vertexCount, std::vector<unsigned> corners,
+          const std::vector<OpenEdge>& edges)
         : _positions(positions),
           _corners(std::move(corners)),
           _sets(vertexCount),
@@ -86,7 +88,6 @@ public:
             _sets.join(_corners[i], _corners[i + 2]);
         }
         for (std::size_t i = 0; i + 2 < _corners.size(); i += 3) add(_corners[i], _corners[i + 1], _corners[i + 2], 1);
-        const std::vector<OpenEdge> edges = openEdges(_corners);
         for (const OpenEdge& edge : edges) _open[_sets.find(edge.low)] = true;
         if (!edges.empty() && edges.size() <= mostOpenEdges) findHoled(holesOf(edges, _sets, vertexCount));
     }
@@ -175,15 +176,30 @@ private:
     std::vector<std::vector<unsigned>> _fillings;
 };
 
+/// Each once.
+std::vector<unsigned> endsOf(const std::vector<OpenEdge>& edges) {
+    std::vector<unsigned> ends;
+    for (const OpenEdge& edge : edges) ends.insert(ends.end(), {edge.low, edge.high});
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    return ends;
+}
+
 } // namespace
 
 ClosedParts closedParts(const glm::vec3* positions, std::size_t vertexCount, const unsigned* indices,
-                        std::size_t indexCount) {
+                        std::size_t indexCount, bool overSeams) {
     ClosedParts result;
     result.welded = weld(positions, vertexCount);
     std::vector<unsigned> corners(indexCount);
     for (std::size_t i = 0; i < indexCount; ++i) corners[i] = result.welded[indices[i]];
-    Parts(positions, vertexCount, std::move(corners)).describe(result);
+    std::vector<OpenEdge> open = openEdges(corners);
+    const std::vector<unsigned> first =
+        overSeams ? withoutSeams(endsOf(open), positions, vertexCount) : std::vector<unsigned>();
+    for (unsigned& corner : corners)
+        if (!first.empty()) corner = first[corner];
+    if (!first.empty()) open = openEdges(corners);
+    Parts(positions, vertexCount, std::move(corners), open).describe(result);
     return result;
 }
 

@@ -4,7 +4,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -46,6 +50,16 @@ private:
     std::unordered_multimap<std::uint64_t, unsigned> _places;
 };
 
+/// What float can tell apart, some steps of it, where most of these are.
+double roundingOf(const std::vector<glm::dvec3>& places) {
+    std::vector<double> reaches;
+    for (const glm::dvec3& place : places)
+        reaches.push_back(std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}));
+    const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
+    std::nth_element(reaches.begin(), middle, reaches.end());
+    return 4.0 * std::numeric_limits<float>::epsilon() * *middle;
+}
+
 } // namespace
 
 std::vector<unsigned> nearlyTheSame(const std::vector<glm::dvec3>& points, double reach) {
@@ -58,6 +72,22 @@ std::vector<unsigned> nearlyTheSame(const std::vector<glm::dvec3>& points, doubl
     Cells cells(points, reach);
     for (unsigned i = 0; i < points.size(); ++i) result.push_back(cells.placeOf(i));
     return result;
+}
+
+std::vector<unsigned> withoutSeams(const std::vector<unsigned>& ends, const glm::vec3* positions,
+                                   std::size_t vertexCount) {
+    if (ends.empty()) return {};
+    std::vector<glm::dvec3> points;
+    for (const unsigned end : ends) points.emplace_back(positions[end]);
+    const std::vector<unsigned> same = nearlyTheSame(points, roundingOf(points));
+    std::vector<unsigned> first(vertexCount);
+    std::iota(first.begin(), first.end(), 0u);
+    bool any = false;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        first[ends[i]] = ends[same[i]];
+        any = any || same[i] != i;
+    }
+    return any ? first : std::vector<unsigned>();
 }
 
 } // namespace gnomon

@@ -10,6 +10,11 @@
 #include <limits>
 
 namespace gnomon {
+namespace {
+
+constexpr double grazing = 1e-12; // of a sine: more than products of doubles leave of one
+
+} // namespace
 
 RaySpan spanInside(const GroundBox& box, const glm::dvec3& start, const glm::dvec3& along) {
     RaySpan span{0.0, std::numeric_limits<double>::infinity()};
@@ -70,6 +75,18 @@ std::optional<double> meet(const GroundTriangle& t, const glm::dvec3& start, con
 double slopeOf(const GroundTriangle& t) {
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     return std::hypot(normal.x, normal.y) / std::abs(normal.z);
+}
+
+bool isTurnedAway(const GroundTriangle& t, const glm::dvec4& light) {
+    const glm::dvec3 up = glm::cross(t[1] - t[0], t[2] - t[0]), towards = glm::dvec3(light) - light.w * t[0];
+    const double off = grazing * glm::length(up), sine = glm::dot(up, towards);
+    return sine < -off * glm::length(towards) || (!(up.z > off) && sine > off * glm::length(towards));
+}
+
+bool mayBeTurnedAway(const GroundBox& box, double slope, const glm::dvec4& light) {
+    const glm::dvec2 from = glm::abs(glm::dvec2(light) - light.w * glm::dvec2(box.low)),
+                     to = glm::abs(glm::dvec2(light) - light.w * glm::dvec2(box.high));
+    return !(slope * glm::length(glm::max(from, to)) < light.z - light.w * box.high.z);
 }
 
 bool mayHold(const GroundBox& box, const std::vector<glm::dvec4>& planes) {

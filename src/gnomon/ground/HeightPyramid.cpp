@@ -244,6 +244,19 @@ double HeightPyramid::steepest(const std::vector<glm::dvec4>& planes) const {
     return most;
 }
 
+bool HeightPyramid::isTurnedAway(const glm::dvec4& light) const {
+    bool found = false;
+    descend([&](const Block& block) {
+        if (found || !mayBeTurnedAway(boxOf(block), node(block).steepest(), light)) return false;
+        const auto is = [&](const GroundTriangle& triangle) { return gnomon::isTurnedAway(triangle, light); };
+        if (block.level > 0) return true;
+        const auto triangles = _field.triangles(block.x, block.y);
+        found = std::any_of(triangles.begin(), triangles.end(), is);
+        return false;
+    });
+    return found;
+}
+
 std::optional<HeightPyramid::Cells> HeightPyramid::cells(const glm::dvec2& low, const glm::dvec2& high) const {
     const glm::dvec2 from = glm::floor(low), to = glm::floor(high);
     const glm::dvec2 last(_levels[0].columns - 1, _levels[0].rows - 1);

@@ -202,6 +202,14 @@ double TriangleGround::steepest(const std::vector<glm::dvec4>& planes) const {
     return most;
 }
 
+bool TriangleGround::isTurnedAway(const glm::dvec4& light) const {
+    bool found = false;
+    descend(
+        all(), [&](const Node& node) { return !found && mayBeTurnedAway(node.box, node.slope, light); },
+        [&](const Corners& c) { found = found || gnomon::isTurnedAway(triangle(c), light); });
+    return found;
+}
+
 /// Goes down to triangles at the rectangle's border alone: a node inside of it counts as a whole, and one that would add
 /// nothing is left out.
 std::optional<GroundRange> TriangleGround::range(const glm::dvec2& low, const glm::dvec2& high) const {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/mapfit/FlatBox.h>
 #include <gnomon/mapfit/TexelDensity.h>
 
 #include <glm/geometric.hpp>
@@ -11,7 +12,6 @@
 namespace gnomon {
 namespace {
 
-constexpr double flat = 1.0 / 8.0;  // of a box's sides, the shortest to the next
 constexpr double mostStretch = 8.0; // light at 7 degrees; edges are blurred by less than that in sight
 constexpr double stretchOfBodies = 2.0;
 constexpr double enough = 7.0 / 8.0, step = 32.0;
@@ -19,12 +19,9 @@ constexpr int fewest = 64;
 
 /// Of a box that is flat, of any length; 0 of others.
 glm::dvec3 flatNormal(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox) {
+    const auto thin = flatAxis(low, high, sceneFromBox);
     const glm::dmat3 way(sceneFromBox);
-    const glm::dvec3 length(glm::length(way[0]) * (high.x - low.x), glm::length(way[1]) * (high.y - low.y),
-                            glm::length(way[2]) * (high.z - low.z));
-    const int thin = length.x <= length.y && length.x <= length.z ? 0 : length.y <= length.z ? 1 : 2;
-    const int u = (thin + 1) % 3, v = (thin + 2) % 3;
-    return length[thin] > flat * std::min(length[u], length[v]) ? glm::dvec3(0.0) : glm::cross(way[u], way[v]);
+    return thin ? glm::cross(way[(*thin + 1) % 3], way[(*thin + 2) % 3]) : glm::dvec3(0.0);
 }
 
 } // namespace

@@ -9,6 +9,10 @@ const char* sentence(TerrainOutcome outcome) {
         return "its shadow is one polygon.";
     case TerrainOutcome::draped:
         return "its shadow lies on the ground's triangles.";
+    case TerrainOutcome::boxed:
+        return "its shadow is that of its bounding box, whose outline differs from the caster's in this light. Use "
+               "hull "
+               "or drape.";
     case TerrainOutcome::steep:
         return "draped instead, because the ground falls off nearly as steeply as the light. The shadow is right, but "
                "takes longer.";

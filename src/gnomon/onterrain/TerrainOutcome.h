@@ -12,6 +12,7 @@ enum class TerrainMethod {
 enum class TerrainOutcome : unsigned char {
     fan,    ///< one polygon.
     draped, ///< as requested.
+    boxed,  ///< that of the bounding box, as requested, and not the caster's own.
     // As drape although hull was requested:
     steep,       ///< rays graze the ground.
     rough,       ///< the ground between the corners' rays is not where the polygon is, or a slanting wall is in it.

@@ -203,9 +203,12 @@ void findShadowVolumes(const SilhouetteMesh& mesh, const glm::dvec4& light, cons
     }
 }
 
-void appendCaps(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into) {
-    const ShadowVolumes::Part& volume = volumes.parts[index];
+void appendLightCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into) {
     appendSurface(mesh, volumes, index, false, into);
+}
+
+void appendDarkCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into) {
+    const ShadowVolumes::Part& volume = volumes.parts[index];
     if (volume.end != glm::dvec4(0.0))
         appendFan(volumes, volume, into);
     else if (volumes.light.w != 0.0)

@@ -38,12 +38,14 @@ struct ShadowVolumes {
 void findShadowVolumes(const SilhouetteMesh& mesh, const glm::dvec4& light, const std::vector<glm::dvec4>& planes,
                        ShadowVolumes& into);
 
-/// Triangles that close the volumes of a part, counter-clockwise from outside, with vertices as ShadowVolumes has them: the
-/// surface that casts, and the end. A sun's that goes to infinity ends in a point.
+/// Triangles that close the volumes of a part, counter-clockwise from outside, with vertices as ShadowVolumes has them.
 struct VolumeCaps {
     std::vector<glm::vec4> vertices;
     std::vector<unsigned> corners;
 };
-void appendCaps(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
+/// The surface that casts.
+void appendLightCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
+/// The end. A sun's that goes to infinity ends in a point.
+void appendDarkCap(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index, VolumeCaps& into);
 
 } // namespace gnomon

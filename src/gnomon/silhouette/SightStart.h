@@ -30,4 +30,10 @@ struct SightStart {
 std::optional<int> volumesHolding(const SightStart& start, const SilhouetteMesh& mesh, const ShadowVolumes& volumes,
                                   std::size_t index, bool mayBeCut);
 
+/// Whether a surface of a part that casts can be seen from behind: the eye is on one side of it, the light on the other.
+/// Never of a closed part, unless the eye or a lamp may be inside.
+/// @param mayBeCut  see volumesHolding().
+bool mayShowBack(const SightStart& start, const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index,
+                 bool mayBeCut);
+
 } // namespace gnomon

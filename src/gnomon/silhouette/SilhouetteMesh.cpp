@@ -97,33 +97,12 @@ std::vector<unsigned> openEnds(const Sides& sides, std::size_t vertices) {
     return found;
 }
 
-/// What float can tell apart, some steps of it, where most of these are.
-double roundingOf(const std::vector<glm::dvec3>& places) {
-    std::vector<double> reaches;
-    for (const glm::dvec3& place : places)
-        reaches.push_back(std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}));
-    const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
-    std::nth_element(reaches.begin(), middle, reaches.end());
-    return 4.0 * std::numeric_limits<float>::epsilon() * *middle;
-}
-
-/// Closes seams whose two sides differ by rounding alone, as sin(0) and sin(2 pi) do.
-/// @return true if there are any.
+/// @return true if there are any seams.
 bool closeSeams(const Sides& sides, const std::vector<glm::vec3>& vertices, std::vector<unsigned>& places) {
-    const std::vector<unsigned> ends = openEnds(sides, vertices.size());
-    if (ends.empty()) return false;
-    std::vector<glm::dvec3> points;
-    for (const unsigned end : ends) points.emplace_back(vertices[end]);
-    const std::vector<unsigned> same = nearlyTheSame(points, roundingOf(points));
-    std::vector<unsigned> first(vertices.size());
-    std::iota(first.begin(), first.end(), 0u);
-    bool any = false;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        first[ends[i]] = ends[same[i]];
-        any = any || same[i] != i;
-    }
-    for (unsigned& place : places) place = first[place];
-    return any;
+    const std::vector<unsigned> first = withoutSeams(openEnds(sides, vertices.size()), vertices.data(), vertices.size());
+    for (unsigned& place : places)
+        if (!first.empty()) place = first[place];
+    return !first.empty();
 }
 
 /// Sets of triangles, of which two can be joined.

@@ -69,7 +69,7 @@ bool isRandomFault(const StabilityCell& cell) {
     if (cell.failure == "crashed" || cell.failure == "hung" || cell.failure == "failed" || cell.notFinite > 0)
         return true;
     const StabilityJudgement& judged = cell.onReceiver ? *cell.onReceiver : cell.everywhere;
-    return cell.failure.empty() && cell.diagnosis.empty() && judged.shadow > leastShadow && judged.iou < lostBelow;
+    return cell.failure.empty() && !cell.stated() && judged.shadow > leastShadow && judged.iou < lostBelow;
 }
 
 std::vector<RandomFault> searchRandomScenes(const RandomSearch& search,
