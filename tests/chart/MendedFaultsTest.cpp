@@ -26,7 +26,7 @@ StabilityRow measured(const std::string& scene, double value, const std::string&
 
 /// A quad of pixels over two faces has the slope of neither.
 TEST(MendedFaults, MapHasNoSpecksWhereTwoFacesMeet) {
-    for (const auto& [scene, value] : {std::pair("R3", 6.0), {"S8", 20.0}, {"S9", 4.0}}) {
+    for (const auto& [scene, value] : {std::pair("R3", 6.0), {"S8", 20.0}, {"S9", 4.0}, {"N1", 0.0}, {"S7O", 10.0}}) {
         const StabilityRow row = measured(scene, value);
         EXPECT_EQ(row.cells[0].everywhere.wrong, 0u) << scene;
         EXPECT_TRUE(row.cells[0].inBudget()) << scene;

@@ -114,3 +114,14 @@ TEST(CoarseDepth, DoesNotMatterWhereNothingCasts) {
     Trial trial(new gnomon::ShadowMapTechnique, post);
     EXPECT_EQ(trial.seen(fromAfar(0.001)), nothing) << "the caster stands close to the eye";
 }
+
+/// As far away as the tower of the other tests.
+TEST(CoarseDepth, DoesNotMatterWhereTheCasterIsNotSeen) {
+    const auto seen = [](const Mesh& caster) {
+        Trial trial(new gnomon::ShadowMapTechnique, caster);
+        return trial.seen(fromAfar(0.001));
+    };
+    EXPECT_EQ(seen(box({-20.2, 799.8, 10.0}, {-19.8, 800.2, 10.4})), nothing) << "smaller than a pixel, which is 3 m";
+    EXPECT_EQ(seen(box({580.0, 380.0, 0.0}, {620.0, 420.0, 60.0})), nothing) << "beside the view";
+    EXPECT_EQ(seen(box({300.0, 1130.0, 0.0}, {340.0, 1170.0, 60.0})), nothing) << "beyond the far plane";
+}
