@@ -40,13 +40,17 @@ float changeIn(float e, ivec2 here, ivec2 axis, bool beyond) {
 }
 
 float smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
+float larger(float a, float b) { return abs(a) < abs(b) ? b : a; }
+
+// Change of e a pixel on the steeper of two faces, where they meet in an edge towards the eye; elsewhere as changeOf().
+vec2 steeper;
 
 #ifdef SMOOTH
 bool isAtRim = false; // of a surface: beside the pixel there is another, or this one bends
 #endif
 
-// Change of e a pixel, as dFdx() and dFdy() have it where quads are whole. Where shares are asked for, of which every
-// comparison counts, the smaller of those to both sides: the other may lead to another surface.
+// Change of e a pixel, to both sides, as dFdx() and dFdy() have it where quads are whole. It is the smaller one: the other may
+// lead to another surface. On an edge towards the eye the pixel may be on either face.
 vec2 changeOf(float e, ivec2 here) {
 #ifdef ODD
     vec2 change = vec2(changeIn(e, here, ivec2(1, 0), false), changeIn(e, here, ivec2(0, 1), false));
@@ -57,7 +61,11 @@ vec2 changeOf(float e, ivec2 here) {
 #ifdef SMOOTH
     isAtRim = any(greaterThan(abs(change - other), 0.75 * max(abs(change), abs(other)) + 4.0 * depthError.x));
 #endif
+    bvec2 isSecond = equal(here & 1, ivec2(1)); // of its quad: the change to the other is that from the pixel before
+    bvec2 isEdge = lessThan(mix(change - other, other - change, isSecond), vec2(0.0));
+    vec2 most = vec2(larger(change.x, other.x), larger(change.y, other.y));
     change = vec2(smaller(change.x, other.x), smaller(change.y, other.y));
+    steeper = mix(change, most, isEdge);
     return change;
 }
 
@@ -97,11 +105,16 @@ struct Compared {
     float depth;
 };
 
-// at: see holds().
-Compared compared(int i, vec4 at, vec4 plane, float drawn, float nearer) {
-    vec3 inMap = at.xyz / at.w;
-    vec2 across = vec2(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)));
-    float deeper = dot(plane, pixelFromMapZ(i));
+// Gradient of a plane's function along a map's axes and its depth.
+vec3 inMapOf(int i, vec4 plane) {
+    return vec3(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)), dot(plane, pixelFromMapZ(i)));
+}
+
+// at: see holds(). other: the plane of another face that the pixel may be on.
+Compared compared(int i, vec4 at, vec4 plane, vec4 other, float drawn, float nearer) {
+    vec3 inMap = at.xyz / at.w, change = inMapOf(i, plane), onOther = inMapOf(i, other);
+    vec2 across = change.xy;
+    float deeper = change.z;
     vec2 slope = -across / (deeper * place(i).z);
     float steepness = abs(slope.x) + abs(slope.y);
     vec4 error = mix(nearestError(i), farthestError(i), clamp(inMap.z, 0.0, 1.0));
@@ -109,6 +122,8 @@ Compared compared(int i, vec4 at, vec4 plane, float drawn, float nearer) {
         slope = vec2(0.0);
         steepness = error.z;
     }
+    float otherwise = (abs(onOther.x) + abs(onOther.y)) / (abs(onOther.z) * place(i).z);
+    if (otherwise <= error.z) steepness = max(steepness, otherwise);
     float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
     float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (max(abs(deeper), steep) * at.w);
     float depth = min(inMap.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
@@ -122,10 +137,10 @@ Compared compared(int i, vec4 at, vec4 plane, float drawn, float nearer) {
 // nearer: how much of e has been added. Of what faces away from the light that is farther from it, and taken back twice: a
 // single sheet, seen from behind, does not shadow itself.
 #ifndef SOFT
-float visibility(vec4 pixel, vec4 plane, float drawn, float nearer) {
+float visibility(vec4 pixel, vec4 plane, vec4 other, float drawn, float nearer) {
     vec4 at;
     int found = mapOf(pixel, at), i = min(found, MAPS - 1);
-    Compared c = compared(i, at, plane, drawn, nearer);
+    Compared c = compared(i, at, plane, other, drawn, nearer);
 #ifdef SMOOTH
     sides = sidesIn(i, at, -plane.xy);
 #endif
@@ -144,12 +159,12 @@ const int mapCount = MAPS;
 #endif
 
 // Cascades are blended where one ends: `left` is the weight of those that are still to come.
-float visibility(vec4 pixel, vec4 plane, float drawn, float nearer) {
+float visibility(vec4 pixel, vec4 plane, vec4 other, float drawn, float nearer) {
     float share = 0.0, left = 1.0;
     for (int i = 0; i < mapCount; ++i) {
         vec4 at;
         if (!holds(i, pixel, at)) continue;
-        Compared c = compared(i, at, plane, drawn, nearer);
+        Compared c = compared(i, at, plane, other, drawn, nearer);
         const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
         float weight = left;
 #if MAPS > 1
@@ -187,6 +202,9 @@ float ofPixel(float arrives) {
 }
 #endif
 
+// A function that is 0 on the plane through a place, on which e changes so; elsewhere e less the plane's.
+vec4 planeAt(vec2 at, float e, vec2 slope) { return vec4(-slope, 1.0, dot(slope, at) - e); }
+
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     float e = 1.0 - seenDepth(here);
@@ -195,7 +213,8 @@ void main() {
     float slopes = abs(slope.x) + abs(slope.y), drawn = max(drawnError.x + e * drawnError.y, 0.0);
     float off = depthError.x + depthError.y * slopes, nearer = e + off;
     vec2 at = gl_FragCoord.xy + depthError.zw;
-    float arrives = visibility(vec4(at, nearer, 1.0), vec4(-slope, 1.0, dot(slope, at) - nearer), drawn * (1.0 + drawnError.z * slopes), off);
+    float arrives = visibility(vec4(at, nearer, 1.0), planeAt(at, nearer, slope), planeAt(at, nearer, steeper),
+                               drawn * (1.0 + drawnError.z * slopes), off);
 #ifdef SMOOTH
     arrives = ofPixel(arrives);
 #endif

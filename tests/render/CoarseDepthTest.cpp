@@ -53,10 +53,9 @@ std::vector<osg::ref_ptr<gnomon::ShadowTechnique>> thatReadDepths() {
 }
 
 Causes tooCoarse(const Trial& trial) {
-    return {
-        trial.technique->describe() +
-        ": depths cannot tell where the shadow of 'tower' falls, because their steps are longer there than a pixel is "
-        "wide. Move the near plane out, or let OpenSceneGraph compute it."};
+    return {trial.technique->describe() +
+            ": depths cannot tell where the shadow of 'tower' falls, because their steps are too long there. "
+            "Move the near plane out, or let OpenSceneGraph compute it."};
 }
 
 /// Depth in the buffer, 0 … 1, of a point so far from the eye.
@@ -73,7 +72,7 @@ const Causes nothing;
 TEST(CoarseDepth, BeginsWhereAStepIsAsLongAsAPixelIsWide) {
     for (const double near : {0.001, 0.1, 10.0}) {
         const osg::Matrixd lens = osg::Matrixd::perspective(30.0, double(width) / height, near, 1000.0);
-        const long double distance = gnomon::coarseDepthFrom(lens, {width, height});
+        const long double distance = gnomon::coarseDepthFrom(lens, {{width, height}});
         const long double pixel =
             2.0L * distance * static_cast<long double>(std::tan(osg::DegreesToRadians(15.0))) / height;
         const long double step = std::ldexp(1.0L, -24);
@@ -87,7 +86,7 @@ TEST(CoarseDepth, BeginsWhereAStepIsAsLongAsAPixelIsWide) {
 TEST(CoarseDepth, BeginsNowhereOrEverywhereInAnOrthographicView) {
     // 100 m high in 120 pixels: steps are as long as a pixel if 2^24 of them are 14 million metres.
     const auto from = [](double far) {
-        return gnomon::coarseDepthFrom(osg::Matrixd::ortho(-50.0, 50.0, -50.0, 50.0, 0.0, far), {height, height});
+        return gnomon::coarseDepthFrom(osg::Matrixd::ortho(-50.0, 50.0, -50.0, 50.0, 0.0, far), {{height, height}});
     };
     EXPECT_GT(from(1.3e7), 1.0) << "w is 1 everywhere";
     EXPECT_LT(from(1.5e7), 1.0);
@@ -99,6 +98,13 @@ TEST(CoarseDepth, IsToldByTechniquesThatReadDepths) {
         EXPECT_EQ(trial.seen(fromAfar(0.001)), tooCoarse(trial)) << technique->className();
         EXPECT_EQ(trial.seen(fromAfar(1.0)), nothing) << technique->className();
     }
+}
+
+/// What lies 32 steps off the plane is dark, too: 12 m up a tower here, where a pixel is 4 m wide.
+TEST(CoarseDepth, IsToldEarlierByPlanar) {
+    Trial flat(planar()), map(new gnomon::ShadowMapTechnique);
+    EXPECT_EQ(flat.seen(fromAfar(0.1)), tooCoarse(flat));
+    EXPECT_EQ(map.seen(fromAfar(0.1)), nothing);
 }
 
 TEST(CoarseDepth, IsNotToldByOthers) {
@@ -113,4 +119,15 @@ TEST(CoarseDepth, DoesNotMatterWhereNothingCasts) {
     const Mesh post = box({-471.0, 309.0, 413.0}, {-470.5, 309.5, 415.0});
     Trial trial(new gnomon::ShadowMapTechnique, post);
     EXPECT_EQ(trial.seen(fromAfar(0.001)), nothing) << "the caster stands close to the eye";
+}
+
+/// As far away as the tower of the other tests.
+TEST(CoarseDepth, DoesNotMatterWhereTheCasterIsNotSeen) {
+    const auto seen = [](const Mesh& caster) {
+        Trial trial(new gnomon::ShadowMapTechnique, caster);
+        return trial.seen(fromAfar(0.001));
+    };
+    EXPECT_EQ(seen(box({-20.2, 799.8, 10.0}, {-19.8, 800.2, 10.4})), nothing) << "smaller than a pixel, which is 3 m";
+    EXPECT_EQ(seen(box({580.0, 380.0, 0.0}, {620.0, 420.0, 60.0})), nothing) << "beside the view";
+    EXPECT_EQ(seen(box({300.0, 1130.0, 0.0}, {340.0, 1170.0, 60.0})), nothing) << "beyond the far plane";
 }

@@ -180,6 +180,26 @@ TEST(UnshadowedSurfaces, ASlantedFloorGetsItsShadow) {
     }
 }
 
+/// The same under a ceiling, and a lamp below it that is given with w = -1.
+TEST(UnshadowedSurfaces, ABallThatIsSunkInTheCeilingIsNotNamedForItsUpperHalf) {
+    Scene scene = test::scene({-0.5, 0.5, 0.707, -1.0});
+    for (const Mesh& mesh : {quad({-2.0, -2.0, 0.0}, {0.0, 4.0, 0.0}, {4.0, 0.0, 0.0}),
+                             box({0.25, -0.25, -0.5}, {0.4, -0.1, 0.0}), sphere({-0.5, 0.0, -0.25}, 0.5, 24)})
+        scene.content->addChild(node(mesh));
+    const auto technique = planar();
+    technique->setPlanes({{0.0, 0.0, -1.0, 0.0}});
+    scene.addShadow(technique);
+    render(scene.root, perspective({3.0, -4.0, -3.0}, {-0.3, 0.0, 0.0}, 160, 120));
+    EXPECT_EQ(technique->diagnose(), nothing);
+}
+
+/// Down there, beside the tower's shadow, only the ground's own falls, which is another cause.
+TEST(UnshadowedSurfaces, WhatLiesUnderTheTerrainIsNotNamed) {
+    Trial trial(node(box({-20.0, 4.0, -1.5}, {7.0, 7.5, -1.0}), "cellar"),
+                onTerrain(gnomon::TerrainShadowOptions::HULL));
+    EXPECT_TRUE(namesNone(trial.named().said()));
+}
+
 TEST(UnshadowedSurfaces, AFloorMayBeTheTopOfASlab) {
     Trial trial(nullptr);
     trial.scene.content->replaceChild(find(*trial.scene.root, "ground"),

@@ -40,8 +40,8 @@ public:
     /// True if mark() needs ScreenPass::counters().
     virtual bool counts() const { return false; }
 
-    /// False if its marks are right however coarse the depths are.
-    virtual bool placesByDepth() const { return true; }
+    /// How many steps of the depth buffer a surface may be off its place for its marks; 0: however many.
+    virtual double depthSteps() const { return 1.0; }
 
     /// True of what relighting alone must darken: what OpenGL has drawn without the light, as far as it could.
     virtual bool relightsOnly() const { return false; }

@@ -15,7 +15,7 @@ public:
     /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string drawAhead(osg::RenderInfo& renderInfo) const = 0;
 
-    bool placesByDepth() const final { return false; }
+    double depthSteps() const final { return 0.0; }
     std::string mark(osg::RenderInfo&, ScreenPass&, unsigned) const final { return ""; }
 
 protected:

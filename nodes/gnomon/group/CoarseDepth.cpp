@@ -39,25 +39,26 @@ bool isSeen(const Corners& corners, const osg::Vec2d& pixels) {
 
 /// Depth is d = (a z + b) / w with w = c z + e, so that it changes by |a e - b c| / w² along z. A step of 2^(1 - bits), for d
 /// goes from -1 to 1, is w² 2^(1 - bits) / |a e - b c| long, and a pixel 2 w / (scale · pixels) wide.
-double coarseDepthFrom(const osg::Matrixd& projection, const osg::Vec2d& pixels) {
+double coarseDepthFrom(const osg::Matrixd& projection, const DepthPixels& pixels) {
     const double change = std::abs(projection(2, 2) * projection(3, 3) - projection(3, 2) * projection(2, 3));
-    const double across = std::max(std::abs(projection(0, 0)) * pixels.x(), std::abs(projection(1, 1)) * pixels.y());
-    return std::ldexp(change, depthBits) / across;
+    const double across =
+        std::max(std::abs(projection(0, 0)) * pixels.size.x(), std::abs(projection(1, 1)) * pixels.size.y());
+    return std::ldexp(change, depthBits) / (across * pixels.steps);
 }
 
-bool reachesCoarseDepth(const LitView& view, const osg::Matrixd& projection, const osg::Vec2d& pixels) {
+bool reachesCoarseDepth(const LitView& view, const osg::Matrixd& projection, const DepthPixels& pixels) {
     const osg::BoundingBoxd& box = view.casters.bounds;
     return box.valid() &&
            farthestOf(cornersOf(box, toGlm(view.eyeFromGroup * projection))) > coarseDepthFrom(projection, pixels);
 }
 
-std::string coarselyPlaced(const LitView& view, const osg::Matrixd& projection, const osg::Vec2d& pixels) {
+std::string coarselyPlaced(const LitView& view, const osg::Matrixd& projection, const DepthPixels& pixels) {
     const double coarse = coarseDepthFrom(projection, pixels);
     const glm::dmat4 clipFromGroup = toGlm(view.eyeFromGroup * projection);
     for (const auto& piece : view.casters.list) {
         if (!piece->bounds.valid()) continue;
         const Corners corners = cornersOf(piece->bounds, clipFromGroup);
-        if (nearestOf(corners) > coarse && isSeen(corners, pixels)) return nameOf(*piece->drawable);
+        if (nearestOf(corners) > coarse && isSeen(corners, pixels.size)) return nameOf(*piece->drawable);
     }
     return {};
 }

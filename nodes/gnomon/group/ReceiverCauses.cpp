@@ -170,7 +170,7 @@ void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLig
         const LitView view{*entry.group, light, casters, receiving, entry.eyeFromGroup};
         const std::string cause =
             keptBy<RecalledCauses>(stage).causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), view,
-                                              {receiving.size(), 0}, [&] { return enclosingCause(view); });
+                                                  {receiving.size(), 0}, [&] { return enclosingCause(view); });
         if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
     }
 }
@@ -186,16 +186,16 @@ void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<Enlisted
     for (const ShadowLight& light : lights) {
         const std::string cause =
             keptBy<RecalledCauses>(stage).causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(),
-                                              {*entry.group, light, casters, none, entry.eyeFromGroup}, state, [&] {
-                                                  return unshadowedCause(entry, all, light, casters, drawn, stage);
-                                              });
+                                                  {*entry.group, light, casters, none, entry.eyeFromGroup}, state, [&] {
+                                                      return unshadowedCause(entry, all, light, casters, drawn, stage);
+                                                  });
         if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
     }
 }
 
 void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,
-                       osgUtil::RenderStage& stage) {
-    const osg::Vec2d pixels(stage.getViewport()->width(), stage.getViewport()->height());
+                       osgUtil::RenderStage& stage, double steps) {
+    const DepthPixels pixels{{stage.getViewport()->width(), stage.getViewport()->height()}, steps};
     const Leaves none;
     const LitView view{*entry.group, light, casters, none, entry.eyeFromGroup};
     if (!reachesCoarseDepth(view, *entry.projection, pixels)) return;
@@ -207,7 +207,7 @@ void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light,
             const std::string name = coarselyPlaced(view, *entry.projection, pixels);
             if (name.empty()) return name;
             return "depths cannot tell where the shadow of '" + name +
-                   "' falls, because their steps are longer there than a pixel is wide. Move the near plane out, or "
+                   "' falls, because their steps are too long there. Move the near plane out, or "
                    "let OpenSceneGraph compute it.";
         });
     if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);

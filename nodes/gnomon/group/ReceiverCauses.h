@@ -37,7 +37,8 @@ void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<Enlisted
                       osgUtil::RenderStage& stage);
 
 /// Says that the shadows of what is far away cannot be placed by depth. For techniques whose marks depend on it.
+/// @param steps  see MarkJob::depthSteps(), above 0.
 void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,
-                       osgUtil::RenderStage& stage);
+                       osgUtil::RenderStage& stage, double steps);
 
 } // namespace gnomon

@@ -312,10 +312,11 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
     addAll(lateOnes, true);
     if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
     reportUnshadowed(entry, _enlisted, found.lights, casters.drawables(), drawn, *getStage());
-    const auto placesByDepth = [](const ShadowJob& job) { return job.marks->placesByDepth(); };
-    if (std::any_of(_jobs.begin() + before, _jobs.end(), placesByDepth) ||
-        std::any_of(_lateJobs.begin() + lateBefore, _lateJobs.end(), placesByDepth))
-        reportCoarseDepth(entry, found.lights.front(), casters.drawables(), *getStage());
+    double steps = 0.0;
+    const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.marks->depthSteps()); };
+    std::for_each(_jobs.begin() + before, _jobs.end(), take);
+    std::for_each(_lateJobs.begin() + lateBefore, _lateJobs.end(), take);
+    if (steps > 0.0) reportCoarseDepth(entry, found.lights.front(), casters.drawables(), *getStage(), steps);
 }
 
 /// To a bin of its own, after the last one that draws what receives late.

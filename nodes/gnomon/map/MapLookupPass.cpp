@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
@@ -160,7 +161,7 @@ void MapLookupPass::setConstants(osg::State& state, const FrameDepthCopy::Copy& 
                                       glm::dvec4(1.0 / glm::dvec2(map->size), copy.rows),
                                       {wanted.below, wanted.blocked ? 1.0 : 0.0, wanted.factor, fades() ? 1.0 : 0.0},
                                       {pixels.x, pixels.y, pixels.x + pixels.width - 1, pixels.y + pixels.height - 1},
-                                      drawnErrorOf(*state.getCurrentViewport(), sceneFromPixel)};
+                                      drawnErrorOf(state, sceneFromPixel)};
     if (coneFromScene) addColumns(*coneFromScene * sceneFromPixel, 4, constants);
     std::vector<glm::dmat4> mapFromPixel;
     for (const MapLookUp& lookUp : lookUps) mapFromPixel.push_back(lookUp.mapFromScene * sceneFromPixel);
@@ -172,8 +173,10 @@ void MapLookupPass::setConstants(osg::State& state, const FrameDepthCopy::Copy& 
 }
 
 /// 1 / w is that row of the matrix times a pixel's place: of most projections it depends on e alone.
-glm::dvec4 MapLookupPass::drawnErrorOf(const osg::Viewport& viewport, const glm::dmat4& sceneFromPixel) const {
-    const DrawnError off = drawnError(clipFromScene, viewport.width(), rounding, 0.0);
+glm::dvec4 MapLookupPass::drawnErrorOf(const osg::State& state, const glm::dmat4& sceneFromPixel) const {
+    const osg::Viewport& viewport = *state.getCurrentViewport();
+    const DrawnError off =
+        drawnError(clipFromScene, toGlm(state.getProjectionMatrix()), viewport.width(), rounding, 0.0);
     const glm::dvec4 row = off.depth * glm::row(sceneFromPixel, 3);
     const auto most = [](double change, double start, double size) {
         return std::max(change * start, change * (start + size));

@@ -75,7 +75,7 @@ private:
     std::size_t sharedConstants() const;
     std::size_t constantsOfMap() const;
     std::size_t flatConstants(std::size_t all) const;
-    glm::dvec4 drawnErrorOf(const osg::Viewport& viewport, const glm::dmat4& sceneFromPixel) const;
+    glm::dvec4 drawnErrorOf(const osg::State& state, const glm::dmat4& sceneFromPixel) const;
     void addMap(std::size_t map, const glm::dmat4& mapFromPixel, std::vector<glm::dvec4>& constants) const;
 };
 

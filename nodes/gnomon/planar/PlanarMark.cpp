@@ -17,14 +17,6 @@ namespace {
 constexpr GLenum clipAbovePlane = GL_CLIP_PLANE0; // the same value as GL_CLIP_DISTANCE0
 constexpr GLenum clipBelowLight = GL_CLIP_PLANE1;
 
-/// How far from the plane's depth what lies in it may be drawn: pixels of the plane's slope, steps of the depth buffer.
-///
-/// A rasteriser interpolates depth in float: on llvmpipe 32 steps of the depth buffer hold that, but for a ground of
-/// many kilometres under a near plane of decimetres (tests/render/PlanarBandTest.cpp). And it snaps vertices to a part
-/// of a pixel, which OpenGL lets be as coarse as a sixteenth: an eighth of a pixel's slope. A larger margin would reach
-/// up walls that stand in the plane.
-constexpr glm::dvec2 tolerance(1.0 / 8.0, 32.0);
-
 /// An offset in window depth, as OpenGL adds its parts up.
 double depthOf(const glm::dvec2& offset, const osg::Viewport& viewport, const glm::dvec3& depth) {
     GLint depthBits = 24;

@@ -23,6 +23,14 @@ struct PlanarPrograms : public osg::Referenced {
 /// plane's.
 class PlanarMark : public MarkJob {
 public:
+    /// How far from the plane's depth what lies in it may be drawn: pixels of the plane's slope, steps of the depth buffer.
+    ///
+    /// A rasteriser interpolates depth in float: on llvmpipe 32 steps of the depth buffer hold that, but for a ground of
+    /// many kilometres under a near plane of decimetres (tests/render/PlanarBandTest.cpp). And it snaps vertices to a part
+    /// of a pixel, which OpenGL lets be as coarse as a sixteenth: an eighth of a pixel's slope. A larger margin would reach
+    /// up walls that stand in the plane.
+    static constexpr glm::dvec2 tolerance{1.0 / 8.0, 32.0};
+
     osg::ref_ptr<const PlanarCasters> casters;
     osg::ref_ptr<const PlanarPrograms> programs;
     glm::dmat4 clipFromScene{1.0}; ///< flattened and projected.
@@ -43,7 +51,8 @@ public:
 
     /// True if the leaf's box comes to the plane but for a hundredth of its size.
     bool canReach(const osgUtil::RenderLeaf& leaf) const override;
-    bool placesByDepth() const override { return cutToPlane; }
+    /// Those are marked that lie as far off the plane as what lies in it may be drawn.
+    double depthSteps() const override { return cutToPlane ? tolerance.y : 0.0; }
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
 
 protected:

@@ -85,7 +85,7 @@ struct HighestVertex : osg::Drawable::ConstAttributeFunctor {
 bool endsIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
     // What PlanarMark takes for the plane at the far plane: 32 steps of 24 bits of depth, where the near plane is at
     // 0.0005 of the distance, as OpenSceneGraph computes it. A surface as large as its distance may be off by so much.
-    constexpr double unevenness = 32.0 / (1 << 24) / 0.0005;
+    constexpr double unevenness = PlanarMark::tolerance.y / (1 << 24) / 0.0005;
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
     const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
     if (!box.valid() || !plane) return false;

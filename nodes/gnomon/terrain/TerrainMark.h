@@ -41,7 +41,7 @@ public:
 
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
     bool counts() const override { return !prisms.empty(); }
-    bool placesByDepth() const override { return !prisms.empty(); }
+    double depthSteps() const override { return prisms.empty() ? 0.0 : 1.0; }
     BoxTest boxTest(const osg::Matrixd& eyeFromBox) const override;
 
 protected:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/PlainPixels.h>
 #include <gnomon/gl/SavedFramebuffers.h>
@@ -84,7 +85,8 @@ std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     if (!readDepth(state, *resolved, part)) return unresolvedDepth;
     part.offPlace += pushedBack.x;
     part.step *= 1.0 + pushedBack.y; // of which depthBufferShadow() allows for a few
-    const DrawnError drawn = drawnError(frame.clipFromScene, part.viewportWidth, rounding, frame.scene->longestSide());
+    const DrawnError drawn = drawnError(frame.clipFromScene, toGlm(state.getProjectionMatrix()), part.viewportWidth,
+                                        rounding, frame.scene->longestSide());
     part.drawnDepth = drawn.depth;
     part.drawnPixels = drawn.pixels;
     pass.stencilEqual(bit, 0, bit);

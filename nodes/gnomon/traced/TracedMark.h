@@ -20,7 +20,7 @@ public:
     glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
 
     /// Rays find the surface within what a depth may mean.
-    bool placesByDepth() const override { return false; }
+    double depthSteps() const override { return 0.0; }
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
 
 protected:

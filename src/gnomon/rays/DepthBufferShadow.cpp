@@ -17,16 +17,22 @@ constexpr double stepsOff = 4.0;
 constexpr double snapsOff = 2.0;
 constexpr double coarse = 0.125; // of a pixel: depths that are off by more show at edges
 
+/// Change of depth from one pixel to the next. On the surface that is seen it is that to one of the neighbours: where two
+/// faces meet, to either.
+struct Slope {
+    double least = 0.0, most = 0.0;
+};
+
 /// How far a depth may be from that of the surface, in depth.
 struct DepthError {
-    double least = 0.0; ///< by the buffer's steps and the rasteriser's places.
-    double most = 0.0;  ///< by the floats of the vertices, too.
+    double least = 0.0; ///< by the buffer's steps and the rasteriser's places, on the flatter surface.
+    double most = 0.0;  ///< by the floats of the vertices, too, and on the steeper one.
 };
 
 /// Where a pixel's surface is, by what its depth may mean.
 struct Span {
     glm::dvec3 nearest;  ///< to the eye, by all that is known.
-    glm::dvec3 before;   ///< the same by what the vertices' floats do not add.
+    glm::dvec3 before;   ///< the same by the least error.
     glm::dvec3 farthest; ///< from the eye.
     double pixel = 0.0;  ///< squared size of a pixel there.
 
@@ -54,8 +60,7 @@ private:
     double depth(int x, int y) const {
         return double(_picture.depths[std::size_t(y) * std::size_t(_picture.width) + std::size_t(x)]);
     }
-    /// Change of depth from one pixel to the next, on the surface that is seen: to the nearer neighbour in depth.
-    double slope(int x, int y, int dx, int dy) const;
+    Slope slope(int x, int y, int dx, int dy) const;
     /// Homogeneous, scene: a point of a pixel's ray. In these coordinates all of the ray is linear in depth.
     glm::dvec4 unproject(int x, int y, double depth) const;
     DepthError error(int x, int y, double perDistance) const;
@@ -71,15 +76,16 @@ private:
     const glm::dvec4 _light;
 };
 
-double DepthTracer::slope(int x, int y, int dx, int dy) const {
-    double least = 1.0;
+Slope DepthTracer::slope(int x, int y, int dx, int dy) const {
+    Slope slope{1.0, 0.0};
     for (const int side : {-1, 1}) {
         const int u = x + side * dx, v = y + side * dy;
         if (u < 0 || v < 0 || u >= _picture.width || v >= _picture.height) continue;
         if (!(depth(u, v) < 1.0)) continue;
-        least = std::min(least, std::abs(depth(u, v) - depth(x, y)));
+        const double change = std::abs(depth(u, v) - depth(x, y));
+        slope = {std::min(slope.least, change), std::max(slope.most, change)};
     }
-    return least < 1.0 ? least : 0.0;
+    return {std::min(slope.least, slope.most), slope.most};
 }
 
 glm::dvec4 DepthTracer::unproject(int x, int y, double depth) const {
@@ -92,11 +98,11 @@ glm::dvec3 cartesian(const glm::dvec4& point) { return glm::dvec3(point) * (1.0 
 
 /// @param perDistance  1 / w in clip space.
 DepthError DepthTracer::error(int x, int y, double perDistance) const {
-    const double slopes = slope(x, y, 1, 0) + slope(x, y, 0, 1);
-    DepthError result;
-    result.least = stepsOff * _picture.step + (snapsOff * _picture.subpixel + _picture.offPlace) * slopes;
-    result.most = result.least + (_picture.drawnDepth + _picture.drawnPixels * slopes) * std::abs(perDistance);
-    return result;
+    const Slope across = slope(x, y, 1, 0), up = slope(x, y, 0, 1);
+    const double least = across.least + up.least, most = across.most + up.most;
+    const double steps = stepsOff * _picture.step, places = snapsOff * _picture.subpixel + _picture.offPlace;
+    const double drawn = (_picture.drawnDepth + _picture.drawnPixels * most) * std::abs(perDistance);
+    return {steps + places * least, steps + places * most + drawn};
 }
 
 Span DepthTracer::span(int x, int y) const {
