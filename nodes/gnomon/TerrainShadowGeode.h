@@ -33,8 +33,8 @@ struct TerrainShadows;
 /// - HULL, the default: casts the silhouette of each convex part, with a ray for each corner above the ground. A house
 ///   takes four triangles. If the rays fail, for example at cliffs and holes, it drapes; diagnose() says how often.
 /// - DRAPE: cuts the ground's triangles by the caster's shadow, within setError() in plan.
-/// - BOX: the bounding-box method of ARL-TN-156, as published. Wrong for casters whose outline
-///   differs from that of their box along the axes; diagnose() counts them in each light.
+/// - BOX: the bounding-box method of ARL-TN-156, as published. It is wrong for casters whose outline differs from that of
+///   their box along the axes; diagnose() counts them in each light.
 /// Cost
 /// - Shadows are computed on all cores, only for tiles in view, and kept.
 /// - Each frame: 4 to 10 triangles a house on a regular grid, 20 elsewhere, stencil only.

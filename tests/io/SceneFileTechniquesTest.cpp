@@ -15,8 +15,13 @@ namespace {
 using test::childOf;
 using test::SceneFile;
 
+/// @param from  height of its lower face.
+test::Scene boxOverGround(double from) {
+    return test::groundScene({test::box({-1.0, -1.0, from}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+}
+
 TEST_P(SceneFile, DrawsTheSameTracedPictureOnceLoaded) {
-    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    test::Scene scene = boxOverGround(0.5);
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     technique->setReceiver({test::find(*scene.content, "ground")});
     scene.addShadow(technique);
@@ -24,7 +29,7 @@ TEST_P(SceneFile, DrawsTheSameTracedPictureOnceLoaded) {
 }
 
 TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
-    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    test::Scene scene = boxOverGround(0.5);
     const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
     technique->setSize(20); // so that its own size and filter show
     technique->setFilter(gnomon::ShadowMapTechnique::FINE);
@@ -35,8 +40,7 @@ TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
 TEST_P(SceneFile, DrawsTheSamePicturesOnTerrainOnceLoaded) {
     for (const auto method :
          {gnomon::TerrainShadowGeode::HULL, gnomon::TerrainShadowGeode::DRAPE, gnomon::TerrainShadowGeode::BOX}) {
-        test::Scene scene =
-            test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+        test::Scene scene = boxOverGround(0.0);
         const osg::ref_ptr<gnomon::TerrainShadowGeode> technique = new gnomon::TerrainShadowGeode;
         technique->setMethod(method);
         technique->setReceiver({test::find(*scene.content, "ground")});
@@ -46,7 +50,7 @@ TEST_P(SceneFile, DrawsTheSamePicturesOnTerrainOnceLoaded) {
 }
 
 TEST_P(SceneFile, DrawsTheSameAutomaticPictureOnceLoaded) {
-    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    test::Scene scene = boxOverGround(0.5);
     const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
     technique->setError(0.2);
     scene.addShadow(technique);
@@ -110,7 +114,7 @@ TEST_P(SceneFile, KeepsTheViewOfVolumesAndTheirPicture) {
     const osg::ref_ptr<gnomon::ShadowVolumeTechnique> technique = new gnomon::ShadowVolumeTechnique;
     technique->setView(gnomon::ShadowVolumeTechnique::VOLUMES);
     EXPECT_EQ(test::throughFile(*technique, kind())->getView(), gnomon::ShadowVolumeTechnique::VOLUMES);
-    test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.5}, {1.0, 1.0, 2.0})}, 8.0, {1.0, 0.3, 1.0, 0.0});
+    test::Scene scene = boxOverGround(0.5);
     scene.addShadow(technique);
     expectSamePictureOnceLoaded(scene);
 }

@@ -28,7 +28,8 @@ struct MapQuality {
     Map::Edges edges;
     EdgeFilter edge;
 };
-/// Spread: of hard edges at random; of smooth ones on the tuning scenes of gnomonchart. Pixel: of a sphere and a cube on a ground, with small texels.
+/// Spread: of hard edges at random; of smooth ones on the tuning scenes of gnomonchart. Pixel: of a sphere and a cube on a
+/// ground, with small texels.
 constexpr MapQuality qualities[] = {
     {Map::NEAREST, Map::HARD, {0.51, 0.42, 0.25}},  {Map::BILINEAR, Map::HARD, {0.41, 0.41, 1.0}},
     {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.25, 0.36, 1.0}},

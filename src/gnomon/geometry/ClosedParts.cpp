@@ -197,9 +197,10 @@ ClosedParts closedParts(const glm::vec3* positions, std::size_t vertexCount, con
     const std::vector<unsigned> first =
         overSeams && open.size() <= mostOpenEdges ? withoutSeams(endsOf(open), positions, vertexCount)
                                                   : std::vector<unsigned>();
-    for (unsigned& corner : corners)
-        if (!first.empty()) corner = first[corner];
-    if (!first.empty()) open = openEdges(corners);
+    if (!first.empty()) {
+        for (unsigned& corner : corners) corner = first[corner];
+        open = openEdges(corners);
+    }
     Parts(positions, vertexCount, std::move(corners), open).describe(result);
     return result;
 }

@@ -19,16 +19,9 @@ struct Weights {
     std::int8_t facing, edgeOn, turned;
 };
 
-bool holds(const Part& part, const glm::dvec4& light) {
-    if (light.w == 0.0) return false;
-    const glm::dvec3 at(light);
-    return glm::all(glm::greaterThanEqual(at, glm::dvec3(part.low))) &&
-           glm::all(glm::lessThanEqual(at, glm::dvec3(part.high)));
-}
-
 /// What a lamp lies in, as in a ceiling, takes no light from it.
 Weights weightsOf(const Part& part, const glm::dvec4& light) {
-    if (holds(part, light)) return {1, 0, -1};
+    if (light.w != 0.0 && part.boundsHold(glm::dvec3(light))) return {1, 0, -1};
     if (!part.closed) return {1, 1, -1};
     return part.inward ? Weights{0, 0, -1} : Weights{1, 1, 0};
 }

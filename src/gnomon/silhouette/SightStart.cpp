@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,12 +40,6 @@ bool areApartFromLamp(const glm::dvec3& eye, const SilhouetteMesh::Part& part, c
     if (eyeAway < away - radius) return true;
     const double cosine = glm::dot(to, eye - lamp) / (away * eyeAway);
     return std::acos(std::clamp(cosine, -1.0, 1.0)) > std::asin(radius / away);
-}
-
-/// Of the part's bounds.
-bool isIn(const SilhouetteMesh::Part& part, const glm::dvec3& place) {
-    return glm::all(glm::lessThanEqual(glm::dvec3(part.low), place)) &&
-           glm::all(glm::lessThanEqual(place, glm::dvec3(part.high)));
 }
 
 struct Triangle {
@@ -131,8 +124,8 @@ std::optional<int> volumesHolding(const SightStart& start, const SilhouetteMesh&
 bool mayShowBack(const SightStart& start, const SilhouetteMesh& mesh, const ShadowVolumes& volumes, std::size_t index,
                  bool mayBeCut) {
     const SilhouetteMesh::Part& part = mesh.parts[index];
-    const bool outside = part.closed && !mayBeCut && !isIn(part, start.eye);
-    if (outside && (volumes.light.w == 0.0 || !isIn(part, glm::dvec3(volumes.light)))) return false;
+    const bool outside = part.closed && !mayBeCut && !part.boundsHold(start.eye);
+    if (outside && (volumes.light.w == 0.0 || !part.boundsHold(glm::dvec3(volumes.light)))) return false;
     for (std::size_t i = part.firstTriangle; i < std::size_t(part.firstTriangle) + part.triangles; ++i) {
         if (outside && (volumes.weights[i] > 0) != part.inward) continue; // the light is outside of it, too
         const glm::dvec4 plane(mesh.planeX[i], mesh.planeY[i], mesh.planeZ[i], mesh.planeD[i]);

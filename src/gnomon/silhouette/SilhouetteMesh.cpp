@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -100,9 +101,9 @@ std::vector<unsigned> openEnds(const Sides& sides, std::size_t vertices) {
 /// @return true if there are any seams.
 bool closeSeams(const Sides& sides, const std::vector<glm::vec3>& vertices, std::vector<unsigned>& places) {
     const std::vector<unsigned> first = withoutSeams(openEnds(sides, vertices.size()), vertices.data(), vertices.size());
-    for (unsigned& place : places)
-        if (!first.empty()) place = first[place];
-    return !first.empty();
+    if (first.empty()) return false;
+    for (unsigned& place : places) place = first[place];
+    return true;
 }
 
 /// Sets of triangles, of which two can be joined.
@@ -271,6 +272,10 @@ std::vector<Part> putInOrder(std::vector<Part> parts, std::vector<unsigned>& par
 }
 
 } // namespace
+
+bool SilhouetteMesh::Part::boundsHold(const glm::dvec3& place) const {
+    return glm::all(glm::lessThanEqual(glm::dvec3(low), place)) && glm::all(glm::lessThanEqual(place, glm::dvec3(high)));
+}
 
 SilhouetteMesh::SilhouetteMesh(const glm::vec3* positions, std::size_t count, const unsigned* given,
                                std::size_t cornerCount) {

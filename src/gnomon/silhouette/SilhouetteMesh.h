@@ -9,7 +9,8 @@ namespace gnomon {
 
 /// Triangles as shadow volumes need them: which share an edge, in connected parts. Found once a mesh, for all lights.
 ///
-/// Vertices of exactly the same position are one, and those along open edges that differ by rounding. Any mesh will do: open, of mixed winding, with edges of three triangles.
+/// Vertices of exactly the same position are one, and those along open edges that differ by rounding. Any mesh will do:
+/// open, of mixed winding, with edges of three triangles.
 /// Triangles with two corners in one place are left out: nothing is lost, for their edges cancel.
 ///
 /// Cost
@@ -30,6 +31,8 @@ struct SilhouetteMesh {
         bool closed;         ///< each edge is passed as often one way as the other.
         bool inward;         ///< closed, and turned inside out.
         glm::vec3 low, high; ///< bounds.
+
+        bool boundsHold(const glm::dvec3& place) const;
     };
 
     SilhouetteMesh() = default;
