@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/auto/AutoChooser.h>
+#include <gnomon/auto/FlatReceivers.h>
 
 #include <OpenThreads/ScopedLock>
 
@@ -193,7 +194,15 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                    options.error,
                    options.time};
     if (isDue(choice, now, view, receiver)) decide(choice, now, view, receiver, options);
-    return {_inner.of(choice.candidate, receiver, _round), choice.cause, isMeasured(choice)};
+    return {_inner.of(choice.candidate, receiver, _round), choice.cause, surfacesOf(choice.candidate, view),
+            isMeasured(choice)};
+}
+
+/// Several planes are several jobs, none of which knows all.
+std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(const AutoCandidate& candidate, const AutoView& view) {
+    const bool relit = view.frame.group->getComposite() == ShadowCasterGroup::RELIGHT;
+    if (!relit || candidate.kind != AutoCandidate::Kind::Planar || candidate.planes.size() != 1) return nullptr;
+    return std::make_shared<const LeafSet>(findFlatLeaves(view, _known.bodies));
 }
 
 /// A few frames after a decision, and one now and then while things move: measuring waits for OpenGL. A map that another

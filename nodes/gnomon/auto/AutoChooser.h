@@ -24,6 +24,7 @@ public:
     struct Drawn {
         osg::ref_ptr<const ShadowTechnique> technique; ///< null: no shadow is drawn.
         std::string cause;                             ///< for ShadowTechnique::report(): the budget cannot be kept.
+        std::shared_ptr<const LeafSet> surfaces; ///< see MarkJob::surfaces.
         bool timed = false; ///< this frame is measured: prepared() wants to know how long its cull took.
     };
     Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
@@ -81,6 +82,7 @@ private:
         std::shared_ptr<std::atomic<double>> taken = std::make_shared<std::atomic<double>>(0.0);
     };
     Choice& find(const AutoView& view);
+    std::shared_ptr<const LeafSet> surfacesOf(const AutoCandidate& candidate, const AutoView& view);
     bool isMeasured(const Choice& choice) const;
     bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
     void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver,

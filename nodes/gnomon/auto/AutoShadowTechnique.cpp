@@ -62,6 +62,7 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
     const double from = drawn.timed ? processorMilliseconds() : 0.0;
     const std::vector<osg::ref_ptr<MarkJob>> jobs = drawn.technique->prepare(here, light, casters);
     if (drawn.timed) _chooser->prepared(view.stage, light.number, processorMilliseconds() - from);
+    for (const osg::ref_ptr<MarkJob>& job : jobs) job->surfaces = drawn.surfaces;
     for (const std::string& cause : causesOf(*drawn.technique)) report(view.frameNumber, cause);
     return jobs;
 }

@@ -66,10 +66,10 @@ double trianglesOf(const osg::Drawable& drawable) {
     return triangles;
 }
 
-double trianglesWithin(const ViewFrame& frame, const ScreenRect& bounds) {
+double trianglesWithin(const std::vector<const osgUtil::RenderLeaf*>& leaves, const ScreenRect& bounds) {
     double triangles = 0.0;
     TouchTest touches(bounds);
-    for (const osgUtil::RenderLeaf* leaf : frame.seen)
+    for (const osgUtil::RenderLeaf* leaf : leaves)
         if (touches(*leaf)) triangles += trianglesOf(*leaf->_drawable);
     return triangles;
 }

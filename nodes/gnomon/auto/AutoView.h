@@ -37,7 +37,7 @@ std::string whyCutOut(const CasterDrawables& casters);
 double trianglesOf(const osg::Drawable& drawable);
 
 /// Triangles of what the view would draw again where marks are within these bounds.
-double trianglesWithin(const ViewFrame& frame, const ScreenRect& bounds);
+double trianglesWithin(const std::vector<const osgUtil::RenderLeaf*>& leaves, const ScreenRect& bounds);
 
 /// Pixels within these bounds.
 double pixelsOf(const ViewFrame& frame, const ScreenRect& bounds);

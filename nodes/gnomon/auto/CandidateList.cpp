@@ -37,6 +37,7 @@ constexpr MapQuality qualities[] = {
 };
 constexpr double callsAMap = 14.0;     // to switch to its framebuffer and back, and to fit it
 constexpr double callsAPiece = 0.06;   // to see that it has not changed
+constexpr double callsALeaf = 0.1;     // to draw it again
 constexpr double facedAnObject = 0.03; // to ask a triangle whether it faces the light; see ShadowWork::objects
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
 
@@ -103,8 +104,14 @@ private:
         _compose.calls = 2.0 + callsAPiece * double(_view.casters.list.size());
         _compose.filled = _pixels;
         if (blends()) return;
-        _compose.relit = trianglesWithin(_view.frame, *_one.bounds);
-        _compose.calls += 0.1 * double(_view.frame.seen.size());
+        _compose.relit = trianglesWithin(_view.frame.seen, *_one.bounds);
+        _compose.calls += callsALeaf * double(_view.frame.seen.size());
+    }
+
+    /// What is left of measure() if these leaves alone are drawn again; see MarkJob::surfaces.
+    void relightAlone(const LeafSet& leaves, ShadowWork& work) const {
+        work.relit = trianglesWithin({leaves.begin(), leaves.end()}, *_one.bounds);
+        work.calls -= callsALeaf * double(_view.frame.seen.size() - leaves.size());
     }
 
     void addPlanar(const FlatReceivers& flat) {
@@ -115,6 +122,7 @@ private:
         planar.error = sampledEdge;
         const double planes = std::max(1.0, double(flat.planes.size()));
         planar.still = _compose;
+        if (!blends() && planar.planes.size() == 1) relightAlone(flat.leaves, planar.still);
         planar.still.calls += 2.0 * planes;
         planar.still.triangles = planes * _casters;
         planar.still.texels = _pixels; // stencil and depth alone, as in a map
