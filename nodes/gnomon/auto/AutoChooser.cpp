@@ -26,6 +26,8 @@ constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on 
 /// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
 /// small one is taken.
 constexpr double rarely = 0.02;
+constexpr double doubt = 2.0;       // predicted times may be off by this factor
+constexpr unsigned trialFrames = 7; // until a candidate's time is known: see isMeasured(); draw may be a frame behind
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string rounded(double number) {
@@ -128,7 +130,7 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
                      followed(choice.moving.view, choice.motion.view, choice.seen)};
     choice.since = rested ? 0 : choice.since + (moves || flies);
     choice.last = now;
-    if (!now.asks(choice.decided) || choice.learnt != _costs->generation()) return true;
+    if (!now.asks(choice.decided) || (!choice.incumbent && choice.learnt != _costs->generation())) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
     if (choice.seen == firstLook && isMoving(choice.moving)) return true; // the first decision took all to stand still
     const bool cameToRest = !isMoving(choice.moving) && isMoving(choice.movingThen);
@@ -140,6 +142,9 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
                          const AutoShadowOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     const ChoiceBudget budget = budgetOf(options);
+    const bool tried = choice.incumbent.has_value();
+    if (tried) choice.candidate = *choice.incumbent;
+    choice.incumbent.reset();
     choice.learnt = _costs->generation();
     const AutoCosts costs = _costs->now();
     const CandidateList list = listCandidates(view, receiver, budget.error, _known);
@@ -162,14 +167,50 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     decision.keepsBudget = reason != ChoiceReason::ErrorTooSmall && reason != ChoiceReason::TimeTooShort;
     decision.candidates = judgedOf(list.all, costs, expected);
     decision.changes += changes ? 1 : 0;
-    if (changes) choice.taken = std::make_shared<std::atomic<double>>(0.0);
+    if (changes || tried) choice.taken = std::make_shared<std::atomic<double>>(0.0);
     ++decision.decisions;
     choice.cause = list.nothing.empty() ? causeOf(reason, budget, decision.chosen) : "";
     choice.decided = choice.last = now;
     choice.movingThen = choice.moving;
     choice.frames = 0;
+    findRivals(choice, list.all, judged, budget, index);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     choice.patience = std::max(leastPatience, unsigned(std::min(took.count() / decisionTime, mostPatience)));
+}
+
+/// Candidates that would be drawn if they took less than is thought. Each kind is tried once. What made the prediction too
+/// high for the one that is drawn may be a part that all share.
+void AutoChooser::findRivals(Choice& choice, const std::vector<AutoCandidate>& all,
+                             const std::vector<ChoiceCandidate>& judged, const ChoiceBudget& budget,
+                             std::size_t chosen) const {
+    choice.rivals.clear();
+    if (!_costs->areMeasured()) return;
+    choice.tried[std::size_t(all[chosen].kind)] = true; // it is measured as long as it is drawn
+    const double shared = std::min(1.0, _costs->now().factors[std::size_t(all[chosen].kind)]);
+    const bool flies = choice.moving.view > 0.0; // then maps cannot be measured
+    for (std::size_t kind = 0; kind < AutoCosts::kinds; ++kind) {
+        if (choice.tried[kind] || (flies && AutoCandidate::Kind(kind) == AutoCandidate::Kind::Map)) continue;
+        std::vector<ChoiceCandidate> hopeful = judged;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (std::size_t(all[i].kind) == kind) hopeful[i].time *= shared / doubt;
+        const auto best = chooseCandidate(hopeful, budget, chosen);
+        if (best && std::size_t(all[best->index].kind) == kind) choice.rivals.push_back(all[best->index]);
+    }
+}
+
+bool AutoChooser::isTrialDue(const Choice& choice) const {
+    return choice.frames >= trialFrames && (choice.incumbent || !choice.rivals.empty());
+}
+
+void AutoChooser::tryRival(Choice& choice) const {
+    if (!choice.incumbent) choice.incumbent = choice.candidate;
+    choice.candidate = choice.rivals.back();
+    choice.rivals.pop_back();
+    choice.tried[std::size_t(choice.candidate.kind)] = true;
+    choice.decision.chosen = choice.candidate.judged(_costs->now(), choice.moving);
+    choice.decision.reason = "on trial for some frames, so that its time is known";
+    choice.taken = std::make_shared<std::atomic<double>>(0.0);
+    choice.frames = 0;
 }
 
 AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& receiver,
@@ -193,7 +234,10 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                    receiver,
                    options.error,
                    options.time};
-    if (isDue(choice, now, view, receiver)) decide(choice, now, view, receiver, options);
+    if (isDue(choice, now, view, receiver) || (isTrialDue(choice) && choice.rivals.empty()))
+        decide(choice, now, view, receiver, options);
+    else if (isTrialDue(choice))
+        tryRival(choice);
     return {_inner.of(choice.candidate, receiver, _round), choice.cause, surfacesOf(choice.candidate, view),
             isMeasured(choice)};
 }
