@@ -26,7 +26,7 @@ constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on 
 /// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
 /// small one is taken.
 constexpr double rarely = 0.02;
-constexpr double doubt = 2.0;       // predicted times may be off by this factor
+constexpr double doubt = 3.0;       // predicted times may be off by this factor, see VolumeForecast
 constexpr unsigned trialFrames = 7; // until a candidate's time is known: see isMeasured(); draw may be a frame behind
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
