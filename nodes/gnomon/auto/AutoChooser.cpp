@@ -189,12 +189,14 @@ void AutoChooser::findRivals(Choice& choice, const std::vector<AutoCandidate>& a
     const double shared = std::min(1.0, _costs->now().factors[std::size_t(all[chosen].kind)]);
     const bool flies = choice.moving.view > 0.0; // then maps cannot be measured
     for (std::size_t kind = 0; kind < AutoCosts::kinds; ++kind) {
-        if (choice.tried[kind] || (flies && AutoCandidate::Kind(kind) == AutoCandidate::Kind::Map)) continue;
+        if (choice.tried[kind]) continue;
         std::vector<ChoiceCandidate> hopeful = judged;
         for (std::size_t i = 0; i < all.size(); ++i)
             if (std::size_t(all[i].kind) == kind) hopeful[i].time *= shared / doubt;
         const auto best = chooseCandidate(hopeful, budget, chosen);
-        if (best && std::size_t(all[best->index].kind) == kind) choice.rivals.push_back(all[best->index]);
+        if (!best || std::size_t(all[best->index].kind) != kind) continue;
+        const AutoCandidate& rival = all[best->index];
+        if (!flies || !rival.hasMap()) choice.rivals.push_back(rival);
     }
 }
 
@@ -238,8 +240,20 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
         decide(choice, now, view, receiver, options);
     else if (isTrialDue(choice))
         tryRival(choice);
-    return {_inner.of(choice.candidate, receiver, _round), choice.cause, surfacesOf(choice.candidate, view),
+    return {sharesOf(choice.candidate, view, receiver), choice.cause, surfacesOf(choice.candidate, view),
             isMeasured(choice)};
+}
+
+std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate& candidate, const AutoView& view,
+                                                             const Selection& receiver) {
+    if (candidate.kind == AutoCandidate::Kind::Nothing) return {};
+    if (candidate.kind != AutoCandidate::Kind::Mixed) return {{_inner.of(candidate, receiver, _round), view.meshes}};
+    const CasterSplit& split = _known.splits.of(view.casters);
+    AutoCandidate volume, map = candidate;
+    volume.kind = AutoCandidate::Kind::Volume;
+    map.kind = AutoCandidate::Kind::Map;
+    return {{_inner.of(volume, receiver, _round), split.simple(view.meshes)},
+            {_inner.of(map, receiver, _round), split.dense(view.meshes)}};
 }
 
 /// Several planes are several jobs, none of which knows all.
@@ -254,7 +268,7 @@ std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(const AutoCandidate& cand
 bool AutoChooser::isMeasured(const Choice& choice) const {
     const unsigned since = choice.frames;
     const bool early = (since >= 3 && since <= 5) || (since <= 64 && since >= 8 && (since & (since - 1)) == 0);
-    const bool known = choice.candidate.kind != AutoCandidate::Kind::Map || choice.motion.view == 0.0;
+    const bool known = !choice.candidate.hasMap() || choice.motion.view == 0.0;
     return _costs->areMeasured() && choice.candidate.kind != AutoCandidate::Kind::Nothing && known &&
            (early || (isMoving(choice.moving) && since % 64 == 0 && since > 0));
 }

@@ -24,9 +24,14 @@ class AutoChooser {
 public:
     /// What draws one light's shadow in one view, in this frame.
     struct Drawn {
-        osg::ref_ptr<const ShadowTechnique> technique; ///< null: no shadow is drawn.
-        std::string cause;                             ///< for ShadowTechnique::report(): the budget cannot be kept.
-        std::shared_ptr<const LeafSet> surfaces;       ///< see MarkJob::surfaces.
+        /// A technique, and what it draws.
+        struct Share {
+            osg::ref_ptr<const ShadowTechnique> technique;
+            FrameCasters casters;
+        };
+        std::vector<Share> shares;               ///< empty: no shadow is drawn.
+        std::string cause;                       ///< for ShadowTechnique::report(): the budget cannot be kept.
+        std::shared_ptr<const LeafSet> surfaces; ///< see MarkJob::surfaces.
         bool timed = false; ///< this frame is measured: prepared() wants to know how long its cull took.
     };
     Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
@@ -87,6 +92,7 @@ private:
         std::shared_ptr<std::atomic<double>> taken = std::make_shared<std::atomic<double>>(0.0);
     };
     Choice& find(const AutoView& view);
+    std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver);
     std::shared_ptr<const LeafSet> surfacesOf(const AutoCandidate& candidate, const AutoView& view);
     bool isMeasured(const Choice& choice) const;
     bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
