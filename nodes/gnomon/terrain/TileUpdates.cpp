@@ -136,6 +136,7 @@ void TileUpdates::groundChanged() {
     _states.clear();
     _lowest = std::nullopt;
     _groundShadowsItself = std::nullopt;
+    _turn.groundChanged();
 }
 
 bool TileUpdates::isSame(const glm::dvec4& light) const {
@@ -148,7 +149,7 @@ void TileUpdates::update(const CasterTiles& town, const TileGround& ground, cons
     const bool still = isSame(light);
     if (!still) _light = light;
     if (!still || !_groundShadowsItself)
-        _groundShadowsItself = !isLightBelow(ground.found, light) && ground.found.isTurnedAway(light);
+        _groundShadowsItself = !isLightBelow(ground.found, light) && _turn.isTurnedAway(ground.found, light);
     if (!(settings == _settings)) _states.clear();
     _settings = settings;
     const std::vector<CasterTiles::Tile>& tiles = town.tiles();
