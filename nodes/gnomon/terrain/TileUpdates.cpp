@@ -44,7 +44,7 @@ PackedShadows boxShadows(const Ground& ground, const CasterTiles::Tile& tile, co
                          const glm::dvec3& origin) {
     PackedShadows found;
     found.origin = origin;
-    for (const ObjectPoints& object : tile.objects) add(found, boxShadowOf(ground, object, {}, light));
+    for (const BoxCaster& caster : tile.boxes) add(found, boxShadowOf(ground, caster, light));
     return found;
 }
 
