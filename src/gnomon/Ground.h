@@ -30,7 +30,7 @@ struct GroundRange {
 /// Whether some triangle of a ground is turned away from a light. A vertical triangle counts unless the light is in its
 /// plane.
 struct TurnedAway {
-    bool is = false;
+    bool is = false; ///< True if there is one.
     /// `is` stays as it is while the light moves by less: the change of a sun's unit direction, or a lamp's way, scene's
     /// unit.
     double until = 0.0;
