@@ -3,6 +3,8 @@
 #include <glm/vec3.hpp>
 #include <gnomon/metrics/Grid.h>
 
+#include <array>
+
 namespace gnomon::metrics {
 
 /// The truth at each pixel of one view with one light: the input that all metrics share.
@@ -20,6 +22,7 @@ struct TruthMaps {
     Picture edgeLength;           ///< Optional: metres, longest edge of the receiver's triangle.
     Mask undecided;               ///< Optional: 1 where an edge of the shadow comes so close to the pixel's centre that a
                                   ///< rasteriser may decide otherwise than T_c.
+    std::array<Mask, 4> litBeside;///< Optional: the same as T_c, of rays from places that close to the pixel's centre.
     Grid<glm::dvec3> position;    ///< Optional: metres, surface point at the pixel's centre.
     glm::dvec3 towardsLight{0.0}; ///< Optional: direction to the light, any length; zero is unknown.
     glm::dvec3 up{0.0, 0.0, 1.0}; ///< Unit vector upwards.
