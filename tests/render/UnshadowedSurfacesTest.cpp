@@ -128,10 +128,10 @@ TEST(UnshadowedSurfaces, AWallIsNamedIfTheLampIsGivenWithANegativeW) {
     EXPECT_EQ(trial.said(), leavesLit(trial, "wall"));
 }
 
-// The mast belongs to the ground's drawable. A lamp below its top is not below the ground.
+// A mast, 6 m high, belongs to the ground's drawable. The ground does not hide what is above the mast from a lamp below.
 TEST(UnshadowedSurfaces, AWallIsNamedIfTheGroundRisesAboveTheLamp) {
-    const Mesh raised = box({-4.0, -3.0, 0.5}, {-3.0, 3.0, 4.0}), mast = box({7.0, 7.0, 0.0}, {7.2, 7.2, 6.0});
-    Trial trial(node(raised, "wall"), onTerrain(gnomon::TerrainShadowOptions::HULL), {6.0, 0.0, 5.5, 1.0});
+    const Mesh high = box({-4.0, -3.0, 6.5}, {-3.0, 3.0, 9.0}), mast = box({7.0, 7.0, 0.0}, {7.2, 7.2, 6.0});
+    Trial trial(node(high, "wall"), onTerrain(gnomon::TerrainShadowOptions::HULL), {2.0, 0.0, 3.0, 1.0});
     trial.scene.content->replaceChild(find(*trial.scene.root, "ground"),
                                       node(joined({square(8.0), mast}), "ground"));
     const Causes causes = trial.named().said();
