@@ -167,8 +167,8 @@ TEST(ShadowTruth, IsUndecidedWithinASixteenthOfAPixelFromAnEdge) {
 /// sun. A plate shadows the top, and its shadow would end where the slope begins.
 TEST(ShadowTruth, IsUndecidedAtAnEdgeOfTheShadowAlongAnEdgeOfTheSurface) {
     Soup soup;
-    soup.quad({-20.0, -20.0, 0.0}, {20.0, 0.0, 0.0}, {0.0, 40.0, 0.0}); // the top
-    soup.quad({0.0, -20.0, 0.0}, {20.0, 0.0, -40.0}, {0.0, 40.0, 0.0}); // steeper than the sun, which comes from -x
+    soup.quad({-20.0, -20.0, 0.0}, {20.0, 0.0, 0.0}, {0.0, 40.0, 0.0});  // the top
+    soup.quad({0.0, -20.0, 0.0}, {20.0, 0.0, -40.0}, {0.0, 40.0, 0.0});  // steeper than the sun, which comes from -x
     soup.quad({-30.0, -20.0, 10.0}, {20.0, 0.0, 0.0}, {0.0, 40.0, 0.0}); // the plate
     constexpr int side = 20;
     constexpr double pixel = 10.0 / side;
@@ -182,8 +182,7 @@ TEST(ShadowTruth, IsUndecidedAtAnEdgeOfTheShadowAlongAnEdgeOfTheSurface) {
             if (std::abs(std::abs(pastEdge) - 1.0 / 16.0) < 1e-4) continue; // rounding
             ASSERT_FALSE(image.at(x, 7).litCentre);
             const bool isCloseBefore = pastEdge < -1e-6 && pastEdge > -1.0 / 16.0;
-            if (std::abs(pastEdge) > 1e-6)
-                ASSERT_EQ(image.at(x, 7).undecided, isCloseBefore) << x << ", " << step;
+            if (std::abs(pastEdge) > 1e-6) ASSERT_EQ(image.at(x, 7).undecided, isCloseBefore) << x << ", " << step;
             undecided += image.at(x, 7).undecided;
         }
     }
@@ -198,8 +197,7 @@ TEST(ShadowTruth, LooksAtFourPlacesBesideTheCentre) {
     constexpr double pixel = 0.5;
     const auto besideAt = [&](double hundredths) {
         const glm::dmat4 clip =
-            plan(5.0) *
-            glm::translate(glm::dmat4(1.0), glm::dvec3(0.5 * pixel - hundredths * pixel / 100.0, 0.0, 0.0));
+            plan(5.0) * glm::translate(glm::dmat4(1.0), glm::dvec3(0.5 * pixel - hundredths * pixel / 100.0, 0.0, 0.0));
         return truthOf(soup, {clip, 20, 20, {1.0, 0.0, 1.0, 0.0}}).at(10, 7).litBeside;
     };
     const std::array<bool, 4> lit{true, true, true, true}, dark{}, leftLit{true, false, true, false};

@@ -132,8 +132,7 @@ TEST(UnshadowedSurfaces, AWallIsNamedIfTheLampIsGivenWithANegativeW) {
 TEST(UnshadowedSurfaces, AWallIsNamedIfTheGroundRisesAboveTheLamp) {
     const Mesh high = box({-4.0, -3.0, 6.5}, {-3.0, 3.0, 9.0}), mast = box({7.0, 7.0, 0.0}, {7.2, 7.2, 6.0});
     Trial trial(node(high, "wall"), onTerrain(gnomon::TerrainShadowOptions::HULL), {2.0, 0.0, 3.0, 1.0});
-    trial.scene.content->replaceChild(find(*trial.scene.root, "ground"),
-                                      node(joined({square(8.0), mast}), "ground"));
+    trial.scene.content->replaceChild(find(*trial.scene.root, "ground"), node(joined({square(8.0), mast}), "ground"));
     const Causes causes = trial.named().said();
     EXPECT_EQ(std::count(causes.begin(), causes.end(), leavesLit(trial, "wall").front()), 1)
         << testing::PrintToString(causes);

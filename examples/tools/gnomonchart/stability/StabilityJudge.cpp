@@ -37,7 +37,8 @@ std::size_t wrongAwayFromEdges(const metrics::Picture& visibility, const metrics
     std::size_t wrong = 0;
     for (int y = 0; y < certain.height; ++y)
         for (int x = 0; x < certain.width; ++x)
-            wrong += certain.at(x, y) && isDecided(x, y) && metrics::isShadowed(visibility.at(x, y)) == (truth.litCentre.at(x, y) != 0) &&
+            wrong += certain.at(x, y) && isDecided(x, y) &&
+                     metrics::isShadowed(visibility.at(x, y)) == (truth.litCentre.at(x, y) != 0) &&
                      !isNearEdge(truth, x, y);
     return wrong;
 }
