@@ -152,9 +152,12 @@ TEST(StabilityRun, ARefusalIsAStatedLimit) {
 
 TEST(StabilityRun, IsTheSameFromRunToRun) {
     StabilityPlan plan = smallPlan();
-    plan.contenders = {{gnomons("map")}, {gnomons("traced")}};
+    plan.contenders = {{gnomons("map")}, {gnomons("auto")}, {gnomons("traced")}};
+    for (const char* peer : {"SoftShadowMap", "LightSpacePerspective", "ViewDependent"})
+        plan.contenders.push_back(stabilityContenders({peer}, false).front());
     const StabilityResults first = run(plan);
     plan.workers = 2;
+    unsetenv("LP_NUM_THREADS"); // nor does it matter how many threads draw
     const StabilityResults second = run(plan);
     for (std::size_t row = 0; row < first.rows.size(); ++row) {
         for (std::size_t place = 0; place < first.rows[row].cells.size(); ++place)
@@ -162,6 +165,16 @@ TEST(StabilityRun, IsTheSameFromRunToRun) {
         EXPECT_EQ(first.rows[row].flicker.energy, second.rows[row].flicker.energy);
         EXPECT_TRUE(first.rows[row].flicker.energy);
     }
+}
+
+/// Whatever the environment says, `auto` measures no costs.
+TEST(StabilityRun, HasFixedCosts) {
+    unsetenv("GNOMON_AUTO_RATES");
+    const Cells cells = cellsOf(badContender("tells", [] {
+        const char* rates = std::getenv("GNOMON_AUTO_RATES");
+        throw std::invalid_argument(rates ? rates : "none");
+    }));
+    EXPECT_EQ(cells[1].message, "fixed");
 }
 
 TEST(StabilityRun, EndsWhenItIsToldTo) {
