@@ -222,8 +222,8 @@ std::optional<CostRatios> measureCosts(osg::RenderInfo& renderInfo) {
         leaveDefaults(state);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
         Pieces pieces(renderInfo, target);
-        const auto ratio = [&](void (Pieces::*piece)(), double units, double unit) {
-            return drawn(state, pieces, piece) / units / unit;
+        const auto ratio = [&](void (Pieces::*piece)(), double units, double byReference) {
+            return drawn(state, pieces, piece) / units / byReference;
         };
         result.emplace();
         result->triangle = ratio(&Pieces::triangle, triangles, reference.triangle);
