@@ -97,8 +97,9 @@ bool AutoChooser::Seen::hasSameView(const Seen& other) const {
 }
 
 bool AutoChooser::Seen::asks(const Seen& other) const {
-    return pixels == other.pixels && composite == other.composite && dark == other.dark && faint == other.faint &&
-           receiver == other.receiver && error == other.error && time == other.time &&
+    return pixels == other.pixels && composite == other.composite && reservedBits == other.reservedBits &&
+           lights == other.lights && dark == other.dark && faint == other.faint && receiver == other.receiver &&
+           error == other.error && time == other.time &&
            light.inGroup.w() == other.light.inGroup.w() && casters->list.size() == other.casters->list.size();
 }
 
@@ -231,6 +232,8 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                    &view.casters,
                    fingerprintOf(view.frame.seen),
                    view.frame.group->getComposite(),
+                   view.frame.options.reservedStencilBits,
+                   view.frame.lights,
                    view.frame.dark,
                    isFaint(view),
                    receiver,
@@ -256,10 +259,8 @@ std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate
             {_inner.of(map, receiver, _round), split.dense(view.meshes)}};
 }
 
-/// Several planes are several jobs, none of which knows all.
 std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(const AutoCandidate& candidate, const AutoView& view) {
-    const bool relit = view.frame.group->getComposite() == ShadowCasterGroup::RELIGHT;
-    if (!relit || candidate.kind != AutoCandidate::Kind::Planar || candidate.planes.size() != 1) return nullptr;
+    if (!relightsAlone(candidate, view)) return nullptr;
     return std::make_shared<const LeafSet>(findFlatLeaves(view, _known.bodies));
 }
 

@@ -58,6 +58,8 @@ private:
         osg::ref_ptr<const CasterDrawables> casters;
         std::uint64_t leaves = 0;
         ShadowCasterGroup::Composite composite = ShadowCasterGroup::RELIGHT;
+        unsigned reservedBits = 0;
+        std::size_t lights = 1;
         float dark = 0.0f;
         bool faint = false;
         Selection receiver;
