@@ -99,8 +99,8 @@ bool AutoChooser::Seen::hasSameView(const Seen& other) const {
 bool AutoChooser::Seen::asks(const Seen& other) const {
     return pixels == other.pixels && composite == other.composite && reservedBits == other.reservedBits &&
            lights == other.lights && dark == other.dark && faint == other.faint && receiver == other.receiver &&
-           error == other.error && time == other.time &&
-           light.inGroup.w() == other.light.inGroup.w() && casters->list.size() == other.casters->list.size();
+           error == other.error && time == other.time && light.inGroup.w() == other.light.inGroup.w() &&
+           casters->list.size() == other.casters->list.size();
 }
 
 AutoChooser::Choice& AutoChooser::find(const AutoView& view) {

@@ -62,9 +62,8 @@ CasterSplit& CasterSplits::of(const CasterDrawables& all) {
     known->lastCall = ++_calls;
     CasterSplit& split = *known->split;
     split.follow(all);
-    _splits.dropIf([this](const Entry& entry) {
-        return entry.split->isRetired() && _calls - entry.lastCall > keptCalls;
-    });
+    _splits.dropIf(
+        [this](const Entry& entry) { return entry.split->isRetired() && _calls - entry.lastCall > keptCalls; });
     return split;
 }
 
