@@ -106,6 +106,7 @@ metrics::TruthMaps emptyMaps(int width, int height) {
     metrics::TruthMaps maps;
     maps.lit = maps.blockerDistance = maps.facing = maps.edgeLength = Picture(width, height);
     maps.litCentre = maps.undecided = metrics::Mask(width, height);
+    maps.litBeside.fill(maps.undecided);
     maps.receiver = maps.blocker = Grid<int>(width, height);
     maps.position = Grid<glm::dvec3>(width, height);
     return maps;
@@ -124,6 +125,7 @@ metrics::TruthMaps mapsOf(const TruthImage& truth, const SceneTriangles& triangl
         if (!pixel.seen()) continue;
         maps.litCentre.cells[i] = pixel.litCentre;
         maps.undecided.cells[i] = pixel.undecided;
+        for (std::size_t k = 0; k < maps.litBeside.size(); ++k) maps.litBeside[k].cells[i] = pixel.litBeside[k];
         maps.blockerDistance.cells[i] = pixel.blockerDistance;
         maps.receiver.cells[i] = idOf(triangles, pixel.receiver);
         maps.blocker.cells[i] = idOf(triangles, pixel.blocker);

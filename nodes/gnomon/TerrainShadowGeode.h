@@ -53,6 +53,7 @@ struct TerrainShadows;
 /// - Far from a very close near plane, depths are too coarse to place shadows off a regular grid. diagnose() names such a
 ///   caster.
 /// - Casters stand on or in the ground. HULL shows no light below an overhang.
+/// - HULL leaves out corners of round casters, for at most 1 % of their shadow's area in plan.
 /// - BOX spans rough ground between its eleven points, and closes openings in a box.
 /// - Shadows are found on the terrain's finest level of detail. On a coarser one they lie beside their places, by the
 ///   difference of heights over the light's tangent. diagnose() says so if one is drawn.

@@ -7,6 +7,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+
+#include <array>
 #include <vector>
 
 namespace gnomon {
@@ -23,14 +25,17 @@ struct TruthView {
 struct TruthPixel {
     unsigned receiver = RayHit::none; ///< Triangle seen at the pixel's centre; `none` in the background.
     bool litCentre = false;           ///< T_c: true if the surface at the pixel's centre is lit.
-    bool undecided = false;           ///< True if an edge of the shadow comes within 1/16 px of the centre: a rasteriser,
-                                      ///< or a depth buffer's step, may decide otherwise than T_c. Not of soft shadows.
-    float lit = 0.0f;                 ///< T_a: lit share of the 16 rays, background rays left out. 0 without any.
-    glm::dvec3 position{0.0};         ///< Surface point at the centre, world.
-    glm::dvec3 normal{0.0};           ///< Geometric unit normal towards the eye.
-    double facing = 0.0;              ///< N_g·L: cosine between normal and light. <= 0 faces away.
-    unsigned blocker = RayHit::none;  ///< First triangle of the casters on the way to the light.
-    double blockerDistance = 0.0;     ///< t_b: distance to the blocker, world units. 0 without a blocker.
+    bool undecided = false; ///< True if an edge of the shadow comes within 1/16 px of the centre, in the picture
+                            ///< or in the plane of the surface: a rasteriser, or a depth buffer's step, may
+                            ///< decide otherwise than T_c. Not of soft shadows.
+    std::array<bool, 4> litBeside{}; ///< T at four places diagonally beside the centre, 1/16 px along each axis. Not of
+                                     ///< soft shadows.
+    float lit = 0.0f;                ///< T_a: lit share of the 16 rays, background rays left out. 0 without any.
+    glm::dvec3 position{0.0};        ///< Surface point at the centre, world.
+    glm::dvec3 normal{0.0};          ///< Geometric unit normal towards the eye.
+    double facing = 0.0;             ///< N_g·L: cosine between normal and light. <= 0 faces away.
+    unsigned blocker = RayHit::none; ///< First triangle of the casters on the way to the light.
+    double blockerDistance = 0.0;    ///< t_b: distance to the blocker, world units. 0 without a blocker.
 
     /// True if the pixel's centre shows a surface.
     bool seen() const { return receiver != RayHit::none; }
@@ -63,7 +68,8 @@ struct GNOMON_EXPORT TruthImage {
 /// @param view     the view and the light.
 ///
 /// Cost
-/// - 34 rays a pixel, and 8 more where an edge runs through it: seconds for a megapixel.
+/// - 34 rays a pixel, 8 more where an edge of a shadow runs through it, and 4 more where the surface bends in it:
+///   seconds for a megapixel.
 /// Needs
 /// - No OpenGL.
 /// Limits

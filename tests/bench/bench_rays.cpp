@@ -89,7 +89,11 @@ void measure(const gnomon::CasterLayers& casters, const gnomon::ShadowTechnique&
 
 } // namespace
 
-int main() {
+int main(int argc, char**) {
+    if (argc > 1) {
+        std::puts("bench_rays casts rays in a town and says how many a second. It takes no options.");
+        return 2;
+    }
     const osg::ref_ptr<gnomon::ShadowCasterGroup> group = townGroup();
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     group->addChild(technique);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -12,16 +13,19 @@ namespace {
 
 using namespace gnomon::examples;
 
-/// A technique in a scene at a value.
-StabilityRow measured(const std::string& scene, double value, const std::string& technique = "map", int height = 120) {
+StabilityRow measured(const std::string& scene, double value, const StabilityContender& contender, int height) {
     StabilityPlan plan;
     plan.scenes = stabilityScenes(std::vector<std::string>{scene});
     plan.scenes[0].values = {value};
-    plan.contenders = stabilityContenders({technique}, false);
-    plan.contenders.resize(1);
+    plan.contenders = {contender};
     plan.width = 4 * height / 3;
     plan.height = height;
     return runStability(plan, [](std::size_t, const std::string&) { return true; }).rows.at(0);
+}
+
+/// A technique in a scene at a value.
+StabilityRow measured(const std::string& scene, double value, const std::string& technique = "map", int height = 120) {
+    return measured(scene, value, stabilityContenders({technique}, false).front(), height);
 }
 
 /// A quad of pixels over two faces has the slope of neither.
@@ -31,6 +35,25 @@ TEST(MendedFaults, MapHasNoSpecksWhereTwoFacesMeet) {
         EXPECT_EQ(row.cells[0].everywhere.wrong, 0u) << scene;
         EXPECT_TRUE(row.cells[0].inBudget()) << scene;
     }
+}
+
+/// Shadows thinner than a pixel, and shadows' edges along the edges of faces. A picture of one ray a pixel is no better.
+TEST(MendedFaults, MapAndAutoAreAsGoodAsARayAPixelWhereShadowsAreThin) {
+    for (const auto& [scene, value, technique] : {std::tuple("S4", 0.0, "map"),
+                                                  {"S4", 90.0, "map"},
+                                                  {"S8", 3.0, "map"},
+                                                  {"V6", 100.0, "map"},
+                                                  {"V6", 100.0, "auto"},
+                                                  {"S13", 256.0, "auto"}}) {
+        const StabilityRow row = measured(scene, value, technique);
+        EXPECT_EQ(row.cells[0].everywhere.wrong, 0u) << scene << ", " << technique;
+        EXPECT_TRUE(row.cells[0].inBudget()) << scene << ", " << technique;
+    }
+}
+
+TEST(MendedFaults, APictureWithoutShadowsIsOutOfItsBudgetThere) {
+    for (const auto& [scene, value] : {std::pair("S4", 0.0), {"S4", 90.0}, {"S8", 3.0}, {"V6", 100.0}, {"S13", 256.0}})
+        EXPECT_FALSE(measured(scene, value, StabilityContender{plainContender()}, 120).cells[0].inBudget()) << scene;
 }
 
 /// Rays began within the house where a pixel's neighbour is on another face; and under all that is seen, for OpenGL's floats

@@ -155,6 +155,29 @@ TEST(StabilityJudge, HasTheFloorOfAPictureOfRays) {
     EXPECT_TRUE(judgement.inBudget());
 }
 
+/// One that a place 1/16 px beside the centre sees is in the picture of another ray.
+TEST(StabilityJudge, HasTheFloorOfTheWorstRayBesideTheCentre) {
+    metrics::TruthMaps truth = halfShadowed();
+    truth.litBeside.fill(truth.litCentre);
+    const auto floorNow = [&] {
+        const metrics::PixelSets sets = metrics::pixelSets(truth, centreRays());
+        return judge(centreRays(), truth, sets, sets.agreeing).floor;
+    };
+    EXPECT_LE(floorNow(), 0.5);
+    for (int y = 2; y < 30; ++y) truth.litBeside[2].at(24, y) = 0;
+    EXPECT_GT(floorNow(), 5.0); // of 8 columns to the next edge
+}
+
+TEST(StabilityJudge, DoesNotCountAPixelThatTheTruthLeavesUndecided) {
+    metrics::TruthMaps truth = halfShadowed();
+    truth.undecided = metrics::Mask(32, 32, 0);
+    metrics::Picture picture = centreRays();
+    picture.at(5, 5) = picture.at(5, 20) = 1.0;
+    truth.undecided.at(5, 20) = 1;
+    const metrics::PixelSets sets = metrics::pixelSets(truth, picture);
+    EXPECT_EQ(judge(picture, truth, sets, sets.agreeing).wrong, 1u);
+}
+
 TEST(StabilityJudge, CountsAWrongPixelAwayFromEdgesButNotOneBesideThem) {
     metrics::Picture picture = centreRays();
     picture.at(18, 10) = 0.0; // two from the edge's column

@@ -87,7 +87,7 @@ TEST(ShadowWork, TakesWhatItsPartsTake) {
 }
 
 TEST(EdgeError, IsThePixelsWhereTexelsAreSmallAndTheTexelsWhereTheyAreLarge) {
-    const gnomon::EdgeFilter filter{0.5, 0.4, 1.0};
+    const gnomon::EdgeFilter filter{0.5, 0.4, 3.0, 1.0};
     EXPECT_DOUBLE_EQ(mapEdgeError(filter, 0.0), 0.4);
     EXPECT_NEAR(mapEdgeError(filter, 100.0), 50.0, 0.01);
     EXPECT_DOUBLE_EQ(gnomon::polygonEdgeError(0.0), gnomon::sampledEdge);

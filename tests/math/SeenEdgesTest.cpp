@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <tuple>
 
 using namespace gnomon;
 
@@ -43,13 +45,63 @@ std::vector<SeenPlace> edgesOf(const glm::dvec4& light, const glm::dmat4& view, 
     return seen.edges();
 }
 
+double widthOf(const EdgeWidths::Edge& edge) { return edge.width; }
+
 double usual(const std::vector<SeenPlace>& places, const glm::dmat4& view, const glm::dmat4& map, double share = 0.95) {
     EdgeWidths widths(view, pixels);
     for (const SeenPlace& place : places) widths.add(place, map);
-    return widths.usual(share);
+    return widths.usual(share, widthOf);
 }
 
 const SeenPlace onGround{{1, 2, 0}, {0, 0, 1}, {}};
+
+/// Objects as one mesh, each with its own corners.
+class Objects {
+public:
+    /// A quadrangle, of two triangles.
+    void addQuad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
+        const unsigned first = unsigned(_corners.size());
+        for (const glm::dvec3& each : {corner, corner + u, corner + u + v, corner + v}) _corners.emplace_back(each);
+        for (const unsigned i : {0u, 1u, 2u, 0u, 2u, 3u}) _indices.push_back(first + i);
+    }
+    void addBox(const glm::dvec3& low, const glm::dvec3& high) {
+        const glm::dvec3 size = high - low, x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+        for (const auto& [corner, u, v] : {std::tuple(low, x, y), std::tuple(low, y, z), std::tuple(low, z, x)}) {
+            addQuad(corner, u, v);
+            addQuad(corner + size - u - v, u, v);
+        }
+    }
+    void beginObject() { _parts.push_back(_indices.size() / 3); }
+    PlacedTriangles placed() const {
+        return {_corners.data(), _corners.size(), _indices.data(), _indices.size() / 3, here, _parts};
+    }
+
+private:
+    std::vector<glm::vec3> _corners;
+    std::vector<unsigned> _indices;
+    std::vector<std::size_t> _parts;
+};
+
+Objects onAGround(const std::function<void(Objects&)>& add) {
+    Objects objects;
+    objects.beginObject();
+    objects.addQuad({-5, -5, 0}, {10, 0, 0}, {0, 10, 0});
+    objects.beginObject();
+    add(objects);
+    return objects;
+}
+
+std::vector<SeenPlace> edgesOf(const glm::dvec4& light, const glm::dmat4& view, const glm::dmat4& map,
+                               const Objects& objects) {
+    SeenEdges seen(view, wholeScreen, light);
+    seen.addReceivers({objects.placed()});
+    seen.addCasters({objects.placed()}, {map}, pixels);
+    return seen.edges();
+}
+
+/// A sun at 45 degrees to the east, and a map that looks along its way: x - z.
+const glm::dvec4 sunInTheEast(glm::normalize(glm::dvec3(1, 0, 1)), 0.0);
+const glm::dmat4 mapFromTheEast = mapFromAbove * glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1);
 
 } // namespace
 
@@ -136,6 +188,89 @@ TEST(SeenEdges, AreSeenInARoomFromInside) {
     }
 }
 
+// The same cube as triangles gives the same edges.
+TEST(SeenEdges, OfTrianglesLieAlongTheShadowOfACube) {
+    const Objects objects = onAGround([](Objects& all) { all.addBox({-0.5, -0.5, 0}, {0.5, 0.5, 1}); });
+    const std::vector<SeenPlace> edges = edgesOf(sunInTheEast, plan(), mapFromTheEast, objects);
+    ASSERT_GT(edges.size(), 20u);
+    for (const SeenPlace& edge : edges) {
+        EXPECT_NEAR(edge.place.z, 0.0, 1e-9) << "a cube shadows nothing of itself";
+        EXPECT_LT(offSquare(edge.place, {-1.0, 0.0}, 0.5), 1.5 * cell) << edge.place.x << " " << edge.place.y;
+        EXPECT_FALSE(edge.across < 1.0) << "twenty pixels";
+        EXPECT_FALSE(edge.folded);
+    }
+}
+
+// A step: the upper part shadows the lower one of the same object, which a box would not.
+TEST(SeenEdges, OfTrianglesAreSeenOnAnObjectThatShadowsItself) {
+    const Objects objects = onAGround([](Objects& all) {
+        all.addQuad({-3, -2, 1}, {4, 0, 0}, {0, 4, 0}); // the lower level, from x = -3 to 1
+        all.addQuad({1, -2, 1}, {0, 4, 0}, {0, 0, 1});
+        all.addQuad({1, -2, 2}, {2, 0, 0}, {0, 4, 0}); // the upper one
+    });
+    int onStep = 0;
+    for (const SeenPlace& edge : edgesOf(sunInTheEast, plan(), mapFromTheEast, objects))
+        if (edge.place.z > 0.5 && std::abs(edge.place.y) < 1.8) {
+            EXPECT_NEAR(edge.place.z, 1.0, 1e-6);
+            EXPECT_NEAR(edge.place.x, 0.0, 1.1 * cell) << "as far from the riser as that is high";
+            ++onStep;
+        }
+    EXPECT_GT(onStep, 10);
+}
+
+// Rods of a fifth of a pixel, three fifths and six. A pixel that meets a thin one has an outline of 2 to 2.8 pixels. It meets
+// as many as the rod has area, where a wide one has two outlines, each drawn and true. Those of three fifths are seen in the
+// truth, too. Some hundred are met, of which a tenth and more is taken as chance.
+TEST(SeenEdges, CountThinShadowsByThePixelsThatMeetThem) {
+    const double pixel = 2.0 * 7.9 * std::tan(0.2) / 200.0;
+    const glm::dmat4 below =
+        glm::perspective(0.4, 1.0, 1.0, 100.0) * glm::lookAt(glm::dvec3(0, 0, 7.9), glm::dvec3(0.0), north); // the rods
+    double thin = 0.0;
+    const auto lengthOf = [&](double width) {
+        const Objects objects = onAGround([&](Objects& all) {
+            for (int i = -8; i <= 8; ++i) {
+                const glm::dvec3 along = glm::normalize(glm::dvec3(1.0, 0.37, 0.0)), side(-along.y, along.x, 0.0);
+                const glm::dvec3 middle(0.0, 0.2 * i, 8.0);
+                all.addQuad(middle - 6.0 * along - side * width / 2.0, 12.0 * along, side * width);
+            }
+        });
+        double all = 0.0;
+        thin = 0.0;
+        for (const SeenPlace& edge : edgesOf({0, 0, 1, 0}, below, mapFromAbove, objects)) {
+            all += edge.share;
+            thin += edge.across <= 1.0 ? edge.share : 0.0;
+        }
+        return all;
+    };
+    const double wide = lengthOf(6.0 * pixel);
+    EXPECT_EQ(thin, 0.0);
+    for (const auto& [width, outlines] : {std::pair(0.2, 1.0), std::pair(0.6, 2.0)}) {
+        const double expected = outlines * 2.4 * width / 4.0, share = lengthOf(width * pixel) / wide;
+        EXPECT_NEAR(thin, share * wide, 0.2 * share * wide) << width;
+        EXPECT_GT(share, expected / 2.0) << width;
+        EXPECT_LT(share, 1.5 * expected) << width;
+    }
+}
+
+// A level and a slope of 60 degrees. A plate above the slope throws its edge on the fold, and two more on either part.
+TEST(SeenEdges, KnowWhereASurfaceIsFolded) {
+    const Objects objects = onAGround([](Objects& all) {
+        all.addQuad({-3, -3, 0.5}, {6, 0, 0}, {0, 3, 0});
+        all.addQuad({-3, 0, 0.5}, {6, 0, 0}, {0, 1.5, 1.5 * std::sqrt(3.0)});
+        all.addBox({2, 0, 4.5}, {5, 3, 4.6});
+        all.addBox({4, -2, 4.5}, {5, -1, 4.6});
+    });
+    const glm::dmat4 slanted = glm::ortho(-5.0, 5.0, -5.0, 5.0, 0.0, 100.0) *
+                               glm::lookAt(glm::dvec3(0, -20, 20), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
+    int folded = 0, flat = 0;
+    for (const SeenPlace& edge : edgesOf(sunInTheEast, slanted, mapFromTheEast, objects)) {
+        EXPECT_TRUE(!edge.folded || std::abs(edge.place.y) < 2.0 * cell) << edge.place.y;
+        (edge.folded ? folded : flat) += 1;
+    }
+    EXPECT_GT(folded, 10);
+    EXPECT_GT(flat, 10);
+}
+
 // A pixel is a 20th wide, the map 20: each of its sides is 400 pixels.
 TEST(EdgeWidths, AreAMapsSideInPixelsWhereLightAndEyeAreAbove) {
     for (const double share : {0.5, 0.95, 1.0})
@@ -167,8 +302,8 @@ TEST(EdgeWidths, AreThoseOfTheWidestWhereTheseAreMany) {
     EdgeWidths widths(plan(), pixels);
     widths.add(onGround, mapFromAbove);
     widths.add(onGround, glm::translate(here, {0.25, 0.25, 0.0}) * glm::scale(here, {0.5, 0.5, 1.0}) * mapFromAbove);
-    EXPECT_NEAR(widths.usual(0.95), 720.0 / 0.95, 1e-6);
-    EXPECT_NEAR(widths.usual(0.5), 800.0 / 3.0 / 0.5, 1e-6);
+    EXPECT_NEAR(widths.usual(0.95, widthOf), 720.0 / 0.95, 1e-6);
+    EXPECT_NEAR(widths.usual(0.5, widthOf), 800.0 / 3.0 / 0.5, 1e-6);
 }
 
 TEST(EdgeWidths, AreNotOfWhatIsBehindTheEye) {
@@ -177,4 +312,17 @@ TEST(EdgeWidths, AreNotOfWhatIsBehindTheEye) {
     EdgeWidths widths(view, pixels);
     widths.add(onGround, mapFromAbove);
     EXPECT_TRUE(widths.empty());
+}
+
+// A map from above has a pixel's height on a ground 1.7 below the eye as many times as long as on what faces the eye as the place
+// is farther away than that: map.frag shortens what is more than four times as long.
+TEST(EdgeWidths, TellWherePixelsAreLong) {
+    const glm::dmat4 view = glm::perspective(1.0, 1.0, 0.1, 100.0) *
+                            glm::lookAt(glm::dvec3(0, -10, 1.7), glm::dvec3(0, 0, 1.7), glm::dvec3(0, 0, 1));
+    for (const double away : {4.0, 6.0, 8.0, 12.0}) {
+        EdgeWidths widths(view, pixels);
+        widths.add({{0.5, away - 10.0, 0}, {0, 0, 1}, {1, 0}}, mapFromAbove);
+        const double slanted = widths.usual(0.95, [](const auto& edge) { return edge.slanted ? 1.0 : 2.0; });
+        EXPECT_DOUBLE_EQ(slanted, away > 4.0 * 1.7 ? 1.0 : 2.0) << away;
+    }
 }

@@ -163,6 +163,51 @@ TEST(ShadowTruth, IsUndecidedWithinASixteenthOfAPixelFromAnEdge) {
     EXPECT_EQ(undecided, 13) << "hundredths in two sixteenths";
 }
 
+/// Seen from above, slid along by hundredths of a pixel: a flat top up to x = 0, and beyond it a slope that turns away from the
+/// sun. A plate shadows the top, and its shadow would end where the slope begins.
+TEST(ShadowTruth, IsUndecidedAtAnEdgeOfTheShadowAlongAnEdgeOfTheSurface) {
+    Soup soup;
+    soup.quad({-20.0, -20.0, 0.0}, {20.0, 0.0, 0.0}, {0.0, 40.0, 0.0});  // the top
+    soup.quad({0.0, -20.0, 0.0}, {20.0, 0.0, -40.0}, {0.0, 40.0, 0.0});  // steeper than the sun, which comes from -x
+    soup.quad({-30.0, -20.0, 10.0}, {20.0, 0.0, 0.0}, {0.0, 40.0, 0.0}); // the plate
+    constexpr int side = 20;
+    constexpr double pixel = 10.0 / side;
+    int undecided = 0;
+    for (int step = 0; step < 100; ++step) {
+        const double slid = step * pixel / 100.0;
+        const glm::dmat4 clip = plan(5.0) * glm::translate(glm::dmat4(1.0), glm::dvec3(-slid, 0.0, 0.0));
+        const TruthImage image = truthOf(soup, {clip, side, side, {-1.0, 0.0, 1.0, 0.0}});
+        for (int x = 0; x < side; ++x) {
+            const double pastEdge = ((x + 0.5) * pixel - 5.0 + slid) / pixel;
+            if (std::abs(std::abs(pastEdge) - 1.0 / 16.0) < 1e-4) continue; // rounding
+            ASSERT_FALSE(image.at(x, 7).litCentre);
+            const bool isCloseBefore = pastEdge < -1e-6 && pastEdge > -1.0 / 16.0;
+            if (std::abs(pastEdge) > 1e-6) ASSERT_EQ(image.at(x, 7).undecided, isCloseBefore) << x << ", " << step;
+            undecided += image.at(x, 7).undecided;
+        }
+    }
+    EXPECT_GE(undecided, 6) << "hundredths in a sixteenth";
+}
+
+/// As many hundredths of a pixel past the edge, in the picture of the test above the last.
+TEST(ShadowTruth, LooksAtFourPlacesBesideTheCentre) {
+    Soup soup;
+    soup.ground(40.0);
+    soup.quad({10.0, -20.0, 10.0}, {30.0, 0.0, 0.0}, {0.0, 40.0, 0.0});
+    constexpr double pixel = 0.5;
+    const auto besideAt = [&](double hundredths) {
+        const glm::dmat4 clip =
+            plan(5.0) * glm::translate(glm::dmat4(1.0), glm::dvec3(0.5 * pixel - hundredths * pixel / 100.0, 0.0, 0.0));
+        return truthOf(soup, {clip, 20, 20, {1.0, 0.0, 1.0, 0.0}}).at(10, 7).litBeside;
+    };
+    const std::array<bool, 4> lit{true, true, true, true}, dark{}, leftLit{true, false, true, false};
+    EXPECT_EQ(besideAt(-7.0), lit);
+    EXPECT_EQ(besideAt(-6.0), leftLit);
+    EXPECT_EQ(besideAt(6.0), leftLit);
+    EXPECT_EQ(besideAt(7.0), dark);
+    EXPECT_EQ(besideAt(-60.0), lit) << "no edge in the pixel";
+}
+
 TEST(ShadowTruth, OfABoxOnAPlaneIsAPolygon) {
     Soup soup = onGround();
     soup.box({-1.0, -1.2, 0.0}, {1.3, 1.0, 2.0});

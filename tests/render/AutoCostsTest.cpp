@@ -256,7 +256,7 @@ TEST_F(AutoCosts, OfARivalThatHasBecomeWrongAreNotAskedFor) {
     writeRatios(kept().front(), {10.0});
     RendererCosts::forget();
     Rivals rivals;
-    rivals.technique->setError(0.4);
+    rivals.technique->setError(0.6);
     const osg::ref_ptr<osg::Geode> tested = board();
     tested->getOrCreateStateSet()->setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
     rivals.scene.content->addChild(tested);

@@ -319,6 +319,22 @@ TEST(Auto, ChangesNothingForASingleFrameOfMotion) {
     EXPECT_NE(trial.chosen(), still) << "by now it is known that the light moves on";
 }
 
+// The first decision may have taken long, and then nothing is compared again for up to 64 frames.
+TEST(Auto, KnowsInTheNinthFrameOfMotionThatARestIsOver) {
+    Trial trial({test::sphere({-1.0, 0.0, 2.0}, 1.2, 36), below});
+    Camera camera(trial.scene.root, view());
+    for (int i = 0; i < 5; ++i) camera.frame();
+    const std::string still = trial.chosen();
+    EXPECT_EQ(trial.decision().decisions, 1u);
+    for (int i = 1; i <= 9; ++i) {
+        EXPECT_EQ(trial.chosen(), still);
+        trial.scene.light->getLight()->setPosition(osg::Vec4(1.0f, 0.4f + 0.01f * float(i), 1.2f, 0.0f));
+        camera.frame();
+    }
+    EXPECT_NE(trial.chosen(), still);
+    EXPECT_EQ(trial.decision().decisions, 2u);
+}
+
 TEST(Auto, SeesAtOnceThatAnObjectMovesIntoAShadow) {
     Scene scene = test::groundScene({cube}, 8.0, sun);
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;

@@ -131,3 +131,13 @@ TEST(CoarseDepth, DoesNotMatterWhereTheCasterIsNotSeen) {
     EXPECT_EQ(seen(box({580.0, 380.0, 0.0}, {620.0, 420.0, 60.0})), nothing) << "beside the view";
     EXPECT_EQ(seen(box({300.0, 1130.0, 0.0}, {340.0, 1170.0, 60.0})), nothing) << "beyond the far plane";
 }
+
+// A plate 40 m before the eye throws its shadow into the middle of the view, so that the technique has work there.
+TEST(CoarseDepth, DoesNotMatterForACasterBeyondTheFarPlane) {
+    Trial trial(new gnomon::ShadowMapTechnique, box({-452.0, 323.0, 404.0}, {-448.0, 327.0, 405.0}));
+    trial.scene.light->getLight()->setPosition({-0.46f, -0.6f, 0.5f, 0.0f});
+    trial.scene.content->addChild(node(box({300.0, 1130.0, 0.0}, {340.0, 1170.0, 60.0}), "tower"));
+    EXPECT_EQ(trial.seen(fromAfar(0.001)), nothing);
+    trial.scene.content->addChild(node(tower, "tower"));
+    EXPECT_EQ(trial.seen(fromAfar(0.001)), tooCoarse(trial)) << "one in view";
+}

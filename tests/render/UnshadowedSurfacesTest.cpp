@@ -12,6 +12,7 @@
 #include <osg/FrontFace>
 #include <osg/MatrixTransform>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -121,6 +122,22 @@ TEST(UnshadowedSurfaces, AWallBehindATowerIsNamed) {
     expectNamed(onTerrain(gnomon::TerrainShadowOptions::BOX), true, "box");
     expectNamed(onTerrain(gnomon::TerrainShadowOptions::HULL), true, "hull");
     expectNamed(onTerrain(gnomon::TerrainShadowOptions::DRAPE), true, "drape");
+}
+
+// (6, 0, 9), which OpenGL takes for the same lamp.
+TEST(UnshadowedSurfaces, AWallIsNamedIfTheLampIsGivenWithANegativeW) {
+    Trial trial(node(wall, "wall"), planar(), {-6.0, 0.0, -9.0, -1.0});
+    EXPECT_EQ(trial.said(), leavesLit(trial, "wall"));
+}
+
+// A mast, 6 m high, belongs to the ground's drawable. The ground does not hide what is above the mast from a lamp below.
+TEST(UnshadowedSurfaces, AWallIsNamedIfTheGroundRisesAboveTheLamp) {
+    const Mesh high = box({-4.0, -3.0, 6.5}, {-3.0, 3.0, 9.0}), mast = box({7.0, 7.0, 0.0}, {7.2, 7.2, 6.0});
+    Trial trial(node(high, "wall"), onTerrain(gnomon::TerrainShadowOptions::HULL), {2.0, 0.0, 3.0, 1.0});
+    trial.scene.content->replaceChild(find(*trial.scene.root, "ground"), node(joined({square(8.0), mast}), "ground"));
+    const Causes causes = trial.named().said();
+    EXPECT_EQ(std::count(causes.begin(), causes.end(), leavesLit(trial, "wall").front()), 1)
+        << testing::PrintToString(causes);
 }
 
 TEST(UnshadowedSurfaces, ASecondFloorIsNamed) {

@@ -134,6 +134,8 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
     if (!now.asks(choice.decided) || (!choice.incumbent && choice.learnt != _costs->generation())) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
     if (choice.seen == firstLook && isMoving(choice.moving)) return true; // the first decision took all to stand still
+    const bool began = choice.since == settling && isMoving(choice.motion) && !isMoving(choice.movingThen);
+    if (began) return true; // the last decision took all to stand still, too
     const bool cameToRest = !isMoving(choice.moving) && isMoving(choice.movingThen);
     const bool isSettled = !isMoving(choice.moving) || choice.since >= settling;
     return choice.frames >= choice.patience && isSettled && (cameToRest || !now.isSame(choice.decided));

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <bitset>
 #include <cmath>
+#include <optional>
 
 namespace gnomon {
 
@@ -31,6 +32,7 @@ using Map = ShadowMapOptions;
 using Kind = AutoCandidate::Kind;
 
 constexpr double leastShadow = 0.5; // pixels across
+constexpr double usualShare = 0.95; // of the edges: what errors are given for
 
 struct MapQuality {
     Map::Filter filter;
@@ -38,17 +40,36 @@ struct MapQuality {
     EdgeFilter edge;
 };
 /// Spread: of hard edges at random; of smooth ones on the tuning scenes of gnomonchart. Pixel: of a sphere and a cube on a
-/// ground, with small texels.
+/// ground, with small texels. Gaps: of shadows of rods, 0.6 to 0.9 pixels wide.
 constexpr MapQuality qualities[] = {
-    {Map::NEAREST, Map::HARD, {0.51, 0.42, 0.25}},  {Map::BILINEAR, Map::HARD, {0.41, 0.41, 1.0}},
-    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.25, 0.36, 1.0}},
-    {Map::BICUBIC, Map::SMOOTH, {0.22, 0.15, 4.0}}, {Map::FINE, Map::SMOOTH, {0.15, 0.075, 16.0}},
+    {Map::NEAREST, Map::HARD, {0.51, 0.42, 3.0, 0.25}},  {Map::BILINEAR, Map::HARD, {0.41, 0.41, 3.0, 1.0}},
+    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 3.0, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.25, 0.36, 3.0, 1.0}},
+    {Map::BICUBIC, Map::SMOOTH, {0.22, 0.15, 2.3, 4.0}}, {Map::FINE, Map::SMOOTH, {0.15, 0.075, 1.7, 16.0}},
 };
 constexpr double callsAMap = 14.0;     // to switch to its framebuffer and back, and to fit it
 constexpr double callsAPiece = 0.06;   // to see that it has not changed
 constexpr double callsALeaf = 0.1;     // to draw it again
 constexpr double facedAnObject = 0.03; // to ask a triangle whether it faces the light; see ShadowWork::objects
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
+
+/// Pixels that an edge is off which nothing smoothes.
+double hardEdge(const EdgeWidths::Edge& edge) {
+    if (edge.across <= halfCovered) return missedEdgeError(edge.apart);
+    return edge.across <= 1.0 ? sampledGaps : sampledEdge;
+}
+
+/// The same, of one that is looked up in a map. A smooth edge is as hard as others where pixels are long, and next to a fold. If
+/// it is the mean of a pixel, it is missed where the truth misses it.
+double mapEdge(const EdgeWidths::Edge& edge, const MapQuality& quality, int texels) {
+    EdgeFilter filter = quality.edge;
+    const bool smooth = quality.edges == Map::SMOOTH, mean = smooth && quality.filter != Map::BILINEAR;
+    if (smooth && (edge.slanted || edge.folded)) filter.pixel = std::max(filter.pixel, sampledEdge);
+    if (edge.across <= halfCovered)
+        filter.pixel = mean ? filter.pixel : missedEdgeError(edge.apart);
+    else if (edge.across <= 1.0)
+        filter.pixel = filter.gaps;
+    return mapEdgeError(filter, edge.width / texels);
+}
 
 /// Why a candidate would leave a caster out; empty if it would not.
 std::string whyOnlyMaps(const AutoCandidate& candidate, const CasterDrawables& casters) {
@@ -80,9 +101,12 @@ public:
             return only();
         }
         measure();
+        const MapEdges edges(_view, *_boxes, _one);
+        _widths = edges.in(_one);
+        _sampled = _widths->empty() ? sampledEdge : _widths->usual(usualShare, hardEdge);
         addPlanar(flat);
         addTerrain();
-        addMaps();
+        addMaps(edges);
         addVolume();
         addMixed();
         addTraced();
@@ -133,7 +157,7 @@ private:
         planar.kind = Kind::Planar;
         planar.planes = flat.planes;
         planar.obstacle = flat.obstacle;
-        planar.error = sampledEdge;
+        planar.error = _sampled;
         const double planes = std::max(1.0, double(flat.planes.size()));
         planar.still = _compose;
         if (relightsAlone(planar, _view)) relightAlone(flat.leaves, planar.still);
@@ -180,15 +204,13 @@ private:
     }
 
     /// One map, and as many as the size asks for, where those are more.
-    void addMaps() {
-        const MapEdges edges(_view, *_boxes, _one);
-        const double width = edges.widthOf(_one).value_or(_one.texels);
+    void addMaps(const MapEdges& edges) {
         for (const int size : sizes) {
             for (const MapQuality& quality : qualities)
-                _result.all.push_back(mapOf({_one, width, _pixels, _casters}, 1, size, quality));
+                _result.all.push_back(mapOf({_one, *_widths, _pixels, _casters}, 1, size, quality));
             const MapForecast several = _view.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
             if (several.maps == _one.maps) continue;
-            const double each = edges.widthOf(several).value_or(several.texels);
+            const EdgeWidths each = edges.in(several);
             for (const MapQuality& quality : qualities)
                 _result.all.push_back(mapOf({several, each, _pixels, _casters}, 0, size, quality));
         }
@@ -197,7 +219,7 @@ private:
     /// What a map is drawn of, and looked up in.
     struct Mapped {
         const MapForecast& forecast;
-        double width;   ///< see MapEdges::widthOf().
+        const EdgeWidths& edges;
         double pixels;  ///< where its shadow can be.
         double casters; ///< triangles.
     };
@@ -211,7 +233,10 @@ private:
         map.map.cascades = cascades;
         const double wish = MapSettings(map.map).pixels;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
-        map.error = mapEdgeError(quality.edge, mapped.width / texels);
+        const EdgeWidths& edges = mapped.edges;
+        map.error = edges.empty()
+                        ? mapEdgeError(quality.edge, forecast.texels / texels)
+                        : edges.usual(usualShare, [&](const auto& edge) { return mapEdge(edge, quality, texels); });
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
         map.still.calls += 3.0 * passes;
@@ -226,7 +251,7 @@ private:
     void addVolume() {
         AutoCandidate volume;
         volume.kind = Kind::Volume;
-        volume.error = sampledEdge;
+        volume.error = _sampled;
         volume.obstacle = whyCutOut(_view.casters);
         volume.still = _compose;
         addVolumeOf(_view.casters, _casters, volume);
@@ -250,13 +275,13 @@ private:
         const osg::ref_ptr<const MapCasters> boxes = boxesOf(dense.layers());
         const MapForecast one = forecast(*boxes, 1, sizes[0]);
         if (one.maps == 0) return;
-        const double width = MapEdges(_view, *boxes, one).widthOf(one).value_or(one.texels);
-        const Mapped mapped{one, width, pixelsOf(_view.frame, *one.bounds), double(dense.layers().triangles())};
+        const EdgeWidths edges = MapEdges(_view, *boxes, one).in(one);
+        const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(dense.layers().triangles())};
         for (const int size : sizes)
             for (const MapQuality& quality : qualities) {
                 AutoCandidate mixed = mapOf(mapped, 1, size, quality);
                 mixed.kind = Kind::Mixed;
-                mixed.error = std::max(mixed.error, sampledEdge);
+                mixed.error = std::max(mixed.error, _sampled);
                 mixed.obstacle = whyNotTogether(quality.edges);
                 addVolumeOf(split.simplePieces(), simple, mixed);
                 mixed.still.calls += 3.0; // marks are handed on
@@ -276,7 +301,7 @@ private:
     void addTraced() {
         AutoCandidate traced;
         traced.kind = Kind::Traced;
-        traced.error = sampledEdge;
+        traced.error = _sampled;
         traced.obstacle = hasPart(OptionalPart::Traced) ? whyCutOut(_view.casters) : "this build has no Embree";
         traced.still = _compose;
         traced.still.pixels = 2.0 * _pixels;
@@ -292,6 +317,8 @@ private:
     const osg::ref_ptr<const MapCasters> _boxes;
     MapForecast _one;
     double _pixels = 0.0, _casters = 0.0;
+    std::optional<EdgeWidths> _widths; ///< of edges in `_one`.
+    double _sampled = sampledEdge;     ///< error of one ray a pixel.
     ShadowWork _compose;
     CandidateList _result;
 };

@@ -3,17 +3,19 @@
 #include <gnomon/auto/MapEdges.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/MapSlice.h>
-#include <gnomon/mapfit/EdgeWidths.h>
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <unordered_set>
 
 namespace gnomon {
 namespace {
 
-constexpr double usualShare = 0.95; // of the edges: what errors are given for
+// Triangles that are looked at: more would take tens of milliseconds. Boxes are as good, and sooner, where drawables are many and
+// as simple.
+constexpr std::size_t mostTriangles = 150000, fewTriangles = 2000, ofABox = 20;
 
 bool holds(const MapForecast::Map& map, const glm::dvec3& place) {
     const glm::dvec4 here(place, 1.0), in = map.mapFromScene * here;
@@ -30,15 +32,46 @@ std::vector<SeenEdges::Box> boxesOf(const MapCasters& casters) {
     return result;
 }
 
+bool areLookedAt(const CasterLayers& casters) {
+    const std::size_t triangles = casters.triangles();
+    return triangles <= fewTriangles ||
+           (triangles <= mostTriangles && triangles > ofABox * casters.pieces->list.size());
+}
+
+std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
+    std::vector<PlacedTriangles> result;
+    for (const PlacedMesh& placed : casters.meshes()) {
+        const CasterMesh& mesh = *placed.mesh;
+        if (mesh.empty()) continue;
+        PlacedTriangles triangles{positionsOf(mesh),          mesh.vertices->size(), &mesh.triangles->front(),
+                                  mesh.triangles->size() / 3, placed.sceneFromMesh,  {}};
+        for (const CasterExtraction::Drawn& drawn : mesh.drawn) triangles.parts.push_back(drawn.first / 3);
+        if (triangles.parts.empty() || triangles.parts.front() > 0) triangles.parts.insert(triangles.parts.begin(), 0);
+        result.push_back(triangles);
+    }
+    return result;
+}
+
+/// The view without what casts: its triangles are looked at.
+ViewFrame withoutCasters(const AutoView& view) {
+    std::unordered_set<const osg::Drawable*> casting;
+    for (const auto& piece : view.casters.list) casting.insert(piece->drawable.get());
+    ViewFrame result = view.frame;
+    const auto casts = [&](const osgUtil::RenderLeaf* leaf) { return casting.count(leaf->_drawable.get()) > 0; };
+    result.seen.erase(std::remove_if(result.seen.begin(), result.seen.end(), casts), result.seen.end());
+    return result;
+}
+
 } // namespace
 
 MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast)
     : _pixels(view.frame.pixels.x(), view.frame.pixels.y()) {
-    const glm::dvec3 origin = toGlm(boxes.layers->origin);
-    const SceneFrame scene(origin);
+    const SceneFrame scene(boxes.layers->origin);
     _clipFromScene = scene.clipFromScene(view.frame);
-    const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(origin, 0.0);
-    const std::vector<MapReceiver> receivers = receiversOf(view.frame, scene.eyeFromScene(view.frame));
+    const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(scene.origin, 0.0);
+    const bool byTriangles = !view.frame.receivers && areLookedAt(*boxes.layers);
+    const std::vector<MapReceiver> receivers =
+        receiversOf(byTriangles ? withoutCasters(view) : view.frame, scene.eyeFromScene(view.frame));
     const auto seenOf = [&](SeenEdges::Relief relief) {
         SeenEdges seen(_clipFromScene, *forecast.bounds, light);
         for (const MapReceiver& receiver : receivers)
@@ -46,21 +79,32 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
         return seen;
     };
     SeenEdges seen = seenOf(SeenEdges::Relief::HalfWay);
-    const std::vector<SeenEdges::Box> casters = boxesOf(boxes);
-    for (const MapForecast::Map& map : forecast.each) seen.addCasters(casters, map.mapFromScene);
+    if (byTriangles)
+        lookAtTriangles(seen, trianglesOf(*boxes.layers), forecast);
+    else
+        for (const MapForecast::Map& map : forecast.each) seen.addCasters(boxesOf(boxes), map.mapFromScene);
     _places = seen.edges();
-    if (_places.empty())
-        _places = seenOf(SeenEdges::Relief::Whole).facing(); // a terrain shadows itself, who knows where
+    if (!_places.empty()) return;
+    if (!byTriangles) seen = seenOf(SeenEdges::Relief::Whole); // a terrain shadows itself, who knows where
+    _places = seen.facing();
 }
 
-std::optional<double> MapEdges::widthOf(const MapForecast& forecast) const {
+void MapEdges::lookAtTriangles(SeenEdges& seen, const std::vector<PlacedTriangles>& meshes,
+                               const MapForecast& forecast) const {
+    std::vector<glm::dmat4> maps;
+    for (const MapForecast::Map& map : forecast.each) maps.push_back(map.mapFromScene);
+    seen.addReceivers(meshes);
+    seen.addCasters(meshes, maps, _pixels);
+}
+
+EdgeWidths MapEdges::in(const MapForecast& forecast) const {
     EdgeWidths widths(_clipFromScene, _pixels);
     for (const SeenPlace& seen : _places) {
         const auto map = std::find_if(forecast.each.begin(), forecast.each.end(),
                                       [&](const MapForecast::Map& each) { return holds(each, seen.place); });
         if (map != forecast.each.end()) widths.add(seen, map->mapFromScene);
     }
-    return widths.empty() ? std::nullopt : std::optional<double>(widths.usual(usualShare));
+    return widths;
 }
 
 } // namespace gnomon

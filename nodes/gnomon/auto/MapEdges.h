@@ -3,24 +3,25 @@
 #include <gnomon/auto/AutoView.h>
 #include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapForecast.h>
-#include <gnomon/mapfit/SeenEdges.h>
+#include <gnomon/mapfit/EdgeWidths.h>
 
-#include <optional>
 #include <vector>
 
 namespace gnomon {
 
-/// Places of one view that a light shines on, found once for all maps that are thought of.
+/// Edges of a light's shadow that are in sight in one view, found once for all maps that are thought of.
 class MapEdges {
 public:
     /// @param boxes  of the casters. @param forecast  of as few maps as can be.
     MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast);
 
-    /// Pixels that most edges are wide, for one of the side of a map; see EdgeWidths::usual(). Nothing where no place that
-    /// is seen is in a map.
-    std::optional<double> widthOf(const MapForecast& forecast) const;
+    /// As they are looked up in these maps. None where no place that is seen is in a map.
+    EdgeWidths in(const MapForecast& forecast) const;
 
 private:
+    void lookAtTriangles(SeenEdges& seen, const std::vector<PlacedTriangles>& meshes,
+                         const MapForecast& forecast) const;
+
     glm::dmat4 _clipFromScene;
     glm::dvec2 _pixels;
     std::vector<SeenPlace> _places;

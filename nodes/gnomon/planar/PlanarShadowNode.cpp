@@ -62,7 +62,7 @@ bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
 
 /// The height of a drawable's highest vertex over a plane, both in the drawable's frame.
 struct HighestVertex : osg::Drawable::ConstAttributeFunctor {
-    explicit HighestVertex(const glm::dvec4& plane) : plane(plane) {}
+    explicit HighestVertex(const glm::dvec4& over) : plane(over) {}
     void apply(osg::Drawable::AttributeType type, unsigned count, const osg::Vec3* array) override {
         take(type, count, array);
     }

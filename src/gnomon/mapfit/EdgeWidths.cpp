@@ -7,7 +7,10 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace gnomon {
 namespace {
@@ -24,14 +27,28 @@ glm::dmat2 slopeOf(const glm::dmat4& matrix, const glm::dvec4& at, const glm::dv
     return {along(u), along(v)};
 }
 
+/// The longer side of a pixel, squared, in the map.
+double longest(const glm::dmat2& mapFromPicture) {
+    return std::max(glm::dot(mapFromPicture[0], mapFromPicture[0]), glm::dot(mapFromPicture[1], mapFromPicture[1]));
+}
+
 } // namespace
 
 EdgeWidths::EdgeWidths(const glm::dmat4& clipFromScene, const glm::dvec2& pixels)
-    : _clipFromScene(clipFromScene), _pixels(pixels) {}
+    : _clipFromScene(clipFromScene), _sceneFromClip(glm::inverse(clipFromScene)), _pixels(pixels) {}
+
+/// Sides of a pixel in the map on what faces the eye: neither nearer nor farther along the picture.
+glm::dmat2 EdgeWidths::facing(const glm::dvec4& clip, const glm::dmat4& mapFromScene) const {
+    const glm::dmat4 mapFromClip = mapFromScene * _sceneFromClip;
+    const glm::dvec4 there = clip / clip.w;
+    const glm::dvec3 x(2.0 / _pixels.x, 0.0, 0.0), y(0.0, 2.0 / _pixels.y, 0.0);
+    return slopeOf(mapFromClip, mapFromClip * there, x, y);
+}
 
 /// An edge along a way in the map is moved across it. In the picture the area between its two places is the determinant times
 /// as large, and it is that area divided by its length there that it moves.
 void EdgeWidths::add(const SeenPlace& place, const glm::dmat4& mapFromScene) {
+    constexpr double shortened = 16.0; // as in map.frag
     const glm::dvec4 here(place.place, 1.0), clip = _clipFromScene * here, map = mapFromScene * here;
     if (!(clip.w > 0.0) || !(map.w > 0.0)) return;
     const auto [u, v] = across(glm::normalize(place.normal));
@@ -41,9 +58,11 @@ void EdgeWidths::add(const SeenPlace& place, const glm::dmat4& mapFromScene) {
     const glm::dmat2 pictureFromMap = inPicture * glm::inverse(inMap);
     const glm::dmat2 mapFromPicture = glm::inverse(pictureFromMap);
     const double area = std::abs(glm::determinant(pictureFromMap));
+    const bool slanted = longest(mapFromPicture) > shortened * longest(facing(clip, mapFromScene));
     const auto add = [&](const glm::dvec2& way, double length) {
         const double width = area * glm::length(mapFromPicture * way) / glm::length(way);
-        if (length > 0.0 && std::isfinite(width)) _edges.push_back({width, length});
+        if (length * place.share > 0.0 && width > 0.0 && std::isfinite(width))
+            addEdge({width, length * place.share, place.across, place.apart, place.folded, slanted});
     };
     if (place.edge != glm::dvec2(0.0)) return add(place.edge * _pixels, 1.0);
     for (int i = 0; i < directions; ++i) {
@@ -53,22 +72,37 @@ void EdgeWidths::add(const SeenPlace& place, const glm::dmat4& mapFromScene) {
     }
 }
 
-/// The share of all edges that is off by no more than x grows with x by pieces: those that are narrower count whole.
-double EdgeWidths::usual(double share) const {
-    std::vector<Edge> edges = _edges;
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.width < b.width; });
+void EdgeWidths::addEdge(const Edge& edge) {
+    constexpr double kinds = 8.0; // of widths, an octave: so they are sorted sooner
+    const auto step = [](double of) {
+        return of > 0.0 && std::isfinite(of) ? int(std::floor(kinds * std::log2(of))) : INT_MAX;
+    };
+    Edge& all = _edges[{step(edge.width), step(edge.across), step(edge.apart), edge.folded, edge.slanted}];
+    const double before = all.length / (all.length + edge.length);
+    const double width = before * all.width + (1.0 - before) * edge.width;
+    const double length = all.length + edge.length;
+    all = edge;
+    all.width = width;
+    all.length = length;
+}
+
+/// The share of all edges that is off by no more than x grows with x by pieces: those that are off by less count whole.
+double EdgeWidths::usual(double share, const Off& off) const {
+    std::vector<std::pair<double, double>> edges; // how far off, and how long
     double all = 0.0, slope = 0.0, whole = 0.0;
-    for (const Edge& edge : edges) {
+    for (const auto& [like, edge] : _edges) {
+        edges.emplace_back(off(edge), edge.length);
         all += edge.length;
-        slope += edge.width > 0.0 ? edge.length / edge.width : 0.0;
+        slope += edges.back().first > 0.0 ? edge.length / edges.back().first : 0.0;
     }
-    for (const Edge& edge : edges) {
-        const double reached = (share * all - whole) / slope; // if it lies before this edge's width
-        if (reached <= edge.width) return reached / share;
-        whole += edge.length;
-        slope -= edge.width > 0.0 ? edge.length / edge.width : 0.0;
+    std::sort(edges.begin(), edges.end());
+    for (const auto& [most, length] : edges) {
+        const double reached = (share * all - whole) / slope; // if it lies before this edge's
+        if (reached <= most) return reached / share;
+        whole += length;
+        slope -= most > 0.0 ? length / most : 0.0;
     }
-    return edges.empty() ? 0.0 : edges.back().width;
+    return edges.empty() ? 0.0 : edges.back().first;
 }
 
 } // namespace gnomon

@@ -2,7 +2,9 @@
 #pragma once
 #include <gnomon/mapfit/SeenEdges.h>
 
-#include <vector>
+#include <array>
+#include <functional>
+#include <map>
 
 namespace gnomon {
 
@@ -18,19 +20,29 @@ public:
 
     bool empty() const { return _edges.empty(); }
 
-    /// The width of edges that, if all had it, would be off like these: where each is off by any share of its own width
-    /// alike, this share of all is off by no more than that share of the result. Pixels for one of the map's x/w and y/w.
-    double usual(double share) const;
-
-private:
+    /// Edges that are much alike.
     struct Edge {
-        double width;  ///< pixels for one of the map's.
-        double length; ///< in the picture.
+        double width = 0.0;   ///< pixels for one of the map's x/w and y/w.
+        double length = 0.0;  ///< in the picture.
+        double across = 0.0;  ///< see SeenPlace.
+        double apart = 0.0;   ///< see SeenPlace.
+        bool folded = false;  ///< see SeenPlace.
+        bool slanted = false; ///< Pixels are so long on the surface that map.frag takes them for shorter.
     };
 
-    glm::dmat4 _clipFromScene;
+    /// Pixels that edges of a kind are off, at most.
+    using Off = std::function<double(const Edge&)>;
+    /// How far edges are off that, if all had it, would be off like these: where each is off by any share of `off` alike, this
+    /// share of all is off by no more than that share of the result.
+    double usual(double share, const Off& off) const;
+
+private:
+    void addEdge(const Edge& edge);
+    glm::dmat2 facing(const glm::dvec4& clip, const glm::dmat4& mapFromScene) const;
+
+    glm::dmat4 _clipFromScene, _sceneFromClip;
     glm::dvec2 _pixels;
-    std::vector<Edge> _edges;
+    std::map<std::array<int, 5>, Edge> _edges; ///< by what they are like.
 };
 
 } // namespace gnomon

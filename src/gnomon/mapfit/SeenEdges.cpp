@@ -6,17 +6,20 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace gnomon {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double grazing = 0.05; // cosine between a normal and the way to the light
 
 /// Where a ray is in a box, in lengths of its way, and the axes of the sides that it passes.
 struct Passage {
@@ -57,26 +60,33 @@ std::optional<ScreenRect> boundsOf(const SeenEdges::Box& box, const glm::dmat4& 
 } // namespace
 
 SeenEdges::SeenEdges(const glm::dmat4& clipFromScene, const ScreenRect& within, const glm::dvec4& light)
-    : _clipFromScene(clipFromScene), _within(within), _light(light) {
-    const glm::dmat4 sceneFromClip = glm::inverse(clipFromScene);
-    const auto at = [&](const glm::dvec2& place, double depth) {
-        const glm::dvec4 point = sceneFromClip * glm::dvec4(place, depth, 1.0);
+    : _clipFromScene(clipFromScene), _sceneFromClip(glm::inverse(clipFromScene)), _within(within), _light(light) {
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            _cells.push_back(cellAt(glm::dvec2(column + 0.5, row + 0.5) / glm::dvec2(columns, rows)));
+}
+
+/// In the grid.
+glm::dvec2 SeenEdges::pixelOf(const glm::dvec2& pixels) const { return 2.0 / (pixels * (_within.high - _within.low)); }
+
+SeenEdges::Cell SeenEdges::cellAt(const glm::dvec2& inGrid) const {
+    const auto at = [&](double depth) {
+        const glm::dvec2 place = _within.low + inGrid * (_within.high - _within.low);
+        const glm::dvec4 point = _sceneFromClip * glm::dvec4(place, depth, 1.0);
         return glm::dvec3(point) / point.w;
     };
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            const glm::dvec2 share((column + 0.5) / columns, (row + 0.5) / rows);
-            const glm::dvec2 place = within.low + share * (within.high - within.low);
-            const glm::dvec3 near = at(place, -1.0);
-            _cells.push_back({near, at(place, 0.0) - near});
-        }
+    Cell cell;
+    cell.at = inGrid;
+    cell.from = at(-1.0);
+    cell.way = at(0.0) - cell.from;
+    return cell;
 }
 
 void SeenEdges::addReceiver(const Box& given, const glm::dmat4& sceneFromBox, Relief relief) {
     Box box = given;
     const auto flat = flatAxis(box.low, box.high, sceneFromBox);
     if (flat && relief == Relief::HalfWay) box.low[*flat] = box.high[*flat] = (box.low[*flat] + box.high[*flat]) / 2.0;
-    const int first = 6 * _receivers++;
+    const int first = std::exchange(_sides, _sides + 6);
     const auto bounds = boundsOf(box, _clipFromScene * sceneFromBox);
     if (!bounds) return;
     const auto [left, right] = between(bounds->low.x, bounds->high.x, _within.low.x, _within.high.x, columns);
@@ -101,9 +111,43 @@ void SeenEdges::addReceiver(const Box& given, const glm::dmat4& sceneFromBox, Re
         }
 }
 
+void SeenEdges::addReceivers(const Meshes& meshes) {
+    _firstOfMeshes = _sides;
+    look(meshes, _cells);
+}
+
+/// What is nearer to the eye than what is known.
+void SeenEdges::look(const Meshes& meshes, std::vector<Cell>& cells) const {
+    std::vector<RayBins::Ray> rays;
+    for (const Cell& cell : cells) rays.push_back({cell.from, cell.way, cell.at});
+    const glm::dvec3 size(_within.high - _within.low, 1.0);
+    const glm::dmat4 gridFromClip = glm::translate(glm::scale(glm::dmat4(1.0), 1.0 / size), {-_within.low, 0.0});
+    const RayBins bins(gridFromClip * _clipFromScene, std::move(rays));
+    int first = _firstOfMeshes;
+    for (const PlacedTriangles& mesh : meshes) {
+        bins.meet(mesh, [&](const RayBins::Met& met) {
+            Cell& cell = cells[met.ray];
+            if (!(met.reach > 0.0 && met.reach < cell.reach)) return;
+            const auto part = std::upper_bound(mesh.parts.begin(), mesh.parts.end(), met.triangle);
+            cell.reach = met.reach;
+            cell.normal = glm::normalize(glm::dot(met.normal, cell.way) < 0.0 ? met.normal : -met.normal);
+            cell.side = first + int(part - mesh.parts.begin()) - 1;
+        });
+        first += int(mesh.parts.size());
+    }
+}
+
+/// Along a cell's line of sight, to the plane through what another one sees.
+double SeenEdges::reachOf(const Cell& cell, const Cell& plane) {
+    return glm::dot(plane.normal, plane.place().place - cell.from) / glm::dot(plane.normal, cell.way);
+}
+
+/// Of meshes, what the light hardly touches does not count: it shows no edges.
 bool SeenEdges::faces(const Cell& cell) const {
-    return cell.side >= 0 &&
-           glm::dot(cell.normal, glm::dvec3(_light) - _light.w * (cell.from + cell.reach * cell.way)) > 0.0;
+    if (cell.side < 0) return false;
+    const double least = isOfMesh(cell) ? grazing : 0.0;
+    const glm::dvec3 way = glm::dvec3(_light) - _light.w * cell.place().place;
+    return glm::dot(cell.normal, way) > least * glm::length(way);
 }
 
 void SeenEdges::addCasters(const std::vector<Box>& boxes, const glm::dmat4& mapFromScene) {
@@ -134,18 +178,142 @@ void SeenEdges::addCasters(const std::vector<Box>& boxes, const glm::dmat4& mapF
     }
 }
 
+void SeenEdges::darken(std::vector<Cell>& cells, const Meshes& meshes,
+                       const std::vector<glm::dmat4>& mapsFromScene) const {
+    for (const glm::dmat4& mapFromScene : mapsFromScene) {
+        std::vector<RayBins::Ray> rays;
+        for (const Cell& cell : cells) {
+            const glm::dvec3 place = cell.place().place;
+            const glm::dvec4 at = mapFromScene * glm::dvec4(place, 1.0);
+            const glm::dvec2 in = faces(cell) && !cell.dark && at.w > 0.0 ? glm::dvec2(at) / at.w : glm::dvec2(-1.0);
+            rays.push_back({place, glm::dvec3(_light) - _light.w * place, in});
+        }
+        const RayBins bins(mapFromScene, std::move(rays));
+        for (const PlacedTriangles& mesh : meshes)
+            bins.meet(mesh, [&](const RayBins::Met& met) {
+                Cell& cell = cells[met.ray];
+                const glm::dvec3 way = glm::dvec3(_light) - _light.w * cell.place().place;
+                const bool before = _light.w == 0.0 || met.reach < 1.0;
+                if (before && met.reach * glm::length(way) > cell.least()) cell.dark = true;
+            });
+    }
+}
+
+void SeenEdges::addCasters(const Meshes& meshes, const std::vector<glm::dmat4>& mapsFromScene,
+                           const glm::dvec2& pixels) {
+    darken(_cells, meshes, mapsFromScene);
+    narrow(meshes, mapsFromScene, pixels);
+}
+
+/// Asks a quarter, a half and a whole pixel to the left and the right of what is between two edges, and below and above. Where
+/// the whole pixel shows something else, the edge of a shadow cannot be told.
+void SeenEdges::narrow(const Meshes& meshes, const std::vector<glm::dmat4>& mapsFromScene, const glm::dvec2& pixels) {
+    constexpr std::array steps{0.25, 0.5, 1.0};    // pixels to either side
+    constexpr std::size_t each = 2 * steps.size(); // along an axis
+    const glm::dvec2 pixel = pixelOf(pixels);
+    std::vector<Cell> beside;
+    std::vector<Cell*> of;
+    for (Cell& cell : _cells) {
+        if (!isOfMesh(cell) || !isAlone(cell)) continue;
+        of.push_back(&cell);
+        for (int axis = 0; axis < 2; ++axis)
+            for (const double step : steps)
+                for (const double side : {-step, step}) {
+                    glm::dvec2 at = cell.at;
+                    at[axis] += side * pixel[axis];
+                    beside.push_back(cellAt(at));
+                }
+    }
+    look(meshes, beside);
+    darken(beside, meshes, mapsFromScene);
+    const auto alone = [&](std::size_t i, std::size_t pair) {
+        const Cell *ends = &beside[2 * (i * each + pair)], &cell = *of[i];
+        return faces(ends[0]) && faces(ends[1]) && ends[0].dark != cell.dark && ends[1].dark != cell.dark;
+    };
+    for (std::size_t i = 0; i < of.size(); ++i)
+        for (std::size_t pair = 0; pair < each; ++pair)
+            if (alone(i, pair)) of[i]->across = std::min(of[i]->across, 2.0 * steps[pair % steps.size()]);
+    for (std::size_t i = 0; i < beside.size(); ++i) {
+        Cell& cell = *of[i / (2 * each)];
+        if (beside[i].isInGrid() && beside[i].side != cell.side) cell.left = true;
+    }
+    for (Cell& cell : _cells)
+        if (cell.left) cell.side = -1;
+    weighThin(pixel);
+}
+
+/// A thin shadow is met as seldom as pixels meet it: one cell stands for as many pixels as it has, each with an outline of its
+/// own. If it is wider than half a pixel the true outline is as long. Other edges are met in proportion to their length.
+void SeenEdges::weighThin(const glm::dvec2& pixel) {
+    constexpr double half = 0.5, ofAPixel = 2.4; // pixels of outline, between a row of pixels and one alone
+    constexpr double ofAnEdge = 3.14159265358979323846 / 4.0; // of the pitch, for each pair of cells, drawn and true
+    const glm::dvec2 pitch = 1.0 / (pixel * glm::dvec2(columns, rows));
+    double met = 0.0;
+    for (const Cell& cell : _cells) met += isThin(cell) ? 1.0 : 0.0;
+    const double sure = met > 0.0 ? std::max(0.0, 1.0 - 2.0 / std::sqrt(met)) : 0.0; // two deviations fewer
+    std::vector<glm::dvec2> wide;                                                    // places of other edges, pixels
+    for (const Cell& cell : _cells)
+        if (!isThin(cell) && edgesBeside(cell) > 0) wide.push_back(cell.at / pixel);
+    for (Cell& cell : _cells) {
+        if (!isThin(cell)) continue;
+        cell.apart = glm::length(1.0 / pixel); // of nothing else: as far as the grid reaches
+        for (const glm::dvec2& edge : wide) cell.apart = std::min(cell.apart, glm::distance(edge, cell.at / pixel));
+        const double outline = (cell.across > half ? 2.0 : 1.0) * ofAPixel * pitch.x * pitch.y;
+        cell.share = sure * outline / (2.0 * ofAnEdge * std::sqrt(pitch.x * pitch.y)) / edgesBeside(cell);
+    }
+}
+
+bool SeenEdges::isEdgeTo(const Cell& cell, int right, int up) const {
+    const int index = int(&cell - _cells.data()), x = index % columns + right, y = index / columns + up;
+    return x >= 0 && y >= 0 && x < columns && y < rows && isEdge(cell, at(x, y));
+}
+
+int SeenEdges::edgesBeside(const Cell& cell) const {
+    return int(isEdgeTo(cell, 1, 0)) + int(isEdgeTo(cell, -1, 0)) + int(isEdgeTo(cell, 0, 1)) +
+           int(isEdgeTo(cell, 0, -1));
+}
+
+/// True if there are edges on both sides.
+bool SeenEdges::isAlone(const Cell& cell) const {
+    return (isEdgeTo(cell, 1, 0) && isEdgeTo(cell, -1, 0)) || (isEdgeTo(cell, 0, 1) && isEdgeTo(cell, 0, -1));
+}
+
+/// As map.frag finds that what is beside a pixel bends away.
+bool SeenEdges::bends(const Cell& one, const Cell& other) const {
+    constexpr double much = 0.75, rounding = 1e-6;
+    const auto slopeOf = [&](const Cell& cell) {
+        const glm::dvec4 plane =
+            glm::transpose(_sceneFromClip) * glm::dvec4(cell.normal, -glm::dot(cell.normal, cell.place().place));
+        return glm::dvec2(plane) / plane.z;
+    };
+    const glm::dvec2 a = slopeOf(one), b = slopeOf(other);
+    const glm::dvec2 most = much * glm::max(glm::abs(a), glm::abs(b)) + rounding;
+    return glm::any(glm::greaterThan(glm::abs(a - b), most));
+}
+
+/// What is farther than a step along both surfaces is another part of the object.
 bool SeenEdges::isEdge(const Cell& one, const Cell& other) const {
-    return one.side >= 0 && one.side == other.side && one.dark != other.dark;
+    if (one.side < 0 || one.side != other.side || one.dark == other.dark || !faces(one) || !faces(other)) return false;
+    const glm::dvec3 here = one.place().place, there = other.place().place;
+    const auto step = [](const Cell& cell, const Cell& beside) {
+        return glm::distance(cell.place().place, beside.from + reachOf(beside, cell) * beside.way);
+    };
+    return glm::distance(here, there) <= step(one, other) + step(other, one);
 }
 
 std::vector<SeenPlace> SeenEdges::edges() const {
     std::vector<SeenPlace> result;
     const auto add = [&](int column, int row, int right, int up) {
-        const Cell* cell = &_cells[std::size_t(row) * columns + column];
-        if (column + right >= columns || row + up >= rows || !isEdge(*cell, cell[up * columns + right])) return;
+        if (column + right >= columns || row + up >= rows) return;
+        const Cell &one = at(column, row), &other = at(column + right, row + up);
+        if (!isEdge(one, other)) return;
+        const bool first = one.across < other.across;
+        const Cell& thin = first ? one : other;
+        const bool folded = bends(one, other);
         for (const int i : {0, 1}) {
-            result.push_back(cell[i * (up * columns + right)].place());
-            result.back().edge = wayAt(column + i * right, row + i * up);
+            const SeenPlace place = (i == 0 ? one : other).place();
+            const glm::dvec2 way = wayAt(column + i * right, row + i * up);
+            result.push_back({place.place, place.normal, way, thin.across, thin.apart, thin.share, folded});
         }
     };
     for (int row = 0; row < rows; ++row)
@@ -158,11 +326,11 @@ std::vector<SeenPlace> SeenEdges::edges() const {
 
 /// By the change of darkness from a cell to those about it on the same side.
 glm::dvec2 SeenEdges::wayAt(int column, int row) const {
-    const Cell& here = _cells[std::size_t(row) * columns + column];
+    const Cell& here = at(column, row);
     glm::dvec2 change(0.0);
     for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows - 1); ++y)
         for (int x = std::max(column - 1, 0); x <= std::min(column + 1, columns - 1); ++x) {
-            const Cell& other = _cells[std::size_t(y) * columns + x];
+            const Cell& other = at(x, y);
             if (!isEdge(here, other)) continue;
             change += glm::dvec2(x - column, y - row) * (other.dark ? 1.0 : -1.0);
         }

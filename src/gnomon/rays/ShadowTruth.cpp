@@ -18,6 +18,8 @@ constexpr int grid = 4; // rays a pixel and side
 constexpr double aboutCentre =
     1.0 / 16.0; // pixels: rasterisers snap to 1/256, but 24 bits of depth move places by more
 
+constexpr double sameNormal = 1e-9; // of a cosine: rounding between the triangles of one plane
+
 /// A place that a line of sight met.
 struct Place {
     unsigned triangle = RayHit::none;
@@ -39,15 +41,16 @@ public:
     TruthPixel pixel(int x, int y) const;
 
 private:
-    Place look(double x, double y) const;
+    Place look(const glm::dvec2& at) const;
     glm::dvec3 unproject(double x, double y, double depth) const;
     glm::dvec3 towardsLight(const glm::dvec3& from) const;
     Ray rayToLight(const Place& place, const glm::dvec3& towards) const;
     template <class Lit>
-    TruthPixel pixel(int x, int y, const Lit& lit) const;
+    TruthPixel pixel(int x, int y, bool& bends, const Lit& lit) const;
     double litByPoint(const Place& place) const;
     double litByDisc(const Place& place, std::mt19937& random) const;
-    bool isUndecided(double x, double y, bool lit) const;
+    void lookBeside(double x, double y, TruthPixel& pixel) const;
+    bool isUndecidedInPlane(double x, double y, const TruthPixel& pixel) const;
     void fillCentre(TruthPixel& pixel, const Place& place) const;
 
     const RayScene& _seen;
@@ -64,8 +67,8 @@ glm::dvec3 Tracer::unproject(double x, double y, double depth) const {
 }
 
 /// What is seen at a place of the picture, in pixels from its lower left corner.
-Place Tracer::look(double x, double y) const {
-    const glm::dvec3 near = unproject(x, y, -1.0), far = unproject(x, y, 1.0);
+Place Tracer::look(const glm::dvec2& at) const {
+    const glm::dvec3 near = unproject(at.x, at.y, -1.0), far = unproject(at.x, at.y, 1.0);
     const Ray ray{near, far - near, 1.0};
     const RayHit hit = _seen.closest(ray);
     if (!hit) return {};
@@ -121,11 +124,27 @@ void Tracer::fillCentre(TruthPixel& pixel, const Place& place) const {
     pixel.blockerDistance = hit.distance * glm::length(ray.along);
 }
 
-/// Whether a place close by is otherwise than a pixel's centre.
-bool Tracer::isUndecided(double x, double y, bool lit) const {
+glm::dvec2 beside(double x, double y, int i) {
+    return {x + (i % 2 ? aboutCentre : -aboutCentre), y + (i / 2 ? aboutCentre : -aboutCentre)};
+}
+
+void Tracer::lookBeside(double x, double y, TruthPixel& pixel) const {
     for (int i = 0; i < 4; ++i) {
-        const Place place = look(x + (i % 2 ? aboutCentre : -aboutCentre), y + (i / 2 ? aboutCentre : -aboutCentre));
-        if (place.triangle != RayHit::none && (litByPoint(place) > 0.0) != lit) return true;
+        const Place place = look(beside(x, y, i));
+        if (place.triangle != RayHit::none) pixel.litBeside[std::size_t(i)] = litByPoint(place) > 0.0;
+    }
+}
+
+/// Whether the light is otherwise where the lines of sight close by meet the plane of the surface. An edge of the shadow that
+/// lies along an edge of the surface shows there alone.
+bool Tracer::isUndecidedInPlane(double x, double y, const TruthPixel& pixel) const {
+    for (int i = 0; i < 4; ++i) {
+        const glm::dvec2 at = beside(x, y, i);
+        const glm::dvec3 near = unproject(at.x, at.y, -1.0), along = unproject(at.x, at.y, 1.0) - near;
+        const double towards = glm::dot(pixel.normal, along);
+        if (!(towards < 0.0)) continue;
+        const double distance = glm::dot(pixel.normal, pixel.position - near) / towards;
+        if ((litByPoint({pixel.receiver, near + distance * along, pixel.normal}) > 0.0) != pixel.litCentre) return true;
     }
     return false;
 }
@@ -133,27 +152,35 @@ bool Tracer::isUndecided(double x, double y, bool lit) const {
 /// Dice are made for a disc alone: they cost as much as a third of a point light's rays.
 TruthPixel Tracer::pixel(int x, int y) const {
     if (_disc.radius == 0.0) {
-        TruthPixel result = pixel(x, y, [this](const Place& place) { return litByPoint(place); });
-        result.undecided = result.seen() && result.isEdge() && isUndecided(x + 0.5, y + 0.5, result.litCentre);
+        bool bends = false;
+        TruthPixel result = pixel(x, y, bends, [this](const Place& place) { return litByPoint(place); });
+        result.litBeside.fill(result.litCentre);
+        if (!result.seen()) return result;
+        if (result.isEdge()) lookBeside(x + 0.5, y + 0.5, result);
+        const auto isOtherwise = [&](bool lit) { return lit != result.litCentre; };
+        result.undecided = std::any_of(result.litBeside.begin(), result.litBeside.end(), isOtherwise) ||
+                           (bends && isUndecidedInPlane(x + 0.5, y + 0.5, result));
         return result;
     }
     std::mt19937 random(static_cast<unsigned>(y * _view.width + x)); // the same picture every time
-    return pixel(x, y, [&](const Place& place) { return litByDisc(place, random); });
+    bool bends = false;
+    return pixel(x, y, bends, [&](const Place& place) { return litByDisc(place, random); });
 }
 
 template <class Lit>
-TruthPixel Tracer::pixel(int x, int y, const Lit& litAt) const {
+TruthPixel Tracer::pixel(int x, int y, bool& bends, const Lit& litAt) const {
+    const Place centre = look({x + 0.5, y + 0.5});
     TruthPixel result;
     double lit = 0.0;
     int seen = 0;
     for (int i = 0; i < grid * grid; ++i) {
-        const Place place = look(x + (i % grid + 0.5) / grid, y + (i / grid + 0.5) / grid);
+        const Place place = look({x + (i % grid + 0.5) / grid, y + (i / grid + 0.5) / grid});
         if (place.triangle == RayHit::none) continue;
         lit += litAt(place);
         ++seen;
+        bends = bends || glm::dot(place.normal, centre.normal) < 1.0 - sameNormal;
     }
     if (seen > 0) result.lit = static_cast<float>(lit / seen);
-    const Place centre = look(x + 0.5, y + 0.5);
     if (centre.triangle != RayHit::none) fillCentre(result, centre);
     return result;
 }

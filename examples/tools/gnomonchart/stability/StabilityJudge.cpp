@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "StabilityJudge.h"
 
-#include "../measure/Yardstick.h"
-
 #include <gnomon/metrics/BoundaryDistance.h>
 #include <gnomon/metrics/Confusion.h>
+
+#include <algorithm>
 
 namespace gnomon::examples {
 namespace {
@@ -33,12 +33,32 @@ metrics::Mask both(const metrics::Mask& a, const metrics::Mask& b) {
 
 std::size_t wrongAwayFromEdges(const metrics::Picture& visibility, const metrics::TruthMaps& truth,
                                const metrics::Mask& certain) {
+    const auto isDecided = [&](int x, int y) { return truth.undecided.empty() || !truth.undecided.at(x, y); };
     std::size_t wrong = 0;
     for (int y = 0; y < certain.height; ++y)
         for (int x = 0; x < certain.width; ++x)
-            wrong += certain.at(x, y) && metrics::isShadowed(visibility.at(x, y)) == (truth.litCentre.at(x, y) != 0) &&
+            wrong += certain.at(x, y) && isDecided(x, y) &&
+                     metrics::isShadowed(visibility.at(x, y)) == (truth.litCentre.at(x, y) != 0) &&
                      !isNearEdge(truth, x, y);
     return wrong;
+}
+
+metrics::Picture pictureOf(const metrics::Mask& lit) {
+    metrics::Picture picture(lit.width, lit.height);
+    for (std::size_t i = 0; i < lit.cells.size(); ++i) picture.cells[i] = lit.cells[i] ? 1.0 : 0.0;
+    return picture;
+}
+
+double floorOf(const metrics::TruthMaps& truth, const metrics::Mask& facing) {
+    double floor = 0.0;
+    const auto take = [&](const metrics::Mask& lit) {
+        if (lit.empty()) return;
+        if (const auto boundary = metrics::boundaryDistance(pictureOf(lit), truth.lit, facing))
+            floor = std::max(floor, boundary->p95);
+    };
+    take(truth.litCentre);
+    for (const metrics::Mask& lit : truth.litBeside) take(lit);
+    return floor;
 }
 
 } // namespace
@@ -50,8 +70,7 @@ StabilityJudgement judge(const metrics::Picture& visibility, const metrics::Trut
     StabilityJudgement judged;
     const metrics::Mask facing = both(sets.facing, within);
     if (const auto boundary = metrics::boundaryDistance(visibility, truth.lit, facing)) judged.p95 = boundary->p95;
-    if (const auto boundary = metrics::boundaryDistance(centreRays(truth).value, truth.lit, facing))
-        judged.floor = boundary->p95;
+    judged.floor = floorOf(truth, facing);
     judged.wrong = wrongAwayFromEdges(visibility, truth, certain);
     judged.shadow = counts.shadow + counts.falseLit;
     judged.iou = counts.intersectionOverUnion();
