@@ -12,7 +12,10 @@
 #include <gnomon/auto/RendererCosts.h>
 #include <gnomon/choice/RatioFile.h>
 #include <gtest/gtest.h>
+#include <osg/AlphaFunc>
+#include <osg/Geometry>
 #include <osg/Notify>
+#include <osg/Texture2D>
 
 #include <chrono>
 #include <cmath>
@@ -85,19 +88,43 @@ protected:
         return fixed;
     }
     /// Leaves what a file begins with: kind and renderer.
-    static void writeTenfold(const fs::path& file) {
+    static void writeRatios(const fs::path& file, const gnomon::CostRatios& ratios) {
         std::ifstream in(file);
         std::string head, renderer;
         std::getline(in, head);
         std::getline(in, renderer);
-        const gnomon::CostRatios ten{10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0};
-        std::ofstream(file) << head << "\n" << renderer << "\n" << ten.text();
+        std::ofstream(file) << head << "\n" << renderer << "\n" << ratios.text();
     }
+    static void writeTenfold(const fs::path& file) { writeRatios(file, {10.0, 10.0, 10.0, 10.0, 10.0, 10.0, 10.0}); }
     long sentences() const { return std::count(notes->text.begin(), notes->text.end(), '\n'); }
 
     const fs::path& cache = cacheOfAll();
     const osg::ref_ptr<Notes> notes = new Notes;
 };
+
+/// Two boxes in whose shadows others stand, and what else a scene has.
+struct Rivals {
+    Rivals() : scene(groundScene({cube, box({-3.0, -1.5, 0.0}, {-2.0, 0.5, 0.5})}, 8.0, sun)) {
+        scene.addShadow(technique);
+    }
+    bool isOnTrial() const { return technique->lastDecision().at(0).reason.rfind("on trial", 0) == 0; }
+    std::string chosen() const { return technique->lastDecision().at(0).chosen.spec; }
+
+    Scene scene;
+    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
+};
+
+View viewOfRivals() { return perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 96, 72); }
+
+osg::ref_ptr<osg::Geode> board() {
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(osg::createTexturedQuadGeometry({-1.5f, -3.0f, 3.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}));
+    const osg::ref_ptr<osg::Image> white = new osg::Image;
+    white->allocateImage(1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    white->setColor({1.0f, 1.0f, 1.0f, 1.0f}, 0u, 0u);
+    geode->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(white));
+    return geode;
+}
 
 /// What comes after a first frame finds in OpenGL.
 GlSnapshot afterFrame(const char* rates) {
@@ -220,6 +247,44 @@ TEST_F(AutoCosts, AreFoundForRivalsByDrawingEachForSomeFrames) {
     EXPECT_GE(expected.size(), 1u) << "the scene has no rivals";
     for (const std::string& kind : expected) EXPECT_EQ(seen.count(kind), 1u) << kind;
     EXPECT_GT(technique->lastDecision().at(0).measured, 0.0);
+}
+
+// Volumes and a map take more calls than a map alone, so that they are a rival here.
+TEST_F(AutoCosts, OfARivalThatHasBecomeWrongAreNotAskedFor) {
+    draw();
+    ASSERT_EQ(kept().size(), 1u);
+    writeRatios(kept().front(), {10.0});
+    RendererCosts::forget();
+    Rivals rivals;
+    rivals.technique->setError(0.6);
+    const osg::ref_ptr<osg::Geode> tested = board();
+    tested->getOrCreateStateSet()->setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
+    rivals.scene.content->addChild(tested);
+    Camera camera(rivals.scene.root, viewOfRivals());
+    for (int i = 0; i < 10; ++i) camera.frame();
+    EXPECT_EQ(rivals.chosen().rfind("map", 0), 0u) << rivals.chosen();
+    tested->getStateSet()->removeAttribute(osg::StateAttribute::ALPHAFUNC);
+    for (int i = 0; i < 10; ++i) {
+        camera.frame();
+        EXPECT_EQ(rivals.chosen().find('+'), std::string::npos) << "no caster is left for the map";
+    }
+}
+
+// Another technique in the view takes time, too.
+TEST_F(AutoCosts, OfRivalsAreNotAskedForWhereTheyCannotBeMeasured) {
+    draw();
+    RendererCosts::forget();
+    for (const bool alone : {true, false}) {
+        Rivals rivals;
+        if (!alone) rivals.scene.addShadow(planar());
+        Camera camera(rivals.scene.root, viewOfRivals());
+        int onTrial = 0;
+        for (int i = 0; i < 30; ++i) {
+            camera.frame();
+            onTrial += rivals.isOnTrial();
+        }
+        EXPECT_EQ(onTrial > 0, alone);
+    }
 }
 
 TEST_F(AutoCosts, FollowFramesThatTakeLongerThanPredicted) {

@@ -7,10 +7,9 @@
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
 #include <osg/Geometry>
+#include <osg/LightSource>
 #include <osg/MatrixTransform>
 #include <osg/Texture2D>
-
-#include <cstdlib>
 
 using gnomon::AutoShadowTechnique;
 using test::Camera;
@@ -78,6 +77,14 @@ struct Town {
     osg::ref_ptr<osg::MatrixTransform> mover;
     osg::ref_ptr<AutoShadowTechnique> technique;
 };
+
+osg::ref_ptr<osg::LightSource> secondSun() {
+    const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+    source->getLight()->setLightNum(1);
+    source->getLight()->setPosition({-1.0f, 0.2f, 1.4f, 0.0f});
+    source->getLight()->setDiffuse({0.2f, 0.2f, 0.2f, 1.0f});
+    return source;
+}
 
 } // namespace
 
@@ -155,4 +162,42 @@ TEST(AutoMixed, EndsAtOnceWhereNoCasterNeedsTheMap) {
     all.addShadow("volume");
     EXPECT_LE(untested.different(test::render(all.root, view())), 4)
         << "meshes keep their origin, and so round otherwise";
+}
+
+// Volumes and soft edges of several lights would take more stencil bits than there are.
+TEST(AutoMixed, LeavesNoLightWithoutShadow) {
+    Town town;
+    Camera camera(town.scene.root, view());
+    camera.frame();
+    ASSERT_TRUE(town.isMixed()) << town.chosen();
+    town.scene.root->addChild(secondSun());
+    town.scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+    for (int i = 0; i < 2; ++i) {
+        camera.frame();
+        EXPECT_EQ(town.technique->lastDecision().size(), 2u);
+        EXPECT_EQ(town.technique->diagnose(), std::vector<std::string>());
+    }
+}
+
+TEST(AutoMixed, IsNotTakenWhereTooFewStencilBitsAreFree) {
+    for (const unsigned reserved : {0x80u, 0xe0u, 0xfcu, 0xfeu}) {
+        Town town;
+        test::reserving(town.scene.root, reserved);
+        test::render(town.scene.root, view());
+        EXPECT_EQ(town.technique->diagnose(), std::vector<std::string>()) << reserved << ", " << town.chosen();
+    }
+}
+
+TEST(AutoMixed, BeginsAtOnceWhereACasterNeedsTheMap) {
+    Town town;
+    osg::Geode& board = *town.mover->getChild(0)->asGeode();
+    osg::StateSet& set = *board.getDrawable(0)->getStateSet();
+    const osg::ref_ptr<osg::StateAttribute> test = set.getAttribute(osg::StateAttribute::ALPHAFUNC);
+    set.removeAttribute(osg::StateAttribute::ALPHAFUNC);
+    Camera camera(town.scene.root, view());
+    for (int i = 0; i < 5; ++i) camera.frame(); // the first ones are compared anyway
+    ASSERT_EQ(town.chosen(), "volume");
+    set.setAttributeAndModes(test);
+    camera.frame();
+    EXPECT_TRUE(town.isMixed()) << town.chosen() << " in the frame in which the test is there";
 }

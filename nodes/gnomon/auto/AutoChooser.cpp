@@ -97,9 +97,10 @@ bool AutoChooser::Seen::hasSameView(const Seen& other) const {
 }
 
 bool AutoChooser::Seen::asks(const Seen& other) const {
-    return pixels == other.pixels && composite == other.composite && dark == other.dark && faint == other.faint &&
-           receiver == other.receiver && error == other.error && time == other.time &&
-           light.inGroup.w() == other.light.inGroup.w() && casters->list.size() == other.casters->list.size();
+    return pixels == other.pixels && composite == other.composite && reservedBits == other.reservedBits &&
+           lights == other.lights && dark == other.dark && faint == other.faint && receiver == other.receiver &&
+           error == other.error && time == other.time && light.inGroup.w() == other.light.inGroup.w() &&
+           casters->list.size() == other.casters->list.size();
 }
 
 AutoChooser::Choice& AutoChooser::find(const AutoView& view) {
@@ -203,18 +204,24 @@ void AutoChooser::findRivals(Choice& choice, const std::vector<AutoCandidate>& a
 }
 
 bool AutoChooser::isTrialDue(const Choice& choice) const {
-    return choice.frames >= trialFrames && (choice.incumbent || !choice.rivals.empty());
+    return choice.frames >= trialFrames && (choice.incumbent || (choice.alone && !choice.rivals.empty()));
 }
 
-void AutoChooser::tryRival(Choice& choice) const {
+/// What was right when the candidates were compared may be wrong by now.
+/// @return false if no rival is left.
+bool AutoChooser::tryRival(Choice& choice, const AutoView& view, const Selection& receiver) {
+    std::vector<AutoCandidate>& rivals = choice.rivals;
+    while (!rivals.empty() && !whyWrong(rivals.back(), view, receiver, _known).empty()) rivals.pop_back();
+    if (rivals.empty()) return false;
     if (!choice.incumbent) choice.incumbent = choice.candidate;
-    choice.candidate = choice.rivals.back();
-    choice.rivals.pop_back();
+    choice.candidate = rivals.back();
+    rivals.pop_back();
     choice.tried[std::size_t(choice.candidate.kind)] = true;
     choice.decision.chosen = choice.candidate.judged(_costs->now(), choice.moving);
     choice.decision.reason = "on trial for some frames, so that its time is known";
     choice.taken = std::make_shared<std::atomic<double>>(0.0);
     choice.frames = 0;
+    return true;
 }
 
 AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& receiver,
@@ -233,15 +240,16 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                    &view.casters,
                    fingerprintOf(view.frame.seen),
                    view.frame.group->getComposite(),
+                   view.frame.options.reservedStencilBits,
+                   view.frame.lights,
                    view.frame.dark,
                    isFaint(view),
                    receiver,
                    options.error,
                    options.time};
-    if (isDue(choice, now, view, receiver) || (isTrialDue(choice) && choice.rivals.empty()))
+    if (isDue(choice, now, view, receiver) ||
+        (isTrialDue(choice) && !tryRival(choice, view, receiver) && choice.incumbent))
         decide(choice, now, view, receiver, options);
-    else if (isTrialDue(choice))
-        tryRival(choice);
     return {sharesOf(choice.candidate, view, receiver), choice.cause, surfacesOf(choice.candidate, view),
             isMeasured(choice)};
 }
@@ -258,10 +266,8 @@ std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate
             {_inner.of(map, receiver, _round), split.dense(view.meshes)}};
 }
 
-/// Several planes are several jobs, none of which knows all.
 std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(const AutoCandidate& candidate, const AutoView& view) {
-    const bool relit = view.frame.group->getComposite() == ShadowCasterGroup::RELIGHT;
-    if (!relit || candidate.kind != AutoCandidate::Kind::Planar || candidate.planes.size() != 1) return nullptr;
+    if (!relightsAlone(candidate, view)) return nullptr;
     return std::make_shared<const LeafSet>(findFlatLeaves(view, _known.bodies));
 }
 
@@ -285,15 +291,20 @@ osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, bool alone) {
     if (!_costs->areMeasured()) return nullptr;
     Lock lock(_mutex);
     std::optional<FrameCosts::Frame> frame;
+    bool measured = true;
+    const auto isOfView = [&](const auto& choice) { return choice->stage == stage && choice->lastRound == _round; };
     for (const auto& choice : _choices) {
-        if (choice->stage != stage || choice->lastRound != _round) continue;
-        if (!isMeasured(*choice) || (frame && frame->kind != choice->candidate.kind)) alone = false;
+        if (!isOfView(choice)) continue;
+        measured = measured && isMeasured(*choice);
         if (!frame) frame = FrameCosts::Frame{choice->candidate.kind, {}, 0.0, choice->taken};
+        alone = alone && frame->kind == choice->candidate.kind;
         frame->work += choice->candidate.still;
         if (choice->motion.scene > 0.0) frame->work += choice->candidate.change;
         frame->prepared += choice->prepared;
     }
-    if (!alone) frame.reset();
+    for (const auto& choice : _choices)
+        if (isOfView(choice)) choice->alone = alone;
+    if (!alone || !measured) frame.reset();
     return frame || !_costs->knowRenderer() ? new CostWatch(*_costs, frame) : nullptr;
 }
 

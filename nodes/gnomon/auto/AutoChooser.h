@@ -58,6 +58,8 @@ private:
         osg::ref_ptr<const CasterDrawables> casters;
         std::uint64_t leaves = 0;
         ShadowCasterGroup::Composite composite = ShadowCasterGroup::RELIGHT;
+        unsigned reservedBits = 0;
+        std::size_t lights = 1;
         float dark = 0.0f;
         bool faint = false;
         Selection receiver;
@@ -88,6 +90,7 @@ private:
         AutoMotion movingThen;                      ///< when the candidates were compared.
         unsigned learnt = 0;                        ///< FrameCosts::generation() then.
         AutoMotion motion;                          ///< of this frame.
+        bool alone = false;                         ///< nothing else counts in a frame's time, so that it can be measured.
         double prepared = 0.0;                      ///< milliseconds, of a frame that is measured.
         std::shared_ptr<std::atomic<double>> taken = std::make_shared<std::atomic<double>>(0.0);
     };
@@ -101,7 +104,7 @@ private:
     void findRivals(Choice& choice, const std::vector<AutoCandidate>& all, const std::vector<ChoiceCandidate>& judged,
                     const ChoiceBudget& budget, std::size_t chosen) const;
     bool isTrialDue(const Choice& choice) const;
-    void tryRival(Choice& choice) const;
+    bool tryRival(Choice& choice, const AutoView& view, const Selection& receiver);
 
     mutable OpenThreads::Mutex _mutex;
     InnerTechniques _inner;

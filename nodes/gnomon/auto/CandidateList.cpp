@@ -6,6 +6,7 @@
 #include <gnomon/auto/FlatReceivers.h>
 #include <gnomon/auto/MapEdges.h>
 #include <gnomon/choice/EdgeError.h>
+#include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapSettings.h>
 #include <gnomon/map/ShadowMapCache.h>
@@ -13,10 +14,18 @@
 #include <gnomon/volume/VolumeForecast.h>
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <optional>
 
 namespace gnomon {
+
+/// Several planes are several jobs, none of which knows all; and jobs of several lights are relit together.
+bool relightsAlone(const AutoCandidate& candidate, const AutoView& view) {
+    return view.frame.group->getComposite() == ShadowCasterGroup::RELIGHT && view.frame.lights == 1 &&
+           candidate.kind == AutoCandidate::Kind::Planar && candidate.planes.size() == 1;
+}
+
 namespace {
 
 using Map = ShadowMapOptions;
@@ -151,7 +160,7 @@ private:
         planar.error = _sampled;
         const double planes = std::max(1.0, double(flat.planes.size()));
         planar.still = _compose;
-        if (!blends() && planar.planes.size() == 1) relightAlone(flat.leaves, planar.still);
+        if (relightsAlone(planar, _view)) relightAlone(flat.leaves, planar.still);
         planar.still.calls += 2.0 * planes;
         planar.still.triangles = planes * _casters;
         planar.still.texels = _pixels; // stencil and depth alone, as in a map
@@ -261,7 +270,8 @@ private:
     void addMixed() {
         const CasterSplit& split = _known.splits.of(_view.casters);
         if (!split.isDivided()) return;
-        const FrameCasters simple = split.simple(_view.meshes), dense = split.dense(_view.meshes);
+        const FrameCasters dense = split.dense(_view.meshes);
+        const double simple = _casters - double(dense.layers().triangles());
         const osg::ref_ptr<const MapCasters> boxes = boxesOf(dense.layers());
         const MapForecast one = forecast(*boxes, 1, sizes[0]);
         if (one.maps == 0) return;
@@ -272,10 +282,20 @@ private:
                 AutoCandidate mixed = mapOf(mapped, 1, size, quality);
                 mixed.kind = Kind::Mixed;
                 mixed.error = std::max(mixed.error, _sampled);
-                addVolumeOf(simple.drawables(), double(simple.layers().triangles()), mixed);
+                mixed.obstacle = whyNotTogether(quality.edges);
+                addVolumeOf(split.simplePieces(), simple, mixed);
                 mixed.still.calls += 3.0; // marks are handed on
                 _result.all.push_back(mixed);
             }
+    }
+
+    /// The two need a stencil bit each where edges are smooth, and another to hand marks on; the volumes count in others.
+    std::string whyNotTogether(Map::Edges edges) const {
+        const bool fades = edges == Map::SMOOTH && !blends();
+        if (fades && _view.frame.lights > 1) return "stencil bits are too few for smooth edges of several lights";
+        const std::size_t free = 8 - std::bitset<8>(_view.frame.options.reservedStencilBits).count();
+        const std::size_t needed = edges == Map::SMOOTH ? 6 : 2 + std::min(_view.frame.lights, mostRelitLights);
+        return free < needed ? "too many stencil bits are reserved" : "";
     }
 
     void addTraced() {
@@ -317,6 +337,7 @@ std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const
     if (candidate.kind == Kind::Terrain) return known.terrain.of(view, receiver).obstacle;
     if (candidate.kind == Kind::Mixed && !known.splits.of(view.casters).isDivided())
         return "all casters are of one kind";
+    if (candidate.kind == Kind::Volume || candidate.kind == Kind::Traced) return whyCutOut(view.casters);
     if (candidate.kind != Kind::Planar) return {};
     const FlatReceivers flat = findFlatReceivers(view, known.bodies);
     if (!flat.obstacle.empty()) return flat.obstacle;

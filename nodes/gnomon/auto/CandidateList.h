@@ -29,6 +29,9 @@ struct CandidateList {
 /// A new technique is one more function in CandidateList.cpp.
 CandidateList listCandidates(const AutoView& view, const Selection& receiver, double error, AutoKnowledge& known);
 
+/// True if a candidate's shadow falls on known leaves, and relighting can draw these alone; see MarkJob::surfaces.
+bool relightsAlone(const AutoCandidate& candidate, const AutoView& view);
+
 /// Why a candidate that was right for another frame is wrong now; empty if it still is right.
 std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver,
                      AutoKnowledge& known);

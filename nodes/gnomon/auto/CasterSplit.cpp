@@ -9,6 +9,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::size_t mostSplits = 4; // as CasterRevisions has choices
+constexpr unsigned keptCalls = 8;     // of retired casters: other views may be about to follow
 constexpr double large = 0.5;         // of the radius of all: so large a part is not told from the whole
 
 bool isForMap(const CasterDrawable& piece, double radius) {
@@ -58,8 +59,12 @@ CasterSplit& CasterSplits::of(const CasterDrawables& all) {
         _splits.dropOldestBeyond(mostSplits - 1);
         known = &_splits.add({all.choice, std::make_unique<CasterSplit>()});
     }
-    known->split->follow(all);
-    return *known->split;
+    known->lastCall = ++_calls;
+    CasterSplit& split = *known->split;
+    split.follow(all);
+    _splits.dropIf(
+        [this](const Entry& entry) { return entry.split->isRetired() && _calls - entry.lastCall > keptCalls; });
+    return split;
 }
 
 } // namespace gnomon

@@ -20,10 +20,14 @@ class CasterSplit {
 public:
     /// Divides casters, unless that was done.
     void follow(const CasterDrawables& all);
+    /// True if no view will ask for what was divided last.
+    bool isRetired() const { return _all && _all->isRetired(); }
     /// True if there is something in either part.
     bool isDivided() const { return _simple.pieces.get() && _dense.pieces.get(); }
 
-    /// The parts as a technique takes them. Only where isDivided().
+    /// Only where isDivided(), as the following.
+    const CasterDrawables& simplePieces() const { return *_simple.pieces.get(); }
+    /// The parts as a technique takes them.
     FrameCasters simple(const FrameCasters& all) const { return partOf(all, _simple); }
     FrameCasters dense(const FrameCasters& all) const { return partOf(all, _dense); }
 
@@ -49,8 +53,10 @@ private:
     struct Entry {
         std::uint64_t choice;
         std::unique_ptr<CasterSplit> split;
+        unsigned lastCall = 0;
     };
     RecentCache<Entry> _splits;
+    unsigned _calls = 0;
 };
 
 } // namespace gnomon

@@ -284,6 +284,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
         return reportNoReceiver(entry, *getStage());
     reportEnclosers(entry, found.lights, casters.drawables(), receiving, *getStage());
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
+    view.lights = found.lights.size();
     view.strengths = found.strengths;
     view.options.filter = _options.filter; // as all who share this bin want it
     const auto add = [&](auto& to, const Leaves& those, std::optional<ScreenRect> within, bool alone, bool programs) {

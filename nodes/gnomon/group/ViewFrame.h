@@ -7,6 +7,7 @@
 #include <osg/Vec2d>
 #include <osgUtil/RenderLeaf>
 
+#include <cstddef>
 #include <map>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct ViewFrame {
     double frameTime = 0.0;                       ///< seconds, see timeOf().
     const void* stage = nullptr;                  ///< whose view it is: tells views apart.
     const LeafSet* receivers = nullptr;           ///< leaves of the named receiver; null if none is named.
-    std::map<int, double> strengths;              ///< of the view's lights, see GroupLights.
+    std::size_t lights = 1;                       ///< whose shadows the group wants in the view.
+    std::map<int, double> strengths;              ///< of these, see GroupLights.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
 };
 
