@@ -166,6 +166,10 @@ public:
     osg::ref_ptr<const CasterLayers> casters(const CasterView* view = nullptr) const;
     /// For the techniques, whose types are internal: the casters, drawable by drawable. Only changed drawables are read again. Call it as casters().
     osg::ref_ptr<const CasterDrawables> drawables(const CasterView* view = nullptr) const;
+    /// For the techniques, whose types are internal: some of the casters as meshes. Call it as casters().
+    /// @param some    pieces of drawables().
+    /// @param before  meshes of these or others, whatever of which is the same is taken.
+    osg::ref_ptr<const CasterLayers> castersAmong(const CasterDrawables& some, const CasterLayers& before) const;
     /// Number of changes that casters() and drawables() have found. 0 before the first call of either.
     /// A choice of levels of detail that no view had lately is a change.
     unsigned revision() const;

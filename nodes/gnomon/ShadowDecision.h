@@ -9,7 +9,9 @@ namespace gnomon {
 
 /// A way to draw a shadow, as an AutoShadowTechnique has judged it for one light in one view.
 struct ShadowCandidate {
-    std::string spec;   ///< Specification string that gives it, without composite. "none": no shadow at all.
+    /// Specification string that gives it, without composite. "none": no shadow at all. "volume+map", with the map's keys: simple
+    /// casters by volume, the others by a map; no specification gives that.
+    std::string spec;
     double error = 0.0; ///< Predicted error of the shadow's edge: 95th percentile, pixels.
     /// Predicted time that it adds to a frame, milliseconds of processor time, as the scene moves now.
     double time = 0.0;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
+#include "FileVersion.h"
 
 #include <gnomon/AutoShadowTechnique.h>
 
-#include <osgDB/ObjectWrapper>
-
 using namespace gnomon;
 
-REGISTER_OBJECT_WRAPPER(gnomon_AutoShadowTechnique, new gnomon::AutoShadowTechnique, gnomon::AutoShadowTechnique,
-                        "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
-                        "gnomon::AutoShadowTechnique") {
+GNOMON_WRAPPER(AutoShadowTechnique, new gnomon::AutoShadowTechnique, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     wrapper->addSerializer(
         new fields::ExactNumber<MyClass, double>("Error", fresh->getError(), &MyClass::getError, &MyClass::setError),

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
+#include "FileVersion.h"
 
 #include <gnomon/HaloNode.h>
 
-#include <osgDB/ObjectWrapper>
-
 using namespace gnomon;
 
-REGISTER_OBJECT_WRAPPER(gnomon_HaloNode, new gnomon::HaloNode, gnomon::HaloNode,
-                        "osg::Object osg::Node osg::Group gnomon::HaloNode") {
+GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group", "") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     fields::addEnum(*wrapper, "Shape", fresh->getShape(), &MyClass::getShape, &MyClass::setShape,
                     {{"WHOLE", MyClass::WHOLE}, {"PARTS", MyClass::PARTS}, {"PIXELS", MyClass::PIXELS}});

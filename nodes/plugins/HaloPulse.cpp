@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #define OBJECT_CAST dynamic_cast // a callback has osg::Object for a virtual base
 #include "Fields.h"
+#include "FileVersion.h"
 
 #include <gnomon/HaloPulse.h>
 
-#include <osgDB/ObjectWrapper>
-
 using namespace gnomon;
 
-REGISTER_OBJECT_WRAPPER(gnomon_HaloPulse, new gnomon::HaloPulse, gnomon::HaloPulse,
-                        "osg::Object osg::Callback gnomon::HaloPulse") {
+GNOMON_WRAPPER(HaloPulse, new gnomon::HaloPulse, "osg::Object osg::Callback", "") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("Amplitude", fresh->getAmplitude(),
                                                                     &MyClass::getAmplitude, &MyClass::setAmplitude),

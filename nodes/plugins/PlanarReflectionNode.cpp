@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
+#include "FileVersion.h"
 
 #include <gnomon/PlanarReflectionNode.h>
-
-#include <osgDB/ObjectWrapper>
 
 using namespace gnomon;
 
@@ -29,8 +28,7 @@ static bool writeOtherSurface(osgDB::OutputStream& out, const PlanarReflectionNo
     return fields::writeOthers(out, node.getSurface());
 }
 
-REGISTER_OBJECT_WRAPPER(gnomon_PlanarReflectionNode, new gnomon::PlanarReflectionNode, gnomon::PlanarReflectionNode,
-                        "osg::Object osg::Node osg::Group gnomon::PlanarReflectionNode") {
+GNOMON_WRAPPER(PlanarReflectionNode, new gnomon::PlanarReflectionNode, "osg::Object osg::Node osg::Group", "") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec4d>("Plane", fresh->getPlane(), &MyClass::getPlane,
                                                                         &MyClass::setPlane),

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
+#include "FileVersion.h"
 
 #include <gnomon/PlanarShadowNode.h>
-
-#include <osgDB/ObjectWrapper>
 
 using namespace gnomon;
 
@@ -19,9 +18,8 @@ static bool writePlanes(osgDB::OutputStream& out, const PlanarShadowNode& node) 
                              [&](const osg::Vec4d& plane) { fields::writeExactVector(out, plane); });
 }
 
-REGISTER_OBJECT_WRAPPER(gnomon_PlanarShadowNode, new gnomon::PlanarShadowNode, gnomon::PlanarShadowNode,
-                        "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
-                        "gnomon::PlanarShadowNode") {
+GNOMON_WRAPPER(PlanarShadowNode, new gnomon::PlanarShadowNode, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     ADD_USER_SERIALIZER(Planes);
     ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
+#include "FileVersion.h"
 
 #include <gnomon/SceneProps.h>
 #include <gnomon/ShadowMapTechnique.h>
-
-#include <osgDB/ObjectWrapper>
 
 using namespace gnomon;
 
@@ -15,9 +14,8 @@ struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
     }
 };
 
-REGISTER_OBJECT_WRAPPER(gnomon_ShadowMapTechnique, new gnomon::ShadowMapTechnique, gnomon::ShadowMapTechnique,
-                        "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
-                        "gnomon::ShadowMapTechnique") {
+GNOMON_WRAPPER(ShadowMapTechnique, new gnomon::ShadowMapTechnique, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     wrapper->addFinishedObjectReadCallback(new AskForAlphaBits);
     ADD_INT_SERIALIZER(Size, fresh->getSize());

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
+#include "FileVersion.h"
 
 #include <gnomon/ShadowTechnique.h>
-
-#include <osgDB/ObjectWrapper>
 
 using namespace gnomon;
 
@@ -29,8 +28,7 @@ static bool writeOtherReceiver(osgDB::OutputStream& out, const ShadowTechnique& 
     return fields::writeOthers(out, technique.getReceiver());
 }
 
-REGISTER_OBJECT_WRAPPER(gnomon_ShadowTechnique, nullptr, gnomon::ShadowTechnique,
-                        "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique") {
+GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "") {
     ADD_USER_SERIALIZER(Receiver);
     ADD_USER_SERIALIZER(OtherReceiver);
 }

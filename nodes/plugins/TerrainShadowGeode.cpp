@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Fields.h"
+#include "FileVersion.h"
 
 #include <gnomon/TerrainShadowGeode.h>
-
-#include <osgDB/ObjectWrapper>
 
 using namespace gnomon;
 using fields::readExactVector;
@@ -37,9 +36,8 @@ static bool writeObjectBounds(osgDB::OutputStream& out, const TerrainShadowGeode
     return true;
 }
 
-REGISTER_OBJECT_WRAPPER(gnomon_TerrainShadowGeode, new gnomon::TerrainShadowGeode, gnomon::TerrainShadowGeode,
-                        "osg::Object osg::Node osg::Geode gnomon::ShadowTechnique "
-                        "gnomon::TerrainShadowGeode") {
+GNOMON_WRAPPER(TerrainShadowGeode, new gnomon::TerrainShadowGeode, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     fields::addEnum(*wrapper, "Method", fresh->getMethod(), &MyClass::getMethod, &MyClass::setMethod,
                     {{"BOX", MyClass::BOX}, {"HULL", MyClass::HULL}, {"DRAPE", MyClass::DRAPE}});

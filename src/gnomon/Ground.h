@@ -27,6 +27,15 @@ struct GroundRange {
     bool holes = false; ///< True if rays may pass through holes there and hit ground behind.
 };
 
+/// Whether some triangle of a ground is turned away from a light. A vertical triangle counts unless the light is in its
+/// plane.
+struct TurnedAway {
+    bool is = false; ///< True if there is one.
+    /// `is` stays as it is while the light moves by less: the change of a sun's unit direction, or a lamp's way, scene's
+    /// unit.
+    double until = 0.0;
+};
+
 /// Terrain that shadows fall on: triangles, z up, in double. groundOf() reads one from a scene graph.
 ///
 /// Use it to ask for heights and slopes and to cast rays at terrain. Most places in plan have one triangle. Places
@@ -53,10 +62,9 @@ public:
                        const std::function<void(const GroundTriangle&, PlaneSet)>& take) const = 0;
     /// Greatest slope, as a tangent, of ground that may be on the inner side of all planes. 0 if there is none.
     virtual double steepest(const std::vector<glm::dvec4>& planes) const = 0;
-    /// True if some triangle is turned away from a light, so that the ground may throw a shadow on itself. A vertical
-    /// triangle counts unless the light is in its plane.
+    /// Finds out whether the ground may throw a shadow on itself.
     /// @param light  homogeneous: w = 0 is the direction towards a sun, w = 1 a lamp's position.
-    virtual bool isTurnedAway(const glm::dvec4& light) const = 0;
+    virtual TurnedAway turnedAway(const glm::dvec4& light) const = 0;
     /// Conservative bounds of height, slope and holes over a rectangle in plan. They may include nearby ground.
     /// nullopt if there is no ground.
     virtual std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const = 0;

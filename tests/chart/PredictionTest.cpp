@@ -106,6 +106,19 @@ TEST(PredictionSummary, HoldsAutoAgainstTheCheapestFixedSettingThatKeepsTheError
         "good as the best fixed setting, within a factor of 1.25.");
 }
 
+TEST(PredictionSummary, HoldsAutoAgainstNothingThatLeavesTheWallsLit) {
+    ChartResults results;
+    ChartPoint ground = measured("town-45", "hull", "hull", 0.4, {0.1, 0.1});
+    ground.errors->headline = {99, 0, 1, 900};
+    ChartPoint coarse = measured("town-45", "map", "map:size=256", 0.9, {0.5, 0.5});
+    coarse.errors->headline = {98, 1, 1, 900}; // at an edge that is 0.9 px off
+    results.points = {ground, coarse, measured("town-45", "auto", "auto", 0.4, {1.0, 1.0})};
+    results.points.back().errors->headline = {100, 0, 0, 900};
+    EXPECT_EQ(outcomesOf(results).at(0).best, "map, map:size=256");
+    results.points.front().errors->headline = {100, 0, 0, 900};
+    EXPECT_EQ(outcomesOf(results).at(0).best, "hull, hull") << "only the ground gets shadow";
+}
+
 TEST(PredictionSummary, HoldsAutoAgainstTheMostAccurateFixedSettingWithinTheTime) {
     ChartResults results = madeUp();
     results.points.push_back(measured("lab8-45", "auto", "auto:time=4", 1.2, {4.9, 5.1}));

@@ -19,6 +19,11 @@ osg::ref_ptr<osgDB::Options> optionsFor(const std::string& kind) {
     return options;
 }
 
+osgDB::ReaderWriter::ReadResult read(const std::string& contents, const std::string& kind) {
+    std::istringstream file(contents);
+    return plugin(kind).readNode(file, optionsFor(kind));
+}
+
 } // namespace
 
 void usePluginsOfThisBuild() { osgDB::Registry::instance()->getLibraryFilePathList().push_front(GNOMON_LIBRARIES); }
@@ -29,8 +34,9 @@ std::string written(const osg::Node& node, const std::string& kind) {
 }
 
 osg::ref_ptr<osg::Node> loaded(const std::string& contents, const std::string& kind) {
-    std::istringstream file(contents);
-    return plugin(kind).readNode(file, optionsFor(kind)).getNode();
+    return read(contents, kind).getNode();
 }
+
+std::string whyRefused(const std::string& contents, const std::string& kind) { return read(contents, kind).message(); }
 
 } // namespace test

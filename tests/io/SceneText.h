@@ -15,6 +15,9 @@ std::string written(const osg::Node& node, const std::string& kind);
 /// Null if OSG refuses the contents.
 osg::ref_ptr<osg::Node> loaded(const std::string& contents, const std::string& kind);
 
+/// What OSG says of contents that it refuses.
+std::string whyRefused(const std::string& contents, const std::string& kind);
+
 /// Null if the scene in it is not a `Class`.
 template <typename Class>
 osg::ref_ptr<Class> loadedAs(const std::string& contents, const std::string& kind) {

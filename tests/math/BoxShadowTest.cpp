@@ -24,22 +24,14 @@ HeightPyramid levelGround() {
     return HeightPyramid({41, 41, {0.0, 0.0}, {10.0, 10.0}, std::vector<float>(41 * 41, 3.0f)});
 }
 
-BoxCaster boxOf(const House& house, double base) {
-    const std::vector<glm::dvec3> corners = house.corners();
-    BoxCaster caster{corners[0], corners[0], {}};
-    for (const glm::dvec3& corner : corners) {
-        caster.low = glm::min(caster.low, corner);
-        caster.high = glm::max(caster.high, corner);
-    }
-    caster.low.z = base;
-    caster.nearestVertex = [corners](const glm::dvec2& at) {
-        const auto nearer = [&](const glm::dvec3& a, const glm::dvec3& b) {
-            return glm::length(glm::dvec2(a) - at) < glm::length(glm::dvec2(b) - at);
-        };
-        return glm::dvec2(*std::min_element(corners.begin(), corners.end(), nearer));
-    };
-    return caster;
+BoxCaster boxOf(const std::vector<glm::dvec3>& points, const House& house, double base) {
+    glm::dvec3 low = house.corners()[0], high = low;
+    for (const glm::dvec3& corner : house.corners()) low = glm::min(low, corner), high = glm::max(high, corner);
+    low.z = base;
+    return gnomon::boxCaster(points, low, high);
 }
+
+BoxCaster boxOf(const House& house, double base) { return boxOf(house.corners(), house, base); }
 
 std::optional<Drape> shadowOf(const Ground& ground, const House& house, const glm::dvec4& light) {
     return gnomon::boxShadow(ground, boxOf(house, 3.0), light);
@@ -162,7 +154,7 @@ TEST(BoxShadow, KnowsWhetherItsOutlineIsThatOfATurnedHouse) {
                 if (glm::length(glm::max(glm::abs(house.local(p - house.middle)) - house.half, 0.0)) == 0.0) continue;
                 differ += house.blocks({p.x, p.y, 3.0}, sun) != (test::over(*mesh, p) > 0);
             }
-            const bool is = gnomon::isBoxOutline(ground, house.corners(), boxOf(house, 3.0), glm::dvec4(sun, 0.0));
+            const bool is = gnomon::isBoxOutline(ground, boxOf(house, 3.0), glm::dvec4(sun, 0.0));
             EXPECT_EQ(is, differ == 0) << turn << " turned, sun from " << azimuth << ", " << differ;
             ++(is ? right : wrong);
         }
@@ -173,14 +165,8 @@ TEST(BoxShadow, KnowsWhetherItsOutlineIsThatOfATurnedHouse) {
 TEST(BoxShadow, KnowsThatItsOutlineIsNotThatOfAnythingButAnUprightBlockInTheGround) {
     const HeightPyramid ground = levelGround();
     const House house{{200.0, 200.0}, {8.0, 5.0}, 0.0, 23.0};
-    const auto isOutline = [&](std::vector<glm::dvec3> points, const glm::dvec4& light) {
-        BoxCaster caster = boxOf(house, 3.0);
-        caster.nearestVertex = [points](const glm::dvec2& at) {
-            return glm::dvec2(*std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
-                return glm::length(glm::dvec2(a) - at) < glm::length(glm::dvec2(b) - at);
-            }));
-        };
-        return gnomon::isBoxOutline(ground, points, caster, light);
+    const auto isOutline = [&](const std::vector<glm::dvec3>& points, const glm::dvec4& light) {
+        return gnomon::isBoxOutline(ground, boxOf(points, house, 3.0), light);
     };
     const glm::dvec4 sun(sunAt(30.0, 30.0), 0.0);
     const std::vector<glm::dvec3> block = house.corners();

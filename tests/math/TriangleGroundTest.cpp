@@ -347,21 +347,21 @@ TEST(TriangleGround, IsTurnedAwayFromLightsThatAreBelowTheFartherSideOfARoof) {
     const double farther =
         2.0 * 60.0 * std::tan(glm::radians(30.0)); // plane of one side over the other 60 m from the ridge
     for (const Ground* ground : {static_cast<const Ground*>(&field), static_cast<const Ground*>(&triangles)}) {
-        EXPECT_TRUE(ground->isTurnedAway(sun(0.0, 1.0, 29.0)));
-        EXPECT_FALSE(ground->isTurnedAway(sun(0.0, 1.0, 31.0)));
-        EXPECT_FALSE(ground->isTurnedAway(sun(1.0, 0.0, 1.0))) << "along the ridge";
-        EXPECT_TRUE(ground->isTurnedAway(lamp(40.0, farther - 1.0)));
-        EXPECT_FALSE(ground->isTurnedAway(lamp(40.0, farther + 1.0)));
-        EXPECT_TRUE(ground->isTurnedAway(lamp(160.0, farther - 1.0)));
-        EXPECT_FALSE(ground->isTurnedAway(lamp(100.0, 1.0))) << "over the ridge";
+        EXPECT_TRUE(ground->turnedAway(sun(0.0, 1.0, 29.0)).is);
+        EXPECT_FALSE(ground->turnedAway(sun(0.0, 1.0, 31.0)).is);
+        EXPECT_FALSE(ground->turnedAway(sun(1.0, 0.0, 1.0)).is) << "along the ridge";
+        EXPECT_TRUE(ground->turnedAway(lamp(40.0, farther - 1.0)).is);
+        EXPECT_FALSE(ground->turnedAway(lamp(40.0, farther + 1.0)).is);
+        EXPECT_TRUE(ground->turnedAway(lamp(160.0, farther - 1.0)).is);
+        EXPECT_FALSE(ground->turnedAway(lamp(100.0, 1.0)).is) << "over the ridge";
     }
 }
 
 TEST(TriangleGround, HasACliffThatIsTurnedAwayUnlessTheLightIsInItsPlane) {
     const TriangleGround cliff = groundOf(terraces());
-    EXPECT_TRUE(cliff.isTurnedAway({-1.0, 0.0, 5.0, 0.0}));
-    EXPECT_FALSE(cliff.isTurnedAway({0.0, 0.0, 1.0, 0.0}));
-    EXPECT_FALSE(cliff.isTurnedAway({0.0, 1.0, 0.1, 0.0}));
+    EXPECT_TRUE(cliff.turnedAway({-1.0, 0.0, 5.0, 0.0}).is);
+    EXPECT_FALSE(cliff.turnedAway({0.0, 0.0, 1.0, 0.0}).is);
+    EXPECT_FALSE(cliff.turnedAway({0.0, 1.0, 0.1, 0.0}).is);
 }
 
 /// Seconds of processor time for 20 000 heights and rays on a field of posts².

@@ -19,6 +19,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 namespace fs = std::filesystem;
 using namespace test;
@@ -187,6 +188,39 @@ TEST_F(AutoCosts, AreFixedWhereTheEnvironmentSaysSo) {
 }
 
 TEST_F(AutoCosts, TellWhatFramesTook) { EXPECT_GT(draw(12).measured, 0.0); }
+
+// A rival is a kind that would be drawn if it took a third of what is predicted: a fifth less than what is drawn.
+TEST_F(AutoCosts, AreFoundForRivalsByDrawingEachForSomeFrames) {
+    draw(); // so that the cache is there from the first frame on
+    RendererCosts::forget();
+    Scene scene = groundScene({cube, box({-3.0, -1.5, 0.0}, {-2.0, 0.5, 0.5})}, 8.0, sun);
+    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
+    scene.addShadow(technique);
+    Camera camera(scene.root, perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 96, 72));
+    const auto kindOf = [](const gnomon::ShadowCandidate& each) { return each.spec.substr(0, each.spec.find(':')); };
+    std::set<std::string> expected, tried, seen;
+    std::string drawn, onTrial;
+    for (int i = 0; i < 80; ++i) {
+        camera.frame();
+        const gnomon::ShadowDecision now = technique->lastDecision().at(0);
+        drawn = kindOf(now.chosen);
+        seen.insert(drawn);
+        const bool isTrial = now.reason.rfind("on trial", 0) == 0;
+        for (const gnomon::ShadowCandidate& each : now.candidates)
+            if (i == 1 && kindOf(each) != drawn && each.obstacle.empty() && each.error <= 1.0 &&
+                each.time < 2.0 * now.chosen.time)
+                expected.insert(kindOf(each));
+        if (isTrial && drawn != onTrial) {
+            EXPECT_TRUE(tried.insert(drawn).second) << drawn << " was tried before";
+            EXPECT_LE(now.chosen.error, 1.0);
+        }
+        onTrial = isTrial ? drawn : "";
+        EXPECT_FALSE(i > 60 && isTrial) << "it comes to an end";
+    }
+    EXPECT_GE(expected.size(), 1u) << "the scene has no rivals";
+    for (const std::string& kind : expected) EXPECT_EQ(seen.count(kind), 1u) << kind;
+    EXPECT_GT(technique->lastDecision().at(0).measured, 0.0);
+}
 
 TEST_F(AutoCosts, FollowFramesThatTakeLongerThanPredicted) {
     const osg::ref_ptr<gnomon::FrameCosts> costs = new gnomon::FrameCosts;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 #include <osg/Program>
+#include <osg/ShadeModel>
 
 #include <algorithm>
 #include <optional>
@@ -51,6 +52,15 @@ struct Trial {
     osg::ref_ptr<AutoShadowTechnique> technique;
 };
 
+/// Tells how often something is drawn.
+struct CountedShading : public osg::ShadeModel {
+    void apply(osg::State& state) const override {
+        ++applied;
+        osg::ShadeModel::apply(state);
+    }
+    mutable int applied = 0;
+};
+
 /// The same scene by a technique that is named.
 Picture drawnBy(const std::string& spec, const std::vector<test::Mesh>& casters) {
     Scene scene = test::groundScene(casters, 8.0, sun);
@@ -69,6 +79,25 @@ TEST(Auto, TakesPlanarWhereOnlyTheGroundGetsShadow) {
     EXPECT_EQ(trial.chosen(), "planar") << trial.decision().reason;
     EXPECT_EQ(picture.different(drawnBy("planar", {cube, beside})), 0);
     EXPECT_EQ(trial.technique->diagnose(), std::vector<std::string>());
+}
+
+// Its boxes lie in the shadow's bounds, and get none.
+TEST(Auto, DrawsAgainOnlyTheFloorThatGetsAllOfTheShadow) {
+    const auto drawnAgain = [](Scene scene) {
+        const osg::ref_ptr<CountedShading> shading = new CountedShading;
+        test::find(*scene.root, "caster")->getOrCreateStateSet()->setAttribute(shading);
+        Camera camera(scene.root, view());
+        camera.frame();
+        const int before = shading->applied;
+        camera.frame();
+        return shading->applied - before - 1; // once to be seen
+    };
+    Scene anywhere = test::groundScene({cube, beside}, 8.0, sun);
+    anywhere.addShadow(test::planar(nullptr));
+    EXPECT_GT(drawnAgain(anywhere), 0) << "a planar shadow may fall on anything near its plane";
+    Trial trial({cube, beside});
+    EXPECT_EQ(drawnAgain(trial.scene), 0);
+    EXPECT_EQ(trial.chosen(), "planar");
 }
 
 TEST(Auto, TakesNoPlanarWhereOneObjectShadowsAnother) {

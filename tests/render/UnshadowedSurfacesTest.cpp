@@ -8,6 +8,8 @@
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/group/RecalledCauses.h>
 #include <gtest/gtest.h>
+#include <osg/CullFace>
+#include <osg/FrontFace>
 #include <osg/MatrixTransform>
 
 #include <memory>
@@ -213,6 +215,33 @@ TEST(UnshadowedSurfaces, ACarpetThatStandsOutOfThePlaneIsNamed) {
     Trial thick(carpet(0.1)), thin(carpet(0.02));
     EXPECT_EQ(thick.said(), leavesLit(thick, "carpet"));
     EXPECT_EQ(thin.said(), nothing);
+}
+
+/// The far side of a screen that is drawn from one side alone, as that of a mirror's floor is.
+TEST(UnshadowedSurfaces, WhatFaceCullingLeavesOutIsNot) {
+    const Mesh towardsTheEye = quad({-3.0, -3.0, 0.0}, {0.0, 6.0, 0.0}, {0.0, 0.0, 4.0}),
+               away = quad({-3.0, 3.0, 0.0}, {0.0, -6.0, 0.0}, {0.0, 0.0, 4.0});
+    const auto said = [](const Mesh& mesh, osg::CullFace::Mode culled, osg::FrontFace::Mode front, bool isOn = true) {
+        const osg::ref_ptr<osg::Node> screen = node(mesh, "screen");
+        screen->getOrCreateStateSet()->setAttribute(new osg::CullFace(culled));
+        screen->getOrCreateStateSet()->setAttribute(new osg::FrontFace(front));
+        screen->getOrCreateStateSet()->setMode(GL_CULL_FACE, isOn);
+        Trial trial(screen);
+        const bool isNamed = !namesNone(trial.said());
+        trial.technique->setNodeMask(0u); // without shadows, a screen that is culled changes no pixel
+        const Picture with = render(trial.scene.root, fromTheSide);
+        screen->setNodeMask(0u);
+        EXPECT_EQ(isNamed, render(trial.scene.root, fromTheSide).different(with) > 0);
+        return isNamed;
+    };
+    EXPECT_TRUE(said(towardsTheEye, osg::CullFace::BACK, osg::FrontFace::COUNTER_CLOCKWISE));
+    EXPECT_FALSE(said(away, osg::CullFace::BACK, osg::FrontFace::COUNTER_CLOCKWISE));
+    EXPECT_TRUE(said(away, osg::CullFace::FRONT, osg::FrontFace::COUNTER_CLOCKWISE));
+    EXPECT_FALSE(said(towardsTheEye, osg::CullFace::FRONT, osg::FrontFace::COUNTER_CLOCKWISE));
+    EXPECT_TRUE(said(away, osg::CullFace::BACK, osg::FrontFace::CLOCKWISE));
+    EXPECT_FALSE(said(away, osg::CullFace::FRONT, osg::FrontFace::CLOCKWISE));
+    EXPECT_FALSE(said(towardsTheEye, osg::CullFace::FRONT_AND_BACK, osg::FrontFace::COUNTER_CLOCKWISE));
+    EXPECT_TRUE(said(away, osg::CullFace::BACK, osg::FrontFace::COUNTER_CLOCKWISE, false)) << "nothing is culled";
 }
 
 TEST(UnshadowedSurfaces, APlaneForTheWallIsTheRemedy) {

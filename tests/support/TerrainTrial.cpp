@@ -242,15 +242,10 @@ std::vector<Prism> prismsOn(const gnomon::Ground& ground, const glm::dvec2& low,
 
 Method boxMethod() {
     return [](const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light) {
-        gnomon::BoxCaster caster{{prism.outline[0], prism.base}, {prism.outline[0], prism.roof}, {}};
-        for (const glm::dvec2& corner : prism.outline) {
-            caster.low = glm::min(caster.low, glm::dvec3(corner, prism.base));
-            caster.high = glm::max(caster.high, glm::dvec3(corner, prism.roof));
-        }
-        caster.nearestVertex = [&](const glm::dvec2& at) {
-            const auto nearer = [&](const auto& a, const auto& b) { return glm::length(a - at) < glm::length(b - at); };
-            return *std::min_element(prism.outline.begin(), prism.outline.end(), nearer);
-        };
+        std::vector<glm::dvec3> points;
+        for (const glm::dvec2& corner : prism.outline)
+            for (const double z : {prism.base, prism.roof}) points.emplace_back(corner, z);
+        const gnomon::BoxCaster caster = gnomon::boxCaster(points);
         return gnomon::boxShadow(ground, caster, light).value_or(gnomon::Drape());
     };
 }

@@ -63,6 +63,8 @@ std::vector<ShadowCandidate> othersOf(const ShadowDecision& decision) {
 } // namespace
 
 std::string cppFor(const std::string& spec) {
+    if (spec.find('+') != std::string::npos)
+        return "group->addChild(new gnomon::AutoShadowTechnique); // it alone gives each technique its casters";
     const ShadowSpec parsed = parseShadowSpec(spec);
     if (parsed.technique == "map") return cppFor(parsed.map);
     if (parsed.technique == "hull" || parsed.technique == "drape") return cppFor(parsed.terrain, parsed.technique);

@@ -49,6 +49,8 @@ std::string AutoCandidate::spec() const {
         return specOf(terrain);
     case Kind::Map:
         return specOf(map);
+    case Kind::Mixed:
+        return "volume+" + specOf(map);
     case Kind::Volume:
         return "volume";
     case Kind::Traced:
@@ -61,12 +63,12 @@ std::string AutoCandidate::spec() const {
 bool AutoCandidate::isSame(const AutoCandidate& other) const {
     if (kind != other.kind) return false;
     if (kind == Kind::Terrain) return terrain.method == other.terrain.method && terrain.error == other.terrain.error;
-    return kind != Kind::Map || (map.size == other.map.size && map.filter == other.map.filter &&
-                                 map.cascades == other.map.cascades && map.edges == other.map.edges);
+    return !hasMap() || (map.size == other.map.size && map.filter == other.map.filter &&
+                         map.cascades == other.map.cascades && map.edges == other.map.edges);
 }
 
 double AutoCandidate::time(const AutoCosts& costs, const AutoMotion& motion) const {
-    const double changes = motion.scene + (kind == Kind::Map ? refits * motion.view : 0.0);
+    const double changes = motion.scene + (hasMap() ? refits * motion.view : 0.0);
     return costs.factors[std::size_t(kind)] * (timeOf(still, costs.rates) + changes * timeOf(change, costs.rates));
 }
 

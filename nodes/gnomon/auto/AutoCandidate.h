@@ -24,7 +24,8 @@ struct AutoMotion {
 
 /// A way to draw a shadow, with what it is expected to come to.
 struct AutoCandidate {
-    enum class Kind { Nothing, Planar, Terrain, Map, Volume, Traced };
+    /// Mixed: simple casters by volume, the others by map, see CasterSplit.
+    enum class Kind { Nothing, Planar, Terrain, Map, Volume, Traced, Mixed };
 
     Kind kind = Kind::Nothing;
     ShadowMapOptions map = {};
@@ -35,7 +36,9 @@ struct AutoCandidate {
     ShadowWork change = {};              ///< besides, in a frame in which the light or a caster moves.
     std::string obstacle = {};           ///< why it cannot be used.
 
-    /// Specification string without composite and receiver.
+    /// True if it has a map, and with it ShadowMapOptions.
+    bool hasMap() const { return kind == Kind::Map || kind == Kind::Mixed; }
+    /// Specification string without composite and receiver. "volume+", and that of the map, where both are drawn.
     std::string spec() const;
     /// True if it is drawn alike, wherever the planes are.
     bool isSame(const AutoCandidate& other) const;
@@ -46,10 +49,10 @@ struct AutoCandidate {
 
 /// What work takes: by the renderer, and corrected for each kind of candidate.
 struct AutoCosts {
-    static constexpr std::size_t kinds = 6; ///< see AutoCandidate::Kind.
+    static constexpr std::size_t kinds = 7; ///< see AutoCandidate::Kind.
 
     CostRates rates = {};
-    std::array<double, kinds> factors = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    std::array<double, kinds> factors = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 };
 
 } // namespace gnomon

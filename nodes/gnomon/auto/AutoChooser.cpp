@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/auto/AutoChooser.h>
+#include <gnomon/auto/FlatReceivers.h>
 
 #include <OpenThreads/ScopedLock>
 
@@ -25,6 +26,8 @@ constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on 
 /// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
 /// small one is taken.
 constexpr double rarely = 0.02;
+constexpr double doubt = 3.0;       // predicted times may be off by this factor, see VolumeForecast
+constexpr unsigned trialFrames = 7; // until a candidate's time is known: see isMeasured(); draw may be a frame behind
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string rounded(double number) {
@@ -127,7 +130,7 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
                      followed(choice.moving.view, choice.motion.view, choice.seen)};
     choice.since = rested ? 0 : choice.since + (moves || flies);
     choice.last = now;
-    if (!now.asks(choice.decided) || choice.learnt != _costs->generation()) return true;
+    if (!now.asks(choice.decided) || (!choice.incumbent && choice.learnt != _costs->generation())) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
     if (choice.seen == firstLook && isMoving(choice.moving)) return true; // the first decision took all to stand still
     const bool began = choice.since == settling && isMoving(choice.motion) && !isMoving(choice.movingThen);
@@ -141,6 +144,9 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
                          const AutoShadowOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     const ChoiceBudget budget = budgetOf(options);
+    const bool tried = choice.incumbent.has_value();
+    if (tried) choice.candidate = *choice.incumbent;
+    choice.incumbent.reset();
     choice.learnt = _costs->generation();
     const AutoCosts costs = _costs->now();
     const CandidateList list = listCandidates(view, receiver, budget.error, _known);
@@ -163,14 +169,52 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     decision.keepsBudget = reason != ChoiceReason::ErrorTooSmall && reason != ChoiceReason::TimeTooShort;
     decision.candidates = judgedOf(list.all, costs, expected);
     decision.changes += changes ? 1 : 0;
-    if (changes) choice.taken = std::make_shared<std::atomic<double>>(0.0);
+    if (changes || tried) choice.taken = std::make_shared<std::atomic<double>>(0.0);
     ++decision.decisions;
     choice.cause = list.nothing.empty() ? causeOf(reason, budget, decision.chosen) : "";
     choice.decided = choice.last = now;
     choice.movingThen = choice.moving;
     choice.frames = 0;
+    findRivals(choice, list.all, judged, budget, index);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
     choice.patience = std::max(leastPatience, unsigned(std::min(took.count() / decisionTime, mostPatience)));
+}
+
+/// Candidates that would be drawn if they took less than is thought. Each kind is tried once. What made the prediction too
+/// high for the one that is drawn may be a part that all share.
+void AutoChooser::findRivals(Choice& choice, const std::vector<AutoCandidate>& all,
+                             const std::vector<ChoiceCandidate>& judged, const ChoiceBudget& budget,
+                             std::size_t chosen) const {
+    choice.rivals.clear();
+    if (!_costs->areMeasured()) return;
+    choice.tried[std::size_t(all[chosen].kind)] = true; // it is measured as long as it is drawn
+    const double shared = std::min(1.0, _costs->now().factors[std::size_t(all[chosen].kind)]);
+    const bool flies = choice.moving.view > 0.0; // then maps cannot be measured
+    for (std::size_t kind = 0; kind < AutoCosts::kinds; ++kind) {
+        if (choice.tried[kind]) continue;
+        std::vector<ChoiceCandidate> hopeful = judged;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (std::size_t(all[i].kind) == kind) hopeful[i].time *= shared / doubt;
+        const auto best = chooseCandidate(hopeful, budget, chosen);
+        if (!best || std::size_t(all[best->index].kind) != kind) continue;
+        const AutoCandidate& rival = all[best->index];
+        if (!flies || !rival.hasMap()) choice.rivals.push_back(rival);
+    }
+}
+
+bool AutoChooser::isTrialDue(const Choice& choice) const {
+    return choice.frames >= trialFrames && (choice.incumbent || !choice.rivals.empty());
+}
+
+void AutoChooser::tryRival(Choice& choice) const {
+    if (!choice.incumbent) choice.incumbent = choice.candidate;
+    choice.candidate = choice.rivals.back();
+    choice.rivals.pop_back();
+    choice.tried[std::size_t(choice.candidate.kind)] = true;
+    choice.decision.chosen = choice.candidate.judged(_costs->now(), choice.moving);
+    choice.decision.reason = "on trial for some frames, so that its time is known";
+    choice.taken = std::make_shared<std::atomic<double>>(0.0);
+    choice.frames = 0;
 }
 
 AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& receiver,
@@ -194,8 +238,31 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                    receiver,
                    options.error,
                    options.time};
-    if (isDue(choice, now, view, receiver)) decide(choice, now, view, receiver, options);
-    return {_inner.of(choice.candidate, receiver, _round), choice.cause, isMeasured(choice)};
+    if (isDue(choice, now, view, receiver) || (isTrialDue(choice) && choice.rivals.empty()))
+        decide(choice, now, view, receiver, options);
+    else if (isTrialDue(choice))
+        tryRival(choice);
+    return {sharesOf(choice.candidate, view, receiver), choice.cause, surfacesOf(choice.candidate, view),
+            isMeasured(choice)};
+}
+
+std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate& candidate, const AutoView& view,
+                                                             const Selection& receiver) {
+    if (candidate.kind == AutoCandidate::Kind::Nothing) return {};
+    if (candidate.kind != AutoCandidate::Kind::Mixed) return {{_inner.of(candidate, receiver, _round), view.meshes}};
+    const CasterSplit& split = _known.splits.of(view.casters);
+    AutoCandidate volume, map = candidate;
+    volume.kind = AutoCandidate::Kind::Volume;
+    map.kind = AutoCandidate::Kind::Map;
+    return {{_inner.of(volume, receiver, _round), split.simple(view.meshes)},
+            {_inner.of(map, receiver, _round), split.dense(view.meshes)}};
+}
+
+/// Several planes are several jobs, none of which knows all.
+std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(const AutoCandidate& candidate, const AutoView& view) {
+    const bool relit = view.frame.group->getComposite() == ShadowCasterGroup::RELIGHT;
+    if (!relit || candidate.kind != AutoCandidate::Kind::Planar || candidate.planes.size() != 1) return nullptr;
+    return std::make_shared<const LeafSet>(findFlatLeaves(view, _known.bodies));
 }
 
 /// A few frames after a decision, and one now and then while things move: measuring waits for OpenGL. A map that another
@@ -203,7 +270,7 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
 bool AutoChooser::isMeasured(const Choice& choice) const {
     const unsigned since = choice.frames;
     const bool early = (since >= 3 && since <= 5) || (since <= 64 && since >= 8 && (since & (since - 1)) == 0);
-    const bool known = choice.candidate.kind != AutoCandidate::Kind::Map || choice.motion.view == 0.0;
+    const bool known = !choice.candidate.hasMap() || choice.motion.view == 0.0;
     return _costs->areMeasured() && choice.candidate.kind != AutoCandidate::Kind::Nothing && known &&
            (early || (isMoving(choice.moving) && since % 64 == 0 && since > 0));
 }

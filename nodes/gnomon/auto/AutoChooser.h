@@ -9,7 +9,9 @@
 
 #include <OpenThreads/Mutex>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +24,14 @@ class AutoChooser {
 public:
     /// What draws one light's shadow in one view, in this frame.
     struct Drawn {
-        osg::ref_ptr<const ShadowTechnique> technique; ///< null: no shadow is drawn.
-        std::string cause;                             ///< for ShadowTechnique::report(): the budget cannot be kept.
+        /// A technique, and what it draws.
+        struct Share {
+            osg::ref_ptr<const ShadowTechnique> technique;
+            FrameCasters casters;
+        };
+        std::vector<Share> shares;               ///< empty: no shadow is drawn.
+        std::string cause;                       ///< for ShadowTechnique::report(): the budget cannot be kept.
+        std::shared_ptr<const LeafSet> surfaces; ///< see MarkJob::surfaces.
         bool timed = false; ///< this frame is measured: prepared() wants to know how long its cull took.
     };
     Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
@@ -74,17 +82,26 @@ private:
         unsigned since = 0;    ///< frames since things began to move after a rest.
         AutoMotion moving;     ///< of the recent frames.
         std::string cause;     ///< see Drawn.
-        AutoMotion movingThen; ///< when the candidates were compared.
-        unsigned learnt = 0;   ///< FrameCosts::generation() then.
-        AutoMotion motion;     ///< of this frame.
-        double prepared = 0.0; ///< milliseconds, of a frame that is measured.
+        std::vector<AutoCandidate> rivals;          ///< to be drawn for some frames, so that their times are known.
+        std::optional<AutoCandidate> incumbent;     ///< while a rival is drawn, what was drawn before.
+        std::array<bool, AutoCosts::kinds> tried{}; ///< kinds whose times are known, as far as they can be.
+        AutoMotion movingThen;                      ///< when the candidates were compared.
+        unsigned learnt = 0;                        ///< FrameCosts::generation() then.
+        AutoMotion motion;                          ///< of this frame.
+        double prepared = 0.0;                      ///< milliseconds, of a frame that is measured.
         std::shared_ptr<std::atomic<double>> taken = std::make_shared<std::atomic<double>>(0.0);
     };
     Choice& find(const AutoView& view);
+    std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver);
+    std::shared_ptr<const LeafSet> surfacesOf(const AutoCandidate& candidate, const AutoView& view);
     bool isMeasured(const Choice& choice) const;
     bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
     void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver,
                 const AutoShadowOptions& options);
+    void findRivals(Choice& choice, const std::vector<AutoCandidate>& all, const std::vector<ChoiceCandidate>& judged,
+                    const ChoiceBudget& budget, std::size_t chosen) const;
+    bool isTrialDue(const Choice& choice) const;
+    void tryRival(Choice& choice) const;
 
     mutable OpenThreads::Mutex _mutex;
     InnerTechniques _inner;

@@ -55,14 +55,19 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
     const AutoChooser::Drawn drawn =
         _chooser->choose({view, light, casters, casters.drawables(), *usable}, getReceiver(), _options);
     if (!drawn.cause.empty()) report(view.frameNumber, drawn.cause);
-    if (!drawn.technique) return {};
+    if (drawn.shares.empty()) return {};
     ViewFrame here = view;
     here.groupFromTechnique = osg::Matrixd(); // planes are the group's
-    drawn.technique->beginFrame(view.frameNumber, view.frameTime, view.stage);
     const double from = drawn.timed ? processorMilliseconds() : 0.0;
-    const std::vector<osg::ref_ptr<MarkJob>> jobs = drawn.technique->prepare(here, light, casters);
+    std::vector<osg::ref_ptr<MarkJob>> jobs;
+    for (const auto& [technique, part] : drawn.shares) {
+        technique->beginFrame(view.frameNumber, view.frameTime, view.stage);
+        for (const osg::ref_ptr<MarkJob>& job : technique->prepare(here, light, part)) jobs.push_back(job);
+    }
     if (drawn.timed) _chooser->prepared(view.stage, light.number, processorMilliseconds() - from);
-    for (const std::string& cause : causesOf(*drawn.technique)) report(view.frameNumber, cause);
+    for (const osg::ref_ptr<MarkJob>& job : jobs) job->surfaces = drawn.surfaces;
+    for (const auto& share : drawn.shares)
+        for (const std::string& cause : causesOf(*share.technique)) report(view.frameNumber, cause);
     return jobs;
 }
 

@@ -4,6 +4,7 @@
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/gl/TriangleClusters.h>
 
 #include <osg/Geometry>
 #include <osg/Material>
@@ -27,6 +28,16 @@ bool isShadedByOpenGl(const osgUtil::StateGraph* graph) {
     if (!isOn(graph, GL_LIGHTING) || resolvedAttribute(graph, osg::StateAttribute::PROGRAM)) return false;
     const auto* material = resolved<osg::Material>(graph, osg::StateAttribute::MATERIAL);
     return !material || !isMoreThanWhite(*material);
+}
+
+/// How much of a leaf is drawn again, as LeafReplay does.
+double shareWithin(const osgUtil::RenderLeaf& leaf, const ScreenRect& bounds) {
+    const osg::ref_ptr<const TriangleClusters> clusters = TriangleClusters::of(*leaf._drawable);
+    if (!clusters) return 1.0;
+    double drawn = 0.0, all = 0.0;
+    for (const auto& run : clusters->touching(bounds, modelviewOf(leaf) * projectionOf(leaf))) drawn += run.count;
+    for (const auto& set : leaf._drawable->asGeometry()->getPrimitiveSetList()) all += set->getNumIndices();
+    return std::min(1.0, drawn / all);
 }
 
 } // namespace
@@ -66,11 +77,11 @@ double trianglesOf(const osg::Drawable& drawable) {
     return triangles;
 }
 
-double trianglesWithin(const ViewFrame& frame, const ScreenRect& bounds) {
+double trianglesWithin(const std::vector<const osgUtil::RenderLeaf*>& leaves, const ScreenRect& bounds) {
     double triangles = 0.0;
     TouchTest touches(bounds);
-    for (const osgUtil::RenderLeaf* leaf : frame.seen)
-        if (touches(*leaf)) triangles += trianglesOf(*leaf->_drawable);
+    for (const osgUtil::RenderLeaf* leaf : leaves)
+        if (touches(*leaf)) triangles += shareWithin(*leaf, bounds) * trianglesOf(*leaf->_drawable);
     return triangles;
 }
 

@@ -36,8 +36,8 @@ std::string whyCutOut(const CasterDrawables& casters);
 /// Triangles of a drawable, by its primitives; an estimate where it is no geometry.
 double trianglesOf(const osg::Drawable& drawable);
 
-/// Triangles of what the view would draw again where marks are within these bounds.
-double trianglesWithin(const ViewFrame& frame, const ScreenRect& bounds);
+/// Triangles of these leaves that are drawn again where marks are within these bounds.
+double trianglesWithin(const std::vector<const osgUtil::RenderLeaf*>& leaves, const ScreenRect& bounds);
 
 /// Pixels within these bounds.
 double pixelsOf(const ViewFrame& frame, const ScreenRect& bounds);

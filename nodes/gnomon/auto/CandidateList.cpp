@@ -39,6 +39,7 @@ constexpr MapQuality qualities[] = {
 };
 constexpr double callsAMap = 14.0;     // to switch to its framebuffer and back, and to fit it
 constexpr double callsAPiece = 0.06;   // to see that it has not changed
+constexpr double callsALeaf = 0.1;     // to draw it again
 constexpr double facedAnObject = 0.03; // to ask a triangle whether it faces the light; see ShadowWork::objects
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
 
@@ -63,7 +64,11 @@ double mapEdge(const EdgeWidths::Edge& edge, const MapQuality& quality, int texe
 
 /// Why a candidate would leave a caster out; empty if it would not.
 std::string whyOnlyMaps(const AutoCandidate& candidate, const CasterDrawables& casters) {
-    return candidate.kind == Kind::Map || casters.own.empty() ? "" : "a caster draws itself, and only maps can let it";
+    return candidate.hasMap() || casters.own.empty() ? "" : "a caster draws itself, and only maps can let it";
+}
+
+osg::ref_ptr<const MapCasters> boxesOf(const CasterLayers& layers) {
+    return new MapCasters(layers, MapLayer::boxesOf(*layers.still), MapLayer::boxesOf(*layers.moving));
 }
 
 /// Finds the candidates of one view.
@@ -75,10 +80,10 @@ public:
           _error(error),
           _known(known),
           _layers(view.meshes.layers()),
-          _boxes(new MapCasters(_layers, MapLayer::boxesOf(*_layers.still), MapLayer::boxesOf(*_layers.moving))) {}
+          _boxes(boxesOf(_layers)) {}
 
     CandidateList list() {
-        _one = forecast(1, sizes[0]);
+        _one = forecast(*_boxes, 1, sizes[0]);
         _result.nothing = whyNothing();
         if (!_result.nothing.empty()) return only();
         const FlatReceivers flat = findFlatReceivers(_view, _known.bodies);
@@ -94,6 +99,7 @@ public:
         addTerrain();
         addMaps(edges);
         addVolume();
+        addMixed();
         addTraced();
         for (AutoCandidate& candidate : _result.all)
             if (candidate.obstacle.empty()) candidate.obstacle = whyOnlyMaps(candidate, _view.casters);
@@ -127,8 +133,14 @@ private:
         _compose.calls = 2.0 + callsAPiece * double(_view.casters.list.size());
         _compose.filled = _pixels;
         if (blends()) return;
-        _compose.relit = trianglesWithin(_view.frame, *_one.bounds);
-        _compose.calls += 0.1 * double(_view.frame.seen.size());
+        _compose.relit = trianglesWithin(_view.frame.seen, *_one.bounds);
+        _compose.calls += callsALeaf * double(_view.frame.seen.size());
+    }
+
+    /// What is left of measure() if these leaves alone are drawn again; see MarkJob::surfaces.
+    void relightAlone(const LeafSet& leaves, ShadowWork& work) const {
+        work.relit = trianglesWithin({leaves.begin(), leaves.end()}, *_one.bounds);
+        work.calls -= callsALeaf * double(_view.frame.seen.size() - leaves.size());
     }
 
     void addPlanar(const FlatReceivers& flat) {
@@ -139,6 +151,7 @@ private:
         planar.error = _sampled;
         const double planes = std::max(1.0, double(flat.planes.size()));
         planar.still = _compose;
+        if (!blends() && planar.planes.size() == 1) relightAlone(flat.leaves, planar.still);
         planar.still.calls += 2.0 * planes;
         planar.still.triangles = planes * _casters;
         planar.still.texels = _pixels; // stencil and depth alone, as in a map
@@ -174,26 +187,35 @@ private:
         return length > 0.0 && std::isfinite(length) ? std::exp2(std::floor(std::log2(length))) : 0.0;
     }
 
-    MapForecast forecast(int cascades, int size) const {
+    MapForecast forecast(const MapCasters& boxes, int cascades, int size) const {
         ShadowMapOptions options;
         options.cascades = cascades;
         options.size = size;
-        return ShadowMapCache::forecast(_view.frame, _view.light, *_boxes, options);
+        return ShadowMapCache::forecast(_view.frame, _view.light, boxes, options);
     }
 
     /// One map, and as many as the size asks for, where those are more.
     void addMaps(const MapEdges& edges) {
         for (const int size : sizes) {
-            for (const MapQuality& quality : qualities) addMap(_one, *_widths, 1, size, quality);
-            const MapForecast several = _view.towards.w == 0.0 ? forecast(0, size) : _one;
+            for (const MapQuality& quality : qualities)
+                _result.all.push_back(mapOf({_one, *_widths, _pixels, _casters}, 1, size, quality));
+            const MapForecast several = _view.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
             if (several.maps == _one.maps) continue;
             const EdgeWidths each = edges.in(several);
-            for (const MapQuality& quality : qualities) addMap(several, each, 0, size, quality);
+            for (const MapQuality& quality : qualities)
+                _result.all.push_back(mapOf({several, each, _pixels, _casters}, 0, size, quality));
         }
     }
 
-    void addMap(const MapForecast& forecast, const EdgeWidths& edges, int cascades, int size,
-                const MapQuality& quality) {
+    /// What a map is drawn of, and looked up in.
+    struct Mapped {
+        const MapForecast& forecast;
+        const EdgeWidths& edges;
+        double pixels;  ///< where its shadow can be.
+        double casters; ///< triangles.
+    };
+    AutoCandidate mapOf(const Mapped& mapped, int cascades, int size, const MapQuality& quality) const {
+        const MapForecast& forecast = mapped.forecast;
         AutoCandidate map;
         map.kind = Kind::Map;
         map.map.size = size;
@@ -202,32 +224,58 @@ private:
         map.map.cascades = cascades;
         const double wish = MapSettings(map.map).pixels;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
-        map.error = edges.empty()
-                        ? mapEdgeError(quality.edge, forecast.texels / texels)
-                        : edges.usual(usualShare, [&](const auto& edge) { return mapEdge(edge, quality, texels); });
+        map.error =
+            mapped.edges.empty()
+                ? mapEdgeError(quality.edge, forecast.texels / texels)
+                : mapped.edges.usual(usualShare, [&](const auto& edge) { return mapEdge(edge, quality, texels); });
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
         map.still.calls += 3.0 * passes;
-        map.still.pixels = passes * _pixels;
-        map.still.taps = passes * _pixels * quality.edge.compared;
+        map.still.pixels = passes * mapped.pixels;
+        map.still.taps = passes * mapped.pixels * quality.edge.compared;
         map.change.calls = callsAMap * forecast.maps;
         map.change.texels = double(forecast.maps) * texels * texels;
-        map.change.triangles = double(forecast.maps) * _casters;
-        _result.all.push_back(map);
+        map.change.triangles = double(forecast.maps) * mapped.casters;
+        return map;
     }
 
     void addVolume() {
-        const VolumeForecast forecast = forecastVolumes(_view.frame, _view.casters, _view.towards);
         AutoCandidate volume;
         volume.kind = Kind::Volume;
         volume.error = _sampled;
         volume.obstacle = whyCutOut(_view.casters);
         volume.still = _compose;
-        volume.still.calls += 3.0;
-        volume.still.triangles = 2.0 * forecast.sides;
-        volume.still.texels = forecast.pixels + _pixels; // counts become marks
-        volume.change.objects = forecast.sides + facedAnObject * _casters;
+        addVolumeOf(_view.casters, _casters, volume);
         _result.all.push_back(volume);
+    }
+
+    void addVolumeOf(const CasterDrawables& casters, double triangles, AutoCandidate& to) const {
+        const VolumeForecast forecast = forecastVolumes(_view.frame, casters, _view.towards);
+        to.still.calls += 3.0;
+        to.still.triangles += 2.0 * forecast.sides;
+        to.still.texels += forecast.pixels + _pixels; // counts become marks
+        to.change.objects += forecast.sides + facedAnObject * triangles;
+    }
+
+    /// A map that is fitted to some of the casters has smaller texels; and it need not draw the others.
+    void addMixed() {
+        const CasterSplit& split = _known.splits.of(_view.casters);
+        if (!split.isDivided()) return;
+        const FrameCasters simple = split.simple(_view.meshes), dense = split.dense(_view.meshes);
+        const osg::ref_ptr<const MapCasters> boxes = boxesOf(dense.layers());
+        const MapForecast one = forecast(*boxes, 1, sizes[0]);
+        if (one.maps == 0) return;
+        const EdgeWidths edges = MapEdges(_view, *boxes, one).in(one);
+        const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(dense.layers().triangles())};
+        for (const int size : sizes)
+            for (const MapQuality& quality : qualities) {
+                AutoCandidate mixed = mapOf(mapped, 1, size, quality);
+                mixed.kind = Kind::Mixed;
+                mixed.error = std::max(mixed.error, _sampled);
+                addVolumeOf(simple.drawables(), double(simple.layers().triangles()), mixed);
+                mixed.still.calls += 3.0; // marks are handed on
+                _result.all.push_back(mixed);
+            }
     }
 
     void addTraced() {
@@ -267,6 +315,8 @@ std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const
     if (!own.empty()) return own;
     if (candidate.kind == Kind::Nothing) return "a shadow may be needed now";
     if (candidate.kind == Kind::Terrain) return known.terrain.of(view, receiver).obstacle;
+    if (candidate.kind == Kind::Mixed && !known.splits.of(view.casters).isDivided())
+        return "all casters are of one kind";
     if (candidate.kind != Kind::Planar) return {};
     const FlatReceivers flat = findFlatReceivers(view, known.bodies);
     if (!flat.obstacle.empty()) return flat.obstacle;

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/auto/AutoCandidate.h>
 #include <gnomon/auto/AutoView.h>
+#include <gnomon/auto/CasterSplit.h>
 #include <gnomon/auto/ConvexBodies.h>
 #include <gnomon/auto/TerrainFacts.h>
 
@@ -14,6 +15,7 @@ namespace gnomon {
 struct AutoKnowledge {
     ConvexBodies bodies;
     TerrainKnowledge terrain;
+    CasterSplits splits;
 };
 
 /// All that could draw one light's shadow in a view.

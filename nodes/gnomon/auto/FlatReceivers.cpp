@@ -46,13 +46,15 @@ public:
 
     FlatReceivers find() {
         lookAtCasters();
-        for (const osgUtil::RenderLeaf* leaf : _view.frame.seen) {
-            if (!_result.obstacle.empty()) break;
-            if (writesDepth(leaf->_parent)) lookAt(*leaf);
-        }
+        lookAtReceivers();
         if (_result.obstacle.empty()) lookForShadowsOnBodies();
         if (_result.obstacle.empty()) keepPlanesInUse();
         return _result;
+    }
+
+    LeafSet leaves() {
+        lookAtReceivers();
+        return _result.leaves;
     }
 
 private:
@@ -64,6 +66,13 @@ private:
         const std::string cutOut = whyCutOut(_view.casters);
         if (!cutOut.empty()) refuse(cutOut);
         if (!_view.casters.own.empty()) refuse("a caster draws itself, so nobody knows where its shadow falls");
+    }
+
+    void lookAtReceivers() {
+        for (const osgUtil::RenderLeaf* leaf : _view.frame.seen) {
+            if (!_result.obstacle.empty()) break;
+            if (writesDepth(leaf->_parent)) lookAt(*leaf);
+        }
     }
 
     void lookAt(const osgUtil::RenderLeaf& leaf) {
@@ -118,6 +127,7 @@ private:
         if (!(glm::dot(plane, _eye) > 0.0)) return refuse("a flat receiver is seen from the side away from the light");
         if (!depthPlacementOf(leaf._parent).isPlain() || isPulledForward(leaf._parent))
             return refuse("a flat receiver has a polygon offset or a depth range");
+        _result.leaves.insert(&leaf);
         const auto isSame = [&](const osg::Vec4d& other) {
             return glm::length(toGlm(other) - plane) <= flatness * (1.0 + std::abs(plane.w));
         };
@@ -177,5 +187,7 @@ private:
 } // namespace
 
 FlatReceivers findFlatReceivers(const AutoView& view, ConvexBodies& bodies) { return Finder(view, bodies).find(); }
+
+LeafSet findFlatLeaves(const AutoView& view, ConvexBodies& bodies) { return Finder(view, bodies).leaves(); }
 
 } // namespace gnomon

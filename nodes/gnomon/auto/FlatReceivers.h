@@ -14,6 +14,7 @@ namespace gnomon {
 struct FlatReceivers {
     std::vector<osg::Vec4d>
         planes;           ///< group frame, normals to the light's side; only those that something stands above.
+    LeafSet leaves;       ///< that lie in planes, those above which nothing stands among them.
     std::string obstacle; ///< empty: a PlanarShadowNode of these planes draws all of the shadow.
 
     /// True if no receiver gets any shadow.
@@ -22,5 +23,8 @@ struct FlatReceivers {
 
 /// @param bodies  of the view's casters; those that are asked for are found.
 FlatReceivers findFlatReceivers(const AutoView& view, ConvexBodies& bodies);
+
+/// FlatReceivers::leaves of a view that is known to have no obstacle.
+LeafSet findFlatLeaves(const AutoView& view, ConvexBodies& bodies);
 
 } // namespace gnomon

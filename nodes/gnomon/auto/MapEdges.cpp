@@ -52,10 +52,10 @@ std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
     return result;
 }
 
-/// The view without what casts: its triangles are looked at.
-ViewFrame withoutCasters(const AutoView& view) {
+/// The view without some casters: their triangles are looked at.
+ViewFrame without(const CasterDrawables& casters, const AutoView& view) {
     std::unordered_set<const osg::Drawable*> casting;
-    for (const auto& piece : view.casters.list) casting.insert(piece->drawable.get());
+    for (const auto& piece : casters.list) casting.insert(piece->drawable.get());
     ViewFrame result = view.frame;
     const auto casts = [&](const osgUtil::RenderLeaf* leaf) { return casting.count(leaf->_drawable.get()) > 0; };
     result.seen.erase(std::remove_if(result.seen.begin(), result.seen.end(), casts), result.seen.end());
@@ -71,7 +71,7 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
     const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(scene.origin, 0.0);
     const bool byTriangles = !view.frame.receivers && areLookedAt(*boxes.layers);
     const std::vector<MapReceiver> receivers =
-        receiversOf(byTriangles ? withoutCasters(view) : view.frame, scene.eyeFromScene(view.frame));
+        receiversOf(byTriangles ? without(*boxes.layers->pieces, view) : view.frame, scene.eyeFromScene(view.frame));
     const auto seenOf = [&](SeenEdges::Relief relief) {
         SeenEdges seen(_clipFromScene, *forecast.bounds, light);
         for (const MapReceiver& receiver : receivers)

@@ -73,6 +73,11 @@ osg::ref_ptr<const CasterLayers> CasterRevisions::layers(osg::Node& root, const 
     return known.layers.get();
 }
 
+osg::ref_ptr<const CasterLayers> CasterRevisions::layersOf(const CasterDrawables& some, const CasterLayers& before) {
+    Lock lock(_mutex);
+    return CasterLayers::of(some, &before, _bodies);
+}
+
 osg::ref_ptr<const CasterDrawables> CasterRevisions::drawables(osg::Node& root, const Selection& casters,
                                                                const CasterView* view) {
     Lock lock(_mutex);

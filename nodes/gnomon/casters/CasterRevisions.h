@@ -48,6 +48,8 @@ public:
     osg::ref_ptr<const CasterLayers> layers(osg::Node& root, const Selection& casters, const CasterView* view);
     /// The same, drawable by drawable.
     osg::ref_ptr<const CasterDrawables> drawables(osg::Node& root, const Selection& casters, const CasterView* view);
+    /// Some of the drawables as meshes, made from earlier ones.
+    osg::ref_ptr<const CasterLayers> layersOf(const CasterDrawables& some, const CasterLayers& before);
     /// Which drawables cast, of those that can. Default: all but skies.
     void setRule(const CastingRule& rule);
     /// How often there was something that was not known.

@@ -19,6 +19,14 @@ std::vector<Jobs> byView(const Jobs& jobs) {
     return views;
 }
 
+/// A job that is relit and knows where its shadow falls, as if those leaves were its named receiver.
+ShadowJob onItsSurfaces(ShadowJob job) {
+    if (!job.relight || job.receiverNamed || !job.marks->surfaces) return job;
+    job.receiverNamed = true;
+    job.receivers = job.marks->surfaces;
+    return job;
+}
+
 } // namespace
 
 /// Unless it has a named receiver or something of another view lies over it.
@@ -128,15 +136,18 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, 
 
 /// The short way for a single job: the leaves of its named receiver are drawn again at the depth that stands, and take
 /// the light away themselves. Possible unless some other leaf shows on a relit receiver.
-bool Compositor::composeDirectly(const Jobs& jobs) {
-    const ShadowJob& job = *jobs.front();
-    if (jobs.size() > 1 || !job.receiverNamed) return false;
-    const bool relit = job.relight;
+bool Compositor::composeDirectly(const Jobs& wanted) {
+    const ShadowJob job = onItsSurfaces(*wanted.front());
+    if (wanted.size() > 1 || !job.receiverNamed) return false;
+    const Jobs jobs{&job};
+    const bool relit = job.relight, apart = !wanted.front()->receiverNamed;
     const ScreenRect& bounds = job.marks->screenBounds;
     std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, jobs, bounds);
     PlainTest plain;
     const auto other = [&job](const ReplayedLeaf& leaf) { return !job.isNamed(leaf.entry.leaf); };
-    const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
+    const auto unfit = [&](const ReplayedLeaf& leaf) {
+        return (other(leaf) && !apart) || !plain(*leaf.entry.leaf);
+    };
     if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
     if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfView(job, _draw.leaves).empty())) return false;
     leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());

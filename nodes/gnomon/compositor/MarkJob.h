@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
 #include <osg/BoundingBox>
@@ -9,6 +10,7 @@
 #include <osgUtil/RenderLeaf>
 
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace gnomon {
@@ -24,6 +26,10 @@ class MarkJob : public osg::Referenced {
 public:
     /// Where marks can fall; everything the compositor does is cut to it.
     ScreenRect screenBounds = wholeScreen;
+
+    /// Leaves on which all of the shadow falls, and in whose surfaces no other leaf has any; null: none are known.
+    /// Relighting then draws them alone.
+    std::shared_ptr<const LeafSet> surfaces;
 
     /// Sets `bit` in the stencil buffer where the light does not reach. The bit is zero before, within the bounds;
     /// other bits, colour and depth stay as they are. Called within a CleanState and `pass`, which is cut to the

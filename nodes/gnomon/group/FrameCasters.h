@@ -21,6 +21,14 @@ public:
                _view.lodScale == view.lodScale && _view.viewPoint == view.viewPoint;
     }
 
+    /// Some of them, as if they were all.
+    FrameCasters part(const CasterLayers& some) const {
+        FrameCasters result(*_group, _view);
+        result._layers = &some;
+        return result;
+    }
+    const ShadowCasterGroup& group() const { return *_group; }
+
     /// As meshes.
     const CasterLayers& layers() const {
         if (!_layers) _layers = _group->casters(&_view);

@@ -133,6 +133,11 @@ osg::ref_ptr<const CasterDrawables> ShadowCasterGroup::drawables(const CasterVie
     return _revisions->drawables(*self, getCasters(), view);
 }
 
+osg::ref_ptr<const CasterLayers> ShadowCasterGroup::castersAmong(const CasterDrawables& some,
+                                                                 const CasterLayers& before) const {
+    return _revisions->layersOf(some, before);
+}
+
 unsigned ShadowCasterGroup::revision() const { return _revisions->count(); }
 
 } // namespace gnomon

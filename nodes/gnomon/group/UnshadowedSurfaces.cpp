@@ -3,6 +3,7 @@
 #include <gnomon/base/PlacedBox.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/geometry/ShadowReach.h>
+#include <gnomon/group/FaceCulling.h>
 #include <gnomon/group/UnshadowedSurfaces.h>
 
 #include <algorithm>
@@ -24,6 +25,7 @@ struct Placed {
     const osg::Drawable* drawable;
     osg::Matrixd groupFromLocal;
     osg::BoundingBoxd inGroup;
+    const osgUtil::RenderLeaf* leaf = nullptr; ///< of a surface.
 
     bool isSame(const Placed& other) const {
         if (drawable != other.drawable) return false;
@@ -43,7 +45,7 @@ std::vector<Placed> placed(const Leaves& leaves, const osg::Matrixd& groupFromEy
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
         if (!box.valid()) continue;
         const osg::Matrixd groupFromLocal = modelviewOf(*leaf) * groupFromEye;
-        result.push_back({leaf->_drawable.get(), groupFromLocal, placedBox(box, groupFromLocal)});
+        result.push_back({leaf->_drawable.get(), groupFromLocal, placedBox(box, groupFromLocal), leaf});
     }
     return result;
 }
@@ -102,7 +104,8 @@ std::string unshadowedSurface(const LitView& view, const LeafSet& shadowed,
     const osg::Vec4d light = view.light.inGroup.w() < 0.0 ? -view.light.inGroup : view.light.inGroup;
     for (const Placed& surface : surfacesOf(view, shadowed, light)) {
         const auto shadows = [&](const Placed& caster) { return canShadow(caster, surface, light); };
-        if (std::any_of(casters.begin(), casters.end(), shadows)) return nameOf(*surface.drawable);
+        if (std::any_of(casters.begin(), casters.end(), shadows) && !areAllFacesCulled(*surface.leaf))
+            return nameOf(*surface.drawable);
     }
     return {};
 }

@@ -12,7 +12,8 @@ namespace gnomon {
 
 /// Finds a surface that the casters' shadow can reach, for diagnose().
 ///
-/// Cost    the boxes of the casters for each of the 32 largest surfaces, until one is met. See RecalledCauses.
+/// Cost    the boxes of the casters for each of the 32 largest surfaces, until one is met, and the triangles of
+///         a surface that culls faces. See RecalledCauses.
 /// Limits  a drawable's shadow on itself does not count. Boxes are larger than what they hold, and so are shrunk: a shadow on
 ///         the outermost tenth of a surface's box, to each side, is not looked for.
 /// @param view        its receivers are the surfaces in view that get no shadow.

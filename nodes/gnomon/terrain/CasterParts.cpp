@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/drape/BoxShadow.h>
 #include <gnomon/terrain/CasterParts.h>
 
 #include <glm/common.hpp>
@@ -33,29 +32,10 @@ void move(ConvexPart& part, const glm::dvec3& by) {
     if (part.front) move(*part.front, by);
 }
 
-glm::dvec2 nearestInPlan(const ObjectPoints& points, const glm::dvec2& to) {
-    const auto distance = [&](const glm::dvec3& p) {
-        const glm::dvec2 way = glm::dvec2(p) - to;
-        return glm::dot(way, way);
-    };
-    return glm::dvec2(*std::min_element(points.begin(), points.end(), [&](const glm::dvec3& a, const glm::dvec3& b) {
-        return distance(a) < distance(b);
-    }));
-}
-
-BoxCaster boxOf(const ObjectPoints& points, const osg::BoundingBoxd& given) {
-    BoxCaster box;
-    box.low = box.high = points.front();
-    for (const glm::dvec3& p : points) box.low = glm::min(box.low, p), box.high = glm::max(box.high, p);
-    if (given.valid()) box.low = toGlm(given._min), box.high = toGlm(given._max);
-    box.nearestVertex = [&points](const glm::dvec2& corner) { return nearestInPlan(points, corner); };
-    return box;
-}
-
 /// Whether people should know.
 bool isNews(TerrainOutcome outcome) {
-    constexpr TerrainOutcome asAsked[] = {TerrainOutcome::fan, TerrainOutcome::draped, TerrainOutcome::turnedAway,
-                                          TerrainOutcome::edgeOn, TerrainOutcome::buried};
+    constexpr TerrainOutcome asAsked[] = {TerrainOutcome::fan,        TerrainOutcome::draped, TerrainOutcome::block,
+                                          TerrainOutcome::turnedAway, TerrainOutcome::edgeOn, TerrainOutcome::buried};
     return std::find(std::begin(asAsked), std::end(asAsked), outcome) == std::end(asAsked);
 }
 
@@ -69,23 +49,23 @@ std::vector<ConvexPart> partsOf(const CasterMesh& mesh, const std::set<const osg
     return parts;
 }
 
-std::vector<ObjectPoints> objectsOf(const CasterMesh& mesh, const std::set<const osg::Drawable*>& terrain) {
+std::vector<BoxCaster> boxCastersOf(const CasterMesh& mesh, const std::set<const osg::Drawable*>& terrain,
+                                    const osg::BoundingBoxd& box) {
     const std::vector<unsigned> indices = trianglesWithout(mesh, terrain);
-    std::vector<ObjectPoints> objects =
-        connectedPoints(positionsOf(mesh), mesh.vertices->size(), indices.data(), indices.size());
-    for (ObjectPoints& object : objects)
-        for (glm::dvec3& point : object) point += toGlm(mesh.origin);
-    return objects;
+    std::vector<BoxCaster> casters;
+    for (std::vector<glm::dvec3>& points :
+         connectedPoints(positionsOf(mesh), mesh.vertices->size(), indices.data(), indices.size())) {
+        for (glm::dvec3& point : points) point += toGlm(mesh.origin);
+        casters.push_back(box.valid() ? boxCaster(points, toGlm(box._min), toGlm(box._max)) : boxCaster(points));
+    }
+    return casters;
 }
 
-TerrainShadow boxShadowOf(const Ground& ground, const ObjectPoints& points, const osg::BoundingBoxd& given,
-                          const glm::dvec4& light) {
+TerrainShadow boxShadowOf(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light) {
     if (light.w == 0.0 && !(light.z > 0.0)) return {{}, TerrainOutcome::lightBelow};
-    const BoxCaster caster = boxOf(points, given);
     auto box = boxShadow(ground, caster, light);
     if (!box) return {{}, TerrainOutcome::noGround};
-    return {std::move(*box),
-            isBoxOutline(ground, points, caster, light) ? TerrainOutcome::draped : TerrainOutcome::boxed};
+    return {std::move(*box), isBoxOutline(ground, caster, light) ? TerrainOutcome::block : TerrainOutcome::boxed};
 }
 
 void OutcomeCounts::add(const OutcomeCounts& other) {

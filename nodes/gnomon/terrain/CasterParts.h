@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/drape/BoxShadow.h>
 #include <gnomon/geometry/ConvexParts.h>
 #include <gnomon/onterrain/TerrainShadow.h>
 
@@ -13,16 +14,13 @@
 
 namespace gnomon {
 
-using ObjectPoints = std::vector<glm::dvec3>; ///< of a connected part of casters.
-
 /// Convex parts of casters, group frame. @param terrain  drawables that are left out.
 std::vector<ConvexPart> partsOf(const CasterMesh& mesh, const std::set<const osg::Drawable*>& terrain = {});
-/// What BOX takes for objects.
-std::vector<ObjectPoints> objectsOf(const CasterMesh& mesh, const std::set<const osg::Drawable*>& terrain = {});
+/// What BOX takes for objects. @param box  of each of them; invalid: that of its points.
+std::vector<BoxCaster> boxCastersOf(const CasterMesh& mesh, const std::set<const osg::Drawable*>& terrain = {},
+                                    const osg::BoundingBoxd& box = {});
 
-/// @param box  invalid: that of the points.
-TerrainShadow boxShadowOf(const Ground& ground, const ObjectPoints& points, const osg::BoundingBoxd& box,
-                          const glm::dvec4& light);
+TerrainShadow boxShadowOf(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light);
 
 /// How often shadows came out how.
 class OutcomeCounts {

@@ -49,7 +49,7 @@ void measure(CasterTiles::Tile& tile) {
         tile.low = glm::min(tile.low, point);
         tile.high = glm::max(tile.high, point);
     };
-    for (const ObjectPoints& object : tile.objects) std::for_each(object.begin(), object.end(), take);
+    for (const BoxCaster& box : tile.boxes) take(box.low), take(box.high);
     for (std::size_t i = 0; i < tile.parts.size(); ++i) {
         take(tile.parts.anchor(i));
         for (unsigned k = 0; k + 1 < tile.parts.topology(i).corners; ++k)
@@ -70,10 +70,10 @@ void removeAt(List& list, std::size_t at) {
 struct CasterTiles::Found {
     CasterDrawables::List pieces;
     PackedParts parts;
-    std::vector<ObjectPoints> objects;
+    std::vector<BoxCaster> boxes;
 
-    std::size_t size() const { return parts.size() + objects.size(); }
-    glm::dvec2 place(std::size_t i) const { return glm::dvec2(objects.empty() ? parts.anchor(i) : objects[i].front()); }
+    std::size_t size() const { return parts.size() + boxes.size(); }
+    glm::dvec2 place(std::size_t i) const { return boxes.empty() ? glm::dvec2(parts.anchor(i)) : boxes[i].vertices[0]; }
 };
 
 void CasterTiles::take(const CasterDrawables& casters, const std::set<const osg::Drawable*>& terrain) {
@@ -139,7 +139,7 @@ void CasterTiles::dissolve(unsigned unit, CasterDrawables::List& loose) {
         Tile& tile = _tiles[changed(index)];
         for (std::size_t i = tile.size(); i-- > 0;) {
             if (tile.units[i] != unit) continue;
-            _asBoxes ? removeAt(tile.objects, i) : tile.parts.remove(i);
+            _asBoxes ? removeAt(tile.boxes, i) : tile.parts.remove(i);
             removeAt(tile.units, i);
             --_size;
         }
@@ -181,7 +181,7 @@ CasterTiles::Found CasterTiles::find(CasterDrawables::List pieces) const {
     Found found;
     const osg::ref_ptr<const CasterMesh> mesh = meshOf(pieces);
     if (_asBoxes)
-        found.objects = objectsOf(*mesh);
+        found.boxes = boxCastersOf(*mesh);
     else
         found.parts = PackedParts(partsOf(*mesh));
     found.pieces = std::move(pieces);
@@ -193,7 +193,7 @@ void CasterTiles::add(Found found) {
     for (std::size_t i = 0; i < found.size(); ++i) {
         Tile& tile = _tiles[changed(tileAt(found.place(i)))];
         if (_asBoxes)
-            tile.objects.push_back(std::move(found.objects[i]));
+            tile.boxes.push_back(found.boxes[i]);
         else
             tile.parts.add(found.parts, i);
         tile.units.push_back(_lastUnit);
@@ -222,7 +222,7 @@ std::vector<CasterTiles::Found> CasterTiles::takeAll() {
         for (std::size_t i = 0; i < tile.size(); ++i) {
             Found& unit = units[tile.units[i]];
             if (_asBoxes)
-                unit.objects.push_back(std::move(tile.objects[i]));
+                unit.boxes.push_back(tile.boxes[i]);
             else
                 unit.parts.add(tile.parts, i);
         }

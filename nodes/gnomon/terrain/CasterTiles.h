@@ -24,17 +24,17 @@ class CasterTiles {
 public:
     static constexpr std::size_t mostInTile = 256;
 
-    /// Convex parts, or objects, that stand near one another.
+    /// Convex parts, or boxes, that stand near one another.
     struct Tile {
         std::uint64_t revision = 0; ///< another with each change, never used twice.
         PackedParts parts;
-        std::vector<ObjectPoints> objects;
+        std::vector<BoxCaster> boxes;
         std::vector<unsigned> units;               ///< whose they are.
         glm::dvec3 low{infinite}, high{-infinite}; ///< bounds of all, group frame.
         std::size_t size() const { return units.size(); }
     };
 
-    /// @param asBoxes  takes objects, else parts.
+    /// @param asBoxes  takes boxes, else parts.
     explicit CasterTiles(bool asBoxes) : _asBoxes(asBoxes) {}
 
     /// @param terrain  drawables that do not cast.

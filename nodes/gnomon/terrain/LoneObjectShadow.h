@@ -14,9 +14,10 @@ namespace gnomon {
 struct LoneObjectShadow : public osg::Referenced {
     osg::ref_ptr<const CasterMesh> mesh;
     osg::ref_ptr<const GroundRevision> drawn;
-    bool asBoxes = false; ///< for BOX: objects, else parts.
+    bool asBoxes = false;  ///< for BOX: boxes, else parts.
+    osg::BoundingBoxd box; ///< as TerrainSettings.
     std::vector<ConvexPart> parts;
-    std::vector<ObjectPoints> objects;
+    std::vector<BoxCaster> boxes;
 
 protected:
     ~LoneObjectShadow() override = default;

@@ -44,7 +44,7 @@ PackedShadows boxShadows(const Ground& ground, const CasterTiles::Tile& tile, co
                          const glm::dvec3& origin) {
     PackedShadows found;
     found.origin = origin;
-    for (const ObjectPoints& object : tile.objects) add(found, boxShadowOf(ground, object, {}, light));
+    for (const BoxCaster& caster : tile.boxes) add(found, boxShadowOf(ground, caster, light));
     return found;
 }
 
@@ -136,6 +136,7 @@ void TileUpdates::groundChanged() {
     _states.clear();
     _lowest = std::nullopt;
     _groundShadowsItself = std::nullopt;
+    _turn.groundChanged();
 }
 
 bool TileUpdates::isSame(const glm::dvec4& light) const {
@@ -148,7 +149,7 @@ void TileUpdates::update(const CasterTiles& town, const TileGround& ground, cons
     const bool still = isSame(light);
     if (!still) _light = light;
     if (!still || !_groundShadowsItself)
-        _groundShadowsItself = !isLightBelow(ground.found, light) && ground.found.isTurnedAway(light);
+        _groundShadowsItself = !isLightBelow(ground.found, light) && _turn.isTurnedAway(ground.found, light);
     if (!(settings == _settings)) _states.clear();
     _settings = settings;
     const std::vector<CasterTiles::Tile>& tiles = town.tiles();

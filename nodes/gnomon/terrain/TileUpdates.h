@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ground/HeightPyramid.h>
+#include <gnomon/ground/TurnedAwaySearch.h>
 #include <gnomon/onterrain/PackedShadows.h>
 #include <gnomon/onterrain/ShadowDrift.h>
 #include <gnomon/terrain/CasterTiles.h>
@@ -97,6 +98,7 @@ private:
     std::vector<std::uint64_t> _states;             ///< revisions of the tiles that the shadows are of; 0: of none.
     std::optional<double> _lowest;                  ///< of the ground, its frame.
     std::optional<bool> _groundShadowsItself;       ///< in this light.
+    FollowedTurn _turn;                             ///< of the ground.
     std::vector<osg::ref_ptr<TileShadows>> _spare;
     TerrainSettings _settings;
     glm::dvec4 _light{0.0};

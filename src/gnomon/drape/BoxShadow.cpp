@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -36,13 +37,51 @@ Corners cornersOf(int quadrant) {
     }
 }
 
+double mostOffOf(const BoxCaster& caster) { return mostOff * glm::length(caster.high - caster.low); }
+
+/// The way across a side to the inner side, of length 1, if vertices are counter-clockwise; nullopt if it has no length.
+std::optional<glm::dvec2> inwardsOf(const BoxCaster& caster, std::size_t side) {
+    const glm::dvec2 way = caster.vertices[(side + 1) % 4] - caster.vertices[side];
+    const double length = glm::length(way);
+    if (!(length > mostOffOf(caster))) return std::nullopt;
+    return glm::dvec2(-way.y, way.x) / length;
+}
+
+bool isWall(const BoxCaster& caster, std::size_t side, const std::vector<glm::dvec3>& points) {
+    const auto inwards = inwardsOf(caster, side);
+    const auto isInside = [&](const glm::dvec3& point) {
+        return glm::dot(*inwards, glm::dvec2(point) - caster.vertices[side]) >= -mostOffOf(caster);
+    };
+    return inwards && std::all_of(points.begin(), points.end(), isInside);
+}
+
+/// Lowest and highest of what is over a vertex.
+std::pair<double, double> reachAt(const BoxCaster& caster, std::size_t vertex, const std::vector<glm::dvec3>& points) {
+    std::pair<double, double> reach{caster.high.z, caster.low.z};
+    for (const glm::dvec3& point : points) {
+        if (glm::length(glm::dvec2(point) - caster.vertices[vertex]) > mostOffOf(caster)) continue;
+        reach = {std::min(reach.first, point.z), std::max(reach.second, point.z)};
+    }
+    return reach;
+}
+
+glm::dvec2 nearestInPlan(const std::vector<glm::dvec3>& points, const glm::dvec2& to) {
+    const auto distance = [&](const glm::dvec3& p) {
+        const glm::dvec2 way = glm::dvec2(p) - to;
+        return glm::dot(way, way);
+    };
+    return glm::dvec2(*std::min_element(points.begin(), points.end(), [&](const glm::dvec3& a, const glm::dvec3& b) {
+        return distance(a) < distance(b);
+    }));
+}
+
 class Method {
 public:
     Method(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light, const BoxLifts& lifts)
         : _ground(ground), _caster(caster), _light(light), _lifts(lifts) {}
 
     bool outline(Points& points) const;
-    bool isOutlineOf(const std::vector<glm::dvec3>& points) const;
+    bool isOutline() const;
     bool between(Points& points) const;
 
 private:
@@ -50,14 +89,11 @@ private:
         const glm::dvec2 middle(0.5 * (_caster.low + _caster.high));
         return cornersOf(boxQuadrant(middle * _light.w - glm::dvec2(_light)));
     }
-    bool isSide(const glm::dvec2& from, const glm::dvec2& to, bool isTurnedAway,
-                const std::vector<glm::dvec3>& points) const;
-    bool isUpright(const glm::dvec2& at, const std::vector<glm::dvec3>& points) const;
-    double mostOff() const { return gnomon::mostOff * glm::length(_caster.high - _caster.low); }
-    glm::dvec2 vertexAt(const glm::bvec2& corner) const {
-        return _caster.nearestVertex(
-            {corner.x ? _caster.high.x : _caster.low.x, corner.y ? _caster.high.y : _caster.low.y});
+    static std::size_t indexOf(const glm::bvec2& corner) {
+        return corner.y ? (corner.x ? 2u : 3u) : (corner.x ? 1u : 0u);
     }
+    glm::dvec2 vertexAt(const glm::bvec2& corner) const { return _caster.vertices[indexOf(corner)]; }
+    bool isSide(std::size_t side, bool isTurnedAway) const;
     bool stand(const glm::dvec2& at, double lift, glm::dvec3& point) const {
         const auto height = _ground.height(at.x, at.y);
         if (height) point = {at.x, at.y, *height + lift};
@@ -94,44 +130,46 @@ bool Method::between(Points& points) const {
     return half(8, 5, 10) && half(3, 1, 11);
 }
 
-/// All points on its inner side, and the light where it should be. Counter-clockwise.
-bool Method::isSide(const glm::dvec2& from, const glm::dvec2& to, bool isTurnedAway,
-                    const std::vector<glm::dvec3>& points) const {
-    const glm::dvec2 way = to - from;
-    const double length = glm::length(way);
-    if (!(length > mostOff())) return false;
-    const glm::dvec2 inwards = glm::dvec2(-way.y, way.x) / length;
-    const glm::dvec3 towards = glm::dvec3(_light) - _light.w * glm::dvec3(from, _caster.high.z);
-    const double behind = glm::dot(inwards, glm::dvec2(towards)), grazing = gnomon::mostOff * glm::length(towards);
-    if (isTurnedAway ? behind < -grazing : behind > grazing) return false;
-    return std::all_of(points.begin(), points.end(), [&](const glm::dvec3& point) {
-        return glm::dot(inwards, glm::dvec2(point) - from) >= -mostOff();
-    });
+/// The light where it should be.
+bool Method::isSide(std::size_t side, bool isTurnedAway) const {
+    const glm::dvec3 towards = glm::dvec3(_light) - _light.w * glm::dvec3(_caster.vertices[side], _caster.high.z);
+    const double behind = glm::dot(*inwardsOf(_caster, side), glm::dvec2(towards));
+    const double grazing = mostOff * glm::length(towards);
+    return isTurnedAway ? behind >= -grazing : behind <= grazing;
 }
 
-/// A corner that goes from the roof into the ground.
-bool Method::isUpright(const glm::dvec2& at, const std::vector<glm::dvec3>& points) const {
-    glm::dvec3 foot;
-    if (!stand(at, 0.0, foot)) return false;
-    bool roof = false, stands = false;
-    for (const glm::dvec3& point : points) {
-        if (glm::length(glm::dvec2(point) - at) > mostOff()) continue;
-        roof = roof || point.z >= _caster.high.z - mostOff();
-        stands = stands || point.z <= foot.z + mostOff();
-    }
-    return roof && stands;
-}
-
-bool Method::isOutlineOf(const std::vector<glm::dvec3>& points) const {
-    const Corners at = corners();
-    const std::array<glm::dvec2, 4> all{vertexAt(at.first), vertexAt(at.middle), vertexAt(at.last),
-                                        vertexAt(glm::not_(at.middle))};
+bool Method::isOutline() const {
+    if (!_caster.isBlock) return false;
+    const std::size_t first = indexOf(corners().first);
     for (std::size_t i = 0; i < 4; ++i)
-        if (!isSide(all[i], all[(i + 1) % 4], i < 2, points) || !isUpright(all[i], points)) return false;
+        if (!isSide((first + i) % 4, i < 2)) return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto ground = _ground.height(_caster.vertices[i].x, _caster.vertices[i].y);
+        if (!ground || !(_caster.feet[i] <= *ground + mostOffOf(_caster))) return false;
+    }
     return true;
 }
 
 } // namespace
+
+BoxCaster boxCaster(const std::vector<glm::dvec3>& points) {
+    glm::dvec3 low = points.front(), high = low;
+    for (const glm::dvec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
+    return boxCaster(points, low, high);
+}
+
+BoxCaster boxCaster(const std::vector<glm::dvec3>& points, const glm::dvec3& low, const glm::dvec3& high) {
+    BoxCaster caster{low, high};
+    const glm::dvec2 corners[] = {{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}};
+    for (std::size_t i = 0; i < 4; ++i) caster.vertices[i] = nearestInPlan(points, corners[i]);
+    caster.isBlock = true;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto [foot, roof] = reachAt(caster, i, points);
+        caster.feet[i] = foot;
+        caster.isBlock = caster.isBlock && roof >= high.z - mostOffOf(caster) && isWall(caster, i, points);
+    }
+    return caster;
+}
 
 int boxQuadrant(const glm::dvec2& away) {
     const double heading = std::atan2(-away.x, away.y);
@@ -152,9 +190,8 @@ std::optional<Drape> boxShadow(const Ground& ground, const BoxCaster& caster, co
     return result;
 }
 
-bool isBoxOutline(const Ground& ground, const std::vector<glm::dvec3>& points, const BoxCaster& caster,
-                  const glm::dvec4& light) {
-    return Method(ground, caster, light, {}).isOutlineOf(points);
+bool isBoxOutline(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light) {
+    return Method(ground, caster, light, {}).isOutline();
 }
 
 } // namespace gnomon

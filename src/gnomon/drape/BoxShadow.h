@@ -2,18 +2,25 @@
 #pragma once
 #include <gnomon/drape/Drape.h>
 
-#include <functional>
+#include <array>
 #include <glm/vec2.hpp>
 #include <vector>
 
 namespace gnomon {
 
-/// What the bounding-box method knows of a caster.
+/// What the bounding-box method knows of a caster, the same in every light.
 struct BoxCaster {
     glm::dvec3 low{0.0}, high{0.0}; ///< its bounding box, along the axes of the world.
-    /// The caster's own vertex nearest in plan to a corner of the box.
-    std::function<glm::dvec2(const glm::dvec2& corner)> nearestVertex;
+    /// The caster's own vertices nearest in plan to the corners of the box, counter-clockwise from the lowest one.
+    std::array<glm::dvec2, 4> vertices{};
+    std::array<double, 4> feet{}; ///< how far down the caster goes there.
+    bool isBlock = false;         ///< all of it is between upright walls along these vertices, and its roof is flat.
 };
+
+/// @param points  the caster's, at least one.
+BoxCaster boxCaster(const std::vector<glm::dvec3>& points);
+/// @param low,high  a box in place of the points' own.
+BoxCaster boxCaster(const std::vector<glm::dvec3>& points, const glm::dvec3& low, const glm::dvec3& high);
 
 /// How far the published method lifts its mesh, scene's unit. Kept, so that what it errs by can be seen.
 struct BoxLifts {
@@ -36,13 +43,9 @@ int boxQuadrant(const glm::dvec2& away);
 std::optional<Drape> boxShadow(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light,
                                const BoxLifts& lifts = {});
 
-/// Whether the method's outline is the caster's own: an upright block of four corners and a flat roof, standing in the
-/// ground, with those two sides turned away from the light that the method takes for it.
-/// @param points  the caster's. Only they are looked at: walls that are missing between them, and rough ground under the
-///                shadow, are not found.
-///
-/// Cost  linear in the points.
-bool isBoxOutline(const Ground& ground, const std::vector<glm::dvec3>& points, const BoxCaster& caster,
-                  const glm::dvec4& light);
+/// Whether the method's outline is the caster's own: a block that stands in the ground, with those two sides turned away
+/// from the light that the method takes for it. Walls that are missing between the caster's vertices, and rough ground
+/// under the shadow, are not found.
+bool isBoxOutline(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light);
 
 } // namespace gnomon

@@ -12,7 +12,6 @@
 namespace gnomon {
 namespace {
 
-constexpr double grazing = 1e-12; // of a sine: more than products of doubles leave of one
 
 } // namespace
 
@@ -75,18 +74,6 @@ std::optional<double> meet(const GroundTriangle& t, const glm::dvec3& start, con
 double slopeOf(const GroundTriangle& t) {
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     return std::hypot(normal.x, normal.y) / std::abs(normal.z);
-}
-
-bool isTurnedAway(const GroundTriangle& t, const glm::dvec4& light) {
-    const glm::dvec3 up = glm::cross(t[1] - t[0], t[2] - t[0]), towards = glm::dvec3(light) - light.w * t[0];
-    const double off = grazing * glm::length(up), sine = glm::dot(up, towards);
-    return sine < -off * glm::length(towards) || (!(up.z > off) && sine > off * glm::length(towards));
-}
-
-bool mayBeTurnedAway(const GroundBox& box, double slope, const glm::dvec4& light) {
-    const glm::dvec2 from = glm::abs(glm::dvec2(light) - light.w * glm::dvec2(box.low)),
-                     to = glm::abs(glm::dvec2(light) - light.w * glm::dvec2(box.high));
-    return !(slope * glm::length(glm::max(from, to)) < light.z - light.w * box.high.z);
 }
 
 bool mayHold(const GroundBox& box, const std::vector<glm::dvec4>& planes) {

@@ -41,11 +41,6 @@ std::optional<double> meet(const GroundTriangle& triangle, const glm::dvec3& sta
 /// Tangent of a triangle's slope; infinite if it is vertical.
 double slopeOf(const GroundTriangle& triangle);
 
-/// Whether a light is below a triangle's plane; beside it where the triangle is vertical, for that may face either way.
-bool isTurnedAway(const GroundTriangle& triangle, const glm::dvec4& light);
-/// False if no triangle inside of a box, up to this slope, is turned away from a light.
-bool mayBeTurnedAway(const GroundBox& box, double slope, const glm::dvec4& light);
-
 /// Whether no plane has all of it on its outer side.
 bool mayHold(const GroundBox& box, const std::vector<glm::dvec4>& planes);
 bool mayHold(const GroundTriangle& triangle, const std::vector<glm::dvec4>& planes);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ground/HeightPyramid.h>
+#include <gnomon/ground/TurnedAwaySearch.h>
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -244,17 +245,15 @@ double HeightPyramid::steepest(const std::vector<glm::dvec4>& planes) const {
     return most;
 }
 
-bool HeightPyramid::isTurnedAway(const glm::dvec4& light) const {
-    bool found = false;
+TurnedAway HeightPyramid::turnedAway(const glm::dvec4& light) const {
+    TurnedAwaySearch search(light);
     descend([&](const Block& block) {
-        if (found || !mayBeTurnedAway(boxOf(block), node(block).steepest(), light)) return false;
-        const auto is = [&](const GroundTriangle& triangle) { return gnomon::isTurnedAway(triangle, light); };
+        if (!search.enter(boxOf(block), node(block).steepest())) return false;
         if (block.level > 0) return true;
-        const auto triangles = _field.triangles(block.x, block.y);
-        found = std::any_of(triangles.begin(), triangles.end(), is);
+        for (const GroundTriangle& triangle : _field.triangles(block.x, block.y)) search.take(triangle);
         return false;
     });
-    return found;
+    return search.result();
 }
 
 std::optional<HeightPyramid::Cells> HeightPyramid::cells(const glm::dvec2& low, const glm::dvec2& high) const {

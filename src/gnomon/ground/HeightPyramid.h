@@ -21,7 +21,7 @@ public:
     void cover(const std::vector<glm::dvec4>& planes, double error,
                const std::function<void(const GroundTriangle&, PlaneSet)>& take) const override;
     double steepest(const std::vector<glm::dvec4>& planes) const override;
-    bool isTurnedAway(const glm::dvec4& light) const override;
+    TurnedAway turnedAway(const glm::dvec4& light) const override;
     std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;
     double steepest() const; ///< of all, infinite if there are holes.
     /// Cells, the last ones included.

@@ -2,6 +2,7 @@
 #include <gnomon/Plane.h>
 #include <gnomon/geometry/MeshEdges.h>
 #include <gnomon/ground/TriangleGround.h>
+#include <gnomon/ground/TurnedAwaySearch.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -202,12 +203,12 @@ double TriangleGround::steepest(const std::vector<glm::dvec4>& planes) const {
     return most;
 }
 
-bool TriangleGround::isTurnedAway(const glm::dvec4& light) const {
-    bool found = false;
+TurnedAway TriangleGround::turnedAway(const glm::dvec4& light) const {
+    TurnedAwaySearch search(light);
     descend(
-        all(), [&](const Node& node) { return !found && mayBeTurnedAway(node.box, node.slope, light); },
-        [&](const Corners& c) { found = found || gnomon::isTurnedAway(triangle(c), light); });
-    return found;
+        all(), [&](const Node& node) { return search.enter(node.box, node.slope); },
+        [&](const Corners& c) { search.take(triangle(c)); });
+    return search.result();
 }
 
 /// Goes down to triangles at the rectangle's border alone: a node inside of it counts as a whole, and one that would add

@@ -34,7 +34,7 @@ public:
                const std::function<void(const GroundTriangle&, PlaneSet)>& take) const override;
     /// Infinite where a vertical triangle may be within.
     double steepest(const std::vector<glm::dvec4>& planes) const override;
-    bool isTurnedAway(const glm::dvec4& light) const override;
+    TurnedAway turnedAway(const glm::dvec4& light) const override;
     std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;
 
 private:

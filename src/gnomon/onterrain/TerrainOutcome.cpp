@@ -9,6 +9,8 @@ const char* sentence(TerrainOutcome outcome) {
         return "its shadow is one polygon.";
     case TerrainOutcome::draped:
         return "its shadow lies on the ground's triangles.";
+    case TerrainOutcome::block:
+        return "its shadow is that of its bounding box, which is its own.";
     case TerrainOutcome::boxed:
         return "its shadow is that of its bounding box, whose outline differs from the caster's in this light. Use "
                "hull "

@@ -12,6 +12,7 @@ enum class TerrainMethod {
 enum class TerrainOutcome : unsigned char {
     fan,    ///< one polygon.
     draped, ///< as requested.
+    block,  ///< that of the bounding box, as requested, which is the caster's own.
     boxed,  ///< that of the bounding box, as requested, and not the caster's own.
     // As drape although hull was requested:
     steep,       ///< rays graze the ground.

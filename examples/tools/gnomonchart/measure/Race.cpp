@@ -21,6 +21,7 @@ namespace gnomon::examples {
 namespace {
 
 constexpr int warmUp = 5;
+constexpr int learning = 64;                        // frames: auto has tried what may be cheaper, and knows what moves
 constexpr double cameraStep = 0.5, lightStep = 1.0; // degrees a frame
 
 /// Times by rounds.
@@ -75,6 +76,7 @@ struct Runner {
     double first = 0.0, memory = 0.0;
     std::size_t draws = 0, primitives = 0;
     unsigned passes = 0;
+    bool learns = false;
     std::string failure;
     std::optional<PredictedTime> expectedSteady, expectedMoving;
 
@@ -87,6 +89,7 @@ struct Runner {
     }
 
     void start(const Contender& contender, const ChartScene& scene, const ShaderCache& shaders) {
+        learns = contender.learns;
         shaders.empty();
         const double before = residentMiB();
         viewer = std::make_unique<StageViewer>(contender.stage(scene, Look::SHADED), scene.camera,
@@ -126,10 +129,13 @@ public:
     void run(const std::function<bool(int, int)>& progress) {
         const int all = 2 * (_frames + warmUp);
         for (int round = 0; round < all && progress(round, all); ++round)
-            if (round < all / 2)
+            if (round < all / 2) {
+                if (round == 0) learn([this](Runner& runner, int before) { fly(runner, before); });
                 steady(round);
-            else
+            } else {
+                if (round == all / 2) learn([this](Runner& runner, int before) { moveLight(runner, before); });
                 moving(round - all / 2);
+            }
     }
 
     RaceResults results() const {
@@ -142,22 +148,36 @@ public:
     }
 
 private:
+    /// Frames before the race, which count for nothing.
+    template <typename Draw>
+    void learn(const Draw& draw) {
+        for (Runner& runner : _runners)
+            for (int round = -learning; runner.learns && round < 0; ++round)
+                guarded(runner, [&](Runner& learner) { draw(learner, round); });
+    }
+
+    FrameTime fly(Runner& runner, int round) const {
+        runner.viewer->setCamera(movedCamera(_scene, cameraStep * round));
+        return runner.viewer->time();
+    }
+
+    FrameTime moveLight(Runner& runner, int round) const {
+        runner.viewer->setCamera(_scene.camera);
+        runner.viewer->staging().setLight(movedLight(_scene, lightStep * round));
+        return runner.viewer->time();
+    }
+
     void steady(int round) {
-        const SceneCamera camera = movedCamera(_scene, cameraStep * round);
         each(round, [&](Runner& runner) {
-            runner.viewer->setCamera(camera);
-            const FrameTime time = runner.viewer->time();
+            const FrameTime time = fly(runner, round);
             if (round >= warmUp) runner.steady.add(time);
             runner.expectedSteady = runner.expected(&ShadowCandidate::flying);
         });
     }
 
     void moving(int round) {
-        const osg::Vec4d light = movedLight(_scene, lightStep * round);
         each(round, [&](Runner& runner) {
-            runner.viewer->setCamera(_scene.camera);
-            runner.viewer->staging().setLight(light);
-            const FrameTime time = runner.viewer->time();
+            const FrameTime time = moveLight(runner, round);
             if (round >= warmUp) runner.moving.add(time);
             runner.expectedMoving = runner.expected(&ShadowCandidate::moving);
         });

@@ -20,6 +20,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array tuningScenes = {"lab8-45", "lab8-10", "bunny-45", "bunny-10",
                                      "town-45", "town-10", "town-utm", "street"};
 
+/// Those whose shadow falls on a named receiver alone.
+constexpr std::array groundTechniques = {"planar", "box", "hull", "drape"};
+
 constexpr std::array motions = {LightMotion::Still, LightMotion::Moving};
 
 std::string specOf(const ChartPoint& point) {
@@ -55,6 +58,11 @@ void addPoint(PredictionShare& share, const ChartPoint& point) {
     }
 }
 
+/// Share of the pixels away from edges.
+double wrongOf(const ChartPoint& point) {
+    return point.errors ? point.errors->headline.misclassified().value_or(0.0) : infinity;
+}
+
 /// What a setting of auto is held against in one scene.
 class Judge {
 public:
@@ -86,7 +94,15 @@ private:
     bool isRival(const ChartPoint& point) const {
         return point.scene == _automatic.scene && point.ours() && point.technique != _automatic.technique &&
                point.cost && errorOf(point) <= std::min(_error, std::numeric_limits<double>::max()) &&
-               timeOf(point, _light) <= _time && parseShadowSpec(specOf(point)).composite == _spec.composite;
+               timeOf(point, _light) <= _time && drawsAll(point) &&
+               parseShadowSpec(specOf(point)).composite == _spec.composite;
+    }
+
+    /// A shadow on the ground alone is no bargain where other things should have some.
+    bool drawsAll(const ChartPoint& point) const {
+        const auto isIts = [&](const char* name) { return parseShadowSpec(specOf(point)).technique == name; };
+        return std::none_of(groundTechniques.begin(), groundTechniques.end(), isIts) ||
+               wrongOf(point) <= wrongOf(_automatic);
     }
 
     const ChartPoint* best() const {

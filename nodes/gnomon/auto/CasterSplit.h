@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/casters/CasterRevisions.h>
+#include <gnomon/group/FrameCasters.h>
+
+#include <memory>
+
+namespace gnomon {
+
+/// A group's casters in two parts: simple ones, for volumes, and those that a map draws better. These are dense, are cut out
+/// by an alpha test, or draw themselves.
+///
+/// What is dense and large, as a ground is, counts as simple: a map that is fitted to it is fitted to all.
+///
+/// Cost
+/// - Where the casters have changed: a look at each piece; a part that has changed is joined anew.
+/// Threads
+/// - One at a time.
+class CasterSplit {
+public:
+    /// Divides casters, unless that was done.
+    void follow(const CasterDrawables& all);
+    /// True if there is something in either part.
+    bool isDivided() const { return _simple.pieces.get() && _dense.pieces.get(); }
+
+    /// The parts as a technique takes them. Only where isDivided().
+    FrameCasters simple(const FrameCasters& all) const { return partOf(all, _simple); }
+    FrameCasters dense(const FrameCasters& all) const { return partOf(all, _dense); }
+
+private:
+    struct Part {
+        CurrentCasters<CasterDrawables> pieces;
+        mutable CurrentCasters<CasterLayers> layers;
+    };
+    static FrameCasters partOf(const FrameCasters& all, const Part& part);
+    static void set(Part& part, CasterDrawables::List pieces, CasterDrawables::OwnList own, std::uint64_t choice);
+
+    osg::ref_ptr<const CasterDrawables> _all;
+    Part _simple, _dense;
+};
+
+/// Those of the choices of levels of detail that views have lately.
+class CasterSplits {
+public:
+    /// As CasterSplit::follow() leaves it. It holds until the next call.
+    CasterSplit& of(const CasterDrawables& all);
+
+private:
+    struct Entry {
+        std::uint64_t choice;
+        std::unique_ptr<CasterSplit> split;
+    };
+    RecentCache<Entry> _splits;
+};
+
+} // namespace gnomon
