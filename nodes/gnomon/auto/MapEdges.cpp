@@ -13,9 +13,9 @@
 namespace gnomon {
 namespace {
 
-// Triangles that are looked at: more would take tens of milliseconds. Boxes are as good, and sooner, where drawables are many and
-// as simple.
-constexpr std::size_t mostTriangles = 150000, fewTriangles = 2000, ofABox = 20;
+// Triangles that are looked at: more would take tens of milliseconds. Where drawables are as simple as boxes, these are as good,
+// and sooner.
+constexpr std::size_t mostTriangles = 150000, ofABox = 20;
 
 bool holds(const MapForecast::Map& map, const glm::dvec3& place) {
     const glm::dvec4 here(place, 1.0), in = map.mapFromScene * here;
@@ -33,9 +33,7 @@ std::vector<SeenEdges::Box> boxesOf(const MapCasters& casters) {
 }
 
 bool areLookedAt(const CasterLayers& casters) {
-    const std::size_t triangles = casters.triangles();
-    return triangles <= fewTriangles ||
-           (triangles <= mostTriangles && triangles > ofABox * casters.pieces->list.size());
+    return casters.triangles() <= mostTriangles && casters.triangles() > ofABox * casters.pieces->list.size();
 }
 
 std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
