@@ -314,6 +314,21 @@ TEST(EdgeWidths, AreNotOfWhatIsBehindTheEye) {
     EXPECT_TRUE(widths.empty());
 }
 
+// So that a budget of just that is kept.
+TEST(EdgeWidths, AreNotRoundedBeyondWhatAllHave) {
+    EdgeWidths widths(plan(), pixels);
+    for (int i = 1; i < 200; ++i) {
+        SeenPlace place{{1, 2, 0}, {0, 0, 1}, {1, 0}};
+        place.share = 0.1 * i;
+        widths.add(place, mapFromAbove * glm::scale(here, {1.0, 1.0 / i, 1.0}));
+        for (const double off : {0.1, 0.4, 0.7}) {
+            const double usual = widths.usual(0.95, [&](const auto&) { return off; });
+            EXPECT_LE(usual, off) << i;
+            EXPECT_NEAR(usual, off, 1e-12);
+        }
+    }
+}
+
 // A map from above has a pixel's height on a ground 1.7 below the eye as many times as long as on what faces the eye as the place
 // is farther away than that: map.frag shortens what is more than four times as long.
 TEST(EdgeWidths, TellWherePixelsAreLong) {

@@ -13,9 +13,9 @@
 namespace gnomon {
 namespace {
 
-// Triangles that are looked at: more would take tens of milliseconds. Boxes are as good, and sooner, where drawables are many and
-// as simple.
-constexpr std::size_t mostTriangles = 150000, fewTriangles = 2000, ofABox = 20;
+// Triangles that are looked at: more would take tens of milliseconds. Where drawables are as simple as boxes, these are as good,
+// and sooner.
+constexpr std::size_t mostTriangles = 150000, ofABox = 20;
 
 bool holds(const MapForecast::Map& map, const glm::dvec3& place) {
     const glm::dvec4 here(place, 1.0), in = map.mapFromScene * here;
@@ -33,9 +33,7 @@ std::vector<SeenEdges::Box> boxesOf(const MapCasters& casters) {
 }
 
 bool areLookedAt(const CasterLayers& casters) {
-    const std::size_t triangles = casters.triangles();
-    return triangles <= fewTriangles ||
-           (triangles <= mostTriangles && triangles > ofABox * casters.pieces->list.size());
+    return casters.triangles() <= mostTriangles && casters.triangles() > ofABox * casters.pieces->list.size();
 }
 
 std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
@@ -52,10 +50,10 @@ std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
     return result;
 }
 
-/// The view without what casts: its triangles are looked at.
-ViewFrame withoutCasters(const AutoView& view) {
+/// The view without some casters: their triangles are looked at.
+ViewFrame without(const CasterDrawables& casters, const AutoView& view) {
     std::unordered_set<const osg::Drawable*> casting;
-    for (const auto& piece : view.casters.list) casting.insert(piece->drawable.get());
+    for (const auto& piece : casters.list) casting.insert(piece->drawable.get());
     ViewFrame result = view.frame;
     const auto casts = [&](const osgUtil::RenderLeaf* leaf) { return casting.count(leaf->_drawable.get()) > 0; };
     result.seen.erase(std::remove_if(result.seen.begin(), result.seen.end(), casts), result.seen.end());
@@ -71,7 +69,7 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
     const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(scene.origin, 0.0);
     const bool byTriangles = !view.frame.receivers && areLookedAt(*boxes.layers);
     const std::vector<MapReceiver> receivers =
-        receiversOf(byTriangles ? withoutCasters(view) : view.frame, scene.eyeFromScene(view.frame));
+        receiversOf(byTriangles ? without(*boxes.layers->pieces, view) : view.frame, scene.eyeFromScene(view.frame));
     const auto seenOf = [&](SeenEdges::Relief relief) {
         SeenEdges seen(_clipFromScene, *forecast.bounds, light);
         for (const MapReceiver& receiver : receivers)

@@ -97,8 +97,8 @@ double EdgeWidths::usual(double share, const Off& off) const {
     }
     std::sort(edges.begin(), edges.end());
     for (const auto& [most, length] : edges) {
-        const double reached = (share * all - whole) / slope; // if it lies before this edge's
-        if (reached <= most) return reached / share;
+        const double reached = (share * all - whole) / slope;                      // if it lies before this edge's
+        if (reached <= most) return std::min(reached / share, edges.back().first); // not by rounding beyond all
         whole += length;
         slope -= most > 0.0 ? length / most : 0.0;
     }
