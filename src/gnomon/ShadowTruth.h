@@ -25,9 +25,9 @@ struct TruthView {
 struct TruthPixel {
     unsigned receiver = RayHit::none; ///< Triangle seen at the pixel's centre; `none` in the background.
     bool litCentre = false;           ///< T_c: true if the surface at the pixel's centre is lit.
-    bool undecided = false; ///< True if an edge of the shadow comes within 1/16 px of the centre, in the picture
-                            ///< or in the plane of the surface: a rasteriser, or a depth buffer's step, may
-                            ///< decide otherwise than T_c. Not of soft shadows.
+    /// True if an edge of the shadow comes within 1/16 px of the centre, in the picture or in the plane of the surface. A
+    /// rasteriser, or a depth buffer's step, may then decide otherwise than T_c. Not of soft shadows.
+    bool undecided = false;
     std::array<bool, 4> litBeside{}; ///< T at four places diagonally beside the centre, 1/16 px along each axis. Not of
                                      ///< soft shadows.
     float lit = 0.0f;                ///< T_a: lit share of the 16 rays, background rays left out. 0 without any.
