@@ -297,13 +297,38 @@ TEST_F(AutoCosts, FollowFramesThatTakeLongerThanPredicted) {
     costs->add(frame, 5.0);
     EXPECT_GT(costs->generation(), before) << "candidates are compared again";
     EXPECT_DOUBLE_EQ(*frame.taken, 6.0);
-    EXPECT_NEAR(costs->now().factors[std::size_t(frame.kind)], 3.0, 1e-9);
+    EXPECT_NEAR(costs->now().factors[std::size_t(frame.kind)].still, 3.0, 1e-9);
+    EXPECT_NEAR(costs->now().factors[std::size_t(frame.kind)].moving, 3.0, 1e-9) << "nothing better is known";
     gnomon::AutoCandidate volume, map;
     volume.kind = gnomon::AutoCandidate::Kind::Volume;
     map.kind = gnomon::AutoCandidate::Kind::Map;
     volume.still = map.still = frame.work;
     EXPECT_NEAR(volume.time(costs->now(), {}), 6.0, 1e-9);
     EXPECT_NEAR(map.time(costs->now(), {}), 2.0, 1e-9) << "of one kind only";
+}
+
+// A map that is drawn each frame may be dearer than thought, though looking it up is cheaper.
+TEST_F(AutoCosts, OfFramesInWhichThingsMoveAreFollowedApart) {
+    const osg::ref_ptr<gnomon::FrameCosts> costs = new gnomon::FrameCosts;
+    gnomon::FrameCosts::Frame still{gnomon::AutoCandidate::Kind::Map, {}, 0.0, std::make_shared<std::atomic<double>>()};
+    still.work.calls = 2.0 / gnomon::CostRates().call; // 2 ms
+    gnomon::FrameCosts::Frame moving = still;
+    moving.moving = true;
+    moving.work.calls += 3.0 / gnomon::CostRates().call;
+    for (int i = 0; i < 5; ++i) costs->add(still, 1.0);
+    gnomon::AutoCandidate map;
+    map.kind = gnomon::AutoCandidate::Kind::Map;
+    map.still = still.work;
+    map.change.calls = 3.0 / gnomon::CostRates().call;
+    EXPECT_NEAR(map.time(costs->now(), {1.0, 0.0}), 2.5, 1e-9) << "half of 5, before any such frame";
+    const unsigned before = costs->generation();
+    for (int i = 0; i < 3; ++i) costs->add(moving, 6.0);
+    EXPECT_GT(costs->generation(), before);
+    EXPECT_NEAR(map.time(costs->now(), {0.0, 0.0}), 1.0, 1e-9);
+    EXPECT_NEAR(map.time(costs->now(), {1.0, 0.0}), 5.0, 1e-9) << "6 for 5 is let be";
+    for (int i = 0; i < 5; ++i) costs->add(moving, 10.0);
+    EXPECT_NEAR(map.time(costs->now(), {1.0, 0.0}), 10.0, 1e-9);
+    EXPECT_NEAR(map.time(costs->now(), {0.5, 0.0}), 5.5, 1e-9);
 }
 
 TEST(AutoCandidate, OfMapsAloneAMovingViewChangesWhatWasDrawn) {

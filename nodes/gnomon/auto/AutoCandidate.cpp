@@ -68,8 +68,11 @@ bool AutoCandidate::isSame(const AutoCandidate& other) const {
 }
 
 double AutoCandidate::time(const AutoCosts& costs, const AutoMotion& motion) const {
-    const double changes = motion.scene + (hasMap() ? refits * motion.view : 0.0);
-    return costs.factors[std::size_t(kind)] * (timeOf(still, costs.rates) + changes * timeOf(change, costs.rates));
+    const AutoCosts::Factors& factors = costs.factors[std::size_t(kind)];
+    const double drawn = timeOf(still, costs.rates), changed = timeOf(change, costs.rates);
+    const double refitted = hasMap() ? refits * motion.view * changed : 0.0;
+    const double atRest = (1.0 - motion.scene) * drawn + refitted, moving = motion.scene * (drawn + changed);
+    return factors.still * atRest + factors.moving * moving;
 }
 
 ShadowCandidate AutoCandidate::judged(const AutoCosts& costs, const AutoMotion& motion) const {

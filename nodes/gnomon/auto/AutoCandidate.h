@@ -51,8 +51,13 @@ struct AutoCandidate {
 struct AutoCosts {
     static constexpr std::size_t kinds = 7; ///< see AutoCandidate::Kind.
 
+    /// What predicted times of a kind are multiplied by: of frames in which neither light nor casters move, and of others.
+    struct Factors {
+        double still = 1.0, moving = 1.0;
+    };
+
     CostRates rates = {};
-    std::array<double, kinds> factors = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    std::array<Factors, kinds> factors = {};
 };
 
 } // namespace gnomon

@@ -189,7 +189,7 @@ void AutoChooser::findRivals(Choice& choice, const std::vector<AutoCandidate>& a
     choice.rivals.clear();
     if (!_costs->areMeasured()) return;
     choice.tried[std::size_t(all[chosen].kind)] = true; // it is measured as long as it is drawn
-    const double shared = std::min(1.0, _costs->now().factors[std::size_t(all[chosen].kind)]);
+    const double shared = std::min(1.0, _costs->now().factors[std::size_t(all[chosen].kind)].still);
     const bool flies = choice.moving.view > 0.0; // then maps cannot be measured
     for (std::size_t kind = 0; kind < AutoCosts::kinds; ++kind) {
         if (choice.tried[kind]) continue;
@@ -299,7 +299,7 @@ osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, bool alone) {
         if (!frame) frame = FrameCosts::Frame{choice->candidate.kind, {}, 0.0, choice->taken};
         alone = alone && frame->kind == choice->candidate.kind;
         frame->work += choice->candidate.still;
-        if (choice->motion.scene > 0.0) frame->work += choice->candidate.change;
+        if (choice->motion.scene > 0.0) frame->work += choice->candidate.change, frame->moving = true;
         frame->prepared += choice->prepared;
     }
     for (const auto& choice : _choices)

@@ -15,7 +15,10 @@ AutoCosts FrameCosts::now() {
     Lock lock(_mutex);
     if (!_rates) _rates = (_measured ? RendererCosts::expected() : std::nullopt).value_or(CostRates());
     AutoCosts result{*_rates, {}};
-    for (std::size_t i = 0; i < _corrections.size(); ++i) result.factors[i] = _corrections[i].factor();
+    for (std::size_t i = 0; i < AutoCosts::kinds; ++i) {
+        const double still = _still[i].factor();
+        result.factors[i] = {still, _moving[i].isKnown() ? _moving[i].factor() : still};
+    }
     return result;
 }
 
@@ -28,12 +31,15 @@ void FrameCosts::learn(osg::RenderInfo& renderInfo) {
     _knowRenderer = true;
 }
 
+double FrameCosts::predicted(const Frame& frame) const { return timeOf(frame.work, _rates.value_or(CostRates())); }
+
 void FrameCosts::add(const Frame& frame, double drawn) {
     const double taken = frame.prepared + drawn;
     *frame.taken = taken;
     Lock lock(_mutex);
-    if (_corrections[std::size_t(frame.kind)].add(taken, timeOf(frame.work, _rates.value_or(CostRates()))))
-        ++_generation;
+    CostCorrection& correction = (frame.moving ? _moving : _still)[std::size_t(frame.kind)];
+    const bool wasKnown = correction.isKnown(), changed = correction.add(taken, predicted(frame));
+    if (changed || (frame.moving && correction.isKnown() && !wasKnown)) ++_generation; // until then the still one's
 }
 
 CostWatch::CostWatch(FrameCosts& costs, std::optional<FrameCosts::Frame> frame)

@@ -41,6 +41,7 @@ public:
         ShadowWork work;                            ///< counted before.
         double prepared = 0.0;                      ///< milliseconds in cull.
         std::shared_ptr<std::atomic<double>> taken; ///< gets the milliseconds that it took.
+        bool moving = false;                        ///< a light or a caster has moved.
     };
     void add(const Frame& frame, double drawn);
 
@@ -48,10 +49,12 @@ protected:
     ~FrameCosts() override = default;
 
 private:
+    double predicted(const Frame& frame) const;
+
     const bool _measured = RendererCosts::areMeasured();
     OpenThreads::Mutex _mutex;
     std::optional<CostRates> _rates; ///< nullopt before the first call of now() or learn().
-    std::array<CostCorrection, AutoCosts::kinds> _corrections;
+    std::array<CostCorrection, AutoCosts::kinds> _still, _moving;
     std::atomic<unsigned> _generation{0};
     std::atomic<bool> _knowRenderer{false};
 };

@@ -12,12 +12,14 @@ constexpr std::size_t fewest = 3, kept = 5; // frames
 
 } // namespace
 
+bool CostCorrection::isKnown() const { return _ratios.size() >= fewest; }
+
 bool CostCorrection::add(double measured, double predicted) {
     const double ratio = measured / predicted;
     if (!(measured > 0.0 && predicted > 0.0 && ratio > 0.0 && std::isfinite(ratio))) return false;
     _ratios.push_back(ratio);
     if (_ratios.size() > kept) _ratios.pop_front();
-    if (_ratios.size() < fewest) return false;
+    if (!isKnown()) return false;
     std::vector<double> sorted(_ratios.begin(), _ratios.end());
     std::nth_element(sorted.begin(), sorted.begin() + long(sorted.size() / 2), sorted.end());
     const double now = std::clamp(sorted[sorted.size() / 2], 1.0 / range, range);

@@ -18,6 +18,9 @@ public:
     /// What a predicted time is to be multiplied by. 1 until three frames agree on something else.
     double factor() const { return _factor; }
 
+    /// True once as many frames have been taken as factor() needs.
+    bool isKnown() const;
+
 private:
     std::deque<double> _ratios; ///< of the frames that came last.
     double _factor = 1.0;
