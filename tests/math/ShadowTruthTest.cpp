@@ -140,21 +140,31 @@ void addPrism(Soup& soup, const Ground& ground, double top) {
     }
 }
 
+namespace {
+
+constexpr int slidSide = 20;                  // pixels of the pictures that are slid along
+constexpr double slidPixel = 10.0 / slidSide; // m
+
+/// Seen from above, 10 m, the camera so much farther along x.
+TruthImage slidBy(double way, const Soup& soup, const glm::dvec4& light) {
+    const glm::dmat4 clip = plan(5.0) * glm::translate(glm::dmat4(1.0), glm::dvec3(-way, 0.0, 0.0));
+    return truthOf(soup, {clip, slidSide, slidSide, light});
+}
+
+} // namespace
+
 TEST(ShadowTruth, IsUndecidedWithinASixteenthOfAPixelFromAnEdge) {
     // A plate from x = 10 on, 10 m up, under a sun at 45°: its shadow begins at x = 0. A picture of 10 m that is slid along
     // in steps of a hundredth of a pixel.
     Soup soup;
     soup.ground(40.0);
     soup.quad({10.0, -20.0, 10.0}, {30.0, 0.0, 0.0}, {0.0, 40.0, 0.0});
-    constexpr int side = 20;
-    constexpr double pixel = 10.0 / side;
     int undecided = 0;
     for (int step = 0; step < 100; ++step) {
-        const double slid = step * pixel / 100.0;
-        const glm::dmat4 clip = plan(5.0) * glm::translate(glm::dmat4(1.0), glm::dvec3(-slid, 0.0, 0.0));
-        const TruthImage image = truthOf(soup, {clip, side, side, {1.0, 0.0, 1.0, 0.0}});
-        for (int x = 0; x < side; ++x) {
-            const double fromEdge = std::abs((x + 0.5) * pixel - 5.0 + slid) / pixel;
+        const double slid = step * slidPixel / 100.0;
+        const TruthImage image = slidBy(slid, soup, {1.0, 0.0, 1.0, 0.0});
+        for (int x = 0; x < slidSide; ++x) {
+            const double fromEdge = std::abs((x + 0.5) * slidPixel - 5.0 + slid) / slidPixel;
             if (std::abs(fromEdge - 1.0 / 16.0) < 1e-4) continue; // rounding
             ASSERT_EQ(image.at(x, 7).undecided, fromEdge < 1.0 / 16.0) << x << ", " << step;
             undecided += image.at(x, 7).undecided;
@@ -170,15 +180,12 @@ TEST(ShadowTruth, IsUndecidedAtAnEdgeOfTheShadowAlongAnEdgeOfTheSurface) {
     soup.quad({-20.0, -20.0, 0.0}, {20.0, 0.0, 0.0}, {0.0, 40.0, 0.0});  // the top
     soup.quad({0.0, -20.0, 0.0}, {20.0, 0.0, -40.0}, {0.0, 40.0, 0.0});  // steeper than the sun, which comes from -x
     soup.quad({-30.0, -20.0, 10.0}, {20.0, 0.0, 0.0}, {0.0, 40.0, 0.0}); // the plate
-    constexpr int side = 20;
-    constexpr double pixel = 10.0 / side;
     int undecided = 0;
     for (int step = 0; step < 100; ++step) {
-        const double slid = step * pixel / 100.0;
-        const glm::dmat4 clip = plan(5.0) * glm::translate(glm::dmat4(1.0), glm::dvec3(-slid, 0.0, 0.0));
-        const TruthImage image = truthOf(soup, {clip, side, side, {-1.0, 0.0, 1.0, 0.0}});
-        for (int x = 0; x < side; ++x) {
-            const double pastEdge = ((x + 0.5) * pixel - 5.0 + slid) / pixel;
+        const double slid = step * slidPixel / 100.0;
+        const TruthImage image = slidBy(slid, soup, {-1.0, 0.0, 1.0, 0.0});
+        for (int x = 0; x < slidSide; ++x) {
+            const double pastEdge = ((x + 0.5) * slidPixel - 5.0 + slid) / slidPixel;
             if (std::abs(std::abs(pastEdge) - 1.0 / 16.0) < 1e-4) continue; // rounding
             ASSERT_FALSE(image.at(x, 7).litCentre);
             const bool isCloseBefore = pastEdge < -1e-6 && pastEdge > -1.0 / 16.0;
@@ -194,11 +201,9 @@ TEST(ShadowTruth, LooksAtFourPlacesBesideTheCentre) {
     Soup soup;
     soup.ground(40.0);
     soup.quad({10.0, -20.0, 10.0}, {30.0, 0.0, 0.0}, {0.0, 40.0, 0.0});
-    constexpr double pixel = 0.5;
     const auto besideAt = [&](double hundredths) {
-        const glm::dmat4 clip =
-            plan(5.0) * glm::translate(glm::dmat4(1.0), glm::dvec3(0.5 * pixel - hundredths * pixel / 100.0, 0.0, 0.0));
-        return truthOf(soup, {clip, 20, 20, {1.0, 0.0, 1.0, 0.0}}).at(10, 7).litBeside;
+        const double slid = hundredths * slidPixel / 100.0 - 0.5 * slidPixel;
+        return slidBy(slid, soup, {1.0, 0.0, 1.0, 0.0}).at(10, 7).litBeside;
     };
     const std::array<bool, 4> lit{true, true, true, true}, dark{}, leftLit{true, false, true, false};
     EXPECT_EQ(besideAt(-7.0), lit);

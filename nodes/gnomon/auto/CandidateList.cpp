@@ -277,14 +277,17 @@ private:
         if (one.maps == 0) return;
         const EdgeWidths edges = MapEdges(_view, *boxes, one).in(one);
         const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(dense.layers().triangles())};
+        AutoCandidate volume;
+        addVolumeOf(split.simplePieces(), simple, volume);
+        volume.still.calls += 3.0; // marks are handed on
         for (const int size : sizes)
             for (const MapQuality& quality : qualities) {
                 AutoCandidate mixed = mapOf(mapped, 1, size, quality);
                 mixed.kind = Kind::Mixed;
                 mixed.error = std::max(mixed.error, _sampled);
                 mixed.obstacle = whyNotTogether(quality.edges);
-                addVolumeOf(split.simplePieces(), simple, mixed);
-                mixed.still.calls += 3.0; // marks are handed on
+                mixed.still += volume.still;
+                mixed.change += volume.change;
                 _result.all.push_back(mixed);
             }
     }

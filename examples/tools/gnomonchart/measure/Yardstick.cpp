@@ -52,11 +52,10 @@ std::string numbers(const std::initializer_list<double>& values) {
 
 } // namespace
 
-metrics::Visibility centreRays(const metrics::TruthMaps& maps) {
+metrics::Visibility raysOf(const metrics::Mask& lit) {
     metrics::Visibility result;
-    result.value = metrics::Picture(maps.litCentre.width, maps.litCentre.height);
-    for (std::size_t i = 0; i < result.value.cells.size(); ++i)
-        result.value.cells[i] = maps.litCentre.cells[i] ? 1.0 : 0.0;
+    result.value = metrics::Picture(lit.width, lit.height);
+    for (std::size_t i = 0; i < result.value.cells.size(); ++i) result.value.cells[i] = lit.cells[i] ? 1.0 : 0.0;
     return result;
 }
 
@@ -79,7 +78,7 @@ metrics::CauseLimits Yardstick::limits() const {
 }
 
 void Yardstick::describe(ChartSceneResult& into) const {
-    const metrics::Visibility rays = centreRays(_maps);
+    const metrics::Visibility rays = raysOf(_maps.litCentre);
     const metrics::Mask facing = metrics::pixelSets(_maps, rays.value).facing;
     into.name = _scene.name;
     into.title = _scene.title;

@@ -10,8 +10,8 @@ namespace gnomon::examples {
 
 using ShadedPicture = metrics::Grid<glm::dvec3>; ///< linear light.
 
-/// What a renderer shows that asks one ray a pixel: its centre's.
-metrics::Visibility centreRays(const metrics::TruthMaps& maps);
+/// What a renderer shows that asks one ray a pixel. @param lit  what these say, as TruthMaps::litCentre has it.
+metrics::Visibility raysOf(const metrics::Mask& lit);
 
 /// What is true of one scene: all that its contenders are measured against, made once.
 ///

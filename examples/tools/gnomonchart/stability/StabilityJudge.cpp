@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "StabilityJudge.h"
 
+#include "../measure/Yardstick.h"
+
 #include <gnomon/metrics/BoundaryDistance.h>
 #include <gnomon/metrics/Confusion.h>
 
@@ -43,17 +45,11 @@ std::size_t wrongAwayFromEdges(const metrics::Picture& visibility, const metrics
     return wrong;
 }
 
-metrics::Picture pictureOf(const metrics::Mask& lit) {
-    metrics::Picture picture(lit.width, lit.height);
-    for (std::size_t i = 0; i < lit.cells.size(); ++i) picture.cells[i] = lit.cells[i] ? 1.0 : 0.0;
-    return picture;
-}
-
 double floorOf(const metrics::TruthMaps& truth, const metrics::Mask& facing) {
     double floor = 0.0;
     const auto take = [&](const metrics::Mask& lit) {
         if (lit.empty()) return;
-        if (const auto boundary = metrics::boundaryDistance(pictureOf(lit), truth.lit, facing))
+        if (const auto boundary = metrics::boundaryDistance(raysOf(lit).value, truth.lit, facing))
             floor = std::max(floor, boundary->p95);
     };
     take(truth.litCentre);
