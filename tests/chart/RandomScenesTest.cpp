@@ -35,8 +35,9 @@ RandomSearch searchOf(unsigned count, std::vector<StabilityContender> contenders
 }
 
 TEST(RandomScenes, NeverLoseAShadowWithoutAWord) {
-    const auto faults = searchRandomScenes(searchOf(inCi, techniques({"planar", "map", "traced"})), goOn);
-    for (const RandomFault& fault : faults) ADD_FAILURE() << faultText(fault);
+    const RandomSearch search = searchOf(inCi, techniques({"planar", "map", "traced"}));
+    EXPECT_EQ(searchRandomScenes(search, goOn, [](const RandomFault& fault) { ADD_FAILURE() << faultText(fault); }),
+              inCi);
 }
 
 TEST(RandomScenes, AreTheSameForTheSameSeed) {
@@ -65,8 +66,9 @@ TEST(RandomScenes, AreOfEveryKind) {
 
 /// A scene without shadows is as wrong with one box on level ground as with all else.
 TEST(RandomScenes, OfAFaultAreMadeAsPlainAsTheyCanBe) {
-    RandomSearch search = searchOf(6, {{plainContender()}});
-    const auto faults = searchRandomScenes(search, goOn);
+    std::vector<RandomFault> faults;
+    const auto keep = [&faults](const RandomFault& fault) { faults.push_back(fault); };
+    searchRandomScenes(searchOf(6, {{plainContender()}}), goOn, keep);
     ASSERT_GT(faults.size(), 0u);
     for (const RandomFault& fault : faults) {
         EXPECT_EQ(fault.technique, "none");
@@ -75,6 +77,19 @@ TEST(RandomScenes, OfAFaultAreMadeAsPlainAsTheyCanBe) {
         EXPECT_EQ(fault.plainest.scale, 1.0) << faultText(fault);
         EXPECT_TRUE(isRandomFault(fault.cell));
     }
+}
+
+/// A search of hours that is ended has told what it found, and says how far it came.
+TEST(RandomScenes, TellTheirFaultsBeforeTheSearchEnds) {
+    RandomSearch search = searchOf(600, {{plainContender()}});
+    search.batch = 4;
+    std::size_t faults = 0;
+    const auto count = [&faults](const RandomFault&) { ++faults; };
+    const unsigned done = searchRandomScenes(search, [&](std::size_t, const std::string&) { return faults == 0; }, count);
+    EXPECT_GT(faults, 0u);
+    EXPECT_GE(done, search.batch);
+    EXPECT_LT(done, search.count);
+    EXPECT_EQ(done % search.batch, 0u);
 }
 
 TEST(RandomScenes, HavePlainerOnesUntilNothingIsLeftToTakeAway) {

@@ -96,12 +96,16 @@ bool searchRandom(const ChartOptions& options, const std::function<bool()>& stop
                             search.contenders.end());
     search.workers = std::max(1u, std::thread::hardware_concurrency());
     const std::size_t cells = std::size_t(search.count) * search.contenders.size();
-    const std::vector<RandomFault> faults =
-        withProgress(cells, stops, [&](const auto& progress) { return searchRandomScenes(search, progress); });
-    for (const RandomFault& fault : faults) std::cout << faultText(fault) << "\n";
-    std::cout << (stops() ? "interrupted before the end of " : "") << search.count << " random scenes from seed "
-              << search.first << ", " << faults.size() << " faults\n";
-    return faults.empty() && !stops();
+    std::size_t faults = 0;
+    const auto print = [&faults](const RandomFault& fault) {
+        std::cout << faultText(fault) << std::endl; // at once: a long search may be ended
+        ++faults;
+    };
+    const unsigned done =
+        withProgress(cells, stops, [&](const auto& progress) { return searchRandomScenes(search, progress, print); });
+    std::cout << (done < search.count ? "interrupted after " + std::to_string(done) + " of " : std::string())
+              << search.count << " random scenes from seed " << search.first << ", " << faults << " faults\n";
+    return faults == 0 && done == search.count;
 }
 
 void writeStabilityAgain(const std::string& folder) {

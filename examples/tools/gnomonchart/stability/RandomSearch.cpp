@@ -23,6 +23,7 @@ StabilityScene seedsFrom(unsigned first, unsigned count) {
     return scene;
 }
 
+/// Of the seeds of a batch.
 StabilityPlan planOf(const RandomSearch& search) {
     StabilityPlan plan;
     plan.contenders = search.contenders;
@@ -63,6 +64,18 @@ RandomFault shrunk(const RandomSearch& search, const StabilityContender& contend
     return fault;
 }
 
+void tellFaults(const RandomSearch& search, const StabilityResults& results,
+                const std::function<void(const RandomFault&)>& found) {
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        const StabilityRow& row = results.rows[i];
+        const StabilitySceneText& scene = results.scenes[i / search.contenders.size()];
+        for (std::size_t place = 0; place < row.cells.size(); ++place)
+            if (isRandomFault(row.cells[place]))
+                found(shrunk(search, search.contenders[i % search.contenders.size()],
+                             static_cast<unsigned>(scene.values[place]), row.cells[place]));
+    }
+}
+
 } // namespace
 
 bool isRandomFault(const StabilityCell& cell) {
@@ -72,19 +85,20 @@ bool isRandomFault(const StabilityCell& cell) {
     return cell.failure.empty() && !cell.stated() && judged.shadow > leastShadow && judged.iou < lostBelow;
 }
 
-std::vector<RandomFault> searchRandomScenes(const RandomSearch& search,
-                                            const std::function<bool(std::size_t, const std::string&)>& progress) {
-    const StabilityResults results = runStability(planOf(search), progress);
-    std::vector<RandomFault> faults;
-    for (std::size_t i = 0; i < results.rows.size(); ++i) {
-        const StabilityRow& row = results.rows[i];
-        const StabilitySceneText& scene = results.scenes[i / search.contenders.size()];
-        for (std::size_t place = 0; place < row.cells.size(); ++place)
-            if (isRandomFault(row.cells[place]))
-                faults.push_back(shrunk(search, search.contenders[i % search.contenders.size()],
-                                        static_cast<unsigned>(scene.values[place]), row.cells[place]));
+unsigned searchRandomScenes(const RandomSearch& search,
+                            const std::function<bool(std::size_t, const std::string&)>& progress,
+                            const std::function<void(const RandomFault&)>& found) {
+    for (unsigned done = 0; done < search.count; done += search.batch) {
+        RandomSearch batch = search;
+        batch.first = search.first + done;
+        batch.count = std::min(search.batch, search.count - done);
+        const std::size_t before = std::size_t(done) * search.contenders.size();
+        const auto tell = [&](std::size_t cells, const std::string& doing) { return progress(before + cells, doing); };
+        const StabilityResults results = runStability(planOf(batch), tell);
+        tellFaults(batch, results, found);
+        if (!results.complete) return done;
     }
-    return faults;
+    return search.count;
 }
 
 std::string faultText(const RandomFault& fault) {

@@ -13,6 +13,7 @@ struct RandomSearch {
     std::vector<StabilityContender> contenders;
     int width = 128, height = 96; ///< of the pictures, pixels.
     unsigned workers = 1;         ///< child processes at a time.
+    unsigned batch = 400;         ///< seeds after which faults are told, at least 1.
 };
 
 /// A scene in which a technique breaks, as plain as it still does.
@@ -29,8 +30,11 @@ bool isRandomFault(const StabilityCell& cell);
 
 /// Measures random scenes, and makes each fault's scene plainer for as long as the fault stays.
 /// @param progress  see runStability().
-std::vector<RandomFault> searchRandomScenes(const RandomSearch& search,
-                                            const std::function<bool(std::size_t done, const std::string&)>& progress);
+/// @param found     called for each fault, after its batch.
+/// @return scenes of which all faults were told; less than search.count if `progress` ended the search.
+unsigned searchRandomScenes(const RandomSearch& search,
+                            const std::function<bool(std::size_t done, const std::string&)>& progress,
+                            const std::function<void(const RandomFault&)>& found);
 
 /// A sentence a fault, with all that makes its scene.
 std::string faultText(const RandomFault& fault);
