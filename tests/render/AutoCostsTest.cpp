@@ -286,6 +286,54 @@ TEST_F(AutoCosts, OfRivalsAreNotAskedForWhereTheyCannotBeMeasured) {
     }
 }
 
+// The eighth frame after the first one of motion compares the candidates: by what was known before the trial, if it broke it
+// off.
+TEST_F(AutoCosts, OfARivalAreFoundWhereMotionBeginsJustBefore) {
+    draw();
+    int inTime = 0;
+    for (const int start : {1, 3, 5, 7, 9, 11}) {
+        RendererCosts::forget();
+        Rivals rivals;
+        Camera camera(rivals.scene.root, viewOfRivals());
+        std::vector<int> firsts, lengths;
+        std::string before;
+        for (int i = 0; i < 60; ++i) {
+            if (i >= start) rivals.scene.light->getLight()->setPosition({1.0f, 0.4f + 0.002f * float(i), 1.2f, 0.0f});
+            camera.frame();
+            const std::string now = rivals.isOnTrial() ? rivals.chosen() : "";
+            if (!now.empty() && now != before) firsts.push_back(i), lengths.push_back(0);
+            if (!now.empty()) ++lengths.back();
+            before = now;
+        }
+        for (std::size_t i = 0; i < firsts.size(); ++i) {
+            EXPECT_EQ(lengths[i], 7) << "motion from frame " << start << ", a trial from frame " << firsts[i];
+            inTime += firsts[i] < start + 8 && start + 8 < firsts[i] + 7;
+        }
+    }
+    EXPECT_GT(inTime, 0) << "no trial was running in the ninth frame of motion";
+}
+
+TEST_F(AutoCosts, OfARivalWhoseTrialIsBrokenOffAreFoundLater) {
+    draw();
+    RendererCosts::forget();
+    Rivals rivals;
+    Camera camera(rivals.scene.root, viewOfRivals());
+    camera.frame();
+    for (int i = 0; i < 40 && !rivals.isOnTrial(); ++i) camera.frame();
+    ASSERT_TRUE(rivals.isOnTrial());
+    const auto kind = [&rivals] { return rivals.chosen().substr(0, rivals.chosen().find(':')); };
+    const std::string rival = kind();
+    rivals.technique->setError(0.99); // another budget is another choice
+    camera.frame();
+    ASSERT_FALSE(rivals.isOnTrial());
+    bool found = false;
+    for (int i = 0; i < 60; ++i) {
+        camera.frame();
+        found = found || kind() == rival;
+    }
+    EXPECT_TRUE(found) << rival << " is never drawn again";
+}
+
 TEST_F(AutoCosts, FollowFramesThatTakeLongerThanPredicted) {
     const osg::ref_ptr<gnomon::FrameCosts> costs = new gnomon::FrameCosts;
     gnomon::FrameCosts::Frame frame{

@@ -134,7 +134,8 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
     if (!now.asks(choice.decided) || (!choice.incumbent && choice.learnt != _costs->generation())) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
     if (choice.seen == firstLook && isMoving(choice.moving)) return true; // the first decision took all to stand still
-    const bool began = choice.since == settling && isMoving(choice.motion) && !isMoving(choice.movingThen);
+    if (choice.incumbent) return false; // the end of a trial compares them
+    const bool began = choice.since >= settling && isMoving(choice.motion) && !isMoving(choice.movingThen);
     if (began) return true; // the last decision took all to stand still, too
     const bool cameToRest = !isMoving(choice.moving) && isMoving(choice.movingThen);
     const bool isSettled = !isMoving(choice.moving) || choice.since >= settling;
@@ -146,6 +147,7 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     const auto start = std::chrono::steady_clock::now();
     const ChoiceBudget budget = budgetOf(options);
     const bool tried = choice.incumbent.has_value();
+    if (tried && choice.frames < trialFrames) choice.tried[std::size_t(choice.candidate.kind)] = false; // broken off
     if (tried) choice.candidate = *choice.incumbent;
     choice.incumbent.reset();
     choice.learnt = _costs->generation();
