@@ -83,6 +83,17 @@ void runSelfTest(const Setting& setting) {
     std::printf("self-test: first %.0f ms, then %.0f ms, all threads\n", tests->times.front(), median(tests->times));
 }
 
+/// A floor of 10,000 tiles, each a drawable, with a box on it: relighting draws the tiles in sight alone.
+std::vector<test::Mesh> tiledFloor() {
+    constexpr int side = 100;
+    constexpr double tile = 5.5;
+    std::vector<test::Mesh> all = {test::box({-8.0, -8.0, 0.0}, {8.0, 8.0, 12.0})};
+    for (int i = 0; i < side * side; ++i)
+        all.push_back(
+            test::moved(test::square(tile / 2.0), {tile * (i % side - side / 2), tile * (i / side - side / 2), 0.0}));
+    return all;
+}
+
 int measure(osg::ArgumentParser& arguments) {
     const auto frames = bench::framesAsked(arguments, "What the automatic choice itself takes.");
     if (!frames) return 0;
@@ -99,6 +110,7 @@ int measure(osg::ArgumentParser& arguments) {
     bool right = run(simple, *frames);
     right = run({"town of 400 houses, each a drawable", houses, near, 1}, *frames) && right;
     right = run({"town of 10,000 houses, each a drawable", more, near, 1}, *frames) && right;
+    right = run({"floor of 10,000 tiles, and a box", tiledFloor(), near, 1}, *frames) && right;
     runSelfTest(simple);
     return right ? 0 : 1;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/auto/AutoChooser.h>
-#include <gnomon/auto/FlatReceivers.h>
 
 #include <OpenThreads/ScopedLock>
 
@@ -235,6 +234,7 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
         _casters = &view.casters;
         _known.bodies.keepMostly(view.casters);
     }
+    _known.flat.reset();
     const Seen now{view.frame.eyeFromGroup,
                    view.frame.projection,
                    view.frame.pixels,
@@ -252,7 +252,7 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
     if (isDue(choice, now, view, receiver) ||
         (isTrialDue(choice) && !tryRival(choice, view, receiver) && choice.incumbent))
         decide(choice, now, view, receiver, options);
-    return {sharesOf(choice.candidate, view, receiver), choice.cause, surfacesOf(choice.candidate, view),
+    return {sharesOf(choice.candidate, view, receiver), choice.cause, surfacesOf(choice, now, view),
             isMeasured(choice)};
 }
 
@@ -268,9 +268,16 @@ std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate
             {_inner.of(map, receiver, _round), split.dense(view.meshes)}};
 }
 
-std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(const AutoCandidate& candidate, const AutoView& view) {
-    if (!relightsAlone(candidate, view)) return nullptr;
-    return std::make_shared<const LeafSet>(findFlatLeaves(view, _known.bodies));
+std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(Choice& choice, const Seen& now, const AutoView& view) {
+    if (!relightsAlone(choice.candidate, view)) {
+        choice.flatIn.reset();
+        return nullptr;
+    }
+    if (!choice.flatIn || !now.isSame(*choice.flatIn)) {
+        choice.flat = FlatLeaves(view.frame.seen, _known.flatIn(view).leaves);
+        choice.flatIn = now;
+    }
+    return choice.flat.in(view.frame.seen);
 }
 
 /// A few frames after a decision, and one now and then while things move: measuring waits for OpenGL. A map that another

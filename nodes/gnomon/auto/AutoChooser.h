@@ -90,13 +90,15 @@ private:
         AutoMotion movingThen;                      ///< when the candidates were compared.
         unsigned learnt = 0;                        ///< FrameCosts::generation() then.
         AutoMotion motion;                          ///< of this frame.
-        bool alone = false;                         ///< nothing else counts in a frame's time, so that it can be measured.
-        double prepared = 0.0;                      ///< milliseconds, of a frame that is measured.
+        bool alone = false;         ///< nothing else counts in a frame's time, so that it can be measured.
+        double prepared = 0.0;      ///< milliseconds, of a frame that is measured.
+        FlatLeaves flat;            ///< that relighting draws alone,
+        std::optional<Seen> flatIn; ///< and what they were found for.
         std::shared_ptr<std::atomic<double>> taken = std::make_shared<std::atomic<double>>(0.0);
     };
     Choice& find(const AutoView& view);
     std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver);
-    std::shared_ptr<const LeafSet> surfacesOf(const AutoCandidate& candidate, const AutoView& view);
+    std::shared_ptr<const LeafSet> surfacesOf(Choice& choice, const Seen& now, const AutoView& view);
     bool isMeasured(const Choice& choice) const;
     bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
     void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver,

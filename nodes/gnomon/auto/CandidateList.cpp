@@ -3,7 +3,6 @@
 #include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateList.h>
-#include <gnomon/auto/FlatReceivers.h>
 #include <gnomon/auto/MapEdges.h>
 #include <gnomon/choice/EdgeError.h>
 #include <gnomon/compositor/StencilMarks.h>
@@ -20,10 +19,15 @@
 
 namespace gnomon {
 
+const FlatReceivers& AutoKnowledge::flatIn(const AutoView& view) {
+    if (!flat) flat = findFlatReceivers(view, bodies);
+    return *flat;
+}
+
 /// Several planes are several jobs, none of which knows all; and jobs of several lights are relit together.
 bool relightsAlone(const AutoCandidate& candidate, const AutoView& view) {
     return view.frame.group->getComposite() == ShadowCasterGroup::RELIGHT && view.frame.lights == 1 &&
-           candidate.kind == AutoCandidate::Kind::Planar && candidate.planes.size() == 1;
+           !view.frame.receivers && candidate.kind == AutoCandidate::Kind::Planar && candidate.planes.size() == 1;
 }
 
 namespace {
@@ -95,7 +99,7 @@ public:
         _one = forecast(*_boxes, 1, sizes[0]);
         _result.nothing = whyNothing();
         if (!_result.nothing.empty()) return only();
-        const FlatReceivers flat = findFlatReceivers(_view, _known.bodies);
+        const FlatReceivers& flat = _known.flatIn(_view);
         if (flat.nothing()) {
             _result.nothing = "no receiver in sight gets any shadow";
             return only();
@@ -342,7 +346,7 @@ std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const
         return "all casters are of one kind";
     if (candidate.kind == Kind::Volume || candidate.kind == Kind::Traced) return whyCutOut(view.casters);
     if (candidate.kind != Kind::Planar) return {};
-    const FlatReceivers flat = findFlatReceivers(view, known.bodies);
+    const FlatReceivers& flat = known.flatIn(view);
     if (!flat.obstacle.empty()) return flat.obstacle;
     return flat.planes == candidate.planes ? "" : "other flat receivers are in sight";
 }

@@ -4,8 +4,10 @@
 #include <gnomon/auto/AutoView.h>
 #include <gnomon/auto/CasterSplit.h>
 #include <gnomon/auto/ConvexBodies.h>
+#include <gnomon/auto/FlatReceivers.h>
 #include <gnomon/auto/TerrainFacts.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,10 @@ struct AutoKnowledge {
     ConvexBodies bodies;
     TerrainKnowledge terrain;
     CasterSplits splits;
+    std::optional<FlatReceivers> flat; ///< of the view that is asked about now; nullopt: nobody has looked for them.
+
+    /// Looks for them unless that was done.
+    const FlatReceivers& flatIn(const AutoView& view);
 };
 
 /// All that could draw one light's shadow in a view.

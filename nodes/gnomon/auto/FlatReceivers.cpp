@@ -52,11 +52,6 @@ public:
         return _result;
     }
 
-    LeafSet leaves() {
-        lookAtReceivers();
-        return _result.leaves;
-    }
-
 private:
     void refuse(const std::string& why) {
         if (_result.obstacle.empty()) _result.obstacle = why;
@@ -188,6 +183,24 @@ private:
 
 FlatReceivers findFlatReceivers(const AutoView& view, ConvexBodies& bodies) { return Finder(view, bodies).find(); }
 
-LeafSet findFlatLeaves(const AutoView& view, ConvexBodies& bodies) { return Finder(view, bodies).leaves(); }
+FlatLeaves::FlatLeaves(const Leaves& seen, const LeafSet& flat) {
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        if (flat.count(seen[i])) _places.push_back(i);
+    take(seen);
+}
+
+/// A view that stands still mostly has its leaves at their old addresses, too.
+const std::shared_ptr<const LeafSet>& FlatLeaves::in(const Leaves& seen) {
+    std::size_t same = 0;
+    while (same < _places.size() && seen[_places[same]] == _leaves[same]) ++same;
+    if (same < _places.size()) take(seen);
+    return _set;
+}
+
+void FlatLeaves::take(const Leaves& seen) {
+    _leaves.clear();
+    for (const std::size_t place : _places) _leaves.push_back(seen[place]);
+    _set = std::make_shared<const LeafSet>(_leaves.begin(), _leaves.end());
+}
 
 } // namespace gnomon

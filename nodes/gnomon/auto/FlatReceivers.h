@@ -5,6 +5,8 @@
 
 #include <osg/Vec4d>
 
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,25 @@ struct FlatReceivers {
 /// @param bodies  of the view's casters; those that are asked for are found.
 FlatReceivers findFlatReceivers(const AutoView& view, ConvexBodies& bodies);
 
-/// FlatReceivers::leaves of a view that is known to have no obstacle.
-LeafSet findFlatLeaves(const AutoView& view, ConvexBodies& bodies);
+/// FlatReceivers::leaves of a view, for as long as nothing in it moves.
+///
+/// Cost  in a frame: a look at each of them. They are collected anew only where OSG keeps them at other addresses.
+class FlatLeaves {
+public:
+    using Leaves = std::vector<const osgUtil::RenderLeaf*>;
+
+    FlatLeaves() = default;
+    /// @param seen  see ViewFrame::seen. @param flat  some of them.
+    FlatLeaves(const Leaves& seen, const LeafSet& flat);
+    /// @param seen  of the same drawables in the same order.
+    const std::shared_ptr<const LeafSet>& in(const Leaves& seen);
+
+private:
+    void take(const Leaves& seen);
+
+    std::vector<std::size_t> _places; ///< among those that are seen.
+    Leaves _leaves;                   ///< that stood there last.
+    std::shared_ptr<const LeafSet> _set;
+};
 
 } // namespace gnomon

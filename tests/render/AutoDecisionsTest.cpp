@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// What an automatic choice keeps from frame to frame, and what it tells of itself.
+#include <support/Picture.h>
+#include <support/Scene.h>
+
+#include <gnomon/auto/AutoChooser.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/group/LocalLight.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+
+using namespace test;
+
+namespace {
+
+const osg::Vec4d sun(1.0, 0.4, 1.2, 0.0);
+const Mesh cube = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
+
+View viewFrom(double x) { return perspective({x, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 160, 120); }
+
+/// Chooses as AutoShadowTechnique does, and draws nothing.
+class Asked : public gnomon::ShadowTechnique {
+public:
+    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+                                                       const gnomon::FrameCasters& casters) const override {
+        const auto usable = gnomon::localLight(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
+        surfaces = _chooser.choose({view, light, casters, casters.drawables(), *usable}, {}, {}).surfaces;
+        names.clear();
+        for (const osgUtil::RenderLeaf* leaf : *surfaces) names.insert(gnomon::nameOf(*leaf));
+        return {};
+    }
+
+    mutable std::shared_ptr<const gnomon::LeafSet> surfaces; ///< of the last frame.
+    mutable std::multiset<std::string> names;                ///< of these.
+
+private:
+    mutable gnomon::AutoChooser _chooser;
+};
+
+} // namespace
+
+// Each frame would look at all casters and all receivers for them.
+TEST(AutoDecisions, FindTheReceiversOfPlanarOnceWhileNothingMoves) {
+    Scene scene = groundScene({cube}, 8.0, sun);
+    const osg::ref_ptr<Asked> asked = new Asked;
+    scene.addShadow(asked);
+    Camera camera(scene.root, viewFrom(-7.0));
+    const auto found = [&] {
+        camera.frame();
+        return asked->surfaces;
+    };
+    const auto first = found();
+    EXPECT_EQ(asked->names, std::multiset<std::string>{"ground"});
+    EXPECT_EQ(found(), first);
+    EXPECT_EQ(found(), first);
+    camera.setView(viewFrom(-6.0));
+    const auto moved = found();
+    EXPECT_NE(moved, first) << "another view may see other drawables";
+    EXPECT_EQ(asked->names, std::multiset<std::string>{"ground"});
+    EXPECT_EQ(found(), moved);
+    scene.content->addChild(node(test::moved(square(2.0), {-4.0, 4.0, 0.0}), "carpet"));
+    EXPECT_NE(found(), moved);
+    EXPECT_EQ(asked->names, (std::multiset<std::string>{"carpet", "ground"}));
+}
