@@ -21,9 +21,12 @@ struct ShadowCandidate {
     std::string obstacle; ///< Why it cannot be used here. Empty if it can.
 };
 
-/// The choice of an AutoShadowTechnique for one light in one view, and its reason.
+/// The choice of an AutoShadowTechnique for one light and one kind of receivers in one view, and its reason.
 struct GNOMON_EXPORT ShadowDecision {
-    int light = 0;           ///< OpenGL light number.
+    int light = 0; ///< OpenGL light number.
+    /// Kind of the receivers. Empty: those of the opaque bins. "with a depth range or polygon offset" or "drawn late", which is in
+    /// a transparent bin: the shadow on them is drawn apart from the others, by a choice of its own.
+    std::string receivers;
     ShadowCandidate chosen;  ///< The candidate that is drawn.
     std::string reason;      ///< In a few words: "the cheapest that keeps 1 px".
     bool keepsBudget = true; ///< False if no candidate keeps the error and the time that are asked for.
@@ -34,6 +37,8 @@ struct GNOMON_EXPORT ShadowDecision {
     unsigned changes = 0;   ///< How often another candidate was chosen since the first.
     std::vector<ShadowCandidate> candidates; ///< All candidates, the usable ones first, by their times.
 
+    /// Light and receivers: "light 0", or "light 0, receivers drawn late".
+    std::string subject() const;
     /// In a line: "light 0: volume, predicted 0.5 px and 1.2 ms; the cheapest that keeps 1 px".
     std::string text() const;
 };

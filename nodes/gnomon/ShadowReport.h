@@ -30,7 +30,7 @@ struct GNOMON_EXPORT ShadowReport {
     double cull = 0.0; ///< Time in the cull thread, milliseconds.
     /// Time in the draw thread, milliseconds, without waiting for the GPU. Techniques of one view share it: each counts all.
     double draw = 0.0;
-    std::vector<ShadowDecision> decisions; ///< Choices of an AutoShadowTechnique, one a light. Else empty.
+    std::vector<ShadowDecision> decisions; ///< Choices of an AutoShadowTechnique, see its lastDecision(). Else empty.
     std::vector<std::string> causes;       ///< See ShadowTechnique::diagnose().
 
     /// The numbers in a line: "ShadowMapTechnique 'sun': 1 light, 1 mark within 5200 pixels, 0 passes, cull 0.1 ms, draw 0.3 ms".

@@ -76,7 +76,7 @@ public:
     /// How often the technique has made anew what it draws with, because something changed: maps drawn, volumes found,
     /// tiles computed, ray scenes built. Over all lights, views and contexts. Default 0.
     virtual unsigned passes() const { return 0; }
-    /// The choice for each light, of a technique that chooses. Default: none.
+    /// The choices of a technique that chooses, see AutoShadowTechnique. Default: none.
     virtual std::vector<ShadowDecision> lastDecision() const { return {}; }
 
     /// Registers the technique with the compositor in a cull traversal.

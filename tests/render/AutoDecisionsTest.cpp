@@ -3,10 +3,12 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/group/LocalLight.h>
 #include <gtest/gtest.h>
+#include <osg/PolygonOffset>
 
 #include <memory>
 #include <set>
@@ -63,4 +65,37 @@ TEST(AutoDecisions, FindTheReceiversOfPlanarOnceWhileNothingMoves) {
     scene.content->addChild(node(test::moved(square(2.0), {-4.0, 4.0, 0.0}), "carpet"));
     EXPECT_NE(found(), moved);
     EXPECT_EQ(asked->names, (std::multiset<std::string>{"carpet", "ground"}));
+}
+
+// The box that is drawn late gets no shadow, and its decision would hide the other.
+TEST(AutoDecisions, AreToldOfAllKindsOfReceiversAndTheUsualOnesFirst) {
+    Scene scene = groundScene({cube}, 8.0, sun);
+    const auto add = [&scene](const Mesh& mesh) {
+        const osg::ref_ptr<osg::Geode> geode = node(mesh);
+        scene.content->addChild(geode);
+        return geode->getOrCreateStateSet();
+    };
+    add(box({-1.0, -5.0, 0.0}, {1.0, -3.5, 1.0}))->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
+    scene.addShadow(technique);
+    Camera camera(scene.root, viewFrom(-7.0));
+    camera.frame();
+    const auto told = [&technique] {
+        std::vector<std::string> all;
+        for (const gnomon::ShadowDecision& each : technique->lastDecision())
+            all.push_back(each.subject() + ": " + each.chosen.spec);
+        return all;
+    };
+    EXPECT_EQ(told(), (std::vector<std::string>{"light 0: planar", "light 0, receivers drawn late: none"}));
+    EXPECT_EQ(technique->lastDecision().back().text().rfind("light 0, receivers drawn late: none, predicted", 0), 0u);
+    add(moved(square(0.5), {-2.5, -1.0, 0.001}))
+        ->setAttributeAndModes(new osg::PolygonOffset(1.0f, 1.0f), osg::StateAttribute::ON);
+    camera.frame();
+    ASSERT_EQ(told().size(), 3u);
+    EXPECT_EQ(technique->lastDecision()[0].receivers, "");
+    EXPECT_EQ(technique->lastDecision()[1].receivers, "with a depth range or polygon offset");
+    EXPECT_EQ(technique->lastDecision()[2].receivers, "drawn late");
+    scene.content->removeChildren(2, 2); // the box and the carpet
+    camera.frame();
+    EXPECT_EQ(told(), std::vector<std::string>{"light 0: planar"}) << "the others are of earlier frames";
 }

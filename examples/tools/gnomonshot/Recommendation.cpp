@@ -79,7 +79,7 @@ std::string recommendation(const std::vector<ShadowDecision>& decisions) {
     std::ostringstream out;
     if (decisions.empty()) out << "no light and no caster is in sight, so there is nothing to recommend\n";
     for (const ShadowDecision& decision : decisions) {
-        out << "light " << decision.light << ": " << decision.chosen.spec << ", " << decision.reason << "\n\n"
+        out << decision.subject() << ": " << decision.chosen.spec << ", " << decision.reason << "\n\n"
             << "  --shadow                                      error,   still,  moving,\n"
             << "                                                   px       ms       ms\n";
         addLine(out, decision.chosen);

@@ -36,6 +36,7 @@ nlohmann::json decisionsJson(const std::vector<ShadowDecision>& decisions) {
     nlohmann::json result = nlohmann::json::array();
     for (const ShadowDecision& decision : decisions)
         result.push_back({{"light", decision.light},
+                          {"receivers", decision.receivers},
                           {"spec", decision.chosen.spec},
                           {"reason", decision.reason},
                           {"keepsBudget", decision.keepsBudget},

@@ -83,6 +83,11 @@ double followed(double share, double now, unsigned frames) {
     return next < atRest ? 0.0 : next;
 }
 
+std::string describe(ReceiverKind kind) {
+    if (kind == ReceiverKind::Usual) return {};
+    return kind == ReceiverKind::Late ? "drawn late" : "with a depth range or polygon offset";
+}
+
 bool isMoving(const AutoMotion& motion) { return motion.scene > 0.0 || motion.view > 0.0; }
 
 } // namespace
@@ -112,6 +117,8 @@ AutoChooser::Choice& AutoChooser::find(const AutoView& view) {
         ++_round;
     }
     choice.lastRound = _round;
+    choice.renderStage = view.frame.renderStage;
+    choice.kind = view.frame.kind;
     _choices.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
     return choice;
 }
@@ -229,7 +236,7 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                                        const AutoShadowOptions& options) {
     Lock lock(_mutex);
     Choice& choice = find(view);
-    _lastStage = view.frame.stage;
+    _lastRenderStage = view.frame.renderStage;
     if (_casters != &view.casters) {
         _casters = &view.casters;
         _known.bodies.keepMostly(view.casters);
@@ -319,13 +326,18 @@ osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, bool alone) {
 
 std::vector<ShadowDecision> AutoChooser::lastDecision() const {
     Lock lock(_mutex);
-    std::vector<ShadowDecision> result;
+    std::vector<const Choice*> last; // in the order in which they were asked for
     for (const auto& choice : _choices)
-        if (choice->stage == _lastStage && choice->lastRound == _round) {
-            result.push_back(choice->decision);
-            result.back().measured = *choice->taken;
-        }
-    std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) { return a.light < b.light; });
+        if (choice->renderStage == _lastRenderStage && choice->lastRound == _round) last.push_back(choice.get());
+    std::stable_sort(last.begin(), last.end(), [](const Choice* a, const Choice* b) {
+        return std::make_pair(a->light, a->kind) < std::make_pair(b->light, b->kind);
+    });
+    std::vector<ShadowDecision> result;
+    for (const Choice* choice : last) {
+        result.push_back(choice->decision);
+        result.back().receivers = describe(choice->kind);
+        result.back().measured = *choice->taken;
+    }
     return result;
 }
 

@@ -41,7 +41,7 @@ public:
     /// What is to be learnt in the view's draw; null: nothing. @param alone  nothing else is drawn by the compositor there.
     osg::ref_ptr<DrawWatch> watch(const void* stage, bool alone);
 
-    /// Of the view that asked last.
+    /// Of the view that asked last, for each light and kind of receivers.
     std::vector<ShadowDecision> lastDecision() const;
     /// See InnerTechniques::passes().
     unsigned passes() const;
@@ -74,6 +74,8 @@ private:
     struct Choice {
         const void* stage;
         int light;
+        const void* renderStage; ///< see ViewFrame.
+        ReceiverKind kind;
         Seen decided, last;
         AutoCandidate candidate;
         ShadowDecision decision;
@@ -115,7 +117,7 @@ private:
     osg::ref_ptr<const CasterDrawables> _casters; ///< that the knowledge is of.
     RecentCache<std::unique_ptr<Choice>> _choices;
     unsigned _round = 0, _frame = 0;
-    const void* _lastStage = nullptr;
+    const void* _lastRenderStage = nullptr;
 };
 
 } // namespace gnomon

@@ -286,6 +286,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
     view.lights = found.lights.size();
     view.strengths = found.strengths;
+    view.renderStage = getStage();
     view.options.filter = _options.filter; // as all who share this bin want it
     const auto add = [&](auto& to, const Leaves& those, std::optional<ScreenRect> within, bool alone, bool programs) {
         for (ShadowJob& job : jobsFor({entry, found.lights, casters, view, those, within}, alone))
@@ -300,6 +301,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
             view.stage = reinterpret_cast<const char*>(getStage()) + index++; // to a technique's caches another view
             view.projection = *entry.projection * rangeOf(placement);
             view.pushedBack = {placement.pixels, placement.steps};
+            view.kind = late ? ReceiverKind::Late : placement.isPlain() ? ReceiverKind::Usual : ReceiverKind::Displaced;
             const bool part = parts.size() > 1;
             const std::optional<ScreenRect> within = part || late ? boundsOf(those) : wholeScreen;
             const bool named = part || late || entry.technique->hasReceiver();

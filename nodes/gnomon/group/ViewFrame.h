@@ -15,6 +15,13 @@ namespace gnomon {
 
 class ShadowCasterGroup;
 
+/// A technique is asked about each kind of receivers apart.
+enum class ReceiverKind {
+    Usual,
+    Displaced, ///< with a depth range or polygon offset.
+    Late       ///< drawn after the opaque bins.
+};
+
 /// One view in one frame, as a technique sees it after cull. OSG's convention: row vectors, eye = group * eyeFromGroup.
 struct ViewFrame {
     osg::Matrixd eyeFromGroup;       ///< modelview of the ShadowCasterGroup.
@@ -28,7 +35,9 @@ struct ViewFrame {
     CompositorOptions options; ///< of the ShadowCasterGroup.
     unsigned frameNumber = 0;
     double frameTime = 0.0;                       ///< seconds, see timeOf().
-    const void* stage = nullptr;                  ///< whose view it is: tells views apart.
+    const void* stage = nullptr;                  ///< tells views apart, and in each the kinds of receivers.
+    const void* renderStage = nullptr;            ///< the same for all kinds of receivers in a view.
+    ReceiverKind kind = ReceiverKind::Usual;      ///< of `seen`.
     const LeafSet* receivers = nullptr;           ///< leaves of the named receiver; null if none is named.
     std::size_t lights = 1;                       ///< whose shadows the group wants in the view.
     std::map<int, double> strengths;              ///< of these, see GroupLights.
