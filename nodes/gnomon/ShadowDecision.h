@@ -27,8 +27,11 @@ struct GNOMON_EXPORT ShadowDecision {
     /// Kind of the receivers. Empty: those of the opaque bins. "with a depth range or polygon offset" or "drawn late", which is in
     /// a transparent bin: the shadow on them is drawn apart from the others, by a choice of its own.
     std::string receivers;
-    ShadowCandidate chosen;  ///< The candidate that is drawn.
-    std::string reason;      ///< In a few words: "the cheapest that keeps 1 px".
+    ShadowCandidate chosen; ///< The choice. It is drawn unless another candidate is on trial.
+    std::string reason;     ///< In a few words: "the cheapest that keeps 1 px".
+    /// ShadowCandidate::spec of a candidate that is drawn for some frames in place of the choice, so that its time is known. Empty:
+    /// none.
+    std::string onTrial;
     bool keepsBudget = true; ///< False if no candidate keeps the error and the time that are asked for.
     /// Milliseconds that the shadows of all lights of the view took in the frame that was measured last. 0 before, and if
     /// nothing is measured.
@@ -39,7 +42,7 @@ struct GNOMON_EXPORT ShadowDecision {
 
     /// Light and receivers: "light 0", or "light 0, receivers drawn late".
     std::string subject() const;
-    /// In a line: "light 0: volume, predicted 0.5 px and 1.2 ms; the cheapest that keeps 1 px".
+    /// In a line: "light 0: volume, predicted 0.5 px and 1.2 ms; the cheapest that keeps 1 px". "; traced is on trial" may follow.
     std::string text() const;
 };
 

@@ -102,13 +102,17 @@ protected:
     const osg::ref_ptr<Notes> notes = new Notes;
 };
 
+std::string drawnBy(const gnomon::ShadowDecision& decision) {
+    return decision.onTrial.empty() ? decision.chosen.spec : decision.onTrial;
+}
+
 /// Two boxes in whose shadows others stand, and what else a scene has.
 struct Rivals {
     Rivals() : scene(groundScene({cube, box({-3.0, -1.5, 0.0}, {-2.0, 0.5, 0.5})}, 8.0, sun)) {
         scene.addShadow(technique);
     }
-    bool isOnTrial() const { return technique->lastDecision().at(0).reason.rfind("on trial", 0) == 0; }
-    std::string chosen() const { return technique->lastDecision().at(0).chosen.spec; }
+    bool isOnTrial() const { return !technique->lastDecision().at(0).onTrial.empty(); }
+    std::string drawn() const { return drawnBy(technique->lastDecision().at(0)); }
 
     Scene scene;
     const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
@@ -224,24 +228,27 @@ TEST_F(AutoCosts, AreFoundForRivalsByDrawingEachForSomeFrames) {
     const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
     scene.addShadow(technique);
     Camera camera(scene.root, perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 96, 72));
-    const auto kindOf = [](const gnomon::ShadowCandidate& each) { return each.spec.substr(0, each.spec.find(':')); };
+    const auto kindOf = [](const std::string& spec) { return spec.substr(0, spec.find(':')); };
     std::set<std::string> expected, tried, seen;
-    std::string drawn, onTrial;
+    gnomon::ShadowDecision before;
     for (int i = 0; i < 160; ++i) {
         camera.frame();
         const gnomon::ShadowDecision now = technique->lastDecision().at(0);
-        drawn = kindOf(now.chosen);
-        seen.insert(drawn);
-        const bool isTrial = now.reason.rfind("on trial", 0) == 0;
-        for (const gnomon::ShadowCandidate& each : now.candidates)
-            if (i == 1 && kindOf(each) != drawn && each.obstacle.empty() && each.error <= 1.0 &&
+        seen.insert(kindOf(drawnBy(now)));
+        for (const gnomon::ShadowCandidate& each : now.candidates) {
+            if (i == 1 && kindOf(each.spec) != kindOf(now.chosen.spec) && each.obstacle.empty() && each.error <= 1.0 &&
                 each.time < 2.0 * now.chosen.time)
-                expected.insert(kindOf(each));
-        if (isTrial && drawn != onTrial) {
-            EXPECT_TRUE(tried.insert(drawn).second) << drawn << " was tried before";
-            EXPECT_LE(now.chosen.error, 1.0);
+                expected.insert(kindOf(each.spec));
+            if (each.spec == now.onTrial) EXPECT_LE(each.error, 1.0);
         }
-        onTrial = isTrial ? drawn : "";
+        if (!now.onTrial.empty()) {
+            EXPECT_EQ(now.chosen.spec, before.chosen.spec) << "the choice stays what it was";
+            EXPECT_EQ(now.reason, before.reason);
+            EXPECT_NE(now.text().find("; " + now.onTrial + " is on trial"), std::string::npos) << now.text();
+            if (now.onTrial != before.onTrial)
+                EXPECT_TRUE(tried.insert(kindOf(now.onTrial)).second) << now.onTrial << " was tried before";
+        }
+        before = now;
     }
     EXPECT_GE(expected.size(), 1u) << "the scene has no rivals";
     for (const std::string& kind : expected) EXPECT_EQ(seen.count(kind), 1u) << kind;
@@ -261,11 +268,11 @@ TEST_F(AutoCosts, OfARivalThatHasBecomeWrongAreNotAskedFor) {
     rivals.scene.content->addChild(tested);
     Camera camera(rivals.scene.root, viewOfRivals());
     for (int i = 0; i < 10; ++i) camera.frame();
-    EXPECT_EQ(rivals.chosen().rfind("map", 0), 0u) << rivals.chosen();
+    EXPECT_EQ(rivals.drawn().rfind("map", 0), 0u) << rivals.drawn();
     tested->getStateSet()->removeAttribute(osg::StateAttribute::ALPHAFUNC);
     for (int i = 0; i < 10; ++i) {
         camera.frame();
-        EXPECT_EQ(rivals.chosen().find('+'), std::string::npos) << "no caster is left for the map";
+        EXPECT_EQ(rivals.drawn().find('+'), std::string::npos) << "no caster is left for the map";
     }
 }
 
@@ -300,7 +307,7 @@ TEST_F(AutoCosts, OfARivalAreFoundWhereMotionBeginsJustBefore) {
         for (int i = 0; i < 60; ++i) {
             if (i >= start) rivals.scene.light->getLight()->setPosition({1.0f, 0.4f + 0.002f * float(i), 1.2f, 0.0f});
             camera.frame();
-            const std::string now = rivals.isOnTrial() ? rivals.chosen() : "";
+            const std::string now = rivals.isOnTrial() ? rivals.drawn() : "";
             if (!now.empty() && now != before) firsts.push_back(i), lengths.push_back(0);
             if (!now.empty()) ++lengths.back();
             before = now;
@@ -321,7 +328,7 @@ TEST_F(AutoCosts, OfARivalWhoseTrialIsBrokenOffAreFoundLater) {
     camera.frame();
     for (int i = 0; i < 40 && !rivals.isOnTrial(); ++i) camera.frame();
     ASSERT_TRUE(rivals.isOnTrial());
-    const auto kind = [&rivals] { return rivals.chosen().substr(0, rivals.chosen().find(':')); };
+    const auto kind = [&rivals] { return rivals.drawn().substr(0, rivals.drawn().find(':')); };
     const std::string rival = kind();
     rivals.technique->setError(0.99); // another budget is another choice
     camera.frame();

@@ -225,8 +225,6 @@ bool AutoChooser::tryRival(Choice& choice, const AutoView& view, const Selection
     choice.candidate = rivals.back();
     rivals.pop_back();
     choice.tried[std::size_t(choice.candidate.kind)] = true;
-    choice.decision.chosen = choice.candidate.judged(_costs->now(), choice.moving);
-    choice.decision.reason = "on trial for some frames, so that its time is known";
     choice.taken = std::make_shared<std::atomic<double>>(0.0);
     choice.frames = 0;
     return true;
@@ -336,6 +334,7 @@ std::vector<ShadowDecision> AutoChooser::lastDecision() const {
     for (const Choice* choice : last) {
         result.push_back(choice->decision);
         result.back().receivers = describe(choice->kind);
+        if (choice->incumbent) result.back().onTrial = choice->candidate.spec();
         result.back().measured = *choice->taken;
     }
     return result;
