@@ -23,8 +23,10 @@ std::vector<ShadowCandidate> candidatesOf(const std::vector<std::string>& specs)
 }
 
 std::string found(const char* spec) {
-    const std::vector<ShadowCandidate> some = candidatesOf(
-        {"volume", "map:size=512", "map:size=512,cascades=1", "map:size=2048,cascades=1", "drape:error=0"});
+    std::vector<ShadowCandidate> some =
+        candidatesOf({"volume+map:size=512", "volume", "map:size=512", "map:size=512,cascades=1",
+                      "map:size=2048,cascades=1", "drape:error=0"});
+    some.front().mixed = true;
     const ShadowCandidate* candidate = candidateOf(some, parseShadowSpec(spec));
     return candidate ? candidate->spec : "";
 }

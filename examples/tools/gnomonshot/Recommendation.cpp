@@ -62,10 +62,10 @@ std::vector<ShadowCandidate> othersOf(const ShadowDecision& decision) {
 
 } // namespace
 
-std::string cppFor(const std::string& spec) {
-    if (spec.find('+') != std::string::npos)
+std::string cppFor(const ShadowCandidate& candidate) {
+    if (candidate.mixed)
         return "group->addChild(new gnomon::AutoShadowTechnique); // it alone gives each technique its casters";
-    const ShadowSpec parsed = parseShadowSpec(spec);
+    const ShadowSpec parsed = parseShadowSpec(candidate.spec);
     if (parsed.technique == "map") return cppFor(parsed.map);
     if (parsed.technique == "hull" || parsed.technique == "drape") return cppFor(parsed.terrain, parsed.technique);
     if (parsed.technique == "planar")
@@ -84,7 +84,7 @@ std::string recommendation(const std::vector<ShadowDecision>& decisions) {
             << "                                                   px       ms       ms\n";
         addLine(out, decision.chosen);
         for (const ShadowCandidate& candidate : othersOf(decision)) addLine(out, candidate);
-        out << "\n  in C++: " << cppFor(decision.chosen.spec) << "\n";
+        out << "\n  in C++: " << cppFor(decision.chosen) << "\n";
     }
     return out.str();
 }

@@ -7,8 +7,8 @@
 
 namespace gnomon::examples {
 
-/// A line of C++ that adds the technique of a specification to a group.
-std::string cppFor(const std::string& spec);
+/// A line of C++ that adds a candidate's technique to a group.
+std::string cppFor(const ShadowCandidate& candidate);
 
 /// For each light a table of what could draw its shadow: of each technique the best, the choice first.
 std::string recommendation(const std::vector<ShadowDecision>& decisions);

@@ -76,8 +76,14 @@ double AutoCandidate::time(const AutoCosts& costs, const AutoMotion& motion) con
 }
 
 ShadowCandidate AutoCandidate::judged(const AutoCosts& costs, const AutoMotion& motion) const {
-    return {spec(),  error, time(costs, motion), time(costs, {}), time(costs, {0.0, 1.0}), time(costs, {1.0, 0.0}),
-            obstacle};
+    return {spec(),
+            error,
+            time(costs, motion),
+            time(costs, {}),
+            time(costs, {0.0, 1.0}),
+            time(costs, {1.0, 0.0}),
+            obstacle,
+            kind == Kind::Mixed};
 }
 
 } // namespace gnomon

@@ -17,8 +17,7 @@ bool isSame(const ShadowSpec& a, const ShadowSpec& b) {
 
 const ShadowCandidate* exactly(const std::vector<ShadowCandidate>& candidates, const ShadowSpec& spec) {
     for (const ShadowCandidate& candidate : candidates)
-        if (candidate.obstacle.empty() && candidate.spec.find('+') == std::string::npos &&
-            isSame(parseShadowSpec(candidate.spec), spec))
+        if (candidate.obstacle.empty() && !candidate.mixed && isSame(parseShadowSpec(candidate.spec), spec))
             return &candidate;
     return nullptr;
 }
