@@ -99,6 +99,42 @@ TEST(Race, CountsWhatTheMarksOfGnomonDrawToo) {
     }
 }
 
+/// The scene without shadows, and twice in its first frames.
+class LearningStaging : public PlainStaging {
+public:
+    LearningStaging(const ChartScene& scene, Look look, unsigned learning) : PlainStaging(scene, look) {
+        const osg::ref_ptr<osg::Group> again = new osg::Group;
+        again->addChild(_content);
+        again->setCullCallback(new OnlyFirst(learning));
+        _root->addChild(again);
+    }
+
+private:
+    struct OnlyFirst : osg::NodeCallback {
+        explicit OnlyFirst(unsigned frames) : left(frames) {}
+        void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+            if (left > 0) --left, traverse(node, visitor);
+        }
+        unsigned left;
+    };
+};
+
+/// What is drawn to learn from is not what a user gets.
+TEST(Race, CountsDrawsOfAContenderThatLearnsOnlyAfterwards) {
+    Contender quick = plainContender();
+    quick.stage = [](const ChartScene& scene, Look look) {
+        return std::make_unique<LearningStaging>(scene, look, 60u);
+    };
+    Contender learner = quick;
+    learner.learns = true;
+    const std::vector<Contender> all = {plainContender(), quick, learner};
+    const RaceResults results = race(test::smallScene(), all, 2, shaders(), [](int, int) { return true; });
+    const unsigned plain = results.contenders[0].cost->draws;
+    EXPECT_EQ(results.contenders[1].cost->draws, 2 * plain);
+    EXPECT_EQ(results.contenders[2].cost->draws, plain);
+    EXPECT_EQ(results.contenders[2].cost->triangles, results.contenders[0].cost->triangles);
+}
+
 /// Takes so much of the processor, whatever else the machine does.
 void workFor(double milliseconds) {
     const auto spent = [] {

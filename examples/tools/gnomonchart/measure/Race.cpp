@@ -88,6 +88,22 @@ struct Runner {
         return PredictedTime{chosen.spec, chosen.*time};
     }
 
+    FrameTime fly(const ChartScene& scene, int round) {
+        viewer->setCamera(movedCamera(scene, cameraStep * round));
+        return viewer->time();
+    }
+
+    FrameTime moveLight(const ChartScene& scene, int round) {
+        viewer->setCamera(scene.camera);
+        viewer->staging().setLight(movedLight(scene, lightStep * round));
+        return viewer->time();
+    }
+
+    /// Frames that count for nothing, before those of one motion.
+    void learn(const ChartScene& scene, FrameTime (Runner::*draw)(const ChartScene&, int)) {
+        for (int round = -learning; learns && round < 0; ++round) (this->*draw)(scene, round);
+    }
+
     void start(const Contender& contender, const ChartScene& scene, const ShaderCache& shaders) {
         learns = contender.learns;
         shaders.empty();
@@ -95,6 +111,8 @@ struct Runner {
         viewer = std::make_unique<StageViewer>(contender.stage(scene, Look::SHADED), scene.camera,
                                                StageViewer::Colour::BYTES);
         first = viewer->time().wall;
+        learn(scene, &Runner::fly);
+        viewer->setCamera(scene.camera);
         viewer->draw();
         memory = residentMiB() - before;
         const std::size_t drawn = drawCalls();
@@ -130,10 +148,9 @@ public:
         const int all = 2 * (_frames + warmUp);
         for (int round = 0; round < all && progress(round, all); ++round)
             if (round < all / 2) {
-                if (round == 0) learn([this](Runner& runner, int before) { fly(runner, before); });
                 steady(round);
             } else {
-                if (round == all / 2) learn([this](Runner& runner, int before) { moveLight(runner, before); });
+                if (round == all / 2) learnMoving();
                 moving(round - all / 2);
             }
     }
@@ -148,28 +165,13 @@ public:
     }
 
 private:
-    /// Frames before the race, which count for nothing.
-    template <typename Draw>
-    void learn(const Draw& draw) {
-        for (Runner& runner : _runners)
-            for (int round = -learning; runner.learns && round < 0; ++round)
-                guarded(runner, [&](Runner& learner) { draw(learner, round); });
-    }
-
-    FrameTime fly(Runner& runner, int round) const {
-        runner.viewer->setCamera(movedCamera(_scene, cameraStep * round));
-        return runner.viewer->time();
-    }
-
-    FrameTime moveLight(Runner& runner, int round) const {
-        runner.viewer->setCamera(_scene.camera);
-        runner.viewer->staging().setLight(movedLight(_scene, lightStep * round));
-        return runner.viewer->time();
+    void learnMoving() {
+        for (Runner& runner : _runners) guarded(runner, [this](Runner& r) { r.learn(_scene, &Runner::moveLight); });
     }
 
     void steady(int round) {
         each(round, [&](Runner& runner) {
-            const FrameTime time = fly(runner, round);
+            const FrameTime time = runner.fly(_scene, round);
             if (round >= warmUp) runner.steady.add(time);
             runner.expectedSteady = runner.expected(&ShadowCandidate::flying);
         });
@@ -177,7 +179,7 @@ private:
 
     void moving(int round) {
         each(round, [&](Runner& runner) {
-            const FrameTime time = moveLight(runner, round);
+            const FrameTime time = runner.moveLight(_scene, round);
             if (round >= warmUp) runner.moving.add(time);
             runner.expectedMoving = runner.expected(&ShadowCandidate::moving);
         });
