@@ -28,8 +28,8 @@ class AutoChooser;
 /// Prediction
 /// - Error and time of each candidate are predicted from the casters, the receivers in sight, the light and the view.
 /// - lastDecision() gives them, with the choice and its reason.
-/// - A self-test in the first frame finds what work takes on the renderer. The user's cache folder keeps it. Measured frames
-///   correct it.
+/// - A self-test in the first frame finds what work takes on the renderer. The user's cache folder keeps the least of five
+///   programs' tests, and later ones read it. Measured frames correct it.
 /// - The environment variable GNOMON_AUTO_RATES=fixed switches both off, for runs that choose alike.
 /// Changes
 /// - A scene that stands still is judged once, and once more if the light or a caster comes to rest.
@@ -38,7 +38,7 @@ class AutoChooser;
 /// - Another candidate takes over only if it saves a fifth of the time. Both keep the error.
 /// Cost
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
-/// - The self-test: some 100 ms, once a renderer and user.
+/// - The self-test: some 100 ms, five times a renderer and user.
 /// - A measured frame waits for OpenGL. There are seven after a decision; while things move, every 64th.
 /// - A decision: a few visits of the boxes of casters and receivers. The candidate that is drawn costs what it costs alone.
 /// Needs

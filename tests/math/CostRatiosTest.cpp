@@ -34,11 +34,13 @@ TEST(CostRatios, ComeBackFromTheirText) {
     CostRatios given;
     given.call = 0.125;
     given.relit = 31.5;
+    given.tests = 3;
     const auto read = CostRatios::parse(given.text());
     ASSERT_TRUE(read);
     EXPECT_EQ(read->text(), given.text());
     EXPECT_EQ(read->call, 0.125);
     EXPECT_EQ(read->relit, 31.5);
+    EXPECT_EQ(read->tests, 3u);
 }
 
 TEST(CostRatios, AreRefusedIfAnyIsMissingOrOutOfRange) {
@@ -52,6 +54,27 @@ TEST(CostRatios, AreRefusedIfAnyIsMissingOrOutOfRange) {
     EXPECT_FALSE(CostRatios::parse(whole.substr(0, whole.size() / 2)));
     EXPECT_FALSE(CostRatios::parse(whole + "more 1\n"));
     EXPECT_FALSE(CostRatios::parse(""));
+}
+
+TEST(CostRatios, AreRefusedWithoutACountOfTests) {
+    std::string text = CostRatios().text();
+    const std::size_t from = text.rfind('1');
+    for (const char* wrong : {"0", "6", "-1", "x", ""})
+        EXPECT_FALSE(CostRatios::parse(std::string(text).replace(from, 1, wrong)));
+    EXPECT_TRUE(CostRatios::parse(std::string(text).replace(from, 1, "5")));
+}
+
+// What else a machine does can only make a test slower.
+TEST(CostRatios, OfSeveralTestsAreTheLeast) {
+    CostRatios slow, other;
+    slow.call = 4.0, slow.texel = 0.5, slow.tests = 4;
+    other.call = 2.0, other.texel = 3.0;
+    const CostRatios least = slow.leastWith(other);
+    EXPECT_EQ(least.call, 2.0);
+    EXPECT_EQ(least.texel, 0.5);
+    EXPECT_EQ(least.relit, 1.0);
+    EXPECT_EQ(least.tests, 5u);
+    EXPECT_EQ(least.leastWith(other).tests, 5u);
 }
 
 TEST(CostRatios, AreBroughtToTheirRange) {
@@ -90,7 +113,7 @@ TEST(RatioFile, IsReadAsItWasWrittenAndSaysWhatItCannotRead) {
     ASSERT_TRUE(file.read().ratios);
     EXPECT_EQ(file.read().ratios->texel, 2.5);
     EXPECT_EQ(std::distance(fs::directory_iterator(file.path().parent_path()), {}), 1) << "nothing else is left";
-    const std::string whole = "gnomon cost ratios 1\nrenderer of two lines\n" + given.text();
+    const std::string whole = "gnomon cost ratios 2\nrenderer of two lines\n" + given.text();
     for (const std::string& broken :
          {std::string(), whole.substr(0, 40), whole + "1", "x" + whole, std::string(1 << 17, ' ')}) {
         std::ofstream(file.path()) << broken;
@@ -116,7 +139,7 @@ TEST(RatioFile, ThatWasUsedLastIsKnownWithoutItsRenderer) {
     for (const auto& [file, ratios] : {std::make_pair(&first, one), {&second, two}, {&broken, one}})
         EXPECT_EQ(file->write(ratios), "");
     std::ofstream(broken.path()) << "nonsense";
-    std::ofstream(folder / "notes.txt") << "gnomon cost ratios 1\nd\n" << CostRatios().text();
+    std::ofstream(folder / "notes.txt") << "gnomon cost ratios 2\nd\n" << CostRatios().text();
     const auto now = fs::file_time_type::clock::now();
     fs::last_write_time(first.path(), now - std::chrono::hours(2));
     fs::last_write_time(second.path(), now - std::chrono::hours(1));

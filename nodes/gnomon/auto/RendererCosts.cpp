@@ -39,18 +39,17 @@ CostRates find(osg::RenderInfo& renderInfo, const std::optional<std::filesystem:
                const std::string& renderer) {
     const std::optional<RatioFile> file =
         folder ? std::optional<RatioFile>(std::in_place, *folder, renderer) : std::nullopt;
-    if (file) {
-        const RatioFile::Read kept = file->read();
-        tell(kept.trouble);
-        if (kept.ratios) {
-            file->touch();
-            return kept.ratios->rates();
-        }
+    const RatioFile::Read kept = file ? file->read() : RatioFile::Read();
+    tell(kept.trouble);
+    if (kept.ratios && kept.ratios->tests >= CostRatios::enoughTests) {
+        file->touch();
+        return kept.ratios->rates();
     }
     const std::optional<CostRatios> measured = measureCosts(renderInfo);
     if (!measured) return {};
-    if (file) tell(file->write(*measured));
-    return measured->rates();
+    const CostRatios least = kept.ratios ? measured->leastWith(*kept.ratios) : *measured;
+    if (file) tell(file->write(least));
+    return least.rates();
 }
 
 } // namespace

@@ -9,7 +9,7 @@
 namespace gnomon {
 
 /// What a unit of each kind of work takes, for each renderer that the program draws with: found once a run, by the file in
-/// the user's cache, or else by a self-test, which writes it.
+/// the user's cache. The first runs have a self-test each, and the file holds the least that any of them found.
 ///
 /// Threads
 /// - Any number.

@@ -20,6 +20,8 @@ constexpr Ratio ratios[] = {{"call", &CostRatios::call},          {"triangle", &
                             {"relit", &CostRatios::relit},        {"filled", &CostRatios::filled},
                             {"processor", &CostRatios::processor}};
 
+constexpr const char* testsName = "tests";
+
 bool isUsable(double ratio) { return ratio >= 1.0 / most && ratio <= most; }
 
 } // namespace
@@ -43,6 +45,7 @@ std::string CostRatios::text() const {
     out.imbue(std::locale::classic());
     out.precision(6);
     for (const Ratio& ratio : ratios) out << ratio.name << ' ' << this->*ratio.value << '\n';
+    out << testsName << ' ' << tests << '\n';
     return out.str();
 }
 
@@ -56,8 +59,11 @@ std::optional<CostRatios> CostRatios::parse(const std::string& text) {
         if (!(in >> name >> value) || name != ratio.name || !isUsable(value)) return std::nullopt;
         result.*ratio.value = value;
     }
-    std::string more;
-    if (in >> more) return std::nullopt;
+    std::string name, more;
+    unsigned tests = 0;
+    if (!(in >> name >> tests) || name != testsName || tests < 1 || tests > enoughTests || in >> more)
+        return std::nullopt;
+    result.tests = tests;
     return result;
 }
 
@@ -67,6 +73,13 @@ CostRatios CostRatios::clamped() const {
         double& value = result.*ratio.value;
         value = value > 0.0 ? std::clamp(value, 1.0 / most, most) : 1.0;
     }
+    return result;
+}
+
+CostRatios CostRatios::leastWith(const CostRatios& other) const {
+    CostRatios result;
+    for (const Ratio& ratio : ratios) result.*ratio.value = std::min(this->*ratio.value, other.*ratio.value);
+    result.tests = std::min(tests + other.tests, enoughTests);
     return result;
 }
 

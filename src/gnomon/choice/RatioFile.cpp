@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kind = "gnomon cost ratios 1";
+constexpr const char* kind = "gnomon cost ratios 2";
 constexpr const char *begin = "costs-", *ending = ".txt"; // of a file's name
 constexpr std::uintmax_t mostBytes = 65536;               // no file of ours is as long
 
@@ -73,7 +73,7 @@ std::optional<fs::path> userCache() {
 
 RatioFile::RatioFile(const fs::path& folder, const std::string& renderer)
     : _folder(folder),
-      _path(folder / (begin + hashOf(renderer) + ending)),
+      _path(folder / (begin + hashOf(kind + renderer) + ending)),
       _head(std::string(kind) + '\n' + oneLine(renderer) + '\n') {}
 
 RatioFile::Read RatioFile::read() const {
