@@ -50,10 +50,14 @@ constexpr MapQuality qualities[] = {
     {Map::BICUBIC, Map::HARD, {0.35, 0.40, 3.0, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.25, 0.36, 3.0, 1.0}},
     {Map::BICUBIC, Map::SMOOTH, {0.22, 0.15, 2.3, 4.0}}, {Map::FINE, Map::SMOOTH, {0.15, 0.075, 1.7, 16.0}},
 };
-constexpr double callsAMap = 14.0;     // to switch to its framebuffer and back, and to fit it
-constexpr double callsAPiece = 0.06;   // to see that it has not changed
-constexpr double callsALeaf = 0.1;     // to draw it again
-constexpr double facedAnObject = 0.03; // to ask a triangle whether it faces the light; see ShadowWork::objects
+constexpr double callsAMap = 14.0;      // to switch to its framebuffer and back, and to fit it
+constexpr double callsAPiece = 0.02;    // to see that it has not changed
+constexpr double mapCallsAPiece = 0.04; // the same, of a map
+constexpr double callsToRelight = 3.0;  // to take depth back where marks are
+constexpr double darkened = 0.25;       // of the pixels where a shadow can be
+constexpr double relitAnew = 0.5;       // the same, besides, where all that is there is drawn again
+constexpr double callsALeaf = 0.1;      // to draw it again
+constexpr double facedAnObject = 0.03;  // to ask a triangle whether it faces the light; see ShadowWork::objects
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
 
 /// Pixels that an edge is off which nothing smoothes.
@@ -78,6 +82,14 @@ double mapEdge(const EdgeWidths::Edge& edge, const MapQuality& quality, int texe
 /// Why a candidate would leave a caster out; empty if it would not.
 std::string whyOnlyMaps(const AutoCandidate& candidate, const CasterDrawables& casters) {
     return candidate.hasMap() || casters.own.empty() ? "" : "a caster draws itself, and only maps can let it";
+}
+
+/// Of meshes whose parts are no boxes: each triangle may be on an outline.
+double denseTriangles(const CasterDrawables& casters) {
+    double sum = 0.0;
+    for (const auto& piece : casters.list)
+        if (CasterSplit::isDense(*piece, casters.bounds.radius())) sum += double(piece->triangles);
+    return sum;
 }
 
 osg::ref_ptr<const MapCasters> boxesOf(const CasterLayers& layers) {
@@ -144,8 +156,10 @@ private:
         _pixels = pixelsOf(_view.frame, *_one.bounds);
         _casters = double(_layers.triangles());
         _compose.calls = 2.0 + callsAPiece * double(_view.casters.list.size());
-        _compose.filled = _pixels;
+        _compose.filled = darkened * _pixels;
         if (blends()) return;
+        _compose.calls += callsToRelight;
+        _compose.filled += relitAnew * _pixels;
         _compose.relit = trianglesWithin(_view.frame.seen, *_one.bounds);
         _compose.calls += callsALeaf * double(_view.frame.seen.size());
     }
@@ -153,7 +167,8 @@ private:
     /// What is left of measure() if these leaves alone are drawn again; see MarkJob::surfaces.
     void relightAlone(const LeafSet& leaves, ShadowWork& work) const {
         work.relit = trianglesWithin({leaves.begin(), leaves.end()}, *_one.bounds);
-        work.calls -= callsALeaf * double(_view.frame.seen.size() - leaves.size());
+        work.calls -= callsToRelight + callsALeaf * double(_view.frame.seen.size() - leaves.size());
+        work.filled -= relitAnew * _pixels;
     }
 
     void addPlanar(const FlatReceivers& flat) {
@@ -177,19 +192,18 @@ private:
         hull.kind = Kind::Terrain;
         hull.obstacle = facts.obstacle;
         hull.error = polygonEdgeError(facts.off / _one.pixel);
-        const double objects = _casters / 12.0;
+        const double dense = denseTriangles(_view.casters), boxes = (_casters - dense) / 12.0;
         hull.still = _compose;
         hull.still.calls += 4.0;
-        hull.still.triangles = 6.0 * objects;
-        hull.still.pixels = _pixels;
-        hull.change.objects = objects;
+        hull.still.triangles = 6.0 * boxes + 1.2 * dense;
+        hull.change.objects = boxes + 0.8 * dense;
         _result.all.push_back(hull);
         AutoCandidate drape = hull;
         drape.terrain.method = TerrainShadowOptions::DRAPE;
         drape.terrain.error = drapeError();
         drape.error = polygonEdgeError(drape.terrain.error / _one.pixel);
         drape.still.triangles *= 6.0;
-        drape.change = 20.0 * hull.change;
+        drape.change.objects = 8.0 * boxes + 3.5 * dense;
         _result.all.push_back(drape);
     }
 
@@ -209,14 +223,15 @@ private:
 
     /// One map, and as many as the size asks for, where those are more.
     void addMaps(const MapEdges& edges) {
+        const double pieces = double(_view.casters.list.size());
         for (const int size : sizes) {
             for (const MapQuality& quality : qualities)
-                _result.all.push_back(mapOf({_one, *_widths, _pixels, _casters}, 1, size, quality));
+                _result.all.push_back(mapOf({_one, *_widths, _pixels, _casters, pieces}, 1, size, quality));
             const MapForecast several = _view.towards.w == 0.0 ? forecast(*_boxes, 0, size) : _one;
             if (several.maps == _one.maps) continue;
             const EdgeWidths each = edges.in(several);
             for (const MapQuality& quality : qualities)
-                _result.all.push_back(mapOf({several, each, _pixels, _casters}, 0, size, quality));
+                _result.all.push_back(mapOf({several, each, _pixels, _casters, pieces}, 0, size, quality));
         }
     }
 
@@ -226,6 +241,7 @@ private:
         const EdgeWidths& edges;
         double pixels;  ///< where its shadow can be.
         double casters; ///< triangles.
+        double pieces;
     };
     AutoCandidate mapOf(const Mapped& mapped, int cascades, int size, const MapQuality& quality) const {
         const MapForecast& forecast = mapped.forecast;
@@ -243,7 +259,7 @@ private:
                         : edges.usual(usualShare, [&](const auto& edge) { return mapEdge(edge, quality, texels); });
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
-        map.still.calls += 3.0 * passes;
+        map.still.calls += 3.0 * passes + mapCallsAPiece * mapped.pieces;
         map.still.pixels = passes * mapped.pixels;
         map.still.taps = passes * mapped.pixels * quality.edge.compared;
         map.change.calls = callsAMap * forecast.maps;
@@ -280,7 +296,8 @@ private:
         const MapForecast one = forecast(*boxes, 1, sizes[0]);
         if (one.maps == 0) return;
         const EdgeWidths edges = MapEdges(_view, *boxes, one).in(one);
-        const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(dense.layers().triangles())};
+        const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(dense.layers().triangles()),
+                            double(dense.drawables().list.size())};
         AutoCandidate volume;
         addVolumeOf(split.simplePieces(), simple, volume);
         volume.still.calls += 3.0; // marks are handed on

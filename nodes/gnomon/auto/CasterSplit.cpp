@@ -13,11 +13,14 @@ constexpr unsigned keptCalls = 8;     // of retired casters: other views may be 
 constexpr double large = 0.5;         // of the radius of all: so large a part is not told from the whole
 
 bool isForMap(const CasterDrawable& piece, double radius) {
-    const bool isDense = piece.triangles >= CasterBodies::fewestTriangles && piece.bounds.radius() < large * radius;
-    return isDense || piece.test || piece.unknownTests > 0;
+    return CasterSplit::isDense(piece, radius) || piece.test || piece.unknownTests > 0;
 }
 
 } // namespace
+
+bool CasterSplit::isDense(const CasterDrawable& piece, double radius) {
+    return piece.triangles >= CasterBodies::fewestTriangles && piece.bounds.radius() < large * radius;
+}
 
 void CasterSplit::follow(const CasterDrawables& all) {
     if (_all == &all) return;

@@ -18,6 +18,8 @@ namespace gnomon {
 /// - One at a time.
 class CasterSplit {
 public:
+    /// True of a mesh of many triangles that is not as large as a ground is. @param radius  of the bounds of all casters.
+    static bool isDense(const CasterDrawable& piece, double radius);
     /// Divides casters, unless that was done.
     void follow(const CasterDrawables& all);
     /// True if no view will ask for what was divided last.
