@@ -140,7 +140,7 @@ bool AutoChooser::isDue(Choice& choice, const Seen& now, const AutoView& view, c
     if (!now.asks(choice.decided) || (!choice.incumbent && choice.learnt != _costs->generation())) return true;
     if (!same && !whyWrong(choice.candidate, view, receiver, _known).empty()) return true;
     if (choice.seen == firstLook && isMoving(choice.moving)) return true; // the first decision took all to stand still
-    if (choice.incumbent) return false; // the end of a trial compares them
+    if (choice.incumbent) return false;                                   // the end of a trial compares them
     const bool began = choice.since >= settling && isMoving(choice.motion) && !isMoving(choice.movingThen);
     if (began) return true; // the last decision took all to stand still, too
     const bool cameToRest = !isMoving(choice.moving) && isMoving(choice.movingThen);
