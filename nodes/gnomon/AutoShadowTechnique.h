@@ -81,7 +81,7 @@ public:
 
     /// The choices in the view that was drawn last, in the order of the lights' numbers. A light has one choice for the
     /// receivers of the opaque bins, which comes first. Receivers that are drawn late have one more, and so has each depth
-    /// range and polygon offset; ShadowDecision::receivers names them. Of several cameras, the one that was drawn last counts.
+    /// range and polygon offset; ShadowDecision::receivers names them. The camera that was drawn last counts.
     /// Empty before the first frame, and if no light or no caster was there.
     std::vector<ShadowDecision> lastDecision() const override;
     /// That of all techniques which it has chosen so far.

@@ -9,8 +9,8 @@ namespace gnomon {
 
 /// A way to draw a shadow, as an AutoShadowTechnique has judged it for one light in one view.
 struct ShadowCandidate {
-    /// Specification string that gives it, without composite. "none": no shadow at all. Of a mixed candidate
-    /// "volume+", and the specification of its map.
+    /// Specification string that gives it, without composite. "none": no shadow at all. A mixed candidate has "volume+",
+    /// and the specification of its map.
     std::string spec;
     double error = 0.0; ///< Predicted error of the shadow's edge: 95th percentile, pixels.
     /// Predicted time that it adds to a frame, milliseconds of processor time, as the scene moves now.
@@ -26,8 +26,8 @@ struct ShadowCandidate {
 /// The choice of an AutoShadowTechnique for one light and one kind of receivers in one view, and its reason.
 struct GNOMON_EXPORT ShadowDecision {
     int light = 0; ///< OpenGL light number.
-    /// Kind of the receivers. Empty: those of the opaque bins. "with a depth range or polygon offset" or "drawn late", which is in
-    /// a transparent bin: the shadow on them is drawn apart from the others, by a choice of its own.
+    /// Kind of the receivers. Empty: those of the opaque bins. Others are "with a depth range or polygon offset" or "drawn late",
+    /// in a transparent bin. The shadow on them is drawn apart, by a choice of its own.
     std::string receivers;
     ShadowCandidate chosen; ///< The choice. It is drawn unless another candidate is on trial.
     std::string reason;     ///< In a few words: "the cheapest that keeps 1 px".
