@@ -274,14 +274,14 @@ private:
         volume.error = _sampled;
         volume.obstacle = whyCutOut(_view.casters);
         volume.still = _compose;
-        addVolumeOf(_view.casters, _casters, volume);
+        _volumes = forecastVolumes(_view.frame, _layers, _view.towards, _known.open);
+        addVolumeOf(_volumes, _casters, volume);
         _result.all.push_back(volume);
     }
 
-    void addVolumeOf(const CasterDrawables& casters, double triangles, AutoCandidate& to) const {
-        const VolumeForecast forecast = forecastVolumes(_view.frame, casters, _view.towards);
+    void addVolumeOf(const VolumeForecast& forecast, double triangles, AutoCandidate& to) const {
         to.still.calls += 3.0;
-        to.still.triangles += 2.0 * forecast.sides;
+        to.still.triangles += 2.0 * forecast.sides + forecast.caps;
         to.still.texels += forecast.pixels + _pixels; // counts become marks
         to.change.objects += forecast.sides + facedAnObject * triangles;
     }
@@ -299,7 +299,9 @@ private:
         const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(dense.layers().triangles()),
                             double(dense.drawables().list.size())};
         AutoCandidate volume;
-        addVolumeOf(split.simplePieces(), simple, volume);
+        const VolumeForecast others =
+            forecastVolumes(_view.frame, dense.layers(), _view.towards, _known.open, _volumes.counted);
+        addVolumeOf(_volumes - others, simple, volume);
         volume.still.calls += 3.0; // marks are handed on
         for (const int size : sizes)
             for (const MapQuality& quality : qualities) {
@@ -341,6 +343,7 @@ private:
     const osg::ref_ptr<const MapCasters> _boxes;
     MapForecast _one;
     double _pixels = 0.0, _casters = 0.0;
+    VolumeForecast _volumes;           ///< of all casters.
     std::optional<EdgeWidths> _widths; ///< of edges in `_one`.
     double _sampled = sampledEdge;     ///< error of one ray a pixel.
     ShadowWork _compose;

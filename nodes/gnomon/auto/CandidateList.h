@@ -6,6 +6,7 @@
 #include <gnomon/auto/ConvexBodies.h>
 #include <gnomon/auto/FlatReceivers.h>
 #include <gnomon/auto/TerrainFacts.h>
+#include <gnomon/volume/OpenCasters.h>
 
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ struct AutoKnowledge {
     ConvexBodies bodies;
     TerrainKnowledge terrain;
     CasterSplits splits;
+    OpenCasters open;
     std::optional<FlatReceivers> flat; ///< of the view that is asked about now; nullopt: nobody has looked for them.
 
     /// Looks for them unless that was done.

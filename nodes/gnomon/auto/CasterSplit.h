@@ -27,9 +27,7 @@ public:
     /// True if there is something in either part.
     bool isDivided() const { return _simple.pieces.get() && _dense.pieces.get(); }
 
-    /// Only where isDivided(), as the following.
-    const CasterDrawables& simplePieces() const { return *_simple.pieces.get(); }
-    /// The parts as a technique takes them.
+    /// The parts as a technique takes them. Only where isDivided().
     FrameCasters simple(const FrameCasters& all) const { return partOf(all, _simple); }
     FrameCasters dense(const FrameCasters& all) const { return partOf(all, _dense); }
 

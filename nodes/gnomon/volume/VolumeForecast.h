@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/group/ViewFrame.h>
+#include <gnomon/volume/OpenCasters.h>
 
 #include <glm/vec4.hpp>
 
@@ -10,18 +11,29 @@ namespace gnomon {
 /// What the volumes of all casters behind a light would come to in a view.
 struct VolumeForecast {
     double sides = 0.0; ///< of the volumes that can be seen; each two triangles.
-    double pixels =
-        0.0; ///< that they cover, each for itself. Narrow ones count as wide as OpenGL's rasteriser takes them.
+    double caps = 0.0;  ///< triangles of open casters, drawn where their backs may be seen, or to close volumes.
+    /// That these cover, each for itself. Narrow ones count as wide as OpenGL's rasteriser takes them.
+    double pixels = 0.0;
+    bool counted = true; ///< the edges of all open casters were looked at.
+
+    /// Without those of some casters.
+    VolumeForecast operator-(const VolumeForecast& some) const;
 };
 
-/// Found from the casters' bounds and numbers of triangles alone: no edge is looked at.
+/// Of closed casters it is found from their bounds and numbers of triangles alone: no edge is looked at.
 ///
 /// A mesh of n triangles has some n^0.8 edges on its outline, and flat ones fewer (M. McGuire, "Observations on Silhouette
 /// Sizes", Journal of Graphics Tools, 2004). So an estimate may be off by a factor of 2 and more.
 ///
-/// @param light  group frame; w is 0 and the direction has length 1, or w is 1.
+/// An open caster has all its free edges on its outline, be it as small as a leaf. So its volumes are found as they are drawn.
+/// Where a mesh has more than 150,000 open triangles, they are taken for closed.
 ///
-/// Cost  a look at each drawable's bounds.
-VolumeForecast forecastVolumes(const ViewFrame& view, const CasterDrawables& casters, const glm::dvec4& light);
+/// @param light  group frame; w is 0 and the direction has length 1, or w is 1.
+/// @param known  the open casters of earlier answers.
+/// @param counts  false: open casters are taken for closed.
+///
+/// Cost  a look at each drawable's bounds; volumes of those that are open.
+VolumeForecast forecastVolumes(const ViewFrame& view, const CasterLayers& casters, const glm::dvec4& light,
+                               OpenCasters& known, bool counts = true);
 
 } // namespace gnomon
