@@ -30,22 +30,35 @@ struct SceneView {
     glm::dmat4 eyeFromScene, clipFromScene;
 };
 
-/// True if what is flat, a ground for one, may stand between the light and any part of what is seen: not if all of that is
-/// on the light's side of it, or in it.
-bool isBetween(const MapLayer::Box& flat, const glm::dvec4& light, const std::vector<MapReceiver>& receivers,
-               const glm::dvec3& reach) {
-    const glm::dvec4 half = beyond(flat, light, reach);
-    return std::any_of(receivers.begin(), receivers.end(), [&](const MapReceiver& receiver) {
-        const auto corners = boxCorners(receiver.low, receiver.high, receiver.sceneFromBox);
-        return std::any_of(corners.begin(), corners.end(),
-                           [&](const glm::dvec4& corner) { return !(glm::dot(half, corner) < 0.0); });
-    });
+/// Where what is flat, a ground for one, may stand between the light and a place. Of all that is level, each way, the one
+/// nearest to the light says so for all.
+std::vector<glm::dvec4> beyondFlats(const MapCasters& casters, const glm::dvec4& light) {
+    std::vector<glm::dvec4> halves; // six at most
+    for (const auto* flats : {&casters.still->flatBoxes, &casters.moving->flatBoxes})
+        for (const MapLayer::Box& flat : *flats) {
+            const glm::dvec4 half = beyond(flat, light, casters.layers->reach);
+            const auto known = std::find_if(halves.begin(), halves.end(), [&](const glm::dvec4& other) {
+                return glm::dvec3(other) == glm::dvec3(half);
+            });
+            if (known == halves.end())
+                halves.push_back(half);
+            else
+                known->w = std::max(known->w, half.w);
+        }
+    return halves;
 }
 
+/// True if any part of what is seen is there: not if all of that is on the light's side of what is flat, or in it.
 bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std::vector<MapReceiver>& receivers) {
-    const auto between = [&](const auto& flat) { return isBetween(flat, light, receivers, casters.layers->reach); };
-    const auto &still = casters.still->flatBoxes, &moving = casters.moving->flatBoxes;
-    return std::any_of(still.begin(), still.end(), between) || std::any_of(moving.begin(), moving.end(), between);
+    const std::vector<glm::dvec4> halves = beyondFlats(casters, light);
+    if (halves.empty()) return false;
+    return std::any_of(receivers.begin(), receivers.end(), [&](const MapReceiver& receiver) {
+        const auto corners = boxCorners(receiver.low, receiver.high, receiver.sceneFromBox);
+        return std::any_of(halves.begin(), halves.end(), [&](const glm::dvec4& half) {
+            return std::any_of(corners.begin(), corners.end(),
+                               [&](const glm::dvec4& corner) { return !(glm::dot(half, corner) < 0.0); });
+        });
+    });
 }
 
 template <class Mark>
