@@ -4,12 +4,15 @@
 
 // What a comparison allows for of a slope, the change of depth a texel along either axis: the map has half of the larger one. Of
 // 2 x 2 texels that are compared at once, which reach a texel, all must pass where a part of the light counts; half of them where
-// edges are hard.
+// edges are hard. Where texels are smaller than pixels a slope is known less well.
 float allowance(vec2 slope) {
+    float both = slope.x + slope.y;
 #ifdef HALVES
-    return 0.5 * (slope.x + slope.y);
+    return 0.5 * both;
+#elif defined(FINE)
+    return 0.75 * both;
 #else
-    return slope.x + slope.y - 0.5 * max(slope.x, slope.y);
+    return both - 0.5 * max(slope.x, slope.y);
 #endif
 }
 
