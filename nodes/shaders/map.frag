@@ -122,7 +122,7 @@ Compared compared(int i, vec4 at, vec4 plane, vec4 other, float drawn, float nea
     vec4 error = mix(nearestError(i), farthestError(i), clamp(inMap.z, 0.0, 1.0));
     float deeper = change.z, size = place(i).z;
     float least = (abs(change.x) + abs(change.y)) / (error.z * size); // of what is not edge-on, or pixels of two surfaces
-    float along = max(abs(deeper), least);
+    float along = max(max(abs(deeper), least), 1e-37); // all 0 where no plane is known
     vec2 own = abs(change.xy) / (along * size), others = abs(onOther.xy) / (abs(onOther.z) * size);
     float steepness = own.x + own.y, allowed = allowance(own), otherwise = others.x + others.y;
     if (otherwise <= error.z) {

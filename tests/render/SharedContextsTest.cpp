@@ -147,15 +147,15 @@ TEST_P(SharedContexts, EachWindowHasItsOwnFramebuffers) {
             scene.group->setComposite(composite);
             return scene;
         };
-        const Picture first = render(build().root, given.view), second = render(build().root, other());
+        Camera first(build().root, given.view), second(build().root, other()); // each alone
         Scene scene = build();
         Viewer one(scene.root, given.view), two(scene.root, other(), one.window);
         const unsigned id = one.window->getState()->getContextID();
         ASSERT_EQ(two.window->getState()->getContextID(), id);
         const OwnFramebuffers own(*osg::GLExtensions::Get(id, true));
         for (int frame = 0; frame < 3; ++frame) {
-            EXPECT_EQ(one.frame().different(first), 0) << frame;
-            EXPECT_EQ(two.frame().different(second), 0) << frame;
+            EXPECT_EQ(one.frame().different(first.frame()), 0) << frame;
+            EXPECT_EQ(two.frame().different(second.frame()), 0) << frame;
         }
         EXPECT_EQ(one.error, GLenum(GL_NO_ERROR));
         EXPECT_EQ(two.error, GLenum(GL_NO_ERROR));

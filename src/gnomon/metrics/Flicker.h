@@ -18,8 +18,9 @@ struct FlickerFrame {
 
 /// Two frames in turn, and the change that the truth does not have.
 struct FlickerChange {
-    Picture before, after; ///< V of both frames.
-    Picture beyond;        ///< e, see FlickerMeter; 0 where it is not known.
+    Picture before; ///< V of the first frame.
+    Picture after;  ///< V of the second frame.
+    Picture beyond; ///< e, see FlickerMeter; 0 where it is not known.
 };
 
 /// M7: flicker, the change between frames that the truth does not have.
