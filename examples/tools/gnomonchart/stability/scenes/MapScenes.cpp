@@ -84,10 +84,10 @@ SceneParts creeping(double hundredths) {
     return parts;
 }
 
-/// The camera turns by so many hundredths of a degree.
-SceneParts turning(double hundredths) {
+/// The camera turns by so many degrees.
+SceneParts turning(double angle) {
     SceneParts parts = creeping(0.0);
-    const osg::Quat turn(osg::DegreesToRadians(0.01 * hundredths), osg::Z_AXIS);
+    const osg::Quat turn(osg::DegreesToRadians(angle), osg::Z_AXIS);
     parts.center = parts.eye + turn * (parts.center - parts.eye);
     return parts;
 }
@@ -263,8 +263,8 @@ std::vector<StabilityScene> mapScenes() {
          "Turning camera",
          "Edges stand still while the camera turns.",
          "turned by",
-         "0.01°",
-         {0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0},
+         "°",
+         {0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55},
          madeOf(turning)},
         {"S6",
          section,
