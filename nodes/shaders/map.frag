@@ -2,13 +2,19 @@
 //
 // For pixels' places see map_place.frag.
 
-// Texels of slope that a comparison allows for, beside the half of the steeper way's that the map has: of 2 x 2 that are
-// compared at once, which reach a texel, all must pass where a part of the light counts, half of them where edges are hard.
+// What a comparison allows for of a slope, the change of depth a texel along either axis: the map has half of the larger one. Of
+// 2 x 2 texels that are compared at once, which reach a texel, all must pass where a part of the light counts; half of them where
+// edges are hard. Where texels are smaller than pixels a slope is known less well.
+float allowance(vec2 slope) {
+    float both = slope.x + slope.y;
 #ifdef HALVES
-const float kernel = 0.5;
+    return 0.5 * both;
+#elif defined(FINE)
+    return 0.75 * both;
 #else
-const float kernel = 0.75;
+    return both - 0.5 * max(slope.x, slope.y);
 #endif
+}
 
 // wanted: pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0; colour of a pixel that
 //         nothing reaches; 1, if other pixels are between that and white. All others get an alpha of 1.
@@ -113,20 +119,19 @@ vec3 inMapOf(int i, vec4 plane) {
 // at: see holds(). other: the plane of another face that the pixel may be on.
 Compared compared(int i, vec4 at, vec4 plane, vec4 other, float drawn, float nearer) {
     vec3 inMap = at.xyz / at.w, change = inMapOf(i, plane), onOther = inMapOf(i, other);
-    vec2 across = change.xy;
-    float deeper = change.z;
-    vec2 slope = -across / (deeper * place(i).z);
-    float steepness = abs(slope.x) + abs(slope.y);
     vec4 error = mix(nearestError(i), farthestError(i), clamp(inMap.z, 0.0, 1.0));
-    if (!(steepness <= error.z)) { // edge-on, or pixels of two surfaces
-        slope = vec2(0.0);
-        steepness = error.z;
+    float deeper = change.z, size = place(i).z;
+    float least = (abs(change.x) + abs(change.y)) / (error.z * size); // of what is not edge-on, or pixels of two surfaces
+    float along = max(abs(deeper), least);
+    vec2 own = abs(change.xy) / (along * size), others = abs(onOther.xy) / (abs(onOther.z) * size);
+    float steepness = own.x + own.y, allowed = allowance(own), otherwise = others.x + others.y;
+    if (otherwise <= error.z) {
+        steepness = max(steepness, otherwise);
+        allowed = max(allowed, allowance(others));
     }
-    float otherwise = (abs(onOther.x) + abs(onOther.y)) / (abs(onOther.z) * place(i).z);
-    if (otherwise <= error.z) steepness = max(steepness, otherwise);
-    float steep = (abs(across.x) + abs(across.y)) / (error.z * place(i).z); // of what is not edge-on
-    float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (max(abs(deeper), steep) * at.w);
-    float depth = min(inMap.z, 1.0) - (kernel + error.y) * steepness - error.x - off;
+    float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (along * at.w);
+    float depth = min(inMap.z, 1.0) - allowed - error.y * steepness - error.x - off;
+    vec2 slope = abs(deeper) >= least ? -change.xy / (deeper * size) : vec2(0.0);
     return Compared(place(i).xy + inMap.xy * place(i).z, slope, depth);
 }
 

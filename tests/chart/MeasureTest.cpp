@@ -227,6 +227,26 @@ TEST(Film, MapsThatFollowTheCameraFlicker) {
     EXPECT_GT(energy(defaultsOf("ViewDependent perspective")), 5e-3);
 }
 
+/// Edges of Gnomon's map stand still while the camera goes on and turns; those of a coarse ParallelSplitShadowMap swim.
+TEST(Film, InEighthsOfAPixelTellsASwimmingMapFromASteadyOne) {
+    const Film film(yardstick(), Film::Motion::PIXELS, 17, never);
+    const auto crawl = [&](const Contender& contender) {
+        Sight sight(contender, yardstick().scene());
+        return film.measure(sight, never).crawlBeyondRays().value();
+    };
+    EXPECT_LT(crawl(gnomonContender("traced", Receives::EVERYTHING)), 1e-9);
+    EXPECT_LT(crawl(gnomonContender("map", Receives::EVERYTHING)), 0.02); // px; as MapStabilityTest has it
+    EXPECT_GT(crawl(peerContender(peerNamed("ParallelSplit"), "256", {{"size", "256"}})), 0.05);
+}
+
+/// The first object is the ground.
+TEST(Film, LooksAtTheFirstObjectsAlone) {
+    const Film film(yardstick(), Film::Motion::PIXELS, 3, never);
+    Sight sight(defaultsOf("ViewDependent perspective"), yardstick().scene());
+    EXPECT_FALSE(film.measure(sight, never, 0).energy());
+    EXPECT_GT(film.measure(sight, never, 1).energy().value(), 0.0);
+}
+
 TEST(Sweep, FindsSettingsThatAreNoWorseThanTheDefaults) {
     const Peer& peer = peerNamed("ShadowMap");
     const Settings best = bestSettings(peer, yardstick(), SweepWidth::WIDE, [] { return true; });

@@ -10,6 +10,8 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -124,6 +126,36 @@ TEST(StabilityRun, ACrashCostsItsCellAlone) {
     EXPECT_NE(cells[1].message.find("signal"), std::string::npos) << cells[1].message;
     EXPECT_TRUE(cells[1].catastrophe());
     EXPECT_TRUE(cells[2].measured);
+}
+
+/// It is set up once for each of three values, and then for the film.
+TEST(StabilityRun, ACrashWhileTheCameraMovesCostsTheCellOfTheFilm) {
+    Contender contender = gnomons("planar");
+    const auto calls = std::make_shared<int>(0);
+    contender.stage = [stage = contender.stage, calls](const ChartScene& scene, Look look) {
+        if (++*calls == 4) std::raise(SIGKILL);
+        return stage(scene, look);
+    };
+    const Cells cells = cellsOf(contender);
+    EXPECT_TRUE(cells[0].inBudget());
+    EXPECT_TRUE(cells[1].inBudget());
+    EXPECT_EQ(cells[2].failure, "crashed");
+}
+
+TEST(StabilityRun, FilmsTheLastValueAndKeepsThePictureOfFlicker) {
+    const auto folder = std::filesystem::temp_directory_path() / ("films-" + std::to_string(getpid()));
+    std::filesystem::create_directory(folder);
+    StabilityPlan plan = smallPlan();
+    plan.folder = folder.string();
+    plan.contenders = {{gnomons("planar")}, stabilityContenders({"ParallelSplit"}, false).front()};
+    const StabilityResults results = run(plan);
+    const StabilityFlicker &still = results.rows[0].flicker, &swims = results.rows[1].flicker;
+    EXPECT_EQ(still.value, 3.0);
+    EXPECT_EQ(still.energy, 0.0);
+    EXPECT_EQ(still.picture, "");
+    EXPECT_GT(swims.share.value(), 0.0);
+    EXPECT_TRUE(std::filesystem::exists(folder / swims.picture)) << swims.picture;
+    std::filesystem::remove_all(folder);
 }
 
 TEST(StabilityRun, AProcessThatEndsItselfCostsItsCellAlone) {

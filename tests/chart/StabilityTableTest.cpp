@@ -94,6 +94,36 @@ TEST(StabilityOutcomes, TellHowFarASweepGets) {
     EXPECT_EQ(rowOf({rightCell(), wrongCell(), rightCell(), wrongCell()}).reach(), 0.25);
 }
 
+StabilityCell withShadow(StabilityCell cell) {
+    cell.everywhere.shadow = 50;
+    if (cell.onReceiver) cell.onReceiver->shadow = 50;
+    return cell;
+}
+
+TEST(StabilityFilms, ShowTheLastValueThatIsRightAndHasAShadow) {
+    const StabilityCell right = withShadow(rightCell()), wrong = withShadow(wrongCell());
+    EXPECT_EQ(filmedAt({right, right, right}), 2u);
+    EXPECT_EQ(filmedAt({right, right, wrong}), 1u);
+    EXPECT_EQ(filmedAt({right, wrong, right}), 2u);
+    EXPECT_EQ(filmedAt({right, rightCell()}), 0u);     // no shadow at the end
+    EXPECT_EQ(filmedAt({right, StabilityCell()}), 0u); // nothing was drawn
+    EXPECT_EQ(filmedAt({wrong, wrong}), std::nullopt);
+}
+
+TEST(StabilityFilms, ShowNoValueAtWhichTheTechniqueStatesALimit) {
+    const StabilityCell right = withShadow(rightCell());
+    EXPECT_EQ(filmedAt({right, saying(right)}), 0u);
+}
+
+TEST(StabilityFilms, AskATechniqueOfOneReceiverToBeRightThere) {
+    const StabilityCell right = withShadow(rightCell());
+    EXPECT_EQ(filmedAt({right, withShadow(rightOnItsReceiver(wrongCell()))}), 1u);
+    EXPECT_EQ(filmedAt({right, withShadow(rightOnItsReceiver(saying(wrongCell())))}), 1u); // of other receivers
+    StabilityCell none = withShadow(rightOnItsReceiver(wrongCell()));
+    none.onReceiver->shadow = 49;
+    EXPECT_EQ(filmedAt({right, none}), 0u);
+}
+
 TEST(StabilityOutcomes, TakeAPixelAtThe95thPercentileAsTheLimit) {
     StabilityCell cell = rightCell();
     cell.everywhere.p95 = 1.0;
@@ -201,6 +231,8 @@ TEST(StabilityFiles, KeepEverything) {
     results.rows = {rowOf({rightCell(), rightOnItsReceiver(saying(wrongCell())), lostCell()})};
     results.rows[0].settings = {{"size", "4096"}};
     results.rows[0].flicker.crawl = 0.125;
+    results.rows[0].flicker.value = 0.1;
+    results.rows[0].flicker.picture = "t1-planar-flicker.png";
     const auto folder = std::filesystem::temp_directory_path() / ("stability-" + std::to_string(getpid()));
     std::filesystem::create_directory(folder);
     saveStability(results, folder.string());
@@ -213,6 +245,8 @@ TEST(StabilityFiles, KeepEverything) {
     EXPECT_EQ(read.scenes[0].title, results.scenes[0].title);
     EXPECT_EQ(read.rows[0].settings, results.rows[0].settings);
     EXPECT_EQ(read.rows[0].flicker.crawl, results.rows[0].flicker.crawl);
+    EXPECT_EQ(read.rows[0].flicker.value, 0.1);
+    EXPECT_EQ(read.rows[0].flicker.picture, "t1-planar-flicker.png");
     EXPECT_EQ(read.rows[0].flicker.energy, std::nullopt);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(jsonOf(read.rows[0].cells[i]), jsonOf(results.rows[0].cells[i]));
     const std::string line = "T1,size,0.1,m,Gnomon,planar,defaults,catastrophe,,0.5,7,0,0.8,0.5,0,1,0,no,no,yes,";

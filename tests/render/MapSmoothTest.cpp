@@ -214,6 +214,37 @@ TEST(MapSmooth, AreNarrowWhereATexelIsManyPixels) {
     }
 }
 
+// Behind an upright sheet that stands across the view, the sun before it, the ground is dark from its foot on. What a
+// comparison allows for of the ground's slope leaves a gap, half a texel where the slope is along one side of the texels.
+// Other sheets, farther to the left, say where these begin.
+TEST(MapSmooth, LeaveAGapOfHalfATexelWhereASlopeIsAlongOneSide) {
+    constexpr double half = 4.0, pixels = 32.0, begin = -3.5; // metres, and pixels of each
+    constexpr double size = 36.0, border = 6.0;               // texels of a map, and of these beside what it is of
+    constexpr double reserve = 17.0 / 16.0;                   // what it is of, to what is seen: none beyond the casters
+    constexpr double texel = reserve * (half - begin) / (size - border); // metres, on the ground
+    const auto sheet = [](double x, double from, double to) {
+        return test::quad({x, from, 0.0}, {0.0, to - from, 0.0}, {0.0, 0.0, 10.0});
+    };
+    for (const double elevation : {20.0, 10.0, 5.0}) {
+        double gap = 0.0, count = 0.0;
+        for (double foot = -2.0; foot < texel - 2.0; foot += 1.0 / pixels) {
+            Scene scene =
+                test::groundScene({sheet(begin, -40.0, -3.0), sheet(begin, 3.0, 40.0), sheet(foot, -2.0, 2.0)}, 60.0,
+                                  test::sunAt(180.0, elevation));
+            const Picture lit = test::render(scene.root, test::fromAbove(half));
+            scene.addShadow(mapWith(ShadowMapTechnique::SMOOTH, int(size)));
+            scene.group->setComposite(ShadowCasterGroup::BLEND);
+            scene.group->setDark(0.0f);
+            const Picture picture = test::render(scene.root, test::fromAbove(half));
+            for (int x = int(std::lround((foot + half) * pixels)); x < 160; ++x)
+                gap += shareOf(picture.at(x, 128), 0, lit.at(x, 128)) / pixels / texel;
+            count += 1.0;
+        }
+        std::cout << elevation << " degrees: a gap of " << gap / count << " texels\n";
+        EXPECT_NEAR(gap / count, 0.5, 0.12) << elevation; // a pixel; with three quarters of both slopes it was 0.72
+    }
+}
+
 // Of a view in which 600 texels are of use.
 TEST(MapTexels, AreNoMoreThanTheViewNeeds) {
     const Shares shares(test::labEight());

@@ -33,7 +33,7 @@ MapSettings::MapSettings(const ShadowMapOptions& options)
 std::string definesOf(ShadowMapOptions::Filter filter) {
     constexpr const char* defines[] = {"#define NEAREST\n", "#define BILINEAR\n",
                                        "#define BICUBIC\n#define SAMPLES 4.0\n",
-                                       "#define BICUBIC\n#define SAMPLES 16.0\n"};
+                                       "#define BICUBIC\n#define FINE\n#define SAMPLES 16.0\n"};
     return defines[filter];
 }
 

@@ -108,14 +108,21 @@ std::optional<double> ratio(double part, std::size_t whole) {
 
 void FlickerMeter::compare(const FlickerFrame& frame) {
     const Changes changes = changesBetween(_last, frame);
+    Picture beyond(frame.facing.width, frame.facing.height);
+    double sum = 0.0;
     for (int y = 0; y < frame.facing.height; ++y)
         for (int x = 0; x < frame.facing.width; ++x) {
             if (changes.shown.at(x, y) < 0.0) continue;
             const double e = std::max(0.0, changes.shown.at(x, y) - greatestAround(changes.truth, x, y));
             ++_known;
-            _sum += e;
+            sum += beyond.at(x, y) = e;
             _flickering += e > flickering;
         }
+    _sum += sum;
+    if (sum > _worstSum) {
+        _worstSum = sum;
+        _worst = {_last.visibility, frame.visibility, std::move(beyond)};
+    }
     _facing += count(frame.facing);
 }
 
@@ -124,6 +131,7 @@ void FlickerMeter::add(FlickerFrame frame) {
     ++_frames;
     const std::optional<BoundaryDistance> boundary = boundaryDistance(frame.visibility, frame.truth.lit, frame.facing);
     if (boundary) _offsets.push_back(boundary->signedMean);
+    _edges.add(frame.visibility, frame.truth, frame.facing);
     _last = std::move(frame);
 }
 

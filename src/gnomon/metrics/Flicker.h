@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <glm/mat4x4.hpp>
-#include <gnomon/metrics/TruthMaps.h>
+#include <gnomon/metrics/EdgeCrawl.h>
 #include <optional>
+#include <vector>
 
 namespace gnomon::metrics {
 
@@ -13,6 +14,12 @@ struct FlickerFrame {
                                    ///< its position, even if the object moves.
     Mask facing;                   ///< R+.
     glm::dmat4 clipFromPosition{}; ///< The camera, as OpenGL's projection * modelview.
+};
+
+/// Two frames in turn, and the change that the truth does not have.
+struct FlickerChange {
+    Picture before, after; ///< V of both frames.
+    Picture beyond;        ///< e, see FlickerMeter; 0 where it is not known.
 };
 
 /// M7: flicker, the change between frames that the truth does not have.
@@ -37,14 +44,22 @@ public:
     std::optional<double> share() const;
     /// Edge crawl: standard deviation over frames of M4's signed mean, px. nullopt before two frames have a boundary.
     std::optional<double> crawl() const;
+    /// Edge crawl beyond that of a picture of rays, px. See EdgeCrawl.
+    std::optional<double> crawlBeyondRays() const { return _edges.beyondRays(); }
+    /// Edge crawl of a picture of one exact ray a pixel, px.
+    std::optional<double> rayCrawl() const { return _edges.ofRays(); }
+    /// The two frames between which the sum of e is largest. Empty pictures if e is 0 everywhere.
+    const FlickerChange& worst() const { return _worst; }
 
 private:
     void compare(const FlickerFrame& frame);
 
     FlickerFrame _last;
+    FlickerChange _worst;
     std::size_t _frames = 0, _facing = 0, _known = 0, _flickering = 0;
-    double _sum = 0.0;
-    std::vector<double> _offsets;
+    double _sum = 0.0, _worstSum = 0.0;
+    std::vector<double> _offsets; // M4's signed mean
+    EdgeCrawl _edges;
 };
 
 } // namespace gnomon::metrics

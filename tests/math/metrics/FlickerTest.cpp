@@ -96,6 +96,69 @@ TEST(Flicker, AShadowThatGoesWithTheCameraFlickers) {
     for (int k = 0; k < 5; ++k) meter.add(frameOf({glm::dvec2(3.0 * k, 0.0)}, perfect()));
     EXPECT_GT(meter.share().value(), 0.005);
     EXPECT_GT(meter.crawl().value(), 0.5);
+    EXPECT_GT(meter.crawlBeyondRays().value(), 0.1); // less: its two sides crawl in opposite directions
+}
+
+/// The camera goes on by eighths of a pixel, over whole pixels.
+template <typename FrameOf>
+FlickerMeter creeping(FrameOf frameOf) {
+    FlickerMeter meter;
+    for (int k = 0; k < 16; ++k) meter.add(frameOf(BoxOnGround{glm::dvec2(0.125 * k, 0.0)}));
+    return meter;
+}
+
+TEST(Flicker, ThePictureOfRaysCrawlsAndNothingOfItIsBeyondRays) {
+    const FlickerMeter meter = creeping([](const BoxOnGround& scene) { return trueFrame(scene, true); });
+    EXPECT_GT(meter.crawl().value(), 0.02);
+    EXPECT_GT(meter.rayCrawl().value(), 0.02);
+    EXPECT_EQ(meter.crawlBeyondRays(), 0.0);
+}
+
+TEST(Flicker, ASmoothEdgeThatStandsStillHasNoCrawlAtAll) {
+    const FlickerMeter meter = creeping([](const BoxOnGround& scene) { return trueFrame(scene); });
+    EXPECT_GT(meter.rayCrawl().value(), 0.02);
+    EXPECT_LT(meter.crawlBeyondRays().value(), 1e-9); // the truth against itself
+}
+
+/// Half a pixel beside the true edge, it turns its pixels in other frames than rays do.
+TEST(Flicker, AHardEdgeThatStandsStillBesideTheTrueOneHasNoCrawlBeyondRays) {
+    const FlickerMeter meter = creeping([](const BoxOnGround& scene) {
+        const FlickerFrame beside = trueFrame({scene.camera, 0.5}, true);
+        return frameOf(scene, beside.visibility);
+    });
+    EXPECT_GT(meter.crawl().value(), 0.02);
+    EXPECT_LT(meter.crawlBeyondRays().value(), 0.02);
+}
+
+/// The shadow's end, a third of the outline, swims by half a pixel: less than the rays' own crawl hides.
+TEST(Flicker, ASmoothEdgeThatSwimsCrawlsBeyondRays) {
+    int frame = 0;
+    const FlickerMeter meter = creeping([&frame](const BoxOnGround& scene) {
+        return frameOf(scene, BoxOnGround{scene.camera, ++frame % 2 ? 0.0 : 0.5}.truth().lit);
+    });
+    EXPECT_GT(meter.crawlBeyondRays().value(), 0.05); // 0.25 px to either side, a third of that
+}
+
+/// As one side gains, the other loses: by a pixel, every other frame.
+TEST(Flicker, AShadowThatSwimsSidewaysCrawlsAsFarOnBothSides) {
+    int frame = 0;
+    const FlickerMeter meter = creeping([&frame](const BoxOnGround& scene) {
+        return frameOf(scene, BoxOnGround{scene.camera + glm::dvec2(0.0, ++frame % 2 ? 0.0 : 1.0)}.truth().lit);
+    });
+    EXPECT_NEAR(meter.crawlBeyondRays().value(), 0.5 * std::sqrt(60.0 / 92.0), 0.05); // the sides are 30 px each of 92
+}
+
+TEST(Flicker, KeepsTheTwoFramesBetweenWhichMostChanged) {
+    const Picture still = perfect(), little = filled(still, 90, 10, 2, 2, 0.0),
+                  much = filled(little, 90, 20, 5, 5, 0.4);
+    FlickerMeter meter;
+    meter.add(frameOf({}, still));
+    EXPECT_TRUE(meter.worst().beyond.empty());
+    for (const Picture& each : {little, much, little, still}) meter.add(frameOf({}, each));
+    EXPECT_EQ(meter.worst().before.cells, little.cells); // the first of the two that change as much
+    EXPECT_EQ(meter.worst().after.cells, much.cells);
+    EXPECT_NEAR(meter.worst().beyond.at(92, 22), 0.6, 1e-12);
+    EXPECT_EQ(meter.worst().beyond.at(91, 11), 0.0);
 }
 
 TEST(Flicker, APixelWhoseCentreIsOnAnEdgeMayBeEitherWay) {

@@ -5,28 +5,30 @@
 #include <gnomon/metrics/Flicker.h>
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace gnomon::examples {
 
-/// One frame for the meter. @param origin  of the truth's positions.
-metrics::FlickerFrame flickerFrame(const metrics::TruthMaps& truth, const osg::Vec3d& origin, const SceneCamera& camera,
-                                   metrics::Picture visibility, metrics::Mask facing);
-
-/// A short film of a scene and the truth of each frame, for metrics::FlickerMeter. Steps are about an eighth of a texel of
-/// a map of 1024 over the scene: what snaps to texels is seen snapping.
+/// A short film of a scene and the truth of each frame, for metrics::FlickerMeter.
 ///
 /// Cost    34 rays a pixel and frame; about 50 bytes a pixel and frame are kept.
 class Film {
 public:
-    enum class Motion { CAMERA, LIGHT };
+    enum class Motion {
+        CAMERA, ///< the camera goes on by an eighth of a texel of a map of 1024 over the scene.
+        LIGHT,  ///< the light turns, by as much at the scene's edge.
+        PIXELS  ///< the camera goes on, then turns, by an eighth of a pixel at the median depth of what is seen.
+    };
 
     /// @param frames  at least 2.
     /// @param stops   asked before each frame: true ends the film there.
     Film(const Yardstick& yardstick, Motion motion, int frames, const std::function<bool()>& stops);
 
     /// What the contender's film is like. The sight is moved.
-    metrics::FlickerMeter measure(Sight& sight, const std::function<bool()>& stops) const;
+    /// @param objects  only receivers of ids up to this count.
+    metrics::FlickerMeter measure(Sight& sight, const std::function<bool()>& stops,
+                                  int objects = std::numeric_limits<int>::max()) const;
 
 private:
     struct Frame {

@@ -79,7 +79,7 @@ void SceneProcess::start(const StabilityPlace& from) {
     _descriptor = ends[0];
     _pending.clear();
     _place = from;
-    _begun = false;
+    _begun = _filming = false;
     _since = std::chrono::steady_clock::now();
     _spent = 0.0;
 }
@@ -118,7 +118,7 @@ void SceneProcess::read() {
     if (count < 0 && errno == EINTR) return;
     if (count <= 0) {
         const int status = reap();
-        const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 0 && !_begun;
+        const bool ended = WIFEXITED(status) && WEXITSTATUS(status) == 0 && !_begun && !_filming;
         ended ? void(_done = true) : goOn("crashed", endOf(status));
         return;
     }
@@ -151,8 +151,12 @@ void SceneProcess::take(const std::string& line) {
     } else if (told.contains("settings")) {
         readField(told, "settings", row.settings);
         _begun = false;
+    } else if (told.contains("film")) {
+        _place.value = told["film"][1].get<int>();
+        _filming = true;
     } else if (told.contains("flicker")) {
         row.flicker = flickerOf(told["flicker"]);
+        endFilm();
     }
 }
 
@@ -163,14 +167,22 @@ void SceneProcess::put(const StabilityCell& cell) {
     ++_cells;
 }
 
+void SceneProcess::endFilm() {
+    _place.value = int(_scene.values.size());
+    _filming = false;
+}
+
 void SceneProcess::goOn(const std::string& failure, const std::string& message) {
     const int values = int(_scene.values.size());
-    const bool idle = !_begun && ++_idle >= mostIdle; // cannot even begin: the whole row is lost
+    const bool idle = !_begun && !_filming && ++_idle >= mostIdle; // cannot even begin: the whole row is lost
     StabilityCell cell;
     cell.failure = failure;
     cell.message = message;
     const bool wholeRow = idle || (_begun && _place.value < 0);
-    if (_begun || idle) {
+    if (_filming) {
+        _rows[_place.contender].cells[static_cast<std::size_t>(_place.value)] = cell; // it is not right in motion
+        endFilm();
+    } else if (_begun || idle) {
         const int last = wholeRow ? values - 1 : _place.value;
         for (_place.value = std::max(_place.value, 0); _place.value <= last;) put(cell);
     }

@@ -33,6 +33,7 @@ private:
     void runChild(const StabilityPlace& from, int into);
     void take(const std::string& line);
     void put(const StabilityCell& cell);
+    void endFilm();
     /// The child is gone. @param failure  "crashed" or "hung"
     void goOn(const std::string& failure, const std::string& message);
     int reap();
@@ -45,6 +46,7 @@ private:
     std::string _pending;                         ///< of a line.
     StabilityPlace _place;                        ///< where the child is.
     bool _begun = false;                          ///< and not done there
+    bool _filming = false;                        ///< after all values
     std::chrono::steady_clock::time_point _since; ///< the child was heard of last
     double _spent = 0.0;                          ///< its processor time then, s
     std::size_t _cells = 0;

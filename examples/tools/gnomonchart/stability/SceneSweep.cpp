@@ -2,9 +2,9 @@
 #include "SceneSweep.h"
 
 #include "../measure/Errors.h"
-#include "../measure/FlickerRun.h"
 #include "../measure/Pictures.h"
 #include "../measure/Sweep.h"
+#include "FlickerStrip.h"
 #include "OutputFile.h"
 #include "Overlay.h"
 #include "SceneTriangles.h"
@@ -13,10 +13,16 @@
 #include <gnomon/Convert.h>
 #include <gnomon/NamedNode.h>
 
+#include <limits>
 #include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
+
+constexpr int filmFrames = 17;     // 8 steps on, 8 of the turn: a pixel each
+constexpr double mostCrawl = 0.02; // px, of steady edges
+
+bool never() { return false; }
 
 int objectsOf(osg::Node& content, const std::string& name) {
     const std::optional<NamedNode> found = findNamed(content, name);
@@ -51,6 +57,12 @@ Settings SceneSweep::bestSettings(const Peer& peer) {
     return examples::bestSettings(peer, value(_values.size() / 2).yardstick, SweepWidth::NARROW, [] { return true; });
 }
 
+const Film& SceneSweep::film(std::size_t place) {
+    Value& made = value(place);
+    if (!made.film) made.film.emplace(made.yardstick, Film::Motion::PIXELS, filmFrames, never);
+    return *made.film;
+}
+
 StabilityCell SceneSweep::Run::cell(std::size_t place) {
     StabilityCell cell;
     try {
@@ -73,14 +85,26 @@ void SceneSweep::Run::measure(std::size_t place, StabilityCell& cell) {
     cell.diagnosis = sight.diagnosis();
     cell.notFinite = seen.notFinite;
     cell.everywhere = judge(seen.value, value.maps, sets, sets.agreeing);
-    if (_contender.receives != Receives::EVERYTHING) {
-        const int last = _contender.receives == Receives::FLAT ? value.flatObjects : value.terrainObjects;
-        cell.onReceiver = judge(seen.value, value.maps, sets, objectsUpTo(value.maps.receiver, last));
-    }
+    if (_contender.receives != Receives::EVERYTHING)
+        cell.onReceiver = judge(seen.value, value.maps, sets, objectsUpTo(value.maps.receiver, receivers(value)));
     cell.measured = true;
-    const ChartScene& scene = value.yardstick.scene();
-    _flicker.add(flickerFrame(value.maps, scene.center, scene.camera, seen.value, sets.facing));
     addPicture(place, seen.value, cell);
+}
+
+/// Ids of the receivers that it shadows are from 1 to this.
+int SceneSweep::Run::receivers(const Value& value) const {
+    if (_contender.receives == Receives::EVERYTHING) return std::numeric_limits<int>::max();
+    return _contender.receives == Receives::FLAT ? value.flatObjects : value.terrainObjects;
+}
+
+StabilityFlicker SceneSweep::Run::flicker(std::size_t place) {
+    const Value& value = _sweep.value(place);
+    Sight sight(_contender, value.yardstick.scene());
+    const metrics::FlickerMeter meter = _sweep.film(place).measure(sight, never, receivers(value));
+    StabilityFlicker flicker{_sweep._scene.values[place], meter.energy(),   meter.share(),
+                             meter.crawlBeyondRays(),     meter.rayCrawl(), ""};
+    addStrip(meter.worst(), flicker);
+    return flicker;
 }
 
 /// Those where the budget is left, and at the end.
@@ -91,6 +115,14 @@ void SceneSweep::Run::addPicture(std::size_t place, const metrics::Picture& visi
     if (_sweep._plan.folder.empty() || (!leaves && place + 1 < scene.values.size())) return;
     cell.picture = fileName({scene.id, _contender.technique, _contender.setting, std::to_string(place)}, ".png");
     OutputFile(_sweep._plan.folder + "/" + cell.picture).write(*errorOverlay(visibility, _sweep.value(place).maps));
+}
+
+/// Of films in which a pixel flickers or edges crawl.
+void SceneSweep::Run::addStrip(const metrics::FlickerChange& worst, StabilityFlicker& flicker) const {
+    const bool shows = flicker.share.value_or(0.0) > 0.0 || flicker.crawl.value_or(0.0) > mostCrawl;
+    if (_sweep._plan.folder.empty() || worst.beyond.empty() || !shows) return;
+    flicker.picture = fileName({_sweep._scene.id, _contender.technique, _contender.setting, "flicker"}, ".png");
+    OutputFile(_sweep._plan.folder + "/" + flicker.picture).write(*flickerStrip(worst));
 }
 
 } // namespace gnomon::examples

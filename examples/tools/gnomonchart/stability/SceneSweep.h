@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "../measure/Yardstick.h"
+#include "../measure/FlickerRun.h"
 #include "StabilityPlan.h"
-
-#include <gnomon/metrics/Flicker.h>
 
 #include <memory>
 
@@ -11,8 +9,11 @@ namespace gnomon::examples {
 
 /// Measures contenders in one scene over its sweep. The truth of a value is made when it is first needed, and kept.
 ///
-/// Cost    a truth: 34 rays a pixel and two small frames; a cell: a context, and two frames.
+/// Cost    a truth: 34 rays a pixel and two small frames; a cell: a context, and two frames. A film: 17 truths, made once
+///         for all contenders, and a context and 34 frames for each.
 class SceneSweep {
+    struct Value;
+
 public:
     SceneSweep(const StabilityPlan& plan, const StabilityScene& scene) : _plan(plan), _scene(scene) {
         _values.resize(scene.values.size());
@@ -24,16 +25,17 @@ public:
         Run(SceneSweep& sweep, const Contender& contender) : _sweep(sweep), _contender(contender) {}
         /// Never throws: what goes wrong is in the cell.
         StabilityCell cell(std::size_t place);
-        /// Of the values so far.
-        const metrics::FlickerMeter& flicker() const { return _flicker; }
+        /// While the camera moves. @throws what the contender throws.
+        StabilityFlicker flicker(std::size_t place);
 
     private:
         void measure(std::size_t place, StabilityCell& cell);
+        int receivers(const Value& value) const;
+        void addStrip(const metrics::FlickerChange& worst, StabilityFlicker& flicker) const;
         void addPicture(std::size_t place, const metrics::Picture& visibility, StabilityCell& cell);
 
         SceneSweep& _sweep;
         const Contender& _contender;
-        metrics::FlickerMeter _flicker;
         bool _left = false;
     };
 
@@ -48,9 +50,11 @@ private:
         Yardstick yardstick;
         metrics::TruthMaps maps;
         int flatObjects, terrainObjects; ///< ids of receivers are from 1 to this.
+        std::optional<Film> film;        ///< made when it is first needed.
     };
 
     Value& value(std::size_t place);
+    const Film& film(std::size_t place);
 
     const StabilityPlan& _plan;
     const StabilityScene& _scene;

@@ -20,13 +20,18 @@ public:
         Contender contender = entry.contender;
         if (entry.sought) contender = sought(number, *entry.sought, from, known);
         SceneSweep::Run run(_sweep, contender);
+        std::vector<StabilityCell> cells;
         for (int place = std::max(from, 0); place < int(_scene.values.size()); ++place) {
             _say(StabilityLines::begin({number, place}));
             StabilityCell cell = run.cell(std::size_t(place));
             cell.notes = _complaints.take();
             _say(StabilityLines::cell(cell));
+            cells.push_back(std::move(cell));
         }
-        if (from <= 0) _say(StabilityLines::flicker(run.flicker()));
+        const std::optional<std::size_t> filmed = filmedAt(cells);
+        if (from > 0 || !filmed) return;
+        _say(StabilityLines::film({number, int(*filmed)}));
+        _say(StabilityLines::flicker(run.flicker(*filmed)));
     }
 
 private:
@@ -50,9 +55,8 @@ private:
 json StabilityLines::begin(const StabilityPlace& place) { return {{"begin", {place.contender, place.value}}}; }
 json StabilityLines::cell(const StabilityCell& cell) { return {{"cell", jsonOf(cell)}}; }
 json StabilityLines::settings(const Settings& settings) { return {{"settings", settings}}; }
-json StabilityLines::flicker(const metrics::FlickerMeter& meter) {
-    return {{"flicker", jsonOf(StabilityFlicker{meter.energy(), meter.share(), meter.crawl()})}};
-}
+json StabilityLines::film(const StabilityPlace& place) { return {{"film", {place.contender, place.value}}}; }
+json StabilityLines::flicker(const StabilityFlicker& flicker) { return {{"flicker", jsonOf(flicker)}}; }
 
 void measureScene(const StabilityPlan& plan, const StabilityScene& scene, StabilityPlace from, const Settings& settings,
                   const Say& say) {

@@ -2,8 +2,6 @@
 #pragma once
 #include "StabilityPlan.h"
 
-#include <gnomon/metrics/Flicker.h>
-
 #include <nlohmann/json.hpp>
 
 #include <functional>
@@ -20,12 +18,14 @@ struct StabilityPlace {
 ///     {"begin": [contender, value]}     before anything is done there
 ///     {"cell": …}                       what came of it
 ///     {"settings": [["size", "4096"]]}  what came of the search for the best
-///     {"flicker": …}                    after the last value, if the child made all of them
+///     {"film": [contender, value]}      after the last value, if the child made all: before the film at this one
+///     {"flicker": …}                    what came of it
 struct StabilityLines {
     static nlohmann::json begin(const StabilityPlace& place);
     static nlohmann::json cell(const StabilityCell& cell);
     static nlohmann::json settings(const Settings& settings);
-    static nlohmann::json flicker(const metrics::FlickerMeter& meter);
+    static nlohmann::json film(const StabilityPlace& place);
+    static nlohmann::json flicker(const StabilityFlicker& flicker);
 };
 
 /// Measures one scene from a place on; runs in the child.

@@ -42,9 +42,12 @@ static void fields(Way& way, PartOf<Way, StabilityCell> cell) {
 
 template <class Way>
 static void fields(Way& way, PartOf<Way, StabilityFlicker> flicker) {
+    way.field("flickerValue", flicker.value);
     way.field("flickerEnergy", flicker.energy);
     way.field("flickerShare", flicker.share);
     way.field("crawlPixels", flicker.crawl);
+    way.field("rayCrawlPixels", flicker.rayCrawl);
+    way.field("flickerPicture", flicker.picture);
 }
 
 template <class Way>

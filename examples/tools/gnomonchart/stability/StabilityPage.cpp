@@ -48,6 +48,9 @@ ordered_json rowJson(const StabilityRow& row, PagePictures& pictures) {
             {"left", left ? ordered_json(*left) : ordered_json(nullptr)},
             {"flicker", jsonOf(row.flicker.energy)},
             {"crawl", jsonOf(row.flicker.crawl)},
+            {"rayCrawl", jsonOf(row.flicker.rayCrawl)},
+            {"filmed", jsonOf(row.flicker.value)},
+            {"strip", pictures.add(row.flicker.picture)},
             {"cells", cells}};
 }
 

@@ -13,6 +13,8 @@ namespace {
 /// What diagnose() says besides limits: nothing of the shadow is missing then.
 constexpr const char* remarks[] = {"The shadow is right", "invalid triangles are left out"};
 
+constexpr std::size_t leastShadow = 50; ///< pixels, of a shadow that is worth a film.
+
 bool isLimit(const std::string& cause) {
     return std::none_of(std::begin(remarks), std::end(remarks),
                         [&](const char* remark) { return cause.find(remark) != std::string::npos; });
@@ -28,6 +30,16 @@ bool StabilityCell::stated() const {
 bool StabilityCell::catastrophe() const {
     if (failure == "crashed" || failure == "hung" || notFinite > 0) return true;
     return failure.empty() && everywhere.lost && !stated() && !rightOnReceiver();
+}
+
+std::optional<std::size_t> filmedAt(const std::vector<StabilityCell>& cells) {
+    for (std::size_t place = cells.size(); place-- > 0;) {
+        const StabilityCell& cell = cells[place];
+        const StabilityJudgement& judged = cell.onReceiver.value_or(cell.everywhere);
+        if (cell.stated() && !cell.onReceiver) continue;
+        if (cell.measured && cell.notFinite == 0 && judged.inBudget() && judged.shadow >= leastShadow) return place;
+    }
+    return std::nullopt;
 }
 
 StabilityOutcome StabilityRow::outcome() const {

@@ -43,6 +43,10 @@ struct StabilityCell {
     bool catastrophe() const;
 };
 
+/// Where a technique's flicker is measured: at the last value at which it is right, states no limit and has a shadow of
+/// 50 pixels. If it shadows one receiver alone, it need only be right there. nullopt if there is no such value.
+std::optional<std::size_t> filmedAt(const std::vector<StabilityCell>& cells);
+
 /// What a sweep comes to.
 enum class StabilityOutcome {
     HELD,      ///< within the budget at every value.
@@ -52,9 +56,14 @@ enum class StabilityOutcome {
     CATASTROPHE ///< see StabilityCell::catastrophe().
 };
 
-/// How a sweep flickers, see metrics::FlickerMeter.
+/// How the shadow flickers while the camera goes on and turns, see metrics::FlickerMeter.
 struct StabilityFlicker {
-    std::optional<double> energy, share, crawl;
+    std::optional<double> value;    ///< of the parameter, in the film; none: no value is right and has a shadow.
+    std::optional<double> energy;   ///< mean change beyond the truth's, in visibility.
+    std::optional<double> share;    ///< of pixels that change by more than a quarter.
+    std::optional<double> crawl;    ///< of the edges, beyond that of a picture of rays, px.
+    std::optional<double> rayCrawl; ///< of a picture of one ray a pixel, px.
+    std::string picture;            ///< file of the worst two frames in turn and their change; empty: none.
 };
 
 /// One technique in one scene.
@@ -62,7 +71,7 @@ struct StabilityRow {
     std::string scene, kit, technique, setting;
     std::vector<std::pair<std::string, std::string>> settings; ///< that differ from the technique's defaults.
     std::vector<StabilityCell> cells;                          ///< a value each.
-    StabilityFlicker flicker;                                  ///< along the sweep.
+    StabilityFlicker flicker;                                  ///< at the value of filmedAt().
 
     StabilityOutcome outcome() const;
     /// The first value's place at which the budget is left; nullopt if it holds.

@@ -62,7 +62,7 @@ $(() => {
     ["IoU where left", row => atLeft(row) ? atLeft(row).all.iou : null],
     ["IoU at the end", row => last(row).failure ? null : last(row).all.iou],
     ["flicker", row => row.flicker],
-    ["edge crawl<span class=\"unit\">px</span>", row => row.crawl]
+    ["edge crawl<span class=\"unit\">px, beyond rays</span>", row => row.crawl]
   ];
   const columns = names.map(name => ({ title: name, data: name, render: plain }));
   columns.push({ title: "left at", data: row => row.left === null ? "–" : valueOf(scenes.get(row.scene), row.left),
@@ -128,6 +128,20 @@ $(() => {
       made("figcaption", `at ${valueOf(scene, place)}: missed shadow red, false shadow blue`));
   }
 
+  function stripOf(row, scene) {
+    const image = made("img");
+    image.src = data.pictures[row.strip];
+    image.alt = "flicker";
+    return made("figure", "", image, made("figcaption", `moving camera at ${row.filmed} ${scene.unit}`.trim() +
+      ": a frame, the next one, and in red what changed beyond the truth"));
+  }
+
+  function flickerText(row) {
+    if (row.filmed === null) return "";
+    return `While the camera moves: flicker ${shown(row.flicker)}, edge crawl ${shown(row.crawl)} px beyond the ` +
+      `${shown(row.rayCrawl)} px of one ray a pixel.`;
+  }
+
   function valueLines(row, scene) {
     const head = ["value", "p95 (px)", "wrong (px)", "shadow (px)", "IoU", "wrong on its receiver", "it says"];
     const lines = row.cells.map((cell, place) => [valueOf(scene, place), shown(cell.all.p95), shown(cell.all.wrong),
@@ -148,6 +162,8 @@ $(() => {
     document.getElementById("cell-curve").replaceChildren(curve(row, scene));
     const places = row.cells.map((cell, place) => place).filter(place => row.cells[place].picture !== null);
     document.getElementById("cell-pictures").replaceChildren(...places.map(place => pictureOf(row, scene, place)));
+    if (row.strip !== null) document.getElementById("cell-pictures").append(stripOf(row, scene));
+    document.getElementById("cell-flicker").textContent = flickerText(row);
     document.getElementById("cell-values").replaceChildren(...valueLines(row, scene));
     if (!dialog.open) dialog.showModal();
     dialog.scrollTop = 0;
