@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/ScreenArea.h>
 #include <gnomon/silhouette/LightFacing.h>
 #include <gnomon/silhouette/VolumeEnd.h>
 #include <gnomon/volume/LightVolumes.h>
@@ -30,17 +31,17 @@ double outlineOf(double triangles, double flat, double steep) {
 }
 
 /// Pixels from one corner of a rectangle to the other.
-double across(const ScreenRect& rect, const osg::Vec2d& pixels) {
-    return glm::length((rect.high - rect.low) / 2.0 * glm::dvec2(pixels.x(), pixels.y()));
+double across(const ScreenRect& rect, const glm::dvec2& pixels) {
+    return glm::length((rect.high - rect.low) / 2.0 * pixels);
 }
 
 /// From the middle of a box to where its volume ends, as far as that is in sight, pixels.
-double lengthOf(const VolumeHull& hull, const ScreenRect& seen, const osg::Vec2d& pixels) {
+double lengthOf(const VolumeHull& hull, const ScreenRect& seen, const glm::dvec2& pixels) {
     const glm::dvec4 from = hull[0] + hull[7], to = hull[8] + hull[15];
     const double most = across(seen, pixels);
     if (!(from.w > 0.0 && to.w > 0.0)) return most;
     const glm::dvec2 way = (glm::dvec2(to) / to.w - glm::dvec2(from) / from.w) / 2.0;
-    return std::min(most, glm::length(way * glm::dvec2(pixels.x(), pixels.y())));
+    return std::min(most, glm::length(way * pixels));
 }
 
 /// What is to be drawn of one view.
@@ -51,7 +52,7 @@ public:
           _receivers(receiversOf(view, scene)),
           _planes(endPlanes(_receivers.low, _receivers.high)),
           _clipFromScene(scene.clipFromScene(view)),
-          _pixels(view.pixels) {}
+          _pixels(view.pixels.x(), view.pixels.y()) {}
 
     /// One of whose edges nothing is known. @param low,high  bounds, in the scene.
     void add(const glm::dvec3& low, const glm::dvec3& high, double triangles) {
@@ -61,7 +62,14 @@ public:
         const double flat = longest > 0.0 ? std::min({extent.x, extent.y, extent.z}) / longest : 0.0;
         const glm::dvec3 way = awayFrom(_light, (low + high) / 2.0);
         const double steep = std::abs(way.z) / std::max(std::hypot(way.x, way.y), 1e-9 * glm::length(way));
-        addSides(hull, outlineOf(triangles, flat, steep), triangles);
+        const auto seen = boundsOf(hull);
+        if (!seen) return;
+        const double sides = outlineOf(triangles, flat, steep);
+        const auto body = screenBounds({hull.begin(), hull.begin() + 8});
+        const double edge = across(body.value_or(*seen), _pixels) * std::sqrt(3.0 / std::max(triangles, 3.0));
+        constexpr double slanted = 0.64; // of a length, seen from any side
+        all.sides += sides;
+        all.pixels += sides * lengthOf(hull, *seen, _pixels) * (slanted * edge + narrowest);
     }
 
     /// The volumes are found under AutoChooser's lock. Isolated: a thread that waits for others must not take up work that might
@@ -71,49 +79,57 @@ public:
         tbb::this_task_arena::isolate([&] { volumes->set(caster, _light, _receivers); });
         const std::optional<SeenVolumes> seen = seenVolumes({volumes}, _clipFromScene);
         if (!seen) return;
+        const glm::dmat4& clipFromMesh = seen->meshes.front().clipFromMesh;
+        const std::vector<glm::dvec4> places = placesOf(volumes->volumes(), clipFromMesh);
         for (const SeenPart& each : seen->parts) {
-            const SilhouetteMesh::Part& part = caster.mesh->parts[each.part];
-            const ShadowVolumes::Part& volume = volumes->volumes().parts[each.part];
-            const VolumeHull hull = volumeHull(glm::dvec3(part.low), glm::dvec3(part.high), volume.end,
-                                               volumes->volumes().light, seen->meshes.front().clipFromMesh);
-            addSides(hull, volume.edges, part.triangles);
+            addSides(volumes->volumes(), each.part, places);
             const unsigned backs = each.showsBack ? each.caps.light.count : 0u;
             const unsigned closing = each.holding ? 0u : each.caps.light.count + each.caps.dark.count;
-            addCaps(hull, (backs + closing) / 3u);
+            const SilhouetteMesh::Part& part = caster.mesh->parts[each.part];
+            const auto body = boxCorners(glm::dvec3(part.low), glm::dvec3(part.high), clipFromMesh);
+            addCaps({body.begin(), body.end()}, (backs + closing) / 3u);
         }
     }
 
     VolumeForecast all;
 
 private:
-    void addSides(const VolumeHull& hull, double sides, double triangles) {
-        const auto seen = boundsOf(hull);
-        if (!seen) return;
-        const auto body = bodyOf(hull);
-        const double edge = across(body.value_or(*seen), _pixels) * std::sqrt(3.0 / std::max(triangles, 3.0));
-        constexpr double slanted = 0.64; // of a length, seen from any side
-        all.sides += sides;
-        all.pixels += sides * lengthOf(hull, *seen, _pixels) * (slanted * edge + narrowest);
+    /// In clip space, of the volumes' vertices.
+    static std::vector<glm::dvec4> placesOf(const ShadowVolumes& volumes, const glm::dmat4& clipFromMesh) {
+        std::vector<glm::dvec4> places;
+        for (const glm::vec4& vertex : volumes.vertices) {
+            const glm::dvec3 at(vertex), away = awayFrom(volumes.light, at);
+            places.push_back(clipFromMesh *
+                             (vertex.w < 0.0f ? glm::dvec4(away, 0.0) : glm::dvec4(at + double(vertex.w) * away, 1.0)));
+        }
+        return places;
     }
 
-    /// They cover no more than the body's box.
-    void addCaps(const VolumeHull& hull, double triangles) {
+    /// As they lie in memory: a side is two triangles, see findShadowVolumes().
+    void addSides(const ShadowVolumes& volumes, unsigned index, const std::vector<glm::dvec4>& places) {
+        const ShadowVolumes::Part& part = volumes.parts[index];
+        for (unsigned i = part.first; i < part.first + part.count; i += 6) {
+            const unsigned* of = volumes.corners.data() + i;
+            const ScreenArea seen = screenArea({places[of[0]], places[of[1]], places[of[2]], places[of[5]]}, _pixels);
+            all.sides += 1.0;
+            all.pixels += seen.area + narrowest * seen.around / 2.0;
+        }
+    }
+
+    /// They cover no more than the box about the body. @param body  corners of that, in clip space.
+    void addCaps(const std::vector<glm::dvec4>& body, double triangles) {
         all.caps += triangles;
-        const auto body = triangles > 0.0 ? bodyOf(hull) : std::nullopt;
-        if (!body) return;
-        const glm::dvec2 size = (body->high - body->low) / 2.0;
-        all.pixels += size.x * _pixels.x() * size.y * _pixels.y();
-    }
-
-    static std::optional<ScreenRect> bodyOf(const VolumeHull& hull) {
-        return screenBounds({hull.begin(), hull.begin() + 8});
+        const auto seen = triangles > 0.0 ? screenBounds(body) : std::nullopt;
+        if (!seen) return;
+        const glm::dvec2 size = (seen->high - seen->low) / 2.0 * _pixels;
+        all.pixels += size.x * size.y;
     }
 
     const glm::dvec4 _light; ///< in the scene.
     const ReceiverBox _receivers;
     const std::vector<glm::dvec4> _planes;
     const glm::dmat4 _clipFromScene;
-    const osg::Vec2d _pixels;
+    const glm::dvec2 _pixels;
 };
 
 } // namespace
