@@ -6,12 +6,26 @@
 #include <osgUtil/PositionalStateContainer>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 
 namespace gnomon {
 namespace {
+
+/// The way by the eye is never quite the same: a light at rest should stay where it is while the camera moves. To so many binary
+/// places the floats of an osg::Light are whole, unless one is far smaller than another.
+/// @param eye  what adds to the rounding: the eye's distance.
+osg::Vec3d rounded(const osg::Vec3d& vector, double eye) {
+    constexpr int places = 40;
+    const double size = vector.length() + eye;
+    if (!(size > 0.0) || !std::isfinite(size)) return vector;
+    const double step = std::exp2(std::ilogb(size) - places);
+    if (step == 0.0) return vector;
+    return {std::round(vector.x() / step) * step, std::round(vector.y() / step) * step,
+            std::round(vector.z() / step) * step};
+}
 
 /// A light as the stage will apply it.
 struct StageLight {
@@ -20,8 +34,11 @@ struct StageLight {
     osg::Vec3d direction; ///< of a spot, in eye space.
 
     ShadowLight in(const osg::Matrixd& groupFromEye) const {
-        return {light->getLightNum(), inEye * groupFromEye, osg::Matrixd::transform3x3(direction, groupFromEye),
-                double{light->getSpotCutoff()}};
+        const osg::Vec4d position = inEye * groupFromEye;
+        const osg::Vec3d place(position.x(), position.y(), position.z());
+        const osg::Vec3d still = rounded(place, position.w() == 0.0 ? 0.0 : groupFromEye.getTrans().length());
+        return {light->getLightNum(), osg::Vec4d(still, position.w()),
+                rounded(osg::Matrixd::transform3x3(direction, groupFromEye), 0.0), double{light->getSpotCutoff()}};
     }
 };
 
