@@ -12,8 +12,7 @@
 namespace gnomon {
 namespace {
 
-constexpr unsigned keptRounds = 16;           // views of different levels of detail take turns
-constexpr std::size_t mostTriangles = 150000; // that are open: to find their edges takes 20 ms
+constexpr unsigned keptRounds = 16; // views of different levels of detail take turns
 
 /// Two numbers that stand for a place. -0 is 0.
 struct PlaceKeys {
@@ -67,7 +66,7 @@ DrawnCasters::Drawable drawableOf(const Share& share, const glm::vec3* positions
 
 /// @param places  three a triangle.
 std::shared_ptr<const SilhouetteMesh> edgesOf(const std::vector<glm::vec3>& places) {
-    if (places.empty() || places.size() > 3 * mostTriangles) return nullptr;
+    if (places.empty() || places.size() > 3 * OpenCasters::mostTriangles) return nullptr;
     std::vector<unsigned> corners(places.size());
     std::iota(corners.begin(), corners.end(), 0u);
     return std::make_shared<const SilhouetteMesh>(places.data(), places.size(), corners.data(), corners.size());
@@ -92,15 +91,23 @@ DrawnCasters find(const CasterMesh& mesh) {
 
 } // namespace
 
-void OpenCasters::startRound() {
-    ++_round;
-    for (auto entry = _entries.begin(); entry != _entries.end();)
-        entry = _round - entry->second.used > keptRounds ? _entries.erase(entry) : std::next(entry);
+std::size_t DrawnCasters::openTriangles() const {
+    std::size_t sum = 0;
+    for (const Drawable& each : open) sum += each.triangles;
+    return sum;
 }
 
-const DrawnCasters& OpenCasters::of(const CasterMesh& mesh) {
+void OpenCasters::startRound() {
+    ++_round;
+    for (auto entry = _entries.begin(); entry != _entries.end();) {
+        const bool isOld = _round - entry->second.used > keptRounds || !entry->second.mesh.valid();
+        entry = isOld ? _entries.erase(entry) : std::next(entry);
+    }
+}
+
+DrawnCasters& OpenCasters::of(const CasterMesh& mesh) {
     Entry& entry = _entries[&mesh];
-    if (!entry.mesh) entry = {&mesh, find(mesh), 0};
+    if (!entry.mesh.valid()) entry = {&mesh, find(mesh), 0};
     entry.used = _round;
     return entry.drawn;
 }

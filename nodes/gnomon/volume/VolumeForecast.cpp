@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -68,8 +69,8 @@ public:
         const auto body = screenBounds({hull.begin(), hull.begin() + 8});
         const double edge = across(body.value_or(*seen), _pixels) * std::sqrt(3.0 / std::max(triangles, 3.0));
         constexpr double slanted = 0.64; // of a length, seen from any side
-        all.sides += sides;
-        all.pixels += sides * lengthOf(hull, *seen, _pixels) * (slanted * edge + narrowest);
+        _all.sides += sides;
+        _all.pixels += sides * lengthOf(hull, *seen, _pixels) * (slanted * edge + narrowest);
     }
 
     /// The volumes are found under AutoChooser's lock. Isolated: a thread that waits for others must not take up work that might
@@ -91,7 +92,8 @@ public:
         }
     }
 
-    VolumeForecast all;
+    /// What was added since the last time.
+    VolumeForecast take() { return std::exchange(_all, {}); }
 
 private:
     /// In clip space, of the volumes' vertices.
@@ -111,18 +113,18 @@ private:
         for (unsigned i = part.first; i < part.first + part.count; i += 6) {
             const unsigned* of = volumes.corners.data() + i;
             const ScreenArea seen = screenArea({places[of[0]], places[of[1]], places[of[2]], places[of[5]]}, _pixels);
-            all.sides += 1.0;
-            all.pixels += seen.area + narrowest * seen.around / 2.0;
+            _all.sides += 1.0;
+            _all.pixels += seen.area + narrowest * seen.around / 2.0;
         }
     }
 
     /// They cover no more than the box about the body. @param body  corners of that, in clip space.
     void addCaps(const std::vector<glm::dvec4>& body, double triangles) {
-        all.caps += triangles;
+        _all.caps += triangles;
         const auto seen = triangles > 0.0 ? screenBounds(body) : std::nullopt;
         if (!seen) return;
         const glm::dvec2 size = (seen->high - seen->low) / 2.0 * _pixels;
-        all.pixels += size.x * size.y;
+        _all.pixels += size.x * size.y;
     }
 
     const glm::dvec4 _light; ///< in the scene.
@@ -130,9 +132,27 @@ private:
     const std::vector<glm::dvec4> _planes;
     const glm::dmat4 _clipFromScene;
     const glm::dvec2 _pixels;
+    VolumeForecast _all;
 };
 
+CountedVolumes beside(const VolumeForecast& counted, const VolumeForecast& estimated, double triangles) {
+    return {counted.sides / estimated.sides, counted.pixels / std::max(estimated.pixels, 1.0),
+            counted.caps / triangles};
+}
+
+VolumeForecast corrected(const VolumeForecast& estimated, const CountedVolumes& by, double triangles) {
+    return {by.sides * estimated.sides, by.caps * triangles, by.pixels * estimated.pixels, true};
+}
+
 } // namespace
+
+VolumeForecast& VolumeForecast::operator+=(const VolumeForecast& more) {
+    sides += more.sides;
+    caps += more.caps;
+    pixels += more.pixels;
+    counted = counted && more.counted;
+    return *this;
+}
 
 VolumeForecast VolumeForecast::operator-(const VolumeForecast& some) const {
     return {std::max(sides - some.sides, 0.0), std::max(caps - some.caps, 0.0), std::max(pixels - some.pixels, 0.0),
@@ -143,24 +163,33 @@ VolumeForecast forecastVolumes(const ViewFrame& view, const CasterLayers& caster
                                OpenCasters& known, bool counts) {
     const SceneFrame scene(casters.origin);
     Forecaster forecaster(view, scene, light - light.w * glm::dvec4(scene.origin, 0.0));
+    std::size_t left = counts ? OpenCasters::mostTriangles : 0;
+    VolumeForecast all;
     known.startRound();
     for (const PlacedMesh& placed : casters.meshes()) {
-        const auto addAll = [&](const std::vector<DrawnCasters::Drawable>& drawables) {
+        const auto estimated = [&](const std::vector<DrawnCasters::Drawable>& drawables) {
             for (const DrawnCasters::Drawable& each : drawables) {
                 const glm::dvec3 low = placed.isBody ? scene.point(placed.bounds._min) : glm::dvec3(each.low);
                 const glm::dvec3 high = placed.isBody ? scene.point(placed.bounds._max) : glm::dvec3(each.high);
                 forecaster.add(low, high, double(each.triangles));
             }
+            return forecaster.take();
         };
-        const DrawnCasters& drawn = known.of(*placed.mesh);
-        addAll(drawn.closed);
+        DrawnCasters& drawn = known.of(*placed.mesh);
+        all += estimated(drawn.closed);
         if (drawn.open.empty()) continue;
-        if (counts && drawn.openEdges)
+        const VolumeForecast open = estimated(drawn.open);
+        const std::size_t triangles = drawn.openTriangles();
+        if (!drawn.counted && drawn.openEdges && triangles <= left && open.sides > 0.0) {
+            left -= triangles;
             forecaster.count({drawn.openEdges, placed.sceneFromMesh});
-        else
-            addAll(drawn.open), forecaster.all.counted = false;
+            drawn.counted = beside(forecaster.take(), open, double(triangles));
+            drawn.openEdges.reset();
+        }
+        all += drawn.counted ? corrected(open, *drawn.counted, double(triangles)) : open;
+        all.counted = all.counted && drawn.counted;
     }
-    return forecaster.all;
+    return all;
 }
 
 } // namespace gnomon

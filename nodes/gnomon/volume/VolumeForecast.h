@@ -16,6 +16,7 @@ struct VolumeForecast {
     double pixels = 0.0;
     bool counted = true; ///< the edges of all open casters were looked at.
 
+    VolumeForecast& operator+=(const VolumeForecast& more);
     /// Without those of some casters.
     VolumeForecast operator-(const VolumeForecast& some) const;
 };
@@ -25,14 +26,15 @@ struct VolumeForecast {
 /// A mesh of n triangles has some n^0.8 edges on its outline, and flat ones fewer (M. McGuire, "Observations on Silhouette
 /// Sizes", Journal of Graphics Tools, 2004). So an estimate may be off by a factor of 2 and more.
 ///
-/// An open caster has all its free edges on its outline, be it as small as a leaf. So its volumes are found as they are drawn.
-/// Where a mesh has more than 150,000 open triangles, they are taken for closed.
+/// An open caster has all its free edges on its outline, be it as small as a leaf. So its volumes are found once, as they are
+/// drawn. Later answers take the estimate times what that had made of it. A mesh of more than 150,000 open triangles, and one for
+/// which none of these are left in the first answer, are taken for closed.
 ///
 /// @param light  group frame; w is 0 and the direction has length 1, or w is 1.
 /// @param known  the open casters of earlier answers.
-/// @param counts  false: open casters are taken for closed.
+/// @param counts  false: no volumes are found that were not found before.
 ///
-/// Cost  a look at each drawable's bounds; volumes of those that are open.
+/// Cost  a look at each drawable's bounds; once a mesh, volumes of what is open.
 VolumeForecast forecastVolumes(const ViewFrame& view, const CasterLayers& casters, const glm::dvec4& light,
                                OpenCasters& known, bool counts = true);
 
