@@ -22,6 +22,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace fs = std::filesystem;
@@ -359,6 +360,23 @@ TEST_F(AutoCosts, OfARivalWhoseTrialIsBrokenOffAreFoundLater) {
         found = found || kind() == rival;
     }
     EXPECT_TRUE(found) << rival << " is never drawn again";
+}
+
+// Something may change every few frames for good.
+TEST_F(AutoCosts, OfARivalWhoseTrialsAreAllBrokenOffAreGivenUp) {
+    draw();
+    RendererCosts::forget();
+    Rivals rivals;
+    Camera camera(rivals.scene.root, viewOfRivals());
+    std::map<std::string, int> trials;
+    for (int i = 0; i < 200; ++i) {
+        camera.frame();
+        if (!rivals.isOnTrial()) continue;
+        ++trials[rivals.drawn().substr(0, rivals.drawn().find(':'))];
+        rivals.technique->setError(0.9 + 1e-4 * i); // another budget ends it in the next frame
+    }
+    EXPECT_FALSE(trials.empty());
+    for (const auto& [kind, times] : trials) EXPECT_LE(times, 3) << kind;
 }
 
 TEST_F(AutoCosts, FollowFramesThatTakeLongerThanPredicted) {

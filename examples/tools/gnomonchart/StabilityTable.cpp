@@ -95,6 +95,7 @@ bool searchRandom(const ChartOptions& options, const std::function<bool()>& stop
     search.contenders.erase(std::remove_if(search.contenders.begin(), search.contenders.end(), isRough),
                             search.contenders.end());
     search.workers = std::max(1u, std::thread::hardware_concurrency());
+    search.batch = std::max(search.batch, 50 * search.workers); // two processes for each
     const std::size_t cells = std::size_t(search.count) * search.contenders.size();
     std::size_t faults = 0;
     const auto print = [&faults](const RandomFault& fault) {

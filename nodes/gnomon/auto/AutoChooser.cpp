@@ -27,6 +27,7 @@ constexpr double decisionTime = 0.05;  // ms a frame that decisions may take on 
 constexpr double rarely = 0.02;
 constexpr double doubt = 3.0;       // predicted times may be off by this factor, see VolumeForecast
 constexpr unsigned trialFrames = 7; // until a candidate's time is known: see isMeasured(); draw may be a frame behind
+constexpr unsigned mostTrials = 3;  // of a kind in a view: what breaks trials off again and again does so for good
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string rounded(double number) {
@@ -153,7 +154,6 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     const auto start = std::chrono::steady_clock::now();
     const ChoiceBudget budget = budgetOf(options);
     const bool tried = choice.incumbent.has_value();
-    if (tried && choice.frames < trialFrames) choice.tried[std::size_t(choice.candidate.kind)] = false; // broken off
     if (tried) choice.candidate = *choice.incumbent;
     choice.incumbent.reset();
     choice.learnt = _costs->generation();
@@ -189,18 +189,18 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     choice.patience = std::max(leastPatience, unsigned(std::min(took.count() / decisionTime, mostPatience)));
 }
 
-/// Candidates that would be drawn if they took less than is thought. Each kind is tried once. What made the prediction too
+/// Candidates that would be drawn if they took less than is thought. A kind is tried until its time is known. What made the prediction too
 /// high for the one that is drawn may be a part that all share.
 void AutoChooser::findRivals(Choice& choice, const std::vector<AutoCandidate>& all,
                              const std::vector<ChoiceCandidate>& judged, const ChoiceBudget& budget,
                              std::size_t chosen) const {
     choice.rivals.clear();
     if (!_costs->areMeasured()) return;
-    choice.tried[std::size_t(all[chosen].kind)] = true; // it is measured as long as it is drawn
     const double shared = std::min(1.0, _costs->now().factors[std::size_t(all[chosen].kind)].still);
     const bool flies = choice.moving.view > 0.0; // then maps cannot be measured
     for (std::size_t kind = 0; kind < AutoCosts::kinds; ++kind) {
-        if (choice.tried[kind]) continue;
+        const bool isDrawn = kind == std::size_t(all[chosen].kind); // and measured as long as it is
+        if (isDrawn || choice.trials[kind] >= mostTrials || _costs->isKnown(AutoCandidate::Kind(kind))) continue;
         std::vector<ChoiceCandidate> hopeful = judged;
         for (std::size_t i = 0; i < all.size(); ++i)
             if (std::size_t(all[i].kind) == kind) hopeful[i].time *= shared / doubt;
@@ -216,15 +216,15 @@ bool AutoChooser::isTrialDue(const Choice& choice) const {
 }
 
 /// What was right when the candidates were compared may be wrong by now.
-/// @return false if no rival is left.
+/// @return false if no rival is left that can be measured now.
 bool AutoChooser::tryRival(Choice& choice, const AutoView& view, const Selection& receiver) {
     std::vector<AutoCandidate>& rivals = choice.rivals;
     while (!rivals.empty() && !whyWrong(rivals.back(), view, receiver, _known).empty()) rivals.pop_back();
-    if (rivals.empty()) return false;
+    if (rivals.empty() || (rivals.back().hasMap() && choice.motion.view > 0.0)) return false; // see isMeasured()
     if (!choice.incumbent) choice.incumbent = choice.candidate;
     choice.candidate = rivals.back();
     rivals.pop_back();
-    choice.tried[std::size_t(choice.candidate.kind)] = true;
+    ++choice.trials[std::size_t(choice.candidate.kind)];
     choice.taken = std::make_shared<std::atomic<double>>(0.0);
     choice.frames = 0;
     return true;

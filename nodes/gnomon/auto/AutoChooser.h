@@ -86,12 +86,12 @@ private:
         unsigned since = 0;    ///< frames since things began to move after a rest.
         AutoMotion moving;     ///< of the recent frames.
         std::string cause;     ///< see Drawn.
-        std::vector<AutoCandidate> rivals;          ///< to be drawn for some frames, so that their times are known.
-        std::optional<AutoCandidate> incumbent;     ///< while a rival is drawn, what was drawn before.
-        std::array<bool, AutoCosts::kinds> tried{}; ///< kinds whose times are known, as far as they can be.
-        AutoMotion movingThen;                      ///< when the candidates were compared.
-        unsigned learnt = 0;                        ///< FrameCosts::generation() then.
-        AutoMotion motion;                          ///< of this frame.
+        std::vector<AutoCandidate> rivals;      ///< to be drawn for some frames, so that their times are known.
+        std::optional<AutoCandidate> incumbent; ///< while a rival is drawn, what was drawn before.
+        std::array<unsigned, AutoCosts::kinds> trials{}; ///< how often each kind was drawn as a rival.
+        AutoMotion movingThen;                           ///< when the candidates were compared.
+        unsigned learnt = 0;                             ///< FrameCosts::generation() then.
+        AutoMotion motion;                               ///< of this frame.
         bool alone = false;         ///< nothing else counts in a frame's time, so that it can be measured.
         double prepared = 0.0;      ///< milliseconds, of a frame that is measured.
         FlatLeaves flat;            ///< that relighting draws alone,

@@ -22,6 +22,11 @@ AutoCosts FrameCosts::now() {
     return result;
 }
 
+bool FrameCosts::isKnown(AutoCandidate::Kind kind) {
+    Lock lock(_mutex);
+    return _still[std::size_t(kind)].isKnown() || _moving[std::size_t(kind)].isKnown();
+}
+
 void FrameCosts::learn(osg::RenderInfo& renderInfo) {
     if (_knowRenderer) return;
     const CostRates rates = RendererCosts::of(renderInfo);

@@ -29,6 +29,8 @@ public:
     AutoCosts now();
     /// Rises whenever now() changes.
     unsigned generation() const { return _generation; }
+    /// True if enough frames of a kind were measured to tell what it takes.
+    bool isKnown(AutoCandidate::Kind kind);
     /// False before the renderer's costs are known.
     bool knowRenderer() const { return _knowRenderer; }
 
