@@ -157,6 +157,31 @@ TEST(Auto, DrawsWhatRaysFindWhateverItChooses) {
     }
 }
 
+// The edges of a level plate's shadow go along the sides of the picture, or at 30 degrees to these. One ray a pixel, as planar has
+// it, is off by nearly half a pixel along the sides, wherever it begins.
+TEST(Auto, KeepsAnErrorWhereEdgesGoAlongRowsOfPixels) {
+    constexpr double error = 0.4, pixel = 0.05, off = 0.47 * pixel;
+    const test::Mesh plate = test::quad({-1.0 + off, -1.0 + off, 3.0}, {2.0, 0.0, 0.0}, {0.0, 2.0, 0.0});
+    for (const double degrees : {0.0, 30.0}) {
+        test::View from = test::fromAbove(100.0 * pixel, 200);
+        from.view.postMultRotate(osg::Quat(osg::DegreesToRadians(degrees), osg::Z_AXIS));
+        Scene lit = test::groundScene({plate}, 8.0, sun), dark = test::groundScene({plate}, 8.0, sun);
+        dark.takeLightAway();
+        const Picture litPicture = test::render(lit.root, from), darkPicture = test::render(dark.root, from);
+        const gnomon::TruthImage truth = test::truthOf({plate, test::square(8.0)}, sun, from);
+        const auto offBy = [&](const Picture& picture) {
+            return test::edgesOff(picture, litPicture, darkPicture, truth).p95;
+        };
+        Trial trial({plate}, {error, 0.0});
+        EXPECT_LE(offBy(test::render(trial.scene.root, from)), error) << degrees;
+        EXPECT_TRUE(trial.decision().keepsBudget) << degrees;
+        EXPECT_EQ(trial.chosen() == "planar", degrees > 0.0) << trial.chosen();
+        Scene planar = test::groundScene({plate}, 8.0, sun);
+        planar.addShadow("planar");
+        EXPECT_EQ(offBy(test::render(planar.root, from)) <= error, degrees > 0.0) << degrees;
+    }
+}
+
 TEST(Auto, AsksForNoMoreThanTheErrorNeeds) {
     Trial coarse({cube, below}, {4.0, 0.0}), fine({cube, below}, {0.2, 0.0});
     test::render(coarse.scene.root, view());

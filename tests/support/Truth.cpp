@@ -107,9 +107,10 @@ gnomon::metrics::BoundaryDistance edgesOff(const Picture& actual, const Picture&
     gnomon::metrics::Mask within(truth.width, truth.height);
     for (int y = 0; y < truth.height; ++y)
         for (int x = 0; x < truth.width; ++x) {
-            drawn.at(x, y) = actual.at(x, y) == dark.at(x, y) ? 0.0 : 1.0;
+            const double most = red(lit.at(x, y)), least = red(dark.at(x, y));
+            within.at(x, y) = counts(truth, x, y) && most > least;
+            drawn.at(x, y) = most > least ? (red(actual.at(x, y)) - least) / (most - least) : 1.0;
             arrives.at(x, y) = truth.at(x, y).lit;
-            within.at(x, y) = counts(truth, x, y) && lit.at(x, y) != dark.at(x, y);
         }
     return gnomon::metrics::boundaryDistance(drawn, arrives, within).value();
 }

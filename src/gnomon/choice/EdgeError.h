@@ -14,6 +14,10 @@ struct EdgeFilter {
 /// One ray or one fragment a pixel decides: 95 % of such edges are within so many pixels of the true one.
 constexpr double sampledEdge = 0.40;
 
+/// The same of edges that rise by so much of a pixel from one pixel to the next, 0 to 1: along a row of pixels or a column an edge
+/// is off by half a pixel at most, whatever its place; others are off by less, as pixels decide in turn to either side.
+double sampledEdgeOf(double rise);
+
 /// The same as EdgeFilter::gaps.
 constexpr double sampledGaps = 3.0;
 

@@ -2,6 +2,7 @@
 #include <gnomon/geometry/Across.h>
 #include <gnomon/mapfit/EdgeWidths.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
@@ -30,6 +31,12 @@ glm::dmat2 slopeOf(const glm::dmat4& matrix, const glm::dvec4& at, const glm::dv
 /// The longer side of a pixel, squared, in the map.
 double longest(const glm::dmat2& mapFromPicture) {
     return std::max(glm::dot(mapFromPicture[0], mapFromPicture[0]), glm::dot(mapFromPicture[1], mapFromPicture[1]));
+}
+
+/// Of a way in pixels.
+double riseOf(const glm::dvec2& way) {
+    const glm::dvec2 along = glm::abs(way);
+    return std::min(along.x, along.y) / std::max(along.x, along.y);
 }
 
 } // namespace
@@ -62,7 +69,7 @@ void EdgeWidths::add(const SeenPlace& place, const glm::dmat4& mapFromScene) {
     const auto add = [&](const glm::dvec2& way, double length) {
         const double width = area * glm::length(mapFromPicture * way) / glm::length(way);
         if (length * place.share > 0.0 && width > 0.0 && std::isfinite(width))
-            addEdge({width, length * place.share, place.across, place.apart, place.folded, slanted});
+            addEdge({width, length * place.share, place.across, place.apart, riseOf(way), place.folded, slanted});
     };
     if (place.edge != glm::dvec2(0.0)) return add(place.edge * _pixels, 1.0);
     for (int i = 0; i < directions; ++i) {
@@ -77,7 +84,8 @@ void EdgeWidths::addEdge(const Edge& edge) {
     const auto step = [](double of) {
         return of > 0.0 && std::isfinite(of) ? int(std::floor(kinds * std::log2(of))) : INT_MAX;
     };
-    Edge& all = _edges[{step(edge.width), step(edge.across), step(edge.apart), edge.folded, edge.slanted}];
+    const int rise = int(std::floor(kinds * edge.rise));
+    Edge& all = _edges[{step(edge.width), step(edge.across), step(edge.apart), rise, edge.folded, edge.slanted}];
     const double before = all.length / (all.length + edge.length);
     const double width = before * all.width + (1.0 - before) * edge.width;
     const double length = all.length + edge.length;

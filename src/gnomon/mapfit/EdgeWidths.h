@@ -26,6 +26,7 @@ public:
         double length = 0.0;  ///< in the picture.
         double across = 0.0;  ///< see SeenPlace.
         double apart = 0.0;   ///< see SeenPlace.
+        double rise = 0.0;    ///< from one pixel to the next, along a row or a column, 0 to 1.
         bool folded = false;  ///< see SeenPlace.
         bool slanted = false; ///< Pixels are so long on the surface that map.frag takes them for shorter.
     };
@@ -42,7 +43,7 @@ private:
 
     glm::dmat4 _clipFromScene, _sceneFromClip;
     glm::dvec2 _pixels;
-    std::map<std::array<int, 5>, Edge> _edges; ///< by what they are like.
+    std::map<std::array<int, 6>, Edge> _edges; ///< by what they are like.
 };
 
 } // namespace gnomon

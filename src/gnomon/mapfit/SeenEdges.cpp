@@ -324,12 +324,13 @@ std::vector<SeenPlace> SeenEdges::edges() const {
     return result;
 }
 
-/// By the change of darkness from a cell to those about it on the same side.
+/// By the change of darkness from a cell to those about it on the same side, far enough to tell most slanted edges from level ones.
 glm::dvec2 SeenEdges::wayAt(int column, int row) const {
+    constexpr int far = 2;
     const Cell& here = at(column, row);
     glm::dvec2 change(0.0);
-    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows - 1); ++y)
-        for (int x = std::max(column - 1, 0); x <= std::min(column + 1, columns - 1); ++x) {
+    for (int y = std::max(row - far, 0); y <= std::min(row + far, rows - 1); ++y)
+        for (int x = std::max(column - far, 0); x <= std::min(column + far, columns - 1); ++x) {
             const Cell& other = at(x, y);
             if (!isEdge(here, other)) continue;
             change += glm::dvec2(x - column, y - row) * (other.dark ? 1.0 : -1.0);
