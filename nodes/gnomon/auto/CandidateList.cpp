@@ -78,7 +78,7 @@ double mapEdge(const EdgeWidths::Edge& edge, const MapQuality& quality, int texe
     EdgeFilter filter = quality.edge;
     const bool smooth = quality.edges == Map::SMOOTH, mean = smooth && quality.filter != Map::BILINEAR;
     const double sampled = sampledEdgeOf(edge);
-    if (!smooth) filter.pixel *= sampled / sampledEdge;
+    if (!mean) filter.pixel *= sampled / sampledEdge;
     if (smooth && (edge.slanted || edge.folded)) filter.pixel = std::max(filter.pixel, sampled);
     if (edge.across <= halfCovered)
         filter.pixel = mean ? filter.pixel : missedEdgeError(edge.apart);
