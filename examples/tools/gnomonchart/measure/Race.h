@@ -31,7 +31,7 @@ struct RaceResults {
 /// Moving        the light goes a degree a frame.
 /// Memory        growth of the process's resident set by the contender's context, viewer and first frames, beyond the
 ///               plain viewer's: on OSMesa that holds the textures, too.
-/// Learning      a contender that learns draws 64 frames of either motion before. They count for nothing but its memory.
+/// Learning      a contender that learns draws 128 frames of either motion before. They count for nothing but its memory.
 /// Draws         calls that draw, and triangles handed to OpenGL, in one steady frame. Passes  cameras that draw in it.
 ///
 /// @param frames    of each of the two motions, after five to warm up.
