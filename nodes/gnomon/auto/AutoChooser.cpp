@@ -189,8 +189,8 @@ void AutoChooser::decide(Choice& choice, const Seen& now, const AutoView& view, 
     choice.patience = std::max(leastPatience, unsigned(std::min(took.count() / decisionTime, mostPatience)));
 }
 
-/// Candidates that would be drawn if they took less than is thought. A kind is tried until its time is known. What made the prediction too
-/// high for the one that is drawn may be a part that all share.
+/// Candidates that would be drawn if they took less than is thought. A kind is tried until its time is known. What made the
+/// prediction too high for the one that is drawn may be a part that all share.
 void AutoChooser::findRivals(Choice& choice, const std::vector<AutoCandidate>& all,
                              const std::vector<ChoiceCandidate>& judged, const ChoiceBudget& budget,
                              std::size_t chosen) const {
