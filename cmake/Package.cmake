@@ -61,7 +61,7 @@ gnomon_package(tools gnomon-tools graphics "programs"
 without a display, put shadows into other programs, and measure speed and
 accuracy.")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libgnomon1 ${same_version}")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libgnomon1 ${same_version}, python3-matplotlib, python3-jinja2")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "openscenegraph")
 
 gnomon_package(doc gnomon-doc doc "documentation"

@@ -85,7 +85,8 @@ TEST(RandomScenes, TellTheirFaultsBeforeTheSearchEnds) {
     search.batch = 4;
     std::size_t faults = 0;
     const auto count = [&faults](const RandomFault&) { ++faults; };
-    const unsigned done = searchRandomScenes(search, [&](std::size_t, const std::string&) { return faults == 0; }, count);
+    const unsigned done = searchRandomScenes(
+        search, [&](std::size_t, const std::string&) { return faults == 0; }, count);
     EXPECT_GT(faults, 0u);
     EXPECT_GE(done, search.batch);
     EXPECT_LT(done, search.count);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// results.json there and back, and as a second reader (Python's own json and csv) understands both files.
-#include "ResultsFile.h"
+// results.json there and back.
 #include "../io/Program.h"
-#include "PointNumbers.h"
+#include "ChartResults.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace {
 
@@ -95,70 +94,12 @@ ChartResults fullResults() {
     return results;
 }
 
-auto tied(const AddedTime& t) { return std::tie(t.q1, t.median, t.q3); }
-auto tied(const ChartCost& c) { return std::tie(c.first, c.memory, c.draws, c.passes, c.triangles); }
-auto tied(const Confusion& c) { return std::tie(c.shadow, c.falseShadow, c.falseLit, c.lit); }
-auto tied(const BoundaryDistance& b) {
-    return std::tie(b.mean, b.p95, b.max, b.signedMean, b.drawnLength, b.trueLength);
-}
-auto tied(const CauseSplit& c) {
-    return std::tie(c.acne, c.halo, c.peterPanning, c.leak, c.erosion, c.overDark, c.overBright, c.acneShare,
-                    c.peterPanningShare, c.gap);
-}
-auto tied(const IntensityError& e) { return std::tie(e.all, e.penumbra); }
-auto tied(const ShadowMetrics& m) {
-    return std::tie(m.agreeing, m.facing, m.certain, m.unmeasured, m.droppedShare, m.sound, m.catastrophes.notFinite,
-                    m.catastrophes.allShadowed, m.catastrophes.allLit, m.catastrophes.lostShadow);
-}
-auto tied(const ChartPrediction& p) {
-    return std::tie(p.spec, p.error, p.steady.spec, p.steady.time, p.moving.spec, p.moving.time);
-}
-auto tied(const ChartPoint& p) {
-    return std::tie(p.scene, p.kit, p.technique, p.setting, p.settings, p.shadedRmse, p.flickerEnergy, p.flickerShare,
-                    p.crawl, p.picture, p.overlay, p.notes, p.failure);
-}
-auto tied(const ChartSceneResult& s) {
-    return std::tie(s.name, s.title, s.triangles, s.misclassifiedFloor, s.boundaryFloor, s.frame, s.truthPicture,
-                    s.view);
-}
-
-void expectSame(const ChartCost& a, const ChartCost& b) {
-    EXPECT_EQ(tied(a), tied(b));
-    EXPECT_EQ(tied(a.steadyWall), tied(b.steadyWall));
-    EXPECT_EQ(tied(a.steadyProcessor), tied(b.steadyProcessor));
-    EXPECT_EQ(tied(a.movingWall), tied(b.movingWall));
-    EXPECT_EQ(tied(a.movingProcessor), tied(b.movingProcessor));
-}
-
-void expectSame(const ShadowMetrics& a, const ShadowMetrics& b) {
-    EXPECT_EQ(tied(a), tied(b));
-    EXPECT_EQ(tied(a.headline), tied(b.headline));
-    EXPECT_EQ(tied(a.raw), tied(b.raw));
-    EXPECT_EQ(tied(a.terminator), tied(b.terminator));
-    EXPECT_EQ(tied(a.selfShadowed), tied(b.selfShadowed));
-    EXPECT_EQ(tied(a.boundary.value()), tied(b.boundary.value()));
-    EXPECT_EQ(tied(a.causes), tied(b.causes));
-    EXPECT_EQ(tied(a.pointSun), tied(b.pointSun));
-    EXPECT_EQ(tied(a.discSun), tied(b.discSun));
-    EXPECT_EQ(tied(a.thin), tied(b.thin));
-}
-
 class ResultsFile : public ::testing::Test {
 protected:
     std::string file() const { return (folder.path() / "results.json").string(); }
-    ChartResults thereAndBack(const ChartResults& results) {
+    std::string saved(const ChartResults& results) {
         saveResults(results, folder.path().string());
-        return loadResults(file());
-    }
-    /// What Python prints, as JSON.
-    json python(const std::string& script) {
-        const Ending ending = runProgram(PYTHON3, {"-c", "import csv, json\n" + script}, folder.path());
-        EXPECT_EQ(ending.status, 0) << ending.err;
-        return json::parse(ending.out, nullptr, false);
-    }
-    /// results.csv as Python reads it: a list of objects.
-    json rows() {
-        return python("print(json.dumps(list(csv.DictReader(open('results.csv', encoding='utf-8', newline='')))))");
+        return readFile(file());
     }
     std::string refusalOf(const std::string& bytes) {
         folder.write("results.json", bytes);
@@ -173,74 +114,33 @@ protected:
     TemporaryFolder folder;
 };
 
-TEST_F(ResultsFile, EveryFieldComesBackToTheBit) {
-    const ChartResults results = fullResults(), back = thereAndBack(results);
-    EXPECT_EQ(back.made, results.made);
-    EXPECT_TRUE(back.complete);
-    ASSERT_EQ(back.scenes.size(), 1u);
-    EXPECT_EQ(tied(back.scenes[0]), tied(results.scenes[0]));
-    ASSERT_EQ(back.points.size(), 2u);
-    EXPECT_EQ(tied(back.points[0]), tied(results.points[0]));
-    expectSame(back.points[0].cost.value(), results.points[0].cost.value());
-    expectSame(back.points[0].errors.value(), results.points[0].errors.value());
-    EXPECT_EQ(tied(back.points[0].prediction.value()), tied(results.points[0].prediction.value()));
-    EXPECT_EQ(tied(back.points[1]), tied(results.points[1]));
-    EXPECT_FALSE(back.points[1].prediction);
-}
-
-TEST_F(ResultsFile, WhatDoesNotExistComesBackAsNothing) {
-    ChartResults results;
-    results.scenes = {ChartSceneResult()};
-    results.points = {ChartPoint(), ChartPoint()};
-    results.points[1].errors.emplace();
-    const ChartResults back = thereAndBack(results);
-    EXPECT_FALSE(back.complete);
-    EXPECT_FALSE(back.scenes.at(0).boundaryFloor);
-    EXPECT_FALSE(back.points.at(0).cost || back.points.at(0).errors || back.points.at(0).shadedRmse);
-    EXPECT_FALSE(back.points.at(1).errors.value().boundary || back.points.at(1).errors.value().causes.gap);
-    EXPECT_EQ(python("print(json.dumps(json.load(open('results.json'))['points'][0]['errors']))"), nullptr);
-}
-
-TEST_F(ResultsFile, NumbersThatAreNoneComeBack) {
+/// With EveryNumberStandsUnderItsOwnName: what is written is read.
+TEST_F(ResultsFile, IsTheSameToTheBitWhenItIsReadAndWrittenAgain) {
     ChartResults results = fullResults();
-    results.points[0].cost->first = nan;
-    results.points[0].cost->steadyWall = {-infinity, 0.0, infinity};
-    results.points[0].shadedRmse = nan;
-    results.points[0].errors->boundary->max = infinity;
-    const ChartPoint back = thereAndBack(results).points.at(0);
-    EXPECT_TRUE(std::isnan(back.cost->first));
-    EXPECT_EQ(back.cost->steadyWall.q1, -infinity);
-    EXPECT_EQ(back.cost->steadyWall.q3, infinity);
-    EXPECT_TRUE(std::isnan(back.shadedRmse.value()));
-    EXPECT_EQ(back.errors->boundary->max, infinity);
-    const json row = rows().at(0);
-    EXPECT_EQ(row["added_first_ms"], "NaN");
-    EXPECT_EQ(row["added_steady_wall_q1_ms"], "-Infinity");
-    EXPECT_EQ(row["added_steady_wall_ms"], "0");
-    EXPECT_EQ(row["boundary_max_px"], "Infinity");
+    results.points.push_back(fullPoint());
+    results.points[2].cost->first = nan;
+    results.points[2].cost->steadyWall = {-infinity, 0.0, infinity};
+    results.points[2].errors->boundary.reset();
+    const std::string text = saved(results);
+    const ChartResults back = loadResults(file());
+    EXPECT_EQ(saved(back), text);
+    EXPECT_EQ(back.points[0].technique, "map \"soft\", 'wide'");
+    EXPECT_EQ(back.points[0].notes[1], "影");
+    EXPECT_EQ(back.points[0].cost->steadyWall.median, 3.0 + 1.0 / 3.0); // the counter's third
+    EXPECT_TRUE(std::isnan(back.points[2].cost->first));
+    EXPECT_EQ(back.points[2].cost->steadyWall.q1, -infinity);
+    EXPECT_FALSE(back.points[2].errors->boundary);
+    EXPECT_FALSE(back.points[1].cost || back.points[1].errors || back.points[1].prediction);
+    EXPECT_EQ(folder.list(), std::vector<std::string>{"results.json"});
 }
 
-TEST_F(ResultsFile, TextThatIsNotUtf8IsMendedAndNothingElseIsLost) {
+TEST_F(ResultsFile, TextThatIsNotUtf8IsMended) {
     ChartResults results = fullResults();
     results.points[0].notes = {"a\xff"
                                "b"};
-    const ChartResults back = thereAndBack(results);
-    EXPECT_EQ(back.points.at(0).notes.at(0), "a\xef\xbf\xbd"
-                                             "b");
-    EXPECT_EQ(back.points.size(), 2u);
-    EXPECT_EQ(rows().at(0)["notes"], back.points.at(0).notes.at(0));
-}
-
-TEST_F(ResultsFile, AnotherReaderFindsTheSameInTheJson) {
-    saveResults(fullResults(), folder.path().string());
-    const json found = python("print(json.dumps(json.load(open('results.json', encoding='utf-8'))))");
-    const json point = found["points"][0];
-    EXPECT_EQ(found["made"][1][1], "gnomonchart --out \"x y\"");
-    EXPECT_EQ(point["technique"], "map \"soft\", 'wide'");
-    EXPECT_EQ(point["notes"][1], "影");
-    EXPECT_EQ(point["catastrophic"], true);
-    EXPECT_EQ(point["cost"]["firstMs"], 1.0 + 1.0 / 3.0); // the counter's first
-    EXPECT_EQ(point["cost"]["steadyWallMs"]["median"], 3.0 + 1.0 / 3.0);
+    saved(results);
+    EXPECT_EQ(loadResults(file()).points.at(0).notes.at(0), "a\xef\xbf\xbd"
+                                                            "b");
 }
 
 /// Where results.json holds what fullPoint() counts, in the order in which it does.
@@ -321,38 +221,6 @@ TEST_F(ResultsFile, EveryNumberStandsUnderItsOwnName) { // one list serves both 
         const double third = number.is_number_float() ? 1.0 / 3.0 : 0.0; // see Counter
         EXPECT_EQ(number, double(i + 1) + third) << countedPlaces[i];
     }
-}
-
-TEST_F(ResultsFile, TheCsvHasALineAPointWithNamesUnitsAndEveryNumber) {
-    const ChartResults results = fullResults();
-    saveResults(results, folder.path().string());
-    const json found = rows();
-    ASSERT_EQ(found.size(), 2u);
-    const json row = found[0];
-    EXPECT_EQ(row["scene"], "stadt-groß");
-    EXPECT_EQ(row["technique"], "map \"soft\", 'wide'");
-    EXPECT_EQ(row["settings"], "size=1024; filter=a,b\"c\"");
-    EXPECT_EQ(row["notes"], "GL_INVALID_ENUM in\n\"glEnable\"; 影");
-    EXPECT_EQ(row["catastrophic"], "yes");
-    EXPECT_EQ(row["overlay"], "pictures/ö.png");
-    EXPECT_EQ(std::stod(row["added_first_ms"].get<std::string>()), 1.0 + 1.0 / 3.0);
-    EXPECT_EQ(std::stod(row["added_moving_wall_ms"].get<std::string>()), results.points[0].cost->movingWall.median);
-    EXPECT_EQ(std::stod(row["boundary_p95_px"].get<std::string>()), results.points[0].errors->boundary->p95);
-    EXPECT_EQ(row["acne_px"], std::to_string(results.points[0].errors->causes.acne));
-    EXPECT_EQ(std::stod(row["flicker_share_percent"].get<std::string>()), 100.0 * *results.points[0].flickerShare);
-    EXPECT_EQ(row["predicted_spec"], "volume");
-    EXPECT_EQ(row["predicted_moving_spec"], "map:size=512");
-    EXPECT_EQ(std::stod(row["predicted_boundary_p95_px"].get<std::string>()), results.points[0].prediction->error);
-    EXPECT_EQ(row.size(), 13 + pointNumbers().size());
-    EXPECT_FALSE(row.contains("null")); // Python's name for what is beyond the header
-    EXPECT_EQ(found[1]["failure"], "It crashed: signal 11.");
-    EXPECT_EQ(found[1]["added_first_ms"], "");
-}
-
-TEST_F(ResultsFile, LeavesNothingButItsTwoFiles) {
-    saveResults(fullResults(), folder.path().string());
-    saveResults(fullResults(), folder.path().string());
-    EXPECT_EQ(folder.list(), (std::vector<std::string>{"results.csv", "results.json"}));
 }
 
 TEST_F(ResultsFile, RefusesABrokenFileInOneSentence) {

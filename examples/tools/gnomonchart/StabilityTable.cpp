@@ -5,20 +5,16 @@
 #include "OutputFile.h"
 #include "Progress.h"
 #include "RandomSearch.h"
+#include "Report.h"
 #include "StabilityFiles.h"
-#include "StabilityPage.h"
 #include "StabilityRun.h"
-#include "StabilityText.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <thread>
 
 namespace gnomon::examples {
 namespace {
-
-constexpr std::size_t fewScenes = 6; // of which the text tells all
 
 /// The first value, the middle one and the last.
 StabilityScene coarse(StabilityScene scene) {
@@ -61,11 +57,6 @@ auto withProgress(std::size_t steps, const std::function<bool()>& stops, const W
     });
 }
 
-void print(const StabilityResults& results, const std::string& folder) {
-    std::cout << stabilityText(results, results.scenes.size() <= fewScenes) << "the table is " << folder
-              << "/stability.html\n";
-}
-
 } // namespace
 
 bool makeStabilityTable(const ChartOptions& options, const std::string& command, const std::function<bool()>& stops) {
@@ -79,8 +70,7 @@ bool makeStabilityTable(const ChartOptions& options, const std::string& command,
     dropUnfinished(results);
     for (auto& fact : machineFacts()) results.made.push_back(fact); // after the run: it makes a context
     saveStability(results, options.out);
-    writeStabilityPage(results, options.out);
-    print(results, options.out);
+    writeReport(options.out);
     return results.complete;
 }
 
@@ -107,12 +97,6 @@ bool searchRandom(const ChartOptions& options, const std::function<bool()>& stop
     std::cout << (done < search.count ? "interrupted after " + std::to_string(done) + " of " : std::string())
               << search.count << " random scenes from seed " << search.first << ", " << faults << " faults\n";
     return faults == 0 && done == search.count;
-}
-
-void writeStabilityAgain(const std::string& folder) {
-    const StabilityResults results = loadStability((std::filesystem::path(folder) / "stability.json").string());
-    writeStabilityPage(results, folder);
-    print(results, folder);
 }
 
 } // namespace gnomon::examples

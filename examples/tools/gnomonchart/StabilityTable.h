@@ -13,9 +13,6 @@ namespace gnomon::examples {
 /// sentence, if a file cannot be written.
 bool makeStabilityTable(const ChartOptions& options, const std::string& command, const std::function<bool()>& stops);
 
-/// Writes all but the results again from a folder's stability.json.
-void writeStabilityAgain(const std::string& folder);
-
 /// Searches random scenes for shadows that Gnomon's techniques lose without a word, and prints each with the plainest scene
 /// in which it is lost.
 /// @return whether there is none, and the search went to its end.

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // gnomonchart: how fast and how wrong every shadow technique is, osgShadow's in the same run.
 #include "ChartOptions.h"
-#include "ChartReport.h"
 #include "ChartRun.h"
 #include "Contender.h"
-#include "Findings.h"
 #include "Kept.h"
 #include "OutputFile.h"
-#include "PredictionSummary.h"
-#include "ResultsFile.h"
+#include "Report.h"
 #include "SceneFile.h"
 #include "StabilityScene.h"
 #include "StabilityTable.h"
@@ -93,21 +90,6 @@ ChartPlan planOf(const ChartOptions& options) {
     return plan;
 }
 
-void printWinners(const ChartResults& results) {
-    for (const ChartPoint& point : results.points) {
-        if (point.setting != "best") continue;
-        std::cout << point.scene << ": " << point.technique << " is best with";
-        for (const auto& [name, value] : point.settings) std::cout << " " << name << "=" << value;
-        std::cout << (point.settings.empty() ? " its defaults" : "") << "\n";
-    }
-}
-
-void printReport(const ChartResults& results, const std::string& folder) {
-    std::cout << findingsSummary(findings(results)) << "\n";
-    for (const std::string& sentence : sentencesOf(predictionSummary(results))) std::cout << sentence << "\n";
-    std::cout << "the chart is " << folder << "/index.html\n";
-}
-
 int chart(const ChartOptions& options, const std::string& command) {
     ChartPlan plan = planOf(options);
     plan.made.insert(plan.made.begin(), {"command", command});
@@ -116,11 +98,9 @@ int chart(const ChartOptions& options, const std::string& command) {
     listenForStop();
     const ChartResults results = runChart(
         plan, [&](const ChartResults& sofar) { saveResults(sofar, options.out); }, [] { return stopAsked != 0; });
-    writeReport(results, options.out);
-    printWinners(results);
     for (const auto& [name, value] : results.made)
         if (name.rfind("left out", 0) == 0) std::cout << name << ": " << value << "\n";
-    printReport(results, options.out);
+    writeReport(options.out);
     if (!results.complete) std::cerr << program << ": interrupted. The results so far are kept." << std::endl;
     return results.complete ? 0 : interrupted;
 }
@@ -137,13 +117,6 @@ int random(const ChartOptions& options) {
     return searchRandom(options, [] { return stopAsked != 0; }) ? 0 : 1;
 }
 
-int chartAgain(const std::string& folder) {
-    const ChartResults results = loadResults((fs::path(folder) / "results.json").string());
-    writeReport(results, folder);
-    printReport(results, folder);
-    return 0;
-}
-
 std::string commandOf(osg::ArgumentParser& arguments) {
     std::string command = program;
     for (int i = 1; i < arguments.argc(); ++i) command += std::string(" ") + arguments[i];
@@ -158,7 +131,7 @@ int run(osg::ArgumentParser& arguments) {
     else if (options.list)
         listNames();
     else if (!options.again.empty())
-        return options.stability ? (writeStabilityAgain(options.again), 0) : chartAgain(options.again);
+        writeReport(options.again);
     else if (options.random)
         return random(options);
     else if (options.stability)

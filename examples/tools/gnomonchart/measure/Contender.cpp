@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Contender.h"
-#include "../report/ChartResults.h"
+#include "ChartResults.h"
 #include "GnomonStaging.h"
 #include "PeerStaging.h"
 

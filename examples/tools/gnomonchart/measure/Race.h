@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "../report/ChartResults.h"
+#include "ChartResults.h"
 #include "Contender.h"
 #include "ShaderCache.h"
 

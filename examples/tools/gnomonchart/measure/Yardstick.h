@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "../report/ChartResults.h"
 #include "../scenes/ChartScene.h"
+#include "ChartResults.h"
 #include "SceneTruth.h"
 
 #include <gnomon/metrics/ShadowMetrics.h>

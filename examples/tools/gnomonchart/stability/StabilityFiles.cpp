@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "StabilityFiles.h"
 
-#include "../report/CsvText.h"
 #include "JsonFields.h"
 #include "JsonFile.h"
 #include "OutputFile.h"
 
 #include <filesystem>
-#include <sstream>
 
 namespace gnomon::examples {
 
@@ -84,43 +82,6 @@ static void fields(Way& way, PartOf<Way, StabilityResults> results) {
 
 namespace {
 
-constexpr const char* csvHeader =
-    "scene,parameter,value,unit,kit,technique,setting,outcome,failure,p95_px,wrong_px,shadow_px,iou,"
-    "receiver_p95_px,receiver_wrong_px,receiver_iou,not_finite,in_budget,catastrophe,stated,diagnosis\r\n";
-
-std::string judgementFields(const StabilityJudgement& judged, bool withShadow) {
-    std::ostringstream out;
-    out.precision(17);
-    out << "," << (judged.p95 ? valueText(*judged.p95) : "") << "," << judged.wrong;
-    if (withShadow) out << "," << judged.shadow;
-    out << "," << valueText(judged.iou);
-    return out.str();
-}
-
-std::string csvLine(const StabilitySceneText& scene, const StabilityRow& row, std::size_t place) {
-    const StabilityCell& cell = row.cells[place];
-    const auto yes = [](bool is) { return is ? ",yes" : ",no"; };
-    std::string line = csvField(scene.id) + "," + csvField(scene.parameter) + "," + valueText(scene.values[place]) +
-                       "," + csvField(scene.unit) + "," + row.kit + "," + csvField(row.technique) + "," +
-                       csvField(row.setting) + "," + nameOf(row.outcome()) + "," + cell.failure;
-    line += judgementFields(cell.everywhere, true);
-    line += cell.onReceiver ? judgementFields(*cell.onReceiver, false) : ",,,";
-    line += "," + std::to_string(cell.notFinite);
-    line += yes(cell.inBudget());
-    line += yes(cell.catastrophe());
-    line += yes(cell.stated());
-    return line + "," + csvField(cell.message.empty() ? joined(cell.diagnosis, " ") : cell.message) + "\r\n";
-}
-
-std::string csvOf(const StabilityResults& results) {
-    std::string text = csvHeader;
-    for (const StabilitySceneText& scene : results.scenes)
-        for (const StabilityRow& row : results.rows)
-            for (std::size_t place = 0; row.scene == scene.id && place < row.cells.size(); ++place)
-                text += csvLine(scene, row, place);
-    return text;
-}
-
 template <class Part>
 json written(const Part& part) {
     json object;
@@ -150,16 +111,6 @@ void saveStability(const StabilityResults& results, const std::string& folder) {
     FieldWriter way(object);
     fields(way, results);
     OutputFile((fs::path(folder) / "stability.json").string()).write(resultsText(object));
-    OutputFile((fs::path(folder) / "stability.csv").string()).write(csvOf(results));
-}
-
-StabilityResults loadStability(const std::string& file) {
-    StabilityResults results;
-    readResultsFile(file, "stability.json", "gnomonchart --stability", [&](const json& object) {
-        FieldReader way(object);
-        fields(way, results);
-    });
-    return results;
 }
 
 } // namespace gnomon::examples

@@ -6,13 +6,9 @@
 
 namespace gnomon::examples {
 
-/// Writes stability.json (everything) and stability.csv (a line a technique, scene and value) into an existing folder, each
-/// whole or not at all.
-/// @throws std::runtime_error, one sentence, if a file cannot be written.
+/// Writes stability.json into an existing folder, whole or not at all.
+/// @throws std::runtime_error, one sentence, if the file cannot be written.
 void saveStability(const StabilityResults& results, const std::string& folder);
-
-/// Reads a stability.json back. @throws std::runtime_error, one sentence, if it is missing, no JSON, or lacks something.
-StabilityResults loadStability(const std::string& file);
 
 /// What a child process hands over.
 nlohmann::json jsonOf(const StabilityCell& cell);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <iterator>
 #include <sstream>
-#include <tuple>
 
 namespace gnomon::examples {
 
@@ -90,39 +89,6 @@ std::string valueText(double value) {
     std::ostringstream out;
     out << value;
     return out.str();
-}
-
-std::vector<StabilityCount> countsOf(const StabilityResults& results) {
-    std::vector<StabilityCount> counts;
-    for (const StabilityRow& row : results.rows) {
-        const auto names = std::tie(row.kit, row.technique, row.setting);
-        auto count = std::find_if(counts.begin(), counts.end(), [&](const StabilityCount& each) {
-            return std::tie(each.kit, each.technique, each.setting) == names;
-        });
-        if (count == counts.end()) {
-            counts.push_back({row.kit, row.technique, row.setting});
-            count = counts.end() - 1;
-        }
-        ++count->scenes;
-        switch (row.outcome()) {
-        case StabilityOutcome::HELD:
-            ++count->held;
-            break;
-        case StabilityOutcome::STATED:
-            ++count->stated;
-            break;
-        case StabilityOutcome::ELSEWHERE:
-            ++count->elsewhere;
-            break;
-        case StabilityOutcome::LEFT:
-            ++count->left;
-            break;
-        case StabilityOutcome::CATASTROPHE:
-            ++count->catastrophes;
-            break;
-        }
-    }
-    return counts;
 }
 
 } // namespace gnomon::examples

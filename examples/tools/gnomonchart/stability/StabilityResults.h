@@ -99,12 +99,4 @@ const char* nameOf(StabilityOutcome outcome);
 /// Six digits.
 std::string valueText(double value);
 
-/// One technique's outcomes.
-struct StabilityCount {
-    std::string kit, technique, setting;
-    std::size_t scenes = 0, held = 0, stated = 0, elsewhere = 0, left = 0, catastrophes = 0;
-};
-/// In the order of the rows.
-std::vector<StabilityCount> countsOf(const StabilityResults& results);
-
 } // namespace gnomon::examples

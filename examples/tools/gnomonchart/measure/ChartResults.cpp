@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "ResultsJson.h"
+#include "ChartResults.h"
 
 #include "JsonFields.h"
-#include "PredictionSummary.h"
+#include "JsonFile.h"
+#include "OutputFile.h"
 #include "Report.h"
 
+#include <filesystem>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -88,23 +90,24 @@ static void fields(Way& way, PartOf<Way, ChartResults> results) {
     way.field("complete", results.complete);
     way.list("scenes", results.scenes);
     way.list("points", results.points);
-    way.derived("predictions", jsonOf(predictionSummary(results)));
 }
 
-ordered_json jsonOf(const ChartResults& results) {
+void saveResults(const ChartResults& results, const std::string& folder) {
     ordered_json object;
     FieldWriter way(object);
     fields(way, results);
-    return object;
+    OutputFile((std::filesystem::path(folder) / "results.json").string()).write(resultsText(object));
 }
 
-ChartResults chartResultsOf(const json& from) {
-    unsigned found = 0;
-    readField(from, "gnomonchart", found);
-    if (found != version) throw std::runtime_error("its version is " + std::to_string(found) + ". Allowed: 2.");
+ChartResults loadResults(const std::string& file) {
     ChartResults results;
-    FieldReader way(from);
-    fields(way, results);
+    readResultsFile(file, "results.json", "gnomonchart", [&](const json& object) {
+        unsigned found = 0;
+        readField(object, "gnomonchart", found);
+        if (found != version) throw std::runtime_error("its version is " + std::to_string(found) + ". Allowed: 2.");
+        FieldReader way(object);
+        fields(way, results);
+    });
     return results;
 }
 

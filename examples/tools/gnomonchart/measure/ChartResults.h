@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/metrics/ShadowMetrics.h>
-#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>
@@ -79,5 +78,14 @@ struct ChartResults {
     std::vector<ChartSceneResult> scenes;
     std::vector<ChartPoint> points;
 };
+
+/// Writes results.json, every bit of every number, into an existing folder, whole or not at all.
+/// Cost    about 0.15 ms a point that it holds: may be called after every one of some hundreds.
+/// @throws std::runtime_error, one sentence, if the file cannot be written.
+void saveResults(const ChartResults& results, const std::string& folder);
+
+/// Reads a results.json back, the same to the bit.
+/// @throws std::runtime_error, one sentence, if it is missing, no JSON, or lacks something.
+ChartResults loadResults(const std::string& file);
 
 } // namespace gnomon::examples
