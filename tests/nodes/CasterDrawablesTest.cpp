@@ -8,6 +8,10 @@
 #include <gnomon/casters/WeldedDrawables.h>
 
 #include <osg/AlphaFunc>
+#include <osg/CullFace>
+#include <osg/MatrixTransform>
+#include <osg/PolygonMode>
+#include <osg/Program>
 #include <osg/Switch>
 #include <osg/Texture2D>
 
@@ -162,6 +166,44 @@ TEST(CasterDrawables, AreWeldedWhereTheyShareACorner) {
     row.place(5).setMatrix(osg::Matrixd::translate(40.25, 0.0, 0.0)); // meets others' bounds, none of their corners
     const auto pieces = row.now(nullptr);
     EXPECT_EQ(gnomon::weldedDrawables(pieces->list), (std::vector<std::size_t>{0, 0, 2, 3, 3, 5}));
+}
+
+TEST(CasterDrawables, KnowWhatOneSeesThrough) {
+    using gnomon::Hiding;
+    using A = osg::StateAttribute;
+    Row row;
+    gnomon::CasterView view;
+    auto known = row.now(nullptr);
+    const auto hidingOf = [&](unsigned i) {
+        known = CasterDrawables::of(*row.root, {}, known, &view);
+        return known->list[i]->hiding;
+    };
+    const auto set = [&](unsigned i) -> osg::StateSet& { return *row.place(i).getOrCreateStateSet(); };
+    for (unsigned i = 0; i < 6; ++i) EXPECT_EQ(hidingOf(i), Hiding::Both) << i;
+
+    set(0).setAttributeAndModes(new osg::CullFace);
+    set(1).setMode(GL_BLEND, A::ON);
+    EXPECT_EQ(hidingOf(0), Hiding::Fronts);
+    EXPECT_EQ(hidingOf(1), Hiding::Both) << "its depth stands before shadows are drawn";
+    set(1).setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    EXPECT_EQ(hidingOf(1), Hiding::Neither);
+    set(2).setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
+    EXPECT_EQ(hidingOf(2), Hiding::Neither);
+    set(3).setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    EXPECT_EQ(hidingOf(3), Hiding::Neither);
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "void main() { if (gl_FragCoord.x > 9.0) discard; }"));
+    set(4).setAttributeAndModes(program);
+    EXPECT_EQ(hidingOf(4), Hiding::Neither);
+    view.mask = 1;
+    row.place(5).setNodeMask(2);
+    EXPECT_EQ(hidingOf(5), Hiding::Neither);
+    EXPECT_EQ(hidingOf(0), Hiding::Fronts);
+
+    row.root->getOrCreateStateSet()->setMode(GL_ALPHA_TEST, A::OFF | A::OVERRIDE);
+    EXPECT_EQ(hidingOf(2), Hiding::Both) << "as OpenSceneGraph inherits";
+    row.place(0).setMatrix(osg::Matrixd::scale(-1.0, 1.0, 1.0));
+    EXPECT_EQ(hidingOf(0), Hiding::Neither) << "OpenGL takes the mirrored one's fronts for backs";
 }
 
 /// Of many things beside the selected one none is visited.

@@ -4,12 +4,18 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <glm/geometric.hpp>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
+#include <osg/BlendColor>
+#include <osg/BlendFunc>
+#include <osg/CullFace>
+#include <osg/Depth>
 
 #include <algorithm>
+#include <functional>
 
 using gnomon::ShadowCasterGroup;
 using test::Picture;
@@ -108,6 +114,86 @@ TEST(Sheets, OfTwoFacesTheOuterOneIsInShadow) {
     EXPECT_EQ(differentAwayFromEdges(traced, dark, outside, 1), 0);
     EXPECT_EQ(differentAwayFromEdges(volume, dark, outside, 1), 0);
     EXPECT_EQ(differentAwayFromEdges(mapped, dark, outside, 2), 0);
+}
+
+/// The frame that ought to be, and what of it is not.
+test::Comparison compared(const std::function<Scene()>& build, gnomon::ShadowTechnique* technique, const View& view,
+                          const test::Mask& truth, unsigned reserved = 0) {
+    Scene lit = build(), dark = build(), scene = build();
+    dark.takeLightAway();
+    scene.addShadow(technique);
+    test::reserving(scene.root, reserved);
+    test::Camera camera(scene.root, view), litCamera(lit.root, view), darkCamera(dark.root, view);
+    for (test::Camera* each : {&camera, &litCamera, &darkCamera}) each->viewer().getCamera()->setCullMask(1);
+    return test::compare(camera.frame(), litCamera.frame(), darkCamera.frame(), truth);
+}
+
+/// A dolls' house: the light is not the camera, so a face that the view culls blocks the sun all the same.
+TEST(Sheets, WhoseBacksAreCulledKeepTheSunFromTheRoomBehindThem) {
+    const osg::Vec4d sun(-0.4, -0.5, 0.75, 0.0);
+    const View view = test::perspective({6.0, -11.0, 9.0}, {0.0, 0.0, 1.5}, 200, 150);
+    const test::Mesh room = test::insideOut(test::box({-3.0, -3.0, 0.1}, {3.0, 3.0, 4.0})), ground = test::square(20.0),
+                     thing = test::box({-0.6, -0.6, 1.0}, {0.6, 0.6, 2.0});
+    test::Mesh seen = test::joined({ground, thing}); // and the walls that face the eye
+    for (std::size_t i = 0; i < room.size(); i += 3) {
+        const glm::dvec3 normal = glm::cross(room[i + 1] - room[i], room[i + 2] - room[i]);
+        if (glm::dot(normal, glm::dvec3(6.0, -11.0, 9.0) - room[i]) > 0.0)
+            seen.insert(seen.end(), room.begin() + std::ptrdiff_t(i), room.begin() + std::ptrdiff_t(i + 3));
+    }
+    const test::Mask truth = test::castRays(seen, {}, sun, view, {room, thing});
+    ASSERT_GT(truth.count(test::Seen::ShadowedReceiver), 4000);
+    const auto build = [&] {
+        Scene scene = test::scene(sun);
+        scene.content->addChild(test::node(ground));
+        scene.content->addChild(test::node(thing));
+        const osg::ref_ptr<osg::Node> walls = test::node(room);
+        walls->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace);
+        scene.content->addChild(walls);
+        return scene;
+    };
+    const std::vector<osg::ref_ptr<gnomon::ShadowTechnique>> techniques{new gnomon::ShadowVolumeTechnique,
+                                                                        new gnomon::TracedShadowTechnique};
+    for (const auto& technique : techniques) {
+        const test::Comparison found = compared(build, technique, view, truth);
+        EXPECT_EQ(found.wrongInside, 0) << technique->className();
+        EXPECT_LT(found.flipped, 120) << technique->className(); // along the culled walls' edges
+    }
+}
+
+/// What one looks through is a pane, or a node that the camera's mask leaves out.
+TEST(Sheets, ThatOneLooksThroughShadowWhatIsBehindThem) {
+    const test::Mesh slab = test::box({-1.5, -0.2, 0.5}, {1.5, 0.2, 3.0}),
+                     sheet = test::quad({-1.5, 0.0, 0.5}, {3.0, 0.0, 0.0}, {0.0, 0.0, 2.5});
+    const test::Mesh ground = test::square(8.0), post = test::box({-3.0, 0.8, 0.0}, {-2.6, 1.2, 4.0});
+    const View view = test::perspective({2.0, -9.0, 5.0}, {0.0, 1.0, 0.5}, 120, 90);
+    for (const test::Mesh& caster : {slab, test::insideOut(slab), sheet})
+        for (const osg::Vec4d& light : {osg::Vec4d(0.3, -1.0, 1.5, 0.0), osg::Vec4d(0.3, 1.0, 1.5, 0.0),
+                                        osg::Vec4d(1.0, -4.0, 6.0, 1.0), osg::Vec4d(1.0, 4.0, 6.0, 1.0)}) {
+            const test::Mask truth = test::castRays(ground, {post}, light, view, {caster});
+            ASSERT_GT(truth.count(test::Seen::ShadowedReceiver), 100);
+            for (const bool pane : {true, false}) {
+                const auto build = [&] {
+                    Scene scene = test::scene(light);
+                    scene.content->addChild(test::node(ground));
+                    scene.content->addChild(test::node(post));
+                    const osg::ref_ptr<osg::Node> node = test::node(caster);
+                    if (pane) {
+                        osg::StateSet& state = *node->getOrCreateStateSet();
+                        state.setMode(GL_LIGHTING, osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED);
+                        state.setAttributeAndModes(new osg::BlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA));
+                        state.setAttribute(new osg::BlendColor(osg::Vec4(0.0f, 0.0f, 0.0f, 0.6f)));
+                        state.setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
+                        state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+                    } else
+                        node->setNodeMask(2);
+                    scene.content->addChild(node);
+                    return scene;
+                };
+                const unsigned reserved = light.x() == 0.3 ? 0xf8u : 0u; // of three bits not more than two count
+                EXPECT_EQ(compared(build, new gnomon::ShadowVolumeTechnique, view, truth, reserved).wrongInside, 0)
+                    << pane << " " << light.y() << " " << light.w();
+            }
+        }
 }
 
 } // namespace

@@ -35,7 +35,9 @@ Work drawnOf(const gnomon::SeenVolumes& seen) {
     for (const gnomon::VolumeRound& round : seen.rounds(~0u))
         for (const auto& [mesh, share] : round.shares) {
             work.sides += (cornersOf(share.entered) + cornersOf(share.left)) / 6.0;
-            work.caps += (cornersOf(share.lightCaps) + cornersOf(share.darkCaps) + cornersOf(share.backs)) / 3.0;
+            work.caps += (cornersOf(share.lightCaps) + cornersOf(share.darkCaps) + cornersOf(share.backs) +
+                          2.0 * cornersOf(share.bothCaps)) /
+                         3.0;
         }
     return work;
 }

@@ -48,13 +48,16 @@ bool shadowed(const glm::dvec3& point, const std::vector<Mesh>& casters, const o
     return false;
 }
 
-Seen see(const Ray& ray, const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light) {
+Seen see(const Ray& ray, const Mesh& receiver, const std::vector<Mesh>& casters, const std::vector<Mesh>& clear,
+         const osg::Vec4d& light) {
     const double ground = meets(ray, receiver, 0.0);
     double caster = never;
     for (const Mesh& mesh : casters) caster = std::min(caster, meets(ray, mesh, 0.0));
     if (std::min(ground, caster) == never) return Seen::Nothing;
     if (caster <= ground) return Seen::Caster;
-    return shadowed(ray.start + ground * ray.along, casters, light) ? Seen::ShadowedReceiver : Seen::LitReceiver;
+    const glm::dvec3 point = ray.start + ground * ray.along;
+    return shadowed(point, casters, light) || shadowed(point, clear, light) ? Seen::ShadowedReceiver
+                                                                            : Seen::LitReceiver;
 }
 
 } // namespace
@@ -68,7 +71,8 @@ bool Mask::atEdge(int x, int y, int reach) const {
     return false;
 }
 
-Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light, const View& view) {
+Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light, const View& view,
+              const std::vector<Mesh>& clear) {
     const osg::Matrixd worldFromClip = osg::Matrixd::inverse(view.view * view.projection);
     Mask mask;
     mask.width = view.width;
@@ -77,7 +81,7 @@ Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg:
         for (int x = 0; x < view.width; ++x) {
             const double u = (x + 0.5) / view.width * 2.0 - 1.0, v = (y + 0.5) / view.height * 2.0 - 1.0;
             const glm::dvec3 start = unproject(worldFromClip, u, v, -1.0), end = unproject(worldFromClip, u, v, 1.0);
-            mask.pixels.push_back(see({start, end - start}, receiver, casters, light));
+            mask.pixels.push_back(see({start, end - start}, receiver, casters, clear, light));
         }
     return mask;
 }

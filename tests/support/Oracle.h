@@ -25,7 +25,9 @@ struct Mask {
 
 /// Casts a ray a pixel against all triangles and, where it meets the receiver first, one towards the light against the
 /// casters.
-Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light, const View& view);
+/// @param clear  casters that one looks through.
+Mask castRays(const Mesh& receiver, const std::vector<Mesh>& casters, const osg::Vec4d& light, const View& view,
+              const std::vector<Mesh>& clear = {});
 
 /// The picture that ought to be: `lit`, but `dark` where the mask says shadow. Neither is drawn with Gnomon.
 struct Comparison {

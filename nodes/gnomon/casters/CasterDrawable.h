@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/casters/AlphaTest.h>
+#include <gnomon/casters/Hiding.h>
 #include <gnomon/gl/QuadSplit.h>
 
 #include <osg/BoundingBox>
@@ -29,6 +30,7 @@ struct CasterDrawable : public osg::Referenced {
     osg::ref_ptr<const osg::Drawable> drawable; ///< The drawable itself.
     osg::Matrixd groupFromLocal;                ///< Transform from the drawable's frame to the group's.
     QuadSplit quads;                            ///< How its quads are cut.
+    Hiding hiding = Hiding::Both;               ///< What it hides in the view.
     std::optional<AlphaTest> test;              ///< Its alpha test; nullopt if it has none.
     osg::BoundingBoxd bounds;                   ///< Bounds of its triangles, group frame. Invalid without triangles.
     std::size_t triangles = 0;                  ///< Number of its triangles.

@@ -55,6 +55,7 @@ public:
 
 protected:
     std::optional<AlphaTest> alphaTest() const override { return _piece->test; }
+    Hiding hiding() const override { return _piece->hiding; }
 
 private:
     const CasterDrawable* _piece = nullptr;
@@ -83,8 +84,11 @@ public:
 protected:
     void applyCaster(osg::Drawable& drawable) override {
         const std::optional<AlphaTest> test = alphaTest();
-        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, test, quads()),
-                            value = CasterFingerprint::placed(geometry, rootFromLocal());
+        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, test, quads());
+        Fingerprint placed;
+        placed.mix(CasterFingerprint::placed(geometry, rootFromLocal()));
+        placed.mix(static_cast<std::uint64_t>(hiding()));
+        const std::uint64_t value = placed.value();
         _fingerprint.mix(value);
         if (!_changed && isAt(_next, value)) {
             ++_same;
@@ -152,6 +156,7 @@ private:
         piece->drawable = &drawable;
         piece->groupFromLocal = rootFromLocal();
         piece->quads = quads();
+        piece->hiding = hiding();
         piece->test = test;
         if (_bodies) piece->bounds = _bodies->boundsOf(geometry, rootFromLocal(), piece->triangles);
         DrawableBounds found(rootFromLocal(), quads());

@@ -21,8 +21,6 @@ osg::Vec3d larger(const osg::Vec3d& a, const osg::Vec3d& b) {
     return {std::max(a.x(), b.x()), std::max(a.y(), b.y()), std::max(a.z(), b.z())};
 }
 
-bool mirrors(const osg::Matrixd& matrix) { return (row(matrix, 0) ^ row(matrix, 1)) * row(matrix, 2) < 0.0; }
-
 } // namespace
 
 /// Turns the primitives of one drawable into triangles of the root's frame.
@@ -109,7 +107,7 @@ void CasterExtraction::reset() {
 
 void CasterExtraction::applyCaster(osg::Drawable& drawable) {
     const unsigned invalidBefore = _invalidTriangles;
-    _drawn.push_back({&drawable, _triangles.size()});
+    _drawn.push_back({&drawable, _triangles.size(), hiding()});
     Collector collector(*this, rootFromLocal(), startCutout(drawable));
     readTriangles(drawable, collector);
     _rounding = std::max(_rounding, collector.rounding());
@@ -122,7 +120,7 @@ void CasterExtraction::append(const CasterExtraction& other) {
     const std::size_t firstCorner = _triangles.size(), firstDrawn = _drawn.size();
     _vertices.insert(_vertices.end(), other._vertices.begin(), other._vertices.end());
     for (const unsigned index : other._triangles) _triangles.push_back(index + firstVertex);
-    for (const Drawn& drawn : other._drawn) _drawn.push_back({drawn.drawable, drawn.first + firstCorner});
+    for (const Drawn& drawn : other._drawn) _drawn.push_back({drawn.drawable, drawn.first + firstCorner, drawn.hiding});
     for (const Cutout& cutout : other._cutouts) {
         _cutouts.push_back(cutout);
         _cutouts.back().drawn += firstDrawn;

@@ -39,6 +39,7 @@ public:
     struct Drawn {
         const osg::Drawable* drawable; ///< Identifies the drawable. Do not dereference it: the drawable may be gone.
         std::size_t first;             ///< Index of its first corner in getTriangles().
+        Hiding hiding;                 ///< What it hides.
     };
     /// The drawables, in traversal order.
     const std::vector<Drawn>& getDrawn() const { return _drawn; }

@@ -31,7 +31,7 @@ void CasterLayer::join(const std::vector<const CasterLayer*>& before) {
     });
     loose = same != before.end() ? (*same)->loose : meshOf(loosePieces, origin);
     loose->sources.clear(); // the pieces hold them
-    PlacedMesh joined{loose, glm::dmat4(1.0), false, false, 1.0, loose->rounding, loose->bounds};
+    PlacedMesh joined{loose, glm::dmat4(1.0), false, false, 1.0, loose->rounding, Hiding::Both, loose->bounds};
     if (!loose->triangles->empty()) meshes.push_back(joined);
 }
 

@@ -3,6 +3,7 @@
 #include <gnomon/gl/QuadSplit.h>
 
 #include <osg/Matrixd>
+#include <osg/Node>
 #include <osg/Vec3>
 #include <osg/Viewport>
 #include <osg/ref_ptr>
@@ -18,6 +19,7 @@ struct CasterView {
     float lodScale = 1.0f;                ///< of the cull.
     const void* key = nullptr;            ///< any address that tells views apart.
     QuadSplit quads{};                    ///< of the driver that draws it.
+    osg::Node::NodeMask mask = ~0u;       ///< of the cull: it draws a node if they share a bit.
 };
 
 } // namespace gnomon

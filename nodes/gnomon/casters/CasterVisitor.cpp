@@ -66,6 +66,8 @@ float finestRange(const osg::LOD& lod) {
     return finest;
 }
 
+osg::Vec3d row(const osg::Matrixd& matrix, int i) { return {matrix(i, 0), matrix(i, 1), matrix(i, 2)}; }
+
 /// Most nodes have no state.
 bool testsAlpha(const osg::Node& node) { return node.getStateSet() && AlphaTest::isOn(node); }
 
@@ -85,23 +87,45 @@ public:
         : _visitor(visitor),
           _entered(visitor.isRoot(node) ? 1 : 0),
           _alphaTests(testsAlpha(node) ? 1 : 0),
-          _exceptions(CastingRule::mayMatter(node) ? 1 : 0) {
+          _exceptions(CastingRule::mayMatter(node) ? 1 : 0),
+          _hidden(visitor._view && !(visitor._view->mask & node.getNodeMask()) ? 1 : 0),
+          _states(visitor._states.size()) {
         _visitor._inside += _entered;
         _visitor._alphaTests += _alphaTests;
         _visitor._exceptions += _exceptions;
+        _visitor._hidden += _hidden;
+        _visitor.enterState(node);
     }
     ~OnTheWay() {
         _visitor._inside -= _entered;
         _visitor._alphaTests -= _alphaTests;
         _visitor._exceptions -= _exceptions;
+        _visitor._hidden -= _hidden;
+        _visitor._states.resize(_states);
     }
     OnTheWay(const OnTheWay&) = delete;
     OnTheWay& operator=(const OnTheWay&) = delete;
 
 private:
     CasterVisitor& _visitor;
-    const int _entered, _alphaTests, _exceptions;
+    const int _entered, _alphaTests, _exceptions, _hidden;
+    const std::size_t _states;
 };
+
+/// What is above the first node counts by first parents.
+void CasterVisitor::enterState(const osg::Node& node) {
+    if (_states.empty()) {
+        osg::NodePath above(getNodePath().begin(), getNodePath().end() - 1);
+        for (osg::Node* first = getNodePath().front(); first->getNumParents() > 0;)
+            above.insert(above.begin(), first = first->getParent(0));
+        _states.emplace_back();
+        for (const osg::Node* each : above)
+            if (each->getStateSet()) _states.back().apply(*each->getStateSet());
+    }
+    if (!node.getStateSet()) return;
+    _states.push_back(_states.back());
+    _states.back().apply(*node.getStateSet());
+}
 
 CasterVisitor::CasterVisitor(const Selection& selection)
     : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN),
@@ -155,7 +179,7 @@ void CasterVisitor::apply(osg::Drawable& drawable) {
     if (_inside == 0 || isText(drawable)) return;
     const bool triangles = hasTriangles(drawable), own = drawsItself(drawable);
     if (!(triangles || own) || !isLetCast(drawable)) return;
-    if (_atLevels > 0) _choice.mix(static_cast<const void*>(&drawable));
+    if (_atLevels > 0 || _hidden > 0) _choice.mix(static_cast<const void*>(&drawable));
     if (triangles) applyCaster(drawable);
     if (own) applyOwnDrawing(drawable);
 }
@@ -263,6 +287,10 @@ std::optional<AlphaTest> CasterVisitor::alphaTest() const {
     return AlphaTest::of(getNodePath());
 }
 
+Hiding CasterVisitor::hiding() const {
+    return _hidden > 0 ? Hiding::Neither : _states.back().hiding(mirrors(rootFromLocal()));
+}
+
 void CasterVisitor::holdSources(const osg::Drawable& drawable,
                                 std::vector<osg::ref_ptr<const osg::Referenced>>& sources) {
     if (const osg::Geometry* geometry = drawable.asGeometry()) {
@@ -272,6 +300,8 @@ void CasterVisitor::holdSources(const osg::Drawable& drawable,
         sources.emplace_back(&drawable);
     }
 }
+
+bool mirrors(const osg::Matrixd& matrix) { return (row(matrix, 0) ^ row(matrix, 1)) * row(matrix, 2) < 0.0; }
 
 std::string nameAlong(const osg::NodePath& path) {
     const auto named =

@@ -5,6 +5,7 @@
 #include <gnomon/casters/AlphaTest.h>
 #include <gnomon/casters/CasterView.h>
 #include <gnomon/casters/CastingRule.h>
+#include <gnomon/casters/Hiding.h>
 
 #include <osg/CullStack>
 #include <osg/Matrixd>
@@ -85,6 +86,8 @@ protected:
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
     /// Of the drawable being visited: nullopt, at no cost, if no state on the way to it switches one on.
     virtual std::optional<AlphaTest> alphaTest() const;
+    /// Of the drawable being visited, in the view.
+    virtual Hiding hiding() const;
     /// True while the drawable being visited is under an LOD or a sequence: it may go and come back.
     bool isOfLevels() const { return _atLevels > 0; }
 
@@ -93,6 +96,7 @@ private:
 
     bool isRoot(const osg::Node& node) const { return _roots.count(const_cast<osg::Node*>(&node)) > 0; }
     void findWays();
+    void enterState(const osg::Node& node);
     bool isOnTheWay(const osg::Node& node) const;
     bool isLetCast(const osg::Drawable& drawable) const;
     bool goesTheOnlyWays(osg::Node& node);
@@ -110,13 +114,18 @@ private:
     int _atPixelLevels = 0;                     ///< how many of them are on the way down.
     int _atLevels = 0;                          ///< how many LODs and sequences are on the way down.
     Fingerprint _choice;
-    int _inside = 0;     ///< how often a selected node is on the way down.
-    int _alphaTests = 0; ///< how many states on the way down switch an alpha test on.
-    int _exceptions = 0; ///< how many states on the way down may matter to the rule.
+    int _inside = 0;                  ///< how often a selected node is on the way down.
+    int _alphaTests = 0;              ///< how many states on the way down switch an alpha test on.
+    int _exceptions = 0;              ///< how many states on the way down may matter to the rule.
+    int _hidden = 0;                  ///< how many nodes on the way down the view's mask leaves out.
+    std::vector<HidingState> _states; ///< of those on the way down; the first is of what is above.
     std::optional<CastingRule> _rule;
     /// Of what is above the selected nodes, the children that lead to it; once for each of its places among them.
     std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };
+
+/// True if a frame turns the sense of triangles round.
+bool mirrors(const osg::Matrixd& matrix);
 
 /// Name of the last node of a path, or of the nearest named one above it; else its class name.
 std::string nameAlong(const osg::NodePath& path);

@@ -19,6 +19,7 @@ struct PlacedMesh {
     bool mirrored = false;         ///< What is counter-clockwise in the mesh is clockwise in the scene.
     double stretched = 1.0;        ///< The most by which sceneFromMesh lengthens anything.
     double rounding = 0.0;         ///< Largest error of a vertex by its float source, group's unit.
+    Hiding hiding = Hiding::Both;  ///< Of a body; what is joined has its own for each drawable.
     osg::BoundingBoxd bounds;      ///< Of its triangles, group frame.
 };
 

@@ -19,6 +19,7 @@ struct EnlistedTechnique {
     osg::ref_ptr<osg::RefMatrix> projection; ///< shared with the leaves: near and far are set in it after the cull.
     osg::Vec3 viewPoint;                     ///< eye space, see CasterView.
     float lodScale = 1.0f;                   ///< of the cull.
+    osg::Node::NodeMask mask = ~0u;          ///< the same, see CasterView.
     QuadSplit quads{};                       ///< of the driver that draws.
     unsigned frameNumber = 0;
     double frameTime = 0.0; ///< seconds, see timeOf().

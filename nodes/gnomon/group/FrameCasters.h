@@ -18,7 +18,7 @@ public:
     /// True if these are of the group, as the view has it.
     bool areOf(const ShadowCasterGroup& group, const CasterView& view) const {
         return _group == &group && _view.eyeFromGroup == view.eyeFromGroup && _view.projection == view.projection &&
-               _view.lodScale == view.lodScale && _view.viewPoint == view.viewPoint;
+               _view.lodScale == view.lodScale && _view.viewPoint == view.viewPoint && _view.mask == view.mask;
     }
 
     /// Some of them, as if they were all.

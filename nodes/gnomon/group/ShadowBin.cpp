@@ -77,7 +77,7 @@ const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderSta
                               std::deque<FrameCasters>& known) {
     const CasterView view{entry.eyeFromGroup, *entry.projection, stage.getViewport(),
                           entry.viewPoint,    entry.lodScale,    &stage,
-                          entry.quads};
+                          entry.quads,        entry.mask};
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
     return found == known.end() ? known.emplace_back(*entry.group, view) : *found;

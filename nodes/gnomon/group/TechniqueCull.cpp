@@ -62,6 +62,7 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     entry.projection = cull.getProjectionMatrix();
     entry.viewPoint = cull.getReferenceViewPoint();
     entry.lodScale = cull.getLODScale();
+    entry.mask = (cull.getTraversalMask() & cull.getNodeMaskOverride()) ? ~0u : cull.getTraversalMask();
     entry.quads = quadsOf(cull);
     entry.frameNumber = frame;
     entry.frameTime = timeOf(cull);

@@ -27,8 +27,8 @@ glm::dvec4 lightIn(const VolumeCaster& caster, const glm::dvec4& lightInScene) {
 LightVolumes::LightVolumes() : _sides(new VolumeGeometry) {}
 
 bool LightVolumes::are(const VolumeCaster& caster, const glm::dvec4& light, const ReceiverBox& receivers) const {
-    return _caster.mesh == caster.mesh && _caster.sceneFromMesh == caster.sceneFromMesh && _light == light &&
-           _receivers == receivers;
+    return _caster.mesh == caster.mesh && _caster.sceneFromMesh == caster.sceneFromMesh &&
+           _caster.hiding == caster.hiding && _light == light && _receivers == receivers;
 }
 
 void LightVolumes::set(const VolumeCaster& caster, const glm::dvec4& light, const ReceiverBox& receivers) {

@@ -55,8 +55,8 @@ private:
     const osg::ref_ptr<VolumeGeometry> _sides;
     glm::dvec4 _towardsEye{0.0};
     std::map<std::pair<unsigned, bool>, bool> _showBacks; ///< by part and mayBeCut, seen from there.
-    std::vector<CapsWanted> _capped; ///< those that have caps,
-    std::vector<CapRanges> _ranges;  ///< and where.
+    std::vector<CapsWanted> _capped;                      ///< those that have caps,
+    std::vector<CapRanges> _ranges;                       ///< and where.
     osg::ref_ptr<VolumeGeometry> _caps;
 };
 

@@ -17,6 +17,10 @@ struct CasterLayers;
 struct VolumeCaster {
     std::shared_ptr<const SilhouetteMesh> mesh; ///< in its own frame.
     glm::dmat4 sceneFromMesh{1.0};              ///< can be inverted.
+    Hiding hiding = Hiding::Both;               ///< of all; parts of what is joined have theirs among their kinds.
+
+    /// True if nothing that is behind a part, as seen from the eye, is seen through it.
+    bool hides(const SilhouetteMesh::Part& part, const glm::dvec3& eye) const;
 };
 
 /// The edges of casters, found once a mesh, wherever it stands.

@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,16 @@ VolumeHull volumeHull(const glm::dvec3& low, const glm::dvec3& high, const glm::
         points[i + 8] = clipFromBox * (length < 0.0 ? glm::dvec4(away, 0.0) : glm::dvec4(corner + length * away, 1.0));
     }
     return points;
+}
+
+/// Not if it is beyond one of the sides of what is seen.
+bool isInSight(const VolumeHull& hull) {
+    const auto isBeyond = [&hull](auto&& distance) { return std::all_of(hull.begin(), hull.begin() + 8, distance); };
+    return !(isBeyond([](const glm::dvec4& at) { return at.x < -at.w; }) ||
+             isBeyond([](const glm::dvec4& at) { return at.x > at.w; }) ||
+             isBeyond([](const glm::dvec4& at) { return at.y < -at.w; }) ||
+             isBeyond([](const glm::dvec4& at) { return at.y > at.w; }) ||
+             isBeyond([](const glm::dvec4& at) { return at.z < -at.w; }));
 }
 
 std::optional<ScreenRect> boundsOf(const VolumeHull& hull) {

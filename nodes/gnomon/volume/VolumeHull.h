@@ -18,6 +18,9 @@ using VolumeHull = std::array<glm::dvec4, 16>;
 VolumeHull volumeHull(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& end, const glm::dvec4& light,
                       const glm::dmat4& clipFromBox);
 
+/// True if the box itself may be seen.
+bool isInSight(const VolumeHull& hull);
+
 /// As screenBounds(), which is slower.
 std::optional<ScreenRect> boundsOf(const VolumeHull& hull);
 

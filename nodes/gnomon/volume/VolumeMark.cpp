@@ -56,8 +56,8 @@ constexpr const char* overflow =
 
 } // namespace
 
-/// A light cap lies in the surface that casts, which is as lit as its light's side: so it is behind that, from wherever it
-/// is seen. A dark cap is where it is, close before the lowest surface for an eye below all.
+/// A light cap lies in the surface that casts, which is as lit as its light's side: so it is behind that from there, and
+/// before it from the other side. A dark cap is where it is, close before the lowest surface for an eye below all.
 void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                        const VolumeRound::Share& share) const {
     place(*renderInfo.getState(), mesh);
@@ -65,12 +65,19 @@ void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned c
         pass.countEntered(counters);
         mesh.volumes->sides().draw(renderInfo, share.entered);
     }
-    if (!share.lightCaps.empty()) {
-        pass.countHolding(counters);
-        mesh.volumes->sides().draw(renderInfo, share.left);
-        mesh.caps->draw(renderInfo, share.darkCaps);
-        drawOffset(renderInfo, *mesh.caps, share.lightCaps, glm::max(pushedBack, 0.0) + behind);
-    }
+    if (share.lightCaps.empty() && share.bothCaps.empty()) return;
+    const glm::dvec2 back = glm::max(pushedBack, 0.0) + behind, forward = glm::min(pushedBack, 0.0) - before;
+    pass.countHolding(counters);
+    mesh.volumes->sides().draw(renderInfo, share.left);
+    mesh.caps->draw(renderInfo, share.darkCaps);
+    if (!share.lightCaps.empty()) drawOffset(renderInfo, *mesh.caps, share.lightCaps, back);
+    if (share.bothCaps.empty()) return;
+    glEnable(GL_CULL_FACE);
+    drawOffset(renderInfo, *mesh.caps, share.bothCaps, back);
+    glCullFace(GL_FRONT);
+    drawOffset(renderInfo, *mesh.caps, share.bothCaps, forward);
+    glCullFace(GL_BACK);
+    glDisable(GL_CULL_FACE);
 }
 
 /// A sheet does not shadow its own back, which OpenGL lights as its front: where that is seen, its volume does not count.
@@ -99,7 +106,8 @@ std::string VolumeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
         for (const auto& [mesh, share] : round.shares) count(renderInfo, pass, counters, seen.meshes[mesh], share);
-        for (const auto& [mesh, share] : round.shares) uncountBacks(renderInfo, pass, counters, seen.meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares)
+            uncountBacks(renderInfo, pass, counters, seen.meshes[mesh], share);
         glFrontFace(GL_CCW);
         state.apply();
         if (pass.counters())

@@ -59,9 +59,9 @@ void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
     VolumeRound::Share& share = round.shares[seen.mesh];
     const ShadowVolumes::Part& part = volumeOf(all, seen);
     append(seen.holding ? share.entered : share.left, {part.first, part.count});
-    if (!seen.holding) append(share.lightCaps, seen.caps.light);
+    if (!seen.holding) append(seen.showsBack ? share.bothCaps : share.lightCaps, seen.caps.light);
     append(share.darkCaps, seen.caps.dark);
-    if (seen.showsBack) append(share.backs, seen.caps.light);
+    if (seen.holding && seen.showsBack) append(share.backs, seen.caps.light);
     round.holding += seen.holding.value_or(0);
 }
 
@@ -102,7 +102,9 @@ void lookAt(LightVolumes& volumes, const glm::dmat4& clipFromScene, SeenVolumes&
         const auto bounds = boundsOf(hull);
         if (!bounds) continue;
         const bool cut = std::any_of(hull.begin(), hull.begin() + 8, [](const auto& at) { return at.z <= -at.w; });
-        const std::optional<int> holding = volumesHolding(start, mesh, volumes.volumes(), i, cut);
+        const bool shows = isInSight(hull) && !volumes.caster().hides(mesh.parts[i], start.eye);
+        const std::optional<int> holding =
+            shows ? std::nullopt : volumesHolding(start, mesh, volumes.volumes(), i, cut);
         if (holding == 0 && volume.count == 0) continue;
         all.bounds = all.parts.empty() ? *bounds : united(all.bounds, *bounds);
         const bool showsBack = volumes.showsBack(start, i, cut);

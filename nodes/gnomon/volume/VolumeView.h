@@ -29,10 +29,11 @@ struct SeenPart {
 
 /// Volumes that are counted together: not more of them hold any one point than a counter can count.
 struct VolumeRound {
-    /// Of one mesh: sides to count from the eye, and from behind; light and dark caps for those; and surfaces that cast, which
-    /// do not count where they are seen from behind.
+    /// Of one mesh: sides to count from the eye, and from behind; for those light caps, others that may be seen from either
+    /// side, and dark caps; and of what is counted from the eye surfaces that cast, which do not count where they are seen
+    /// from behind.
     struct Share {
-        std::vector<VolumeGeometry::Range> entered, left, lightCaps, darkCaps, backs;
+        std::vector<VolumeGeometry::Range> entered, left, lightCaps, bothCaps, darkCaps, backs;
     };
     std::map<std::size_t, Share> shares; ///< by mesh.
     int holding = 0;                     ///< those counted from the eye that the eye is in.

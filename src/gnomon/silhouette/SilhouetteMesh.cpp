@@ -28,13 +28,17 @@ std::vector<unsigned> weldInto(std::vector<glm::vec3>& places, const glm::vec3* 
     return result;
 }
 
-/// Three places in `vertices` a triangle, but for triangles with two corners in one.
-std::vector<unsigned> triangleCorners(const std::vector<unsigned>& places, const unsigned* corners, std::size_t count) {
+/// Three places in `vertices` a triangle, but for triangles with two corners in one. @param sources  gets their numbers.
+std::vector<unsigned> triangleCorners(const std::vector<unsigned>& places, const unsigned* corners, std::size_t count,
+                                      std::vector<std::size_t>& sources) {
     std::vector<unsigned> found;
     found.reserve(count);
+    sources.clear();
     for (std::size_t i = 0; i + 2 < count; i += 3) {
         const unsigned a = places[corners[i]], b = places[corners[i + 1]], c = places[corners[i + 2]];
-        if (a != b && b != c && c != a) found.insert(found.end(), {a, b, c});
+        if (a == b || b == c || c == a) continue;
+        found.insert(found.end(), {a, b, c});
+        sources.push_back(i / 3);
     }
     return found;
 }
@@ -100,7 +104,8 @@ std::vector<unsigned> openEnds(const Sides& sides, std::size_t vertices) {
 
 /// @return true if there are any seams.
 bool closeSeams(const Sides& sides, const std::vector<glm::vec3>& vertices, std::vector<unsigned>& places) {
-    const std::vector<unsigned> first = withoutSeams(openEnds(sides, vertices.size()), vertices.data(), vertices.size());
+    const std::vector<unsigned> first =
+        withoutSeams(openEnds(sides, vertices.size()), vertices.data(), vertices.size());
     if (first.empty()) return false;
     for (unsigned& place : places) place = first[place];
     return true;
@@ -274,16 +279,18 @@ std::vector<Part> putInOrder(std::vector<Part> parts, std::vector<unsigned>& par
 } // namespace
 
 bool SilhouetteMesh::Part::boundsHold(const glm::dvec3& place) const {
-    return glm::all(glm::lessThanEqual(glm::dvec3(low), place)) && glm::all(glm::lessThanEqual(place, glm::dvec3(high)));
+    return glm::all(glm::lessThanEqual(glm::dvec3(low), place)) &&
+           glm::all(glm::lessThanEqual(place, glm::dvec3(high)));
 }
 
 SilhouetteMesh::SilhouetteMesh(const glm::vec3* positions, std::size_t count, const unsigned* given,
-                               std::size_t cornerCount) {
+                               std::size_t cornerCount, const std::uint8_t* kinds) {
     std::vector<unsigned> places = weldInto(vertices, positions, count);
-    std::vector<unsigned> found = triangleCorners(places, given, cornerCount);
+    std::vector<std::size_t> sources;
+    std::vector<unsigned> found = triangleCorners(places, given, cornerCount, sources);
     Sides sides(found, vertices.size());
     if (closeSeams(sides, vertices, places)) {
-        found = triangleCorners(places, given, cornerCount);
+        found = triangleCorners(places, given, cornerCount, sources);
         sides = Sides(found, vertices.size());
     }
     const std::size_t total = found.size() / 3;
@@ -293,8 +300,9 @@ SilhouetteMesh::SilhouetteMesh(const glm::vec3* positions, std::size_t count, co
     std::vector<unsigned> partOf = numberParts(connected, total, partCount);
 
     constexpr float most = std::numeric_limits<float>::max();
-    parts.assign(partCount, {0, 0, 0, 0, true, false, glm::vec3(most), glm::vec3(-most)});
+    parts.assign(partCount, {0, 0, 0, 0, true, false, glm::vec3(most), glm::vec3(-most), 0});
     for (std::size_t i = 0; i < found.size(); ++i) expand(parts[partOf[i / 3]], vertices[found[i]]);
+    for (std::size_t i = 0; kinds && i < total; ++i) parts[partOf[i]].kinds |= kinds[sources[i]];
     parts = putInOrder(std::move(parts), partOf);
 
     const std::vector<unsigned> triangleAt = placesBy(total, partCount, [&](std::size_t i) { return partOf[i]; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <vector>
@@ -31,6 +32,7 @@ struct SilhouetteMesh {
         bool closed;         ///< each edge is passed as often one way as the other.
         bool inward;         ///< closed, and turned inside out.
         glm::vec3 low, high; ///< bounds.
+        std::uint8_t kinds;  ///< of its triangles, those of all.
 
         bool boundsHold(const glm::dvec3& place) const;
     };
@@ -38,7 +40,9 @@ struct SilhouetteMesh {
     SilhouetteMesh() = default;
     /// @param positions  finite.
     /// @param corners    three a triangle, counter-clockwise from its front.
-    SilhouetteMesh(const glm::vec3* positions, std::size_t count, const unsigned* corners, std::size_t cornerCount);
+    /// @param kinds      bits for each triangle, whose meaning is the caller's; null: 0.
+    SilhouetteMesh(const glm::vec3* positions, std::size_t count, const unsigned* corners, std::size_t cornerCount,
+                   const std::uint8_t* kinds = nullptr);
 
     std::size_t triangles() const { return planeD.size(); }
 
