@@ -25,18 +25,19 @@ osg::ref_ptr<osg::Material> material(float ambient) {
     return result;
 }
 
-/// As osgteapot's: OpenGL alone knows it, and it sets no colour.
+/// As osgteapot's: OpenGL alone knows it, and it sets no colour; or as osgText's: it sets one.
 class OwnBody : public osg::Drawable {
 public:
-    explicit OwnBody(const osg::Geometry& geometry) : _geometry(&geometry) {}
+    explicit OwnBody(const osg::Geometry& geometry, bool colored = false) : _geometry(&geometry), _colored(colored) {}
     OwnBody() = default;
     OwnBody(const OwnBody& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)
-        : osg::Drawable(other, copyOp), _geometry(other._geometry) {}
+        : osg::Drawable(other, copyOp), _geometry(other._geometry), _colored(other._colored) {}
     META_Object(test, OwnBody)
 
     void drawImplementation(osg::RenderInfo&) const override {
         const auto& vertices = static_cast<const osg::Vec3Array&>(*_geometry->getVertexArray());
         const auto& normals = static_cast<const osg::Vec3Array&>(*_geometry->getNormalArray());
+        if (_colored) glColor3f(0.2f, 0.7f, 0.3f);
         glBegin(GL_TRIANGLES);
         for (unsigned i = 0; i < vertices.size(); ++i) {
             glNormal3fv(normals[i].ptr());
@@ -51,6 +52,7 @@ protected:
 
 private:
     osg::ref_ptr<const osg::Geometry> _geometry;
+    bool _colored = false;
 };
 
 struct Case {
@@ -72,15 +74,31 @@ void paintAllAsMaterials(Scene& scene) {
     for (unsigned i = 0; i < scene.content->getNumChildren(); ++i) paint(childOf(scene, i), {0.8f, 0.8f, 0.8f, 1.0f});
 }
 
-void drawByItself(osg::Node& node, bool displayList) {
+void drawByItself(osg::Node& node, bool displayList, bool colored = false) {
     osg::Geode& geode = *node.asGeode();
-    const osg::ref_ptr<OwnBody> own = new OwnBody(*geode.getDrawable(0)->asGeometry());
+    const osg::ref_ptr<OwnBody> own = new OwnBody(*geode.getDrawable(0)->asGeometry(), colored);
     own->setUseDisplayList(displayList);
     geode.setDrawable(0, own);
 }
 
 void drawAllByThemselves(Scene& scene, bool displayList) {
     for (unsigned i = 0; i < scene.content->getNumChildren(); ++i) drawByItself(childOf(scene, i), displayList);
+}
+
+/// A box that is drawn before all others, and neither casts a shadow that is seen nor receives one.
+osg::Node& addBefore(Scene& scene) {
+    const osg::ref_ptr<osg::Node> aside = node(box({3.0, 0.0, -0.5}, {3.5, 0.5, -0.4}));
+    scene.content->insertChild(0, aside);
+    return *aside;
+}
+
+void paintVertices(osg::Node& node, bool displayList) {
+    osg::Geometry& geometry = *node.asGeode()->getDrawable(0)->asGeometry();
+    osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array(geometry.getVertexArray()->getNumElements());
+    for (std::size_t i = 0; i < colors->size(); ++i) (*colors)[i].set(0.2f, i % 2 ? 0.7f : 0.1f, 0.3f, 1.0f);
+    geometry.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+    geometry.setUseDisplayList(displayList);
+    geometry.setUseVertexBufferObjects(!displayList);
 }
 
 const Case cases[] = {
@@ -106,21 +124,57 @@ const Case cases[] = {
     {"OnAGroundThatDrawsItself", [](Scene& scene) { drawByItself(childOf(scene, 0), true); }},
     {"OfBodiesThatDrawThemselves", [](Scene& scene) { drawAllByThemselves(scene, false); }, true},
     {"OfBodiesInDisplayLists", [](Scene& scene) { drawAllByThemselves(scene, true); }, true},
+    {"BeforeOneWithAColor", [](Scene& scene) { paint(childOf(scene, 2)); }},
+    {"BeforeAGroundWithAColor",
+     [](Scene& scene) {
+         const osg::ref_ptr<osg::Node> ground = &childOf(scene, 0);
+         scene.content->removeChild(ground);
+         scene.content->addChild(ground);
+         paint(*ground);
+     }},
+    {"AfterOneWithAColorAside", [](Scene& scene) { paint(addBefore(scene)); }},
+    {"AfterOneWithColorsOfVerticesAside", [](Scene& scene) { paintVertices(addBefore(scene), false); }},
+    {"AfterOneWithColorsInADisplayListAside", [](Scene& scene) { paintVertices(addBefore(scene), true); }},
+    {"AfterOneThatSetsItsColorAside", [](Scene& scene) { drawByItself(addBefore(scene), false, true); }},
 };
 
+enum class Light { On, Dark, Relit, Blended };
+
 /// Without any colour or material: osgViewer's lets colours be materials.
-Scene build(const Case& given, bool shadow, bool dark) {
+Scene build(const Case& given, Light light) {
     Scene scene = groundScene(casters, 8.0, sun);
     for (unsigned i = 0; i < scene.content->getNumChildren(); ++i)
         childOf(scene, i).asGeode()->getDrawable(0)->asGeometry()->setColorArray(nullptr);
     scene.root->getStateSet()->removeAttribute(osg::StateAttribute::MATERIAL);
     given.change(scene);
-    if (dark) scene.takeLightAway();
-    if (shadow && given.byMap)
+    if (light == Light::Dark) scene.takeLightAway();
+    if (light < Light::Relit) return scene;
+    if (given.byMap)
         scene.addShadow(new gnomon::ShadowMapTechnique);
-    else if (shadow)
+    else
         scene.addShadow(planar());
+    scene.group->setComposite(light == Light::Relit ? gnomon::ShadowCasterGroup::RELIGHT
+                                                    : gnomon::ShadowCasterGroup::BLEND);
     return scene;
+}
+
+/// True if BLEND left half of each channel; OpenGL rounds.
+bool isHalf(std::uint32_t actual, std::uint32_t lit) {
+    for (int shift = 0; shift < 24; shift += 8)
+        if (std::abs(2 * int(actual >> shift & 255u) - int(lit >> shift & 255u)) > 1) return false;
+    return true;
+}
+
+/// Pixels that are neither as without a shadow nor half of that; of the ground, away from edges, those that are the wrong one.
+int wronglyBlended(const Picture& actual, const Picture& lit, const Mask& mask) {
+    int wrong = 0;
+    for (int y = 0; y < mask.height; ++y)
+        for (int x = 0; x < mask.width; ++x) {
+            const bool same = actual.at(x, y) == lit.at(x, y), half = isHalf(actual.at(x, y), lit.at(x, y));
+            const Seen seen = mask.atEdge(x, y, 2) ? Seen::Caster : mask.at(x, y);
+            wrong += seen == Seen::LitReceiver ? !same : seen == Seen::ShadowedReceiver ? !half : !same && !half;
+        }
+    return wrong;
 }
 
 class NoColors : public testing::TestWithParam<Case> {};
@@ -129,8 +183,8 @@ INSTANTIATE_TEST_SUITE_P(Relit, NoColors, testing::ValuesIn(cases), testing::Pri
 } // namespace
 
 TEST_P(NoColors, LoseTheLightAlone) {
-    const Scene lit = build(GetParam(), false, false), dark = build(GetParam(), false, true),
-                shadowed = build(GetParam(), true, false);
+    const Scene lit = build(GetParam(), Light::On), dark = build(GetParam(), Light::Dark),
+                shadowed = build(GetParam(), Light::Relit);
     const Mask mask = castRays(square(8.0), casters, sun, slanted);
     Camera litCamera(lit.root, slanted), darkCamera(dark.root, slanted), camera(shadowed.root, slanted);
     for (int frame = 1; frame <= 4; ++frame) {
@@ -140,4 +194,41 @@ TEST_P(NoColors, LoseTheLightAlone) {
         EXPECT_EQ(found.wrongAtEdge, 0) << "frame " << frame;
     }
     EXPECT_GT(mask.count(Seen::ShadowedReceiver), 300);
+}
+
+TEST_P(NoColors, LoseTheLightAloneIfShadowsComeLater) {
+    const Scene lit = build(GetParam(), Light::On), dark = build(GetParam(), Light::Dark),
+                shadowed = build(GetParam(), Light::Relit);
+    const Mask mask = castRays(square(8.0), casters, sun, slanted);
+    Camera litCamera(lit.root, slanted), darkCamera(dark.root, slanted), camera(shadowed.root, slanted);
+    osg::Node& technique = *shadowed.group->getChild(1);
+    for (int frame = 1; frame <= 4; ++frame) {
+        technique.setNodeMask(frame < 3 ? 0u : ~0u);
+        const Picture actual = camera.frame(), expected = litCamera.frame(), darkPicture = darkCamera.frame();
+        if (frame < 3) continue;
+        const Comparison found = compare(actual, expected, darkPicture, mask, GetParam().byMap ? 2 : 1);
+        EXPECT_EQ(found.wrongInside + found.wrongAtEdge, 0) << "frame " << frame;
+    }
+}
+
+TEST_P(NoColors, AreAsWithoutShadowsWhereBlendDarkensNothing) {
+    const Scene lit = build(GetParam(), Light::On), shadowed = build(GetParam(), Light::Blended);
+    shadowed.group->setDark(0.5f);
+    const Mask mask = castRays(square(8.0), casters, sun, slanted);
+    Camera litCamera(lit.root, slanted), camera(shadowed.root, slanted);
+    for (int frame = 1; frame <= 4; ++frame)
+        EXPECT_EQ(wronglyBlended(camera.frame(), litCamera.frame(), mask), 0) << "frame " << frame;
+}
+
+TEST_P(NoColors, AreAsWithoutShadowsBesideMapsForPrograms) {
+    const Scene lit = build(GetParam(), Light::On);
+    Scene shadowed = build(GetParam(), Light::On);
+    gnomon::ShadowMapOptions options;
+    options.programUnit = 5; // maps are drawn before all else, and no program here reads them
+    const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
+    technique->setOptions(options);
+    shadowed.addShadow(technique);
+    Camera litCamera(lit.root, slanted), camera(shadowed.root, slanted);
+    for (int frame = 1; frame <= 4; ++frame)
+        EXPECT_EQ(camera.frame().different(litCamera.frame()), 0) << "frame " << frame;
 }

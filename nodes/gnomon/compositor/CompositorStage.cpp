@@ -63,6 +63,13 @@ void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous) {
     previous = nullptr;
 }
 
+void pushLeafState(osg::State& state, const osgUtil::RenderLeaf& leaf) {
+    state.applyProjectionMatrix(leaf._projection.get());
+    state.applyModelViewMatrix(leaf._modelview.get());
+    osgUtil::StateGraph::moveStateGraph(state, nullptr, leaf._parent->_parent);
+    state.apply(leaf._parent->getStateSet());
+}
+
 std::string whyNeverComposed(const osg::State& state, const osgUtil::RenderStage& stage) {
     if (isCoreProfile(state)) return coreProfileRefused;
     return stage.getClearDepth() < 1.0

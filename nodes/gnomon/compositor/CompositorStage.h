@@ -60,6 +60,9 @@ private:
 /// Takes the state sets of the leaf drawn last off the stack, as osgUtil does before positional state.
 void popLeafState(osg::State& state, osgUtil::RenderLeaf*& previous);
 
+/// State sets and matrices as osgUtil leaves them when it has drawn a leaf.
+void pushLeafState(osg::State& state, const osgUtil::RenderLeaf& leaf);
+
 /// The cause for diagnose() in a core profile.
 constexpr const char* coreProfileRefused =
     "this is a core profile context, in which nothing is drawn. Ask for a compatibility profile; with GLX, leave "

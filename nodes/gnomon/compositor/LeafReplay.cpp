@@ -83,8 +83,8 @@ void LeafReplay::apply(const DrawnLeaf& entry) {
     _state.applyModelViewMatrix(leaf._modelview.get());
     osgUtil::StateGraph::moveStateGraph(_state, _previous, graph->_parent);
     _previous = graph->_parent;
-    _materials.leadTo(*graph);
     _state.apply(graph->getStateSet());
+    _materials.leadTo(leaf);
     if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
 }
 

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/MaterialHistory.h>
+#include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
 
-#include <osg/ContextData>
-#include <osg/FrameStamp>
 #include <osg/Geometry>
+
+#include <limits>
 
 namespace gnomon {
 namespace {
 
 using A = osg::StateAttribute;
+
+constexpr int last = std::numeric_limits<int>::max(); ///< below it are all bins.
+
+const osg::Material* appliedTo(const osg::State& state) {
+    return static_cast<const osg::Material*>(state.getLastAppliedAttribute(A::MATERIAL));
+}
 
 const osg::Material* materialOf(const osgUtil::StateGraph* graph) {
     return resolved<osg::Material>(graph, A::MATERIAL);
@@ -21,65 +28,50 @@ bool tracksAmbient(const osg::Material& material) {
            material.getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE;
 }
 
-osg::Vec4 trackedColor(const osg::Material& material) {
-    return material.getColorMode() == osg::Material::AMBIENT ? material.getAmbient(osg::Material::FRONT)
-                                                             : material.getDiffuse(osg::Material::FRONT);
-}
-
-osg::Vec4 colorNow() {
-    osg::Vec4 color;
-    glGetFloatv(GL_CURRENT_COLOR, color.ptr());
-    return color;
-}
-
-/// OpenGL's current colour after a drawable with this material, which has just been drawn; nullopt if nobody knows.
-std::optional<osg::Vec4> colorAfter(const osg::Drawable& drawable, const osg::Material& material) {
-    const osg::Geometry* geometry = drawable.asGeometry();
-    if (!geometry) return colorNow();
-    const osg::Array* colors = geometry->getColorArray();
-    if (!colors) return trackedColor(material);
-    const auto* overall = dynamic_cast<const osg::Vec4Array*>(colors);
-    if (!overall || overall->empty() || overall->getBinding() != osg::Array::BIND_OVERALL) return std::nullopt;
-    return overall->front();
-}
-
-osg::Vec4 ambientNow() {
-    osg::Vec4 ambient;
-    glGetMaterialfv(GL_FRONT, GL_AMBIENT, ambient.ptr());
-    return ambient;
-}
-
-/// That which osg::State applies where there is none.
-const osg::Material& defaultOf(osg::State& state) {
-    if (!state.getGlobalDefaultAttribute(A::MATERIAL)) state.setGlobalDefaultAttribute(new osg::Material);
-    return static_cast<const osg::Material&>(*state.getGlobalDefaultAttribute(A::MATERIAL));
-}
-
-/// A context's first frame with shadows: nothing has been set by then.
-class FirstFrame : public osg::Referenced {
-public:
-    explicit FirstFrame(unsigned) {}
-    bool is(const osg::State& state) {
-        const osg::FrameStamp* stamp = state.getFrameStamp();
-        const unsigned frame = stamp ? stamp->getFrameNumber() : 0;
-        if (!_number) _number = frame;
-        return _number == frame;
+/// The current colour that it sets, as osg::Material::apply() has it.
+osg::Vec4 colorBy(const osg::Material& material) {
+    switch (material.getColorMode()) {
+    case osg::Material::AMBIENT:
+        return material.getAmbient(osg::Material::FRONT);
+    case osg::Material::SPECULAR:
+        return material.getSpecular(osg::Material::FRONT);
+    case osg::Material::EMISSION:
+        return material.getEmission(osg::Material::FRONT);
+    default:
+        return material.getDiffuse(osg::Material::FRONT);
     }
+}
 
-protected:
-    ~FirstFrame() override = default;
-
-private:
-    std::optional<unsigned> _number;
+/// What a drawable does to the current colour.
+struct ColorUse {
+    bool reads = false;            ///< it may be drawn in the colour that stands.
+    bool isKnown = true;           ///< `sets` is all that it does.
+    std::optional<osg::Vec4> sets; ///< the colour that it leaves.
 };
 
-/// True if the leaf drawn last shows it, but for a context's first frame. Where it cannot show it, Mesa mostly keeps nothing.
-bool isKept(const osg::State& state, const osgUtil::RenderLeaf* last) {
-    if (osg::get<FirstFrame>(state.getContextID())->is(state)) return false;
-    const osg::Material* material = last ? materialOf(last->_parent) : nullptr;
-    if (!material || !tracksAmbient(*material)) return false;
-    const std::optional<osg::Vec4> color = colorAfter(*last->_drawable, *material);
-    return color && ambientNow() != *color;
+ColorUse colorUseOf(const osg::Drawable& drawable) {
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry) return {true, false, {}};
+    const osg::Array* colors = geometry->getColorArray();
+    if (!colors || colors->getNumElements() == 0) return {true, true, {}};
+    if (colors->getBinding() == osg::Array::BIND_PER_VERTEX) return {false, true, {}};
+    if (colors->getBinding() != osg::Array::BIND_OVERALL) return {false, false, {}};
+    if (const auto* four = dynamic_cast<const osg::Vec4Array*>(colors)) return {false, true, four->front()};
+    if (const auto* three = dynamic_cast<const osg::Vec3Array*>(colors))
+        return {false, true, osg::Vec4(three->front(), 1.0f)};
+    const auto* bytes = dynamic_cast<const osg::Vec4ubArray*>(colors);
+    if (!bytes) return {false, false, {}};
+    const osg::Vec4ub& byte = bytes->front();
+    return {false, true, osg::Vec4(byte.r(), byte.g(), byte.b(), byte.a()) / 255.0f};
+}
+
+/// True if what osg::State's default material sets beside stands until the next frame: not if RenderStage has applied a
+/// material that tracks the colour after the last leaf, with nothing drawn by it.
+bool standsAfter(const std::vector<DrawnLeaf>& leaves) {
+    if (leaves.empty()) return true;
+    const osgUtil::StateGraph* graph = leaves.back().leaf->_parent;
+    const osg::Material* above = materialOf(graph->_parent);
+    return !above || above == materialOf(graph) || above->getColorMode() == osg::Material::OFF;
 }
 
 /// As Mesa does whenever it draws: what is set beside is taken over, and forgotten.
@@ -92,66 +84,69 @@ void takeOver() {
 
 } // namespace
 
-MaterialHistory::MaterialHistory(osg::State& state, const std::vector<DrawnLeaf>& leaves,
-                                 const osgUtil::RenderLeaf* last)
-    : _state(state), _last(last ? last->_parent : nullptr) {
-    if (isKept(state, last)) find(leaves);
+MaterialHistory::MaterialHistory(osg::State& state, osgUtil::RenderStage& stage)
+    : _state(state), _stage(stage), _material(appliedTo(state)) {
+    glGetFloatv(GL_CURRENT_COLOR, _now.color.ptr());
+    if (!_material || !tracksAmbient(*_material)) return;
+    osg::Vec4 ambient;
+    glGetMaterialfv(GL_FRONT, GL_AMBIENT, ambient.ptr());
+    _now.byDefault = ambient != _now.color;
 }
 
-/// Leaves of one graph mostly follow each other.
-void MaterialHistory::find(const std::vector<DrawnLeaf>& leaves) {
+bool MaterialHistory::isDefault(osg::State& state) {
+    const osg::Material* applied = appliedTo(state);
+    return applied && applied == state.getGlobalDefaultAttribute(A::MATERIAL);
+}
+
+/// Goes through all leaves, as they are drawn.
+void MaterialHistory::find() {
+    _found.emplace();
+    const std::vector<DrawnLeaf> leaves = leavesBelow(_stage, last);
+    const bool byDefault = PrepassBin::followsDefault(_stage) && standsAfter(leaves);
     const osgUtil::StateGraph* graph = nullptr;
-    const osg::Material* first = nullptr;
-    bool isFirst = true;
+    const osg::Material* material = nullptr;
+    std::optional<Found> now;
     for (const DrawnLeaf& entry : leaves) {
-        if (entry.leaf->_parent == graph) continue;
-        const osg::Material* material = materialOf(entry.leaf->_parent);
-        if (!graph) first = material;
+        const osg::Material* before = material;
+        if (entry.leaf->_parent != graph) material = materialOf(entry.leaf->_parent);
+        if (material && (material != before || !graph)) now = Found{!graph && byDefault, colorBy(*material)};
         graph = entry.leaf->_parent;
-        isFirst = isFirst && material == first;
-        if (material && tracksAmbient(*material)) _tracking.insert({graph, isFirst});
+        const ColorUse use = colorUseOf(*entry.leaf->_drawable);
+        if (use.sets && (!now || *use.sets != now->color)) now = Found{false, *use.sets};
+        if (now) _found->insert({entry.leaf, *now});
+        if (!use.isKnown) now.reset();
     }
 }
 
-void MaterialHistory::leadTo(const osgUtil::StateGraph& graph) {
-    const auto found = _tracking.find(&graph);
-    if (found == _tracking.end()) return;
-    if (_lead != found->second || _state.getLastAppliedAttribute(A::MATERIAL) != materialOf(&graph))
-        lead(found->second);
+void MaterialHistory::leadTo(const osgUtil::RenderLeaf& leaf) {
+    const osg::Material* material = appliedTo(_state);
+    if (!material || !tracksAmbient(*material)) return;
+    const ColorUse use = colorUseOf(*leaf._drawable);
+    if (!use.reads && use.sets != colorBy(*material)) return;
+    if (!_found) find();
+    const auto found = _found->find(&leaf);
+    if (found != _found->end()) lead(*material, found->second);
 }
 
-void MaterialHistory::lead(bool byDefault) {
+void MaterialHistory::lead(const osg::Material& material, const Found& found) {
     takeOver();
-    if (byDefault)
-        defaultOf(_state).apply(_state);
+    const osg::StateAttribute* byDefault = _state.getGlobalDefaultAttribute(A::MATERIAL);
+    if (found.byDefault && byDefault)
+        byDefault->apply(_state);
     else
         glDisable(GL_COLOR_MATERIAL);
-    _state.haveAppliedAttribute(A::MATERIAL); // or it would not apply the graph's own
-    _lead = byDefault;
-}
-
-/// After its last leaf osgUtil::RenderStage applies the state above that one's.
-void MaterialHistory::restore() {
-    const osg::Material* material = _last ? materialOf(_last) : nullptr;
-    if (!material) return;
-    const auto found = _tracking.find(_last);
-    if (found != _tracking.end()) lead(found->second);
-    apply(*material);
-    const osg::Material* above = materialOf(_last->_parent);
-    if (!above || above == material) return;
-    takeOver(); // as if the leaf had been drawn
-    apply(*above);
-}
-
-void MaterialHistory::apply(const osg::Material& material) {
     material.apply(_state);
-    _state.haveAppliedAttribute(&material);
+    glColor4fv(found.color.ptr());
 }
 
-void MaterialHistory::restoreDefault(osg::State& state) {
-    takeOver();
-    defaultOf(state).apply(state);
-    state.haveAppliedAttribute(&defaultOf(state));
+void MaterialHistory::restore() {
+    if (!_material) {
+        glColor4fv(_now.color.ptr());
+        return _state.haveAppliedAttribute(A::MATERIAL);
+    }
+    lead(*_material, _now);
+    _state.haveAppliedAttribute(_material);
+    if (!isDefault(_state) || !standsAfter(leavesBelow(_stage, last))) takeOver();
 }
 
 } // namespace gnomon

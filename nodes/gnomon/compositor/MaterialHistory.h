@@ -11,34 +11,39 @@
 
 namespace gnomon {
 
-/// What osg::Materials leave in OpenGL for those after them, so that leaves drawn again find what they found first.
+/// What osg::Materials and colours leave in OpenGL for those after them, so that a leaf drawn again finds what it found first,
+/// and what is drawn later finds what it would find without the kit.
 ///
-/// osgViewer's own material lets the current colour be ambient and diffuse. Mesa (22.3) keeps what the material before it has
-/// set beside, until something is drawn: the first things of a stage have osg::State's default ambient instead of their
-/// colour, if they have no colour of their own, or just that of the material before.
+/// A drawable without colours has those of the one before it; by osgViewer's own material they are its ambient and diffuse.
+/// Mesa (22.3) lets the ambient of the material before stand until the colour changes or something is drawn: the first things
+/// of a stage have that of osg::State's default, as SceneView has applied it after the frame before.
 class MaterialHistory {
 public:
-    /// Call it before anything else is drawn or popped. @param last  the leaf drawn last; null if there is none.
-    MaterialHistory(osg::State& state, const std::vector<DrawnLeaf>& leaves, const osgUtil::RenderLeaf* last);
+    /// Reads what stands now. Call it before anything else is drawn or popped.
+    MaterialHistory(osg::State& state, osgUtil::RenderStage& stage);
 
-    /// Call it before the state of a leaf of `graph` is applied once more.
-    void leadTo(const osgUtil::StateGraph& graph);
-    /// As after the last leaf. Call it when all is drawn and popped.
+    /// Call it when the state of a leaf of the stage is applied once more.
+    void leadTo(const osgUtil::RenderLeaf& leaf);
+    /// As when this was made. Call it when all is drawn.
     void restore();
 
-    /// As before the first leaf of a stage.
-    static void restoreDefault(osg::State& state);
+    /// True if osg::State's default material is the last that it has applied.
+    static bool isDefault(osg::State& state);
 
 private:
-    void find(const std::vector<DrawnLeaf>& leaves);
-    void lead(bool byDefault);
-    void apply(const osg::Material& material);
+    /// What a drawable finds.
+    struct Found {
+        bool byDefault = false; ///< ambient is the default material's.
+        osg::Vec4 color;
+    };
+    void find();
+    void lead(const osg::Material& material, const Found& found);
 
     osg::State& _state;
-    const osgUtil::StateGraph* const _last; ///< of the leaf drawn last.
-    /// Those whose material tracks the current colour, and whether it follows the default with nothing drawn between.
-    std::unordered_map<const osgUtil::StateGraph*, bool> _tracking;
-    std::optional<bool> _lead; ///< the same of the one that is applied.
+    osgUtil::RenderStage& _stage;
+    const osg::Material* const _material; ///< that stands; null if there is none.
+    Found _now;
+    std::optional<std::unordered_map<const osgUtil::RenderLeaf*, Found>> _found; ///< once asked for.
 };
 
 } // namespace gnomon

@@ -20,6 +20,12 @@ const bool registered = [] {
     return true;
 }();
 
+const PrepassBin* find(osgUtil::RenderStage& stage) {
+    for (const auto& [number, bin] : stage.getRenderBinList())
+        if (const auto* prepass = dynamic_cast<const PrepassBin*>(bin.get())) return prepass;
+    return nullptr;
+}
+
 PrepassBin& binOf(osgUtil::RenderStage& stage) {
     for (int number = lowestNumber;; ++number) {
         auto* bin = dynamic_cast<PrepassBin*>(stage.find_or_insert(number, binName));
@@ -68,32 +74,44 @@ void PrepassBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& 
 void PrepassBin::saveColors(osgUtil::RenderStage& stage) { binOf(stage)._colors = std::make_unique<FrameColorCopy>(); }
 
 FrameColorCopy* PrepassBin::savedColors(osgUtil::RenderStage& stage) {
-    for (const auto& [number, bin] : stage.getRenderBinList())
-        if (const auto* prepass = dynamic_cast<const PrepassBin*>(bin.get())) return prepass->_colors.get();
-    return nullptr;
+    const PrepassBin* prepass = find(stage);
+    return prepass ? prepass->_colors.get() : nullptr;
+}
+
+void PrepassBin::watch(osgUtil::RenderStage& stage) { binOf(stage); }
+
+bool PrepassBin::followsDefault(osgUtil::RenderStage& stage) {
+    const PrepassBin* prepass = find(stage);
+    return prepass && prepass->_followsDefault;
 }
 
 void PrepassBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
-    if (isCoreProfile(*renderInfo.getState())) {
+    osg::State& state = *renderInfo.getState();
+    if (isCoreProfile(state)) {
         if (_job.marks) _job.report(coreProfileRefused);
-        osgUtil::RenderBin::drawImplementation(renderInfo, previous);
-        return;
+    } else {
+        if (_colors || _job.marks) drawAhead(renderInfo, previous);
+        _followsDefault = MaterialHistory::isDefault(state);
     }
+    osgUtil::RenderBin::drawImplementation(renderInfo, previous);
+}
+
+void PrepassBin::drawAhead(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
+    osg::State& state = *renderInfo.getState();
+    MaterialHistory materials(state, *getStage());
+    popLeafState(state, previous);
     if (_colors) {
-        popLeafState(*renderInfo.getState(), previous);
-        const CleanState clean(*renderInfo.getState(), getStage()->getViewport());
-        if (!_colors->save(*renderInfo.getState(), *getStage()->getViewport())) _colors.reset();
+        const CleanState clean(state, getStage()->getViewport());
+        if (!_colors->save(state, *getStage()->getViewport())) _colors.reset();
     }
     if (_job.marks) {
-        forgetArrays(*renderInfo.getState());
-        popLeafState(*renderInfo.getState(), previous);
-        const CleanState clean(*renderInfo.getState(), getStage()->getViewport());
+        forgetArrays(state);
+        const CleanState clean(state, getStage()->getViewport());
         const std::string cause = _job.programMarks()->drawAhead(renderInfo);
         _job.report(cause);
-        forgetArrays(*renderInfo.getState());
+        forgetArrays(state);
     }
-    if (_colors || _job.marks) MaterialHistory::restoreDefault(*renderInfo.getState());
-    osgUtil::RenderBin::drawImplementation(renderInfo, previous);
+    materials.restore();
 }
 
 } // namespace gnomon

@@ -29,13 +29,21 @@ public:
     /// Those colours; null if they were not asked for, or OpenGL cannot read them: a framebuffer object of several samples.
     static FrameColorCopy* savedColors(osgUtil::RenderStage& stage);
 
+    /// Lets it be seen what the stage begins with.
+    static void watch(osgUtil::RenderStage& stage);
+    /// True if osg::State's default material stood when a watched stage began to draw: not in a context's first frame.
+    static bool followsDefault(osgUtil::RenderStage& stage);
+
     void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
 
 protected:
     ~PrepassBin() override;
 
 private:
+    void drawAhead(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous);
+
     ShadowJob _job;
+    bool _followsDefault = false;
     std::unique_ptr<FrameColorCopy> _colors; ///< null if they are not to be saved.
 };
 

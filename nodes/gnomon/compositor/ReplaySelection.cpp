@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/ReplaySelection.h>
 
+#include <osg/Geometry>
+
 #include <algorithm>
 
 namespace gnomon {
@@ -50,10 +52,18 @@ std::vector<ReplayedLeaf> leavesToReplay(const CompositorStage& draw, const std:
     TouchTest touches(bounds);
     const std::size_t last = filter ? lastReceiver(leaves, jobs, plain) : leaves.size();
     std::vector<ReplayedLeaf> result;
+    const DrawnLeaf* own = nullptr; // draws itself and is left out: it may have set the colour of what has none
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const osgUtil::RenderLeaf& leaf = *leaves[i].leaf;
         if (i > last && plain(leaf)) continue;
-        if (!filter || touches(leaf)) result.push_back({leaves[i], lightsLostBy(&leaf, jobs)});
+        const osg::Geometry* geometry = leaf._drawable->asGeometry();
+        const bool replayed = !filter || touches(leaf);
+        if (own && replayed && geometry && !geometry->getColorArray()) {
+            result.push_back({*own, 0});
+            own = nullptr;
+        }
+        if (replayed) result.push_back({leaves[i], lightsLostBy(&leaf, jobs)});
+        if (!geometry) own = replayed ? nullptr : &leaves[i];
     }
     return result;
 }

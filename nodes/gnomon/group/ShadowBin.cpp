@@ -235,6 +235,7 @@ void ShadowBin::prepareAll() {
     if (!isIdle() || !_lateJobs.empty()) {
         _sharesStencil = isModeOn(leavesBelow(*getStage(), std::numeric_limits<int>::max()), GL_STENCIL_TEST);
         clearWithStage();
+        PrepassBin::watch(*getStage());
     }
     saveColorsIfBlended(drawn);
     handOnLateJobs(drawn.late.last);

@@ -3,8 +3,8 @@
 #include <gnomon/compositor/Compositor.h>
 #include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/ForgottenArrays.h>
-#include <gnomon/compositor/SoftMarkJob.h>
 #include <gnomon/compositor/KeptByStage.h>
+#include <gnomon/compositor/SoftMarkJob.h>
 #include <gnomon/compositor/StageVerdict.h>
 #include <gnomon/group/ShadowBin.h>
 
@@ -54,13 +54,16 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*
     const std::string never = whyNeverComposed(state, *getStage());
     if (!never.empty()) return never;
     std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
-    MaterialHistory materials(state, leaves, previous);
+    MaterialHistory materials(state, *getStage());
+    osgUtil::RenderLeaf* const last = previous;
     popLeafState(state, previous);
     const unsigned unit = state.getActiveTextureUnit();
     forgetArrays(state);
     for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->begin(renderInfo);
     const std::string cause = compose(renderInfo, std::move(leaves), materials);
     for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->end(renderInfo);
+    if (last) pushLeafState(state, *last);
+    previous = last;
     materials.restore();
     forgetArrays(state);
     state.setActiveTextureUnit(unit);
