@@ -2,7 +2,6 @@
 #pragma once
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/compositor/DrawnLeaves.h>
-#include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/gl/ScreenPass.h>
 
 #include <osg/RenderInfo>
@@ -13,6 +12,8 @@
 #include <vector>
 
 namespace gnomon {
+
+class MaterialHistory;
 
 /// One stage while the compositor draws in it: what was drawn before, and what its framebuffer offers.
 class CompositorStage {

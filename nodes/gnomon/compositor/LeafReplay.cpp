@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/LeafReplay.h>
+#include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/TriangleClusters.h>
 

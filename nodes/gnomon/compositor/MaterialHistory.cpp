@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/MaterialHistory.h>
-#include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
 
 #include <osg/Geometry>
@@ -84,8 +83,8 @@ void takeOver() {
 
 } // namespace
 
-MaterialHistory::MaterialHistory(osg::State& state, osgUtil::RenderStage& stage)
-    : _state(state), _stage(stage), _material(appliedTo(state)) {
+MaterialHistory::MaterialHistory(osg::State& state, osgUtil::RenderStage& stage, bool followsDefault)
+    : _state(state), _stage(stage), _followsDefault(followsDefault), _material(appliedTo(state)) {
     glGetFloatv(GL_CURRENT_COLOR, _now.color.ptr());
     if (!_material || !tracksAmbient(*_material)) return;
     osg::Vec4 ambient;
@@ -102,7 +101,7 @@ bool MaterialHistory::isDefault(osg::State& state) {
 void MaterialHistory::find() {
     _found.emplace();
     const std::vector<DrawnLeaf> leaves = leavesBelow(_stage, last);
-    const bool byDefault = PrepassBin::followsDefault(_stage) && standsAfter(leaves);
+    const bool byDefault = _followsDefault && standsAfter(leaves);
     const osgUtil::StateGraph* graph = nullptr;
     const osg::Material* material = nullptr;
     std::optional<Found> now;

@@ -20,7 +20,8 @@ namespace gnomon {
 class MaterialHistory {
 public:
     /// Reads what stands now. Call it before anything else is drawn or popped.
-    MaterialHistory(osg::State& state, osgUtil::RenderStage& stage);
+    /// @param followsDefault  the stage began with osg::State's default material.
+    MaterialHistory(osg::State& state, osgUtil::RenderStage& stage, bool followsDefault = false);
 
     /// Call it when the state of a leaf of the stage is applied once more.
     void leadTo(const osgUtil::RenderLeaf& leaf);
@@ -41,6 +42,7 @@ private:
 
     osg::State& _state;
     osgUtil::RenderStage& _stage;
+    const bool _followsDefault;
     const osg::Material* const _material; ///< that stands; null if there is none.
     Found _now;
     std::optional<std::unordered_map<const osgUtil::RenderLeaf*, Found>> _found; ///< once asked for.

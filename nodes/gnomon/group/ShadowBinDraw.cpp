@@ -4,6 +4,7 @@
 #include <gnomon/compositor/CompositorTarget.h>
 #include <gnomon/compositor/ForgottenArrays.h>
 #include <gnomon/compositor/KeptByStage.h>
+#include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/SoftMarkJob.h>
 #include <gnomon/compositor/StageVerdict.h>
 #include <gnomon/group/ShadowBin.h>
@@ -54,7 +55,7 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*
     const std::string never = whyNeverComposed(state, *getStage());
     if (!never.empty()) return never;
     std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
-    MaterialHistory materials(state, *getStage());
+    MaterialHistory materials(state, *getStage(), PrepassBin::followsDefault(*getStage()));
     osgUtil::RenderLeaf* const last = previous;
     popLeafState(state, previous);
     const unsigned unit = state.getActiveTextureUnit();
