@@ -20,3 +20,11 @@ gnomon_optional_part(terrain Qhull Qhull::qhullcpp libqhull-dev "cuts casters in
 gnomon_optional_part(sun libnova nova::nova libnova-dev "knows where the sun stands")
 gnomon_optional_part(headless OSMesa osmesa::osmesa libosmesa6-dev "draws without a display")
 gnomon_optional_part(headless_egl EGL OpenGL::EGL libegl-dev "draws without a display on a GPU")
+# Mesa has dropped OSMesa: EGL takes its place where it is missing.
+set(GNOMON_HEADLESS_BY OSMesa)
+if(NOT GNOMON_HAS_OSMESA AND GNOMON_HAS_EGL)
+  set(GNOMON_HEADLESS_BY EGL)
+  set(GNOMON_MISSING_headless "")
+endif()
+set(GNOMON_HEADLESS_BY ${GNOMON_HEADLESS_BY} CACHE INTERNAL "What draws without a display")
+message(STATUS "Drawing without a display by ${GNOMON_HEADLESS_BY}")

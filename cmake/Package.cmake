@@ -53,7 +53,10 @@ gnomon_package(dev libgnomon-dev libdevel "development files"
 pkg-config.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libgnomon1 ${same_version}, libopenscenegraph-dev, libglm-dev")
 # For the components headless and headless_egl of find_package(gnomon).
-set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libosmesa6-dev, libegl-dev, pkg-config")
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libegl-dev, pkg-config")
+if(GNOMON_HAS_OSMESA)
+  string(PREPEND CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libosmesa6-dev, ")
+endif()
 set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "gnomon-doc")
 
 gnomon_package(tools gnomon-tools graphics "programs"

@@ -28,7 +28,7 @@ namespace gnomon {
 /// - Memory: width × height × (8 or 32 bytes colour + 4 bytes depth and stencil).
 /// Needs
 /// - One of two CMake targets; a program links only one.
-/// - gnomon::headless: libOSMesa, ahead of libGL.
+/// - gnomon::headless: libOSMesa, ahead of libGL; the same as the other target if Gnomon was built where OSMesa is not.
 /// - gnomon::headless_egl: libEGL and libGL, and at run time a driver's or Mesa's EGL.
 /// Limits
 /// - One viewer for each context. The context outlives its viewer.

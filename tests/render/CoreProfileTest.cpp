@@ -14,27 +14,18 @@
 #include <osg/DisplaySettings>
 #include <osg/Program>
 
-#include <GL/osmesa.h>
+#include <EGL/egl.h>
+#include <dlfcn.h>
 
 using namespace test;
 
-/// In place of OSMesa's own, which HeadlessContext calls.
-extern "C" OSMesaContext OSMesaCreateContextExt(GLenum format, GLint depthBits, GLint stencilBits, GLint,
-                                                OSMesaContext share) {
-    const int wanted[] = {OSMESA_FORMAT,
-                          int(format),
-                          OSMESA_DEPTH_BITS,
-                          depthBits,
-                          OSMESA_STENCIL_BITS,
-                          stencilBits,
-                          OSMESA_PROFILE,
-                          OSMESA_CORE_PROFILE,
-                          OSMESA_CONTEXT_MAJOR_VERSION,
-                          3,
-                          OSMESA_CONTEXT_MINOR_VERSION,
-                          3,
-                          0};
-    return OSMesaCreateContextAttribs(wanted, share);
+/// In place of EGL's own, which HeadlessContext calls.
+extern "C" EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, EGLContext share, const EGLint*) {
+    const EGLint wanted[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    const auto real = reinterpret_cast<decltype(&eglCreateContext)>(dlsym(RTLD_NEXT, "eglCreateContext"));
+    return real(display, config, share, wanted);
 }
 
 namespace {

@@ -7,7 +7,8 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 
-#include <GL/osmesa.h>
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
 #include <osg/FrameBufferObject>
 #include <osg/GLExtensions>
 #include <osgViewer/GraphicsWindow>
@@ -19,27 +20,60 @@ using namespace test;
 
 namespace {
 
+EGLDisplay display() {
+    static const EGLDisplay display = [] {
+        const EGLDisplay found = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
+        eglInitialize(found, nullptr, nullptr);
+        eglBindAPI(EGL_OPENGL_API);
+        return found;
+    }();
+    return display;
+}
+
+EGLConfig config() {
+    const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                             EGL_PBUFFER_BIT,
+                             EGL_RENDERABLE_TYPE,
+                             EGL_OPENGL_BIT,
+                             EGL_ALPHA_SIZE,
+                             8,
+                             EGL_DEPTH_SIZE,
+                             24,
+                             EGL_STENCIL_SIZE,
+                             8,
+                             EGL_NONE};
+    EGLConfig result = nullptr;
+    EGLint count = 0;
+    eglChooseConfig(display(), wanted, &result, 1, &count);
+    return result;
+}
+
 /// A window in memory that may share its context.
 class SharedWindow : public osgViewer::GraphicsWindowEmbedded {
 public:
     SharedWindow(const View& view, SharedWindow* with)
         : osgViewer::GraphicsWindowEmbedded(traitsOf(view, with).get()),
-          _context(OSMesaCreateContextExt(OSMESA_RGBA, 24, 8, 0, with ? with->_context : nullptr)) {
+          _context(eglCreateContext(display(), config(), with ? with->_context : EGL_NO_CONTEXT, nullptr)) {
+        const EGLint size[] = {EGL_WIDTH, view.width, EGL_HEIGHT, view.height, EGL_NONE};
+        _surface = eglCreatePbufferSurface(display(), config(), size);
         picture.width = view.width;
         picture.height = view.height;
         picture.pixels.resize(static_cast<std::size_t>(view.width * view.height));
     }
 
-    bool makeCurrentImplementation() override {
-        return OSMesaMakeCurrent(_context, picture.pixels.data(), GL_UNSIGNED_BYTE, picture.width, picture.height);
-    }
+    bool makeCurrentImplementation() override { return eglMakeCurrent(display(), _surface, _surface, _context); }
     bool releaseContextImplementation() override { return true; }
-    void swapBuffersImplementation() override { glFinish(); }
+    void swapBuffersImplementation() override {
+        glReadPixels(0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE, picture.pixels.data());
+    }
 
     Picture picture;
 
 protected:
-    ~SharedWindow() override { OSMesaDestroyContext(_context); }
+    ~SharedWindow() override {
+        eglDestroySurface(display(), _surface);
+        eglDestroyContext(display(), _context);
+    }
 
 private:
     static osg::ref_ptr<Traits> traitsOf(const View& view, SharedWindow* with) {
@@ -51,7 +85,8 @@ private:
         return traits;
     }
 
-    const OSMesaContext _context;
+    const EGLContext _context;
+    EGLSurface _surface;
 };
 
 /// While it lives, each context knows only the framebuffer objects that it made itself.
@@ -73,10 +108,10 @@ public:
 private:
     static void GL_APIENTRY generate(GLsizei count, GLuint* names) {
         real.generate(count, names);
-        for (GLsizei i = 0; i < count; ++i) made[OSMesaGetCurrentContext()][names[i]] = names[i];
+        for (GLsizei i = 0; i < count; ++i) made[eglGetCurrentContext()][names[i]] = names[i];
     }
     static void GL_APIENTRY bind(GLenum target, GLuint name) {
-        GLuint& known = made[OSMesaGetCurrentContext()][name];
+        GLuint& known = made[eglGetCurrentContext()][name];
         if (name && !known) real.generate(1, &known);
         real.bind(target, known);
     }
@@ -86,7 +121,7 @@ private:
         decltype(osg::GLExtensions::glBindFramebuffer) bind;
     };
     inline static Real real;
-    inline static std::map<OSMesaContext, std::map<GLuint, GLuint>> made;
+    inline static std::map<EGLContext, std::map<GLuint, GLuint>> made;
     osg::GLExtensions& _gl;
 };
 
