@@ -10,7 +10,7 @@ namespace gnomon {
 
 class AutoChooser;
 
-/// Casts shadows by the cheapest of the other techniques that keeps an error, or by the most accurate that keeps a time.
+/// Casts shadows by the cheapest of the other techniques that keeps an error.
 ///
 /// Take it if you do not want to choose. Take one of the others if you know which: it then never changes.
 ///
@@ -21,33 +21,32 @@ class AutoChooser;
 /// Candidates
 /// - No shadow at all, if none could be seen, or if RELIGHT would change no channel by 2/255.
 /// - PlanarShadowNode, if only flat receivers get shadow.
-/// - TerrainShadowGeode with HULL or DRAPE, if a terrain is named as receiver and does not shadow itself.
+/// - TerrainShadowGeode with HULL, if a terrain is named as receiver and does not shadow itself.
 /// - ShadowMapTechnique, with all sizes, numbers of cascades, filters, and hard or smooth edges.
 /// - ShadowVolumeTechnique and TracedShadowTechnique, if no caster has an alpha test.
 /// - A candidate whose shadow would be wrong here is never chosen. ShadowCandidate::obstacle says why.
-/// Prediction
-/// - Error and time of each candidate are predicted from the casters, the receivers in sight, the light and the view.
-/// - lastDecision() gives them, with the choice and its reason.
-/// - A self-test in the first frame finds what work takes on the renderer. The user's cache folder keeps the least of five
-///   programs' tests, and later ones read it. Measured frames correct it.
-/// - The environment variable GNOMON_AUTO_RATES=fixed switches both off, for runs that choose alike.
+/// The rule
+/// - The error of each candidate is predicted from the shadow's edges in sight. Its work is counted: triangles, texels, pixels.
+/// - Of those that keep the error, the one of least work is taken. Work is weighed as processors or as graphics processors do it.
+/// - lastDecision() gives the candidates, with the choice and its reason.
+/// - The choice follows from facts of the scene and of its last frames: two runs of a program choose alike.
+/// - With a time, timer queries loosen or tighten the error. Then runs may differ.
 /// Changes
 /// - A scene that stands still is judged once, and once more if the light or a caster comes to rest.
 /// - In a scene that moves, candidates are judged again every 16 to 64 frames, and whenever the one that is
 ///   drawn would become wrong.
-/// - Another candidate takes over only if it saves a fifth of the time. Both keep the error.
+/// - Another candidate takes over only if it saves a fifth of the work. Both keep the error.
 /// Cost
 /// - In a frame without change: a look at the view, the light and the drawables in sight.
-/// - The self-test: some 100 ms, five times a renderer and user.
-/// - A measured frame waits for OpenGL. There are seven after a decision; while things move, every 64th.
-/// - A decision: a few visits of the boxes of casters and receivers. The candidate that is drawn costs what it costs alone.
+/// - A decision: a few visits of casters and receivers. The candidate that is drawn costs what it costs alone.
 /// Needs
 /// - The needs of the chosen technique.
 /// Limits
 /// - It leaves the group's composite as it is. BLEND is cheaper.
 /// - A change of the choice costs the first frame of the technique that takes over.
 /// - Penumbras are never chosen. Use ShadowMapTechnique with SOFT edges for them.
-/// - Predictions are for the whole shadow of one light. If a scene has several lights, each keeps the budget alone.
+/// - Each light keeps the error alone.
+/// - A time has no effect on a renderer without timer queries. diagnose() says so.
 /// - ShadowQuery answers by rays.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.
@@ -93,8 +92,10 @@ public:
 
     /// True while it draws by techniques of which this is true.
     bool takesDrawables() const override;
-    /// Learns what frames take. See ShadowTechnique::watch().
-    osg::ref_ptr<DrawWatch> watch(const ViewFrame& view, bool alone) const override;
+    /// Keeps a time. See ShadowTechnique::watch().
+    osg::ref_ptr<DrawWatch> watch(const ViewFrame& view) const override;
+    /// Registers the technique with the compositor in a cull traversal.
+    void traverse(osg::NodeVisitor& visitor) override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

@@ -13,7 +13,8 @@ struct ShadowCandidate {
     /// and the specification of its map.
     std::string spec;
     double error = 0.0; ///< Predicted error of the shadow's edge: 95th percentile, pixels.
-    /// Predicted time that it adds to a frame, milliseconds of processor time, as the scene moves now.
+    /// Counted work as a time that it adds to a frame, milliseconds, as the scene moves now. It tells candidates apart: on another
+    /// machine all are faster or slower.
     double time = 0.0;
     double still = 0.0;   ///< The same of a frame in which nothing moves.
     double flying = 0.0;  ///< The same of a frame in which the view moves alone, over many frames.
@@ -29,22 +30,17 @@ struct GNOMON_EXPORT ShadowDecision {
     /// Kind of the receivers. Empty: those of the opaque bins. Others are "with a depth range or polygon offset" or "drawn late",
     /// in a transparent bin. The shadow on them is drawn apart, by a choice of its own.
     std::string receivers;
-    ShadowCandidate chosen; ///< The choice. It is drawn unless another candidate is on trial.
-    std::string reason;     ///< In a few words: "the cheapest that keeps 1 px".
-    /// ShadowCandidate::spec of a candidate that is drawn for some frames in place of the choice, so that its time is known. Empty:
-    /// none.
-    std::string onTrial;
-    bool keepsBudget = true; ///< False if no candidate keeps the error and the time that are asked for.
-    /// Milliseconds that the shadows of all lights of the view took in the frame that was measured last. 0 before, and if
-    /// nothing is measured.
-    double measured = 0.0;
-    unsigned decisions = 0; ///< How often the candidates have been compared so far, for this light and view.
-    unsigned changes = 0;   ///< How often another candidate was chosen since the first.
+    ShadowCandidate chosen; ///< What is drawn.
+    /// Which row of the rule fired: "the cheapest that keeps 1 px: all of the shadow falls on one flat receiver".
+    std::string reason;
+    bool keepsBudget = true; ///< False if no candidate keeps the error that is asked for.
+    unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.
+    unsigned changes = 0;    ///< How often another candidate was chosen since the first.
     std::vector<ShadowCandidate> candidates; ///< All candidates, the usable ones first, by their times.
 
     /// Light and receivers: "light 0", or "light 0, receivers drawn late".
     std::string subject() const;
-    /// In a line: "light 0: volume, predicted 0.5 px and 1.2 ms; the cheapest that keeps 1 px". "; traced is on trial" may follow.
+    /// In a line: "light 0: volume, predicted 0.5 px and 1.2 ms; the cheapest that keeps 1 px: …".
     std::string text() const;
 };
 

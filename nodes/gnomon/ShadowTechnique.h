@@ -18,7 +18,7 @@
 namespace osgUtil {
 class CullVisitor;
 class RenderLeaf;
-}
+} // namespace osgUtil
 
 namespace gnomon {
 
@@ -92,8 +92,7 @@ public:
 
     /// A watch that is told of the compositor's work on one view in draw. The compositor asks once a view, after prepare().
     /// Default: null.
-    /// @param alone  true if the compositor draws nothing else there.
-    virtual osg::ref_ptr<DrawWatch> watch(const ViewFrame& view, bool alone) const;
+    virtual osg::ref_ptr<DrawWatch> watch(const ViewFrame& view) const;
 
     /// True if it draws casters that have no triangles to read, by their own code. Else the compositor reports them.
     /// Default false.

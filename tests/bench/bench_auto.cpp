@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What the automatic choice itself takes: in a frame of a scene that stands still, for a first decision, and for the
-// self-test of the renderer. Processor time: of one thread, of the self-test over all threads.
+// What the automatic choice itself takes: in a frame of a scene that stands still, for a first decision, and for a later one.
+// Processor time of one thread.
 // To count instructions instead: valgrind --tool=callgrind --toggle-collect='gnomon::AutoChooser::choose*' bench_auto.
 #include "Contenders.h"
 
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/auto/AutoChooser.h>
-#include <gnomon/auto/SelfTest.h>
-#include <gnomon/gl/DrawClock.h>
 #include <gnomon/group/LocalLight.h>
-#include <osg/RenderInfo>
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 
 using bench::Setting;
@@ -66,25 +62,6 @@ bool run(const Setting& setting, int frames, bool firstCasts = false) {
     return choice->decision().decisions == 1;
 }
 
-/// Runs the self-test in a context. llvmpipe draws in threads of its own, so all threads count.
-struct SelfTests : public osg::Camera::DrawCallback {
-    void operator()(osg::RenderInfo& renderInfo) const override {
-        const double from = gnomon::processorMilliseconds();
-        gnomon::measureCosts(renderInfo);
-        times.push_back(gnomon::processorMilliseconds() - from);
-    }
-    mutable std::vector<double> times;
-};
-
-void runSelfTest(const Setting& setting) {
-    test::Scene scene = setting.scene();
-    test::Camera camera(scene.root, setting.view);
-    const osg::ref_ptr<SelfTests> tests = new SelfTests;
-    camera.viewer().getCamera()->setFinalDrawCallback(tests);
-    for (int i = 0; i < 5; ++i) camera.viewer().frame();
-    std::printf("self-test: first %.0f ms, then %.0f ms, all threads\n", tests->times.front(), median(tests->times));
-}
-
 /// A box on a floor of 10,000 tiles, each a drawable. Where the box alone casts, relighting draws the tiles in sight alone.
 std::vector<test::Mesh> tiledFloor() {
     constexpr int side = 100;
@@ -99,7 +76,6 @@ std::vector<test::Mesh> tiledFloor() {
 int measure(osg::ArgumentParser& arguments) {
     const auto frames = bench::framesAsked(arguments, "What the automatic choice itself takes.");
     if (!frames) return 0;
-    setenv("GNOMON_AUTO_RATES", "fixed", 1);
     const test::View near = test::perspective({-50.0, -70.0, 50.0}, {0.0, 0.0, 0.0}, 800, 600, 40.0, 1.0, 600.0);
     std::vector<test::Mesh> houses = test::town(20), more = test::town(100);
     houses.push_back(test::square(55.0));
@@ -115,7 +91,6 @@ int measure(osg::ArgumentParser& arguments) {
     const Setting floor{"floor of 10,000 tiles, and a box", tiledFloor(), near, 1};
     right = run(floor, *frames) && right;
     right = run({"the same, and the box alone casts", floor.meshes, near, 1}, *frames, true) && right;
-    runSelfTest(simple);
     return right ? 0 : 1;
 }
 

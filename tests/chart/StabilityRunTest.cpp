@@ -199,16 +199,6 @@ TEST(StabilityRun, IsTheSameFromRunToRun) {
     }
 }
 
-/// Whatever the environment says, `auto` measures no costs.
-TEST(StabilityRun, HasFixedCosts) {
-    unsetenv("GNOMON_AUTO_RATES");
-    const Cells cells = cellsOf(badContender("tells", [] {
-        const char* rates = std::getenv("GNOMON_AUTO_RATES");
-        throw std::invalid_argument(rates ? rates : "none");
-    }));
-    EXPECT_EQ(cells[1].message, "fixed");
-}
-
 TEST(StabilityRun, EndsWhenItIsToldTo) {
     StabilityPlan plan = smallPlan();
     plan.contenders = {{badContender("hangs", hang)}};

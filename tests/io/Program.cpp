@@ -12,9 +12,6 @@ namespace gnomon::testing {
 namespace fs = std::filesystem;
 namespace {
 
-/// Costs are those of every machine, however a test is started.
-const int fixedRates = setenv("GNOMON_AUTO_RATES", "fixed", 0);
-
 std::string quoted(const std::string& text) {
     std::string result = "'";
     for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -35,7 +32,8 @@ std::string Ending::lastLine() const {
 Ending runProgram(const std::string& program, const std::vector<std::string>& arguments, const fs::path& folder,
                   int seconds) {
     const TemporaryFolder said;
-    std::string command = "cd " + quoted(folder) + " && exec timeout " + std::to_string(seconds) + " " + quoted(program);
+    std::string command =
+        "cd " + quoted(folder) + " && exec timeout " + std::to_string(seconds) + " " + quoted(program);
     for (const std::string& argument : arguments) command += " " + quoted(argument);
     command += " >" + quoted(said.path() / "out") + " 2>" + quoted(said.path() / "err") + " </dev/null";
     Ending ending;

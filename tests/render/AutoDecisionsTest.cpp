@@ -99,3 +99,22 @@ TEST(AutoDecisions, AreToldOfAllKindsOfReceiversAndTheUsualOnesFirst) {
     camera.frame();
     EXPECT_EQ(told(), std::vector<std::string>{"light 0: planar"}) << "the others are of earlier frames";
 }
+
+TEST(AutoCandidate, OfMapsAloneAMovingViewChangesWhatWasDrawn) {
+    gnomon::AutoCandidate volume, map;
+    volume.kind = gnomon::AutoCandidate::Kind::Volume;
+    map.kind = gnomon::AutoCandidate::Kind::Map;
+    const gnomon::CostRates& rates = gnomon::processorRates;
+    for (gnomon::AutoCandidate* each : {&volume, &map}) {
+        each->still.calls = 2.0 / rates.call; // 2 ms
+        each->change.calls = 10.0 / rates.call;
+    }
+    const gnomon::ShadowCandidate sides = volume.judged(rates, {0.5, 0.5}), texels = map.judged(rates, {0.5, 0.5});
+    EXPECT_NEAR(sides.still, 2.0, 1e-9);
+    EXPECT_NEAR(sides.flying, 2.0, 1e-9) << "outlines are the light's and the casters'";
+    EXPECT_NEAR(sides.moving, 12.0, 1e-9);
+    EXPECT_NEAR(sides.time, 7.0, 1e-9);
+    EXPECT_GT(texels.flying, 3.0);
+    EXPECT_LT(texels.flying, 4.0) << "one frame in seven, about";
+    EXPECT_NEAR(texels.time, (texels.flying + texels.moving) / 2.0, 1e-9);
+}

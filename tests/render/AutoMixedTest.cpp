@@ -18,7 +18,7 @@ using test::Scene;
 
 namespace {
 
-constexpr double half = 18.0; // of the ground's side
+constexpr double half = 18.0;  // of the ground's side
 constexpr double error = 0.42; // pixels: a map of all needs smooth edges for it
 const osg::Vec4d sun(1.0, 0.4, 1.2, 0.0);
 

@@ -7,13 +7,8 @@
 #include <osg/Material>
 #include <osg/NodeVisitor>
 
-#include <cstdlib>
-
 namespace test {
 namespace {
-
-/// Costs are those of every machine, however a test is started.
-const int fixedRates = setenv("GNOMON_AUTO_RATES", "fixed", 0);
 
 osg::StateSet* whiteUnderOneLight() {
     auto* state = new osg::StateSet;

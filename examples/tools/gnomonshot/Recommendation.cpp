@@ -26,14 +26,6 @@ std::string cppFor(const ShadowMapOptions& map) {
     return text + "group->addChild(shadow);";
 }
 
-std::string cppFor(const TerrainShadowOptions& terrain, const std::string& method) {
-    std::ostringstream text;
-    text << "auto* shadow = new gnomon::TerrainShadowGeode; shadow->setMethod(gnomon::TerrainShadowOptions::"
-         << (method == "hull" ? "HULL" : "DRAPE") << "); ";
-    if (terrain.error != TerrainShadowOptions().error) text << "shadow->setError(" << terrain.error << "); ";
-    return text.str() + "shadow->setReceiver({terrain}); group->addChild(shadow);";
-}
-
 void addLine(std::ostream& out, const ShadowCandidate& candidate) {
     out << "  " << std::left << std::setw(44) << candidate.spec << std::right << std::fixed << std::setprecision(2)
         << std::setw(8) << candidate.error << std::setw(9) << candidate.still << std::setw(9) << candidate.moving;
@@ -67,7 +59,9 @@ std::string cppFor(const ShadowCandidate& candidate) {
         return "group->addChild(new gnomon::AutoShadowTechnique); // it alone gives each technique its casters";
     const ShadowSpec parsed = parseShadowSpec(candidate.spec);
     if (parsed.technique == "map") return cppFor(parsed.map);
-    if (parsed.technique == "hull" || parsed.technique == "drape") return cppFor(parsed.terrain, parsed.technique);
+    if (parsed.technique == "hull")
+        return "auto* shadow = new gnomon::TerrainShadowGeode; shadow->setReceiver({terrain}); "
+               "group->addChild(shadow);";
     if (parsed.technique == "planar")
         return "group->addChild(new gnomon::PlanarShadowNode(osg::Vec4d(0, 0, 1, 0))); // your receiver's plane";
     if (parsed.technique == "volume") return "group->addChild(new gnomon::ShadowVolumeTechnique);";

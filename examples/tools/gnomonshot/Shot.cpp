@@ -65,10 +65,8 @@ Shot::Shot(const ShotOptions& options, osg::Node& files)
     _viewer.setSceneData(_setup.root);
 }
 
-/// The first frame alone knows the costs of the renderer that was used last, if any.
 void Shot::draw() {
-    const int least = _options.recommend ? 2 : 1;
-    for (int i = 0; i < std::max(_options.frameCount(), least); ++i) _viewer.frame();
+    for (int i = 0; i < _options.frameCount(); ++i) _viewer.frame();
 }
 
 nlohmann::json Shot::measure() {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/auto/AutoCandidate.h>
-#include <gnomon/base/NumberText.h>
 
 namespace gnomon {
 namespace {
@@ -33,12 +32,6 @@ std::string specOf(const ShadowMapOptions& map) {
     return text.text();
 }
 
-std::string specOf(const TerrainShadowOptions& terrain) {
-    SpecText text(terrain.method == TerrainShadowOptions::HULL ? "hull" : "drape");
-    if (terrain.error != TerrainShadowOptions().error) text.add("error", textOf(terrain.error));
-    return text.text();
-}
-
 } // namespace
 
 std::string AutoCandidate::spec() const {
@@ -46,7 +39,7 @@ std::string AutoCandidate::spec() const {
     case Kind::Planar:
         return "planar";
     case Kind::Terrain:
-        return specOf(terrain);
+        return "hull";
     case Kind::Map:
         return specOf(map);
     case Kind::Mixed:
@@ -62,26 +55,22 @@ std::string AutoCandidate::spec() const {
 
 bool AutoCandidate::isSame(const AutoCandidate& other) const {
     if (kind != other.kind) return false;
-    if (kind == Kind::Terrain) return terrain.method == other.terrain.method && terrain.error == other.terrain.error;
     return !hasMap() || (map.size == other.map.size && map.filter == other.map.filter &&
                          map.cascades == other.map.cascades && map.edges == other.map.edges);
 }
 
-double AutoCandidate::time(const AutoCosts& costs, const AutoMotion& motion) const {
-    const AutoCosts::Factors& factors = costs.factors[std::size_t(kind)];
-    const double drawn = timeOf(still, costs.rates), changed = timeOf(change, costs.rates);
-    const double refitted = hasMap() ? refits * motion.view * changed : 0.0;
-    const double atRest = (1.0 - motion.scene) * drawn + refitted, moving = motion.scene * (drawn + changed);
-    return factors.still * atRest + factors.moving * moving;
+double AutoCandidate::time(const CostRates& rates, const AutoMotion& motion) const {
+    const double drawn = timeOf(still, rates), changed = timeOf(change, rates);
+    return drawn + (motion.scene + (hasMap() ? refits * motion.view : 0.0)) * changed;
 }
 
-ShadowCandidate AutoCandidate::judged(const AutoCosts& costs, const AutoMotion& motion) const {
+ShadowCandidate AutoCandidate::judged(const CostRates& rates, const AutoMotion& motion) const {
     return {spec(),
             error,
-            time(costs, motion),
-            time(costs, {}),
-            time(costs, {0.0, 1.0}),
-            time(costs, {1.0, 0.0}),
+            time(rates, motion),
+            time(rates, {}),
+            time(rates, {0.0, 1.0}),
+            time(rates, {1.0, 0.0}),
             obstacle,
             kind == Kind::Mixed};
 }

@@ -3,18 +3,14 @@
 #include <gnomon/AutoShadowOptions.h>
 #include <gnomon/ShadowDecision.h>
 #include <gnomon/ShadowMapOptions.h>
-#include <gnomon/TerrainShadowOptions.h>
-#include <gnomon/choice/ShadowWork.h>
+#include <gnomon/choice/CandidateChoice.h>
 
 #include <osg/Vec4d>
 
-#include <array>
 #include <string>
 #include <vector>
 
 namespace gnomon {
-
-struct AutoCosts;
 
 /// Shares of the frames in which things move.
 struct AutoMotion {
@@ -29,11 +25,11 @@ struct AutoCandidate {
 
     Kind kind = Kind::Nothing;
     ShadowMapOptions map = {};
-    TerrainShadowOptions terrain = {};
     std::vector<osg::Vec4d> planes = {}; ///< group frame.
     double error = 0.0;                  ///< pixels.
     ShadowWork still = {};               ///< in every frame.
     ShadowWork change = {};              ///< besides, in a frame in which the light or a caster moves.
+    std::string why = {};                ///< the facts that it suits, in a few words.
     std::string obstacle = {};           ///< why it cannot be used.
 
     /// True if it has a map, and with it ShadowMapOptions.
@@ -43,21 +39,8 @@ struct AutoCandidate {
     /// True if it is drawn alike, wherever the planes are.
     bool isSame(const AutoCandidate& other) const;
     /// Milliseconds a frame, over many frames.
-    double time(const AutoCosts& costs, const AutoMotion& motion) const;
-    ShadowCandidate judged(const AutoCosts& costs, const AutoMotion& motion) const;
-};
-
-/// What work takes: by the renderer, and corrected for each kind of candidate.
-struct AutoCosts {
-    static constexpr std::size_t kinds = 7; ///< see AutoCandidate::Kind.
-
-    /// What predicted times of a kind are multiplied by: of frames in which neither light nor casters move, and of others.
-    struct Factors {
-        double still = 1.0, moving = 1.0;
-    };
-
-    CostRates rates = {};
-    std::array<Factors, kinds> factors = {};
+    double time(const CostRates& rates, const AutoMotion& motion) const;
+    ShadowCandidate judged(const CostRates& rates, const AutoMotion& motion) const;
 };
 
 } // namespace gnomon

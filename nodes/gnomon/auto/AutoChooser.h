@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateList.h>
-#include <gnomon/auto/FrameCosts.h>
 #include <gnomon/auto/InnerTechniques.h>
+#include <gnomon/auto/TimeKeeper.h>
 #include <gnomon/base/RecentCache.h>
-#include <gnomon/choice/CandidateChoice.h>
 
 #include <OpenThreads/Mutex>
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +15,9 @@
 namespace gnomon {
 
 /// What an AutoShadowTechnique remembers: the choice for each light in each view, and the techniques that draw.
+///
+/// A choice follows from facts of the scene, and stays until another candidate is better by a margin, or until it is wrong.
+/// No clock and no measured frame has a part in it, but for time=.
 ///
 /// Threads any number; one at a time decides.
 class AutoChooser {
@@ -30,16 +30,15 @@ public:
             FrameCasters casters;
         };
         std::vector<Share> shares;               ///< empty: no shadow is drawn.
-        std::string cause;                       ///< for ShadowTechnique::report(): the budget cannot be kept.
+        std::vector<std::string> causes;         ///< for ShadowTechnique::report(): the budget cannot be kept.
         std::shared_ptr<const LeafSet> surfaces; ///< see MarkJob::surfaces.
-        bool timed = false; ///< this frame is measured: prepared() wants to know how long its cull took.
     };
     Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
 
-    /// How long choose()'s technique took to prepare a light in a view. @param time  milliseconds.
-    void prepared(const void* stage, int light, double time);
-    /// What is to be learnt in the view's draw; null: nothing. @param alone  nothing else is drawn by the compositor there.
-    osg::ref_ptr<DrawWatch> watch(const void* stage, bool alone);
+    /// Who draws, if the calling thread may ask.
+    void learnRenderer();
+    /// What is to be learnt in the view's draw; null: nothing.
+    osg::ref_ptr<DrawWatch> watch(const void* renderStage, const AutoShadowOptions& options);
 
     /// Of the view that asked last, for each light and kind of receivers.
     std::vector<ShadowDecision> lastDecision() const;
@@ -48,74 +47,62 @@ public:
     /// True if all that was chosen takes the casters drawable by drawable.
     bool takesDrawables() const;
     void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
+    void releaseGLObjects(osg::State* state) const;
 
 private:
-    /// What a choice was made for.
+    /// Stands for what a choice was made for.
     struct Seen {
-        osg::Matrixd eyeFromGroup, projection;
-        osg::Vec2d pixels;
-        ShadowLight light;
-        osg::ref_ptr<const CasterDrawables> casters;
-        std::uint64_t leaves = 0;
-        ShadowCasterGroup::Composite composite = ShadowCasterGroup::RELIGHT;
-        unsigned reservedBits = 0;
-        std::size_t lights = 1;
-        float dark = 0.0f;
-        bool faint = false;
-        Selection receiver;
-        double error = 0.0, time = 0.0;
+        std::uint64_t motion = 0; ///< the light and the casters, wherever they are.
+        std::uint64_t view = 0;   ///< the view, and what is in sight.
+        std::uint64_t asked = 0;  ///< what is wanted.
+        double error = 0.0;       ///< pixels.
 
-        bool isSame(const Seen& other) const { return hasSameMotion(other) && hasSameView(other) && asks(other); }
-        bool hasSameMotion(const Seen& other) const;
-        bool hasSameView(const Seen& other) const;
-        /// True if the same is wanted of the same things, wherever they are.
-        bool asks(const Seen& other) const;
+        bool operator==(const Seen& other) const {
+            return motion == other.motion && view == other.view && asked == other.asked && error == other.error;
+        }
     };
     struct Choice {
         const void* stage;
         int light;
-        const void* renderStage; ///< see ViewFrame.
-        ReceiverKind kind;
+        const void* renderStage = nullptr; ///< see ViewFrame.
+        ReceiverKind kind = ReceiverKind::Usual;
         Seen decided, last;
         AutoCandidate candidate;
         ShadowDecision decision;
+        std::string cause;      ///< see Drawn.
+        double triangles = 0.0; ///< of the casters, when the candidates were compared.
         unsigned lastRound = 0;
-        unsigned frames = 0;   ///< since the candidates were compared.
-        unsigned patience = 0; ///< frames that have to pass before they are compared again, if nothing forces it.
-        unsigned seen = 0;     ///< frames that could be held against one before.
-        unsigned since = 0;    ///< frames since things began to move after a rest.
-        AutoMotion moving;     ///< of the recent frames.
-        std::string cause;     ///< see Drawn.
-        std::vector<AutoCandidate> rivals;      ///< to be drawn for some frames, so that their times are known.
-        std::optional<AutoCandidate> incumbent; ///< while a rival is drawn, what was drawn before.
-        std::array<unsigned, AutoCosts::kinds> trials{}; ///< how often each kind was drawn as a rival.
-        AutoMotion movingThen;                           ///< when the candidates were compared.
-        unsigned learnt = 0;                             ///< FrameCosts::generation() then.
-        AutoMotion motion;                               ///< of this frame.
-        bool alone = false;         ///< nothing else counts in a frame's time, so that it can be measured.
-        double prepared = 0.0;      ///< milliseconds, of a frame that is measured.
+        unsigned frames = 0;        ///< since the candidates were compared.
+        unsigned seen = 0;          ///< frames that could be held against one before.
+        unsigned since = 0;         ///< frames since things began to move after a rest.
+        AutoMotion moving;          ///< of the recent frames.
+        AutoMotion movingThen;      ///< when the candidates were compared.
         FlatLeaves flat;            ///< that relighting draws alone,
         std::optional<Seen> flatIn; ///< and what they were found for.
-        std::shared_ptr<std::atomic<double>> taken = std::make_shared<std::atomic<double>>(0.0);
     };
     Choice& find(const AutoView& view);
+    Seen seenIn(const AutoView& view, const Selection& receiver, double error) const;
+    TimeKeeper& keeperOf(const void* renderStage, const AutoShadowOptions& options);
     std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver);
     std::shared_ptr<const LeafSet> surfacesOf(Choice& choice, const Seen& now, const AutoView& view);
-    bool isMeasured(const Choice& choice) const;
     bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
-    void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver,
-                const AutoShadowOptions& options);
-    void findRivals(Choice& choice, const std::vector<AutoCandidate>& all, const std::vector<ChoiceCandidate>& judged,
-                    const ChoiceBudget& budget, std::size_t chosen) const;
-    bool isTrialDue(const Choice& choice) const;
-    bool tryRival(Choice& choice, const AutoView& view, const Selection& receiver);
+    bool isOld(const Choice& choice, const Seen& now) const;
+    void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
+
+    /// Of the shadows of one view, while time= is set.
+    struct Keeper {
+        const void* renderStage;
+        double error; ///< that was asked for.
+        unsigned lastRound;
+        osg::ref_ptr<TimeKeeper> keeper;
+    };
 
     mutable OpenThreads::Mutex _mutex;
     InnerTechniques _inner;
     AutoKnowledge _known;
-    const osg::ref_ptr<FrameCosts> _costs = new FrameCosts;
-    osg::ref_ptr<const CasterDrawables> _casters; ///< that the knowledge is of.
     RecentCache<std::unique_ptr<Choice>> _choices;
+    RecentCache<Keeper> _keepers;
+    const osg::ref_ptr<RendererFact> _renderer = new RendererFact;
     unsigned _round = 0, _frame = 0;
     const void* _lastRenderStage = nullptr;
 };

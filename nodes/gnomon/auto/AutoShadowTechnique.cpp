@@ -2,10 +2,12 @@
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/compositor/MarkJob.h>
-#include <gnomon/gl/DrawClock.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/LocalLight.h>
 #include <gnomon/group/ViewFrame.h>
+
+#include <osg/GraphicsContext>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 
@@ -54,27 +56,31 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
     }
     const AutoChooser::Drawn drawn =
         _chooser->choose({view, light, casters, casters.drawables(), *usable}, getReceiver(), _options);
-    if (!drawn.cause.empty()) report(view.frameNumber, drawn.cause);
-    if (drawn.shares.empty()) return {};
+    for (const std::string& cause : drawn.causes) report(view.frameNumber, cause);
     ViewFrame here = view;
     here.groupFromTechnique = osg::Matrixd(); // planes are the group's
-    const double from = drawn.timed ? processorMilliseconds() : 0.0;
     std::vector<osg::ref_ptr<MarkJob>> jobs;
     for (const auto& [technique, part] : drawn.shares) {
         technique->beginFrame(view.frameNumber, view.frameTime, view.stage);
         for (const osg::ref_ptr<MarkJob>& job : technique->prepare(here, light, part)) jobs.push_back(job);
+        for (const std::string& cause : causesOf(*technique)) report(view.frameNumber, cause);
     }
-    if (drawn.timed) _chooser->prepared(view.stage, light.number, processorMilliseconds() - from);
     for (const osg::ref_ptr<MarkJob>& job : jobs) job->surfaces = drawn.surfaces;
-    for (const auto& share : drawn.shares)
-        for (const std::string& cause : causesOf(*share.technique)) report(view.frameNumber, cause);
     return jobs;
+}
+
+/// The first frame's choice knows who draws where the context is current in cull.
+void AutoShadowTechnique::traverse(osg::NodeVisitor& visitor) {
+    const osgUtil::CullVisitor* cull = visitor.asCullVisitor();
+    const osg::State* state = cull ? cull->getState() : nullptr;
+    if (state && state->getGraphicsContext() && state->getGraphicsContext()->isCurrent()) _chooser->learnRenderer();
+    ShadowTechnique::traverse(visitor);
 }
 
 bool AutoShadowTechnique::takesDrawables() const { return _chooser->takesDrawables(); }
 
-osg::ref_ptr<DrawWatch> AutoShadowTechnique::watch(const ViewFrame& view, bool alone) const {
-    return _chooser->watch(view.stage, alone);
+osg::ref_ptr<DrawWatch> AutoShadowTechnique::watch(const ViewFrame& view) const {
+    return _chooser->watch(view.renderStage, _options);
 }
 
 void AutoShadowTechnique::resizeGLObjectBuffers(unsigned maxSize) {
@@ -85,6 +91,7 @@ void AutoShadowTechnique::resizeGLObjectBuffers(unsigned maxSize) {
 void AutoShadowTechnique::releaseGLObjects(osg::State* state) const {
     ShadowTechnique::releaseGLObjects(state);
     _chooser->forEach([state](ShadowTechnique& inner) { inner.releaseGLObjects(state); });
+    _chooser->releaseGLObjects(state);
 }
 
 } // namespace gnomon

@@ -4,6 +4,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/auto/MapEdges.h>
+#include <gnomon/base/NumberText.h>
 #include <gnomon/choice/EdgeError.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/map/MapCasters.h>
@@ -107,13 +108,8 @@ osg::ref_ptr<const MapCasters> boxesOf(const CasterLayers& layers) {
 /// Finds the candidates of one view.
 class Lister {
 public:
-    Lister(const AutoView& view, const Selection& receiver, double error, AutoKnowledge& known)
-        : _view(view),
-          _receiver(receiver),
-          _error(error),
-          _known(known),
-          _layers(view.meshes.layers()),
-          _boxes(boxesOf(_layers)) {}
+    Lister(const AutoView& view, const Selection& receiver, AutoKnowledge& known)
+        : _view(view), _receiver(receiver), _known(known), _layers(view.meshes.layers()), _boxes(boxesOf(_layers)) {}
 
     CandidateList list() {
         _one = forecast(*_boxes, 1, sizes[0]);
@@ -184,6 +180,8 @@ private:
         planar.kind = Kind::Planar;
         planar.planes = flat.planes;
         planar.obstacle = flat.obstacle;
+        planar.why = flat.planes.size() == 1 ? "all of the shadow falls on one flat receiver"
+                                             : "all of the shadow falls on flat receivers";
         planar.error = _sampled;
         const double planes = std::max(1.0, double(flat.planes.size()));
         planar.still = _compose;
@@ -199,6 +197,7 @@ private:
         AutoCandidate hull;
         hull.kind = Kind::Terrain;
         hull.obstacle = facts.obstacle;
+        hull.why = "the named terrain shadows no part of itself";
         hull.error = polygonEdgeError(facts.off / _one.pixel);
         const double dense = denseTriangles(_view.casters), boxes = (_casters - dense) / 12.0;
         hull.still = _compose;
@@ -206,20 +205,6 @@ private:
         hull.still.triangles = 6.0 * boxes + 1.2 * dense;
         hull.change.objects = boxes + 0.8 * dense;
         _result.all.push_back(hull);
-        AutoCandidate drape = hull;
-        drape.terrain.method = TerrainShadowOptions::DRAPE;
-        drape.terrain.error = drapeError();
-        drape.error = polygonEdgeError(drape.terrain.error / _one.pixel);
-        drape.still.triangles *= 6.0;
-        drape.change.objects = 8.0 * boxes + 3.5 * dense;
-        _result.all.push_back(drape);
-    }
-
-    /// As coarse as the budget allows, in steps, so that it seldom changes; the group's unit.
-    double drapeError() const {
-        const double most = _error > sampledEdge ? std::sqrt(_error * _error - sampledEdge * sampledEdge) : 0.0;
-        const double length = most * _one.pixel;
-        return length > 0.0 && std::isfinite(length) ? std::exp2(std::floor(std::log2(length))) : 0.0;
     }
 
     MapForecast forecast(const MapCasters& boxes, int cascades, int size) const {
@@ -265,6 +250,7 @@ private:
         map.error = edges.empty()
                         ? mapEdgeError(quality.edge, forecast.texels / texels)
                         : edges.usual(usualShare, [&](const auto& edge) { return mapEdge(edge, quality, texels); });
+        map.why = "its texels are as large as " + roundedText(forecast.texels / texels) + " px";
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;
         map.still.calls += 3.0 * passes + mapCallsAPiece * mapped.pieces;
@@ -284,6 +270,7 @@ private:
         volume.still = _compose;
         _volumes = forecastVolumes(_view.frame, _layers, _view.towards, _known.open);
         addVolumeOf(_volumes, _casters, volume);
+        volume.why = "its volumes have some " + roundedText(_volumes.sides) + " sides";
         _result.all.push_back(volume);
     }
 
@@ -315,6 +302,7 @@ private:
             for (const MapQuality& quality : qualities) {
                 AutoCandidate mixed = mapOf(mapped, 1, size, quality);
                 mixed.kind = Kind::Mixed;
+                mixed.why = "a map holds the dense and the cut-out casters alone";
                 mixed.error = std::max(mixed.error, _sampled);
                 mixed.obstacle = whyNotTogether(quality.edges);
                 mixed.still += volume.still;
@@ -336,6 +324,7 @@ private:
         AutoCandidate traced;
         traced.kind = Kind::Traced;
         traced.error = _sampled;
+        traced.why = "rays are cast for some " + roundedText(_pixels) + " pixels";
         traced.obstacle = hasPart(OptionalPart::Traced) ? whyCutOut(_view.casters) : "this build has no Embree";
         traced.still = _compose;
         traced.still.pixels = 2.0 * _pixels;
@@ -345,7 +334,6 @@ private:
 
     const AutoView& _view;
     const Selection& _receiver;
-    const double _error;
     AutoKnowledge& _known;
     const CasterLayers& _layers;
     const osg::ref_ptr<const MapCasters> _boxes;
@@ -360,8 +348,8 @@ private:
 
 } // namespace
 
-CandidateList listCandidates(const AutoView& view, const Selection& receiver, double error, AutoKnowledge& known) {
-    return Lister(view, receiver, error, known).list();
+CandidateList listCandidates(const AutoView& view, const Selection& receiver, AutoKnowledge& known) {
+    return Lister(view, receiver, known).list();
 }
 
 std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver,

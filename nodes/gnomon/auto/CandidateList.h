@@ -33,9 +33,8 @@ struct CandidateList {
 };
 
 /// @param receiver  that the technique names.
-/// @param error     that is asked for, pixels: it decides how exact a drape is.
 /// A new technique is one more function in CandidateList.cpp.
-CandidateList listCandidates(const AutoView& view, const Selection& receiver, double error, AutoKnowledge& known);
+CandidateList listCandidates(const AutoView& view, const Selection& receiver, AutoKnowledge& known);
 
 /// True if a candidate's shadow falls on known leaves, and relighting can draw these alone; see MarkJob::surfaces.
 bool relightsAlone(const AutoCandidate& candidate, const AutoView& view);

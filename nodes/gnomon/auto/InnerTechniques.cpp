@@ -18,7 +18,7 @@ osg::ref_ptr<ShadowTechnique> make(const AutoCandidate& candidate) {
     if (candidate.kind == Kind::Traced) return new TracedShadowTechnique;
     if (candidate.kind == Kind::Terrain) {
         osg::ref_ptr<TerrainShadowGeode> terrain = new TerrainShadowGeode;
-        terrain->setOptions(candidate.terrain);
+        terrain->setMethod(TerrainShadowOptions::HULL);
         return terrain;
     }
     if (candidate.kind == Kind::Map) {

@@ -14,7 +14,6 @@ std::string ShadowDecision::text() const {
     line.precision(2);
     line << subject() << ": " << chosen.spec << ", predicted " << chosen.error << " px and " << chosen.time << " ms; "
          << reason;
-    if (!onTrial.empty()) line << "; " << onTrial << " is on trial";
     return line.str();
 }
 

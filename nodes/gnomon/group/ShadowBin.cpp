@@ -311,8 +311,7 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
         }
     };
     if (!receiving.empty() || lateOnes.empty()) addAll(receiving, false);
-    const bool alone = _enlisted.size() == 1 && _effects.empty() && index == 1 && lateOnes.empty();
-    if (const auto watch = entry.technique->watch(view, alone)) _watches.push_back(watch);
+    if (const auto watch = entry.technique->watch(view)) _watches.push_back(watch);
     addAll(lateOnes, true);
     if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
     reportUnshadowed(entry, _enlisted, found.lights, casters.drawables(), drawn, *getStage());

@@ -15,7 +15,7 @@ ShadowTechnique::ShadowTechnique(const ShadowTechnique& other, const osg::CopyOp
     setCullingActive(false);
 }
 
-osg::ref_ptr<DrawWatch> ShadowTechnique::watch(const ViewFrame&, bool) const { return nullptr; }
+osg::ref_ptr<DrawWatch> ShadowTechnique::watch(const ViewFrame&) const { return nullptr; }
 
 bool ShadowTechnique::shadowsSurface(const ViewFrame&, const osgUtil::RenderLeaf&) const { return true; }
 

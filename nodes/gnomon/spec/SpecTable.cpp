@@ -102,7 +102,7 @@ std::vector<SpecKey> autoKeys() {
     using Budget = AutoShadowOptions;
     return {budgetKey({"error", "largest error of the edge; auto is 1, with time= the least", "setError()", "pixels"},
                       &Budget::error, Budget::leastError, Budget::mostError, "auto"),
-            budgetKey({"time", "most time that a light's shadow may add to a frame", "setTime()", "ms"}, &Budget::time,
+            budgetKey({"time", "most time that drawing a view's shadows may take", "setTime()", "ms"}, &Budget::time,
                       Budget::leastTime, Budget::mostTime, "unlimited")};
 }
 
@@ -195,7 +195,7 @@ const std::vector<SpecTechnique>& specTechniques() {
         {"map", "shadow maps; on every visible surface", "", mapKeys()},
         {"volume", "stencil volumes; exact on every visible surface", "", volumeKeys()},
         {"traced", "one ray for each pixel by Embree; exact on every visible surface", "", {}, OptionalPart::Traced},
-        {"auto", "the cheapest of the others that keeps an error, or the most accurate within a time", "", autoKeys()},
+        {"auto", "the cheapest of the others that keeps an error; a time loosens or tightens it", "", autoKeys()},
     };
     return table;
 }

@@ -63,8 +63,6 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"auto", "blend, error 4", "auto:error=4,composite=blend", Receives::EVERYTHING},
     {"auto", "blend, error 1", "auto:composite=blend", Receives::EVERYTHING},
     {"auto", "blend, error 0.4", "auto:error=0.4,composite=blend", Receives::EVERYTHING},
-    {"auto", "blend, time 2", "auto:time=2,composite=blend", Receives::EVERYTHING},
-    {"auto", "blend, time 5", "auto:time=5,composite=blend", Receives::EVERYTHING},
     {"traced", "relight", "traced", Receives::EVERYTHING},
     {"traced", "blend", "traced:composite=blend", Receives::EVERYTHING},
 };

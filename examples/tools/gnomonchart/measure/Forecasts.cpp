@@ -39,14 +39,13 @@ const ShadowCandidate* candidateOf(const std::vector<ShadowCandidate>& candidate
     return exactly(candidates, one);
 }
 
-/// The second frame knows the renderer's costs. An error below what one ray a pixel gives makes drape exact.
 const std::vector<ShadowCandidate>& Forecasts::candidates(const Way& way) {
     const auto [known, isNew] = _candidates.try_emplace(way);
     if (!isNew) return known->second;
-    const std::string spec = std::string("auto:error=0.2") + (way.first ? ",composite=blend" : "");
+    const std::string spec = std::string("auto") + (way.first ? ":composite=blend" : "");
     StageViewer viewer(gnomonContender(spec, way.second).stage(_scene, Look::SHADED), _scene.camera,
                        StageViewer::Colour::BYTES);
-    for (int i = 0; i < 2; ++i) viewer.draw();
+    viewer.draw();
     const std::vector<ShadowDecision> decisions = viewer.staging().decisions();
     if (!decisions.empty()) known->second = decisions.front().candidates;
     return known->second;

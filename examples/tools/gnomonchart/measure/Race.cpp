@@ -21,7 +21,7 @@ namespace gnomon::examples {
 namespace {
 
 constexpr int warmUp = 5;
-constexpr int learning = 128;                       // frames: auto has tried what may be cheaper, and knows what moves
+constexpr int learning = 128;                       // frames: auto knows what moves, and has an error that keeps a time
 constexpr double cameraStep = 0.5, lightStep = 1.0; // degrees a frame
 
 /// Times by rounds.

@@ -91,7 +91,6 @@ void SceneProcess::runChild(const StabilityPlace& from, int into) {
 #endif
     std::signal(SIGINT, SIG_IGN); // the parent ends it
     std::signal(SIGTERM, SIG_DFL);
-    setenv("GNOMON_AUTO_RATES", "fixed", 1); // `auto` chooses alike in every run
     int status = 0;
     try {
         measureScene(_plan, _scene, from, _rows[from.contender].settings, [&](const json& line) {
