@@ -9,8 +9,10 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/ColorMask>
+#include <osg/CullFace>
 #include <osg/Depth>
 #include <osg/MatrixTransform>
+#include <osg/PolygonOffset>
 #include <osg/Stencil>
 #include <osgUtil/CullVisitor>
 
@@ -31,7 +33,10 @@ void expectOneCause(const gnomon::ShadowTechnique& technique, const std::string&
 /// Draws a square before the eye by a leaf of its own, as osgSim::LightPointNode does.
 class BareLeaf : public osg::Node {
 public:
-    explicit BareLeaf(bool projected) : _projected(projected) { setCullingActive(false); }
+    explicit BareLeaf(bool projected, const glm::dvec3& before = {-1.0, 0.4, -3.0})
+        : _projected(projected), _before(node(quad(before, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}))) {
+        setCullingActive(false);
+    }
     void traverse(osg::NodeVisitor& visitor) override {
         osgUtil::CullVisitor* cull = visitor.asCullVisitor();
         if (!cull) return;
@@ -44,8 +49,7 @@ public:
 
 private:
     const bool _projected;
-    const osg::ref_ptr<osg::Geode> _before = node(quad({-1.0, 0.4, -3.0}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0})),
-                                   _onScreen = node(quad({-0.9, 0.5, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}));
+    const osg::ref_ptr<osg::Geode> _before, _onScreen = node(quad({-0.9, 0.5, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.3, 0.0}));
 };
 
 } // namespace
@@ -75,6 +79,30 @@ TEST(HostileGraph, ALeafWithoutMatricesIsDrawnAndLeavesTheShadowsRight) {
                 wrong += both.pixels[i] != (leaf.pixels[i] != plain.pixels[i] ? leaf.pixels[i] : shadow.pixels[i]);
             EXPECT_EQ(wrong, 0) << "way " << way << (projected ? ", projected" : "");
         }
+}
+
+/// Whatever its state makes planar, and who looks for causes, ask of it.
+TEST(HostileGraph, ALeafWithoutMatricesMayLieOverTheShadowOfAPlane) {
+    const auto picture = [](bool lit, bool shadow) {
+        Scene scene = boxScene();
+        const osg::ref_ptr<BareLeaf> bare = new BareLeaf(true, {-0.3, -0.2, -3.0});
+        osg::StateSet& state = *bare->getOrCreateStateSet();
+        if (!lit) state.setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+        state.setAttributeAndModes(new osg::CullFace);
+        state.setAttributeAndModes(new osg::PolygonOffset(-1.0f, -1.0f));
+        scene.root->addChild(bare);
+        if (shadow) scene.addShadow(planar());
+        return render(scene.root, slanted);
+    };
+    Scene bare = boxScene();
+    bare.addShadow(planar());
+    const Picture without = render(bare.root, slanted);
+    for (const bool lit : {false, true}) {
+        const Picture plain = picture(lit, false), shadowed = picture(lit, true);
+        EXPECT_GT(plain.different(shadowed), 100);
+        EXPECT_LT(plain.different(shadowed), render(boxScene().root, slanted).different(without) - 100)
+            << "the leaf lies over some of it";
+    }
 }
 
 TEST(HostileGraph, LeafHiddenByItsOwnStencilTestStaysHidden) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // State and views that would lead the compositor's own drawing astray.
+#include <support/Causes.h>
 #include <support/DiscShadow.h>
 #include <support/GlDebug.h>
 #include <support/Picture.h>
@@ -12,6 +13,10 @@
 #include <osg/Geometry>
 #include <osg/LogicOp>
 #include <osg/Point>
+#include <osg/Program>
+#include <osg/Projection>
+
+#include <algorithm>
 
 using namespace test;
 
@@ -41,6 +46,20 @@ osg::ref_ptr<osg::Camera> overlay(osg::Node* content) {
     camera->addChild(content);
     return camera;
 }
+
+/// Code of an application's own that clears depths.
+struct DepthClear : public osg::Drawable {
+    struct Callback : public osg::Drawable::DrawCallback {
+        void drawImplementation(osg::RenderInfo&, const osg::Drawable*) const override { glClear(GL_DEPTH_BUFFER_BIT); }
+    };
+    DepthClear() {
+        setSupportsDisplayList(false);
+        setCullingActive(false);
+    }
+    DepthClear(const DepthClear& other, const osg::CopyOp& copyOp) : osg::Drawable(other, copyOp) {}
+    META_Object(test, DepthClear)
+    void drawImplementation(osg::RenderInfo&) const override { glClear(GL_DEPTH_BUFFER_BIT); }
+};
 
 int changed(const Picture& a, const Picture& b) { return a.different(b); }
 
@@ -119,6 +138,81 @@ TEST(HostileState, DepthThatIsClearedToLessThanOneIsRefusedWithTheReason) {
     EXPECT_NE(technique->diagnose()[0].find("cleared to less than 1"), std::string::npos);
 }
 
+// What is always on top is drawn after depths were cleared. Here it is nearest anyway, so that the picture is the same.
+TEST(HostileState, DepthsThatAnEarlyBinClearsLeaveTheShadowsOfWhatIsDrawnBeforeAndAfter) {
+    enum class Clears { Nobody, ADrawable, ACallback };
+    const auto picture = [](Clears who, const std::string& spec) {
+        Scene scene = boxScene();
+        const osg::ref_ptr<osg::Geode> top = node(box({-3.4, -5.4, 3.4}, {-2.8, -4.8, 4.0}), "top"),
+                                       plate = node(box({-2.6, -5.3, 4.4}, {-2.2, -4.9, 4.5}), "plate");
+        for (const auto& each : {top, plate}) {
+            scene.content->addChild(each);
+            each->getOrCreateStateSet()->setRenderBinDetails(6, "RenderBin");
+        }
+        osg::ref_ptr<osg::Geode> clear = new osg::Geode;
+        if (who == Clears::ADrawable) clear->addDrawable(new DepthClear);
+        if (who == Clears::ACallback) {
+            clear = node(square(0.01, -1.0)); // under the ground
+            clear->getDrawable(0)->setDrawCallback(new DepthClear::Callback);
+        }
+        clear->setCullingActive(false);
+        clear->getOrCreateStateSet()->setRenderBinDetails(5, "RenderBin");
+        scene.root->addChild(clear);
+        osg::ref_ptr<gnomon::ShadowTechnique> technique;
+        if (!spec.empty()) {
+            scene.addShadow(spec);
+            technique =
+                dynamic_cast<gnomon::ShadowTechnique*>(scene.group->getChild(scene.group->getNumChildren() - 1));
+        }
+        const Picture result = render(scene.root, view);
+        if (technique) EXPECT_EQ(causesButLitSurfaces(*technique), std::vector<std::string>()) << spec;
+        return result;
+    };
+    const Picture lit = picture(Clears::Nobody, "");
+    for (const Clears who : {Clears::ADrawable, Clears::ACallback}) {
+        EXPECT_EQ(changed(picture(who, ""), lit), 0);
+        for (const std::string spec :
+             {"planar", "map", "volume", "traced", "planar:composite=blend", "volume:composite=blend"}) {
+            const Picture usual = picture(Clears::Nobody, spec);
+            EXPECT_GT(changed(usual, lit), 500) << spec;
+            // Maps are fitted to what receives before, and to what after: their texels lie elsewhere.
+            EXPECT_LE(changed(picture(who, spec), usual), spec == "map" ? 40 : 0) << spec;
+        }
+    }
+}
+
+TEST(HostileState, AViewOfIdentifiersIsLeftAsItIs) {
+    const std::string data = "void main() { gl_FragColor = vec4(0.8); }",
+                      picture = "varying vec3 n; void main() { gl_FragColor = vec4(0.8 * abs(normalize(n).z)); }";
+    for (const bool isData : {true, false})
+        for (const std::string spec : {"planar", "volume", "map:composite=blend", "volume:composite=blend"}) {
+            const auto build = [&](bool shadow) {
+                Scene scene = boxScene();
+                osg::ref_ptr<osg::Program> program = new osg::Program;
+                program->addShader(new osg::Shader(
+                    osg::Shader::VERTEX,
+                    "varying vec3 n; void main() { n = gl_NormalMatrix * gl_Normal; gl_Position = ftransform(); }"));
+                if (isData) program->removeShader(program->getShader(0));
+                program->addShader(new osg::Shader(osg::Shader::FRAGMENT, isData ? data : picture));
+                scene.root->getOrCreateStateSet()->setAttributeAndModes(program, osg::StateAttribute::ON |
+                                                                                     osg::StateAttribute::OVERRIDE);
+                if (shadow) scene.addShadow(spec);
+                return scene;
+            };
+            Scene scene = build(true);
+            const int darker = changed(render(scene.root, view), render(build(false).root, view));
+            const auto* technique =
+                dynamic_cast<gnomon::ShadowTechnique*>(scene.group->getChild(scene.group->getNumChildren() - 1));
+            const std::vector<std::string> causes = technique->diagnose();
+            const bool isTold = std::any_of(causes.begin(), causes.end(), [](const std::string& cause) {
+                return cause.find("as programs do that draw identifiers") != std::string::npos;
+            });
+            EXPECT_EQ(isTold, isData) << spec;
+            EXPECT_EQ(darker > 500, !isData) << spec;
+            EXPECT_TRUE(darker > 500 || darker == 0) << spec;
+        }
+}
+
 TEST(HostileState, ALightSourceOfANumberThatOpenGLLacksIsNamed) {
     Scene scene = boxScene();
     osg::ref_ptr<osg::LightSource> odd = new osg::LightSource;
@@ -134,6 +228,37 @@ TEST(HostileState, ALightSourceOfANumberThatOpenGLLacksIsNamed) {
     camera.frame();
     ASSERT_EQ(technique->diagnose().size(), 1u);
     EXPECT_NE(technique->diagnose()[0].find("OpenGL's lights are 0 to 7"), std::string::npos);
+}
+
+// As hands and cockpits are drawn: their depths do not tell where they are.
+TEST(TwoLenses, WhatAProjectionOfItsOwnDrawsIsNamedAndLeftAsItIs) {
+    for (const std::string spec : {"planar", "planar:receiver=ground", "map", "volume", "traced"}) {
+        const auto build = [](bool apart) {
+            Scene scene = boxScene();
+            osg::Matrixd wider = view.projection;
+            wider(0, 0) *= 0.999; // a tenth of a per cent
+            const osg::ref_ptr<osg::Projection> lens = new osg::Projection(wider);
+            const osg::ref_ptr<osg::Node> ground = find(*scene.root, "ground");
+            if (!apart) return scene;
+            scene.content->removeChild(ground);
+            scene.content->addChild(lens);
+            lens->addChild(ground);
+            return scene;
+        };
+        const auto causesOf = [&](Scene& scene, Picture& picture) {
+            scene.addShadow(spec);
+            picture = render(scene.root, view);
+            return causesButLitSurfaces(
+                *dynamic_cast<gnomon::ShadowTechnique*>(scene.group->getChild(scene.group->getNumChildren() - 1)));
+        };
+        Scene usual = build(false), lit = build(true), scene = build(true);
+        Picture picture;
+        EXPECT_EQ(causesOf(usual, picture), std::vector<std::string>()) << spec;
+        const std::vector<std::string> causes = causesOf(scene, picture);
+        ASSERT_EQ(causes.size(), 1u) << spec;
+        EXPECT_NE(causes[0].find("'ground' is drawn through a projection of its own"), std::string::npos) << causes[0];
+        EXPECT_EQ(changed(picture, render(lit.root, view)), 0) << spec << ": the box is lit where one sees it";
+    }
 }
 
 // The view's shadow, that of the overlay, and both: none takes the other away.

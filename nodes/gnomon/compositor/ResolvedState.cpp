@@ -31,7 +31,8 @@ bool isOn(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bo
     return resolvedMode(graph, mode, unset, overridden);
 }
 
-const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type) {
+const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type,
+                                             bool* overrides) {
     const osg::StateAttribute* found = nullptr;
     std::vector<const osg::StateSet*> sets; // innermost first
     for (; graph; graph = graph->_parent)
@@ -43,6 +44,7 @@ const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, o
         found = pair->first.get();
         overridden = pair->second & osg::StateAttribute::OVERRIDE;
     }
+    if (overrides) *overrides = overridden;
     return found;
 }
 

@@ -14,7 +14,9 @@ namespace gnomon {
 bool isOn(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool unset = false);
 
 /// An attribute after all state sets from the root to `graph`; null if none of them has it.
-const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type);
+/// @param overrides  gets whether it holds against the sets below; may be null.
+const osg::StateAttribute* resolvedAttribute(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type,
+                                             bool* overrides = nullptr);
 
 template <typename Attribute>
 const Attribute* resolved(const osgUtil::StateGraph* graph, osg::StateAttribute::Type type) {

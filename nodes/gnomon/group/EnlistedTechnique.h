@@ -7,6 +7,7 @@
 #include <osg/Matrixd>
 #include <osg/Vec3>
 #include <osg/ref_ptr>
+#include <osgUtil/StateGraph>
 
 namespace gnomon {
 
@@ -16,11 +17,12 @@ struct EnlistedTechnique {
     osg::ref_ptr<const ShadowCasterGroup> group;
     osg::Matrixd eyeFromGroup;
     osg::Matrixd groupFromTechnique;
-    osg::ref_ptr<osg::RefMatrix> projection; ///< shared with the leaves: near and far are set in it after the cull.
-    osg::Vec3 viewPoint;                     ///< eye space, see CasterView.
-    float lodScale = 1.0f;                   ///< of the cull.
-    osg::Node::NodeMask mask = ~0u;          ///< the same, see CasterView.
-    QuadSplit quads{};                       ///< of the driver that draws.
+    osg::ref_ptr<osg::RefMatrix> projection;    ///< shared with the leaves: near and far are set in it after the cull.
+    osg::Vec3 viewPoint;                        ///< eye space, see CasterView.
+    float lodScale = 1.0f;                      ///< of the cull.
+    osg::Node::NodeMask mask = ~0u;             ///< the same, see CasterView.
+    const osgUtil::StateGraph* state = nullptr; ///< that it was met in; valid as long as the stage's leaves.
+    QuadSplit quads{};                          ///< of the driver that draws.
     unsigned frameNumber = 0;
     double frameTime = 0.0; ///< seconds, see timeOf().
 };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/group/FaceCulling.h>
 
@@ -39,7 +40,7 @@ bool areAllFacesCulled(const osgUtil::RenderLeaf& leaf) {
     if (mode == osg::CullFace::FRONT_AND_BACK) return true;
     osg::TriangleFunctor<SeenFace> faces;
     if (!leaf._drawable->supports(faces)) return false;
-    faces.clipFromLocal = osg::Matrixd(*leaf._modelview) * osg::Matrixd(*leaf._projection);
+    faces.clipFromLocal = modelviewOf(leaf) * projectionOf(leaf);
     const bool isClockwise = front && front->getMode() == osg::FrontFace::CLOCKWISE;
     faces.sign = isClockwise == (mode == osg::CullFace::BACK) ? -1.0 : 1.0;
     leaf._drawable->accept(faces);

@@ -8,6 +8,7 @@
 #include <gnomon/group/ReceiverCauses.h>
 #include <gnomon/group/UnshadowedSurfaces.h>
 
+#include <osg/Program>
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
@@ -136,15 +137,61 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
     return view;
 }
 
+std::string whyNoPicture(const EnlistedTechnique& entry) {
+    bool overrides = false;
+    const auto* program =
+        static_cast<const osg::Program*>(resolvedAttribute(entry.state, osg::StateAttribute::PROGRAM, &overrides));
+    if (!program || !overrides || program->getNumShaders() == 0) return {};
+    for (unsigned i = 0; i < program->getNumShaders(); ++i) {
+        const std::string& text = program->getShader(i)->getShaderSource();
+        const auto has = [&text](const std::string& word) { return text.find(word) != std::string::npos; };
+        const auto& uniforms = entry.group->getLightUniforms();
+        const auto named = [&has](const LightUniform& uniform) { return has(uniform.name); };
+        if (text.empty() || has("gl_LightSource") || has("LightProduct") || has("ormal") || has("texture") ||
+            has("sampler") || std::any_of(uniforms.begin(), uniforms.end(), named))
+            return {};
+    }
+    return "a program with OVERRIDE draws this whole view, '" + program->getName() +
+           "', and takes neither light nor textures, as programs do that draw identifiers. So no shadow falls here. "
+           "Set "
+           "it without osg::StateAttribute::OVERRIDE if it draws a picture.";
+}
+
 Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage) {
     const bool named = entry.technique->hasReceiver();
     LeafSet receivers;
     if (named) receivers = receiversAmong(leaves, entry.technique->getReceiver(), *stage.getInitialViewMatrix());
     Leaves receiving;
     for (const DrawnLeaf& leaf : leaves)
-        if (named ? receivers.count(leaf.leaf) > 0 : isSameLens(projectionOf(*leaf.leaf), *entry.projection))
+        if (isSameLens(projectionOf(*leaf.leaf), *entry.projection) && (!named || receivers.count(leaf.leaf) > 0))
             receiving.push_back(leaf.leaf);
     return receiving;
+}
+
+bool reportOtherLens(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
+                     const StageLeaves& drawn, osgUtil::RenderStage& stage) {
+    const auto isServed = [&](const osgUtil::RenderLeaf& leaf) {
+        return std::any_of(all.begin(), all.end(), [&](const EnlistedTechnique& other) {
+            return other.technique == entry.technique && isSameLens(projectionOf(leaf), *other.projection);
+        });
+    };
+    std::vector<DrawnLeaf> others;
+    for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
+        for (const DrawnLeaf& each : *leaves)
+            if (!isServed(*each.leaf) && isShaded(each.leaf->_parent) && writesDepth(each.leaf->_parent))
+                others.push_back(each);
+    if (others.empty()) return false;
+    Selection receiver = entry.technique->getReceiver();
+    if (!entry.technique->hasReceiver()) receiver.node = const_cast<ShadowCasterGroup*>(entry.group.get());
+    const LeafSet meant = receiversAmong(others, receiver, *stage.getInitialViewMatrix());
+    const auto first =
+        std::find_if(others.begin(), others.end(), [&](auto& each) { return meant.count(each.leaf) > 0; });
+    if (first == others.end()) return false;
+    entry.technique->report(entry.frameNumber,
+                            "'" + nameOf(*first->leaf) +
+                                "' is drawn through a projection of its own, so it receives no shadow. Draw it through "
+                                "the camera's, or put it under a ShadowCasterGroup of its own.");
+    return true;
 }
 
 void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage) {

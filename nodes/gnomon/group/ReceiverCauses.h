@@ -4,6 +4,7 @@
 #include <gnomon/group/StageLeaves.h>
 #include <gnomon/group/ViewFrame.h>
 
+#include <string>
 #include <vector>
 
 namespace gnomon {
@@ -11,8 +12,17 @@ namespace gnomon {
 /// What a technique's prepare() is told of the view, but for its receivers.
 ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport);
 
-/// Those of the leaves that receive from a technique: its named receiver's, or all that its lens sees.
+/// Why a view is no picture of the scene, in which shadows could fall; empty if it is one. A program over all that takes
+/// neither light nor normals nor textures draws data, as identifiers of objects are.
+std::string whyNoPicture(const EnlistedTechnique& entry);
+
+/// Those of the leaves that receive from a technique, as its lens sees them: its named receiver's, or all.
 Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage);
+
+/// Says what a technique's group, or its named receiver, draws through a lens that no technique is asked for.
+/// @param all  techniques of the stage. @return true if it has.
+bool reportOtherLens(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
+                     const StageLeaves& drawn, osgUtil::RenderStage& stage);
 
 /// Says why a named receiver gets no shadow. One that is out of sight is nothing to report.
 void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage);

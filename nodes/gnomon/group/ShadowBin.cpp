@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/StageVerdict.h>
@@ -17,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <typeinfo>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -167,6 +169,36 @@ ShadowBin& binAfter(osgUtil::RenderBin& last) {
     }
 }
 
+/// What only its own code knows may clear the depths that shadows are found by, so that what follows is on top.
+bool mayClearDepth(const osg::Drawable& drawable) {
+    return drawable.getDrawCallback() || (drawsItself(drawable) && !drawable.getBoundingBox().valid());
+}
+
+/// The bin of the stage that a bin is in; the stage itself, if it is that.
+osgUtil::RenderBin& topOf(osgUtil::RenderBin& bin) {
+    osgUtil::RenderBin* top = &bin;
+    while (top->getParent() && top->getParent() != top->getStage()) top = top->getParent();
+    return *top;
+}
+
+/// A bin that may clear depths, and the one that is drawn before it.
+struct DepthClear {
+    osgUtil::RenderBin *before, *by;
+};
+
+/// The first such bin below `number` that is drawn after others.
+std::optional<DepthClear> firstDepthClear(osgUtil::RenderStage& stage, int number) {
+    osgUtil::RenderBin *before = nullptr, *now = nullptr;
+    for (const DrawnLeaf& entry : leavesBelow(stage, number)) {
+        osgUtil::RenderBin& top = topOf(*entry.bin);
+        if (&top != now) before = std::exchange(now, &top);
+        if (before && now != &stage && now->getBinNum() >= 0 &&
+            (now->getDrawCallback() || mayClearDepth(*entry.leaf->_drawable)))
+            return DepthClear{before, now};
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 ShadowBin& ShadowBin::of(osgUtil::RenderStage* stage) {
@@ -218,7 +250,9 @@ void ShadowBin::sortImplementation() {
 void ShadowBin::prepareAll() {
     _jobs.clear();
     std::deque<FrameCasters> known;
-    const StageLeaves drawn(*getStage(), getBinNum(), !_enlisted.empty());
+    const std::optional<DepthClear> clear =
+        _enlisted.empty() ? std::nullopt : firstDepthClear(*getStage(), getBinNum());
+    const StageLeaves drawn(*getStage(), clear ? clear->by->getBinNum() : getBinNum(), !_enlisted.empty());
     const bool refused = keptBy<StageVerdict>(*getStage()).isRefused();
     for (const EnlistedTechnique& entry : _enlisted) {
         if (refused) {
@@ -238,12 +272,20 @@ void ShadowBin::prepareAll() {
         PrepassBin::watch(*getStage());
     }
     saveColorsIfBlended(drawn);
-    handOnLateJobs(drawn.late.last);
+    if (!_lateJobs.empty()) {
+        for (ShadowJob& job : _lateJobs) job.hidingOnly = true;
+        handOn(_lateJobs, binAfter(*drawn.late.last), drawn.late.last->getBinNum() + 1);
+    }
+    if (clear && !_jobs.empty()) handOn(_jobs, binAfter(*clear->before), clear->by->getBinNum());
 }
 
 /// @return how many lights were asked for.
 std::size_t ShadowBin::prepareOf(const EnlistedTechnique& entry, const StageLeaves& drawn,
                                  std::deque<FrameCasters>& known) {
+    if (const std::string cause = whyNoPicture(entry); !cause.empty()) {
+        entry.technique->report(entry.frameNumber, cause);
+        return 0;
+    }
     const FrameCasters& casters = castersOf(entry, *getStage(), known);
     if (!hasCasters(entry, casters)) return 0;
     const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
@@ -281,8 +323,11 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
     const auto receiving = receivingOf(entry, drawn.early, *getStage());
     const auto lateOnes = receivingOf(entry, drawn.late.leaves, *getStage());
     reportReceiverStates(entry, {receiving, lateOnes, drawn}, *getStage());
-    if (entry.technique->hasReceiver() && receiving.empty() && lateOnes.empty())
-        return reportNoReceiver(entry, *getStage());
+    const bool otherLens = reportOtherLens(entry, _enlisted, drawn, *getStage());
+    if (entry.technique->hasReceiver() && receiving.empty() && lateOnes.empty()) {
+        if (!otherLens) reportNoReceiver(entry, *getStage());
+        return;
+    }
     reportEnclosers(entry, found.lights, casters.drawables(), receiving, *getStage());
     ViewFrame view = viewOf(entry, *getStage()->getViewport());
     view.lights = found.lights.size();
@@ -322,15 +367,14 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
     if (steps > 0.0) reportCoarseDepth(entry, found.lights.front(), casters.drawables(), *getStage(), steps);
 }
 
-/// To a bin of its own, after the last one that draws what receives late.
-void ShadowBin::handOnLateJobs(osgUtil::RenderBin* last) {
-    if (_lateJobs.empty()) return;
-    ShadowBin& late = binAfter(*last);
-    for (ShadowJob& job : _lateJobs) job.hidingOnly = true;
-    late._jobs = std::move(_lateJobs);
-    late._options = _options;
-    late._sharesStencil = _sharesStencil;
-    late._composesBelow = last->getBinNum() + 1;
+/// To a bin of their own, which composes what the stage draws before that number: what receives late, or what depths are
+/// cleared after.
+void ShadowBin::handOn(std::vector<ShadowJob>& jobs, ShadowBin& to, int below) const {
+    to._jobs = std::move(jobs);
+    to._options = _options;
+    to._sharesStencil = _sharesStencil;
+    to._composesBelow = below;
+    jobs.clear();
 }
 
 /// The leaves drawn again, and the casters, may be dynamic: the frame is not done with them before this bin is.

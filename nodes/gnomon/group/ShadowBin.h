@@ -25,6 +25,7 @@ namespace gnomon {
 /// It runs after all opaque bins of the stage and before the transparent ones. Lights and leaves are asked for after the
 /// whole cull, so their order in the graph does not matter; nothing is kept from frame to frame or view to view.
 /// Where leaves of later bins receive too (LateReceivers), a second bin of this class runs after the last of them.
+/// Where code of the application's own may clear depth in an earlier bin, another runs before that one.
 ///
 /// Cost    scissored to where marks can fall: the marks, a stencil clear, and the leaves that the marks can touch, once
 ///         more, big ones in part (TriangleClusters). One job with a named receiver that nothing else shows on: its leaves
@@ -92,12 +93,13 @@ private:
     void saveColorsIfBlended(const StageLeaves& drawn);
     void prepare(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
                  const StageLeaves& drawn);
-    void handOnLateJobs(osgUtil::RenderBin* last);
+    void handOn(std::vector<ShadowJob>& jobs, ShadowBin& to, int below) const;
 
     std::vector<EnlistedTechnique> _enlisted;
     std::vector<ShadowJob> _jobs;
-    std::vector<ShadowJob> _lateJobs;  ///< for the bin that composes what is drawn later.
-    std::optional<int> _composesBelow; ///< set of that bin: what the stage draws before this number.
+    std::vector<ShadowJob> _lateJobs; ///< for the bin that composes what is drawn later.
+    std::optional<int>
+        _composesBelow; ///< set of a bin that gets jobs of another: what the stage draws before this number.
     std::vector<osg::ref_ptr<ViewEffect>> _effects;
     std::vector<osg::ref_ptr<DrawWatch>> _watches; ///< never null.
     std::vector<FrameReport> _waiting; ///< of techniques, for that the stage can be composed in, see StageVerdict.

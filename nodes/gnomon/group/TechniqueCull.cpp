@@ -63,6 +63,7 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     entry.viewPoint = cull.getReferenceViewPoint();
     entry.lodScale = cull.getLODScale();
     entry.mask = (cull.getTraversalMask() & cull.getNodeMaskOverride()) ? ~0u : cull.getTraversalMask();
+    entry.state = cull.getCurrentStateGraph();
     entry.quads = quadsOf(cull);
     entry.frameNumber = frame;
     entry.frameTime = timeOf(cull);

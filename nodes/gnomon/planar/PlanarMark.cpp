@@ -31,7 +31,7 @@ PlanarPrograms::PlanarPrograms() : plain(shaderProgram()), clipping(shaderProgra
 
 bool PlanarMark::canReach(const osgUtil::RenderLeaf& leaf) const {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    const auto plane = normalizedPlane(glm::transpose(toGlm(*leaf._modelview)) * eyePlane);
+    const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
     if (!box.valid() || !plane) return true;
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (unsigned i = 0; i < 8; ++i) {

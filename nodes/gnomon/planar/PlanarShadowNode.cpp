@@ -49,7 +49,7 @@ std::optional<glm::dvec3> depthOnScreen(const glm::dvec4& plane, const glm::dmat
 /// True if all of a leaf lies in the plane, as its bounding box tells: exact for a box that is flat in its own frame.
 bool liesIn(const osgUtil::RenderLeaf& leaf, const glm::dvec4& eyePlane) {
     const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    const auto plane = normalizedPlane(glm::transpose(toGlm(*leaf._modelview)) * eyePlane);
+    const auto plane = normalizedPlane(glm::transpose(toGlm(modelviewOf(leaf))) * eyePlane);
     if (!box.valid() || !plane) return false;
     for (unsigned i = 0; i < 8; ++i) {
         const glm::dvec3 corner = toGlm(osg::Vec3d(box.corner(i)));
