@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Cutout.h"
 
+#include <osg/Geometry>
+#include <osg/Material>
 #include <osg/Node>
 #include <osg/State>
 
@@ -27,11 +29,26 @@ const osg::AlphaFunc* alphaTest(const osg::State& state) {
     return dynamic_cast<const osg::AlphaFunc*>(attribute(state.getAttributeMap(), osg::StateAttribute::ALPHAFUNC));
 }
 
+/// One with an image.
 const osg::Texture2D* texture(const osg::State& state) {
     const auto& modes = state.getTextureModeMapList();
     const auto& attributes = state.getTextureAttributeMapList();
     if (modes.empty() || attributes.empty() || !isOn(modes.front(), GL_TEXTURE_2D)) return nullptr;
-    return dynamic_cast<const osg::Texture2D*>(attribute(attributes.front(), osg::StateAttribute::TEXTURE));
+    const auto* found =
+        dynamic_cast<const osg::Texture2D*>(attribute(attributes.front(), osg::StateAttribute::TEXTURE));
+    return found && found->getImage() && found->getImage()->data() ? found : nullptr;
+}
+
+/// Of the material or, where that takes colours as none does, of the colour; 1 where each vertex has its own.
+double baseAlphaOf(const osg::State& state, const osg::Drawable& drawable) {
+    const auto* material =
+        dynamic_cast<const osg::Material*>(attribute(state.getAttributeMap(), osg::StateAttribute::MATERIAL));
+    if (material && material->getColorMode() == osg::Material::OFF)
+        return double(material->getDiffuse(osg::Material::FRONT).a());
+    const osg::Geometry* geometry = drawable.asGeometry();
+    const auto* colors = geometry ? dynamic_cast<const osg::Vec4Array*>(geometry->getColorArray()) : nullptr;
+    if (!colors || colors->empty()) return material ? double(material->getDiffuse(osg::Material::FRONT).a()) : 1.0;
+    return colors->getBinding() == osg::Array::BIND_OVERALL ? double(colors->front().a()) : 1.0;
 }
 
 /// OpenSceneGraph's own rules of inheritance; nothing is sent to OpenGL.
@@ -76,14 +93,22 @@ std::optional<Cutout> Cutout::of(const osg::NodePath& path, const osg::Drawable&
     push(*state, path, drawable);
     const osg::AlphaFunc* test = alphaTest(*state);
     const osg::Texture2D* image = texture(*state);
-    if (!test || test->getFunction() == osg::AlphaFunc::ALWAYS || !image || !image->getImage() ||
-        !image->getImage()->data())
-        return std::nullopt;
-    return Cutout(*test, *image);
+    if (!test || test->getFunction() == osg::AlphaFunc::ALWAYS || !image) return std::nullopt;
+    return Cutout(*test, image);
 }
 
-Cutout::Cutout(const osg::AlphaFunc& test, const osg::Texture2D& texture)
-    : _test(&test), _texture(&texture), _image(texture.getImage()) {}
+std::optional<Cutout> Cutout::blended(const osg::NodePath& path, const osg::Drawable& drawable) {
+    const osg::ref_ptr<osg::State> state = new osg::State;
+    push(*state, path, drawable);
+    if (!isOn(state->getModeMap(), GL_BLEND)) return std::nullopt;
+    const osg::AlphaFunc* test = alphaTest(*state);
+    if (test && test->getFunction() != osg::AlphaFunc::ALWAYS) return std::nullopt;
+    static const osg::ref_ptr<osg::AlphaFunc> half = new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, 0.5f);
+    return Cutout(*half, texture(*state), baseAlphaOf(*state, drawable));
+}
+
+Cutout::Cutout(const osg::AlphaFunc& test, const osg::Texture2D* texture, double alpha)
+    : _test(&test), _texture(texture), _image(texture ? texture->getImage() : nullptr), _alpha(alpha) {}
 
 double Cutout::alphaOf(int column, int row) const {
     const auto s = static_cast<unsigned>(wrapped(column, _image->s(), _texture->getWrap(osg::Texture::WRAP_S)));
@@ -93,6 +118,7 @@ double Cutout::alphaOf(int column, int row) const {
 
 /// As the texture's own filter for magnification mixes texels.
 double Cutout::alphaAt(const osg::Vec2d& texcoord) const {
+    if (!_image) return 1.0;
     if (!(std::abs(texcoord.x()) < 1e6 && std::abs(texcoord.y()) < 1e6)) return 1.0; // no place in an image: solid
     const double s = texcoord.x() * _image->s(), t = texcoord.y() * _image->t();
     if (_texture->getFilter(osg::Texture::MAG_FILTER) == osg::Texture::NEAREST)
@@ -104,7 +130,7 @@ double Cutout::alphaAt(const osg::Vec2d& texcoord) const {
 }
 
 bool Cutout::keeps(const osg::Vec2d& texcoord) const {
-    return passes(_test->getFunction(), alphaAt(texcoord), double(_test->getReferenceValue()));
+    return passes(_test->getFunction(), _alpha * alphaAt(texcoord), double(_test->getReferenceValue()));
 }
 
 } // namespace gnomon::examples

@@ -58,7 +58,8 @@ std::vector<osg::Vec3d> positions(const osg::Array* array) {
 
 class Collector : public osg::NodeVisitor {
 public:
-    explicit Collector(SceneTriangles& into) : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), _into(into) {}
+    Collector(SceneTriangles& into, Clear clear)
+        : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), _into(into), _clear(clear) {}
 
     void apply(osg::Camera&) override {}
     void apply(osg::Projection&) override {}
@@ -67,6 +68,8 @@ public:
         if (local.empty()) return;
         const osg::Matrixd world = osg::computeLocalToWorld(getNodePath());
         _into.objects.push_back({Cutout::of(getNodePath(), geometry)});
+        if (_clear == Clear::PASSES && !_into.objects.back().cutout)
+            _into.objects.back().cutout = Cutout::blended(getNodePath(), geometry);
         addTriangles(geometry, local.size());
         for (const osg::Vec3d& v : local) _into.vertices.push_back(v * world);
         addTexcoords(dynamic_cast<const osg::Vec2Array*>(geometry.getTexCoordArray(0)));
@@ -89,6 +92,7 @@ private:
     }
 
     SceneTriangles& _into;
+    const Clear _clear;
 };
 
 } // namespace
@@ -110,9 +114,9 @@ double SceneTriangles::longestEdge(unsigned triangle) const {
     return std::max({(b - a).length(), (c - b).length(), (a - c).length()});
 }
 
-SceneTriangles sceneTriangles(osg::Node& scene) {
+SceneTriangles sceneTriangles(osg::Node& scene, Clear clear) {
     SceneTriangles result;
-    Collector collector(result);
+    Collector collector(result, clear);
     scene.accept(collector);
     return result;
 }

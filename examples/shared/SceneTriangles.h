@@ -31,9 +31,15 @@ struct SceneTriangles {
     double longestEdge(unsigned triangle) const;
 };
 
+/// What is in a scene besides what hides all behind it.
+enum class Clear {
+    HIDES, ///< what blends counts as solid.
+    PASSES ///< texels that blend with an alpha below one half are not there.
+};
+
 /// What is switched on is taken, of an LOD its nearest range; other cameras' subgraphs, projections, text, points and
 /// lines are not.
 /// Limits  billboards stand as they are modelled, and what a vertex program moves stays.
-SceneTriangles sceneTriangles(osg::Node& scene);
+SceneTriangles sceneTriangles(osg::Node& scene, Clear clear = Clear::HIDES);
 
 } // namespace gnomon::examples

@@ -7,6 +7,7 @@
 #include <gnomon/ShadowTruth.h>
 
 #include <osg/BoundingBox>
+#include <osg/Depth>
 #include <osgViewer/Viewer>
 
 #include <glm/matrix.hpp>
@@ -72,6 +73,27 @@ private:
     HeadlessContext _context; // before the viewer: it must outlive it
     osgViewer::Viewer _viewer;
 };
+
+/// Lets what blends leave no depth.
+class NoBlendedDepths : public osg::NodeVisitor {
+public:
+    NoBlendedDepths() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    void apply(osg::Drawable& drawable) override {
+        if (Cutout::blended(getNodePath(), drawable))
+            drawable.getOrCreateStateSet()->setAttributeAndModes(
+                new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false),
+                osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED);
+    }
+};
+
+osg::ref_ptr<osg::Node> withoutBlendedDepths(const osg::Node& scene) {
+    using C = osg::CopyOp;
+    const osg::ref_ptr<osg::Node> copy = osg::clone(
+        &scene, C(C::DEEP_COPY_NODES | C::DEEP_COPY_DRAWABLES | C::DEEP_COPY_STATESETS | C::DEEP_COPY_USERDATA));
+    NoBlendedDepths visitor;
+    copy->accept(visitor);
+    return copy;
+}
 
 /// Window depth of a surface at a pixel's centre, and how far it may be off where that very surface is drawn.
 struct Depth {
@@ -139,8 +161,11 @@ metrics::TruthMaps mapsOf(const TruthImage& truth, const SceneTriangles& triangl
 } // namespace
 
 struct SceneTruth::Parts {
-    explicit Parts(osg::Node& node)
-        : scene(&node), triangles(sceneTriangles(node)), origin(middleOf(triangles)), tree(treeOf(triangles, origin)) {}
+    Parts(osg::Node& node, Clear clear)
+        : scene(clear == Clear::PASSES ? withoutBlendedDepths(node) : osg::ref_ptr<osg::Node>(&node)),
+          triangles(sceneTriangles(node, clear)),
+          origin(middleOf(triangles)),
+          tree(treeOf(triangles, origin)) {}
 
     TruthView view(const SceneCamera& camera, const osg::Vec4d& light) const {
         const osg::Vec4d local(light - osg::Vec4d(origin * light.w(), 0.0));
@@ -161,7 +186,7 @@ struct SceneTruth::Parts {
     const std::unique_ptr<RayScene> tree;
 };
 
-SceneTruth::SceneTruth(osg::Node& scene) : _parts(new Parts(scene)) {}
+SceneTruth::SceneTruth(osg::Node& scene, Clear clear) : _parts(new Parts(scene, clear)) {}
 SceneTruth::~SceneTruth() = default;
 
 metrics::TruthMaps SceneTruth::maps(const SceneCamera& camera, const osg::Vec4d& light) const {

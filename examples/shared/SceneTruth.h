@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "SceneCamera.h"
+#include "SceneTriangles.h"
 
 #include <gnomon/metrics/TruthMaps.h>
 
@@ -21,7 +22,7 @@ class SceneTruth {
 public:
     /// @param scene  world; everything in it casts. Kept.
     /// @throws std::runtime_error, one sentence, if it has no triangles, see RayScene and HeadlessContext.
-    explicit SceneTruth(osg::Node& scene);
+    explicit SceneTruth(osg::Node& scene, Clear clear = Clear::HIDES);
     ~SceneTruth();
 
     /// All maps but litByDisc. Positions are about origin(). @param light  homogeneous, world.

@@ -11,6 +11,7 @@
 #include <exception>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 namespace {
 
@@ -77,6 +78,22 @@ TEST_F(Gnomonchart, AFileOfOnesOwnGetsItsNumbersAndPictures) {
     }
     EXPECT_TRUE(fs::exists(folder.path() / "o" / "results.csv"));
     EXPECT_NE(readFile(folder.path() / "o" / "index.html").find("lab8"), std::string::npos);
+}
+
+TEST_F(Gnomonchart, AModelIsJudgedUnderTwoSunsAgainstRays) {
+    const Ending ending = run({"--model", lab8, "--technique", "none", "--technique", "traced"});
+    ASSERT_EQ(ending.status, 0) << ending.err;
+    std::istringstream lines(ending.out);
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+        const json row = json::parse(line);
+        EXPECT_GT(row["judged"], 1000) << line;
+        if (row["technique"] == "traced")
+            EXPECT_EQ(row["wrong"], 0) << line;
+        else
+            EXPECT_GT(row["wrong"], 10) << line;
+    }
+    EXPECT_EQ(count, 4);
 }
 
 TEST_F(Gnomonchart, PointsHaveWhatAutoPredictsBesideWhatWasMeasured) {

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 
+using gnomon::examples::Clear;
 using gnomon::examples::SceneCamera;
 using gnomon::examples::SceneTruth;
 using gnomon::metrics::TruthMaps;
@@ -56,6 +57,25 @@ TEST(SceneTruth, KnowsObjectsUnderTransformsWhatBlocksThemAndHowFarAway) {
         }
     EXPECT_NEAR(maps.edgeLength.at(80, 80), std::sqrt(8.0), 1e-6) << "the lid's diagonal, as it stands in the world";
     EXPECT_NEAR(maps.position.at(80, 80).z + truth.origin().z(), 2.0, 1e-6);
+}
+
+TEST(SceneTruth, WhatBlendsWithLessThanHalfIsNotThereIfAsked) {
+    for (const float alpha : {0.3f, 0.7f}) {
+        const osg::ref_ptr<osg::Group> scene = lidOverGround();
+        osg::Geometry& lid = *test::find(*scene, "lid")->asGeode()->getDrawable(0)->asGeometry();
+        const osg::Vec4 color(1.0f, 1.0f, 1.0f, alpha);
+        lid.setColorArray(new osg::Vec4Array(1, &color), osg::Array::BIND_OVERALL);
+        lid.getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+        const auto shadow = [&](Clear clear) {
+            const TruthMaps maps =
+                SceneTruth(*scene, clear).maps(cameraOf(test::fromAbove(4.0, 160)), {2.0, 0.0, 2.0, 0.0});
+            EXPECT_LT(count(maps.drawn, 0), alpha < 0.5f || clear == Clear::HIDES ? 200 : 40 * 40 + 200);
+            return 160 * 160 -
+                   static_cast<int>(std::count(maps.litCentre.cells.begin(), maps.litCentre.cells.end(), 1));
+        };
+        EXPECT_EQ(shadow(Clear::HIDES), 40 * 40);
+        EXPECT_EQ(shadow(Clear::PASSES), alpha < 0.5f ? 0 : 40 * 40);
+    }
 }
 
 TEST(SceneTruth, FindsEveryPixelDrawnAsItIsTrueButWhereItSeesSomethingElse) {

@@ -41,6 +41,10 @@ void addChartOptions(Options& table, ChartOptions& into) {
                      "the stability table instead: when shadows break. The arguments are its scenes' ids then, see "
                      "--list",
                      "", [&into](Text) { into.stability = true; }});
+    table.push_back({"--model", "",
+                     "instead judge techniques on FILES as they look, under two suns, against rays; prints lines of "
+                     "JSON.\n      --technique is a specification then (default volume, map, traced and auto)",
+                     "", [&into](Text) { into.model = true; }});
     table.push_back({"--random", "N",
                      "instead search N random scenes, 1 to 1000000, for shadows that are lost; nothing is written", "",
                      [&into](Text t) { into.random = unsigned(readWhole(t, 1, mostRandom)); }});
@@ -76,6 +80,9 @@ void setSize(ChartOptions& options, bool given) {
     if (!given && options.stability) {
         options.view.width = stabilityWidth;
         options.view.height = stabilityHeight;
+    } else if (!given && options.model) {
+        options.view.width = 400;
+        options.view.height = 300;
     } else if (!given) {
         options.view.width = options.quick ? 320 : 640;
         options.view.height = options.quick ? 240 : 480;
@@ -98,7 +105,8 @@ struct Mode {
     std::vector<std::string> heeds; ///< options beside it.
 };
 
-const std::array<Mode, 3> modes{{{"--random", {"--seed", "--technique"}},
+const std::array<Mode, 4> modes{{{"--random", {"--seed", "--technique"}},
+                                 {"--model", {"--technique", "--size", "--up", "--ground"}},
                                  {"--again", {"--stability"}},
                                  {"--stability", {"--technique", "--out", "--size", "--quick", "--again"}}}};
 
@@ -118,7 +126,7 @@ void refuseUnheeded(const std::vector<std::string>& given, bool withArguments) {
         for (const std::string& name : given)
             if (name != mode.name && !holds(mode.heeds, name))
                 throw std::invalid_argument(mode.name + " does not go with " + name + "." + allowed);
-        if (withArguments && mode.name != "--stability")
+        if (withArguments && mode.name != "--stability" && mode.name != "--model")
             throw std::invalid_argument(mode.name + " does not go with files or scenes." + allowed);
         break; // the first one is what is done
     }
@@ -140,6 +148,7 @@ ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
     if (options.stability) options.stabilityScenes.swap(options.view.files); // the arguments are no files
     if (!options.view.files.empty() && !options.scenes.empty())
         throw std::invalid_argument("--scene and files exclude each other. Give one of them.");
+    if (options.model && options.view.files.empty()) throw std::invalid_argument("--model needs a FILE.");
     requireConsistent(options.view);
     setSize(options, sized);
     return options;

@@ -20,6 +20,7 @@ struct ChartOptions {
     bool resume = false;                      ///< go on with what is in `out`.
     bool stability = false;                   ///< the stability table, of the scenes in stabilityScenes.
     std::vector<std::string> stabilityScenes; ///< ids; empty: all.
+    bool model = false;                       ///< judge techniques on the files against rays instead.
     std::optional<unsigned> random;           ///< search so many random scenes instead.
     unsigned seed = 1;                        ///< of the first of them.
     bool quick = false, list = false, help = false;

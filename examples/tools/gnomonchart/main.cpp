@@ -4,6 +4,7 @@
 #include "ChartRun.h"
 #include "Contender.h"
 #include "Kept.h"
+#include "Models.h"
 #include "OutputFile.h"
 #include "Report.h"
 #include "SceneFile.h"
@@ -132,6 +133,8 @@ int run(osg::ArgumentParser& arguments) {
         listNames();
     else if (!options.again.empty())
         writeReport(options.again);
+    else if (options.model)
+        judgeModel(options);
     else if (options.random)
         return random(options);
     else if (options.stability)
