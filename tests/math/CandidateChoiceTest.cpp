@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Which of several ways to draw a shadow is taken, and when it changes.
 #include <gnomon/choice/CandidateChoice.h>
-#include <gnomon/choice/EdgeError.h>
 #include <gnomon/choice/ErrorControl.h>
-#include <gnomon/metrics/BoundaryDistance.h>
 
 #include <gtest/gtest.h>
-
-#include <cmath>
-#include <iostream>
 
 using gnomon::ChoiceCandidate;
 using gnomon::ChoiceReason;
@@ -107,32 +102,4 @@ TEST(ShadowWork, TakesWhatItsPartsTake) {
     EXPECT_DOUBLE_EQ(timeOf(work, rates), 2.0);
     work += more;
     EXPECT_DOUBLE_EQ(timeOf(work, rates), 7.0);
-}
-
-TEST(EdgeError, IsThePixelsWhereTexelsAreSmallAndTheTexelsWhereTheyAreLarge) {
-    const gnomon::EdgeFilter filter{0.5, 0.4, 3.0, 1.0};
-    EXPECT_DOUBLE_EQ(mapEdgeError(filter, 0.0), 0.4);
-    EXPECT_NEAR(mapEdgeError(filter, 100.0), 50.0, 0.01);
-    EXPECT_DOUBLE_EQ(gnomon::polygonEdgeError(0.0), gnomon::sampledEdge);
-}
-
-// Stripes that rise so, each with another place in its pixels, as one place a pixel decides, and as their area does.
-TEST(EdgeError, OfOnePlaceAPixelIsThatOfStripesThatRiseSo) {
-    constexpr int width = 48, height = 2000, places = 15; // pixels; places each way of which the area is counted
-    constexpr double pitch = 10.0 + 0.618;
-    for (const double rise : {0.0, 0.05, 0.125, 0.25, 0.4, 0.5, 0.7, 0.9, 1.0}) {
-        const auto isLit = [&](double x, double y) { return std::fmod(y + 100.0 - rise * x, 2.0 * pitch) < pitch; };
-        gnomon::metrics::Picture drawn(width, height), truth(width, height);
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                drawn.at(x, y) = isLit(x + 0.5, y + 0.5) ? 1.0 : 0.0;
-                for (int i = 0; i < places * places; ++i)
-                    truth.at(x, y) += isLit(x + (i % places + 0.5) / places, y + (i / places + 0.5) / places);
-                truth.at(x, y) /= places * places;
-            }
-        const double off =
-            gnomon::metrics::boundaryDistance(drawn, truth, gnomon::metrics::Mask(width, height, 1)).value().p95;
-        std::cout << rise << ": " << off << ", " << gnomon::sampledEdgeOf(rise) << " are expected\n";
-        EXPECT_NEAR(gnomon::sampledEdgeOf(rise), off, 0.04) << rise; // 15 places tell a level edge to a 15th
-    }
 }

@@ -2,6 +2,7 @@
 #include <gnomon/mapfit/EdgeWidths.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/mapfit/SeenEdges.h>
+#include <gnomon/metrics/BoundaryDistance.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iostream>
 #include <tuple>
 
 using namespace gnomon;
@@ -18,7 +20,7 @@ namespace {
 
 const glm::dmat4 here(1.0);
 const glm::dvec3 north(0.0, 1.0, 0.0);
-const SeenEdges::Box ground{{-5, -5, 0}, {5, 5, 0}}, house{{-0.5, -0.5, 0}, {0.5, 0.5, 1}};
+const PlacedBox ground{{-5, -5, 0}, {5, 5, 0}}, house{{-0.5, -0.5, 0}, {0.5, 0.5, 1}};
 const glm::dvec2 pixels(200.0);
 
 /// From above, ten wide.
@@ -38,10 +40,10 @@ double offSquare(const glm::dvec3& place, const glm::dvec2& middle, double half)
 }
 
 std::vector<SeenPlace> edgesOf(const glm::dvec4& light, const glm::dmat4& view, const glm::dmat4& map,
-                               const std::vector<SeenEdges::Box>& receivers) {
-    SeenEdges seen(view, wholeScreen, light);
-    for (const SeenEdges::Box& box : receivers) seen.addReceiver(box, here);
-    seen.addCasters(receivers, map);
+                               const std::vector<PlacedBox>& receivers) {
+    SeenEdges seen(view, pixels, wholeScreen, light);
+    for (const PlacedBox& box : receivers) seen.addReceiver(box), seen.addCaster(box);
+    seen.addMap(map);
     return seen.edges();
 }
 
@@ -93,9 +95,9 @@ Objects onAGround(const std::function<void(Objects&)>& add) {
 
 std::vector<SeenPlace> edgesOf(const glm::dvec4& light, const glm::dmat4& view, const glm::dmat4& map,
                                const Objects& objects) {
-    SeenEdges seen(view, wholeScreen, light);
-    seen.addReceivers({objects.placed()});
-    seen.addCasters({objects.placed()}, {map}, pixels);
+    SeenEdges seen(view, pixels, wholeScreen, light);
+    seen.addMesh(objects.placed());
+    seen.addMap(map);
     return seen.edges();
 }
 
@@ -119,7 +121,7 @@ TEST(SeenEdges, LieAlongTheShadowOfABoxUnderASun) {
 
 TEST(SeenEdges, KnowWhichWayTheyGo) {
     const glm::dmat4 map = mapFromAbove * glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1); // x - z
-    const SeenEdges::Box tower{{-0.5, -1.5, 0}, {0.5, 1.5, 3}};
+    const PlacedBox tower{{-0.5, -1.5, 0}, {0.5, 1.5, 3}};
     const glm::dvec4 sun(glm::normalize(glm::dvec3(1, 0, 1)), 0.0);
     int along = 0, across = 0;
     for (const SeenPlace& edge : edgesOf(sun, plan(), map, {ground, tower})) {
@@ -147,13 +149,13 @@ TEST(SeenEdges, LieAlongTheShadowOfABoxUnderALamp) {
 TEST(SeenEdges, OfHillsLieHalfWayUp) {
     const glm::dvec4 sun(glm::normalize(glm::dvec3(1, 0, 1)), 0.0);
     const glm::dmat4 map = mapFromAbove * glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1); // x - z
-    const SeenEdges::Box hills{{-5, -5, -0.5}, {5, 5, 0.5}};
+    const PlacedBox hills{{-5, -5, -0.5}, {5, 5, 0.5}};
     const std::vector<SeenPlace> edges = edgesOf(sun, plan(), map, {hills, house});
     ASSERT_GT(edges.size(), 20u);
     for (const SeenPlace& edge : edges) EXPECT_NEAR(edge.place.z, 0.0, 1e-9);
 
-    SeenEdges whole(plan(), wholeScreen, sun);
-    whole.addReceiver(hills, here, SeenEdges::Relief::Whole);
+    SeenEdges whole(plan(), pixels, wholeScreen, sun);
+    whole.addReceiver(hills, SeenEdges::Relief::Whole);
     ASSERT_FALSE(whole.facing().empty());
     for (const SeenPlace& place : whole.facing()) EXPECT_NEAR(place.place.z, 0.5, 1e-9);
 }
@@ -162,9 +164,9 @@ TEST(SeenEdges, AreOnlyWhereTheLightShinesAndTheEyeSees) {
     const glm::dvec4 below(0, 0, -1, 0), noon(0, 0, 1, 0);
     EXPECT_TRUE(edgesOf(below, plan(), mapFromAbove, {ground, house}).empty());
     EXPECT_TRUE(edgesOf(noon, plan(), mapFromAbove, {ground, house}).empty()) << "the house hides its shadow";
-    const SeenEdges::Box roof{{-5, -5, 4}, {5, 5, 4}}; // all of its shadow is below it
+    const PlacedBox roof{{-5, -5, 4}, {5, 5, 4}}; // all of its shadow is below it
     EXPECT_TRUE(edgesOf(noon, plan(), mapFromAbove, {ground, house, roof}).empty());
-    const SeenEdges::Box plate{{-1, -1, 3}, {1, 1, 3}};
+    const PlacedBox plate{{-1, -1, 3}, {1, 1, 3}};
     const glm::dmat4 slanted = glm::perspective(1.0, 1.0, 0.1, 100.0) *
                                glm::lookAt(glm::dvec3(0, -20, 12), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
     for (const SeenPlace& edge : edgesOf(noon, slanted, mapFromAbove, {ground, plate}))
@@ -174,7 +176,7 @@ TEST(SeenEdges, AreOnlyWhereTheLightShinesAndTheEyeSees) {
 
 // The room's box holds the lamp and the eye. It is seen from inside, and does not darken itself.
 TEST(SeenEdges, AreSeenInARoomFromInside) {
-    const SeenEdges::Box room{{-3, -3, 0}, {3, 3, 3}}, table{{-0.5, -0.5, 0.9}, {0.5, 0.5, 1.0}};
+    const PlacedBox room{{-3, -3, 0}, {3, 3, 3}}, table{{-0.5, -0.5, 0.9}, {0.5, 0.5, 1.0}};
     const glm::dvec4 lamp(0, 0, 2, 1);
     const LightFrame frame = lampFrame(glm::dvec3(lamp), {0, 0, -1}, 1.0);
     const glm::dmat4 toMap(0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1);
@@ -218,37 +220,38 @@ TEST(SeenEdges, OfTrianglesAreSeenOnAnObjectThatShadowsItself) {
     EXPECT_GT(onStep, 10);
 }
 
-// Rods of a fifth of a pixel, three fifths and six. A pixel that meets a thin one has an outline of 2 to 2.8 pixels. It meets
-// as many as the rod has area, where a wide one has two outlines, each drawn and true. Those of three fifths are seen in the
-// truth, too. Some hundred are met, of which a tenth and more is taken as chance.
-TEST(SeenEdges, CountThinShadowsByThePixelsThatMeetThem) {
+// Rods of a fifth of a pixel to three. They are met as seldom as they are narrow, and each has two outlines, as those of eight
+// pixels have. Some of them are taken as chance.
+TEST(SeenEdges, CountNarrowShadowsByTheirLengthAndTellTheirWidth) {
     const double pixel = 2.0 * 7.9 * std::tan(0.2) / 200.0;
-    const glm::dmat4 below =
-        glm::perspective(0.4, 1.0, 1.0, 100.0) * glm::lookAt(glm::dvec3(0, 0, 7.9), glm::dvec3(0.0), north); // the rods
-    double thin = 0.0;
-    const auto lengthOf = [&](double width) {
+    const glm::dmat4 below = glm::perspective(0.4, 1.0, 1.0, 100.0) * // the rods
+                             glm::lookAt(glm::dvec3(0, 0, 7.9), glm::dvec3(0.0), glm::dvec3(0.37, 1.0, 0.0));
+    const auto edgesOfRods = [&](double width, bool asBoxes) {
+        std::vector<PlacedBox> boxes = {ground};
+        for (int i = -9; i <= 9; ++i) boxes.push_back({{-6, 0.2 * i - width / 2.0, 8}, {6, 0.2 * i + width / 2.0, 8}});
+        if (asBoxes) return edgesOf({0, 0, 1, 0}, below, mapFromAbove, boxes);
         const Objects objects = onAGround([&](Objects& all) {
-            for (int i = -8; i <= 8; ++i) {
-                const glm::dvec3 along = glm::normalize(glm::dvec3(1.0, 0.37, 0.0)), side(-along.y, along.x, 0.0);
-                const glm::dvec3 middle(0.0, 0.2 * i, 8.0);
-                all.addQuad(middle - 6.0 * along - side * width / 2.0, 12.0 * along, side * width);
-            }
+            for (std::size_t i = 1; i < boxes.size(); ++i) all.addQuad(boxes[i].low, {12, 0, 0}, {0, width, 0});
         });
-        double all = 0.0;
-        thin = 0.0;
-        for (const SeenPlace& edge : edgesOf({0, 0, 1, 0}, below, mapFromAbove, objects)) {
-            all += edge.share;
-            thin += edge.across <= 1.0 ? edge.share : 0.0;
-        }
-        return all;
+        return edgesOf({0, 0, 1, 0}, below, mapFromAbove, objects);
     };
-    const double wide = lengthOf(6.0 * pixel);
-    EXPECT_EQ(thin, 0.0);
-    for (const auto& [width, outlines] : {std::pair(0.2, 1.0), std::pair(0.6, 2.0)}) {
-        const double expected = outlines * 2.4 * width / 4.0, share = lengthOf(width * pixel) / wide;
-        EXPECT_NEAR(thin, share * wide, 0.2 * share * wide) << width;
-        EXPECT_GT(share, expected / 2.0) << width;
-        EXPECT_LT(share, 1.5 * expected) << width;
+    for (const bool asBoxes : {false, true}) {
+        const auto lengthOf = [&](double width) {
+            double all = 0.0;
+            for (const SeenPlace& edge : edgesOfRods(width * pixel, asBoxes)) all += edge.share;
+            return all;
+        };
+        const double wide = lengthOf(8.0);
+        for (const double width : {0.2, 0.6, 1.2, 3.0}) {
+            EXPECT_GT(lengthOf(width), 0.5 * wide) << width;
+            EXPECT_LT(lengthOf(width), 1.4 * wide) << width;
+            std::vector<double> widths;
+            for (const SeenPlace& edge : edgesOfRods(width * pixel, asBoxes)) widths.push_back(edge.across);
+            ASSERT_FALSE(widths.empty());
+            std::sort(widths.begin(), widths.end());
+            EXPECT_GT(widths[widths.size() / 2], 0.5 * width) << width;
+            EXPECT_LT(widths[widths.size() / 2], 2.0 * width) << width;
+        }
     }
 }
 
@@ -339,5 +342,60 @@ TEST(EdgeWidths, TellWherePixelsAreLong) {
         widths.add({{0.5, away - 10.0, 0}, {0, 0, 1}, {1, 0}}, mapFromAbove);
         const double slanted = widths.usual(0.95, [](const auto& edge) { return edge.slanted ? 1.0 : 2.0; });
         EXPECT_DOUBLE_EQ(slanted, away > 4.0 * 1.7 ? 1.0 : 2.0) << away;
+    }
+}
+
+TEST(EdgeErrors, AreThePixelsWhereTexelsAreSmallAndTheTexelsWhereTheyAreLarge) {
+    const EdgeFilter filter{0.5, 0.4, 1.0, false};
+    EXPECT_DOUBLE_EQ(mapError(filter, 0.0), 0.4);
+    EXPECT_NEAR(mapError(filter, 100.0), 50.0, 0.01);
+    EXPECT_DOUBLE_EQ(polygonError(0.0), sampledEdge);
+}
+
+// A lath of two pixels: a map whose texels are wider loses it or draws blobs as wide as its texels.
+TEST(EdgeErrors, OfMapsCountWhatIsNarrowerThanATexelAsLost) {
+    const EdgeFilter hard{0.5, 0.4, 1.0, false}, mean{0.15, 0.075, 16.0, true};
+    EdgeWidths::Edge lath;
+    lath.width = 1024.0; // pixels
+    lath.across = 2.0;
+    for (const EdgeFilter& filter : {hard, mean}) {
+        EXPECT_LT(mapError(lath, filter, 1024.0), 1.0) << "texels of a pixel";
+        EXPECT_GE(mapError(lath, filter, 400.0), 2.0) << "texels of 2.6 pixels";
+        EXPECT_GE(mapError(lath, filter, 128.0), 4.0) << "texels of 8 pixels";
+    }
+    EXPECT_LE(sampledError(lath), 0.5);
+}
+
+// What no pixel's middle need meet is lost here and there: no map is better, unless it averages finer texels.
+TEST(EdgeErrors, OfOnePlaceAPixelAreNoWorseThanThoseOfMapsThatLoseAsMuch) {
+    EdgeWidths::Edge wire;
+    wire.width = 1024.0;
+    for (const double across : {0.1, 0.3, 0.7, 0.95, 1.5, 6.0, 100.0}) {
+        wire.across = across;
+        EXPECT_LE(sampledError(wire), 1.0) << across;
+        for (const double texels : {128.0, 1024.0, 8192.0})
+            EXPECT_GE(mapError(wire, {0.5, 0.42, 0.25, false}, texels), sampledError(wire)) << across << " " << texels;
+        EXPECT_LT(mapError(wire, {0.15, 0.075, 16.0, true}, 32768.0), 0.1) << across;
+    }
+}
+
+// Stripes that rise so, each with another place in its pixels, as one place a pixel decides, and as their area does.
+TEST(EdgeErrors, OfOnePlaceAPixelAreThatOfStripesThatRiseSo) {
+    constexpr int width = 48, height = 2000, places = 15; // pixels; places each way of which the area is counted
+    constexpr double pitch = 10.0 + 0.618;
+    for (const double rise : {0.0, 0.05, 0.125, 0.25, 0.4, 0.5, 0.7, 0.9, 1.0}) {
+        const auto isLit = [&](double x, double y) { return std::fmod(y + 100.0 - rise * x, 2.0 * pitch) < pitch; };
+        gnomon::metrics::Picture drawn(width, height), truth(width, height);
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) {
+                drawn.at(x, y) = isLit(x + 0.5, y + 0.5) ? 1.0 : 0.0;
+                for (int i = 0; i < places * places; ++i)
+                    truth.at(x, y) += isLit(x + (i % places + 0.5) / places, y + (i / places + 0.5) / places);
+                truth.at(x, y) /= places * places;
+            }
+        const double off =
+            gnomon::metrics::boundaryDistance(drawn, truth, gnomon::metrics::Mask(width, height, 1)).value().p95;
+        std::cout << rise << ": " << off << ", " << gnomon::sampledEdgeOf(rise) << " are expected\n";
+        EXPECT_NEAR(gnomon::sampledEdgeOf(rise), off, 0.04) << rise; // 15 places tell a level edge to a 15th
     }
 }

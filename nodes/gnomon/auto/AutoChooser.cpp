@@ -173,12 +173,13 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
                                        const AutoShadowOptions& options) {
     Lock lock(_mutex);
     Choice& choice = find(view);
-    _known.bodies.keepMostly(view.casters);
+    _idleCulls = 0;
     _known.flat.reset();
     TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(view.frame.renderStage, options) : nullptr;
     const Seen now = seenIn(view, receiver, keeper ? keeper->error() : usualError(options));
     if (isDue(choice, now, view, receiver) || isOld(choice, now)) decide(choice, now, view, receiver);
-    Drawn drawn{sharesOf(choice.candidate, view, receiver), {}, surfacesOf(choice, now, view)};
+    if (choice.candidate.kind != AutoCandidate::Kind::Mixed) _known.splits.forgetOthersThan(view.casters);
+    Drawn drawn{sharesOf(choice.candidate, view, receiver), {}, surfacesOf(choice, now, view), choice.flat.whole};
     for (const std::string& cause : {choice.cause, keeper ? keeper->whyNot() : ""})
         if (!cause.empty()) drawn.causes.push_back(cause);
     return drawn;
@@ -197,12 +198,13 @@ std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate
 }
 
 std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(Choice& choice, const Seen& now, const AutoView& view) {
-    if (!relightsAlone(choice.candidate, view)) {
+    if (choice.candidate.kind != AutoCandidate::Kind::Planar) {
         choice.flatIn.reset();
         return nullptr;
     }
     if (!choice.flatIn || !(now == *choice.flatIn)) {
-        choice.flat = FlatLeaves(view.frame.seen, _known.flatIn(view).leaves);
+        const FlatReceivers& flat = _known.flatIn(view);
+        choice.flat = isRelitAlone(view, flat) ? FlatLeaves(view.frame.seen, flat) : FlatLeaves();
         choice.flatIn = now;
     }
     return choice.flat.in(view.frame.seen);
@@ -223,7 +225,14 @@ TimeKeeper& AutoChooser::keeperOf(const void* renderStage, const AutoShadowOptio
     return keeper;
 }
 
-void AutoChooser::learnRenderer() { _renderer->value = currentRenderer(); }
+void AutoChooser::beginCull(bool isCurrent) {
+    if (isCurrent) _renderer->value = currentRenderer();
+    Lock lock(_mutex);
+    if (_idleCulls++ != keptRounds) return;
+    _inner.clear();
+    _choices = {};
+    _known = {};
+}
 
 osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* renderStage, const AutoShadowOptions& options) {
     if (!(options.time > 0.0) && _renderer->value != Renderer::Unknown) return nullptr;

@@ -32,11 +32,13 @@ public:
         std::vector<Share> shares;               ///< empty: no shadow is drawn.
         std::vector<std::string> causes;         ///< for ShadowTechnique::report(): the budget cannot be kept.
         std::shared_ptr<const LeafSet> surfaces; ///< see MarkJob::surfaces.
+        bool cutBySurfaces = false;              ///< see MarkJob.
     };
     Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
 
-    /// Who draws, if the calling thread may ask.
-    void learnRenderer();
+    /// A cull begins. Lets all go that is kept of casters if none of the last culls had any.
+    /// @param isCurrent  the thread may ask OpenGL, and so learns who draws.
+    void beginCull(bool isCurrent);
     /// What is to be learnt in the view's draw; null: nothing.
     osg::ref_ptr<DrawWatch> watch(const void* renderStage, const AutoShadowOptions& options);
 
@@ -104,6 +106,7 @@ private:
     RecentCache<Keeper> _keepers;
     const osg::ref_ptr<RendererFact> _renderer = new RendererFact;
     unsigned _round = 0, _frame = 0;
+    unsigned _idleCulls = 0; ///< since the last choice.
     const void* _lastRenderStage = nullptr;
 };
 

@@ -65,7 +65,10 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
         for (const osg::ref_ptr<MarkJob>& job : technique->prepare(here, light, part)) jobs.push_back(job);
         for (const std::string& cause : causesOf(*technique)) report(view.frameNumber, cause);
     }
-    for (const osg::ref_ptr<MarkJob>& job : jobs) job->surfaces = drawn.surfaces;
+    for (const osg::ref_ptr<MarkJob>& job : jobs) {
+        job->surfaces = drawn.surfaces;
+        job->cutBySurfaces = drawn.surfaces && drawn.cutBySurfaces;
+    }
     return jobs;
 }
 
@@ -73,7 +76,7 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
 void AutoShadowTechnique::traverse(osg::NodeVisitor& visitor) {
     const osgUtil::CullVisitor* cull = visitor.asCullVisitor();
     const osg::State* state = cull ? cull->getState() : nullptr;
-    if (state && state->getGraphicsContext() && state->getGraphicsContext()->isCurrent()) _chooser->learnRenderer();
+    if (cull) _chooser->beginCull(state && state->getGraphicsContext() && state->getGraphicsContext()->isCurrent());
     ShadowTechnique::traverse(visitor);
 }
 

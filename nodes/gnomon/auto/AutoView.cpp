@@ -23,13 +23,6 @@ bool isMoreThanWhite(const osg::Material& material) {
     return false;
 }
 
-/// True if what is drawn so shows no more of a light than the light gives.
-bool isShadedByOpenGl(const osgUtil::StateGraph* graph) {
-    if (!isOn(graph, GL_LIGHTING) || resolvedAttribute(graph, osg::StateAttribute::PROGRAM)) return false;
-    const auto* material = resolved<osg::Material>(graph, osg::StateAttribute::MATERIAL);
-    return !material || !isMoreThanWhite(*material);
-}
-
 /// How much of a leaf is drawn again, as LeafReplay does.
 double shareWithin(const osgUtil::RenderLeaf& leaf, const ScreenRect& bounds) {
     const osg::ref_ptr<const TriangleClusters> clusters = TriangleClusters::of(*leaf._drawable);
@@ -41,6 +34,12 @@ double shareWithin(const osgUtil::RenderLeaf& leaf, const ScreenRect& bounds) {
 }
 
 } // namespace
+
+bool isShadedByOpenGl(const osgUtil::StateGraph* graph) {
+    if (!isOn(graph, GL_LIGHTING) || resolvedAttribute(graph, osg::StateAttribute::PROGRAM)) return false;
+    const auto* material = resolved<osg::Material>(graph, osg::StateAttribute::MATERIAL);
+    return !material || !isMoreThanWhite(*material);
+}
 
 /// Shadows of lights that are fainter may fall on the same place, and are left out, too.
 bool isFaint(const AutoView& view) {

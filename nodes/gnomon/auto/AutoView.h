@@ -30,6 +30,9 @@ std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leave
 /// steps of any channel.
 bool isFaint(const AutoView& view);
 
+/// True if what is drawn so shows no more of a light than the light gives: by OpenGL's own lighting.
+bool isShadedByOpenGl(const osgUtil::StateGraph* graph);
+
 /// Why casters need a technique that knows their textures; empty if they do not.
 std::string whyCutOut(const CasterDrawables& casters);
 

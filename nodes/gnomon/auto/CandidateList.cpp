@@ -5,7 +5,6 @@
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/auto/MapEdges.h>
 #include <gnomon/base/NumberText.h>
-#include <gnomon/choice/EdgeError.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapSettings.h>
@@ -21,14 +20,8 @@
 namespace gnomon {
 
 const FlatReceivers& AutoKnowledge::flatIn(const AutoView& view) {
-    if (!flat) flat = findFlatReceivers(view, bodies);
+    if (!flat) flat = findFlatReceivers(view, shapes);
     return *flat;
-}
-
-/// Several planes are several jobs, none of which knows all; and jobs of several lights are relit together.
-bool relightsAlone(const AutoCandidate& candidate, const AutoView& view) {
-    return view.frame.group->getComposite() == ShadowCasterGroup::RELIGHT && view.frame.lights == 1 &&
-           !view.frame.receivers && candidate.kind == AutoCandidate::Kind::Planar && candidate.planes.size() == 1;
 }
 
 namespace {
@@ -45,11 +38,11 @@ struct MapQuality {
     EdgeFilter edge;
 };
 /// Spread: of hard edges at random; of smooth ones on the tuning scenes of gnomonchart. Pixel: of a sphere and a cube on a
-/// ground, with small texels. Gaps: of shadows of rods, 0.6 to 0.9 pixels wide.
+/// ground, with small texels.
 constexpr MapQuality qualities[] = {
-    {Map::NEAREST, Map::HARD, {0.51, 0.42, 3.0, 0.25}},  {Map::BILINEAR, Map::HARD, {0.41, 0.41, 3.0, 1.0}},
-    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 3.0, 4.0}},   {Map::BILINEAR, Map::SMOOTH, {0.25, 0.36, 3.0, 1.0}},
-    {Map::BICUBIC, Map::SMOOTH, {0.22, 0.15, 2.3, 4.0}}, {Map::FINE, Map::SMOOTH, {0.15, 0.075, 1.7, 16.0}},
+    {Map::NEAREST, Map::HARD, {0.51, 0.42, 0.25, false}}, {Map::BILINEAR, Map::HARD, {0.41, 0.41, 1.0, false}},
+    {Map::BICUBIC, Map::HARD, {0.35, 0.40, 4.0, false}},  {Map::BILINEAR, Map::SMOOTH, {0.25, 0.36, 1.0, false}},
+    {Map::BICUBIC, Map::SMOOTH, {0.22, 0.15, 4.0, true}}, {Map::FINE, Map::SMOOTH, {0.15, 0.075, 16.0, true}},
 };
 constexpr double callsAMap = 14.0;      // to switch to its framebuffer and back, and to fit it
 constexpr double callsAPiece = 0.02;    // to see that it has not changed
@@ -60,33 +53,6 @@ constexpr double relitAnew = 0.5;       // the same, besides, where all that is 
 constexpr double callsALeaf = 0.1;      // to draw it again
 constexpr double facedAnObject = 0.03;  // to ask a triangle whether it faces the light; see ShadowWork::objects
 constexpr int sizes[] = {256, 512, 1024, 2048, 4096};
-
-/// Pixels that an edge is off where one place a pixel decides.
-double sampledEdgeOf(const EdgeWidths::Edge& edge) {
-    constexpr double bent = 1.08; // to straight ones: on the tuning scenes of gnomonchart
-    return std::min(bent * gnomon::sampledEdgeOf(edge.rise), 0.5);
-}
-
-/// Pixels that an edge is off which nothing smoothes.
-double hardEdge(const EdgeWidths::Edge& edge) {
-    if (edge.across <= halfCovered) return missedEdgeError(edge.apart);
-    return edge.across <= 1.0 ? sampledGaps : sampledEdgeOf(edge);
-}
-
-/// The same, of one that is looked up in a map. A smooth edge is as hard as others where pixels are long, and next to a fold. If
-/// it is the mean of a pixel, it is missed where the truth misses it.
-double mapEdge(const EdgeWidths::Edge& edge, const MapQuality& quality, int texels) {
-    EdgeFilter filter = quality.edge;
-    const bool smooth = quality.edges == Map::SMOOTH, mean = smooth && quality.filter != Map::BILINEAR;
-    const double sampled = sampledEdgeOf(edge);
-    if (!mean) filter.pixel *= sampled / sampledEdge;
-    if (smooth && (edge.slanted || edge.folded)) filter.pixel = std::max(filter.pixel, sampled);
-    if (edge.across <= halfCovered)
-        filter.pixel = mean ? filter.pixel : missedEdgeError(edge.apart);
-    else if (edge.across <= 1.0)
-        filter.pixel = filter.gaps;
-    return mapEdgeError(filter, edge.width / texels);
-}
 
 /// Why a candidate would leave a caster out; empty if it would not.
 std::string whyOnlyMaps(const AutoCandidate& candidate, const CasterDrawables& casters) {
@@ -123,7 +89,7 @@ public:
         measure();
         const MapEdges edges(_view, *_boxes, _one);
         _widths = edges.in(_one);
-        _sampled = _widths->empty() ? sampledEdge : _widths->usual(usualShare, hardEdge);
+        _sampled = _widths->empty() ? sampledEdge : _widths->usual(usualShare, sampledError);
         addPlanar(flat);
         addTerrain();
         addMaps(edges);
@@ -185,7 +151,7 @@ private:
         planar.error = _sampled;
         const double planes = std::max(1.0, double(flat.planes.size()));
         planar.still = _compose;
-        if (relightsAlone(planar, _view)) relightAlone(flat.leaves, planar.still);
+        if (isRelitAlone(_view, flat)) relightAlone(flat.leaves, planar.still);
         planar.still.calls += 2.0 * planes;
         planar.still.triangles = planes * _casters;
         planar.still.texels = _pixels; // stencil and depth alone, as in a map
@@ -198,7 +164,7 @@ private:
         hull.kind = Kind::Terrain;
         hull.obstacle = facts.obstacle;
         hull.why = "the named terrain shadows no part of itself";
-        hull.error = polygonEdgeError(facts.off / _one.pixel);
+        hull.error = polygonError(facts.off / _one.pixel);
         const double dense = denseTriangles(_view.casters), boxes = (_casters - dense) / 12.0;
         hull.still = _compose;
         hull.still.calls += 4.0;
@@ -247,9 +213,9 @@ private:
         const double wish = MapSettings(map.map).pixels;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
         const EdgeWidths& edges = mapped.edges;
-        map.error = edges.empty()
-                        ? mapEdgeError(quality.edge, forecast.texels / texels)
-                        : edges.usual(usualShare, [&](const auto& edge) { return mapEdge(edge, quality, texels); });
+        map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)
+                                  : edges.usual(usualShare,
+                                                [&](const auto& edge) { return mapError(edge, quality.edge, texels); });
         map.why = "its texels are as large as " + roundedText(forecast.texels / texels) + " px";
         const double passes = quality.edges == Map::SMOOTH && !blends() ? 2.0 : 1.0;
         map.still = _compose;

@@ -3,7 +3,6 @@
 #include <gnomon/auto/AutoCandidate.h>
 #include <gnomon/auto/AutoView.h>
 #include <gnomon/auto/CasterSplit.h>
-#include <gnomon/auto/ConvexBodies.h>
 #include <gnomon/auto/FlatReceivers.h>
 #include <gnomon/auto/TerrainFacts.h>
 #include <gnomon/volume/OpenCasters.h>
@@ -16,7 +15,7 @@ namespace gnomon {
 
 /// What is known of a group's casters and receivers, from earlier decisions.
 struct AutoKnowledge {
-    ConvexBodies bodies;
+    CasterShapes shapes;
     TerrainKnowledge terrain;
     CasterSplits splits;
     OpenCasters open;
@@ -35,9 +34,6 @@ struct CandidateList {
 /// @param receiver  that the technique names.
 /// A new technique is one more function in CandidateList.cpp.
 CandidateList listCandidates(const AutoView& view, const Selection& receiver, AutoKnowledge& known);
-
-/// True if a candidate's shadow falls on known leaves, and relighting can draw these alone; see MarkJob::surfaces.
-bool relightsAlone(const AutoCandidate& candidate, const AutoView& view);
 
 /// Why a candidate that was right for another frame is wrong now; empty if it still is right.
 std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver,

@@ -23,7 +23,7 @@ bool CasterSplit::isDense(const CasterDrawable& piece, double radius) {
 }
 
 void CasterSplit::follow(const CasterDrawables& all) {
-    if (_all == &all) return;
+    if (isOf(all)) return;
     _all = &all;
     CasterDrawables::List simple, dense;
     for (const auto& piece : all.list) {
@@ -54,6 +54,10 @@ FrameCasters CasterSplit::partOf(const FrameCasters& all, const Part& part) {
     if (!known || known->pieces != part.pieces.get())
         part.layers.set(all.group().castersAmong(*part.pieces.get(), known ? *known : all.layers()));
     return all.part(*part.layers.get());
+}
+
+void CasterSplits::forgetOthersThan(const CasterDrawables& all) {
+    _splits.dropIf([&](const Entry& entry) { return entry.choice == all.choice && !entry.split->isOf(all); });
 }
 
 CasterSplit& CasterSplits::of(const CasterDrawables& all) {

@@ -3,6 +3,8 @@
 #include <gnomon/casters/CasterRevisions.h>
 #include <gnomon/group/FrameCasters.h>
 
+#include <osg/observer_ptr>
+
 #include <memory>
 
 namespace gnomon {
@@ -23,7 +25,9 @@ public:
     /// Divides casters, unless that was done.
     void follow(const CasterDrawables& all);
     /// True if no view will ask for what was divided last.
-    bool isRetired() const { return _all && _all->isRetired(); }
+    bool isRetired() const { return !_all.valid() || _all->isRetired(); }
+    /// True if it was made of these.
+    bool isOf(const CasterDrawables& all) const { return _all.get() == &all; }
     /// True if there is something in either part.
     bool isDivided() const { return _simple.pieces.get() && _dense.pieces.get(); }
 
@@ -39,7 +43,7 @@ private:
     static FrameCasters partOf(const FrameCasters& all, const Part& part);
     static void set(Part& part, CasterDrawables::List pieces, CasterDrawables::OwnList own, std::uint64_t choice);
 
-    osg::ref_ptr<const CasterDrawables> _all;
+    osg::observer_ptr<const CasterDrawables> _all;
     Part _simple, _dense;
 };
 
@@ -48,6 +52,8 @@ class CasterSplits {
 public:
     /// As CasterSplit::follow() leaves it. It holds until the next call.
     CasterSplit& of(const CasterDrawables& all);
+    /// Lets go what was made of casters that were there before these.
+    void forgetOthersThan(const CasterDrawables& all);
 
 private:
     struct Entry {

@@ -54,6 +54,11 @@ osg::ref_ptr<const ShadowTechnique> InnerTechniques::of(const AutoCandidate& can
     return result;
 }
 
+void InnerTechniques::clear() {
+    _passesOfGone = passes();
+    _made = {};
+}
+
 unsigned InnerTechniques::passes() const {
     unsigned all = _passesOfGone;
     for (const Made& made : _made) all += made.technique->passes();

@@ -16,6 +16,8 @@ class InnerTechniques {
 public:
     /// Null for no shadow. @param round  rises with each frame.
     osg::ref_ptr<const ShadowTechnique> of(const AutoCandidate& candidate, const Selection& receiver, unsigned round);
+    /// Lets all go.
+    void clear();
     /// Calls `visit` with each that is there.
     void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
     /// ShadowTechnique::passes() of all, those included that were let go.

@@ -24,14 +24,6 @@ bool holds(const MapForecast::Map& map, const glm::dvec3& place) {
                        [&](const glm::dvec4& half) { return glm::dot(half, here) >= 0.0; });
 }
 
-std::vector<SeenEdges::Box> boxesOf(const MapCasters& casters) {
-    std::vector<SeenEdges::Box> result;
-    for (const MapLayer* layer : {casters.still.get(), casters.moving.get()})
-        for (const auto* some : {&layer->bodyBoxes, &layer->flatBoxes})
-            for (const MapLayer::Box& box : *some) result.push_back({box.low, box.high});
-    return result;
-}
-
 bool areLookedAt(const CasterLayers& casters) {
     return casters.triangles() <= mostTriangles && casters.triangles() > ofABox * casters.pieces->list.size();
 }
@@ -71,28 +63,23 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
     const std::vector<MapReceiver> receivers =
         receiversOf(byTriangles ? without(*boxes.layers->pieces, view) : view.frame, scene.eyeFromScene(view.frame));
     const auto seenOf = [&](SeenEdges::Relief relief) {
-        SeenEdges seen(_clipFromScene, *forecast.bounds, light);
+        SeenEdges seen(_clipFromScene, _pixels, *forecast.bounds, light);
         for (const MapReceiver& receiver : receivers)
-            seen.addReceiver({receiver.low, receiver.high}, receiver.sceneFromBox, relief);
+            seen.addReceiver({receiver.low, receiver.high, receiver.sceneFromBox}, relief);
+        for (const MapForecast::Map& map : forecast.each) seen.addMap(map.mapFromScene);
         return seen;
     };
     SeenEdges seen = seenOf(SeenEdges::Relief::HalfWay);
     if (byTriangles)
-        lookAtTriangles(seen, trianglesOf(*boxes.layers), forecast);
+        for (const PlacedTriangles& mesh : trianglesOf(*boxes.layers)) seen.addMesh(mesh);
     else
-        for (const MapForecast::Map& map : forecast.each) seen.addCasters(boxesOf(boxes), map.mapFromScene);
+        for (const MapLayer* layer : {boxes.still.get(), boxes.moving.get()})
+            for (const auto* some : {&layer->bodyBoxes, &layer->flatBoxes})
+                for (const MapLayer::Box& box : *some) seen.addCaster({box.low, box.high});
     _places = seen.edges();
     if (!_places.empty()) return;
     if (!byTriangles) seen = seenOf(SeenEdges::Relief::Whole); // a terrain shadows itself, who knows where
     _places = seen.facing();
-}
-
-void MapEdges::lookAtTriangles(SeenEdges& seen, const std::vector<PlacedTriangles>& meshes,
-                               const MapForecast& forecast) const {
-    std::vector<glm::dmat4> maps;
-    for (const MapForecast::Map& map : forecast.each) maps.push_back(map.mapFromScene);
-    seen.addReceivers(meshes);
-    seen.addCasters(meshes, maps, _pixels);
 }
 
 EdgeWidths MapEdges::in(const MapForecast& forecast) const {

@@ -19,9 +19,6 @@ public:
     EdgeWidths in(const MapForecast& forecast) const;
 
 private:
-    void lookAtTriangles(SeenEdges& seen, const std::vector<PlacedTriangles>& meshes,
-                         const MapForecast& forecast) const;
-
     glm::dmat4 _clipFromScene;
     glm::dvec2 _pixels;
     std::vector<SeenPlace> _places;

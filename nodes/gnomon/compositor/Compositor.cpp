@@ -4,6 +4,7 @@
 #include <gnomon/compositor/SoftCompositor.h>
 
 #include <algorithm>
+#include <deque>
 
 namespace gnomon {
 namespace {
@@ -19,9 +20,8 @@ std::vector<Jobs> byView(const Jobs& jobs) {
     return views;
 }
 
-/// A job that is relit and knows where its shadow falls, as if those leaves were its named receiver.
+/// A job that knows where its shadow falls, as if those leaves were its named receiver.
 ShadowJob onItsSurfaces(ShadowJob job) {
-    if (!job.relight || job.receiverNamed || !job.marks->surfaces) return job;
     job.receiverNamed = true;
     job.receivers = job.marks->surfaces;
     return job;
@@ -51,8 +51,11 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     };
     Jobs relit;
     std::map<float, Jobs> blended;
-    for (const ShadowJob& job : jobs) {
-        if (job.programMarks()) continue;
+    std::deque<ShadowJob> onSurfaces;
+    for (const ShadowJob& given : jobs) {
+        if (given.programMarks()) continue;
+        const bool cut = given.marks->surfaces && !given.receiverNamed;
+        const ShadowJob& job = cut ? onSurfaces.emplace_back(onItsSurfaces(given)) : given;
         if (job.relight)
             relit.push_back(&job);
         else if (job.dark < 1.0f) // a factor of 1 changes nothing
@@ -137,17 +140,14 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, 
 /// The short way for a single job: the leaves of its named receiver are drawn again at the depth that stands, and take
 /// the light away themselves. Possible unless some other leaf shows on a relit receiver.
 bool Compositor::composeDirectly(const Jobs& wanted) {
-    const ShadowJob job = onItsSurfaces(*wanted.front());
+    const ShadowJob& job = *wanted.front();
     if (wanted.size() > 1 || !job.receiverNamed) return false;
-    const Jobs jobs{&job};
-    const bool relit = job.relight, apart = !wanted.front()->receiverNamed;
+    const bool relit = job.relight, apart = job.marks->surfaces != nullptr;
     const ScreenRect& bounds = job.marks->screenBounds;
-    std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, jobs, bounds);
+    std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, wanted, bounds);
     PlainTest plain;
     const auto other = [&job](const ReplayedLeaf& leaf) { return !job.isNamed(leaf.entry.leaf); };
-    const auto unfit = [&](const ReplayedLeaf& leaf) {
-        return (other(leaf) && !apart) || !plain(*leaf.entry.leaf);
-    };
+    const auto unfit = [&](const ReplayedLeaf& leaf) { return (other(leaf) && !apart) || !plain(*leaf.entry.leaf); };
     if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
     if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfView(job, _draw.leaves).empty())) return false;
     leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());
@@ -166,7 +166,7 @@ bool Compositor::composeDirectly(const Jobs& wanted) {
         overlay.factor = job.dark;
         for (ReplayedLeaf& leaf : leaves) leaf.dark = 0;
     }
-    replay(leaves, overlay, jobs);
+    replay(leaves, overlay, wanted);
     _draw.clear(bit, bounds);
     return true;
 }

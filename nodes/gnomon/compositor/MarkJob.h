@@ -28,8 +28,10 @@ public:
     ScreenRect screenBounds = wholeScreen;
 
     /// Leaves on which all of the shadow falls, and in whose surfaces no other leaf has any; null: none are known.
-    /// Relighting then draws them alone.
+    /// The compositor then cuts the marks to them, and relighting draws them alone.
     std::shared_ptr<const LeafSet> surfaces;
+    /// True if that cut is enough: the job need not find out what one sees.
+    bool cutBySurfaces = false;
 
     /// Sets `bit` in the stencil buffer where the light does not reach. The bit is zero before, within the bounds;
     /// other bits, colour and depth stay as they are. Called within a CleanState and `pass`, which is cut to the

@@ -104,7 +104,9 @@ std::optional<double> strengthOf(const osg::Light& light) {
     if (light.getPosition().w() != 0.0f && light.getConstantAttenuation() < 1.0f) return std::nullopt;
     double most = 0.0;
     for (int channel = 0; channel < 3; ++channel)
-        most = std::max(most, double{light.getDiffuse()[channel]} + double{light.getSpecular()[channel]});
+        most =
+            std::max(most, std::abs(double{light.getDiffuse()[channel]}) +
+                               std::abs(double{light.getSpecular()[channel]})); // a light below zero takes light away
     return most;
 }
 

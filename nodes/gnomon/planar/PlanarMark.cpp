@@ -48,7 +48,7 @@ std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     pass.stencilEqual(bit, 0, bit);
     if (!cures.offset) fightReceiver();
     const bool drawn = drawParts(renderInfo);
-    if (cutToPlane) cut(state, pass, bit);
+    if (cutToPlane && !cutBySurfaces) cut(state, pass, bit);
     if (!cures.stencil) darkenEach(renderInfo, pass, bit);
     return drawn ? "" : noProgram;
 }

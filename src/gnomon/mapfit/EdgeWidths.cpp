@@ -39,6 +39,14 @@ double riseOf(const glm::dvec2& way) {
     return std::min(along.x, along.y) / std::max(along.x, along.y);
 }
 
+double sampledBy(double rise) {
+    constexpr double bent = 1.08; // to straight ones: on the tuning scenes of gnomonchart
+    return std::min(bent * sampledEdgeOf(rise), 0.5);
+}
+
+/// How far off what is so wide is among places so far apart: it is lost, or drawn as wide as they are apart.
+double lostWidth(double across, double apart) { return across < apart ? apart : 0.0; }
+
 } // namespace
 
 EdgeWidths::EdgeWidths(const glm::dmat4& clipFromScene, const glm::dvec2& pixels)
@@ -69,7 +77,7 @@ void EdgeWidths::add(const SeenPlace& place, const glm::dmat4& mapFromScene) {
     const auto add = [&](const glm::dvec2& way, double length) {
         const double width = area * glm::length(mapFromPicture * way) / glm::length(way);
         if (length * place.share > 0.0 && width > 0.0 && std::isfinite(width))
-            addEdge({width, length * place.share, place.across, place.apart, riseOf(way), place.folded, slanted});
+            addEdge({width, length * place.share, place.across, riseOf(way), place.folded, slanted});
     };
     if (place.edge != glm::dvec2(0.0)) return add(place.edge * _pixels, 1.0);
     for (int i = 0; i < directions; ++i) {
@@ -85,7 +93,7 @@ void EdgeWidths::addEdge(const Edge& edge) {
         return of > 0.0 && std::isfinite(of) ? int(std::floor(kinds * std::log2(of))) : INT_MAX;
     };
     const int rise = int(std::floor(kinds * edge.rise));
-    Edge& all = _edges[{step(edge.width), step(edge.across), step(edge.apart), rise, edge.folded, edge.slanted}];
+    Edge& all = _edges[{step(edge.width), step(edge.across), rise, edge.folded, edge.slanted}];
     const double before = all.length / (all.length + edge.length);
     const double width = before * all.width + (1.0 - before) * edge.width;
     const double length = all.length + edge.length;
@@ -112,5 +120,34 @@ double EdgeWidths::usual(double share, const Off& off) const {
     }
     return edges.empty() ? 0.0 : edges.back().first;
 }
+
+/// Between two columns the drawn edge goes on level, or rises by a pixel. So above or below the true one it is off by any amount
+/// between e and e - rise, or e and e + 1 - rise, with e at random: by more than a in (0.5 - a)^2 / (rise (1 - rise)) of its length.
+/// The nearest place is nearer than that above or below, as if more of it were beyond: fitted to stripes.
+double sampledEdgeOf(double rise) {
+    constexpr double beyond = 0.05, ofNearest = 0.12;
+    const double most = 0.5 - std::max(0.5 * beyond, std::sqrt(ofNearest * rise * (1.0 - rise)));
+    return most / std::hypot(1.0, rise);
+}
+
+double sampledError(const EdgeWidths::Edge& edge) {
+    return std::max(sampledBy(edge.rise), lostWidth(edge.across, 1.0));
+}
+
+/// A smooth edge is as hard as others where pixels are long, and next to a fold.
+double mapError(const EdgeWidths::Edge& edge, const EdgeFilter& filter, double texels) {
+    const double texel = edge.width / texels, sampled = sampledBy(edge.rise);
+    const bool mean = filter.mean && !edge.slanted && !edge.folded;
+    EdgeFilter here = filter;
+    if (!filter.mean) here.pixel *= sampled / sampledEdge;
+    if (filter.pixel < sampledEdge && (edge.slanted || edge.folded)) here.pixel = std::max(here.pixel, sampled);
+    return std::max(mapError(here, texel), lostWidth(edge.across, mean ? texel : std::max(texel, 1.0)));
+}
+
+double mapError(const EdgeFilter& filter, double pixelsATexel) {
+    return std::hypot(filter.pixel, filter.spread * pixelsATexel);
+}
+
+double polygonError(double pixelsOff) { return std::hypot(sampledEdge, pixelsOff); }
 
 } // namespace gnomon

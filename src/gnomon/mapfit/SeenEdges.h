@@ -15,9 +15,8 @@ struct SeenPlace {
     glm::dvec3 place;
     glm::dvec3 normal;    ///< of any length, towards the viewer.
     glm::dvec2 edge{0.0}; ///< which way the edge goes in the picture, normalised device coordinates; 0: any way.
-    /// Pixels that the shadow, or a gap in it, is wide; infinite if that is more than two.
+    /// Pixels that the shadow, or a gap in it, is wide; infinite if that is more than some.
     double across = std::numeric_limits<double>::infinity();
-    double apart = 0.0;  ///< of a thin one: pixels to the nearest other edge.
     double share = 1.0;  ///< of the outline that others stand for.
     bool folded = false; ///< The surface bends between the place and one beside it.
 };
@@ -26,35 +25,32 @@ struct SeenPlace {
 /// and dark on the other. Receivers and casters are triangles, or their boxes where that is enough. A box about the eye, a room
 /// for one, is seen from inside, and casts nothing on what is in it.
 ///
-/// Cost  of triangles see RayBins, twice for the grid and twice for the pixels about thin shadows.
+/// Shadows and gaps that are narrower than a cell are met as seldom as they are narrow. Each that is met counts for those that
+/// are not.
+///
+/// Cost  of triangles see RayBins, twice for the grid and twice for the pixels about narrow shadows.
 class SeenEdges {
 public:
-    struct Box {
-        glm::dvec3 low, high;
-    };
-
-    /// @param clipFromScene  of the view. @param within  what of the picture the grid covers.
+    /// @param clipFromScene  of the view. @param pixels  of the view, across and up.
+    /// @param within         what of the picture the grid covers.
     /// @param light          in the scene: w = 0, or w = 1.
-    SeenEdges(const glm::dmat4& clipFromScene, const ScreenRect& within, const glm::dvec4& light);
+    SeenEdges(const glm::dmat4& clipFromScene, const glm::dvec2& pixels, const ScreenRect& within,
+              const glm::dvec4& light);
 
     /// What a box that is flat, as that of hills is, counts as.
     enum class Relief {
         HalfWay, ///< its middle level: where most of it is.
         Whole,   ///< its sides, nearer to the viewer than most of it.
     };
-    void addReceiver(const Box& box, const glm::dmat4& sceneFromBox, Relief relief = Relief::HalfWay);
-    /// Triangles, once and last.
-    using Meshes = std::vector<PlacedTriangles>;
-    void addReceivers(const Meshes& meshes);
-
-    /// Boxes of the scene, after all receivers. They darken what is seen within a map: x/w and y/w are 0 to 1 there.
-    void addCasters(const std::vector<Box>& boxes, const glm::dmat4& mapFromScene);
-    /// Triangles, once. @param pixels  of the view, across and up.
-    void addCasters(const Meshes& meshes, const std::vector<glm::dmat4>& mapsFromScene, const glm::dvec2& pixels);
+    void addReceiver(const PlacedBox& box, Relief relief = Relief::HalfWay);
+    void addCaster(const PlacedBox& box) { _casters.push_back(box); }
+    /// They receive and cast.
+    void addMesh(const PlacedTriangles& mesh) { _meshes.push_back(mesh); }
+    /// Places within it may be dark: x/w and y/w are 0 to 1 there.
+    void addMap(const glm::dmat4& mapFromScene) { _maps.push_back(mapFromScene); }
 
     /// The places on either side of each edge.
     std::vector<SeenPlace> edges() const;
-
     /// All places that face the light.
     std::vector<SeenPlace> facing() const;
 
@@ -68,35 +64,32 @@ private:
         int side = -1; ///< of the boxes and objects that receive.
         bool dark = false;
         bool left = false; ///< out: a pixel beside it shows something else.
-        double across = std::numeric_limits<double>::infinity(), apart = 0.0, share = 1.0; ///< see SeenPlace.
+        double across = std::numeric_limits<double>::infinity(), share = 1.0; ///< see SeenPlace.
 
         SeenPlace place() const { return {from + reach * way, normal}; }
-        bool isInGrid() const { return at.x >= 0.0 && at.y >= 0.0 && at.x < 1.0 && at.y < 1.0; }
         double least() const { return 1e-6 * reach * glm::length(way); } ///< what is as near is the surface itself.
     };
-    void look(const Meshes& meshes, std::vector<Cell>& cells) const;
-    void darken(std::vector<Cell>& cells, const Meshes& meshes, const std::vector<glm::dmat4>& mapsFromScene) const;
-    void narrow(const Meshes& meshes, const std::vector<glm::dmat4>& mapsFromScene, const glm::dvec2& pixels);
+    using Cells = std::vector<Cell>; ///< of the grid: row by row.
     Cell cellAt(const glm::dvec2& inGrid) const;
-    glm::dvec2 pixelOf(const glm::dvec2& pixels) const;
+    Cells grid() const;
+    void look(Cells& cells) const;
+    void darken(Cells& cells) const;
+    void narrow(Cells& cells) const;
+    void weighNarrow(Cells& cells) const;
     static double reachOf(const Cell& cell, const Cell& plane);
-    bool isOfMesh(const Cell& cell) const { return cell.side >= _firstOfMeshes; }
-    const Cell& at(int column, int row) const { return _cells[std::size_t(row) * columns + column]; }
     bool faces(const Cell& cell) const;
-    bool isEdgeTo(const Cell& cell, int right, int up) const;
-    int edgesBeside(const Cell& cell) const;
-    bool isAlone(const Cell& cell) const;
-    bool isThin(const Cell& cell) const { return cell.across <= 1.0 && edgesBeside(cell) > 0; }
-    void weighThin(const glm::dvec2& pixel);
     bool bends(const Cell& one, const Cell& other) const;
     bool isEdge(const Cell& one, const Cell& other) const;
-    glm::dvec2 wayAt(int column, int row) const;
+    bool isEdgeTo(const Cells& cells, std::size_t index, int right, int up) const;
+    glm::dvec2 wayAt(const Cells& cells, int column, int row) const;
 
     glm::dmat4 _clipFromScene, _sceneFromClip;
+    glm::dvec2 _pixel; ///< in the grid.
     ScreenRect _within;
     glm::dvec4 _light;
-    std::vector<Cell> _cells; ///< row by row.
-    int _sides = 0, _firstOfMeshes = std::numeric_limits<int>::max();
+    std::vector<PlacedBox> _receivers, _casters;
+    std::vector<PlacedTriangles> _meshes;
+    std::vector<glm::dmat4> _maps;
 };
 
 } // namespace gnomon

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// What an automatic choice once got wrong without a word: thin things, small things on vast grounds, sides that are turned away.
+#include <support/Scene.h>
+#include <support/Truth.h>
+
+#include <gnomon/AutoShadowTechnique.h>
+#include <gtest/gtest.h>
+#include <osg/Geometry>
+#include <osg/MatrixTransform>
+#include <osg/observer_ptr>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+#include <set>
+
+using namespace test;
+using gnomon::AutoShadowTechnique;
+
+namespace {
+
+/// A scene under automatic choice.
+struct Trial {
+    explicit Trial(const std::vector<Mesh>& casters, double half = 8.0, const osg::Vec4d& sun = {1.0, 0.4, 1.2, 0.0})
+        : scene(groundScene(casters, half, sun)), technique(new AutoShadowTechnique) {
+        scene.addShadow(technique);
+    }
+    void blend() { scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND); }
+    gnomon::ShadowDecision decision() const { return technique->lastDecision().at(0); }
+    std::string chosen() const { return decision().chosen.spec; }
+
+    Scene scene;
+    osg::ref_ptr<AutoShadowTechnique> technique;
+};
+
+/// Upright laths in a row, and two rails.
+struct Fence {
+    std::vector<Mesh> laths;
+    double half = 10.0;
+    osg::Vec4d sun;
+    View view;
+
+    Fence(double lath, double gap, double height, double turn) {
+        const double length = 8.0;
+        for (double x = -length / 2.0; x < length / 2.0; x += lath + gap)
+            laths.push_back(box({x, -lath / 2.0, 0.0}, {x + lath, lath / 2.0, height}));
+        for (const double z : {0.25 * height, 0.8 * height})
+            laths.push_back(box({-length / 2.0, lath / 2.0, z}, {length / 2.0, 1.5 * lath, z + lath}));
+        for (Mesh& mesh : laths)
+            for (auto& corner : mesh)
+                corner = {corner.x * std::cos(turn) - corner.y * std::sin(turn),
+                          corner.x * std::sin(turn) + corner.y * std::cos(turn), corner.z};
+    }
+};
+
+Fence randomFence(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * std::generate_canonical<double, 32>(random);
+    };
+    const double lath = between(0.02, 0.1);
+    Fence fence(lath, lath * between(1.0, 4.0), between(0.8, 2.0), between(0.0, 3.0));
+    const double azimuth = between(0.0, 6.28), up = between(0.4, 1.2), far = between(9.0, 20.0);
+    fence.sun = {std::cos(azimuth), std::sin(azimuth), std::tan(up), 0.0};
+    const double from = between(0.0, 6.28), raised = between(0.5, 1.1);
+    fence.view = perspective(
+        {far * std::cos(from) * std::cos(raised), far * std::sin(from) * std::cos(raised), far * std::sin(raised)},
+        {0.0, 0.0, 0.4}, 320, 240);
+    return fence;
+}
+
+/// What a cube shows where the light does not reach it, and a ground under a slanted sun.
+Mesh smallBox(double side) { return box({-side / 2.0, -side / 2.0, 0.0}, {side / 2.0, side / 2.0, side}); }
+
+int darker(const Picture& picture, const Picture& lit) {
+    int count = 0;
+    for (std::size_t i = 0; i < lit.pixels.size(); ++i)
+        count += int(picture.pixels[i] & 0xffu) < int(lit.pixels[i] & 0xffu) - 2;
+    return count;
+}
+
+} // namespace
+
+// A map that is fine enough for the edges of what is left may have lost the laths themselves.
+TEST(AutoThin, FencesThrowTheLinesThatRaysFind) {
+    int worse = 0;
+    for (unsigned seed = 1; seed <= 12; ++seed) {
+        const Fence fence = randomFence(seed);
+        const std::vector<Mesh> casters = seed % 2 ? fence.laths : std::vector<Mesh>{joined(fence.laths)};
+        Scene lit = groundScene(casters, fence.half, fence.sun), dark = groundScene(casters, fence.half, fence.sun);
+        dark.takeLightAway();
+        const Picture litPicture = render(lit.root, fence.view), darkPicture = render(dark.root, fence.view);
+        std::vector<Mesh> meshes = casters;
+        meshes.push_back(square(fence.half));
+        const gnomon::TruthImage truth = truthOf(meshes, fence.sun, fence.view);
+        Trial trial(casters, fence.half, fence.sun);
+        const TruthComparison found = compare(render(trial.scene.root, fence.view), litPicture, darkPicture, truth);
+        std::cout << "fence " << seed << ": " << trial.decision().text() << "; wrong " << found.wrong << " of "
+                  << found.pixels << ", one ray a pixel " << found.floor << "\n";
+        // Edges of a map may be off by the pixel that is asked for, twice as far as those of one ray.
+        EXPECT_LE(found.wrong, 2 * found.floor + 20) << trial.chosen();
+        worse += found.wrong > 1.3 * found.floor + 20;
+        EXPECT_TRUE(trial.decision().keepsBudget) << trial.decision().text();
+    }
+    EXPECT_LE(worse, 4);
+}
+
+// The laths of a pergola seen from afar are narrower than a pixel: no candidate keeps an error of a fifth of one, and those that
+// take one place a pixel lose least.
+TEST(AutoThin, WhatIsExactToASampleIsNeverLessAccurateThanAMapThatLosesMore) {
+    std::vector<Mesh> laths;
+    for (int i = -20; i < 20; ++i) {
+        laths.push_back(box({i * 0.25, -5.0, 4.0}, {i * 0.25 + 0.02, 5.0, 4.02}));
+        laths.push_back(box({-5.0, i * 0.25, 4.0}, {5.0, i * 0.25 + 0.02, 4.02}));
+    }
+    Trial trial({joined(laths)}, 20.0, {-0.12, 0.24, 0.96, 0.0});
+    render(trial.scene.root, perspective({-7.2, -15.6, 14.4}, {0.0, 0.0, 0.5}, 640, 480));
+    double volume = 0.0;
+    for (const gnomon::ShadowCandidate& each : trial.decision().candidates)
+        if (each.spec == "volume") volume = each.error;
+    EXPECT_GT(volume, 0.0);
+    EXPECT_LE(volume, 1.0);
+    for (const gnomon::ShadowCandidate& each : trial.decision().candidates)
+        if (each.spec.rfind("map:size=256", 0) == 0) EXPECT_GT(each.error, 1.0) << each.spec;
+    EXPECT_TRUE(trial.decision().keepsBudget) << trial.decision().text();
+}
+
+// A box of 4 cm seen from 25, as a car on a terrain of 50 km. Its shadow by hand is 1,494 pixels of 320 × 240.
+TEST(AutoVast, SmallThingsOnVastGroundsHaveTheirShadow) {
+    View view = perspective({-0.12, -0.2, 0.16}, {0.0, 0.0, 0.0}, 320, 240, 40.0, 0.005, 5.0);
+    for (const double half : {10.0, 100.0, 1e3, 1e4, 3e4, 1e5}) {
+        Scene bare = groundScene({smallBox(0.04)}, half);
+        Trial trial({smallBox(0.04)}, half, {1.0, 0.0, 1.0, 0.0});
+        const int shadow = darker(render(trial.scene.root, view), render(bare.root, view));
+        EXPECT_NEAR(shadow, 1494, 15) << half << " m: " << trial.decision().text();
+        EXPECT_EQ(trial.technique->diagnose(), std::vector<std::string>());
+    }
+}
+
+// The same thing with a plate beside it that lies 4 cm above the ground: they are not one plane, however vast the ground is.
+TEST(AutoVast, PlanesThatAreCloseAreToldApartOnVastGrounds) {
+    const Mesh plate = quad({0.06, -0.05, 0.01}, {0.1, 0.0, 0.0}, {0.0, 0.1, 0.0});
+    View view = perspective({-0.12, -0.2, 0.16}, {0.0, 0.0, 0.0}, 320, 240, 40.0, 0.005, 5.0);
+    const osg::Vec4d sun(-1.0, 0.0, 0.4, 0.0);
+    int expected = 0;
+    for (const double half : {1.0, 1e5}) {
+        Scene bare = groundScene({smallBox(0.04), plate}, half, sun);
+        Trial trial({smallBox(0.04), plate}, half, sun);
+        const int shadow = darker(render(trial.scene.root, view), render(bare.root, view));
+        std::cout << half << ": " << trial.decision().text() << "; " << shadow << " pixels\n";
+        if (!expected) expected = shadow;
+        EXPECT_NEAR(shadow, expected, 0.1 * expected)
+            << trial.decision().text(); // a plane that is taken for another has none
+    }
+    EXPECT_GT(expected, 1000);
+}
+
+// Another box comes, is in the first one's shadow, and goes: under BLEND the first one's unlit side must not change.
+TEST(AutoTurnedAway, SidesDoNotJumpWhereAnotherTechniqueTakesOver) {
+    for (const bool blend : {true, false}) {
+        const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
+        Trial trial({tall}, 8.0, {1.0, 0.0, 1.0, 0.0});
+        if (blend) trial.blend();
+        const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
+        mover->addChild(node(box({-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0}), "other"));
+        trial.scene.content->addChild(mover);
+        Camera camera(trial.scene.root, perspective({-6.0, -10.0, 8.0}, {0.0, 0.0, 0.0}, 320, 240));
+        std::set<std::uint32_t> shades;
+        for (int i = 0; i < 40; ++i) {
+            mover->setMatrix(osg::Matrixd::translate(3.0 - 0.1 * i, 2.1 - 0.04 * i, 0.0));
+            shades.insert(camera.frame().at(140, 125));
+        }
+        EXPECT_EQ(shades.size(), 1u) << (blend ? "blend" : "relight");
+    }
+}
+
+// Facets of a ball that are turned away from the light, near its terminator, have normals that are not: OpenGL lights them, planar
+// leaves them so, and others do not.
+TEST(AutoTurnedAway, AveragedNormalsTakeNoPlanarWhereTheirDarkSideIsSeen) {
+    const osg::Vec4d sun(1.0, 0.0, 1.0, 0.0);
+    const auto ball = [](bool averaged) {
+        const Mesh mesh = sphere({0.0, 0.0, 2.0}, 1.0, 24);
+        const osg::ref_ptr<osg::Geode> geode = node(mesh, "ball");
+        osg::Geometry& geometry = *geode->getDrawable(0)->asGeometry();
+        const auto& places = static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
+        const osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
+        for (const osg::Vec3& place : places) {
+            osg::Vec3 normal = place - osg::Vec3(0.0f, 0.0f, 2.0f);
+            normal.normalize();
+            normals->push_back(normal);
+        }
+        if (averaged) geometry.setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+        return geode;
+    };
+    const View dark = perspective({-7.0, -6.0, 5.0}, {0.0, 0.0, 1.0}, 160, 120);
+    const View lit = perspective({9.0, 0.0, 9.0}, {0.0, 0.0, 1.0}, 160, 120);
+    for (const bool averaged : {true, false})
+        for (const View* view : {&dark, &lit}) {
+            Trial trial({}, 8.0, sun);
+            trial.scene.content->addChild(ball(averaged));
+            render(trial.scene.root, *view);
+            EXPECT_EQ(trial.chosen() == "planar", !averaged || view == &lit)
+                << averaged << (view == &lit) << ": " << trial.decision().text();
+        }
+}
+
+TEST(AutoTurnedAway, BlendTakesPlanarWhereNoDarkSideIsSeen) {
+    const osg::Vec4d sun(1.0, 0.0, 1.0, 0.0);
+    const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
+    Trial trial({tall}, 8.0, sun);
+    trial.blend();
+    Camera camera(trial.scene.root, perspective({9.0, -8.0, 8.0}, {0.0, 0.0, 0.0}, 160, 120));
+    camera.frame();
+    EXPECT_EQ(trial.chosen(), "planar") << "the sides towards -y and +x are lit, or along the light";
+    camera.setView(perspective({-9.0, -8.0, 8.0}, {0.0, 0.0, 0.0}, 160, 120));
+    camera.frame();
+    EXPECT_NE(trial.chosen(), "planar") << "the side towards -x is dark";
+    Trial named({tall}, 8.0, sun);
+    named.blend();
+    named.technique->setReceiver({find(*named.scene.root, "ground")});
+    render(named.scene.root, perspective({-9.0, -8.0, 8.0}, {0.0, 0.0, 0.0}, 160, 120));
+    EXPECT_EQ(named.chosen(), "planar") << "the ground alone receives";
+}
+
+TEST(AutoLights, ALightThatTakesLightAwayCasts) {
+    const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
+    const View view = perspective({-6.0, -10.0, 8.0}, {0.0, 0.0, 0.0}, 320, 240);
+    const auto drawn = [&](bool shadow) {
+        Trial trial({tall}, 8.0, {1.0, 0.0, 1.0, 0.0});
+        trial.scene.light->getLight()->setAmbient({0.8f, 0.8f, 0.8f, 1.0f});
+        trial.scene.light->getLight()->setDiffuse({-0.5f, -0.5f, -0.5f, 1.0f});
+        trial.technique->setNodeMask(shadow ? ~0u : 0u);
+        return render(trial.scene.root, view);
+    };
+    EXPECT_GT(drawn(true).different(drawn(false)), 1000);
+}
+
+TEST(AutoCasters, ThatAreGoneAreLetGo) {
+    const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
+    Trial trial({tall});
+    Camera camera(trial.scene.root, perspective({-6.0, -10.0, 8.0}, {0.0, 0.0, 0.0}, 80, 60));
+    std::vector<osg::observer_ptr<osg::Array>> gone;
+    const auto watch = [&gone](osg::Node& of) {
+        gone.push_back(of.asGeode()->getDrawable(0)->asGeometry()->getVertexArray());
+    };
+    for (int i = 0; i < 80; ++i) {
+        const double x = 0.1 * (i % 40) - 2.0;
+        const osg::ref_ptr<osg::Geode> tile = node(box({x, 2.0, 0.0}, {x + 0.5, 3.0, 1.0}), "tile");
+        watch(*tile);
+        trial.scene.content->addChild(tile);
+        for (int frame = 0; frame < 2; ++frame) camera.viewer().frame();
+        trial.scene.content->removeChild(tile);
+        camera.viewer().frame();
+    }
+    for (int i = 0; i < 150; ++i) camera.viewer().frame();
+    const auto alive = [&gone] {
+        return std::count_if(gone.begin(), gone.end(), [](const auto& array) { return array.valid(); });
+    };
+    EXPECT_EQ(alive(), 0) << "of 80 tiles";
+    watch(*find(*trial.scene.root, "caster"));
+    trial.scene.content->removeChildren(0, trial.scene.content->getNumChildren());
+    for (int i = 0; i < 150; ++i) camera.viewer().frame();
+    EXPECT_EQ(alive(), 0) << "of the last caster";
+}
