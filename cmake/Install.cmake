@@ -1,11 +1,11 @@
 # cmake --install puts libraries, headers, plugins, programs and package files in place. find_package(gnomon) then gives
-# gnomon::gnomon, gnomon::metrics, gnomon::headless and gnomon::headless_egl; pkg-config gives gnomon.
+# gnomon::gnomon, gnomon::headless and gnomon::headless_egl; pkg-config gives gnomon.
 # Components are the parts of the Debian packages, see Package.cmake: runtime, dev, tools, doc.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
-set(libraries gnomon gnomon_metrics)
+set(libraries gnomon)
 # gnomon_install(EXPORT TARGET...): each export is a file of targets of its own, for find_package() reads those that it can.
 function(gnomon_install export)
   install(TARGETS ${ARGN} EXPORT ${export}
@@ -14,7 +14,7 @@ function(gnomon_install export)
     FILE_SET HEADERS COMPONENT dev)
   install(EXPORT ${export} NAMESPACE gnomon:: DESTINATION ${package_folder} COMPONENT dev)
 endfunction()
-gnomon_install(gnomonTargets gnomon gnomon_metrics)
+gnomon_install(gnomonTargets gnomon)
 foreach(pair Headless:gnomon_headless HeadlessEgl:gnomon_headless_egl)
   string(REGEX MATCH "(.*):(.*)" pair ${pair})
   if(TARGET ${CMAKE_MATCH_2})

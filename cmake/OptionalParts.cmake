@@ -23,9 +23,6 @@ function(gnomon_optional_part component library target package work)
   set(GNOMON_HAS_${upper} ${has} PARENT_SCOPE)
   set(GNOMON_MISSING_${component} "${missing}" PARENT_SCOPE)
   set(GNOMON_COMPONENTS ${GNOMON_COMPONENTS} ${component} PARENT_SCOPE)
-  if(missing)
-    message(STATUS "Without the component ${component}: ${library} is not found or not wanted")
-  endif()
 endfunction()
 
 # gnomon_require_parts(WHO): stops where anything is missing that WHO needs, which is all.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/metrics/Grid.h>
+#include <metrics/Grid.h>
 #include <osg/Image>
 
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Overlay.h"
 
-#include <gnomon/metrics/Confusion.h>
-#include <gnomon/metrics/PixelSets.h>
+#include <metrics/Confusion.h>
+#include <metrics/PixelSets.h>
 
 #include <algorithm>
 #include <cmath>

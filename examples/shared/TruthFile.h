@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/metrics/TruthMaps.h>
+#include <metrics/TruthMaps.h>
 #include <osg/Image>
 
 #include <string>

@@ -8,7 +8,7 @@
 #include "StageViewer.h"
 #include "Yardstick.h"
 
-#include <gnomon/metrics/PixelSets.h>
+#include <metrics/PixelSets.h>
 
 #include <gtest/gtest.h>
 

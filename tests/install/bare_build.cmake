@@ -39,7 +39,7 @@ function(use_without_parts kind)
   expect_refusal("This Gnomon was built without Embree, which casts rays. Install libembree-dev, and build Gnomon with -DGNOMON_WITH_EMBREE=ON."
     ${configure} -DCOMPONENTS=traced)
   expect_refusal("This Gnomon was built without OSMesa, which draws without a display." ${configure} -DCOMPONENTS=headless)
-  expect_refusal("There is no component rays. Allowed: metrics, traced, terrain, sun, headless, headless_egl."
+  expect_refusal("There is no component rays. Allowed: traced, terrain, sun, headless, headless_egl."
     ${configure} -DCOMPONENTS=rays)
   run(${configure} -DCOMPONENTS=)
   run(${CMAKE_COMMAND} --build ${SCRATCH}/program)

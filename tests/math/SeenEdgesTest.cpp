@@ -2,7 +2,7 @@
 #include <gnomon/mapfit/EdgeWidths.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/mapfit/SeenEdges.h>
-#include <gnomon/metrics/BoundaryDistance.h>
+#include <metrics/BoundaryDistance.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

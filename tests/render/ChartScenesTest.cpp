@@ -10,7 +10,7 @@
 
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
-#include <gnomon/metrics/PixelSets.h>
+#include <metrics/PixelSets.h>
 #include <gtest/gtest.h>
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Material>

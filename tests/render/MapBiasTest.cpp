@@ -5,7 +5,7 @@
 
 #include <SceneTruth.h>
 #include <gnomon/ShadowMapTechnique.h>
-#include <gnomon/metrics/CauseSplit.h>
+#include <metrics/CauseSplit.h>
 #include <gtest/gtest.h>
 #include <osg/Math>
 

@@ -4,7 +4,7 @@
 #include <support/Picture.h>
 
 #include <gnomon/ShadowTruth.h>
-#include <gnomon/metrics/BoundaryDistance.h>
+#include <metrics/BoundaryDistance.h>
 #include <osg/Vec4d>
 
 #include <vector>

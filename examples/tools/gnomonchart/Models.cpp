@@ -8,7 +8,7 @@
 #include "StabilityJudge.h"
 #include "StageViewer.h"
 
-#include <gnomon/metrics/Visibility.h>
+#include <metrics/Visibility.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "CommandLine.h"
-#include <gnomon/metrics/CauseSplit.h>
+#include <metrics/CauseSplit.h>
 
 namespace gnomon::examples {
 

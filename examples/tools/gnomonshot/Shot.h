@@ -5,7 +5,7 @@
 
 #include <gnomon/HeadlessContext.h>
 #include <gnomon/ShadowDecision.h>
-#include <gnomon/metrics/TruthMaps.h>
+#include <metrics/TruthMaps.h>
 
 #include <osgViewer/Viewer>
 

@@ -3,7 +3,7 @@
 #include "BoxOnGround.h"
 
 #include <glm/geometric.hpp>
-#include <gnomon/metrics/NearestSegment.h>
+#include <metrics/NearestSegment.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <functional>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
-#include <gnomon/metrics/ShadowMetrics.h>
+#include <metrics/ShadowMetrics.h>
 
 namespace gnomon::test {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <gnomon/metrics/Flicker.h>
+#include <metrics/Flicker.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/metrics/ShadowMetrics.h>
+#include <metrics/ShadowMetrics.h>
 
 #include <optional>
 #include <string>

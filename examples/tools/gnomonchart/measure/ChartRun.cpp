@@ -13,7 +13,7 @@
 #include "Race.h"
 #include "ShaderCache.h"
 
-#include <gnomon/metrics/Intensity.h>
+#include <metrics/Intensity.h>
 
 #include <algorithm>
 #include <exception>

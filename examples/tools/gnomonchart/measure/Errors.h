@@ -4,7 +4,7 @@
 #include "StageViewer.h"
 #include "Yardstick.h"
 
-#include <gnomon/metrics/Visibility.h>
+#include <metrics/Visibility.h>
 
 namespace gnomon::examples {
 

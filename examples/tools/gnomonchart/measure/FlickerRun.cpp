@@ -2,7 +2,7 @@
 #include "FlickerRun.h"
 
 #include <gnomon/Convert.h>
-#include <gnomon/metrics/PixelSets.h>
+#include <metrics/PixelSets.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #pragma once
 #include "Errors.h"
 
-#include <gnomon/metrics/Flicker.h>
+#include <metrics/Flicker.h>
 
 #include <functional>
 #include <limits>

@@ -4,7 +4,7 @@
 #include "Pictures.h"
 #include "StageViewer.h"
 
-#include <gnomon/metrics/PixelSets.h>
+#include <metrics/PixelSets.h>
 
 #include <glm/common.hpp>
 #include <sstream>

@@ -4,7 +4,7 @@
 #include "ChartResults.h"
 #include "SceneTruth.h"
 
-#include <gnomon/metrics/ShadowMetrics.h>
+#include <metrics/ShadowMetrics.h>
 
 namespace gnomon::examples {
 

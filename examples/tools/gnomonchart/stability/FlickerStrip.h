@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/metrics/Flicker.h>
+#include <metrics/Flicker.h>
 #include <osg/Image>
 
 namespace gnomon::examples {

@@ -3,8 +3,8 @@
 
 #include "../measure/Yardstick.h"
 
-#include <gnomon/metrics/BoundaryDistance.h>
-#include <gnomon/metrics/Confusion.h>
+#include <metrics/BoundaryDistance.h>
+#include <metrics/Confusion.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 #include "StabilityResults.h"
 
-#include <gnomon/metrics/PixelSets.h>
+#include <metrics/PixelSets.h>
 
 namespace gnomon::examples {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/Visibility.h>
+#include <metrics/Visibility.h>
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/Components.h>
-#include <gnomon/metrics/ContactGap.h>
+#include <metrics/Components.h>
+#include <metrics/ContactGap.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/Intensity.h>
+#include <metrics/Intensity.h>
 
 #include <algorithm>
 #include <cmath>

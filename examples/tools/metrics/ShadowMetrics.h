@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/metrics/BoundaryDistance.h>
-#include <gnomon/metrics/CauseSplit.h>
-#include <gnomon/metrics/Confusion.h>
-#include <gnomon/metrics/Intensity.h>
-#include <gnomon/metrics/Visibility.h>
+#include <metrics/BoundaryDistance.h>
+#include <metrics/CauseSplit.h>
+#include <metrics/Confusion.h>
+#include <metrics/Intensity.h>
+#include <metrics/Visibility.h>
 
 namespace gnomon::metrics {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/BoundaryDistance.h>
-#include <gnomon/metrics/NearestSegment.h>
+#include <metrics/BoundaryDistance.h>
+#include <metrics/NearestSegment.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/metrics/IsoLine.h>
+#include <metrics/IsoLine.h>
 #include <memory>
 
 namespace gnomon::metrics {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/NearestSegment.h>
+#include <metrics/NearestSegment.h>
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>

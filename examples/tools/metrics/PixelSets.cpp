@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/PixelSets.h>
+#include <metrics/PixelSets.h>
 
 #include <array>
 #include <cmath>

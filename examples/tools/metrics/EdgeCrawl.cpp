@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/Confusion.h>
-#include <gnomon/metrics/EdgeCrawl.h>
+#include <metrics/Confusion.h>
+#include <metrics/EdgeCrawl.h>
 
 #include <algorithm>
 #include <cmath>

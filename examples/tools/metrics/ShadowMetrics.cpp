@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/ShadowMetrics.h>
+#include <metrics/ShadowMetrics.h>
 
 #include <cmath>
 #include <stdexcept>

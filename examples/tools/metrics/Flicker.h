@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <glm/mat4x4.hpp>
-#include <gnomon/metrics/EdgeCrawl.h>
+#include <metrics/EdgeCrawl.h>
 #include <optional>
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/Grid.h>
+#include <metrics/Grid.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/Confusion.h>
+#include <metrics/Confusion.h>
 
 namespace gnomon::metrics {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/BoundaryDistance.h>
-#include <gnomon/metrics/Flicker.h>
+#include <metrics/BoundaryDistance.h>
+#include <metrics/Flicker.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <glm/vec2.hpp>
-#include <gnomon/metrics/Grid.h>
+#include <metrics/Grid.h>
 
 namespace gnomon::metrics {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <glm/vec3.hpp>
-#include <gnomon/metrics/Grid.h>
+#include <metrics/Grid.h>
 
 #include <array>
 

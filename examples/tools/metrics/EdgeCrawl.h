@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
-#include <gnomon/metrics/TruthMaps.h>
+#include <metrics/TruthMaps.h>
 #include <optional>
 #include <vector>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/Components.h>
+#include <metrics/Components.h>
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/IsoLine.h>
+#include <metrics/IsoLine.h>
 
 #include <algorithm>
 #include <array>

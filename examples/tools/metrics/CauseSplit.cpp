@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/metrics/CauseSplit.h>
-#include <gnomon/metrics/Components.h>
-#include <gnomon/metrics/Confusion.h>
-#include <gnomon/metrics/ContactGap.h>
-#include <gnomon/metrics/NearestSegment.h>
+#include <metrics/CauseSplit.h>
+#include <metrics/Components.h>
+#include <metrics/Confusion.h>
+#include <metrics/ContactGap.h>
+#include <metrics/NearestSegment.h>
 
 namespace gnomon::metrics {
 namespace {
