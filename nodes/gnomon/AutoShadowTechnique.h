@@ -23,7 +23,7 @@ class AutoChooser;
 /// - PlanarShadowNode, if only flat receivers get shadow.
 /// - TerrainShadowGeode with HULL, if a terrain is named as receiver and does not shadow itself.
 /// - ShadowMapTechnique, with all sizes, numbers of cascades, filters, and hard or smooth edges.
-/// - ShadowVolumeTechnique and TracedShadowTechnique, if no caster has an alpha test.
+/// - ShadowVolumeTechnique and TracedShadowTechnique, if no caster is clear in part.
 /// - A candidate whose shadow would be wrong here is never chosen. ShadowCandidate::obstacle says why.
 /// The rule
 /// - The error of each candidate is predicted from the shadow's edges in sight. Its work is counted: triangles, texels, pixels.

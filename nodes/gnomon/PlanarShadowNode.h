@@ -37,7 +37,7 @@ struct PlanarPrograms;
 /// Limits
 /// - Receivers are flat. Casters do not shadow one another. diagnose() names a surface in view that stays lit.
 /// - A plane receives on its lit side only.
-/// - Alpha-tested casters cast as if they were solid.
+/// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Without a receiver, a wall that stands in the plane is marked at its foot: up to an eighth of a pixel's slope and
 ///   32 depth steps high.

@@ -53,7 +53,10 @@ struct CasterView;
 /// - A drawable in render bin 8 or higher receives where it writes depth, has bounds and an alpha of 1.
 /// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
-/// - VertexTraverser lists which drawables never cast. Drawables at the far plane, as skies are, do not cast either.
+/// - VertexTraverser lists which drawables never cast. What is not drawn does not cast either: what clip planes, culling of
+///   both faces, masks, tests that never pass or an empty scissor box take away, and polygons drawn as lines or points.
+///   Nor does what is drawn at the far plane, as skies are. Of what a stipple thins out, half must be left.
+/// - A ClipPlane that is no ClipNode's is taken as given in the frame of each drawable that it cuts.
 /// - A drawable that draws itself, or is made of patches, casts in ShadowMapTechnique alone. Others report it.
 /// - Quads that are not flat cast as the driver cuts them, which is measured once a context.
 /// - Mesa's llvmpipe cuts quads of glDrawArrays() outside display lists now so, now so. Draw those that are not flat by indices.
@@ -101,7 +104,8 @@ public:
     bool areCastersGone() const { return _casters.isGone(*this); }
 
     /// Alpha from which on a blending drawable casts, 0 … 1. Default 0.5: what hides less than half casts nothing. 0: all cast.
-    /// It counts where it is constant: of osg::Material, an overall colour or osg::BlendColor.
+    /// It is that of textures, times that of osg::Material or of colours. A program's alpha counts in transparent bins alone.
+    /// ShadowMapTechnique leaves out the clear parts, the others triangles that are clear all over.
     /// Clamped. NaN is refused with a warning.
     void setOpaqueFrom(float alpha);
     /// See setOpaqueFrom().

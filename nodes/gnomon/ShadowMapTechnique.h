@@ -83,10 +83,11 @@ class ShadowMapCache;
 /// - OpenGL lights a triangle by its vertices: without a vertex in the cone there is no light, and none is added.
 /// - Unlit drawables, such as a sky, darken outside the cone as in any shadow. Name receivers to prevent that.
 /// - Without any caster, RELIGHT changes nothing.
-/// Alpha tests
-/// - A caster with an osg::AlphaFunc casts only its opaque texels: by the 2D texture on unit 0 and its coordinates.
-/// - Alpha of vertices and materials counts as 1. If alpha comes from elsewhere, all of the caster casts, and
-///   diagnose() says so.
+/// Alpha
+/// - A caster casts where it passes its alpha test. One that blends without a test casts where its alpha is
+///   ShadowCasterGroup::setOpaqueFrom() or more.
+/// - Casters whose alpha is that of a 2D texture on unit 0 are drawn together. Others, such as those whose program
+///   discards, are drawn into the map one by one with their own state, and anew where the view moves.
 /// - If the map is coarser than the texture, the texture's mipmaps are tested.
 ///
 /// In a file (.osgt, .osgb, .osgx), properties left out have their defaults:
@@ -188,7 +189,6 @@ protected:
     ~ShadowMapTechnique() override;
 
 private:
-    void reportUnknownTests(unsigned frame, const CasterDrawables& pieces) const;
     template <typename Value>
     void change(Value& option, Value to) { // to a usable one
         option = to;

@@ -31,7 +31,7 @@ class VolumeCache;
 /// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Single pixels of a seam may stay lit where the dark side of an open sheet meets the ground, as at a cliff's foot.
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
-/// - Alpha-tested casters cast as if they were solid, and diagnose() says so.
+/// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - A caster that a cull callback hides can leave false light or shadow where one looks through it.
 /// - Counts have up to seven bits. More casters between a light and a place take several rounds. If one connected mesh

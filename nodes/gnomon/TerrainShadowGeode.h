@@ -49,6 +49,7 @@ struct TerrainShadows;
 /// Limits
 /// - Walls and roofs receive nothing. diagnose() names one in view that stays lit.
 /// - The terrain casts nothing on itself. diagnose() says so if some of it is turned away from the light.
+/// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Far from a very close near plane, depths are too coarse to place shadows off a regular grid. diagnose() names such a
 ///   caster.

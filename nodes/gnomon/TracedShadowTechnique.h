@@ -35,7 +35,7 @@ class TracedFrames;
 /// - One sample a pixel: edges are hard.
 /// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
-/// - Alpha-tested casters cast as if they were solid.
+/// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.
 /// - Casters are kept as floats about the place where most triangles are. Others at 100 km are right to a centimetre.
 /// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.

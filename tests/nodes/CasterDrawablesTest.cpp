@@ -9,11 +9,13 @@
 
 #include <osg/AlphaFunc>
 #include <osg/CullFace>
+#include <osg/Image>
 #include <osg/MatrixTransform>
 #include <osg/PolygonMode>
 #include <osg/Program>
 #include <osg/Switch>
 #include <osg/Texture2D>
+#include <osg/observer_ptr>
 
 #include <gtest/gtest.h>
 
@@ -135,9 +137,101 @@ TEST(CasterDrawables, AreTestedAsTheWayDownToThemSays) {
     const osg::ref_ptr<gnomon::CasterMesh> mesh = gnomon::meshOf(pieces->list);
     ASSERT_EQ(mesh->cutouts.size(), 1u);
     EXPECT_EQ(mesh->cutouts[0].drawn, 1u);
-    EXPECT_EQ(pieces->unknownTests, 0u);
+    EXPECT_EQ(pieces->cutouts, 1u);
+    EXPECT_TRUE(pieces->own.empty());
     pane->setTexCoordArray(0, nullptr);
-    EXPECT_EQ(CasterDrawables::of(*root, {}, pieces)->unknownTests, 1u) << "by the state of what is above it";
+    const auto unknown = CasterDrawables::of(*root, {}, pieces);
+    EXPECT_EQ(unknown->cutouts, 1u) << "by the state of what is above it";
+    ASSERT_EQ(unknown->own.size(), 1u);
+    EXPECT_EQ(unknown->own.front()->groupFromLocal.getTrans().x(), 5.0);
+}
+
+namespace {
+
+/// 8 × 4 texels whose alpha is 1 in the first three columns, and 0 else.
+osg::ref_ptr<osg::Texture2D> leftTexture(osg::Texture::WrapMode wrap = osg::Texture::REPEAT) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(8, 4, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (unsigned row = 0; row < 4; ++row)
+        for (unsigned column = 0; column < 8; ++column)
+            image->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, column < 3 ? 1.0f : 0.0f), column, row);
+    const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    for (const auto which : {osg::Texture::WRAP_S, osg::Texture::WRAP_T}) texture->setWrap(which, wrap);
+    for (const auto which : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
+        texture->setFilter(which, osg::Texture::NEAREST);
+    return texture;
+}
+
+/// A triangle that shows columns of a texture, by blending.
+struct Leaf {
+    Leaf(osg::Texture2D* texture, float firstColumn, float endColumn) {
+        const float s = firstColumn / 8.0f, t = endColumn / 8.0f;
+        drawable->setTexCoordArray(0, scene::vec3s({{s, 0, 0}, {t, 0, 0}, {s, 1, 0}}));
+        osg::StateSet& set = *drawable->getOrCreateStateSet();
+        set.setTextureAttributeAndModes(0, texture);
+        set.setMode(GL_BLEND, osg::StateAttribute::ON);
+        place->addChild(drawable);
+    }
+    osg::ref_ptr<const CasterDrawables> pieces(const osg::ref_ptr<const CasterDrawables>& known = nullptr) const {
+        return CasterDrawables::of(*place, {}, known, nullptr, nullptr, {}, nullptr, {0.5f});
+    }
+    osg::ref_ptr<osg::Geometry> drawable = triangle(0.0f);
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
+};
+
+} // namespace
+
+TEST(CasterDrawables, AreClearSolidOrCutOutByTheTexelsThatTheyShow) {
+    struct Case {
+        osg::Texture::WrapMode wrap;
+        float first, end; ///< columns.
+        std::size_t triangles;
+        unsigned cutouts;
+    };
+    for (const Case& each : {Case{osg::Texture::REPEAT, 0, 3, 1, 0},
+                             {osg::Texture::REPEAT, 3, 8, 0, 0},
+                             {osg::Texture::REPEAT, 0, 8, 1, 1},
+                             {osg::Texture::REPEAT, 2, 4, 1, 1},
+                             {osg::Texture::REPEAT, 16, 19, 1, 0},
+                             {osg::Texture::REPEAT, 11, 16, 0, 0},
+                             {osg::Texture::REPEAT, 15, 17, 1, 1},
+                             {osg::Texture::REPEAT, -5, -1, 0, 0},
+                             {osg::Texture::MIRROR, 8, 13, 0, 0},
+                             {osg::Texture::MIRROR, 13, 16, 1, 0},
+                             {osg::Texture::CLAMP_TO_EDGE, -9, 2, 1, 0},
+                             {osg::Texture::CLAMP_TO_EDGE, 9, 20, 0, 0},
+                             {osg::Texture::CLAMP_TO_BORDER, -9, 2, 1, 1}}) {
+        const auto pieces = Leaf(leftTexture(each.wrap), each.first, each.end).pieces();
+        EXPECT_EQ(pieces->list.front()->triangles, each.triangles) << each.wrap << " " << each.first;
+        EXPECT_EQ(pieces->cutouts, each.cutouts) << each.wrap << " " << each.first;
+    }
+}
+
+// A linear filter mixes the neighbour in.
+TEST(CasterDrawables, AreCutOutByTexelsThatAFilterReaches) {
+    const osg::ref_ptr<osg::Texture2D> texture = leftTexture();
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
+    EXPECT_EQ(Leaf(texture, 0.5f, 2.5f).pieces()->cutouts, 0u);
+    EXPECT_EQ(Leaf(texture, 0.5f, 3.0f).pieces()->cutouts, 1u);
+    EXPECT_EQ(Leaf(texture, 3.5f, 7.5f).pieces()->list.front()->triangles, 0u);
+}
+
+// osgViewer lets images go once they are drawn.
+TEST(CasterDrawables, KnowAnImageThatIsGone) {
+    const osg::ref_ptr<osg::Texture2D> texture = leftTexture();
+    texture->setUnRefImageDataAfterApply(true);
+    const Leaf leaf(texture, 0, 3);
+    const auto before = leaf.pieces();
+    EXPECT_EQ(before->cutouts, 0u);
+    const osg::observer_ptr<osg::Image> image = texture->getImage();
+    texture->setImage(nullptr);
+    EXPECT_FALSE(image.valid()) << "it takes memory";
+    EXPECT_EQ(leaf.pieces(before), before);
+    Leaf other(texture, 3, 8);
+    leaf.place->addChild(other.drawable);
+    const auto after = leaf.pieces(before);
+    ASSERT_EQ(after->list.size(), 2u);
+    EXPECT_EQ(after->list.back()->triangles, 0u);
 }
 
 // Two that are alike in one place, behind one that moves.
@@ -189,7 +283,7 @@ TEST(CasterDrawables, KnowWhatOneSeesThrough) {
     EXPECT_EQ(hidingOf(1), Hiding::Neither);
     set(2).setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
     EXPECT_EQ(hidingOf(2), Hiding::Neither);
-    set(3).setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+    set(3).setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::BACK, osg::PolygonMode::LINE));
     EXPECT_EQ(hidingOf(3), Hiding::Neither);
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "void main() { if (gl_FragCoord.x > 9.0) discard; }"));

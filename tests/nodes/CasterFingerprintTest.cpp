@@ -7,7 +7,11 @@
 #include <gnomon/casters/CasterMesh.h>
 
 #include <osg/AlphaFunc>
+#include <osg/ClipNode>
+#include <osg/CullFace>
 #include <osg/LOD>
+#include <osg/PrimitiveRestartIndex>
+#include <osg/PrimitiveSetIndirect>
 #include <osg/ShapeDrawable>
 #include <osg/Switch>
 #include <osg/TexMat>
@@ -23,7 +27,10 @@ namespace {
 /// A graph watched as a group watches its casters: by a value, and the mesh of that value.
 class Watched {
 public:
-    explicit Watched(osg::Node* root) : _root(root) { changed(); }
+    explicit Watched(osg::Node* root) : _root(root) {
+        _revision.setRule({0.5f});
+        changed();
+    }
 
     /// Whether the value differs from that of the call before.
     bool changed() {
@@ -38,6 +45,7 @@ public:
 private:
     void extract() {
         gnomon::CasterExtraction casters;
+        casters.setRule({0.5f});
         _root->accept(casters);
         _mesh = new gnomon::CasterMesh(casters);
     }
@@ -208,6 +216,58 @@ TEST(CasterRevisionChanges, WithWhatAnAlphaTestGoesBy) {
     EXPECT_FALSE(watched.changed());
     test->setFunction(osg::AlphaFunc::ALWAYS);
     EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionChanges, WithWhatElseAStateLeavesOfIt) {
+    const osg::ref_ptr<osg::Geometry> geometry = indexed();
+    const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array(4);
+    geometry->setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+    const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
+    place->addChild(geometry);
+    clip->addChild(place);
+    Watched watched(clip.get());
+    const osg::ref_ptr<osg::ClipPlane> plane = new osg::ClipPlane(2, osg::Vec4d(1.0, 0.0, 0.0, -0.5));
+    clip->addClipPlane(plane);
+    EXPECT_TRUE(watched.changed());
+    plane->setClipPlane(1.0, 0.0, 0.0, -0.25);
+    EXPECT_TRUE(watched.changed());
+    clip->getStateSet()->setMode(GL_CLIP_PLANE0 + 2, osg::StateAttribute::OFF);
+    EXPECT_TRUE(watched.changed());
+    osg::StateSet& set = *geometry->getOrCreateStateSet();
+    set.setMode(GL_BLEND, osg::StateAttribute::ON);
+    EXPECT_TRUE(watched.changed());
+    colors->dirty();
+    EXPECT_TRUE(watched.changed());
+    set.setMode(GL_BLEND, osg::StateAttribute::OFF);
+    EXPECT_TRUE(watched.changed());
+    const osg::ref_ptr<osg::PrimitiveRestartIndex> restart = new osg::PrimitiveRestartIndex(1);
+    set.setAttributeAndModes(restart);
+    set.setMode(GL_PRIMITIVE_RESTART, osg::StateAttribute::ON);
+    EXPECT_TRUE(watched.changed());
+    restart->setRestartIndex(2);
+    EXPECT_TRUE(watched.changed());
+    const osg::ref_ptr<osg::DrawElementsIndirectUInt> indirect =
+        new osg::DrawElementsIndirectUInt(Mode::TRIANGLES, 3, std::array<GLuint, 3>{0, 1, 2}.data());
+    geometry->setPrimitiveSet(0, indirect);
+    EXPECT_TRUE(watched.changed());
+    indirect->getIndirectCommandArray()->resizeElements(1);
+    EXPECT_TRUE(watched.changed());
+    indirect->getIndirectCommandArray()->dirty();
+    EXPECT_TRUE(watched.changed());
+    EXPECT_FALSE(watched.changed());
+    set.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT_AND_BACK));
+    EXPECT_TRUE(watched.changed());
+}
+
+TEST(CasterRevisionStays, WhenAClipPlaneMovesThatCutsNothing) {
+    const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+    const osg::ref_ptr<osg::ClipPlane> plane = new osg::ClipPlane(0, osg::Vec4d(0.0, 0.0, 1.0, 5.0));
+    clip->addClipPlane(plane);
+    clip->addChild(indexed());
+    Watched watched(clip.get());
+    plane->setClipPlane(0.0, 0.0, 1.0, 4.0);
+    EXPECT_FALSE(watched.changed());
 }
 
 TEST(CasterRevisionStays, WhenADrawableWithoutTrianglesChangesItsBounds) {

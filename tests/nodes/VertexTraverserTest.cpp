@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "Scene.h"
 
+#include <gnomon/casters/DrawableTriangles.h>
+
 #include <osg/MatrixTransform>
+#include <osg/PrimitiveRestartIndex>
+#include <osg/PrimitiveSetIndirect>
 #include <osg/ShapeDrawable>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <iterator>
 #include <limits>
 
 using namespace scene;
@@ -53,6 +59,25 @@ osg::ref_ptr<Array> threeVertices(const typename Array::ElementDataType& last) {
     osg::ref_ptr<Array> array = new Array(3);
     (*array)[2] = last;
     return array;
+}
+
+/// Of a list that is drawn with primitive restart.
+Indices restarted(osg::PrimitiveSet* primitives, GLenum mode, unsigned index = 0) {
+    const osg::ref_ptr<osg::Geometry> geometry = geometryOf(sevenVertices(), primitives);
+    osg::StateSet& set = *geometry->getOrCreateStateSet();
+    set.setMode(mode, osg::StateAttribute::ON);
+    set.setAttribute(new osg::PrimitiveRestartIndex(index));
+    return turned(trianglesOf(*geometry));
+}
+
+template <class Elements, class Index>
+osg::ref_ptr<Elements> elements(GLenum mode, std::initializer_list<Index> indices) {
+    return new Elements(mode, static_cast<unsigned>(indices.size()), std::data(indices));
+}
+
+template <class Elements>
+osg::DefaultIndirectCommandDrawElements& commandsOf(const osg::ref_ptr<Elements>& set) {
+    return static_cast<osg::DefaultIndirectCommandDrawElements&>(*set->getIndirectCommandArray());
 }
 
 osg::Vec3d areaVector(const Corners& c) { return ((c[1] - c[0]) ^ (c[2] - c[0])) / 2.0; }
@@ -129,6 +154,57 @@ TEST(VertexTraverserIndices, AllThreeWidthsOfIndexAreRead) {
               expected);
     EXPECT_EQ(indicesOf(new osg::DrawElementsUInt(Mode::TRIANGLES, 3, std::array<GLuint, 3>{6, 2, 1}.data())),
               expected);
+}
+
+// OpenGL 4.6, 10.3.6: the next index begins another primitive of the same kind, in lists alone.
+TEST(VertexTraverserIndices, ARestartBeginsAStripAFanOrALoopAnew) {
+    constexpr GLenum fixed = 0x8D69; // GL_PRIMITIVE_RESTART_FIXED_INDEX
+    const auto strips = elements<osg::DrawElementsUInt, GLuint>(Mode::TRIANGLE_STRIP, {1, 2, 3, 4, 0, 4, 5, 6});
+    EXPECT_EQ(restarted(strips, GL_PRIMITIVE_RESTART), (Indices{{1, 2, 3}, {2, 4, 3}, {4, 5, 6}}));
+    EXPECT_EQ(indicesOf(strips).size(), 5u) << "where no restart is on: one triangle has no area in the list";
+    const auto fans = elements<osg::DrawElementsUShort, GLushort>(Mode::TRIANGLE_FAN, {0, 1, 2, 3, 6, 6, 3, 4, 5, 6});
+    EXPECT_EQ(restarted(fans, GL_PRIMITIVE_RESTART, 6), (Indices{{0, 1, 2}, {0, 2, 3}, {3, 4, 5}}));
+    const auto bytes = elements<osg::DrawElementsUByte, GLubyte>(Mode::TRIANGLES, {0, 1, 255, 2, 3, 4, 5, 255, 6});
+    EXPECT_EQ(restarted(bytes, fixed), (Indices{{2, 3, 4}}));
+    const auto shorts = elements<osg::DrawElementsUShort, GLushort>(Mode::POLYGON, {0, 1, 2, 65535, 3, 4, 5});
+    EXPECT_EQ(restarted(shorts, fixed, 2), (Indices{{0, 1, 2}, {3, 4, 5}})) << "whatever the index of the other kind";
+    EXPECT_EQ(restarted(new osg::DrawArrays(Mode::TRIANGLE_STRIP, 0, 4), GL_PRIMITIVE_RESTART, 2),
+              (Indices{{0, 1, 2}, {1, 3, 2}}));
+    const auto loop = elements<osg::DrawElementsUInt, GLuint>(Mode::LINE_LOOP, {0, 1, 2, 6, 3, 4});
+    EXPECT_TRUE(restarted(loop, GL_PRIMITIVE_RESTART, 6).empty());
+}
+
+TEST(VertexTraverserIndices, CommandsInABufferAreReadAsOpenGlReadsThem) {
+    const auto one = elements<osg::DrawElementsIndirectUShort, GLushort>(Mode::TRIANGLES, {0, 1, 2, 0, 2, 3});
+    commandsOf(one).push_back({3, 1, 0, 0, 0});
+    commandsOf(one).push_back({3, 1, 3, 2, 0}); // from the fourth index on, each 2 more
+    EXPECT_EQ(indicesOf(one), (Indices{{0, 1, 2}}));
+    one->setFirstCommandToDraw(1);
+    EXPECT_EQ(indicesOf(one), (Indices{{2, 4, 5}}));
+    const auto several = elements<osg::MultiDrawElementsIndirectUInt, GLuint>(Mode::TRIANGLE_FAN, {0, 1, 2, 3});
+    commandsOf(several).push_back({3, 1, 1, 0, 0});
+    commandsOf(several).push_back({4, 0, 0, 0, 0}); // of no instance
+    commandsOf(several).push_back({4, 2, 0, 3, 0}); // once, as what is instanced is
+    EXPECT_EQ(indicesOf(several), (Indices{{1, 2, 3}, {3, 4, 5}, {3, 5, 6}}));
+    several->setNumCommandsToDraw(2);
+    EXPECT_EQ(indicesOf(several), (Indices{{1, 2, 3}}));
+    EXPECT_EQ(restarted(several, GL_PRIMITIVE_RESTART, 1), Indices());
+    const osg::ref_ptr<osg::MultiDrawArraysIndirect> arrays = new osg::MultiDrawArraysIndirect(Mode::TRIANGLE_STRIP);
+    auto& ranges = static_cast<osg::DefaultIndirectCommandDrawArrays&>(*arrays->getIndirectCommandArray());
+    for (const unsigned first : {0u, 1u, 3u}) ranges.push_back({3, 1, first, 0});
+    arrays->setFirstCommandToDraw(1);
+    arrays->setNumCommandsToDraw(2);
+    EXPECT_EQ(indicesOf(arrays), (Indices{{1, 2, 3}, {3, 4, 5}}));
+}
+
+TEST(VertexTraverserIndices, CommandsThatDrawNothingMayBeAProgramsToWrite) {
+    const auto set = elements<osg::DrawElementsIndirectUInt, GLuint>(Mode::TRIANGLES, {0, 1, 2});
+    const osg::ref_ptr<osg::Geometry> geometry = geometryOf(sevenVertices(), set);
+    EXPECT_TRUE(gnomon::drawsItself(*geometry)) << "no command";
+    commandsOf(set).push_back({3, 0, 0, 0, 0});
+    EXPECT_TRUE(gnomon::drawsItself(*geometry)) << "no instance";
+    commandsOf(set)[0].instanceCount = 1;
+    EXPECT_FALSE(gnomon::drawsItself(*geometry));
 }
 
 TEST(VertexTraverserIndices, VerticesAreSharedBetweenTrianglesAndThePrimitivesOfADrawable) {

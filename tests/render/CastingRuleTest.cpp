@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What has triangles, and casts nothing all the same: skies at the far plane, and what hides little of what is behind it.
+// What is drawn casts, and what is not drawn does not: by each state that takes something away.
 #include <support/Picture.h>
 #include <support/Scene.h>
 
@@ -8,14 +8,28 @@
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterLayers.h>
 #include <gtest/gtest.h>
+#include <osg/AlphaFunc>
 #include <osg/BlendColor>
 #include <osg/BlendFunc>
+#include <osg/ClipNode>
+#include <osg/ColorMask>
+#include <osg/CullFace>
 #include <osg/Depth>
 #include <osg/Geometry>
 #include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/PolygonMode>
+#include <osg/PolygonStipple>
+#include <osg/Scissor>
+#include <osg/Stencil>
+#include <osg/Texture2D>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
+#include <vector>
 
 using gnomon::ShadowCasterGroup;
 using test::Picture;
@@ -78,7 +92,29 @@ void setColor(osg::Geometry& geometry, float alpha) {
     geometry.setColorArray(color, osg::Array::BIND_OVERALL);
 }
 
+/// As many corners of each of the tower's triangles as a number says have one alpha, all others another.
+void setColors(osg::Geometry& geometry, int corners, float alpha, float other) {
+    const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
+    for (unsigned i = 0; i < geometry.getVertexArray()->getNumElements(); ++i)
+        colors->push_back({1.0f, 1.0f, 1.0f, int(i % 3) < corners ? alpha : other});
+    geometry.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+}
+
 void blend(osg::StateSet& state) { state.setMode(GL_BLEND, osg::StateAttribute::ON); }
+
+using Side = osg::PolygonMode::Face;
+using Fill = osg::PolygonMode::Mode;
+
+osg::ref_ptr<osg::PolygonMode> polygonMode(Side side, Fill mode) { return new osg::PolygonMode(side, mode); }
+
+/// Of 1024 bits, those of some of the 32 rows.
+osg::ref_ptr<osg::PolygonStipple> stipple(int rows) {
+    GLubyte mask[128] = {};
+    std::fill(mask, mask + 4 * rows, GLubyte(0xff));
+    return new osg::PolygonStipple(mask);
+}
+
+osg::ref_ptr<osg::Depth> unwritten() { return new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false); }
 
 const Glass glasses[] = {
     {"not blended", [](auto&, auto& state) { setMaterial(state, 0.3f); }, true},
@@ -112,6 +148,75 @@ const Glass glasses[] = {
          state.setAttributeAndModes(program);
      },
      true},
+    {"vertices of 0.1",
+     [](auto& geometry, auto& state) {
+         blend(state), setColors(geometry, 3, 0.1f, 0.0f);
+         setMaterial(state, 0.6f, osg::Material::AMBIENT_AND_DIFFUSE);
+     },
+     false},
+    {"vertices of 0.1 and 0.9 in a triangle",
+     [](auto& geometry, auto& state) {
+         blend(state), setColors(geometry, 2, 0.1f, 0.9f);
+         state.setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+     },
+     true},
+    {"vertices of 0.1 that do not count, for it is lit by a material",
+     [](auto& geometry, auto& state) { blend(state), setColors(geometry, 3, 0.1f, 0.0f), setMaterial(state, 0.6f); },
+     true},
+    {"an alpha test that a colour of 0.3 fails",
+     [](auto& geometry, auto& state) {
+         setColor(geometry, 0.3f);
+         state.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.4f));
+     },
+     false},
+    {"an alpha test that all fail",
+     [](auto&, auto& state) { state.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::NEVER, 0.0f)); }, false},
+    {"both faces culled",
+     [](auto&, auto& state) { state.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT_AND_BACK)); }, false},
+    {"both faces culled, but culling is off",
+     [](auto&, auto& state) { state.setAttribute(new osg::CullFace(osg::CullFace::FRONT_AND_BACK)); }, true},
+    {"one face culled", [](auto&, auto& state) { state.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT)); },
+     true},
+    {"lines", [](auto&, auto& state) { state.setAttribute(polygonMode(Side::FRONT_AND_BACK, Fill::LINE)); }, false},
+    {"points", [](auto&, auto& state) { state.setAttribute(polygonMode(Side::FRONT_AND_BACK, Fill::POINT)); }, false},
+    {"lines at the back", [](auto&, auto& state) { state.setAttribute(polygonMode(Side::BACK, Fill::LINE)); }, true},
+    {"lines in front, and the back culled",
+     [](auto&, auto& state) {
+         state.setAttribute(polygonMode(Side::FRONT, Fill::LINE));
+         state.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+     },
+     false},
+    {"depths that never pass", [](auto&, auto& state) { state.setAttribute(new osg::Depth(osg::Depth::NEVER)); },
+     false},
+    {"depths that would never pass, but nobody looks",
+     [](auto&, auto& state) {
+         state.setAttribute(new osg::Depth(osg::Depth::NEVER));
+         state.setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
+     },
+     true},
+    {"masked colours and depth",
+     [](auto&, auto& state) {
+         state.setAttribute(new osg::ColorMask(false, false, false, false));
+         state.setAttribute(unwritten());
+     },
+     false},
+    {"masked colours: it hides what is behind it",
+     [](auto&, auto& state) { state.setAttribute(new osg::ColorMask(false, false, false, false)); }, true},
+    {"masked depth", [](auto&, auto& state) { state.setAttribute(unwritten()); }, true},
+    {"a stencil test that all fail",
+     [](auto&, auto& state) {
+         const osg::ref_ptr<osg::Stencil> stencil = new osg::Stencil;
+         stencil->setFunction(osg::Stencil::NEVER);
+         state.setAttributeAndModes(stencil);
+     },
+     false},
+    {"a stipple of a quarter", [](auto&, auto& state) { state.setAttributeAndModes(stipple(8)); }, false},
+    {"a stipple of a half", [](auto&, auto& state) { state.setAttributeAndModes(stipple(16)); }, true},
+    {"a stipple of a quarter that is off", [](auto&, auto& state) { state.setAttribute(stipple(8)); }, true},
+    {"an empty scissor box", [](auto&, auto& state) { state.setAttributeAndModes(new osg::Scissor(10, 10, 0, 50)); },
+     false},
+    {"a scissor box, which is the camera's, not the light's",
+     [](auto&, auto& state) { state.setAttributeAndModes(new osg::Scissor(0, 0, 1, 1)); }, true},
 };
 
 /// A group with a solid box, and one of glass.
@@ -148,6 +253,209 @@ TEST(CastingRule, IsTheGroupsAndLive) {
     shop.group->setOpaqueFrom(-1.0f);
     EXPECT_EQ(shop.group->getOpaqueFrom(), 0.0f);
     EXPECT_TRUE(shop.casts());
+}
+
+/// The tower, cut off by z <= 1.
+const osg::Vec4d lowHalf(0.0, 0.0, -1.0, 1.0);
+test::Mesh cutTower() {
+    const glm::dvec3 x(2.0, 0.0, 0.0), y(0.0, 2.0, 0.0), up(0.0, 0.0, 1.0);
+    return test::joined({test::quad({-1.0, -1.0, 0.0}, x, up), test::quad({1.0, -1.0, 0.0}, y, up),
+                         test::quad({1.0, 1.0, 0.0}, -x, up), test::quad({-1.0, 1.0, 0.0}, -y, up),
+                         test::quad({-1.0, -1.0, 0.0}, y, x)});
+}
+
+const osg::Matrixd askew = osg::Matrixd::rotate(0.7, 1.0, 0.4, 0.2) * osg::Matrixd::translate(3.0, -5.0, 2.0);
+
+/// The plane as it is in a frame that stands askew.
+osg::ref_ptr<osg::ClipPlane> planeAskew() { return new osg::ClipPlane(3, askew * lowHalf); }
+
+osg::ref_ptr<osg::MatrixTransform> under(const osg::Matrixd& matrix, osg::Node* below) {
+    const osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(matrix);
+    if (below) place->addChild(below);
+    return place;
+}
+
+/// Ways to clip the tower, which is the last child of the content.
+struct Clip {
+    const char* name;
+    std::function<void(Scene&)> set;
+};
+
+const Clip clips[] = {
+    {"by a ClipNode under a transform",
+     [](Scene& scene) {
+         const osg::ref_ptr<osg::Node> node = scene.content->getChild(1);
+         const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+         clip->addClipPlane(planeAskew());
+         clip->addChild(under(osg::Matrixd::inverse(askew), node));
+         scene.content->setChild(1, under(askew, clip));
+     }},
+    {"by a ClipNode above the group",
+     [](Scene& scene) {
+         const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+         clip->addClipPlane(new osg::ClipPlane(0, lowHalf));
+         scene.root->replaceChild(scene.group, clip);
+         clip->addChild(scene.group);
+     }},
+    {"by a ClipNode elsewhere",
+     [](Scene& scene) {
+         const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+         clip->addClipPlane(planeAskew());
+         scene.root->addChild(under(askew, clip));
+         clip->setStateSetModes(*scene.content->getChild(1)->getOrCreateStateSet(), osg::StateAttribute::ON);
+     }},
+    {"by a ClipNode that belongs to the eye",
+     [](Scene& scene) {
+         const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+         clip->setReferenceFrame(osg::ClipNode::ABSOLUTE_RF);
+         const osg::Matrixd worldFromEye = osg::Matrixd::inverse(fromTheSide().view);
+         clip->addClipPlane(new osg::ClipPlane(1, worldFromEye * lowHalf));
+         clip->addChild(scene.content->getChild(1));
+         scene.content->setChild(1, clip);
+     }},
+    {"by its own state, in its own frame",
+     [](Scene& scene) {
+         const osg::ref_ptr<osg::Node> node = scene.content->getChild(1);
+         const osg::ref_ptr<osg::MatrixTransform> inner = under(osg::Matrixd::inverse(askew), node);
+         scene.content->setChild(1, under(askew, inner));
+         node->getOrCreateStateSet()->setAttributeAndModes(new osg::ClipPlane(2, lowHalf));
+     }},
+    {"by two planes, one of which lets it be",
+     [](Scene& scene) {
+         const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+         clip->addClipPlane(new osg::ClipPlane(0, osg::Vec4d(0.0, 0.0, 1.0, 0.0)));
+         clip->addClipPlane(new osg::ClipPlane(1, lowHalf));
+         clip->addChild(scene.content->getChild(1));
+         scene.content->setChild(1, clip);
+     }},
+};
+
+const char* const specs[] = {"map", "volume", "traced", "planar:receiver=ground", "hull:receiver=ground"};
+
+Picture clipped(const std::string& spec, const test::Mesh& mesh, const std::function<void(Scene&)>& clip) {
+    Scene scene = test::groundScene({mesh}, 8.0, sun);
+    scene.addShadow(spec);
+    if (clip) clip(scene);
+    return test::render(scene.root, fromTheSide());
+}
+
+TEST(ClippedCasters, CastWhatIsLeftOfThem) {
+    for (const std::string spec : specs) {
+        const Picture expected = clipped(spec, cutTower(), {});
+        EXPECT_GT(expected.different(clipped(spec, tower, {})), 300) << spec;
+        for (const Clip& clip : clips) // OpenGL's own cut is no edge of a mesh, to a pixel here and there
+            EXPECT_LE(clipped(spec, tower, clip.set).different(expected), 8) << spec << " " << clip.name;
+    }
+}
+
+TEST(ClippedCasters, CastNothingBeyondAPlane) {
+    for (const std::string spec : specs) {
+        const auto clipAll = [](Scene& scene) {
+            const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+            clip->addClipPlane(new osg::ClipPlane(0, osg::Vec4d(0.0, 0.0, 1.0, -10.0)));
+            clip->addChild(scene.content->getChild(1));
+            scene.content->setChild(1, clip);
+        };
+        const auto remove = [](Scene& scene) { scene.content->removeChild(1); };
+        EXPECT_EQ(clipped(spec, tower, clipAll).different(clipped(spec, tower, remove)), 0) << spec;
+    }
+}
+
+/// A plane is known by its place in the eye's frame, and yet rests.
+TEST(ClippedCasters, AreReadOnceWhileTheCameraMoves) {
+    for (const Clip& clip : {clips[0], clips[1], clips[2]}) {
+        Scene scene = test::groundScene({tower}, 8.0, sun);
+        scene.addShadow("traced");
+        clip.set(scene);
+        test::Camera camera(scene.root, fromTheSide());
+        camera.frame();
+        for (int i = 0; i < 30; ++i) {
+            camera.setView(test::perspective({-6.0 + 0.137 * i, -9.0, 6.0 + 0.071 * i}, {0.0, 0.0, 0.0}, 160, 120));
+            camera.frame();
+        }
+        EXPECT_EQ(scene.group->revision(), 1u) << clip.name;
+    }
+}
+
+/// A fence over the ground whose texture has, in four columns, these alphas.
+osg::ref_ptr<osg::Geometry> fence(const std::vector<float>& alphas) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(4, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (unsigned i = 0; i < 4; ++i) image->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, alphas[i]), i, 0u);
+    const osg::ref_ptr<osg::Geometry> result =
+        osg::createTexturedQuadGeometry({-2.0f, -1.0f, 1.5f}, {4.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+    result->setName("fence");
+    osg::StateSet& state = *result->getOrCreateStateSet();
+    state.setTextureAttributeAndModes(0, new osg::Texture2D(image));
+    state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    blend(state);
+    return result;
+}
+
+/// What a technique says of a fence's clear parts.
+std::string saidOf(osg::Geometry* geometry, const std::string& spec) {
+    Scene scene = test::groundScene({tower}, 8.0, sun);
+    scene.content->addChild(geometry);
+    scene.addShadow(spec);
+    test::Camera camera(scene.root, fromTheSide());
+    camera.frame();
+    const auto& technique = static_cast<const gnomon::ShadowTechnique&>(*scene.group->getChild(1));
+    for (const std::string& cause : technique.diagnose())
+        if (cause.find("clear") != std::string::npos) return cause;
+    return "";
+}
+
+TEST(CastingRule, WhatIsClearInPartIsNamedWhereItCastsAsASolid) {
+    for (const std::string spec : specs) {
+        const std::string said = saidOf(fence({1.0f, 0.2f, 0.3f, 0.9f}), spec);
+        if (spec == "map")
+            EXPECT_EQ(said, "");
+        else
+            EXPECT_NE(said.find("casters with clear parts cast as if they were solid: 1, the first in 'fence'"),
+                      std::string::npos)
+                << spec;
+        EXPECT_EQ(saidOf(fence({1.0f, 0.8f, 0.9f, 0.6f}), spec), "") << spec;
+        EXPECT_EQ(saidOf(fence({0.1f, 0.2f, 0.3f, 0.4f}), spec), "") << spec;
+    }
+}
+
+TEST(CastingRule, AutoTakesAMapForWhatIsClearInPart) {
+    for (const bool inPart : {false, true}) {
+        Scene scene = test::groundScene({tower}, 8.0, sun);
+        scene.content->addChild(fence({1.0f, inPart ? 0.2f : 0.7f, 1.0f, 1.0f}));
+        scene.addShadow("auto");
+        test::Camera camera(scene.root, fromTheSide());
+        camera.frame();
+        const auto& technique = static_cast<const gnomon::ShadowTechnique&>(*scene.group->getChild(1));
+        const bool hasMap = technique.lastDecision().front().chosen.spec.find("map") != std::string::npos;
+        EXPECT_EQ(hasMap, inPart);
+        EXPECT_EQ(technique.diagnose(), std::vector<std::string>());
+    }
+}
+
+/// As a model of Inventor's draws its mesh: a sheet, and its edges a bit above it.
+TEST(CastingRule, LinesOverASheetDoNotShadowIt) {
+    test::Mesh sheet;
+    const auto height = [](int i, int j) { return 0.8 + 0.5 * std::sin(1.3 * i) * std::cos(0.9 * j); };
+    const auto corner = [&](int i, int j) { return glm::dvec3(i, j, height(i, j)); };
+    for (int i = -3; i < 3; ++i)
+        for (int j = -3; j < 3; ++j)
+            for (const glm::dvec3& place : {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j),
+                                            corner(i + 1, j + 1), corner(i, j + 1)})
+                sheet.push_back(place);
+    for (const std::string spec : {"map", "traced", "volume"}) {
+        Picture pictures[2];
+        for (const bool among : {false, true}) {
+            Scene scene = test::groundScene({sheet}, 8.0, sun);
+            scene.addShadow(spec);
+            const osg::ref_ptr<osg::Node> wires = test::node(test::moved(sheet, {0.0, 0.0, 0.01}));
+            wires->getOrCreateStateSet()->setAttribute(polygonMode(Side::FRONT_AND_BACK, Fill::LINE));
+            (among ? scene.content : scene.root)->addChild(wires);
+            pictures[among] = test::render(scene.root, fromTheSide());
+        }
+        EXPECT_EQ(pictures[0].different(pictures[1]), 0) << spec;
+        EXPECT_GT(pictures[0].count(test::shadowedGround), 50) << spec;
+    }
 }
 
 } // namespace

@@ -9,7 +9,9 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
+#include <osg/ClipPlane>
 #include <osg/Geometry>
+#include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osg/Program>
 #include <osg/TexGen>
@@ -294,28 +296,100 @@ Causes solidWith(const std::function<void(osg::Geometry&)>& change) {
     return expectShadowOf({upright, afternoon, everywhere, change});
 }
 
-TEST(MapCutout, WhatCannotBeKnownCastsAsIfItWereSolidAndIsDiagnosed) {
-    const auto generated = [](osg::Geometry& fence) {
-        fence.getStateSet()->setTextureAttributeAndModes(0, new osg::TexGen);
-    };
+/// By a program, a texture on another unit, and the one texel that is shown without coordinates.
+TEST(MapCutout, WhatOnlyItsOwnDrawingTellsIsDrawnByIt) {
     const auto otherUnit = [](osg::Geometry& fence) {
         fence.getStateSet()->setTextureMode(0, GL_TEXTURE_2D, On::OFF);
         fence.getStateSet()->setTextureAttributeAndModes(1, fenceTexture());
+        fence.setTexCoordArray(1, fence.getTexCoordArray(0), osg::Array::BIND_PER_VERTEX);
     };
-    const auto noCoordinates = [](osg::Geometry& fence) { fence.setTexCoordArray(0, nullptr); };
-    const auto shader = [](osg::Geometry& fence) {
-        osg::ref_ptr<osg::Program> program = new osg::Program;
-        program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "void main() { gl_FragColor = vec4(1.0); }"));
-        fence.getStateSet()->setAttribute(program);
+    EXPECT_EQ(expectShadowOf({upright, afternoon, greater, otherUnit}), Causes());
+    const auto generated = [](osg::Geometry& fence) { // from x and y
+        fence.getStateSet()->setTextureAttributeAndModes(0, new osg::TexGen);
     };
-    for (const auto& change :
-         {std::function<void(osg::Geometry&)>(generated), {otherUnit}, {noCoordinates}, {shader}}) {
-        const Causes causes = solidWith(change);
-        ASSERT_FALSE(causes.empty());
-        EXPECT_NE(causes[0].find("alpha-tested drawables cast as if they were solid: 1, the first in 'fence'"),
-                  std::string::npos)
-            << causes[0];
+    const auto byPlace = [](double s, double) { return alphaOf((int(std::floor(32.0 * s)) + 16) % columns, 0) > 127; };
+    EXPECT_EQ(expectShadowOf({upright, afternoon, byPlace, generated}), Causes());
+    EXPECT_EQ(solidWith([](osg::Geometry& fence) { fence.setTexCoordArray(0, nullptr); }), Causes());
+    const auto programmed = [](const char* text) {
+        return [text](osg::Geometry& fence) {
+            osg::ref_ptr<osg::Program> program = new osg::Program;
+            program->addShader(new osg::Shader(osg::Shader::FRAGMENT, text));
+            fence.getStateSet()->setAttribute(program);
+        };
+    };
+    const auto saysUnlitAlone = [](const Causes& causes) {
+        return causes.size() == 1 && causes[0].find("no light can be taken from 'fence'") != std::string::npos;
+    };
+    EXPECT_TRUE(saysUnlitAlone(solidWith(programmed("void main() { gl_FragColor = vec4(1.0); }"))));
+    const auto discards = programmed("uniform sampler2D t; void main() { if (texture2D(t, gl_TexCoord[0].xy).a < 0.5) "
+                                     "discard; gl_FragColor = vec4(0.0); }");
+    const auto withoutTest = [&](osg::Geometry& fence) {
+        discards(fence);
+        fence.getStateSet()->setMode(GL_ALPHA_TEST, On::OFF);
+    };
+    EXPECT_TRUE(saysUnlitAlone(expectShadowOf({upright, afternoon, greater, withoutTest})));
+}
+
+/// Half of what is behind it must be hidden, by all that makes its alpha.
+TEST(MapCutout, WhatBlendsCastsWhereItsAlphaIsAHalfOrMore) {
+    const auto blends = [](osg::Geometry& fence) {
+        fence.getStateSet()->setMode(GL_ALPHA_TEST, On::OFF);
+        fence.getStateSet()->setMode(GL_BLEND, On::ON);
+        fence.getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+    };
+    EXPECT_EQ(expectShadowOf({leaning, lamp, greater, blends}), Causes());
+    const auto paler = [&](osg::Geometry& fence) {
+        blends(fence);
+        const osg::ref_ptr<osg::Material> material = new osg::Material;
+        material->setAlpha(osg::Material::FRONT_AND_BACK, 0.6f);
+        fence.getStateSet()->setAttribute(material);
+    };
+    const auto from213 = [](double s, double t) {
+        return alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows) > 212;
+    };
+    EXPECT_EQ(expectShadowOf({upright, afternoon, from213, paler}), Causes());
+    const auto fading = [&](osg::Geometry& fence) { // in colours of the vertices, upwards
+        blends(fence);
+        const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
+        for (const auto& place : static_cast<const osg::Vec2Array&>(*fence.getTexCoordArray(0)))
+            colors->push_back({1.0f, 1.0f, 1.0f, place.y()});
+        fence.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+        fence.getStateSet()->setMode(GL_LIGHTING, On::OFF);
+    };
+    const auto times = [](double s, double t) {
+        return t * alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows) > 127.5;
+    };
+    const Causes causes = expectShadowOf({upright, afternoon, times, fading});
+    for (const std::string& cause : causes) EXPECT_NE(cause.find("unlit"), std::string::npos) << cause;
+}
+
+TEST(MapCutout, WhatAPlaneCutsIsCutOutToo) {
+    const auto cut = [](osg::Geometry& fence) {
+        fence.getStateSet()->setAttributeAndModes(new osg::ClipPlane(0, osg::Vec4d(0.0, 0.0, -1.0, 1.7)));
+    };
+    const auto below = [](double s, double t) { return 2.5 * t < 1.7 && greater(s, t); };
+    EXPECT_EQ(expectShadowOf({upright, afternoon, below, cut}), Causes());
+    const auto otherUnit = [&](osg::Geometry& fence) { // by its own drawing
+        cut(fence);
+        fence.getStateSet()->setTextureMode(0, GL_TEXTURE_2D, On::OFF);
+        fence.getStateSet()->setTextureAttributeAndModes(1, fenceTexture());
+        fence.setTexCoordArray(1, fence.getTexCoordArray(0), osg::Array::BIND_PER_VERTEX);
+    };
+    for (const osg::Vec4d& light : {afternoon, lamp}) {
+        SCOPED_TRACE(light.w());
+        EXPECT_EQ(expectShadowOf({upright, light, below, otherUnit}), Causes());
     }
+    Scene plain = build({upright, lamp, below, otherUnit}), scene = build({upright, lamp, below, otherUnit});
+    scene.addShadow(new ShadowMapTechnique);
+    const View low = test::perspective({-1.0, -9.0, 1.0}, {0.0, 0.0, 1.2}, 320, 240);
+    const Picture unshadowed = test::render(plain.root, low), shadowed = test::render(scene.root, low);
+    int background = 0;
+    for (std::size_t i = 0; i < unshadowed.pixels.size(); ++i) {
+        if (unshadowed.pixels[i] != unshadowed.pixels.back()) continue;
+        ++background;
+        ASSERT_EQ(shadowed.pixels[i], unshadowed.pixels[i]) << "the view is cut as before";
+    }
+    EXPECT_GT(background, 20000);
 }
 
 TEST(MapCutout, WhatHasNoAlphaIsSolidAndNothingIsSaidOfIt) {

@@ -64,9 +64,7 @@ std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leave
     return value.value();
 }
 
-std::string whyCutOut(const CasterDrawables& casters) {
-    return casters.anyTested || casters.unknownTests > 0 ? "casters are cut out by an alpha test" : "";
-}
+std::string whyCutOut(const CasterDrawables& casters) { return casters.cutouts > 0 ? "casters have clear parts" : ""; }
 
 double trianglesOf(const osg::Drawable& drawable) {
     const osg::Geometry* geometry = drawable.asGeometry();

@@ -13,7 +13,7 @@ constexpr unsigned keptCalls = 8;     // of retired casters: other views may be 
 constexpr double large = 0.5;         // of the radius of all: so large a part is not told from the whole
 
 bool isForMap(const CasterDrawable& piece, double radius) {
-    return CasterSplit::isDense(piece, radius) || piece.test || piece.unknownTests > 0;
+    return CasterSplit::isDense(piece, radius) || piece.cutOut;
 }
 
 } // namespace

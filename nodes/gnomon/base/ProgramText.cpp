@@ -16,6 +16,8 @@ namespace {
 
 using Tokens = std::vector<std::string>;
 
+constexpr const char* discard = "discard";
+
 bool contains(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
 
 bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
@@ -147,6 +149,8 @@ ProgramPlaces found(const osg::Program& program, const std::string& vertex, cons
     ProgramPlaces places;
     places.movesVertices = !vertex.empty() && !VertexWay(tokens, program).arrives();
     places.ownDepth = bendsDepth(vertex, tokens) || replacesDepth(fragment);
+    const Tokens inFragment = contains(fragment, discard) ? tokensOf(fragment) : Tokens();
+    places.discards = std::find(inFragment.begin(), inFragment.end(), discard) != inFragment.end();
     return places;
 }
 
@@ -175,6 +179,15 @@ ProgramPlaces placesOf(const osg::Program& program) {
     ProgramPlaces places = entry->second;
     places.movesVertices = places.movesVertices || others;
     return places;
+}
+
+bool mayDiscard(const osg::Program& program) {
+    for (unsigned i = 0; i < program.getNumShaders(); ++i) {
+        const osg::Shader& shader = *program.getShader(i);
+        if (shader.getType() == osg::Shader::FRAGMENT && contains(shader.getShaderSource(), discard))
+            return placesOf(program).discards;
+    }
+    return false;
 }
 
 } // namespace gnomon

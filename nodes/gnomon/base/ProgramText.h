@@ -4,17 +4,21 @@
 
 namespace gnomon {
 
-/// What the GLSL text of a program says of where it draws.
+/// What the GLSL text of a program says of where, and what, it draws.
 ///
-/// A reader of text can be deceived: by functions, branches and uniforms. It is for diagnose(), not for pictures.
+/// A reader of text can be deceived: by functions, branches and uniforms. A caster is told by `discards` alone.
 struct ProgramPlaces {
     /// Vertices may go elsewhere than OpenGL's matrices take them: by instance, bone, displacement, or in another stage.
     bool movesVertices = false;
     /// The depth is not the one that the projection gives: a logarithm, or a gl_FragDepth of its own.
     bool ownDepth = false;
+    /// Fragments may be discarded.
+    bool discards = false;
 };
 
 /// Threads any number. What was found is kept, by the text.
 ProgramPlaces placesOf(const osg::Program& program);
+/// The same as placesOf().discards, and cheap for a program that does not.
+bool mayDiscard(const osg::Program& program);
 
 } // namespace gnomon

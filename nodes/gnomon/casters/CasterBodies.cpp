@@ -15,15 +15,23 @@
 namespace gnomon {
 namespace {
 
-/// Reads a drawable in its own frame.
+/// Reads a drawable in its own frame, whole: see isBody().
 class BodyReader : public CasterExtraction {
+public:
+    std::optional<unsigned> restart;
+
 protected:
-    std::optional<AlphaTest> alphaTest() const override { return std::nullopt; } // see isBody()
+    Casting castingOf(const osg::Drawable&) override {
+        Casting casting;
+        casting.restart = restart;
+        return casting;
+    }
 };
 
 osg::ref_ptr<const CasterBody> extracted(const CasterDrawable& piece) {
     const osg::ref_ptr<BodyReader> found = new BodyReader;
     found->setQuads(piece.quads);
+    found->restart = piece.casting.restart;
     const_cast<osg::Drawable&>(*piece.drawable).accept(*found); // which changes nothing
     const osg::ref_ptr<CasterBody> body = new CasterBody;
     const osg::ref_ptr<CasterMesh> mesh = new CasterMesh(*found);
@@ -35,7 +43,7 @@ osg::ref_ptr<const CasterBody> extracted(const CasterDrawable& piece) {
 } // namespace
 
 bool CasterBodies::isBody(const CasterDrawable& piece) {
-    return piece.triangles >= fewestTriangles && !piece.test && piece.invalidTriangles == 0 &&
+    return piece.triangles >= fewestTriangles && piece.casting.isWhole() && piece.invalidTriangles == 0 &&
            isPlacement(toGlm(piece.groupFromLocal));
 }
 
@@ -48,10 +56,11 @@ std::optional<PlacedMesh> CasterBodies::placed(const CasterDrawable& piece, cons
     const glm::dmat4 groupFromLocal = toGlm(piece.groupFromLocal);
     const double longer = stretch(groupFromLocal);
     const glm::dmat4 fromMesh = glm::translate(groupFromLocal, toGlm(mesh->origin));
-    return PlacedMesh{mesh,         glm::translate(glm::dmat4(1.0), -toGlm(origin)) * fromMesh,
-                      true,         glm::determinant(glm::dmat3(fromMesh)) < 0.0,
-                      longer,       longer * mesh->rounding,
-                      piece.hiding, piece.bounds};
+    return PlacedMesh{mesh,          glm::translate(glm::dmat4(1.0), -toGlm(origin)) * fromMesh,
+                      true,          glm::determinant(glm::dmat3(fromMesh)) < 0.0,
+                      longer,        longer * mesh->rounding,
+                      piece.hiding,  piece.bounds,
+                      piece.ownDrawn};
 }
 
 osg::BoundingBoxd CasterBodies::boundsOf(std::uint64_t geometry, const osg::Matrixd& groupFromLocal,

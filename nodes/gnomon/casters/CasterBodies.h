@@ -30,7 +30,7 @@ public:
     /// Drawables with fewer triangles are joined: to draw them apart would cost more than to make them again.
     static constexpr std::size_t fewestTriangles = 256;
 
-    /// True if a piece can be a body: large enough, without an alpha test, and not flattened by its transform.
+    /// True if a piece can be a body: large enough, of all its triangles, and not flattened by its transform.
     static bool isBody(const CasterDrawable& piece);
 
     /// A piece that can be a body, at its place. Reads the graph where the geometry is not known.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/casters/AlphaTest.h>
+#include <gnomon/casters/Casting.h>
 #include <gnomon/casters/Hiding.h>
 #include <gnomon/gl/QuadSplit.h>
 
@@ -31,13 +31,15 @@ struct CasterDrawable : public osg::Referenced {
     osg::Matrixd groupFromLocal;                ///< Transform from the drawable's frame to the group's.
     QuadSplit quads;                            ///< How its quads are cut.
     Hiding hiding = Hiding::Both;               ///< What it hides in the view.
-    std::optional<AlphaTest> test;              ///< Its alpha test; nullopt if it has none.
+    Casting casting;                            ///< What its states leave of it.
     osg::BoundingBoxd bounds;                   ///< Bounds of its triangles, group frame. Invalid without triangles.
     std::size_t triangles = 0;                  ///< Number of its triangles.
     unsigned invalidTriangles = 0;              ///< Triangles left out; see CasterExtraction::getInvalidTriangles().
     std::string invalidNode;                    ///< See CasterExtraction::getInvalidNode().
-    unsigned unknownTests = 0;                  ///< See CasterExtraction::getUnknownTests().
-    std::string unknownNode;                    ///< See CasterExtraction::getUnknownNode().
+    bool cutOut = false;                        ///< It has triangles that are clear in part.
+    bool ownDrawn = false;                      ///< The same, and only its own drawing tells what is clear.
+    osg::ref_ptr<const TextureAlpha> alphas;    ///< Of the texture that its casting looked at; may be null.
+    std::string cutoutNode;                     ///< See CasterExtraction::getCutoutNode().
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
     bool ofLevels = false;                                    ///< It is under an LOD: it may go and come back.
     osg::ref_ptr<const CasterExtraction> kept;   ///< Its triangles, if it is under an LOD and no body. Else null.

@@ -54,7 +54,7 @@ public:
     }
 
 protected:
-    std::optional<AlphaTest> alphaTest() const override { return _piece->test; }
+    Casting castingOf(const osg::Drawable&) override { return _piece->casting; }
     Hiding hiding() const override { return _piece->hiding; }
 
 private:
@@ -69,10 +69,13 @@ public:
         : CasterVisitor(casters),
           _known(known ? known->list : _none),
           _knownOwn(known ? known->own : CasterDrawables::OwnList()),
+          _knownLeftOut(known ? known->leftOut : std::string()),
           _levels(levels),
           _bodies(bodies) {}
 
-    bool changed() const { return _changed || _same != _known.size() || _own != _knownOwn; }
+    bool changed() const {
+        return _changed || _same != _known.size() || _own != _knownOwn || leftOut() != _knownLeftOut;
+    }
     std::uint64_t fingerprint() const { return _fingerprint.value(); }
     /// Those that were met.
     CasterDrawables::List take() {
@@ -82,38 +85,42 @@ public:
     CasterDrawables::OwnList takeOwn() { return std::move(_own); }
 
 protected:
-    void applyCaster(osg::Drawable& drawable) override {
-        const std::optional<AlphaTest> test = alphaTest();
-        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, test, quads());
+    void applyCaster(osg::Drawable& drawable, const Casting& casting) override {
+        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting, quads());
         Fingerprint placed;
         placed.mix(CasterFingerprint::placed(geometry, rootFromLocal()));
         placed.mix(static_cast<std::uint64_t>(hiding()));
         const std::uint64_t value = placed.value();
         _fingerprint.mix(value);
-        if (!_changed && isAt(_next, value)) {
-            ++_same;
-            ++_next;
-            return;
-        }
-        startOwnList();
-        osg::ref_ptr<const CasterDrawable> piece = find(value);
-        if (!piece && _levels && isOfLevels()) piece = _levels->find(value);
-        if (!piece) piece = make(drawable, value, geometry, test);
-        _met.push_back(piece);
+        if (pieceOf(drawable, casting, geometry, value).ownDrawn) applyOwnDrawing(drawable, casting);
     }
 
     /// In the old order as a rule.
-    void applyOwnDrawing(osg::Drawable& drawable) override {
-        const std::uint64_t value = OwnDrawing::fingerprintOf(getNodePath(), drawable, rootFromLocal());
+    void applyOwnDrawing(osg::Drawable& drawable, const Casting& casting) override {
+        const std::uint64_t value = OwnDrawing::fingerprintOf(getNodePath(), drawable, rootFromLocal(), casting);
         _fingerprint.mix(value);
         const std::size_t place = _own.size();
         if (place < _knownOwn.size() && _knownOwn[place]->fingerprint == value)
             _own.push_back(_knownOwn[place]);
         else
-            _own.push_back(new OwnDrawing(getNodePath(), drawable, rootFromLocal()));
+            _own.push_back(new OwnDrawing(getNodePath(), drawable, rootFromLocal(), casting));
     }
 
 private:
+    const CasterDrawable& pieceOf(osg::Drawable& drawable, const Casting& casting, std::uint64_t geometry,
+                                  std::uint64_t value) {
+        if (!_changed && isAt(_next, value)) {
+            ++_same;
+            return *_known[_next++];
+        }
+        startOwnList();
+        osg::ref_ptr<const CasterDrawable> piece = find(value);
+        if (!piece && _levels && isOfLevels()) piece = _levels->find(value);
+        if (!piece) piece = make(drawable, value, geometry, casting);
+        _met.push_back(piece);
+        return *piece;
+    }
+
     bool isAt(std::size_t place, std::uint64_t value) const {
         return place < _known.size() && _known[place]->fingerprint == value;
     }
@@ -149,7 +156,7 @@ private:
     }
 
     osg::ref_ptr<const CasterDrawable> make(osg::Drawable& drawable, std::uint64_t fingerprint, std::uint64_t geometry,
-                                            const std::optional<AlphaTest>& test) const {
+                                            const Casting& casting) {
         osg::ref_ptr<CasterDrawable> piece = new CasterDrawable;
         piece->fingerprint = fingerprint;
         piece->geometry = geometry;
@@ -157,19 +164,28 @@ private:
         piece->groupFromLocal = rootFromLocal();
         piece->quads = quads();
         piece->hiding = hiding();
-        piece->test = test;
-        if (_bodies) piece->bounds = _bodies->boundsOf(geometry, rootFromLocal(), piece->triangles);
+        piece->casting = casting;
+        piece->ofLevels = isOfLevels();
+        if (casting.test && casting.test->texture)
+            piece->casting.test->alphas = piece->alphas = alphasOf(*casting.test->texture);
+        if (_bodies && casting.clips.empty())
+            piece->bounds = _bodies->boundsOf(geometry, rootFromLocal(), piece->triangles);
+        const bool isKnown = piece->bounds.valid(); // as a body, which has all its triangles
+        if (isKnown) piece->casting.test.reset();
         DrawableBounds found(rootFromLocal(), quads());
-        if (!piece->bounds.valid() && !isOfLevels()) {
+        if (!isKnown && !isOfLevels() && casting.isWhole()) {
+            found.setRestart(casting.restart);
             readTriangles(drawable, found);
             piece->triangles = found.triangles;
             piece->bounds = found.bounds;
         }
         holdSources(drawable, piece->sources);
-        if (test) test->hold(drawable, piece->sources);
-        piece->ofLevels = isOfLevels();
-        const bool isKnown = piece->bounds.valid() && piece->ofLevels; // of a body
-        if ((piece->ofLevels && !isKnown) || test || found.anyInvalid) describe(*piece);
+        casting.hold(drawable, piece->sources);
+        if (!isKnown && (isOfLevels() || !casting.isWhole() || found.anyInvalid)) describe(*piece);
+        if (!casting.test && casting.ownDrawn && piece->triangles > 0) {
+            piece->cutOut = piece->ownDrawn = true;
+            piece->cutoutNode = nameAlong(getNodePath());
+        }
         return piece;
     }
 
@@ -181,21 +197,35 @@ private:
         found->trim();
         piece.invalidTriangles = found->getInvalidTriangles();
         piece.invalidNode = found->getInvalidNode();
-        piece.unknownTests = found->getUnknownTests();
-        piece.unknownNode = found->getUnknownNode();
-        if (!isOfLevels()) return;
+        piece.cutOut = !found->getCutouts().empty();
+        piece.ownDrawn = piece.cutOut && found->getCutouts().front().ownDrawn;
+        piece.cutoutNode = found->getCutoutNode();
         piece.triangles = found->getTriangles().size() / 3;
+        piece.bounds.init();
         for (const unsigned index : found->getTriangles()) piece.bounds.expandBy(found->getVertices()[index]);
-        if (!CasterBodies::isBody(piece)) piece.kept = found;
+        if (!piece.cutOut && found->getClearTriangles() == 0) piece.casting.test.reset();
+        if (isOfLevels() && !CasterBodies::isBody(piece)) piece.kept = found;
+    }
+
+    /// Of a texture once a visit. An image may be let go once it is drawn: then a piece that was made before knows it.
+    osg::ref_ptr<const TextureAlpha> alphasOf(const osg::Texture2D& texture) {
+        const auto [known, isNew] = _alphas.try_emplace(&texture);
+        if (!isNew) return known->second;
+        known->second = TextureAlpha::of(texture);
+        for (auto piece = _known.begin(); piece != _known.end() && !known->second; ++piece)
+            if ((*piece)->alphas && (*piece)->alphas->texture == &texture) known->second = (*piece)->alphas;
+        return known->second;
     }
 
     const CasterDrawables::List _none, &_known;
     const CasterDrawables::OwnList _knownOwn;
+    const std::string _knownLeftOut;
     CasterDrawables::OwnList _own;
     LevelPieces* const _levels;
     const CasterBodies* const _bodies;
     CasterDrawables::List _met;
     std::unordered_map<std::uint64_t, std::size_t> _places;
+    std::unordered_map<const osg::Texture2D*, osg::ref_ptr<const TextureAlpha>> _alphas;
     std::size_t _same = 0, _next = 0;
     bool _changed = false, _missed = false;
     Fingerprint _fingerprint;
@@ -204,15 +234,18 @@ private:
 } // namespace
 
 CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, std::uint64_t choiceOfAll,
-                                 OwnList drawings)
-    : list(std::move(pieces)), own(std::move(drawings)), fingerprint(fingerprintOfAll), choice(choiceOfAll) {
+                                 OwnList drawings, std::string leftOutOfAll)
+    : list(std::move(pieces)),
+      own(std::move(drawings)),
+      fingerprint(fingerprintOfAll),
+      choice(choiceOfAll),
+      leftOut(std::move(leftOutOfAll)) {
     for (const auto& piece : list) {
         bounds.expandBy(piece->bounds);
         if (invalidTriangles == 0) invalidNode = piece->invalidNode;
         invalidTriangles += piece->invalidTriangles;
-        if (unknownTests == 0) unknownNode = piece->unknownNode;
-        unknownTests += piece->unknownTests;
-        anyTested = anyTested || piece->test;
+        if (cutouts == 0) cutoutNode = piece->cutoutNode;
+        cutouts += piece->cutOut;
     }
 }
 
@@ -220,16 +253,16 @@ osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const S
                                                         const osg::ref_ptr<const CasterDrawables>& known,
                                                         const CasterView* view, LevelPieces* levels,
                                                         const QuadSplit& quads, const CasterBodies* bodies,
-                                                        const std::optional<CastingRule>& rule) {
+                                                        const CastingRule& rule) {
     DrawableVisitor visitor(casters, known.get(), levels, bodies);
     visitor.setQuads(quads);
-    if (rule) visitor.setRule(*rule);
+    visitor.setRule(rule);
     if (view) visitor.setView(*view);
     if (levels) levels->startVisit();
     root.accept(visitor);
     if (known && !visitor.changed()) return known;
-    const osg::ref_ptr<CasterDrawables> met =
-        new CasterDrawables(visitor.take(), visitor.fingerprint(), visitor.choice(), visitor.takeOwn());
+    const osg::ref_ptr<CasterDrawables> met = new CasterDrawables(
+        visitor.take(), visitor.fingerprint(), visitor.choice(), visitor.takeOwn(), visitor.leftOut());
     for (const auto& piece : met->list)
         if (levels && piece->ofLevels) levels->add(*piece);
     return met;

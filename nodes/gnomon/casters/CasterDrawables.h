@@ -3,7 +3,6 @@
 #include <gnomon/Selection.h>
 #include <gnomon/casters/CasterDrawable.h>
 #include <gnomon/casters/CasterView.h>
-#include <gnomon/casters/CastingRule.h>
 #include <gnomon/casters/OwnDrawing.h>
 
 #include <osg/BoundingBox>
@@ -39,10 +38,11 @@ class CasterDrawables : public osg::Referenced {
 public:
     /// Pieces, one for each drawable and path.
     using List = std::vector<osg::ref_ptr<const CasterDrawable>>;
-    /// What only its own code draws, one for each drawable and path.
+    /// What only its own code or state can draw as it is, one for each drawable and path.
     using OwnList = std::vector<osg::ref_ptr<const OwnDrawing>>;
     /// Sums up the pieces.
-    CasterDrawables(List pieces, std::uint64_t fingerprint, std::uint64_t choice = 0, OwnList own = {});
+    CasterDrawables(List pieces, std::uint64_t fingerprint, std::uint64_t choice = 0, OwnList own = {},
+                    std::string leftOut = {});
 
     /// True if there is no triangle.
     bool empty() const { return !bounds.valid(); }
@@ -51,15 +51,15 @@ public:
     bool isRetired() const { return _retired; }
 
     const List list;                 ///< In traversal order.
-    const OwnList own;               ///< Casters without triangles, which only maps draw. Traversal order.
+    const OwnList own;               ///< What only its own drawing shows as it is, for maps. Traversal order.
     const std::uint64_t fingerprint; ///< Changes with any piece.
     const std::uint64_t choice;      ///< Stands for the drawables under LODs, wherever they are.
     osg::BoundingBoxd bounds;        ///< Bounds of all triangles, group frame. Invalid without triangles.
     unsigned invalidTriangles = 0;   ///< Sum over the pieces.
     std::string invalidNode;         ///< Name of the first drawable with an invalid triangle.
-    bool anyTested = false;          ///< A piece has an alpha test.
-    unsigned unknownTests = 0;       ///< Sum over the pieces.
-    std::string unknownNode;         ///< Name of the first drawable with an unknown alpha test.
+    unsigned cutouts = 0;            ///< Pieces with triangles that are clear in part: only maps know in which.
+    std::string cutoutNode;          ///< Name of the first of them.
+    std::string leftOut;             ///< See CasterVisitor::leftOut().
 
     /// Finds the casters below a node. Reads the graph as a cull traversal does.
     /// @param known   an earlier result, whose unchanged pieces are used again; may be null.
@@ -67,7 +67,7 @@ public:
     /// @param levels  pieces under LODs that were met before, and gets those that are met now; may be null.
     /// @param quads   how quads are cut without a view.
     /// @param bodies  whose vertices tell where a body is; may be null.
-    /// @param rule    which drawables cast; nullopt: all that can.
+    /// @param rule    what of them casts.
     /// @return        `known` itself if nothing changed.
     ///
     /// Cost
@@ -76,7 +76,7 @@ public:
                                                   const osg::ref_ptr<const CasterDrawables>& known,
                                                   const CasterView* view = nullptr, LevelPieces* levels = nullptr,
                                                   const QuadSplit& quads = {}, const CasterBodies* bodies = nullptr,
-                                                  const std::optional<CastingRule>& rule = {});
+                                                  const CastingRule& rule = {});
 
 protected:
     ~CasterDrawables() override = default;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -26,13 +28,16 @@ osg::Vec3d larger(const osg::Vec3d& a, const osg::Vec3d& b) {
 /// Turns the primitives of one drawable into triangles of the root's frame.
 class CasterExtraction::Collector : public TriangleDecoder {
 public:
-    /// @param cutout  gets the coordinates of each vertex that is used, in place of those of all; may be null.
-    Collector(CasterExtraction& result, const osg::Matrixd& rootFromLocal, Cutout* cutout)
+    Collector(CasterExtraction& result, const osg::Matrixd& rootFromLocal, const osg::Drawable& drawable,
+              const Casting& casting)
         : TriangleDecoder(rootFromLocal, result.quads()),
           _result(result),
           _mirrored(mirrors(rootFromLocal)),
-          _cutout(cutout) {
-        if (_cutout) _coordinates.swap(_cutout->coordinates);
+          _casting(casting) {
+        setRestart(casting.restart);
+        if (casting.test) _clear.emplace(*casting.test, drawable);
+        _keepsCoordinates = casting.test && casting.test->isSampled();
+        _mixed = casting.ownDrawn;
     }
 
     /// Half a step of a float of the size of the largest coordinates, carried to the root's frame.
@@ -42,6 +47,9 @@ public:
         for (int i = 0; i < 3; ++i) inRoot += absolute(row(rootFromLocal(), i)) * step[i];
         return inRoot.length();
     }
+
+    bool isMixed() const { return _mixed; }
+    std::vector<osg::Vec3>& coordinates() { return _coordinates; }
 
 protected:
     void start(unsigned count) override {
@@ -53,11 +61,22 @@ protected:
     }
 
     void triangle(unsigned a, unsigned b, unsigned c) override {
+        const bool isThere = isInArray(a) && isInArray(b) && isInArray(c);
+        const ClearParts::Part part = _clear && isThere ? _clear->of(a, b, c) : ClearParts::Solid;
+        if (part == ClearParts::Clear) {
+            ++_result._clearTriangles;
+            return;
+        }
         const unsigned places[] = {place(a), place(_mirrored ? c : b), place(_mirrored ? b : c)};
-        if (std::count(std::begin(places), std::end(places), nowhere) > 0)
+        if (std::count(std::begin(places), std::end(places), nowhere) > 0) {
             ++_result._invalidTriangles;
-        else
+            return;
+        }
+        _mixed = _mixed || part == ClearParts::Mixed;
+        if (_casting.clips.empty())
             _result._triangles.insert(_result._triangles.end(), std::begin(places), std::end(places));
+        else
+            cut(places);
     }
 
     void point(unsigned index) override { place(index); }
@@ -75,15 +94,58 @@ private:
         if (!isUsable(inRoots)) return nowhere;
         if (isOfFloats())
             _reach = larger(_reach, absolute(place) * (weight(index) == 1.0 ? 1.0 : 2.0)); // w is rounded as well
+        return add(inRoots, _keepsCoordinates ? _clear->coordinates()[index] : osg::Vec3());
+    }
+
+    unsigned add(const osg::Vec3d& inRoots, const osg::Vec3& coordinate) {
         _result._vertices.push_back(inRoots);
-        if (_cutout) _cutout->coordinates.push_back(_coordinates[index]);
+        if (_keepsCoordinates) _coordinates.push_back(coordinate);
         return static_cast<unsigned>(_result._vertices.size() - 1);
     }
 
+    /// Adds what the planes leave of a triangle, as a fan.
+    void cut(const unsigned (&places)[3]) {
+        std::vector<unsigned> polygon(std::begin(places), std::end(places)), kept;
+        for (const auto& [number, plane] : _casting.clips) {
+            kept.clear();
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const unsigned from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+                const double start = distance(plane, from), end = distance(plane, to);
+                if (!(start < 0.0)) kept.push_back(from);
+                if ((start < 0.0) != (end < 0.0)) kept.push_back(between(from, to, start, end));
+            }
+            polygon = kept;
+        }
+        for (std::size_t i = 2; i < polygon.size(); ++i)
+            for (const unsigned corner : {polygon[0], polygon[i - 1], polygon[i]}) _result._triangles.push_back(corner);
+    }
+
+    double distance(const osg::Vec4d& plane, unsigned place) const {
+        const osg::Vec3d& at = _result._vertices[place];
+        return plane.x() * at.x() + plane.y() * at.y() + plane.z() * at.z() + plane.w();
+    }
+
+    /// The same, to the bit, from either end, so that what shares an edge goes on doing so.
+    unsigned between(unsigned from, unsigned to, double start, double end) {
+        if (_result._vertices[to] < _result._vertices[from]) {
+            std::swap(from, to);
+            std::swap(start, end);
+        }
+        const double share = start / (start - end);
+        const osg::Vec3d a = _result._vertices[from], b = _result._vertices[to];
+        const auto of = [this](unsigned at) { return osg::Vec3d(_coordinates[at - _firstVertex]); };
+        osg::Vec3d coordinate;
+        if (_keepsCoordinates) coordinate = of(from) + (of(to) - of(from)) * share;
+        return add(a + (b - a) * share, osg::Vec3(coordinate));
+    }
+
     CasterExtraction& _result;
-    bool _mirrored;
-    Cutout* _cutout;
-    std::vector<osg::Vec3> _coordinates; ///< of all vertices in the array.
+    const bool _mirrored;
+    const Casting& _casting;
+    std::optional<ClearParts> _clear;
+    bool _keepsCoordinates = false, _mixed = false;
+    const unsigned _firstVertex = static_cast<unsigned>(_result._vertices.size());
+    std::vector<osg::Vec3> _coordinates; ///< of the vertices that were added.
     osg::Vec3d _reach;                   ///< largest size of each coordinate of the float vertices used.
 };
 
@@ -101,18 +163,26 @@ void CasterExtraction::reset() {
     _rounding = 0.0;
     _invalidTriangles = 0;
     _invalidNode.clear();
-    _unknownTests = 0;
-    _unknownNode.clear();
+    _cutoutNode.clear();
+    _clearTriangles = 0;
 }
 
-void CasterExtraction::applyCaster(osg::Drawable& drawable) {
+void CasterExtraction::applyCaster(osg::Drawable& drawable, const Casting& casting) {
     const unsigned invalidBefore = _invalidTriangles;
-    _drawn.push_back({&drawable, _triangles.size(), hiding()});
-    Collector collector(*this, rootFromLocal(), startCutout(drawable));
+    const auto firstVertex = static_cast<unsigned>(_vertices.size());
+    const std::size_t firstCorner = _triangles.size();
+    _drawn.push_back({&drawable, firstCorner, hiding()});
+    Collector collector(*this, rootFromLocal(), drawable, casting);
     readTriangles(drawable, collector);
     _rounding = std::max(_rounding, collector.rounding());
     if (invalidBefore == 0 && _invalidTriangles > 0) _invalidNode = nameHere(drawable);
     holdSources(drawable, _sources);
+    casting.hold(drawable, _sources);
+    if (!collector.isMixed() || _triangles.size() == firstCorner) return;
+    if (_cutouts.empty()) _cutoutNode = nameHere(drawable);
+    const bool sampled = !casting.ownDrawn && casting.test->isSampled();
+    _cutouts.push_back({_drawn.size() - 1, !sampled, sampled ? *casting.test : AlphaTest(), firstVertex,
+                        std::move(collector.coordinates())});
 }
 
 void CasterExtraction::append(const CasterExtraction& other) {
@@ -121,6 +191,8 @@ void CasterExtraction::append(const CasterExtraction& other) {
     _vertices.insert(_vertices.end(), other._vertices.begin(), other._vertices.end());
     for (const unsigned index : other._triangles) _triangles.push_back(index + firstVertex);
     for (const Drawn& drawn : other._drawn) _drawn.push_back({drawn.drawable, drawn.first + firstCorner, drawn.hiding});
+    if (_cutouts.empty()) _cutoutNode = other._cutoutNode;
+    _clearTriangles += other._clearTriangles;
     for (const Cutout& cutout : other._cutouts) {
         _cutouts.push_back(cutout);
         _cutouts.back().drawn += firstDrawn;
@@ -130,8 +202,6 @@ void CasterExtraction::append(const CasterExtraction& other) {
     _rounding = std::max(_rounding, other._rounding);
     if (_invalidTriangles == 0) _invalidNode = other._invalidNode;
     _invalidTriangles += other._invalidTriangles;
-    if (_unknownTests == 0) _unknownNode = other._unknownNode;
-    _unknownTests += other._unknownTests;
 }
 
 void CasterExtraction::trim() {
@@ -139,19 +209,6 @@ void CasterExtraction::trim() {
     _slots = {};
     _vertices.shrink_to_fit();
     _triangles.shrink_to_fit();
-}
-
-CasterExtraction::Cutout* CasterExtraction::startCutout(const osg::Drawable& drawable) {
-    const std::optional<AlphaTest> test = alphaTest();
-    if (!test) return nullptr;
-    test->hold(drawable, _sources);
-    std::vector<osg::Vec3> coordinates = test->texture ? test->coordinatesOf(drawable) : std::vector<osg::Vec3>();
-    if (coordinates.empty()) {
-        if (_unknownTests++ == 0) _unknownNode = nameHere(drawable);
-        return nullptr;
-    }
-    _cutouts.push_back({_drawn.size() - 1, *test, static_cast<unsigned>(_vertices.size()), std::move(coordinates)});
-    return &_cutouts.back();
 }
 
 std::string CasterExtraction::nameHere(const osg::Drawable& drawable) const {

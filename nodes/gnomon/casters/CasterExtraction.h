@@ -44,19 +44,20 @@ public:
     /// The drawables, in traversal order.
     const std::vector<Drawn>& getDrawn() const { return _drawn; }
 
-    /// A drawable with an alpha test, such as leaves or a fence.
+    /// A drawable with triangles that are clear in part, such as leaves or a fence. Those that are all clear are left out.
     struct Cutout {
-        std::size_t drawn;                  ///< Its index in getDrawn().
-        AlphaTest test;                     ///< The test. It has a texture.
-        unsigned firstVertex;               ///< Index of its first vertex in getVertices(). Its others follow.
+        std::size_t drawn;    ///< Its index in getDrawn().
+        bool ownDrawn;        ///< Only its own drawing tells what is clear: it has no test or coordinates.
+        AlphaTest test;       ///< The test. AlphaTest::isSampled().
+        unsigned firstVertex; ///< Index of its first vertex in getVertices(). Its others follow.
         std::vector<osg::Vec3> coordinates; ///< Texture coordinates (s, t, q), one for each of its vertices.
     };
-    /// The drawables whose alpha test is known, in traversal order.
+    /// Those drawables, in traversal order.
     const std::vector<Cutout>& getCutouts() const { return _cutouts; }
-    /// Number of drawables whose alpha test is unknown, for example because a shader decides. They count as solid.
-    unsigned getUnknownTests() const { return _unknownTests; }
-    /// Name of the first drawable with an unknown alpha test, found as for getInvalidNode().
-    const std::string& getUnknownNode() const { return _unknownNode; }
+    /// Name of the first of them, found as for getInvalidNode().
+    const std::string& getCutoutNode() const { return _cutoutNode; }
+    /// Number of triangles left out because they are all clear.
+    std::size_t getClearTriangles() const { return _clearTriangles; }
 
     /// Largest error from storing a vertex as float in its own array, in the root's unit. 0 for double arrays.
     double getRounding() const { return _rounding; }
@@ -70,7 +71,7 @@ public:
     const std::vector<osg::ref_ptr<const osg::Referenced>>& getSources() const { return _sources; }
 
 protected:
-    void applyCaster(osg::Drawable& drawable) override;
+    void applyCaster(osg::Drawable& drawable, const Casting& casting) override;
 
 private:
     class Collector;
@@ -79,8 +80,6 @@ private:
         unsigned array = 0;
         unsigned place = 0;
     };
-    /// Its place in _cutouts; null if no test leaves parts of it.
-    Cutout* startCutout(const osg::Drawable& drawable);
     std::string nameHere(const osg::Drawable& drawable) const;
 
     std::vector<osg::Vec3d> _vertices;
@@ -93,8 +92,8 @@ private:
     double _rounding = 0.0;
     unsigned _invalidTriangles = 0;
     std::string _invalidNode;
-    unsigned _unknownTests = 0;
-    std::string _unknownNode;
+    std::string _cutoutNode;
+    std::size_t _clearTriangles = 0;
 };
 
 } // namespace gnomon

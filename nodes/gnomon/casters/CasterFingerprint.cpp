@@ -29,6 +29,13 @@ void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, cons
     }
     into.mix(std::uint64_t{geometry.getNumPrimitiveSets()});
     for (const auto& primitives : geometry.getPrimitiveSetList()) {
+        if (const osg::BufferData* commands = indirectCommands(*primitives)) {
+            into.mix(static_cast<const void*>(commands));
+            into.mix(word(commands->getModifiedCount(), commands->getTotalDataSize()));
+            into.mix(static_cast<const void*>(primitives.get()));
+            into.mix(word(primitives->getModifiedCount(), primitives->getMode()));
+            continue;
+        }
         const bool listed = primitives->getDrawElements() != nullptr; // then a look at the first would touch the list
         const unsigned indices = primitives->getNumIndices();
         into.mix(static_cast<const void*>(primitives.get()));
@@ -55,14 +62,14 @@ void CasterFingerprint::reset() {
     _fingerprint = Fingerprint();
 }
 
-std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const std::optional<AlphaTest>& test,
+std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const Casting& casting,
                                             const QuadSplit& quads) {
     Fingerprint result;
     if (const osg::Geometry* geometry = drawable.asGeometry())
         mixGeometry(*geometry, verticesOf(*geometry), quads, result);
     else
         mixBounds(drawable, quads, result);
-    if (test) test->mix(drawable, result);
+    casting.mix(drawable, result);
     return result.value();
 }
 

@@ -48,7 +48,7 @@ constexpr unsigned nowhere = std::numeric_limits<unsigned>::max();
 
 /// @param places  where each vertex went, if it is used; those of a drawable still follow one another.
 CasterExtraction::Cutout renumbered(const CasterExtraction::Cutout& found, const std::vector<unsigned>& places) {
-    CasterExtraction::Cutout result{found.drawn, found.test, nowhere, {}};
+    CasterExtraction::Cutout result{found.drawn, found.ownDrawn, found.test, nowhere, {}};
     const unsigned* own = places.data() + found.firstVertex;
     for (std::size_t i = 0; i < found.coordinates.size(); ++i)
         result.firstVertex = std::min(result.firstVertex, own[i]);
@@ -83,10 +83,7 @@ CasterMesh::CasterMesh(const CasterExtraction& casters, const std::optional<osg:
         }
         triangles->push_back(places[index]);
     }
-    for (const CasterExtraction::Cutout& cutout : casters.getCutouts()) {
-        cutouts.push_back(renumbered(cutout, places));
-        if (cutouts.back().coordinates.empty()) cutouts.pop_back(); // points and lines
-    }
+    for (const CasterExtraction::Cutout& cutout : casters.getCutouts()) cutouts.push_back(renumbered(cutout, places));
 }
 
 osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElementsUInt* triangles) {

@@ -43,7 +43,7 @@ public:
     osg::BoundingBoxd bounds; ///< Bounds of the triangles, frame of the extraction. Invalid without triangles.
     double rounding = 0.0;    ///< Largest error of a vertex by its float source.
     std::vector<CasterExtraction::Drawn> drawn;    ///< Drawables of the triangles. `first` indexes `triangles`.
-    std::vector<CasterExtraction::Cutout> cutouts; ///< Alpha-tested drawables. `firstVertex` indexes `vertices`.
+    std::vector<CasterExtraction::Cutout> cutouts; ///< Drawables with clear parts. `firstVertex` indexes `vertices`.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
 
     /// The tree of rays over this mesh, as long as anyone holds it. RaySceneCache alone uses it, under its lock.

@@ -4,7 +4,7 @@
 #include <gnomon/casters/CasterBodies.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterLayers.h>
-#include <gnomon/casters/CastingRule.h>
+#include <gnomon/casters/Casting.h>
 
 #include <OpenThreads/Mutex>
 
@@ -50,7 +50,7 @@ public:
     osg::ref_ptr<const CasterDrawables> drawables(osg::Node& root, const Selection& casters, const CasterView* view);
     /// Some of the drawables as meshes, made from earlier ones.
     osg::ref_ptr<const CasterLayers> layersOf(const CasterDrawables& some, const CasterLayers& before);
-    /// Which drawables cast, of those that can. Default: all but skies.
+    /// What of the drawables casts. Default: all that is drawn, transparent or not.
     void setRule(const CastingRule& rule);
     /// How often there was something that was not known.
     unsigned count() const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/casters/Casting.h>
 #include <gnomon/gl/QuadSplit.h>
 
 #include <osg/Matrixd>
@@ -7,6 +8,8 @@
 #include <osg/Vec3>
 #include <osg/Viewport>
 #include <osg/ref_ptr>
+
+#include <vector>
 
 namespace gnomon {
 
@@ -20,6 +23,7 @@ struct CasterView {
     const void* key = nullptr;            ///< any address that tells views apart.
     QuadSplit quads{};                    ///< of the driver that draws it.
     osg::Node::NodeMask mask = ~0u;       ///< of the cull: it draws a node if they share a bit.
+    std::vector<NumberedPlane> planes{};  ///< clip planes of all the view, group frame.
 };
 
 } // namespace gnomon

@@ -6,6 +6,7 @@
 #include <osg/AutoTransform>
 #include <osg/Billboard>
 #include <osg/Camera>
+#include <osg/ClipNode>
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/MatrixTransform>
@@ -68,16 +69,6 @@ float finestRange(const osg::LOD& lod) {
 
 osg::Vec3d row(const osg::Matrixd& matrix, int i) { return {matrix(i, 0), matrix(i, 1), matrix(i, 2)}; }
 
-/// Most nodes have no state.
-bool testsAlpha(const osg::Node& node) { return node.getStateSet() && AlphaTest::isOn(node); }
-
-template <class Test>
-bool isAnyAbove(const osg::Node& node, Test test) {
-    for (const osg::Node* above = &node; above->getNumParents() > 0;)
-        if (test(*(above = above->getParent(0)))) return true;
-    return false;
-}
-
 } // namespace
 
 /// While a node is on the way down.
@@ -86,19 +77,16 @@ public:
     OnTheWay(CasterVisitor& visitor, const osg::Node& node)
         : _visitor(visitor),
           _entered(visitor.isRoot(node) ? 1 : 0),
-          _alphaTests(testsAlpha(node) ? 1 : 0),
-          _exceptions(CastingRule::mayMatter(node) ? 1 : 0),
+          _exceptions(node.getStateSet() && visitor._judge.mayMatter(*node.getStateSet()) ? 1 : 0),
           _hidden(visitor._view && !(visitor._view->mask & node.getNodeMask()) ? 1 : 0),
           _states(visitor._states.size()) {
         _visitor._inside += _entered;
-        _visitor._alphaTests += _alphaTests;
         _visitor._exceptions += _exceptions;
         _visitor._hidden += _hidden;
         _visitor.enterState(node);
     }
     ~OnTheWay() {
         _visitor._inside -= _entered;
-        _visitor._alphaTests -= _alphaTests;
         _visitor._exceptions -= _exceptions;
         _visitor._hidden -= _hidden;
         _visitor._states.resize(_states);
@@ -108,7 +96,7 @@ public:
 
 private:
     CasterVisitor& _visitor;
-    const int _entered, _alphaTests, _exceptions, _hidden;
+    const int _entered, _exceptions, _hidden;
     const std::size_t _states;
 };
 
@@ -139,6 +127,9 @@ void CasterVisitor::reset() {
     _matrices.assign(1, osg::Matrixd::identity());
     _inside = _selected.empty() ? 1 : 0;
     _choice = Fingerprint();
+    _judge.reset();
+    _front = nullptr;
+    _leftOut.clear();
     findWays();
 }
 
@@ -178,16 +169,44 @@ void CasterVisitor::apply(osg::Drawable& drawable) {
     const OnTheWay here(*this, drawable);
     if (_inside == 0 || isText(drawable)) return;
     const bool triangles = hasTriangles(drawable), own = drawsItself(drawable);
-    if (!(triangles || own) || !isLetCast(drawable)) return;
+    if (!triangles && !own) return;
+    const Casting casting = castingOf(drawable);
+    if (!casting.casts) {
+        if (_leftOut.empty()) _leftOut = nameAlong(getNodePath());
+        return;
+    }
     if (_atLevels > 0 || _hidden > 0) _choice.mix(static_cast<const void*>(&drawable));
-    if (triangles) applyCaster(drawable);
-    if (own) applyOwnDrawing(drawable);
+    if (triangles) applyCaster(drawable, casting);
+    if (own) applyOwnDrawing(drawable, casting);
 }
 
-bool CasterVisitor::isLetCast(const osg::Drawable& drawable) const {
-    if (!_rule) return true;
-    const bool matters = _exceptions > 0 || isAnyAbove(*getNodePath().front(), CastingRule::mayMatter);
-    return !matters || _rule->lets(getNodePath(), drawable);
+/// Found once for all below one root.
+bool CasterVisitor::mayMatterAbove() {
+    const osg::Node* front = getNodePath().front();
+    if (front == _front) return _exceptionAbove;
+    _front = front;
+    _exceptionAbove = false;
+    for (const osg::Node* above = front; above->getNumParents() > 0 && !_exceptionAbove;) {
+        above = above->getParent(0);
+        _exceptionAbove = above->getStateSet() && _judge.mayMatter(*above->getStateSet());
+    }
+    return _exceptionAbove;
+}
+
+Casting CasterVisitor::castingOf(const osg::Drawable& drawable) {
+    if (_exceptions == 0 && !mayMatterAbove()) return {};
+    return _judge.of(getNodePath(), drawable, rootFromLocal(), _planes);
+}
+
+/// Planes that are given in the eye's frame are the view's.
+void CasterVisitor::apply(osg::ClipNode& node) {
+    const std::size_t before = _planes.size();
+    if (node.getReferenceFrame() == osg::ClipNode::RELATIVE_RF)
+        for (const auto& plane : node.getClipPlaneList())
+            _planes.emplace_back(plane->getClipPlaneNum(),
+                                 osg::Matrixd::inverse(rootFromLocal()) * plane->getClipPlane());
+    apply(static_cast<osg::Node&>(node));
+    _planes.resize(before);
 }
 
 void CasterVisitor::apply(osg::Geode& geode) {
@@ -239,6 +258,7 @@ void CasterVisitor::visitPixelLevels(osg::LOD& lod) {
 void CasterVisitor::setView(const CasterView& view) {
     _view = view;
     _quads = view.quads;
+    _planes = view.planes;
     _cullStack = nullptr;
 }
 
@@ -282,11 +302,6 @@ void CasterVisitor::apply(osg::Transform& transform) {
     _matrices.pop_back();
 }
 
-std::optional<AlphaTest> CasterVisitor::alphaTest() const {
-    if (_alphaTests == 0 && !isAnyAbove(*getNodePath().front(), testsAlpha)) return std::nullopt;
-    return AlphaTest::of(getNodePath());
-}
-
 Hiding CasterVisitor::hiding() const {
     return _hidden > 0 ? Hiding::Neither : _states.back().hiding(mirrors(rootFromLocal()));
 }
@@ -295,7 +310,10 @@ void CasterVisitor::holdSources(const osg::Drawable& drawable,
                                 std::vector<osg::ref_ptr<const osg::Referenced>>& sources) {
     if (const osg::Geometry* geometry = drawable.asGeometry()) {
         sources.emplace_back(verticesOf(*geometry));
-        sources.insert(sources.end(), geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end());
+        for (const auto& primitives : geometry->getPrimitiveSetList()) {
+            sources.emplace_back(primitives);
+            if (const osg::BufferData* commands = indirectCommands(*primitives)) sources.emplace_back(commands);
+        }
     } else {
         sources.emplace_back(&drawable);
     }

@@ -2,9 +2,8 @@
 #pragma once
 #include <gnomon/Selection.h>
 #include <gnomon/base/Fingerprint.h>
-#include <gnomon/casters/AlphaTest.h>
 #include <gnomon/casters/CasterView.h>
-#include <gnomon/casters/CastingRule.h>
+#include <gnomon/casters/Casting.h>
 #include <gnomon/casters/Hiding.h>
 
 #include <osg/CullStack>
@@ -43,6 +42,7 @@ public:
     void apply(osg::Node& node) override;
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Geode& geode) override;
+    void apply(osg::ClipNode& node) override;
     void apply(osg::LOD& lod) override;
     void apply(osg::Sequence& sequence) override;
     void apply(osg::Transform& transform) override;
@@ -57,10 +57,12 @@ public:
     /// How quads are cut where no view says so. Default: as Mesa does.
     void setQuads(const QuadSplit& quads) { _quads = quads; }
     const QuadSplit& quads() const { return _quads; }
-    /// Leaves out what a rule does not let cast. Default: all that can cast.
-    void setRule(const CastingRule& rule) { _rule = rule; }
+    /// Leaves out what casts nothing by the states that it is drawn with. Default: all counts, and whole.
+    void setRule(const CastingRule& rule) { _judge.setRule(rule); }
     /// Default Levels::Chosen.
     void setLevels(Levels levels) { _levels = levels; }
+    /// Name of the first drawable that casts nothing by its states, as nameAlong() has it; empty if each casts.
+    const std::string& leftOut() const { return _leftOut; }
     /// Stands for the drawables that were met under LODs and sequences, wherever they are.
     std::uint64_t choice() const { return _choice.value(); }
     /// Adds the arrays and primitive sets of a drawable that are read; the drawable itself if it is no geometry.
@@ -79,13 +81,13 @@ protected:
     ~CasterVisitor() override = default;
 
     /// Called for each caster, once for each way down to it.
-    virtual void applyCaster(osg::Drawable& drawable) = 0;
+    virtual void applyCaster(osg::Drawable& drawable, const Casting& casting) = 0;
     /// Called in the same way for each that drawsItself(). A geometry may be both.
-    virtual void applyOwnDrawing(osg::Drawable&) {}
+    virtual void applyOwnDrawing(osg::Drawable&, const Casting&) {}
     /// From the frame of the drawable being visited to that of the root.
     const osg::Matrixd& rootFromLocal() const { return _matrices.back(); }
-    /// Of the drawable being visited: nullopt, at no cost, if no state on the way to it switches one on.
-    virtual std::optional<AlphaTest> alphaTest() const;
+    /// What its states leave of the drawable being visited: all, at no cost, if no state on the way to it may matter.
+    virtual Casting castingOf(const osg::Drawable& drawable);
     /// Of the drawable being visited, in the view.
     virtual Hiding hiding() const;
     /// True while the drawable being visited is under an LOD or a sequence: it may go and come back.
@@ -98,7 +100,7 @@ private:
     void findWays();
     void enterState(const osg::Node& node);
     bool isOnTheWay(const osg::Node& node) const;
-    bool isLetCast(const osg::Drawable& drawable) const;
+    bool mayMatterAbove();
     bool goesTheOnlyWays(osg::Node& node);
     void visitLevels(osg::LOD& lod);
     void visitPixelLevels(osg::LOD& lod);
@@ -114,12 +116,15 @@ private:
     int _atPixelLevels = 0;                     ///< how many of them are on the way down.
     int _atLevels = 0;                          ///< how many LODs and sequences are on the way down.
     Fingerprint _choice;
-    int _inside = 0;                  ///< how often a selected node is on the way down.
-    int _alphaTests = 0;              ///< how many states on the way down switch an alpha test on.
-    int _exceptions = 0;              ///< how many states on the way down may matter to the rule.
+    int _inside = 0; ///< how often a selected node is on the way down.
+    CastingJudge _judge;
+    int _exceptions = 0;                ///< how many states on the way down may matter to it.
+    const osg::Node* _front = nullptr;  ///< of the path for which the next holds.
+    bool _exceptionAbove = false;       ///< whether a state above it may.
+    std::vector<NumberedPlane> _planes; ///< of the view, and of ClipNodes on the way down, root frame.
+    std::string _leftOut;
     int _hidden = 0;                  ///< how many nodes on the way down the view's mask leaves out.
     std::vector<HidingState> _states; ///< of those on the way down; the first is of what is above.
-    std::optional<CastingRule> _rule;
     /// Of what is above the selected nodes, the children that lead to it; once for each of its places among them.
     std::map<const osg::Node*, std::vector<osg::Node*>> _ways;
 };

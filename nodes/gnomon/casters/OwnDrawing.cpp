@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/PlacedBox.h>
 #include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/casters/OwnDrawing.h>
 #include <gnomon/casters/PathState.h>
 
@@ -42,14 +43,17 @@ bool changesUnseen(const osg::Drawable& drawable) {
 
 } // namespace
 
-OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix)
-    : fingerprint(fingerprintOf(path, given, matrix)),
+OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix,
+                       const Casting& what)
+    : fingerprint(fingerprintOf(path, given, matrix, what)),
       drawable(&given),
       groupFromLocal(matrix),
       states(statesAlong(path)),
       name(nameAlong(path)),
       bounds(placedBox(given.getBoundingBox(), matrix)),
-      byProgram(PathState(path).hasProgram()),
+      casting(what),
+      hasPiece(hasTriangles(given) && !drawsItself(given)),
+      byProgram(PathState(path).program() != nullptr),
       mayChange(changesUnseen(given)) {
     CasterVisitor::holdSources(given, sources);
     for (const auto& set : states) {
@@ -59,9 +63,9 @@ OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, co
 }
 
 std::uint64_t OwnDrawing::fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
-                                        const osg::Matrixd& groupFromLocal) {
+                                        const osg::Matrixd& groupFromLocal, const Casting& casting) {
     Fingerprint result;
-    result.mix(CasterFingerprint::of(drawable, groupFromLocal, {}, {}));
+    result.mix(CasterFingerprint::of(drawable, groupFromLocal, casting, {}));
     result.mix(static_cast<const void*>(&drawable));
     result.mix(std::uint64_t{changesUnseen(drawable)});
     for (const auto& set : statesAlong(path)) mixState(*set, result);

@@ -26,12 +26,15 @@ public:
     bool isTextureOn(unsigned unit, osg::StateAttribute::GLMode mode) const {
         return isOnBy([=](const osg::StateSet& set) { return set.getTextureMode(unit, mode); });
     }
-    /// Null if there is none.
-    osg::StateAttribute* attribute(osg::StateAttribute::Type type) const {
-        return attributeBy([type](const osg::StateSet& set) { return set.getAttributePair(type); });
+    /// Null if there is none, or one of another class.
+    template <class Attribute>
+    const Attribute* attribute(osg::StateAttribute::Type type, unsigned member = 0) const {
+        return dynamic_cast<const Attribute*>(
+            attributeBy([=](const osg::StateSet& set) { return set.getAttributePair(type, member); }));
     }
-    osg::StateAttribute* textureAttribute(osg::StateAttribute::Type type) const {
-        return attributeBy([type](const osg::StateSet& set) { return set.getTextureAttributePair(0, type); });
+    /// Null if there is none.
+    osg::StateAttribute* textureAttribute(osg::StateAttribute::Type type, unsigned unit = 0) const {
+        return attributeBy([=](const osg::StateSet& set) { return set.getTextureAttributePair(unit, type); });
     }
     /// Texture units that any set speaks of.
     unsigned units() const {
@@ -40,11 +43,22 @@ public:
         return static_cast<unsigned>(most);
     }
 
-    /// True if a program is in use, which may do anything.
-    bool hasProgram() const {
-        const auto* program = dynamic_cast<const osg::Program*>(attribute(osg::StateAttribute::PROGRAM));
-        return program && program->getNumShaders() > 0;
+    /// The program in use, which may do anything; null if there is none.
+    const osg::Program* program() const {
+        const auto* program = attribute<osg::Program>(osg::StateAttribute::PROGRAM);
+        return program && program->getNumShaders() > 0 ? program : nullptr;
     }
+
+    /// Number of the render bin that it is drawn in.
+    int bin() const {
+        int number = 0;
+        for (const osg::StateSet* set : _sets)
+            if (set->useRenderBinDetails()) number = set->getBinNumber();
+        return number;
+    }
+
+    /// The outermost first.
+    const std::vector<const osg::StateSet*>& sets() const { return _sets; }
 
 private:
     void add(const osg::Node& node, bool above = false) {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace gnomon {
 
@@ -41,6 +43,21 @@ public:
         _secondToFourth = isFromList ? _quads.secondToFourth : _quads.arraysSecondToFourth;
     }
     const QuadSplit& quads() const { return _quads; }
+    /// Index that ends a primitive in lists: see Casting::restart. Default: none.
+    void setRestart(const std::optional<unsigned>& index) { _restart = index; }
+    /// Indices by a function of the corner's number, as a list has them.
+    /// @param largest  index of their type.
+    /// @param base     is added to each.
+    template <class Index>
+    void drawIndexed(GLenum mode, unsigned count, Index index, unsigned largest, unsigned base = 0) {
+        const unsigned restart = _restart && *_restart == ~0u ? largest : _restart.value_or(0);
+        for (unsigned first = 0, end = 0; first <= count; first = end + 1) {
+            for (end = _restart ? first : count; end < count && index(end) != restart;) ++end;
+            decode(
+                mode, static_cast<GLsizei>(end - first), [=](unsigned i) { return index(first + i) + base; },
+                _quads.secondToFourth);
+        }
+    }
 
 protected:
     ~TriangleDecoder() override = default;
@@ -88,8 +105,9 @@ private:
 
     template <class Index>
     void decodeList(GLenum mode, GLsizei count, const Index* list) {
-        decode(
-            mode, count, [list](unsigned i) -> unsigned { return list[i]; }, _quads.secondToFourth);
+        drawIndexed(
+            mode, static_cast<unsigned>(std::max(count, 0)), [list](unsigned i) -> unsigned { return list[i]; },
+            std::numeric_limits<Index>::max());
     }
 
     /// `index(i)` is the vertex that the i-th of `count` corners of these primitives uses.
@@ -144,6 +162,7 @@ private:
     const osg::Matrixd _rootFromLocal;
     const QuadSplit _quads;
     bool _secondToFourth = _quads.secondToFourth; ///< of arrays.
+    std::optional<unsigned> _restart;
     const bool _affine;
     const float* _floats = nullptr;
     const double* _doubles = nullptr;

@@ -33,25 +33,32 @@ const bool registered = [] {
     return true;
 }();
 
-/// Casters without triangles are drawn by their own code, or not at all.
-void reportOwnDrawings(const EnlistedTechnique& entry, const CasterDrawables::OwnList& own) {
-    if (own.empty()) return;
-    const std::string first = ", the first in '" + own.front()->name + "'";
-    if (!entry.technique->drawsCasters())
-        return entry.technique->report(
-            entry.frameNumber,
-            "what draws itself or is made of patches casts nothing here: " + std::to_string(own.size()) + first +
-                ". Use map, or let a node that is never drawn cast in its place.");
-    const auto hasNone = [](const auto& drawing) { return !drawing->bounds.valid(); };
-    const auto unbounded = std::find_if(own.begin(), own.end(), hasNone);
-    if (unbounded != own.end())
-        entry.technique->report(entry.frameNumber, "'" + (*unbounded)->name +
-                                                       "' draws itself and has no bounds, so it casts nothing. Give it "
-                                                       "computeBoundingBox(), or call setInitialBound().");
+/// Casters without triangles are drawn by their own code, or not at all; clear parts of triangles in maps alone.
+void reportOwnDrawings(const EnlistedTechnique& entry, const CasterDrawables& casters) {
+    const auto report = [&entry](const std::string& cause) { entry.technique->report(entry.frameNumber, cause); };
+    const auto& own = casters.own;
+    if (entry.technique->drawsCasters()) {
+        const auto hasNone = [](const auto& drawing) { return !drawing->bounds.valid(); };
+        const auto unbounded = std::find_if(own.begin(), own.end(), hasNone);
+        if (unbounded != own.end())
+            report("'" + (*unbounded)->name +
+                   "' draws itself and has no bounds, so it casts nothing. Give it computeBoundingBox(), or call "
+                   "setInitialBound().");
+        return;
+    }
+    const auto isAlone = [](const auto& drawing) { return !drawing->hasPiece; };
+    const auto first = std::find_if(own.begin(), own.end(), isAlone);
+    if (first != own.end())
+        report("what draws itself or is made of patches casts nothing here: " +
+               std::to_string(std::count_if(first, own.end(), isAlone)) + ", the first in '" + (*first)->name +
+               "'. Use map, or let a node that is never drawn cast in its place.");
+    if (casters.cutouts > 0)
+        report("casters with clear parts cast as if they were solid: " + std::to_string(casters.cutouts) +
+               ", the first in '" + casters.cutoutNode + "'. Use map for them, or leave them out of the casters.");
 }
 
 bool areSome(const EnlistedTechnique& entry, const CasterDrawables& casters) {
-    reportOwnDrawings(entry, casters.own);
+    reportOwnDrawings(entry, casters);
     if (casters.invalidTriangles > 0)
         entry.technique->report(entry.frameNumber,
                                 "invalid triangles are left out: " + std::to_string(casters.invalidTriangles) +
@@ -64,9 +71,16 @@ bool areSome(const EnlistedTechnique& entry, const CasterDrawables& casters) {
                                                    "them anew.");
         return false;
     }
-    entry.technique->report(entry.frameNumber,
-                            "nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
-                                "' holds no triangles. Add the scene to the group, or check its setCasters().");
+    if (casters.leftOut.empty())
+        entry.technique->report(entry.frameNumber,
+                                "nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
+                                    "' holds no triangles. Add the scene to the group, or check its setCasters().");
+    else
+        entry.technique->report(entry.frameNumber, "nothing casts, because the ShadowCasterGroup '" +
+                                                       entry.group->getName() +
+                                                       "' holds no triangles that are drawn and opaque. Check the "
+                                                       "states of '" +
+                                                       casters.leftOut + "'.");
     return false;
 }
 
@@ -79,7 +93,7 @@ const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderSta
                               std::deque<FrameCasters>& known) {
     const CasterView view{entry.eyeFromGroup, *entry.projection, stage.getViewport(),
                           entry.viewPoint,    entry.lodScale,    &stage,
-                          entry.quads,        entry.mask};
+                          entry.quads,        entry.mask,        clipPlanesOf(stage, entry.eyeFromGroup)};
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
     return found == known.end() ? known.emplace_back(*entry.group, view) : *found;

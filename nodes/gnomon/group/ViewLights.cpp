@@ -2,6 +2,7 @@
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/group/ViewLights.h>
 
+#include <osg/ClipPlane>
 #include <osg/Light>
 #include <osgUtil/PositionalStateContainer>
 
@@ -23,8 +24,8 @@ osg::Vec3d rounded(const osg::Vec3d& vector, double eye) {
     if (!(size > 0.0) || !std::isfinite(size)) return vector;
     const double step = std::exp2(std::ilogb(size) - places);
     if (step == 0.0) return vector;
-    return {std::round(vector.x() / step) * step, std::round(vector.y() / step) * step,
-            std::round(vector.z() / step) * step};
+    const auto nearest = [step](double value) { return std::round(value / step) * step + 0.0; }; // no -0
+    return {nearest(vector.x()), nearest(vector.y()), nearest(vector.z())};
 }
 
 /// A light as the stage will apply it.
@@ -134,6 +135,27 @@ std::string whyAllIsDark(const ShadowCasterGroup& group, const std::map<int, Sta
 }
 
 } // namespace
+
+std::vector<NumberedPlane> clipPlanesOf(osgUtil::RenderStage& stage, const osg::Matrixd& eyeFromGroup) {
+    std::vector<NumberedPlane> planes;
+    const double eye = osg::Matrixd::inverse(eyeFromGroup).getTrans().length();
+    const auto collect = [&](osgUtil::PositionalStateContainer* container, const osg::Matrixd& eyeFromContainer) {
+        if (!container) return;
+        for (const auto& [attribute, containerFromPlane] : container->getAttrMatrixList()) {
+            const auto* clip = dynamic_cast<const osg::ClipPlane*>(attribute.get());
+            if (!clip) continue;
+            const osg::Matrixd eyeFromPlane =
+                containerFromPlane ? *containerFromPlane * eyeFromContainer : eyeFromContainer;
+            const osg::Vec4d plane = eyeFromGroup * (osg::Matrixd::inverse(eyeFromPlane) * clip->getClipPlane());
+            const osg::Vec3d normal(plane.x(), plane.y(), plane.z());
+            const osg::Vec3d still = rounded(normal, 0.0), far = rounded({plane.w(), 0.0, 0.0}, normal.length() * eye);
+            planes.emplace_back(clip->getClipPlaneNum(), osg::Vec4d(still, far.x()));
+        }
+    };
+    collect(stage.getInheritedPositionalStateContainer(), stage.getInheritedPositionalStateContainerMatrix());
+    collect(stage.getPositionalStateContainer(), osg::Matrixd());
+    return planes;
+}
 
 GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFromGroup, osgUtil::RenderStage& stage) {
     const std::map<int, StageLight> inStage = lightsIn(stage);

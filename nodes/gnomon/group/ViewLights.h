@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowLight.h>
+#include <gnomon/casters/Casting.h>
 
 #include <osg/Matrixd>
 #include <osgUtil/RenderStage>
@@ -24,5 +25,8 @@ struct GroupLights {
 /// After the whole cull: the lights set on the group, or else those that are on in the stage (LightSources wherever
 /// they stand, the viewer's headlight too).
 GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFromGroup, osgUtil::RenderStage& stage);
+
+/// After the whole cull: the clip planes of the ClipNodes of a stage, in the group's frame.
+std::vector<NumberedPlane> clipPlanesOf(osgUtil::RenderStage& stage, const osg::Matrixd& eyeFromGroup);
 
 } // namespace gnomon

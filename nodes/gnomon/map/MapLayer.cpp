@@ -131,7 +131,7 @@ MapLayer::Joined::Joined(const CasterMesh& of) : mesh(&of) {
         const auto& [texture, passing, reference, flat] = key;
         cutouts.push_back({builder.geometry(), texture, passing, reference, flat});
     }
-    if (builders.empty()) all.triangles = mesh->triangles;
+    if (mesh->cutouts.empty()) all.triangles = mesh->triangles;
     if (flatBoxes.empty()) bodies.triangles = all.triangles;
 }
 
@@ -149,7 +149,9 @@ void MapLayer::Joined::sort(Builders& builders) {
         const Span span{&(*mesh->triangles)[first], end - first};
         if (cutout != mesh->cutouts.end() && cutout->drawn == i) {
             const AlphaTest& test = cutout->test;
-            builders[{test.texture.get(), test.passing, test.reference, flat}].add(*mesh, *cutout++, span);
+            if (!cutout->ownDrawn)
+                builders[{test.texture.get(), test.passing, test.sampledReference(), flat}].add(*mesh, *cutout, span);
+            ++cutout;
         } else {
             append(*all.triangles, span);
             if (!flat) append(*bodies.triangles, span);
@@ -201,7 +203,7 @@ std::vector<MapLayer::Drawn> MapLayer::faces(bool flats, bool again, bool moving
     std::vector<Drawn> result;
     for (const PlacedMesh& placed : casters->meshes) {
         const Box box = boxOf(placed, casters->origin);
-        if (placed.isBody && isFlat(box) && !flats) continue;
+        if (placed.ownDrawn || (placed.isBody && isFlat(box) && !flats)) continue;
         const auto faces = placed.isBody ? again ? bodies.solidsOf(*placed.mesh) : bodies.of(*placed.mesh, moving)
                                          : _joined->faces(flats, again);
         if (faces) result.push_back({faces, placed.sceneFromMesh, box});

@@ -71,7 +71,8 @@ std::vector<OwnCaster> ownCastersOf(const CasterLayers& layers) {
 double clearanceOf(const std::vector<OwnCaster>& casters, const glm::dvec3& lamp) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const OwnCaster& caster : casters)
-        nearest = std::min(nearest, glm::distance(lamp, glm::clamp(lamp, caster.box.low, caster.box.high)));
+        if (!caster.drawing->hasPiece)
+            nearest = std::min(nearest, glm::distance(lamp, glm::clamp(lamp, caster.box.low, caster.box.high)));
     return nearest;
 }
 
@@ -102,6 +103,10 @@ void OwnCasterPass::draw(const OwnCaster& caster, const std::vector<Target>& tar
     const OwnState own(*_renderInfo.getState(), _own, *caster.drawing);
     const MapState map(_slopeOffset);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    if (const float alpha = caster.drawing->casting.ownFrom; alpha > 0.0f) {
+        glEnable(GL_ALPHA_TEST);
+        glAlphaFunc(GL_GEQUAL, alpha);
+    }
     for (const Target& target : targets)
         if (isIn(target)) draw(caster, target);
 }
@@ -112,20 +117,34 @@ void OwnCasterPass::draw(const OwnCaster& caster, const Target& target) const {
     const glm::dmat4 clipFromEye = target.clipFromScene * glm::inverse(_own.view.eyeFromScene);
     glViewport(target.corner.x, target.corner.y, target.size, target.size);
     glScissor(target.texels.x, target.texels.y, target.texels.width, target.texels.height);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity(); // else Mesa keeps a part of a perspective's inverse, and cuts elsewhere
     state.applyProjectionMatrix(refMatrix(clipFromEye));
-    if (!state.getLastAppliedProgramObject()) clip(clipFromEye, target.nearest);
+    if (!state.getLastAppliedProgramObject()) clip(caster, clipFromEye, target.nearest);
     state.applyModelViewMatrix(refMatrix(_own.view.eyeFromScene * caster.sceneFromLocal));
+    for (const auto& [number, plane] : caster.drawing->casting.clips) {
+        const osg::Vec4d inLocal = caster.drawing->groupFromLocal * plane;
+        glClipPlane(GL_CLIP_PLANE0 + number, inLocal.ptr());
+        glEnable(GL_CLIP_PLANE0 + number);
+    }
     if (state.getUseModelViewAndProjectionUniforms()) state.applyModelViewAndProjectionUniformsIfRequired();
     caster.drawing->drawable->draw(_renderInfo);
 }
 
-/// Nothing that a lamp has nearer than this casts.
-void OwnCasterPass::clip(const glm::dmat4& clipFromEye, double nearest) const {
+/// Nothing that a lamp has nearer than this casts. The plane is one that does not cut the caster already, if there is one.
+void OwnCasterPass::clip(const OwnCaster& caster, const glm::dmat4& clipFromEye, double nearest) const {
     if (!(nearest > 0.0)) return;
+    const auto isUsed = [&caster](GLenum plane) {
+        const auto& clips = caster.drawing->casting.clips;
+        return std::any_of(clips.begin(), clips.end(),
+                           [plane](const NumberedPlane& used) { return GL_CLIP_PLANE0 + used.first == plane; });
+    };
+    GLenum free = GL_CLIP_PLANE0;
+    while (isUsed(free) && free < GL_CLIP_PLANE5) ++free;
     const glm::dvec4 distance = glm::row(clipFromEye, 3), plane = distance - glm::dvec4(0.0, 0.0, 0.0, nearest);
     _renderInfo.getState()->applyModelViewMatrix(nullptr);
-    glClipPlane(GL_CLIP_PLANE0, &plane[0]);
-    glEnable(GL_CLIP_PLANE0);
+    glClipPlane(free, &plane[0]);
+    glEnable(free);
 }
 
 } // namespace gnomon

@@ -23,7 +23,7 @@ struct OwnCaster {
 };
 /// Those whose bounds are known.
 std::vector<OwnCaster> ownCastersOf(const CasterLayers& layers);
-/// From a lamp in the scene to the nearest of their boxes; infinite if there is none.
+/// From a lamp in the scene to the nearest box of those without known triangles; infinite if there is none.
 double clearanceOf(const std::vector<OwnCaster>& casters, const glm::dvec3& lamp);
 
 /// The view whose frame they are drawn for. Programs find its modelview, and uniforms that OpenSceneGraph gives views.
@@ -66,7 +66,7 @@ public:
 private:
     void draw(const OwnCaster& caster, const std::vector<Target>& targets) const;
     void draw(const OwnCaster& caster, const Target& target) const;
-    void clip(const glm::dmat4& clipFromEye, double nearest) const;
+    void clip(const OwnCaster& caster, const glm::dmat4& clipFromEye, double nearest) const;
 
     osg::RenderInfo& _renderInfo;
     const OwnCasters& _own;

@@ -25,7 +25,6 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    reportUnknownTests(view.frameNumber, casters.drawables());
     const std::optional<SpotCone> cone = spotOf(light);
     std::vector<osg::ref_ptr<MarkJob>> marks;
     if (cone && _options.programUnit < 0 && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
@@ -36,13 +35,6 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
 }
 
 std::string ShadowMapTechnique::programFunction() const { return visibilityFunction(definesOf(_options.filter)); }
-
-void ShadowMapTechnique::reportUnknownTests(unsigned frame, const CasterDrawables& pieces) const {
-    if (pieces.unknownTests == 0) return;
-    report(frame, "alpha-tested drawables cast as if they were solid: " + std::to_string(pieces.unknownTests) +
-                      ", the first in '" + pieces.unknownNode +
-                      "'. Give them a 2D texture on unit 0, texture coordinates for each vertex, and no shader.");
-}
 
 void ShadowMapTechnique::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);

@@ -38,7 +38,7 @@ public:
     bool hasLevels = false, hasQuads = false;
 
 protected:
-    void applyCaster(osg::Drawable& drawable) override {
+    void applyCaster(osg::Drawable& drawable, const Casting&) override {
         ++_met;
         drawables.insert(&drawable);
         hasQuads = hasQuads || isOfQuads(drawable);

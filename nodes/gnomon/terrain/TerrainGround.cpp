@@ -33,11 +33,11 @@ public:
     const std::vector<OsgHeightField>& fields() const { return _fields; }
 
 protected:
-    void applyCaster(osg::Drawable& drawable) override {
+    void applyCaster(osg::Drawable& drawable, const Casting& casting) override {
         if (const osg::HeightField* field = fieldOf(drawable))
             _fields.emplace_back(*field, rootFromLocal());
         else
-            CasterExtraction::applyCaster(drawable);
+            CasterExtraction::applyCaster(drawable, casting);
     }
 
 private:

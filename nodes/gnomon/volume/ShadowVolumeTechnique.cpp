@@ -29,10 +29,6 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowVolumeTechnique::prepare(const ViewFram
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    if (layers.pieces->anyTested)
-        report(view.frameNumber,
-               "alpha-tested casters cast as if they were solid, because volumes know no texture. Use "
-               "map for them, or leave them out of the casters.");
     std::optional<SeenVolumes> seen = _cache->see(layers, view, light.number, *usable, scene);
     if (!seen) return {}; // out of sight: nothing to say
     osg::ref_ptr<VolumeMark> mark = new VolumeMark;

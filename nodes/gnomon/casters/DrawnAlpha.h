@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/base/Fingerprint.h>
+
+#include <osg/Drawable>
+#include <osg/Matrixd>
+#include <osg/Referenced>
+#include <osg/Texture2D>
+#include <osg/Vec2d>
+#include <osg/Vec3>
+
+#include <cstdint>
+#include <vector>
+
+namespace gnomon {
+
+/// Bounds of an alpha.
+struct AlphaRange {
+    float least = 0.0f, most = 1.0f;
+};
+
+/// The alpha of a 2D texture's largest level, in cells: bounds for any part of it.
+///
+/// Cost
+/// - One pass over the image; 128 KiB at most.
+/// Threads
+/// - Any number. It never changes.
+class TextureAlpha : public osg::Referenced {
+public:
+    /// Null if the image is not there, or compressed with an alpha.
+    static osg::ref_ptr<const TextureAlpha> of(const osg::Texture2D& texture);
+    const osg::Texture2D* const texture; ///< Identifies it while somebody holds it. Do not dereference it.
+    /// Bounds of what a box of texture coordinates shows, its filter included.
+    AlphaRange over(const osg::Vec2d& low, const osg::Vec2d& high) const;
+
+protected:
+    ~TextureAlpha() override = default;
+
+private:
+    explicit TextureAlpha(const osg::Texture2D& of) : texture(&of) {}
+    /// Bounds as bytes, rounded outwards.
+    struct Cell {
+        std::uint8_t least = 255, most = 0;
+        void add(const Cell& other);
+    };
+    /// Cells along an axis that a footprint covers: at most two spans.
+    struct Covered {
+        int first[2], end[2], spans = 1;
+        bool border = false;
+    };
+    Covered coveredAlong(unsigned axis, double low, double high) const;
+    void read(const osg::Image& image);
+
+    int _size[2] = {0, 0}, _cells[2] = {0, 0}, _step = 1; ///< texels, cells, texels in a cell's side.
+    osg::Texture::WrapMode _wrap[2] = {};
+    double _reach = 0.5; ///< texels by which the filter looks beyond a coordinate.
+    Cell _border, _all;
+    std::vector<Cell> _grid;
+};
+
+/// Which parts of a drawable an alpha lets cast: that of its surface times that of a texture.
+struct AlphaTest {
+    int passing = 0;          ///< Bits: 1 passes alpha below the reference, 2 equal alpha, 4 alpha above it.
+    float reference = 0.0f;   ///< Reference, 0 … 1.
+    float surfaceFrom = 0.0f; ///< Where the surface's own alpha is less, it casts nothing.
+    float surface = 1.0f;     ///< Alpha of the surface.
+    bool byVertex = false;    ///< Colours of vertices have it instead.
+    osg::ref_ptr<osg::Texture2D> texture;    ///< On unit 0; null if no texture has any.
+    osg::Matrixd matrix;                     ///< Transforms the texture coordinates.
+    osg::ref_ptr<const TextureAlpha> alphas; ///< Of the texture; null where they are not known.
+
+    /// True if it can be sampled by the texture alone. Then sampledReference() takes the place of the reference.
+    bool isSampled() const { return texture && !byVertex; }
+    float sampledReference() const { return reference / surface; }
+    /// Texture coordinates (s, t, q) of each vertex of a drawable. Empty if it has none.
+    static std::vector<osg::Vec3> coordinatesOf(const osg::Drawable& drawable, const osg::Matrixd& matrix);
+    /// True if coordinatesOf() has any.
+    static bool hasCoordinates(const osg::Drawable& drawable);
+    /// See Casting.
+    void mix(const osg::Drawable& drawable, Fingerprint& into) const;
+    void hold(const osg::Drawable& drawable, std::vector<osg::ref_ptr<const osg::Referenced>>& sources) const;
+};
+
+/// The alpha of a drawable's vertices by their colours, 0 … 1. Empty if that cannot be read.
+std::vector<float> vertexAlphas(const osg::Drawable& drawable);
+
+/// Tells a drawable's clear triangles from others.
+class ClearParts {
+public:
+    enum Part { Clear, Mixed, Solid };
+
+    ClearParts(const AlphaTest& test, const osg::Drawable& drawable);
+    /// Of the triangle of three vertices that are in the array.
+    Part of(unsigned a, unsigned b, unsigned c) const;
+    /// See AlphaTest::coordinatesOf().
+    const std::vector<osg::Vec3>& coordinates() const { return _coordinates; }
+
+private:
+    AlphaRange textureOver(unsigned a, unsigned b, unsigned c) const;
+
+    const AlphaTest& _test;
+    std::vector<osg::Vec3> _coordinates;
+    std::vector<float> _vertices; ///< alphas.
+};
+
+} // namespace gnomon
