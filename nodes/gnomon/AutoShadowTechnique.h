@@ -92,6 +92,8 @@ public:
 
     /// True while it draws by techniques of which this is true.
     bool takesDrawables() const override;
+    /// See ShadowTechnique::letGo().
+    void letGo() const override;
     /// Keeps a time. See ShadowTechnique::watch().
     osg::ref_ptr<DrawWatch> watch(const ViewFrame& view) const override;
     /// Registers the technique with the compositor in a cull traversal.

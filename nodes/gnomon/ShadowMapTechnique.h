@@ -184,6 +184,8 @@ public:
 
     /// True.
     bool drawsCasters() const override { return true; }
+    /// See ShadowTechnique::letGo().
+    void letGo() const override;
 
 protected:
     ~ShadowMapTechnique() override;

@@ -90,6 +90,10 @@ public:
     /// True if prepare() uses only the casters' pieces. The group then makes no meshes of them. Default false.
     virtual bool takesDrawables() const { return false; }
 
+    /// Lets go what it keeps of casters that are gone. The compositor calls it in place of prepare() where nothing casts.
+    /// Default: nothing is kept.
+    virtual void letGo() const {}
+
     /// A watch that is told of the compositor's work on one view in draw. The compositor asks once a view, after prepare().
     /// Default: null.
     virtual osg::ref_ptr<DrawWatch> watch(const ViewFrame& view) const;

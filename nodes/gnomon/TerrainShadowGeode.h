@@ -170,6 +170,8 @@ public:
                                                const FrameCasters& casters) const override;
     /// True: the technique keeps casters by drawable.
     bool takesDrawables() const override { return true; }
+    /// See ShadowTechnique::letGo().
+    void letGo() const override;
     /// 1: it shadows its receiver alone.
     std::uint64_t surfacesKey() const override { return 1; }
 

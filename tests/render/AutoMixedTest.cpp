@@ -11,6 +11,8 @@
 #include <osg/MatrixTransform>
 #include <osg/Texture2D>
 
+#include <algorithm>
+
 using gnomon::AutoShadowTechnique;
 using test::Camera;
 using test::Picture;
@@ -24,7 +26,8 @@ const osg::Vec4d sun(1.0, 0.4, 1.2, 0.0);
 
 test::View view() { return test::perspective({-20.0, -28.0, 20.0}, {0.0, 0.0, 0.0}, 320, 240); }
 
-/// A board above the houses, whose shadow falls on them and on theirs. As triangles, and as what an alpha test might cut.
+/// A board above the houses, whose shadow falls on them and on theirs. As triangles, and as what an alpha test cuts: a hole
+/// of a centimetre, which no pixel shows.
 struct Board {
     const osg::Vec3 corner{-1.5f, -1.5f, 5.0f}, side{3.0f, 0.0f, 0.0f}, up{0.0f, 3.0f, 0.0f};
 
@@ -37,8 +40,9 @@ struct Board {
     }
     osg::ref_ptr<osg::Geode> node(bool tested) const {
         const osg::ref_ptr<osg::Image> white = new osg::Image;
-        white->allocateImage(1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-        white->setColor({1.0f, 1.0f, 1.0f, 1.0f}, 0u, 0u);
+        white->allocateImage(256, 256, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+        std::fill_n(white->data(), white->getTotalSizeInBytes(), 255);
+        white->setColor({1.0f, 1.0f, 1.0f, 0.0f}, 64u, 64u);
         const osg::ref_ptr<osg::Geometry> geometry = osg::createTexturedQuadGeometry(corner, side, up);
         osg::StateSet& set = *geometry->getOrCreateStateSet();
         const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(white);

@@ -23,6 +23,7 @@
 #include <osg/Scissor>
 #include <osg/Stencil>
 #include <osg/Texture2D>
+#include <osg/observer_ptr>
 
 #include <algorithm>
 #include <cmath>
@@ -430,6 +431,36 @@ TEST(CastingRule, AutoTakesAMapForWhatIsClearInPart) {
         const bool hasMap = technique.lastDecision().front().chosen.spec.find("map") != std::string::npos;
         EXPECT_EQ(hasMap, inPart);
         EXPECT_EQ(technique.diagnose(), std::vector<std::string>());
+    }
+}
+
+/// Tiles that come and go, as paged ones do, and then the last caster of all.
+TEST(GoneCasters, AreLetGoByAllTechniques) {
+    for (const std::string spec :
+         {"map", "volume", "traced", "planar:receiver=ground", "hull:receiver=ground", "auto"}) {
+        Scene scene = test::groundScene({tower}, 8.0, sun);
+        scene.addShadow(spec);
+        test::Camera camera(scene.root, fromTheSide());
+        camera.frame();
+        std::vector<osg::observer_ptr<osg::Array>> gone;
+        const auto add = [&gone](const osg::Geode& geode) {
+            gone.emplace_back(const_cast<osg::Array*>(geode.getDrawable(0)->asGeometry()->getVertexArray()));
+        };
+        for (int i = 0; i < 20; ++i) {
+            const osg::ref_ptr<osg::Geode> tile = test::node(test::moved(tower, {0.1 * i, 0.0, 0.0}), "tile");
+            add(*tile);
+            scene.content->addChild(tile);
+            camera.frame();
+            scene.content->removeChild(tile);
+            camera.frame();
+        }
+        for (const unsigned child : {1u, 0u}) { // the tower, and then the ground
+            add(*scene.content->getChild(child)->asGeode());
+            scene.content->removeChild(child);
+            for (int i = 0; i < 250; ++i) camera.frame(); // more than anything waits for another use
+            const auto lives = [](const auto& array) { return array.valid(); };
+            EXPECT_EQ(std::count_if(gone.begin(), gone.end(), lives), 0) << spec << " " << child;
+        }
     }
 }
 

@@ -82,6 +82,10 @@ void AutoShadowTechnique::traverse(osg::NodeVisitor& visitor) {
 
 bool AutoShadowTechnique::takesDrawables() const { return _chooser->takesDrawables(); }
 
+void AutoShadowTechnique::letGo() const {
+    _chooser->forEach([](ShadowTechnique& inner) { inner.letGo(); });
+}
+
 osg::ref_ptr<DrawWatch> AutoShadowTechnique::watch(const ViewFrame& view) const {
     return _chooser->watch(view.renderStage, _options);
 }

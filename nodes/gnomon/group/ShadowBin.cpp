@@ -301,7 +301,10 @@ std::size_t ShadowBin::prepareOf(const EnlistedTechnique& entry, const StageLeav
         return 0;
     }
     const FrameCasters& casters = castersOf(entry, *getStage(), known);
-    if (!hasCasters(entry, casters)) return 0;
+    if (!hasCasters(entry, casters)) {
+        entry.technique->letGo();
+        return 0;
+    }
     const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
     for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
     prepare(entry, found, casters, drawn);

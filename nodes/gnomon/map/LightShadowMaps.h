@@ -19,6 +19,7 @@ public:
     const int lightNumber;
     unsigned lastRound = 0; ///< of its cache, that asked for it.
 
+    bool areCastersRetired() const { return !_cause.casters || _cause.casters->layers->isRetired(); }
     /// Starts anew if anything but the casters differs from what they are of; maps stay as they lie where those move.
     void setCause(const MapRequest& cause);
     /// Finds what is needed now.
@@ -28,6 +29,8 @@ public:
                                  const glm::dvec2& pixels);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
     void update(const MapPrograms& resources, MapBodies& bodies, const OwnView& view);
+    /// Where none is needed: forgets those drawn last if they show what has changed since.
+    void letGo();
     /// What the maps would be like if they were made after find().
     MapForecast forecast(const glm::dmat4& clipFromScene) const;
     /// Without what a cone adds.

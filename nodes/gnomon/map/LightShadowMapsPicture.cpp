@@ -127,6 +127,14 @@ void LightShadowMaps::update(const MapPrograms& resources, MapBodies& bodies, co
     _picture = picture;
 }
 
+void LightShadowMaps::letGo() {
+    if (_drawnStill == _cause.casters->still && _drawnMoving == _cause.casters->moving) return;
+    _map = nullptr;
+    _picture = nullptr;
+    _drawnStill = _drawnMoving = nullptr;
+    _still = {};
+}
+
 /// True if several maps may hold a place of their light's frame, but not its depth.
 bool LightShadowMaps::isDivided() const {
     const auto further = [](const MapSlice& face) { return face.part > 0 && face.fit; };

@@ -96,7 +96,10 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
         map.find(receivers, scene.clipFromScene, {view.pixels.x(), view.pixels.y()});
     const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
     const bool forPrograms = settings.programUnit >= 0;
-    if (!bounds) return forPrograms ? new ProgramMaps(unsigned(settings.programUnit)) : nullptr;
+    if (!bounds) {
+        map.letGo();
+        return forPrograms ? new ProgramMaps(unsigned(settings.programUnit)) : nullptr;
+    }
     map.update(*_resources, _bodies, casters.own.empty() ? OwnView() : OwnView(scene.eyeFromScene, view.seen));
     MapLookupPass quad = map.quad(scene.clipFromScene);
     quad.resources = _resources;
@@ -158,6 +161,13 @@ LightShadowMaps& ShadowMapCache::find(const ViewFrame& view, int lightNumber) {
     map.lastRound = _round;
     _maps.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
     return map;
+}
+
+void ShadowMapCache::letGo() {
+    Lock lock(_mutex);
+    _maps.dropIf([](const auto& map) { return map->areCastersRetired(); });
+    _casters.dropIf([](const auto& entry) { return entry->layers->isRetired(); });
+    _bodies.prune();
 }
 
 void ShadowMapCache::resizeGLObjectBuffers(unsigned maxSize) {

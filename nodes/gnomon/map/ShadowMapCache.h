@@ -35,6 +35,9 @@ public:
     osg::ref_ptr<SpotMark> around(const ViewFrame& view, const glm::dvec4& light, const SpotCone& cone,
                                   const MapCasters& casters) const;
 
+    /// Drops the maps and meshes of retired casters.
+    void letGo();
+
     const MapPrograms& resources() const { return *_resources; }
     void resizeGLObjectBuffers(unsigned maxSize);
     void release(osg::State* state);

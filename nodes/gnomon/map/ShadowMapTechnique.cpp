@@ -36,6 +36,8 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
 
 std::string ShadowMapTechnique::programFunction() const { return visibilityFunction(definesOf(_options.filter)); }
 
+void ShadowMapTechnique::letGo() const { _maps->letGo(); }
+
 void ShadowMapTechnique::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
     _maps->resizeGLObjectBuffers(maxSize);

@@ -174,6 +174,11 @@ unsigned TerrainShadowCache::found() const {
     return _found;
 }
 
+void TerrainShadowCache::letGo() {
+    Lock lock(_mutex);
+    _towns.dropIf([](const auto& town) { return town->casters.areRetired(); });
+}
+
 void TerrainShadowCache::resizeGLObjectBuffers(unsigned maxSize) {
     Lock lock(_mutex);
     for (const auto& town : _towns)

@@ -51,6 +51,8 @@ public:
     osg::ref_ptr<const TerrainAnswer> answer(const ShadowCasterGroup& group, const CasterDrawables& casters,
                                              const TerrainPlace& place, const glm::dvec4& light,
                                              const TerrainSettings& settings);
+    /// Drops what is of retired casters.
+    void letGo();
     unsigned found() const; ///< how many tiles' shadows, so far.
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;

@@ -295,6 +295,8 @@ void TerrainShadowGeode::print(std::ostream& out) const {
         out << "    (" << _triangles[i] << ") (" << _triangles[i + 1] << ") (" << _triangles[i + 2] << ")\n";
 }
 
+void TerrainShadowGeode::letGo() const { _cache->letGo(); }
+
 void TerrainShadowGeode::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
     _program->resizeGLObjectBuffers(maxSize);
