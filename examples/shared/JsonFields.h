@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace gnomon::examples {
@@ -16,25 +15,27 @@ nlohmann::json jsonOf(double value);
 /// null if there is none.
 nlohmann::json jsonOf(const std::optional<double>& value);
 
-/// The field `name` of an object into `value`.
-/// @throws std::runtime_error, `"name" is missing.` or what it ought to be, if it is not there or of another kind.
-void readField(const nlohmann::json& object, const char* name, double& value);
-void readField(const nlohmann::json& object, const char* name, std::optional<double>& value);
-void readField(const nlohmann::json& object, const char* name, std::size_t& value);
-void readField(const nlohmann::json& object, const char* name, unsigned& value);
-void readField(const nlohmann::json& object, const char* name, bool& value);
-void readField(const nlohmann::json& object, const char* name, std::string& value);
-void readField(const nlohmann::json& object, const char* name, std::vector<std::string>& value);
-/// Finite ones.
-void readField(const nlohmann::json& object, const char* name, std::vector<double>& value);
-/// A list of pairs, [["name", "value"], …], which keeps their order.
-void readField(const nlohmann::json& object, const char* name, std::vector<std::pair<std::string, std::string>>& value);
-/// The same for what is an object or a list itself. null is allowed where `orNull`.
-const nlohmann::json& objectField(const nlohmann::json& object, const char* name, bool orNull = false);
-const nlohmann::json& listField(const nlohmann::json& object, const char* name);
+/// What jsonOf() made. @throws std::invalid_argument if it is something else.
+void readNumber(const nlohmann::json& from, double& value);
+void readNumber(const nlohmann::json& from, std::optional<double>& value);
+
+/// The field `name` of an object. @throws std::runtime_error, a sentence, if there is none.
+const nlohmann::json& fieldOf(const nlohmann::json& object, const std::string& name);
 
 /// Runs `read`; whatever it throws begins with `place` then: "points[3]: …".
 void readInside(const std::string& place, const std::function<void()>& read);
+/// Runs `read`. @throws std::runtime_error, "name" is of another kind, if it throws.
+void readKind(const std::string& name, const std::function<void()>& read);
+
+/// Results as a file holds them, a value a line. Text from drivers and file names need not be UTF-8: what is not becomes U+FFFD.
+std::string resultsText(const nlohmann::ordered_json& results);
+
+/// Reads the results that a program wrote, by `read`.
+/// @param name     that the program gives such files.
+/// @param program  with its option.
+/// @throws std::runtime_error, one sentence that begins with the file, if it is missing, no JSON, or `read` throws.
+void readResultsFile(const std::string& file, const std::string& name, const std::string& program,
+                     const std::function<void(const nlohmann::json&)>& read);
 
 /// A struct's fields are listed once, for the way into a file and for the way back:
 ///     template <class Way> static void fields(Way& way, PartOf<Way, Point> point) { way.field("x", point.x); … }
@@ -43,20 +44,23 @@ void readInside(const std::string& place, const std::function<void()>& read);
 template <class Way, class Part>
 using PartOf = typename Way::template PartOf<Part>;
 
-/// Writes into one object, in the order of the list where Json keeps one.
-template <class Json>
+template <class Value>
+inline constexpr bool isReal = std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>;
+
+/// Writes into one object, in the order of the list.
 class FieldWriter {
 public:
     template <class Part>
     using PartOf = const Part&;
 
-    explicit FieldWriter(Json& object) : _object(object) { object = Json::object(); }
+    explicit FieldWriter(nlohmann::ordered_json& object) : _object(object) {
+        object = nlohmann::ordered_json::object();
+    }
 
-    /// Anything that readField() reads.
+    /// Anything that nlohmann's library writes and reads.
     template <class Value>
     void field(const char* name, const Value& value) {
-        constexpr bool real = std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>;
-        if constexpr (real)
+        if constexpr (isReal<Value>)
             _object[name] = jsonOf(value);
         else
             _object[name] = value;
@@ -88,16 +92,10 @@ public:
         if (part) object(name, *part);
     }
 
-    /// The same for a part that has its own `write` to JSON, and `read`.
-    template <class Part, class Write, class Read>
-    void object(const char* name, const std::optional<Part>& part, Write write, Read) {
-        _object[name] = part ? Json(write(*part)) : Json(nullptr);
-    }
-
     /// A list of parts.
     template <class Part>
     void list(const char* name, const std::vector<Part>& parts) {
-        Json& array = _object[name] = Json::array();
+        nlohmann::ordered_json& array = _object[name] = nlohmann::ordered_json::array();
         for (const Part& part : parts) {
             FieldWriter inner(array.emplace_back());
             fields(inner, part);
@@ -105,7 +103,7 @@ public:
     }
 
 private:
-    Json& _object;
+    nlohmann::ordered_json& _object;
 };
 
 /// Reads from one object. What it throws says in which part: "points[3]: cost: …".
@@ -118,7 +116,15 @@ public:
 
     template <class Value>
     void field(const char* name, Value& value) {
-        readField(_object, name, value);
+        const nlohmann::json& from = fieldOf(_object, name);
+        readKind(name, [&] {
+            if constexpr (isReal<Value>)
+                readNumber(from, value);
+            else if constexpr (std::is_unsigned_v<Value> && !std::is_same_v<Value, bool>)
+                value = from.is_number_unsigned() ? from.get<Value>() : throw std::invalid_argument("");
+            else
+                from.get_to(value);
+        });
     }
 
     template <class Value>
@@ -126,45 +132,33 @@ public:
 
     template <class List>
     void group(const char* name, List list) {
-        FieldReader inner(objectField(_object, name));
+        FieldReader inner(fieldOf(_object, name));
         readInside(name, [&] { list(inner); });
     }
 
     template <class Part>
     void object(const char* name, Part& part) {
-        readPart(name, objectField(_object, name), part);
+        group(name, [&](FieldReader& inner) { fields(inner, part); });
     }
 
     template <class Part>
     void object(const char* name, std::optional<Part>& part) {
-        const nlohmann::json& from = objectField(_object, name, true);
         part.reset();
-        if (!from.is_null()) readPart(name, from, part.emplace());
-    }
-
-    template <class Part, class Write, class Read>
-    void object(const char* name, std::optional<Part>& part, Write, Read read) {
-        const nlohmann::json& from = objectField(_object, name, true);
-        part.reset();
-        if (!from.is_null()) readInside(name, [&] { part = read(from); });
+        if (!fieldOf(_object, name).is_null()) object(name, part.emplace());
     }
 
     template <class Part>
     void list(const char* name, std::vector<Part>& parts) {
         parts.clear();
-        for (const nlohmann::json& from : listField(_object, name)) {
-            const std::string place = std::string(name) + "[" + std::to_string(parts.size()) + "]";
-            readPart(place, from, parts.emplace_back());
+        const nlohmann::json& array = fieldOf(_object, name);
+        readKind(name, [&] { (void)array.get_ref<const nlohmann::json::array_t&>(); });
+        for (const nlohmann::json& from : array) {
+            FieldReader inner(from);
+            readInside(name + ("[" + std::to_string(parts.size()) + "]"), [&] { fields(inner, parts.emplace_back()); });
         }
     }
 
 private:
-    template <class Part>
-    static void readPart(const std::string& place, const nlohmann::json& from, Part& part) {
-        FieldReader inner(from);
-        readInside(place, [&] { fields(inner, part); });
-    }
-
     const nlohmann::json& _object;
 };
 

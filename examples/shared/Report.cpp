@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Report.h"
 
-#include "JsonFields.h"
-
 #include <iomanip>
 #include <sstream>
 #include <utility>
@@ -12,7 +10,6 @@ namespace gnomon::examples {
 namespace {
 
 using namespace metrics;
-using nlohmann::json;
 
 std::string number(double value) {
     std::ostringstream out;
@@ -135,7 +132,7 @@ static void fields(Way& way, PartOf<Way, Catastrophes> c) {
 }
 
 template <class Way>
-static void fields(Way& way, PartOf<Way, ShadowMetrics> m) {
+static void allFields(Way& way, PartOf<Way, ShadowMetrics> m) {
     way.group("pixels", [&](auto& sets) {
         sets.field("R", m.agreeing);
         sets.field("R+", m.facing);
@@ -171,18 +168,14 @@ std::string reportText(const ShadowMetrics& m) {
     return out.str();
 }
 
-json reportJson(const ShadowMetrics& m) {
-    json report;
+void fields(FieldWriter& way, const ShadowMetrics& m) { allFields(way, m); }
+void fields(FieldReader& way, ShadowMetrics& m) { allFields(way, m); }
+
+nlohmann::ordered_json reportJson(const ShadowMetrics& m) {
+    nlohmann::ordered_json report;
     FieldWriter way(report);
     fields(way, m);
     return report;
-}
-
-ShadowMetrics reportOf(const json& report) {
-    ShadowMetrics m;
-    FieldReader way(report);
-    fields(way, m);
-    return m;
 }
 
 } // namespace gnomon::examples

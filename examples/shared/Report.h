@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "JsonFields.h"
+
 #include <metrics/ShadowMetrics.h>
-#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -14,10 +15,10 @@ std::string reportText(const metrics::ShadowMetrics& metrics);
 std::string catastropheText(const metrics::Catastrophes& catastrophes);
 
 /// The same in full. Shares are 0 to 1; what does not exist is null; units are in the names.
-nlohmann::json reportJson(const metrics::ShadowMetrics& metrics);
+nlohmann::ordered_json reportJson(const metrics::ShadowMetrics& metrics);
 
-/// What reportJson() made of it. What follows from other numbers is not looked at.
-/// @throws std::runtime_error, one sentence, if a number is missing.
-metrics::ShadowMetrics reportOf(const nlohmann::json& report);
+/// The fields of both, see FieldWriter.
+void fields(FieldWriter& way, const metrics::ShadowMetrics& metrics);
+void fields(FieldReader& way, metrics::ShadowMetrics& metrics);
 
 } // namespace gnomon::examples

@@ -234,14 +234,14 @@ TEST_F(ResultsFile, RefusesABrokenFileInOneSentence) {
     EXPECT_EQ(refusalOf(""), begin + "it is not a complete JSON file.");
     EXPECT_EQ(refusalOf("[]"), begin + "\"gnomonchart\" is missing.");
     EXPECT_EQ(changed("\"gnomonchart\": 2", "\"gnomonchart\": 1"), begin + "its version is 1. Allowed: 2.");
-    EXPECT_EQ(changed("\"complete\": true", "\"complete\": 1"), begin + "\"complete\" is neither true nor false.");
+    EXPECT_EQ(changed("\"complete\": true", "\"complete\": 1"), begin + "\"complete\" is of another kind.");
     EXPECT_EQ(changed("\"triangles\": 3000000", "\"triangles\": -3"),
-              begin + "scenes[0]: \"triangles\" is not a whole number of 0 or more.");
+              begin + "scenes[0]: \"triangles\" is of another kind.");
     EXPECT_EQ(changed("\"firstMs\"", "\"f\""), begin + "points[0]: cost: \"firstMs\" is missing.");
     EXPECT_EQ(changed("\"p95\"", "\"p\""), begin + "points[0]: errors: boundaryPixels: \"p95\" is missing.");
     EXPECT_EQ(changed("\"causes\": {", "\"causes\": 3, \"c\": {"),
-              begin + "points[0]: errors: \"causes\" is not an object.");
-    EXPECT_EQ(changed("\"影\"", "7"), begin + "points[0]: notes: it is not a string.");
+              begin + "points[0]: errors: causes: \"acne\" is missing.");
+    EXPECT_EQ(changed("\"影\"", "7"), begin + "points[0]: \"notes\" is of another kind.");
 }
 
 TEST_F(ResultsFile, RefusesAFileThatIsNotThere) {

@@ -2,7 +2,6 @@
 #include "ChartResults.h"
 
 #include "JsonFields.h"
-#include "JsonFile.h"
 #include "OutputFile.h"
 #include "Report.h"
 
@@ -60,7 +59,7 @@ static void fields(Way& way, PartOf<Way, ChartPoint> point) {
     way.field("failure", point.failure);
     way.derived("catastrophic", point.catastrophic());
     way.object("cost", point.cost);
-    way.object("errors", point.errors, reportJson, reportOf);
+    way.object("errors", point.errors);
     way.object("prediction", point.prediction);
     way.field("shadedRmse", point.shadedRmse);
     way.field("flickerEnergy", point.flickerEnergy);
@@ -103,7 +102,7 @@ ChartResults loadResults(const std::string& file) {
     ChartResults results;
     readResultsFile(file, "results.json", "gnomonchart", [&](const json& object) {
         unsigned found = 0;
-        readField(object, "gnomonchart", found);
+        FieldReader(object).field("gnomonchart", found);
         if (found != version) throw std::runtime_error("its version is " + std::to_string(found) + ". Allowed: 2.");
         FieldReader way(object);
         fields(way, results);

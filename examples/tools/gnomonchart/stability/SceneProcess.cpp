@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "SceneProcess.h"
 
-#include "JsonFields.h"
 #include "StabilityFiles.h"
 
 #include <algorithm>
@@ -148,7 +147,7 @@ void SceneProcess::take(const std::string& line) {
     } else if (told.contains("cell")) {
         put(cellOf(told["cell"]));
     } else if (told.contains("settings")) {
-        readField(told, "settings", row.settings);
+        told["settings"].get_to(row.settings);
         _begun = false;
     } else if (told.contains("film")) {
         _place.value = told["film"][1].get<int>();

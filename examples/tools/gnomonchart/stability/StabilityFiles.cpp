@@ -2,7 +2,6 @@
 #include "StabilityFiles.h"
 
 #include "JsonFields.h"
-#include "JsonFile.h"
 #include "OutputFile.h"
 
 #include <filesystem>
@@ -83,8 +82,8 @@ static void fields(Way& way, PartOf<Way, StabilityResults> results) {
 namespace {
 
 template <class Part>
-json written(const Part& part) {
-    json object;
+ordered_json written(const Part& part) {
+    ordered_json object;
     FieldWriter way(object);
     fields(way, part);
     return object;
