@@ -35,6 +35,8 @@ class ShadowMapCache;
 /// - Penumbras: OpenGL 3.3 or its sampler objects.
 /// Limits
 /// - A caster 10⁷ m from the others costs all of them their shadow. Up to 10⁶ m it does not.
+/// - Facets decide what faces away from the light, and such a facet is wholly in shadow; one along the light is wholly lit or
+///   wholly dark. On finely facetted, smooth bodies the map decides near the terminator.
 /// - An edge is off by a fraction of a texel, see ShadowMapOptions::Filter.
 /// - An object loses its shadow if it is less than about a texel off the receiver, measured along the light.
 /// - A wall thinner than about two texels may let single pixels of light through where it stands on the floor.

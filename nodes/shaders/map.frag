@@ -27,52 +27,133 @@ const int reach = 2; // to the next pixel
 const int reach = 1;
 #endif
 
-// From `here` to its neighbour in a direction, or, of that nothing is known, to the one on the other side.
-ivec2 known(ivec2 here, ivec2 step) {
-    ivec2 to = here + step;
-    if (any(lessThan(to, ivec2(seenPixels.xy))) || any(greaterThan(to, ivec2(seenPixels.zw)))) to = here - step;
-    return clamp(to, ivec2(seenPixels.xy), ivec2(seenPixels.zw));
+// Change of e a pixel along both axes, to pixels so many away; where one of these is not in view, to that on the other side.
+vec2 changeOver(inout ivec2 way, float e, ivec2 here) {
+    ivec2 low = ivec2(seenPixels.xy), high = ivec2(seenPixels.zw), to = here + way;
+    way = ivec2(to.x < low.x || to.x > high.x ? -way.x : way.x, to.y < low.y || to.y > high.y ? -way.y : way.y);
+    to = clamp(here + way, low, high);
+    return (1.0 - e - vec2(seenDepth(ivec2(to.x, here.y)), seenDepth(ivec2(here.x, to.y)))) / vec2(way);
 }
 
-float changeTo(ivec2 to, float e, ivec2 here) {
-    ivec2 way = to - here;
-    return (1.0 - seenDepth(to) - e) / float(way.x + way.y);
+// Where a map's axes lead, about a pixel: along both axes of the picture, and in e.
+struct Axes {
+    vec3 x, y, z;
+};
+
+Axes axesOf(int i, vec3 at) {
+    return Axes(pixelFromMapX(i).xyz - at * pixelFromMapX(i).w, pixelFromMapY(i).xyz - at * pixelFromMapY(i).w,
+                pixelFromMapZ(i).xyz - at * pixelFromMapZ(i).w);
 }
 
-// Change of e a pixel along an axis, to the other pixel of the quad or, `beyond`, to that on its other side.
-float changeIn(float e, ivec2 here, ivec2 axis, bool beyond) {
-    ivec2 at = here * axis, way = reach * axis;
-    return changeTo(known(here, (((at.x + at.y) & 1) == 0) != beyond ? way : -way), e, here);
+// How much nearer to the eye than a surface each of them leads, on which e changes so. Along z it leads away from the light: more
+// than 0 if the surface is turned away from that.
+vec3 nearerAlong(Axes axes, vec2 change) {
+    return vec3(axes.x.z - dot(change, axes.x.xy), axes.y.z - dot(change, axes.y.xy), axes.z.z - dot(change, axes.z.xy));
 }
 
-float smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
-float larger(float a, float b) { return abs(a) < abs(b) ? b : a; }
+// How the surface lies that is seen in a pixel.
+struct Lie {
+    vec2 change;  // of e a pixel; of two that differ the smaller, for the other may lead to another surface
+    vec2 steeper; // the same on the steeper of two faces, where they meet in an edge towards the eye; elsewhere as `change`
+    bool turned;  // away from the light
+    bool facing;  // it, or along it: one of the two, unless that is not known
+    bool isAtRim; // of a surface: beside the pixel there is another, or this one bends
+};
 
-// Change of e a pixel on the steeper of two faces, where they meet in an edge towards the eye; elsewhere as changeOf().
-vec2 steeper;
-
-#ifdef SMOOTH
-bool isAtRim = false; // of a surface: beside the pixel there is another, or this one bends
-#endif
-
-// Change of e a pixel, to both sides, as dFdx() and dFdy() have it where quads are whole. It is the smaller one: the other may
-// lead to another surface. On an edge towards the eye the pixel may be on either face.
-vec2 changeOf(float e, ivec2 here) {
+// It is turned away, or is not, by all that the changes to both sides may mean. Where these do not agree, for the light is in its
+// plane or there are two surfaces, pixels farther and farther off on either side say which of them goes on there, and how it lies
+// to a part of a step of depth.
+//
+// What is turned away by less than some ten degrees, and bends but little on the way to where it faces the light, is of a smooth
+// body, whose facets are not its shape: its map decides.
+//
+// In one loop for llvmpipe: see mapOf(). steepest: see MapErrors, of a map whose side is 1.
+Lie lieOf(float e, ivec2 here, Axes axes, float steepest) {
+    const float most = 64.0, enough = 16.0;           // pixels: the farthest are so far off; what is known over so many is known
+    const float grazing = 3.5, faces = 2.0 * grazing; // times the steepest: tangents of 10 and 20 degrees
+    bvec2 isSecond = equal(here & 1, ivec2(1));       // of its quad
+    bool isX = abs(axes.z.x) > abs(axes.z.y);         // along the axis that leads nearer to the light
+    float away = isX ? axes.z.x : axes.z.y, ahead = away > 0.0 ? -1.0 : 1.0;
+    float snaps = min(depthError.y, 0.125), doubt = depthError.x * (abs(axes.z.x) + abs(axes.z.y));
+    float over = 1.0, side = 1.0, limit = 0.0, rest = 0.0, last = 0.0, facing = -1e37;
+    vec2 after, before, afterOver = vec2(1.0), beforeOver = vec2(1.0);
+    bool asked, unclear = false, smoothly = false;
+    ivec2 way = reach * (2 * ivec2(isSecond) - 1);
 #ifdef ODD
-    vec2 change = vec2(changeIn(e, here, ivec2(1, 0), false), changeIn(e, here, ivec2(0, 1), false));
+    ivec2 back = -way;
+    vec2 inQuad = changeOver(back, e, here);
 #else
-    vec2 change = vec2(dFdx(e), dFdy(e));
+    vec2 inQuad = vec2(dFdx(e), dFdy(e));
 #endif
-    vec2 other = vec2(changeIn(e, here, ivec2(1, 0), true), changeIn(e, here, ivec2(0, 1), true));
+    Lie lie;
+    float lit = 0.0;
+    do {
+        vec2 change = changeOver(way, e, here);
+        if (over == 1.0) {
+            after = mix(inQuad, change, isSecond);
+            before = mix(change, inQuad, isSecond);
+            bvec2 isAfter = lessThan(abs(after), abs(before));
+            vec2 least = mix(before, after, isAfter), larger = mix(after, before, isAfter);
+            lie.change = least;
+            lie.steeper = mix(least, larger, lessThan(after, before));
 #ifdef SMOOTH
-    isAtRim = any(greaterThan(abs(change - other), 0.75 * max(abs(change), abs(other)) + 4.0 * depthError.x));
+            lie.isAtRim = any(greaterThan(abs(after - before), 0.75 * abs(larger) + 4.0 * depthError.x));
 #endif
-    bvec2 isSecond = equal(here & 1, ivec2(1)); // of its quad: the change to the other is that from the pixel before
-    bvec2 isEdge = lessThan(mix(change - other, other - change, isSecond), vec2(0.0));
-    vec2 most = vec2(larger(change.x, other.x), larger(change.y, other.y));
-    change = vec2(smaller(change.x, other.x), smaller(change.y, other.y));
-    steeper = mix(change, most, isEdge);
-    return change;
+            vec3 nearer = nearerAlong(axes, least);
+            vec2 other = axes.z.xy * (larger - least);
+            lie.turned = nearer.z - max(other.x, 0.0) - max(other.y, 0.0) > doubt;
+            lie.facing = nearer.z - min(other.x, 0.0) - min(other.y, 0.0) < -doubt;
+            unclear = !lie.turned && !lie.facing;
+            limit = (abs(nearer.x) + abs(nearer.y)) / steepest;
+            smoothly = !lie.facing && nearer.z < grazing * limit;
+            rest = nearer.z + away * (isX ? least.x : least.y);
+            last = isX ? (ahead > 0.0 ? after.x : before.x) : (ahead > 0.0 ? after.y : before.y);
+        } else {
+            bvec2 isAfter = greaterThan(way, ivec2(0));
+            vec2 next = mix(before, after, isAfter), nextOver = mix(beforeOver, afterOver, isAfter);
+            vec2 off = abs(change - next) * over - snaps * abs(next);
+            bvec2 isNext = equal(nextOver, vec2(0.5 * over));
+            bvec2 goesOn = bvec2(off.x <= depthError.x && isNext.x, off.y <= depthError.x && isNext.y);
+            next = mix(next, change, goesOn);
+            nextOver = mix(nextOver, vec2(over), goesOn);
+            after = mix(after, next, isAfter);
+            before = mix(next, before, isAfter);
+            afterOver = mix(afterOver, nextOver, isAfter);
+            beforeOver = mix(nextOver, beforeOver, isAfter);
+            if ((isX ? way.x : way.y) * int(ahead) > 0) {
+                float mean = isX ? change.x : change.y;
+                float towards = away * (2.0 * mean - last) - rest; // by so much the outer half faces the light
+                last = mean;
+                smoothly = smoothly && abs(towards) < faces * limit && towards > facing - 4.0 * doubt / over;
+                if (towards > 2.0 * doubt / over) {
+                    lit += 1.0;
+                    facing = towards;
+                }
+            }
+        }
+        if (over > 1.0 && unclear && side > 0.0) {
+            side = -1.0;
+        } else {
+            vec2 likely = mix(after, before, lessThan(afterOver, beforeOver));
+            bool goesOn = any(equal(vec4(afterOver, beforeOver), vec4(over)));
+            bool near = over < 2.0 || abs(axes.z.z - dot(likely, axes.z.xy)) * over < 2.0 * doubt;
+            asked = (unclear && goesOn && near && over < most) || (smoothly && lit < 1.5 && over < most);
+            over *= 2.0;
+            side = unclear ? 1.0 : ahead;
+        }
+        way = ivec2(float(reach) * side * over);
+    } while (asked);
+    if (unclear) {
+        bvec2 same = equal(afterOver, beforeOver);
+        vec2 apart = abs(after - before) * afterOver - snaps * (abs(after) + abs(before));
+        bool known = !any(bvec2(same.x && apart.x > 2.0 * depthError.x, same.y && apart.y > 2.0 * depthError.x));
+        if (known) lie.change = mix(mix(after, before, lessThan(afterOver, beforeOver)), 0.5 * (after + before), same);
+        float away = axes.z.z - dot(lie.change, axes.z.xy);
+        lie.turned = known && away > doubt / enough;
+        lie.facing = known && !lie.turned;
+    }
+    lie.turned = lie.turned && !(smoothly && lit > 1.5);
+    return lie;
 }
 
 #ifdef SMOOTH
@@ -105,21 +186,19 @@ int mapOf(vec4 pixel, out vec4 inMap) {
     return found;
 }
 
+// By how much the depth may be wrong: a pixel is taken to be so much nearer to the eye, for between that and what it sees is nothing.
+float depthOff(Lie lie) { return depthError.x + depthError.y * (abs(lie.change.x) + abs(lie.change.y)); }
+
 // How a map compares a pixel on a surface whose plane is given: see visibility().
 struct Compared {
     vec2 place, slope; // in texels of the texture; change of depth a texel
-    float depth;
+    float depth;       // that is compared
+    vec3 inner;        // where the body of what is turned away is, if it has one: nearer to the light than this
 };
 
-// Gradient of a plane's function along a map's axes and its depth.
-vec3 inMapOf(int i, vec4 plane) {
-    return vec3(dot(plane, pixelFromMapX(i)), dot(plane, pixelFromMapY(i)), dot(plane, pixelFromMapZ(i)));
-}
-
-// at: see holds(). other: the plane of another face that the pixel may be on.
-Compared compared(int i, vec4 at, vec4 plane, vec4 other, float drawn, float nearer) {
-    vec3 inMap = at.xyz / at.w, change = inMapOf(i, plane), onOther = inMapOf(i, other);
-    vec4 error = mix(nearestError(i), farthestError(i), clamp(inMap.z, 0.0, 1.0));
+// held, drawn: see holds(), visibility(). What is edge-on is compared beside it, where nothing of its own is.
+Compared compared(int i, vec4 held, vec4 error, Axes axes, Lie lie, float drawn) {
+    vec3 inMap = held.xyz / held.w, change = nearerAlong(axes, lie.change), onOther = nearerAlong(axes, lie.steeper);
     float deeper = change.z, size = place(i).z;
     float least = (abs(change.x) + abs(change.y)) / (error.z * size); // of what is not edge-on, or pixels of two surfaces
     float along = max(max(abs(deeper), least), 1e-37); // all 0 where no plane is known
@@ -129,32 +208,55 @@ Compared compared(int i, vec4 at, vec4 plane, vec4 other, float drawn, float nea
         steepness = max(steepness, otherwise);
         allowed = max(allowed, allowance(others));
     }
-    float off = (drawn + (deeper > 0.0 ? 2.0 * nearer : 0.0)) / (along * at.w);
-    float depth = min(inMap.z, 1.0) - allowed - error.y * steepness - error.x - off;
-    vec2 slope = abs(deeper) >= least ? -change.xy / (deeper * size) : vec2(0.0);
-    return Compared(place(i).xy + inMap.xy * place(i).z, slope, depth);
+    float back = deeper > 0.0 ? 2.0 * depthOff(lie) : 0.0; // nearer to the eye, it is farther from the light
+    float off = (drawn + back) / (along * held.w);
+    float within = allowed + error.y * steepness + error.x + off, depth = min(inMap.z, 1.0);
+    bool isEdgeOn = abs(deeper) < least;
+    vec2 slope = isEdgeOn ? vec2(0.0) : -change.xy / (deeper * size);
+    vec2 outwards = isEdgeOn && lie.facing ? change.xy / max(length(change.xy), 1e-37) : vec2(0.0);
+    vec2 beside = outwards * (abs(outwards.x) + abs(outwards.y));
+    // Its plane goes deeper there, and by a texel less where four are compared.
+    const float inwards = 2.0, spare = 0.5 * (inwards - 1.0);
+    vec2 at = place(i).xy + inMap.xy * place(i).z;
+    vec3 inner = vec3(at - inwards * change.xy / max(length(change.xy), 1e-37), depth + spare * length(own) - error.x - off);
+    return Compared(at + beside, slope, depth - within, inner);
 }
 
-// Share of the light; outside all maps it is 1.
-//
-// drawn: how far off the plane may be, in e. Its place is left as it is, or edges would move; it is compared as if it were
-// as much nearer to the light as that is, measured along the light.
-// nearer: how much of e has been added. Of what faces away from the light that is farther from it, and taken back twice: a
-// single sheet, seen from behind, does not shadow itself.
+vec4 errorAt(int i, float depth) { return mix(nearestError(i), farthestError(i), clamp(depth, 0.0, 1.0)); }
+
+// Whether what is turned away from the light is in a shadow: of what is nearer to the light, or of its own body, which may be thin
+// here. A single sheet, seen from behind, has none, and is lit from there.
+bool shadowsItself(bool turned, Compared c) {
+    float outside = texture(maps, vec3(c.place * texel, c.depth));
+    return turned && min(outside, texture(maps, vec3(c.inner.xy * texel, c.inner.z))) < 1.0;
+}
+
+// How far off the plane of a surface may be drawn, in e.
+float drawnOff(float e, Lie lie) {
+    float slopes = abs(lie.change.x) + abs(lie.change.y);
+    return max(drawnError.x + e * drawnError.y, 0.0) * (1.0 + drawnError.z * slopes);
+}
+
+// Share of the light; outside all maps it is 1. A pixel's place is left as it is by what the plane may be off, or edges would move; it
+// is compared as if it were as much nearer to the light as that is, measured along the light.
 #ifndef SOFT
-float visibility(vec4 pixel, vec4 plane, vec4 other, float drawn, float nearer) {
-    vec4 at;
-    int found = mapOf(pixel, at), i = min(found, MAPS - 1);
-    Compared c = compared(i, at, plane, other, drawn, nearer);
+float visibility(float e, ivec2 here, vec2 at) {
+    vec4 inMap;
+    int found = mapOf(vec4(at, e, 1.0), inMap), i = min(found, MAPS - 1);
+    vec4 error = errorAt(i, inMap.z / inMap.w);
+    Axes axes = axesOf(i, vec3(at, e));
+    Lie lie = lieOf(e, here, axes, error.z * place(i).z);
+    inMap += depthOff(lie) * mapFromPixelZ(i);
+    Compared c = compared(i, inMap, error, axes, lie, drawnOff(e, lie));
 #ifdef SMOOTH
-    sides = sidesIn(i, at, -plane.xy);
+    sides = sidesIn(i, inMap, lie.change);
 #endif
 #if defined(SMOOTH) && defined(BICUBIC)
-    float share = litOverPixel(i, c.place, c.depth, c.slope, isAtRim ? mat2(0.0) : sides);
+    float share = litOverPixel(i, c.place, c.depth, c.slope, lie.isAtRim ? mat2(0.0) : sides);
 #else
     float share = lit(c.place, c.depth, c.slope, found < MAPS);
 #endif
-    return found < MAPS ? share : 1.0;
+    return found == MAPS ? 1.0 : shadowsItself(lie.turned, c) ? 0.0 : share;
 }
 #else
 #if MAPS > 2
@@ -164,19 +266,22 @@ const int mapCount = MAPS;
 #endif
 
 // Cascades are blended where one ends: `left` is the weight of those that are still to come.
-float visibility(vec4 pixel, vec4 plane, vec4 other, float drawn, float nearer) {
+float visibility(float e, ivec2 here, vec2 at) {
+    vec4 inMap;
+    int first = min(mapOf(vec4(at, e, 1.0), inMap), MAPS - 1);
+    Lie lie = lieOf(e, here, axesOf(first, vec3(at, e)), errorAt(first, inMap.z / inMap.w).z * place(first).z);
+    vec4 pixel = vec4(at, e + depthOff(lie), 1.0);
     float share = 0.0, left = 1.0;
     for (int i = 0; i < mapCount; ++i) {
-        vec4 at;
-        if (!holds(i, pixel, at)) continue;
-        Compared c = compared(i, at, plane, other, drawn, nearer);
+        if (!holds(i, pixel, inMap)) continue;
+        Compared c = compared(i, inMap, errorAt(i, inMap.z / inMap.w), axesOf(i, vec3(at, e)), lie, drawnOff(e, lie));
         const float fade = 0.1, least = 0.001; // of a side; of a place that no map holds well
         float weight = left;
 #if MAPS > 1
-        vec2 inMap = at.xy / at.w, inside = min(inMap, 1.0 - inMap) - border - mostSpread(i, c.depth) / place(i).z;
+        vec2 in_ = inMap.xy / inMap.w, inside = min(in_, 1.0 - in_) - border - mostSpread(i, c.depth) / place(i).z;
         weight *= clamp(min(inside.x, inside.y) / fade, least, 1.0);
 #endif
-        share += weight * litSoftly(i, c.place, c.depth, c.slope);
+        share += shadowsItself(lie.turned, c) ? 0.0 : weight * litSoftly(i, c.place, c.depth, c.slope);
         left -= weight;
         if (left <= least) return share / (1.0 - left);
     }
@@ -207,19 +312,11 @@ float ofPixel(float arrives) {
 }
 #endif
 
-// A function that is 0 on the plane through a place, on which e changes so; elsewhere e less the plane's.
-vec4 planeAt(vec2 at, float e, vec2 slope) { return vec4(-slope, 1.0, dot(slope, at) - e); }
-
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     float e = 1.0 - seenDepth(here);
-    vec2 slope = changeOf(e, here);
-    // As much nearer to the eye as the depth may be wrong: between the eye and what it sees is nothing.
-    float slopes = abs(slope.x) + abs(slope.y), drawn = max(drawnError.x + e * drawnError.y, 0.0);
-    float off = depthError.x + depthError.y * slopes, nearer = e + off;
     vec2 at = gl_FragCoord.xy + depthError.zw;
-    float arrives = visibility(vec4(at, nearer, 1.0), planeAt(at, nearer, slope), planeAt(at, nearer, steeper),
-                               drawn * (1.0 + drawnError.z * slopes), off);
+    float arrives = visibility(e, here, at);
 #ifdef SMOOTH
     arrives = ofPixel(arrives);
 #endif

@@ -42,9 +42,11 @@ flat in vec4 constant[FLATS];
 // The same of a map that differs from pixel to pixel: a varying of such an index is slower than a uniform.
 #if MAPS == 1
 #define mapFromPixelOf(i) mapFromPixel(0)
+#define mapFromPixelZ(i) placing(0, 2)
 #else
 mat4 matrixAt(int first) { return mat4(constants[first], constants[first + 1], constants[first + 2], constants[first + 3]); }
 #define mapFromPixelOf(i) matrixAt(SHARED + PLACING * (i))
+#define mapFromPixelZ(i) constants[SHARED + PLACING * (i) + 2]
 #endif
 #define place(i) ofMap(i, 0)         // in the texture: corner, and texels on a side
 #define pixelFromMapX(i) ofMap(i, 1) // columns of the inverse of mapFromPixel
