@@ -173,7 +173,7 @@ struct Leaf {
         place->addChild(drawable);
     }
     osg::ref_ptr<const CasterDrawables> pieces(const osg::ref_ptr<const CasterDrawables>& known = nullptr) const {
-        return CasterDrawables::of(*place, {}, known, nullptr, nullptr, {}, nullptr, {0.5f});
+        return CasterDrawables::of(*place, {}, known, nullptr, nullptr, nullptr, {0.5f});
     }
     osg::ref_ptr<osg::Geometry> drawable = triangle(0.0f);
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;

@@ -30,7 +30,6 @@ protected:
 
 osg::ref_ptr<const CasterBody> extracted(const CasterDrawable& piece) {
     const osg::ref_ptr<BodyReader> found = new BodyReader;
-    found->setQuads(piece.quads);
     found->restart = piece.casting.restart;
     const_cast<osg::Drawable&>(*piece.drawable).accept(*found); // which changes nothing
     const osg::ref_ptr<CasterBody> body = new CasterBody;

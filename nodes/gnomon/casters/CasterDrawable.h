@@ -2,7 +2,6 @@
 #pragma once
 #include <gnomon/casters/Casting.h>
 #include <gnomon/casters/Hiding.h>
-#include <gnomon/gl/QuadSplit.h>
 
 #include <osg/BoundingBox>
 #include <osg/Drawable>
@@ -29,7 +28,6 @@ struct CasterDrawable : public osg::Referenced {
     std::uint64_t geometry = 0;                 ///< The same, wherever it is.
     osg::ref_ptr<const osg::Drawable> drawable; ///< The drawable itself.
     osg::Matrixd groupFromLocal;                ///< Transform from the drawable's frame to the group's.
-    QuadSplit quads;                            ///< How its quads are cut.
     Hiding hiding = Hiding::Both;               ///< What it hides in the view.
     Casting casting;                            ///< What its states leave of it.
     osg::BoundingBoxd bounds;                   ///< Bounds of its triangles, group frame. Invalid without triangles.

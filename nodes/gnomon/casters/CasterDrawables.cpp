@@ -49,7 +49,6 @@ public:
         if (piece.kept) return append(*piece.kept);
         _piece = &piece;
         setRootFromVisited(piece.groupFromLocal);
-        setQuads(piece.quads);
         const_cast<osg::Drawable&>(*piece.drawable).accept(*this); // which changes nothing
     }
 
@@ -86,7 +85,7 @@ public:
 
 protected:
     void applyCaster(osg::Drawable& drawable, const Casting& casting) override {
-        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting, quads());
+        const std::uint64_t geometry = CasterFingerprint::ofGeometry(drawable, casting);
         Fingerprint placed;
         placed.mix(CasterFingerprint::placed(geometry, rootFromLocal()));
         placed.mix(static_cast<std::uint64_t>(hiding()));
@@ -162,7 +161,6 @@ private:
         piece->geometry = geometry;
         piece->drawable = &drawable;
         piece->groupFromLocal = rootFromLocal();
-        piece->quads = quads();
         piece->hiding = hiding();
         piece->casting = casting;
         piece->ofLevels = isOfLevels();
@@ -172,7 +170,7 @@ private:
             piece->bounds = _bodies->boundsOf(geometry, rootFromLocal(), piece->triangles);
         const bool isKnown = piece->bounds.valid(); // as a body, which has all its triangles
         if (isKnown) piece->casting.test.reset();
-        DrawableBounds found(rootFromLocal(), quads());
+        DrawableBounds found(rootFromLocal());
         if (!isKnown && !isOfLevels() && casting.isWhole()) {
             found.setRestart(casting.restart);
             readTriangles(drawable, found);
@@ -252,10 +250,8 @@ CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, st
 osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const Selection& casters,
                                                         const osg::ref_ptr<const CasterDrawables>& known,
                                                         const CasterView* view, LevelPieces* levels,
-                                                        const QuadSplit& quads, const CasterBodies* bodies,
-                                                        const CastingRule& rule) {
+                                                        const CasterBodies* bodies, const CastingRule& rule) {
     DrawableVisitor visitor(casters, known.get(), levels, bodies);
-    visitor.setQuads(quads);
     visitor.setRule(rule);
     if (view) visitor.setView(*view);
     if (levels) levels->startVisit();

@@ -65,7 +65,6 @@ public:
     /// @param known   an earlier result, whose unchanged pieces are used again; may be null.
     /// @param view    whose levels of detail are taken; null: the finest.
     /// @param levels  pieces under LODs that were met before, and gets those that are met now; may be null.
-    /// @param quads   how quads are cut without a view.
     /// @param bodies  whose vertices tell where a body is; may be null.
     /// @param rule    what of them casts.
     /// @return        `known` itself if nothing changed.
@@ -75,8 +74,7 @@ public:
     static osg::ref_ptr<const CasterDrawables> of(osg::Node& root, const Selection& casters,
                                                   const osg::ref_ptr<const CasterDrawables>& known,
                                                   const CasterView* view = nullptr, LevelPieces* levels = nullptr,
-                                                  const QuadSplit& quads = {}, const CasterBodies* bodies = nullptr,
-                                                  const CastingRule& rule = {});
+                                                  const CasterBodies* bodies = nullptr, const CastingRule& rule = {});
 
 protected:
     ~CasterDrawables() override = default;

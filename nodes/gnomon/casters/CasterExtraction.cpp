@@ -30,10 +30,7 @@ class CasterExtraction::Collector : public TriangleDecoder {
 public:
     Collector(CasterExtraction& result, const osg::Matrixd& rootFromLocal, const osg::Drawable& drawable,
               const Casting& casting)
-        : TriangleDecoder(rootFromLocal, result.quads()),
-          _result(result),
-          _mirrored(mirrors(rootFromLocal)),
-          _casting(casting) {
+        : TriangleDecoder(rootFromLocal), _result(result), _mirrored(mirrors(rootFromLocal)), _casting(casting) {
         setRestart(casting.restart);
         if (casting.test) _clear.emplace(*casting.test, drawable);
         _keepsCoordinates = casting.test && casting.test->isSampled();

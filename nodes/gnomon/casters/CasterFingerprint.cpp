@@ -11,17 +11,7 @@ namespace {
 /// Two counts of 32 bits as one word.
 std::uint64_t word(unsigned high, unsigned low) { return std::uint64_t{high} << 32 | low; }
 
-bool isOfQuads(const osg::PrimitiveSet& primitives) {
-    return primitives.getMode() == GL_QUADS || primitives.getMode() == GL_QUAD_STRIP;
-}
-
-/// All that decides how a drawable's quads are cut.
-std::uint64_t splitOf(const osg::Drawable& drawable, const QuadSplit& quads) {
-    return word(quads.secondToFourth, quads.stripSecondToThird) ^
-           word(quads.arraysSecondToFourth, isFromList(drawable, quads)) << 1;
-}
-
-void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, const QuadSplit& quads, Fingerprint& into) {
+void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, Fingerprint& into) {
     into.mix(static_cast<const void*>(vertices));
     if (vertices) {
         into.mix(word(vertices->getModifiedCount(), vertices->getNumElements()));
@@ -41,14 +31,12 @@ void mixGeometry(const osg::Geometry& geometry, const osg::Array* vertices, cons
         into.mix(static_cast<const void*>(primitives.get()));
         into.mix(word(primitives->getModifiedCount(), indices));
         into.mix(word(primitives->getMode(), listed || indices == 0 ? 0 : primitives->index(0)));
-        if (isOfQuads(*primitives)) into.mix(splitOf(geometry, quads));
     }
 }
 
-void mixBounds(const osg::Drawable& drawable, const QuadSplit& quads, Fingerprint& into) {
+void mixBounds(const osg::Drawable& drawable, Fingerprint& into) {
     const osg::BoundingBox& bounds = drawable.getBoundingBox();
     into.mix(static_cast<const void*>(&drawable));
-    into.mix(splitOf(drawable, quads));
     for (int i = 0; i < 3; ++i) into.mix(double{bounds._min[i]});
     for (int i = 0; i < 3; ++i) into.mix(double{bounds._max[i]});
 }
@@ -62,13 +50,12 @@ void CasterFingerprint::reset() {
     _fingerprint = Fingerprint();
 }
 
-std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const Casting& casting,
-                                            const QuadSplit& quads) {
+std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const Casting& casting) {
     Fingerprint result;
     if (const osg::Geometry* geometry = drawable.asGeometry())
-        mixGeometry(*geometry, verticesOf(*geometry), quads, result);
+        mixGeometry(*geometry, verticesOf(*geometry), result);
     else
-        mixBounds(drawable, quads, result);
+        mixBounds(drawable, result);
     casting.mix(drawable, result);
     return result.value();
 }

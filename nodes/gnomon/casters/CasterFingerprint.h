@@ -26,18 +26,17 @@ public:
     std::uint64_t value() const { return _fingerprint.value(); }
 
     /// Of what CasterExtraction would read of one drawable.
-    static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal, const Casting& casting,
-                            const QuadSplit& quads) {
-        return placed(ofGeometry(drawable, casting, quads), rootFromLocal);
+    static std::uint64_t of(const osg::Drawable& drawable, const osg::Matrixd& rootFromLocal, const Casting& casting) {
+        return placed(ofGeometry(drawable, casting), rootFromLocal);
     }
     /// The same, wherever it is.
-    static std::uint64_t ofGeometry(const osg::Drawable& drawable, const Casting& casting, const QuadSplit& quads);
+    static std::uint64_t ofGeometry(const osg::Drawable& drawable, const Casting& casting);
     /// Of a geometry, at a place.
     static std::uint64_t placed(std::uint64_t geometry, const osg::Matrixd& rootFromLocal);
 
 protected:
     void applyCaster(osg::Drawable& drawable, const Casting& casting) override {
-        _fingerprint.mix(of(drawable, rootFromLocal(), casting, quads()));
+        _fingerprint.mix(of(drawable, rootFromLocal(), casting));
     }
 
 private:

@@ -86,10 +86,9 @@ osg::ref_ptr<const CasterDrawables> CasterRevisions::drawables(osg::Node& root, 
 
 CasterRevisions::Choice& CasterRevisions::findDrawables(osg::Node& root, const Selection& casters,
                                                         const CasterView* view) {
-    if (view) _quads = view->quads;
     const osg::ref_ptr<const CasterDrawables> before = knownTo(view),
-                                              now = CasterDrawables::of(root, casters, before, view, &_levels, _quads,
-                                                                        &_bodies, _rule);
+                                              now = CasterDrawables::of(root, casters, before, view, &_levels, &_bodies,
+                                                                        _rule);
     Choice& known = take(now->choice, now->fingerprint, view);
     if (known.pieces.get()) return known;
     known.pieces.set(now);

@@ -44,7 +44,7 @@ private:
 class CasterRevisions {
 public:
     /// The casters below a node as meshes. Reads the graph as a cull traversal does.
-    /// @param view  whose levels are taken, and whose driver cuts quads; null: the finest, and as the last view's.
+    /// @param view  whose levels are taken; null: the finest.
     osg::ref_ptr<const CasterLayers> layers(osg::Node& root, const Selection& casters, const CasterView* view);
     /// The same, drawable by drawable.
     osg::ref_ptr<const CasterDrawables> drawables(osg::Node& root, const Selection& casters, const CasterView* view);
@@ -78,7 +78,6 @@ private:
     LevelPieces _levels;
     CasterBodies _bodies;
     unsigned _calls = 0, _count = 0;
-    QuadSplit _quads; ///< of the last view.
     CastingRule _rule;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/casters/Casting.h>
-#include <gnomon/gl/QuadSplit.h>
 
 #include <osg/Matrixd>
 #include <osg/Node>
@@ -21,7 +20,6 @@ struct CasterView {
     osg::Vec3 viewPoint;                  ///< eye space; elsewhere than the eye where a camera inherits it.
     float lodScale = 1.0f;                ///< of the cull.
     const void* key = nullptr;            ///< any address that tells views apart.
-    QuadSplit quads{};                    ///< of the driver that draws it.
     osg::Node::NodeMask mask = ~0u;       ///< of the cull: it draws a node if they share a bit.
     std::vector<NumberedPlane> planes{};  ///< clip planes of all the view, group frame.
 };

@@ -257,7 +257,6 @@ void CasterVisitor::visitPixelLevels(osg::LOD& lod) {
 
 void CasterVisitor::setView(const CasterView& view) {
     _view = view;
-    _quads = view.quads;
     _planes = view.planes;
     _cullStack = nullptr;
 }

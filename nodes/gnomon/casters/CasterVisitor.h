@@ -54,9 +54,6 @@ public:
     void setRootFromVisited(const osg::Matrixd& matrix) { _matrices.assign(1, matrix); }
     /// Takes levels of detail as a view does, whose group is the root. Default: no view.
     void setView(const CasterView& view);
-    /// How quads are cut where no view says so. Default: as Mesa does.
-    void setQuads(const QuadSplit& quads) { _quads = quads; }
-    const QuadSplit& quads() const { return _quads; }
     /// Leaves out what casts nothing by the states that it is drawn with. Default: all counts, and whole.
     void setRule(const CastingRule& rule) { _judge.setRule(rule); }
     /// Default Levels::Chosen.
@@ -111,7 +108,6 @@ private:
     std::vector<osg::Matrixd> _matrices;
     Levels _levels = Levels::Chosen;
     std::optional<CasterView> _view;
-    QuadSplit _quads;
     std::unique_ptr<osg::CullStack> _cullStack; ///< of the view; null until an LOD by pixels is met.
     int _atPixelLevels = 0;                     ///< how many of them are on the way down.
     int _atLevels = 0;                          ///< how many LODs and sequences are on the way down.

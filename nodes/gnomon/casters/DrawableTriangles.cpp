@@ -170,7 +170,6 @@ bool giveVertices(const osg::Array& array, TriangleDecoder& into) {
 } // namespace
 
 void readTriangles(const osg::Drawable& drawable, TriangleDecoder& into) {
-    into.setFromList(isFromList(drawable, into.quads()));
     const osg::Geometry* geometry = drawable.asGeometry();
     const osg::Array* array = geometry ? verticesOf(*geometry) : nullptr;
     const std::vector<osg::Vec4> integers = array ? integersOf(*array) : std::vector<osg::Vec4>();
@@ -194,12 +193,6 @@ const osg::BufferData* indirectCommands(const osg::PrimitiveSet& set) {
         return elements->getIndirectCommandArray();
     const auto* arrays = dynamic_cast<const osg::DrawArraysIndirect*>(&set);
     return arrays ? arrays->getIndirectCommandArray() : nullptr;
-}
-
-/// As osg::Drawable::draw() decides.
-bool isFromList(const osg::Drawable& drawable, const QuadSplit& quads) {
-    return quads.lists && drawable.getUseDisplayList() && drawable.getSupportsDisplayList() &&
-           !drawable.getUseVertexArrayObject() && !drawable.getUseVertexBufferObjects();
 }
 
 const osg::Array* verticesOf(const osg::Geometry& geometry) {

@@ -15,9 +15,6 @@ namespace gnomon {
 /// which holds under vertex attribute aliasing alone.
 void readTriangles(const osg::Drawable& drawable, TriangleDecoder& into);
 
-/// True if OpenSceneGraph draws it from a display list.
-bool isFromList(const osg::Drawable& drawable, const QuadSplit& quads);
-
 /// The vertices that OpenSceneGraph's functors take of a geometry; null if it has none.
 const osg::Array* verticesOf(const osg::Geometry& geometry);
 

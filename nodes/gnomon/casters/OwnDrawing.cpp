@@ -65,7 +65,7 @@ OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, co
 std::uint64_t OwnDrawing::fingerprintOf(const osg::NodePath& path, const osg::Drawable& drawable,
                                         const osg::Matrixd& groupFromLocal, const Casting& casting) {
     Fingerprint result;
-    result.mix(CasterFingerprint::of(drawable, groupFromLocal, casting, {}));
+    result.mix(CasterFingerprint::of(drawable, groupFromLocal, casting));
     result.mix(static_cast<const void*>(&drawable));
     result.mix(std::uint64_t{changesUnseen(drawable)});
     for (const auto& set : statesAlong(path)) mixState(*set, result);

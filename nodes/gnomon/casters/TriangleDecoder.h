@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/gl/QuadSplit.h>
-
 #include <osg/Matrixd>
 #include <osg/PrimitiveSet>
 #include <osg/Vec3d>
@@ -14,12 +12,13 @@
 namespace gnomon {
 
 /// Reads a drawable's primitives, of every mode, as triangles, and its vertices in the root's frame.
+///
+/// OpenGL leaves open along which diagonal a quad is cut, and one that is not flat shows it. Most drivers cut from the second
+/// corner to the fourth, and those of a strip from the first to the fourth: the last vertex is in both triangles.
 class TriangleDecoder : public osg::PrimitiveFunctor {
 public:
-    /// @param quads  how the driver that draws cuts them.
-    explicit TriangleDecoder(const osg::Matrixd& rootFromLocal, const QuadSplit& quads = {})
+    explicit TriangleDecoder(const osg::Matrixd& rootFromLocal)
         : _rootFromLocal(rootFromLocal),
-          _quads(quads),
           _affine(rootFromLocal(0, 3) == 0.0 && rootFromLocal(1, 3) == 0.0 && rootFromLocal(2, 3) == 0.0 &&
                   rootFromLocal(3, 3) == 1.0) {}
 
@@ -31,18 +30,12 @@ public:
     void setVertexArray(unsigned count, const osg::Vec4d* array) override { begin(count, 4, nullptr, array); }
 
     void drawArrays(GLenum mode, GLint first, GLsizei count) override {
-        decode(
-            mode, count, [first](unsigned i) { return static_cast<unsigned>(first) + i; }, _secondToFourth);
+        decode(mode, count, [first](unsigned i) { return static_cast<unsigned>(first) + i; });
     }
     void drawElements(GLenum mode, GLsizei count, const GLubyte* list) override { decodeList(mode, count, list); }
     void drawElements(GLenum mode, GLsizei count, const GLushort* list) override { decodeList(mode, count, list); }
     void drawElements(GLenum mode, GLsizei count, const GLuint* list) override { decodeList(mode, count, list); }
 
-    /// Whether what follows is drawn from a display list. Default: it is.
-    void setFromList(bool isFromList) {
-        _secondToFourth = isFromList ? _quads.secondToFourth : _quads.arraysSecondToFourth;
-    }
-    const QuadSplit& quads() const { return _quads; }
     /// Index that ends a primitive in lists: see Casting::restart. Default: none.
     void setRestart(const std::optional<unsigned>& index) { _restart = index; }
     /// Indices by a function of the corner's number, as a list has them.
@@ -53,9 +46,7 @@ public:
         const unsigned restart = _restart && *_restart == ~0u ? largest : _restart.value_or(0);
         for (unsigned first = 0, end = 0; first <= count; first = end + 1) {
             for (end = _restart ? first : count; end < count && index(end) != restart;) ++end;
-            decode(
-                mode, static_cast<GLsizei>(end - first), [=](unsigned i) { return index(first + i) + base; },
-                _quads.secondToFourth);
+            decode(mode, static_cast<GLsizei>(end - first), [=](unsigned i) { return index(first + i) + base; });
         }
     }
 
@@ -111,9 +102,8 @@ private:
     }
 
     /// `index(i)` is the vertex that the i-th of `count` corners of these primitives uses.
-    /// @param secondToFourth  how GL_QUADS are cut.
     template <class Index>
-    void decode(GLenum mode, GLsizei count, Index index, bool secondToFourth) {
+    void decode(GLenum mode, GLsizei count, Index index) {
         using Set = osg::PrimitiveSet;
         const bool adjacency = mode == Set::TRIANGLES_ADJACENCY || mode == Set::TRIANGLE_STRIP_ADJACENCY;
         const unsigned step = adjacency ? 2 : 1; // every second corner is a neighbour's
@@ -133,20 +123,20 @@ private:
             for (unsigned i = 2; i < n; ++i) corners(at(0), at(i - 1), at(i));
             break;
         case Set::QUADS:
-            for (unsigned i = 3; i < n; i += 4) quad(at(i - 3), at(i - 2), at(i - 1), at(i), secondToFourth);
+            for (unsigned i = 3; i < n; i += 4) quad(at(i - 2), at(i - 1), at(i), at(i - 3));
             break;
         case Set::QUAD_STRIP:
-            for (unsigned i = 3; i < n; i += 2) quad(at(i - 3), at(i - 2), at(i), at(i - 1), _quads.stripSecondToThird);
+            for (unsigned i = 3; i < n; i += 2) quad(at(i - 3), at(i - 2), at(i), at(i - 1));
             break;
         default:
             for (unsigned i = 0; i < n; ++i) point(at(i));
         }
     }
 
-    /// In their order about it. @param bToD  it is cut there.
-    void quad(unsigned a, unsigned b, unsigned c, unsigned d, bool bToD) {
-        corners(a, b, bToD ? d : c);
-        corners(bToD ? b : a, c, d);
+    /// In their order about it, cut from a to c.
+    void quad(unsigned a, unsigned b, unsigned c, unsigned d) {
+        corners(a, b, c);
+        corners(a, c, d);
     }
 
     void corners(unsigned a, unsigned b, unsigned c) {
@@ -160,8 +150,6 @@ private:
     }
 
     const osg::Matrixd _rootFromLocal;
-    const QuadSplit _quads;
-    bool _secondToFourth = _quads.secondToFourth; ///< of arrays.
     std::optional<unsigned> _restart;
     const bool _affine;
     const float* _floats = nullptr;

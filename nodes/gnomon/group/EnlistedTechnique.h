@@ -22,7 +22,6 @@ struct EnlistedTechnique {
     float lodScale = 1.0f;                      ///< of the cull.
     osg::Node::NodeMask mask = ~0u;             ///< the same, see CasterView.
     const osgUtil::StateGraph* state = nullptr; ///< that it was met in; valid as long as the stage's leaves.
-    QuadSplit quads{};                          ///< of the driver that draws.
     unsigned frameNumber = 0;
     double frameTime = 0.0; ///< seconds, see timeOf().
 };

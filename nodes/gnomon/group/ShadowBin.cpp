@@ -91,9 +91,10 @@ bool hasCasters(const EnlistedTechnique& entry, const FrameCasters& casters) {
 /// Asked for once for all techniques that share a group and a view of it.
 const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderStage& stage,
                               std::deque<FrameCasters>& known) {
-    const CasterView view{entry.eyeFromGroup, *entry.projection, stage.getViewport(),
-                          entry.viewPoint,    entry.lodScale,    &stage,
-                          entry.quads,        entry.mask,        clipPlanesOf(stage, entry.eyeFromGroup)};
+    const CasterView view{entry.eyeFromGroup,  *entry.projection,
+                          stage.getViewport(), entry.viewPoint,
+                          entry.lodScale,      &stage,
+                          entry.mask,          clipPlanesOf(stage, entry.eyeFromGroup)};
     const auto found = std::find_if(known.begin(), known.end(),
                                     [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
     return found == known.end() ? known.emplace_back(*entry.group, view) : *found;

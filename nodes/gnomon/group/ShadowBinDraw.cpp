@@ -40,7 +40,6 @@ void drawDepths(const CompositorStage& draw, const ScreenRect& bounds) {
 
 void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (!isIdle()) {
-        foundQuadSplit(*renderInfo.getState()); // for the next cull, which may be of another thread
         const std::optional<double> begin = drawStartIfWatched();
         tell(compose(renderInfo, previous));
         if (begin) recordDraw(*begin);

@@ -29,14 +29,6 @@ GroupAbove groupAbove(const osg::NodePath& path) {
     return result;
 }
 
-/// Asks OpenGL where this thread may, so that the first frame is right.
-QuadSplit quadsOf(osgUtil::CullVisitor& cull) {
-    osg::State* state = cull.getState();
-    if (!state) return {};
-    const osg::GraphicsContext* context = state->getGraphicsContext();
-    return context && context->isCurrent() ? foundQuadSplit(*state) : knownQuadSplit(*state);
-}
-
 } // namespace
 
 void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
@@ -64,7 +56,6 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     entry.lodScale = cull.getLODScale();
     entry.mask = (cull.getTraversalMask() & cull.getNodeMaskOverride()) ? ~0u : cull.getTraversalMask();
     entry.state = cull.getCurrentStateGraph();
-    entry.quads = quadsOf(cull);
     entry.frameNumber = frame;
     entry.frameTime = timeOf(cull);
     ShadowBin::of(stage).enlist(entry);
