@@ -9,12 +9,16 @@
 #include <gtest/gtest.h>
 #include <osg/BlendEquation>
 #include <osg/BlendFunc>
+#include <osg/Depth>
 #include <osg/DisplaySettings>
 #include <osg/Geometry>
 #include <osg/LogicOp>
 #include <osg/Point>
+#include <osg/PolygonOffset>
 #include <osg/Program>
 #include <osg/Projection>
+#include <osg/Stencil>
+#include <osgUtil/RenderBin>
 
 #include <algorithm>
 
@@ -179,6 +183,35 @@ TEST(HostileState, DepthsThatAnEarlyBinClearsLeaveTheShadowsOfWhatIsDrawnBeforeA
             EXPECT_LE(changed(picture(who, spec), usual), spec == "map" ? 40 : 0) << spec;
         }
     }
+}
+
+TEST(HostileState, ABinsOwnStateSetCountsAsItDoesOnItsNodes) {
+    osg::ref_ptr<osg::Stencil> mark = new osg::Stencil;
+    mark->setFunction(osg::Stencil::ALWAYS, 255, ~0u);
+    mark->setOperation(osg::Stencil::KEEP, osg::Stencil::KEEP, osg::Stencil::REPLACE);
+    const std::vector<osg::ref_ptr<osg::StateAttribute>> states{
+        new osg::Depth(osg::Depth::LESS, 0.5, 1.0), new osg::PolygonOffset(8.0f, 800.0f), mark,
+        new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE)};
+    for (const auto& state : states)
+        for (const int bin : {1, 9})
+            for (const std::string spec : {"planar", "map", "volume:composite=blend"}) {
+                const auto picture = [&](bool ofBin) {
+                    osg::ref_ptr<osgUtil::RenderBin> kind = new osgUtil::RenderBin;
+                    const osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
+                    set->setAttributeAndModes(state, osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+                    if (ofBin) kind->setStateSet(set);
+                    osgUtil::RenderBin::addRenderBinPrototype("own", kind);
+                    Scene scene = boxScene();
+                    if (!ofBin) groundState(scene).merge(*set);
+                    groundState(scene).setRenderBinDetails(bin, "own");
+                    scene.addShadow(spec);
+                    Camera camera(scene.root, view);
+                    const Picture result = camera.frame();
+                    osgUtil::RenderBin::removeRenderBinPrototype(kind);
+                    return result;
+                };
+                EXPECT_EQ(changed(picture(true), picture(false)), 0) << state->className() << bin << spec;
+            }
 }
 
 TEST(HostileState, AViewOfIdentifiersIsLeftAsItIs) {

@@ -5,6 +5,7 @@
 #include <osg/PolygonOffset>
 
 #include <algorithm>
+#include <typeinfo>
 #include <vector>
 
 namespace gnomon {
@@ -24,7 +25,51 @@ bool resolvedMode(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode 
     return value & osg::StateAttribute::ON;
 }
 
+bool hasAlphaTestAlone(const osg::StateSet& set) {
+    const auto isTest = [](const auto& entry) { return entry.first.first == osg::StateAttribute::ALPHAFUNC; };
+    const auto isMode = [](const auto& entry) { return entry.first == GL_ALPHA_TEST; };
+    const auto& attributes = set.getAttributeList();
+    const auto& modes = set.getModeList();
+    return std::all_of(attributes.begin(), attributes.end(), isTest) &&
+           std::all_of(modes.begin(), modes.end(), isMode) && set.getTextureAttributeList().empty() &&
+           set.getTextureModeList().empty() && set.getUniformList().empty();
+}
+
+/// The graph of the same sets, with others under them all.
+osgUtil::StateGraph* over(const std::vector<osg::ref_ptr<osg::StateSet>>& bins, const osgUtil::StateGraph* graph) {
+    std::vector<const osg::StateSet*> sets; // innermost first
+    for (; graph->_parent; graph = graph->_parent)
+        if (graph->getStateSet()) sets.push_back(graph->getStateSet());
+    auto* result = const_cast<osgUtil::StateGraph*>(graph);
+    for (const auto& set : bins) result = result->find_or_insert(set);
+    for (auto set = sets.rbegin(); set != sets.rend(); ++set) result = result->find_or_insert(*set);
+    return result;
+}
+
+/// @param above  sets of the bins that it is in.
+void moveStates(osgUtil::RenderBin& bin, std::vector<osg::ref_ptr<osg::StateSet>> above) {
+    const bool isPlain = typeid(bin) == typeid(osgUtil::RenderBin);
+    if (isPlain && bin.getStateSet() && !hasAlphaTestAlone(*bin.getStateSet())) {
+        above.emplace_back(bin.getStateSet());
+        bin.setStateSet(nullptr); // this bin is gone with the frame
+    }
+    if (!above.empty()) {
+        for (osgUtil::RenderLeaf* leaf : bin.getRenderLeafList()) // osgUtil drops graphs without leaves
+            over(above, leaf->_parent)->addLeaf(leaf);
+        for (osgUtil::StateGraph*& graph : bin.getStateGraphList()) {
+            osgUtil::StateGraph* moved = over(above, graph);
+            for (const auto& leaf : graph->_leaves) moved->addLeaf(leaf);
+            moved->_dynamic = moved->_dynamic || graph->_dynamic;
+            graph->_leaves.clear();
+            graph = moved;
+        }
+    }
+    for (const auto& [number, below] : bin.getRenderBinList()) moveStates(*below, above);
+}
+
 } // namespace
+
+void moveBinStatesToGraphs(osgUtil::RenderBin& bin) { moveStates(bin, {}); }
 
 bool isOn(const osgUtil::StateGraph* graph, osg::StateAttribute::GLMode mode, bool unset) {
     bool overridden = false;

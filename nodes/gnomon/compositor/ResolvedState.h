@@ -3,11 +3,17 @@
 #include <osg/StateAttribute>
 #include <osg/StateSet>
 #include <osg/Vec2d>
+#include <osgUtil/RenderBin>
 #include <osgUtil/StateGraph>
 
 #include <tuple>
 
 namespace gnomon {
+
+/// A bin may have a state set of its own, which lies under those of its leaves and is not among their graphs. Puts it there, for
+/// this frame: what is drawn stays the same, and all that is asked of a leaf's state counts it. Sets of alpha tests alone,
+/// as every transparent bin has one, stay where they are. Call it in cull.
+void moveBinStatesToGraphs(osgUtil::RenderBin& bin);
 
 /// True if a mode is on after all state sets from the root to `graph`, as osg::State resolves it.
 /// @param unset  where no state set gives the mode.

@@ -265,6 +265,7 @@ void ShadowBin::sortImplementation() {
 void ShadowBin::prepareAll() {
     _jobs.clear();
     std::deque<FrameCasters> known;
+    if (!_enlisted.empty() || !_effects.empty()) moveBinStatesToGraphs(*getStage());
     const std::optional<DepthClear> clear =
         _enlisted.empty() ? std::nullopt : firstDepthClear(*getStage(), getBinNum());
     const StageLeaves drawn(*getStage(), clear ? clear->by->getBinNum() : getBinNum(), !_enlisted.empty());
