@@ -43,7 +43,8 @@ struct PlanarPrograms;
 ///   32 depth steps high.
 /// - Without a receiver, what a polygon offset pulls forward is found where it is flat in its own frame: its drawable's box
 ///   tells. Surfaces that lie closely over it, within that offset, are marked, too.
-/// - Without a receiver, a ground of many kilometres with a near plane of decimetres may lose the shadow.
+/// - Without a receiver, a ground of many kilometres with a near plane of decimetres may lose the shadow, if it is one
+///   drawable of more than 2,000 triangles or a program moves it.
 ///   diagnose() names a caster that is too far away for the depth buffer's steps.
 /// Threads
 /// - Any number of cull and draw threads. Set properties between frames.

@@ -5,6 +5,7 @@
 #include <support/Scene.h>
 
 #include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/Material>
@@ -46,6 +47,7 @@ using Technique = std::function<osg::ref_ptr<gnomon::ShadowTechnique>()>;
 
 osg::ref_ptr<gnomon::ShadowTechnique> traced() { return new gnomon::TracedShadowTechnique; }
 osg::ref_ptr<gnomon::ShadowTechnique> planar() { return test::planar(); }
+osg::ref_ptr<gnomon::ShadowTechnique> volume() { return new gnomon::ShadowVolumeTechnique; }
 osg::ref_ptr<gnomon::ShadowTechnique> map() {
     const osg::ref_ptr<gnomon::ShadowMapTechnique> technique = new gnomon::ShadowMapTechnique;
     technique->setSize(2048);
@@ -101,6 +103,19 @@ TEST(Scales, TracedShadowsNothingFalselyOnQuadsOfKilometres) {
                 EXPECT_EQ(found, 0) << "a quad of " << side << " from " << distance << " m, near " << planes.x
                                     << ", far " << planes.y;
             }
+}
+
+// OpenGL cuts such a quad at the near plane in floats, and draws it off its place.
+TEST(Scales, WhatTakesDepthsForPlacesTakesThoseOfVastQuadsForWhatTheyAre) {
+    for (const Technique& technique : {Technique(volume), Technique(planar)})
+        for (const double side : {200.0, 2e3, 4e4, 2e5}) {
+            EXPECT_EQ(wrong(boxOnAQuad(side, 4.0, 0.1, 1e4), technique), 0) << technique()->className() << " " << side;
+            Case ant{test::square(side / 2.0),
+                     {test::box({-0.02, -0.02, 0.0}, {0.02, 0.02, 0.04})},
+                     sun,
+                     test::perspective({-0.12, -0.2, 0.16}, {0.0, 0.0, 0.0}, 320, 240, 40.0, 0.005, 5.0)};
+            EXPECT_EQ(wrong(ant, technique), 0) << technique()->className() << " an ant on " << side;
+        }
 }
 
 /// Houses of 6 to 20 m that stand far from one another, along a view to the horizon.

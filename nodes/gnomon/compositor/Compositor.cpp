@@ -88,7 +88,7 @@ void Compositor::blendAny(const Jobs& jobs, float dark) {
 /// The shortest way for a single job that can.
 bool Compositor::darkenDirectly(const Jobs& jobs, float dark) const {
     const ShadowJob& job = *jobs.front();
-    if (jobs.size() > 1 || !needsNoMarks(job, _draw.leaves)) return false;
+    if (jobs.size() > 1 || !_draw.vast.empty() || !needsNoMarks(job, _draw.leaves)) return false;
     _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
         const std::string cause = job.marks->darken(_draw.renderInfo, screen, dark);
         job.report(cause);

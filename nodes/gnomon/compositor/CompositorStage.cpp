@@ -39,6 +39,11 @@ CompositorStage::CompositorStage(osg::RenderInfo& info, osgUtil::RenderStage& dr
     hasAlpha = alpha > 0;
     for (int i = std::min(stencil, 8); i-- > 0;)
         if (!((options.reservedStencilBits | pattern.bit) & (1u << i))) bits.push_back(1u << i);
+    if (bits.size() > 2) vast = vastLeaves(leaves, *stage.getViewport());
+    if (!vast.empty()) {
+        vastBit = bits.front();
+        bits.erase(bits.begin());
+    }
     counters = countersAmong(bits, own);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/VastLeaves.h>
 #include <gnomon/gl/ScreenPass.h>
 
 #include <osg/RenderInfo>
@@ -53,6 +54,8 @@ public:
     std::vector<unsigned> bits; ///< of the stencil buffer, those that are free, the highest first.
     const std::size_t own;      ///< how many of them, from the first on, are the compositor's.
     unsigned counters = 0;      ///< some of the others, see ScreenPass::counters(); 0 if there are none.
+    std::vector<VastLeaf> vast; ///< see VastLeaf; TrueDepths puts them right.
+    unsigned vastBit = 0;       ///< for it; not among `bits`.
 
 private:
     mutable std::optional<Channels> _channels; ///< once asked for.

@@ -216,6 +216,7 @@ ScreenRect SoftCompositor::boundsWithout(const Lights& lights, unsigned lost) co
 
 /// Alpha becomes the share of each pixel that sees all lights but those of `lost`.
 void SoftCompositor::weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const {
+    const TrueDepths depths(_draw, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.setAlpha(1.0f);
         for (std::size_t i = 0; i < lights.size(); ++i) weighOne(lights[i], lost & (1u << i), screen);
@@ -250,6 +251,7 @@ void SoftCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
         return marks.add(job, bit, true, StencilMarks::Soft::Weighed);
     marks.add(job, bit, true, StencilMarks::Soft::Touched);
     writeWhereSeen(_draw, others, 0, bit, job.marks->screenBounds);
+    const TrueDepths depths(_draw, job.marks->screenBounds);
     _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
         screen.stencilAny(bit);
         if (job.softMarks())

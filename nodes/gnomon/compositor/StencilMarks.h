@@ -23,6 +23,20 @@ std::vector<LightUniform> lightUniformsOf(const Jobs& jobs);
 void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, unsigned reference,
                     unsigned write, const ScreenRect& bounds);
 
+/// While it lives, the depths of a stage's vast leaves are right: their triangles, cut in double, are drawn where the leaf is
+/// what one sees. Afterwards the leaf's own depths stand there again, to the bit. Nothing is done in stages without any.
+class TrueDepths {
+public:
+    TrueDepths(const CompositorStage& draw, const ScreenRect& bounds);
+    ~TrueDepths();
+    TrueDepths(const TrueDepths&) = delete;
+    TrueDepths& operator=(const TrueDepths&) = delete;
+
+private:
+    const CompositorStage& _draw;
+    const ScreenRect _bounds;
+};
+
 /// Draws the marks of jobs into stencil bits, each cut to its receiver.
 class StencilMarks {
 public:

@@ -122,6 +122,23 @@ void ScreenPass::writeFarDepth() {
     drawQuad(1.0);
 }
 
+void ScreenPass::writeDepths(const std::vector<glm::vec4>& corners, const glm::dvec2& range, const glm::dvec2& offset) {
+    _state.applyProjectionMatrix(nullptr);
+    _state.applyModelViewMatrix(nullptr);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDepthMask(GL_TRUE);
+    glDepthRange(range.x, range.y);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(static_cast<GLfloat>(offset.x), static_cast<GLfloat>(offset.y));
+    glBegin(GL_TRIANGLES);
+    for (const glm::vec4& corner : corners) glVertex4f(corner.x, corner.y, corner.z, corner.w);
+    glEnd();
+    glPolygonOffset(0.0f, 0.0f);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDepthRange(0.0, 1.0);
+}
+
 void ScreenPass::beginReplace() {
     glDisable(GL_BLEND);
     openChannels(GL_TRUE);

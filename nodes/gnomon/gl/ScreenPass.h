@@ -7,7 +7,11 @@
 #include <osg/Vec4>
 #include <osg/Viewport>
 
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
 #include <functional>
+#include <vector>
 
 namespace gnomon {
 
@@ -60,6 +64,10 @@ public:
     /// True if the pixels beside one may be of another picture: the other eye's.
     bool isInterlaced() const { return _pattern.bit != 0; }
     void writeFarDepth();
+    /// Writes the depths of triangles where they are nearer than what stands.
+    /// @param corners  three a triangle, in clip space. @param range  see glDepthRange().
+    /// @param offset   see glPolygonOffset().
+    void writeDepths(const std::vector<glm::vec4>& corners, const glm::dvec2& range, const glm::dvec2& offset);
     void writeColor(const osg::Vec4& color);
     /// What is drawn next replaces what stands; ends with endMix().
     void beginReplace();

@@ -89,7 +89,9 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLea
 
 TargetNeeds ShadowBin::needs(const std::vector<DrawnLeaf>& leaves) const {
     TargetNeeds needs;
-    if (_effects.empty() && _jobs.size() == 1 && needsNoMarks(_jobs.front(), leaves)) return needs;
+    if (_effects.empty() && _jobs.size() == 1 && needsNoMarks(_jobs.front(), leaves) &&
+        vastLeaves(leaves, *getStage()->getViewport()).empty())
+        return needs;
     needs = needsOf(_jobs);
     needs.reserved = _options.reservedStencilBits;
     needs.ownStencil = _sharesStencil && needs.reserved == 0;
