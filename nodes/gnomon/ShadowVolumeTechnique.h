@@ -22,7 +22,7 @@ class VolumeCache;
 /// - When a light moves: a pass over the casters' triangles and edges, and an upload of the outlines.
 /// - When a caster moves as a whole: the same for it alone. Small casters that are joined are searched again.
 /// - Volumes end below all that receives. Volumes out of sight are not drawn.
-/// - If the eye may be inside a volume, or sees the back of an open sheet, its caster's triangles are drawn, too.
+/// - If the eye may be inside a volume, sees the back of an open sheet or looks through it, its triangles are drawn, too.
 /// Needs
 /// - OpenGL 3.0 with GLSL 1.30, its two-sided stencil and depth clamp.
 /// - One stencil bit a light, one more where a receiver is named, and one or more that count.

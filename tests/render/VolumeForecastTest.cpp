@@ -10,6 +10,7 @@
 #include <gnomon/volume/VolumeForecast.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
+#include <osg/observer_ptr>
 
 #include <numeric>
 #include <random>
@@ -156,4 +157,41 @@ TEST(VolumeForecast, LooksAtNoEdgeOfClosedCasters) {
     EXPECT_LT(counting->expected.sides, 3.0 * counting->drawn.sides);
     EXPECT_GT(counting->expected.sides, counting->drawn.sides / 3.0);
     EXPECT_EQ(counting->expected.caps, 0.0);
+}
+
+namespace {
+
+/// As in a program that counts no frames.
+class Uncounted : public gnomon::ShadowTechnique {
+public:
+    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+                                                       const gnomon::FrameCasters& casters) const override {
+        const gnomon::CasterLayers& layers = casters.layers();
+        const gnomon::SceneFrame scene(layers.origin);
+        gnomon::ViewFrame uncounted = view;
+        uncounted.frameNumber = 0;
+        _cache.see(layers, uncounted, light.number, *gnomon::localLight(light.inGroup, scene), scene);
+        if (!first.valid()) first = layers.meshes().front().mesh.get();
+        return {};
+    }
+
+    mutable osg::observer_ptr<const gnomon::CasterMesh> first;
+
+private:
+    mutable gnomon::VolumeCache _cache;
+};
+
+} // namespace
+
+TEST(VolumeCache, LetsGoWhatIsGoneWhereNobodyCountsFrames) {
+    Scene scene = groundScene({box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})}, 8.0, sun);
+    const osg::ref_ptr<Uncounted> technique = new Uncounted;
+    scene.addShadow(technique);
+    Camera camera(scene.root, usual());
+    camera.frame();
+    const osg::observer_ptr<const gnomon::CasterMesh> first = technique->first;
+    ASSERT_TRUE(first.valid());
+    scene.content->removeChild(find(*scene.root, "caster"));
+    for (int i = 0; i < 80; ++i) camera.frame();
+    EXPECT_FALSE(first.valid());
 }

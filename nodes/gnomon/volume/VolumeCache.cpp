@@ -20,7 +20,9 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
                                             const glm::dvec4& light, const SceneFrame& scene) {
     const ReceiverBox receivers = receiversOf(view, scene);
     Lock lock(_mutex);
-    if (view.frameNumber != _frame) ++_round;
+    const auto own = _entries.find({view.stage, lightNumber, 0});
+    // A light that is asked for twice begins a round as well, for views may count no frames.
+    if (view.frameNumber != _frame || (own != _entries.end() && own->second.used == _round)) ++_round;
     _frame = view.frameNumber;
     const ReceiverBox& box = boxOf(view.stage, receivers);
     std::vector<osg::ref_ptr<LightVolumes>> all;

@@ -59,7 +59,7 @@ private:
     std::map<const void*, Box> _boxes; ///< by stage.
     std::map<Owner, Entry> _entries;
     unsigned _builds = 0;
-    unsigned _round = 0, _frame = 0; ///< a round is a frame, as views count them.
+    unsigned _round = 0, _frame = 0; ///< a round is a frame.
 };
 
 } // namespace gnomon
