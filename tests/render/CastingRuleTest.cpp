@@ -29,6 +29,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -406,6 +407,32 @@ std::string saidOf(osg::Geometry* geometry, const std::string& spec) {
     return "";
 }
 
+/// Light is not the camera. The body itself is out of sight, so that the ground alone tells.
+TEST(CastingRule, AFaceThatIsCulledForTheEyeBlocksTheLightFromBothSides) {
+    const test::Mesh body = test::box({8.0, -1.0, 8.0}, {10.0, 1.0, 10.0});
+    for (const std::string spec : {"planar", "map", "volume", "traced", "hull:receiver=ground", "auto"})
+        for (const bool open : {false, true})
+            for (const bool turned : {false, true}) {
+                const auto picture = [&](std::optional<osg::CullFace::Mode> mode) {
+                    test::Mesh mesh = open ? test::square(1.0, 9.0) : body;
+                    if (open)
+                        for (glm::dvec3& corner : mesh) corner.x += 9.0;
+                    Scene scene = test::groundScene({turned ? test::insideOut(mesh) : mesh});
+                    if (mode)
+                        test::find(*scene.root, "caster")
+                            ->getOrCreateStateSet()
+                            ->setAttributeAndModes(new osg::CullFace(*mode));
+                    scene.addShadow(spec);
+                    return test::render(scene.root, test::fromAbove(4.0, 128));
+                };
+                const Picture expected = picture(std::nullopt);
+                EXPECT_GT(expected.count(test::shadowedGround), 900) << spec << open << turned;
+                for (const auto mode : {osg::CullFace::BACK, osg::CullFace::FRONT})
+                    EXPECT_EQ(picture(mode).different(expected), 0) << spec << open << turned << mode;
+                EXPECT_EQ(picture(osg::CullFace::FRONT_AND_BACK).count(test::shadowedGround), 0) << spec << open;
+            }
+}
+
 TEST(CastingRule, WhatIsClearInPartIsNamedWhereItCastsAsASolid) {
     for (const std::string spec : specs) {
         const std::string said = saidOf(fence({1.0f, 0.2f, 0.3f, 0.9f}), spec);
@@ -430,7 +457,8 @@ TEST(CastingRule, AutoTakesAMapForWhatIsClearInPart) {
         const auto& technique = static_cast<const gnomon::ShadowTechnique&>(*scene.group->getChild(1));
         const bool hasMap = technique.lastDecision().front().chosen.spec.find("map") != std::string::npos;
         EXPECT_EQ(hasMap, inPart);
-        EXPECT_EQ(technique.diagnose(), std::vector<std::string>());
+        for (const std::string& cause : technique.diagnose()) // but that it receives nothing where it blends
+            EXPECT_EQ(cause.find("clear parts"), std::string::npos) << cause;
     }
 }
 

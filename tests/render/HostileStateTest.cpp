@@ -13,11 +13,13 @@
 #include <osg/DisplaySettings>
 #include <osg/Geometry>
 #include <osg/LogicOp>
+#include <osg/MatrixTransform>
 #include <osg/Point>
 #include <osg/PolygonOffset>
 #include <osg/Program>
 #include <osg/Projection>
 #include <osg/Stencil>
+#include <osgUtil/CullVisitor>
 #include <osgUtil/RenderBin>
 
 #include <algorithm>
@@ -212,6 +214,46 @@ TEST(HostileState, ABinsOwnStateSetCountsAsItDoesOnItsNodes) {
                 };
                 EXPECT_EQ(changed(picture(true), picture(false)), 0) << state->className() << bin << spec;
             }
+}
+
+/// As osgSim's light points do, or nodes that place what they draw in the eye's frame.
+struct WithoutMatrix : public osg::DrawableCullCallback {
+    bool cull(osg::NodeVisitor* visitor, osg::Drawable* drawable, osg::RenderInfo*) const override {
+        visitor->asCullVisitor()->addDrawable(drawable, nullptr);
+        return true;
+    }
+};
+
+TEST(HostileState, ALeafWithoutAMatrixReceivesAsOneWithTheIdentity) {
+    for (const std::string spec : {"planar", "map", "volume", "traced", "auto"})
+        for (const auto composite : {gnomon::ShadowCasterGroup::RELIGHT, blend}) {
+            const auto picture = [&](bool bare, bool shadow = true) {
+                Scene scene = boxScene();
+                osg::Geode& ground = *find(*scene.root, "ground")->asGeode();
+                const osg::ref_ptr<osg::MatrixTransform> inEye = new osg::MatrixTransform;
+                inEye->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+                scene.content->addChild(inEye);
+                inEye->addChild(&ground);
+                scene.content->removeChild(&ground);
+                auto& geometry = *ground.getDrawable(0)->asGeometry();
+                for (osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray()))
+                    vertex = vertex * view.view;
+                for (osg::Vec3& normal : *static_cast<osg::Vec3Array*>(geometry.getNormalArray()))
+                    normal = osg::Matrixd::transform3x3(normal, view.view);
+                geometry.dirtyBound();
+                geometry.setCullingActive(false);
+                ground.setCullingActive(false);
+                inEye->setCullingActive(false);
+                if (bare) geometry.setCullCallback(new WithoutMatrix);
+                if (shadow && spec == "planar") scene.addShadow(planar()); // its plane is not the ground's vertices
+                if (shadow && spec != "planar") scene.addShadow(spec);
+                if (shadow) scene.group->setComposite(composite);
+                return render(scene.root, view);
+            };
+            const Picture expected = picture(false);
+            EXPECT_GT(changed(expected, picture(false, false)), 500) << spec << composite;
+            EXPECT_EQ(changed(picture(true), expected), 0) << spec << composite;
+        }
 }
 
 TEST(HostileState, AViewOfIdentifiersIsLeftAsItIs) {
