@@ -50,7 +50,7 @@ struct CasterView;
 /// - A technique's diagnose() reports each of the five cases above.
 /// - RELIGHT, and a named receiver, draw drawables again. Their draw callbacks then run more than once a frame.
 /// - Only the first of several colour attachments receives shadows. The others stay as they are.
-/// - A drawable in render bin 8 or higher receives where it writes depth, has bounds and an alpha of 1.
+/// - A drawable in render bin 8 or higher receives if it writes depth, has bounds and an alpha of 1; by a program: where it has.
 /// - Translucent drawables receive no shadow. Through one that writes depth, a receiver of bin 8 or higher looks lit.
 /// - Under smooth and soft edges, drawables that blend or write no depth are darkened by setDark().
 /// - VertexTraverser lists which drawables never cast. What is not drawn does not cast either: what clip planes, culling of

@@ -6,6 +6,7 @@
 #include <osg/Depth>
 #include <osg/Image>
 #include <osg/LogicOp>
+#include <osg/Material>
 #include <osg/Texture2D>
 
 using namespace test;
@@ -137,8 +138,43 @@ TEST_P(AnyBin, AnotherReceiverThanTheNamedOneReceivesNothing) {
     EXPECT_TRUE(isRightWith([](Scene& scene) { scene.root->addChild(pane(1.0f, true)); }, false));
 }
 
+/// Half of the ground has an alpha of 1, by a texture or by its vertices, and the background shines through the other half.
+TEST_P(AnyBin, WhatIsClearInPartsReceivesNothingAndIsNamed) {
+    for (const bool byTexture : {true, false}) {
+        const Trial trial = houseTrial();
+        const auto build = [&] {
+            Scene scene = trial.build();
+            osg::Node& ground = *find(*scene.root, "ground");
+            osg::Geometry& geometry = *ground.asGeode()->getDrawable(0)->asGeometry();
+            osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+            osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
+            for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray())) {
+                places->push_back({vertex.x() / 16.0f + 0.5f, 0.5f});
+                colors->push_back({1.0f, 1.0f, 1.0f, byTexture || vertex.x() > 0.0f ? 1.0f : 0.3f});
+            }
+            geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
+            geometry.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+            if (byTexture) ground.getOrCreateStateSet()->setTextureAttributeAndModes(0, halves(100, 255));
+            osg::ref_ptr<osg::Material> material = new osg::Material;
+            material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
+            ground.getOrCreateStateSet()->setAttributeAndModes(material);
+            blendLate(ground);
+            return scene;
+        };
+        Scene lit = build(), shadowed = build();
+        const auto technique = castingTechnique(find(*shadowed.root, "ground"));
+        shadowed.addShadow(technique);
+        EXPECT_TRUE(same(render(shadowed.root, trial.view), render(lit.root, trial.view))) << byTexture;
+        const std::vector<std::string> causes = technique->diagnose();
+        const auto isNamed = [](const std::string& cause) {
+            return cause.find("'ground' blends by an alpha that is 1 in some parts only") != std::string::npos;
+        };
+        EXPECT_EQ(std::count_if(causes.begin(), causes.end(), isNamed), 1) << byTexture;
+    }
+}
+
 /// The half of the ground with the alpha of 1 receives, the other half lets the background shine through.
-TEST_P(AnyBin, ATextureReceivesWhereItsAlphaIs1) {
+TEST_P(AnyBin, ATextureWhosePixelsAreAllThereOrClearReceivesWhereTheyAreThere) {
     const Trial trial = houseTrial();
     const auto build = [](Scene scene) {
         osg::Node& ground = *find(*scene.root, "ground");
@@ -147,7 +183,7 @@ TEST_P(AnyBin, ATextureReceivesWhereItsAlphaIs1) {
         for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray()))
             places->push_back({vertex.x() / 16.0f + 0.5f, 0.5f});
         geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
-        ground.getOrCreateStateSet()->setTextureAttributeAndModes(0, halves(100, 255));
+        ground.getOrCreateStateSet()->setTextureAttributeAndModes(0, halves(0, 255));
         blendLate(ground);
         return scene;
     };

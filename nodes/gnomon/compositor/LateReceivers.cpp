@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/LateReceivers.h>
 #include <gnomon/compositor/ResolvedState.h>
 
 #include <osg/BlendEquation>
 #include <osg/BlendFunc>
 #include <osg/Geometry>
+#include <osg/Image>
 #include <osg/LogicOp>
 #include <osg/Material>
+#include <osg/TexEnv>
+#include <osg/Texture>
+#include <osg/observer_ptr>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 
 namespace gnomon {
 namespace {
@@ -38,11 +45,83 @@ bool operationHides(const osgUtil::StateGraph* graph) {
            code == osg::LogicOp::SET;
 }
 
-bool hasTexture(const osgUtil::StateGraph* graph) {
+/// Texture units that any state set speaks of.
+unsigned textureUnits(const osgUtil::StateGraph* graph) {
+    std::size_t units = 0;
     for (; graph; graph = graph->_parent)
-        if (graph->getStateSet() && !graph->getStateSet()->getTextureAttributeList().empty()) return true;
-    return false;
+        if (graph->getStateSet()) units = std::max(units, graph->getStateSet()->getTextureAttributeList().size());
+    return static_cast<unsigned>(units);
 }
+
+/// The innermost one; null if there is none.
+template <class Attribute>
+const Attribute* textureAttribute(const osgUtil::StateGraph* graph, unsigned unit, A::Type type) {
+    for (; graph; graph = graph->_parent)
+        if (const auto* found = graph->getStateSet() ? graph->getStateSet()->getTextureAttribute(unit, type) : nullptr)
+            return dynamic_cast<const Attribute*>(found);
+    return nullptr;
+}
+
+/// Which alphas there are, as a framebuffer draws them.
+struct Alphas {
+    bool one = true, between = false, zero = false;
+    void add(float alpha) { (alpha >= opaqueAlpha ? one : alpha <= 1.0f - opaqueAlpha ? zero : between) = true; }
+    /// @param blurred  they run into one another.
+    bool areTorn(bool blurred) const { return one && (between || (blurred && zero)); }
+};
+
+Alphas alphasIn(const osg::Image& image) {
+    if (!image.isImageTranslucent()) return {};
+    Alphas result{false};
+    for (int row = 0; row < image.t() && !result.areTorn(false); ++row)
+        for (int column = 0; column < image.s(); ++column)
+            result.add(image.getColor(unsigned(column), unsigned(row)).a());
+    return result;
+}
+
+Alphas alphasIn(const osg::Array& array) {
+    const auto* colors = dynamic_cast<const osg::Vec4Array*>(&array);
+    if (!colors) return {};
+    Alphas result{false};
+    for (const osg::Vec4& color : *colors) result.add(color.a());
+    return result;
+}
+
+bool isBlurred(const osg::Texture& texture) {
+    return texture.getFilter(osg::Texture::MIN_FILTER) != osg::Texture::NEAREST ||
+           texture.getFilter(osg::Texture::MAG_FILTER) != osg::Texture::NEAREST;
+}
+
+/// Alphas of images and arrays, looked through once, until these say that they have changed.
+class KnownAlphas : public osg::Object {
+public:
+    KnownAlphas() = default;
+    KnownAlphas(const KnownAlphas& other, const osg::CopyOp& copyOp) : osg::Object(other, copyOp) {}
+    META_Object(gnomon, KnownAlphas)
+
+    /// @param owner  of the data, which it may let go once it has been drawn. @param data  null: gone, or not there.
+    template <class Data>
+    Alphas of(const osg::Object& owner, const Data* data) {
+        const auto known = _known.find(&owner);
+        const bool valid = known != _known.end() && known->second.owner.valid();
+        if (!data || (valid && known->second.modified == data->getModifiedCount()))
+            return valid ? known->second.alphas : Alphas();
+        for (auto each = _known.begin(); each != _known.end();)
+            each = each->second.owner.valid() ? std::next(each) : _known.erase(each);
+        return (_known[&owner] = {&owner, data->getModifiedCount(), alphasIn(*data)}).alphas;
+    }
+
+protected:
+    ~KnownAlphas() override = default;
+
+private:
+    struct Entry {
+        osg::observer_ptr<const osg::Object> owner;
+        unsigned modified;
+        Alphas alphas;
+    };
+    std::map<const osg::Object*, Entry> _known;
+};
 
 /// The alpha of the one colour that a geometry has; 1 where it has several, or none.
 float alphaOf(const osg::Drawable& drawable) {
@@ -51,18 +130,40 @@ float alphaOf(const osg::Drawable& drawable) {
     return colors && colors->size() == 1 ? colors->front().a() : 1.0f;
 }
 
+/// True if colours of vertices take the place of the diffuse one.
+bool tracksDiffuse(const osg::Material& material) {
+    return material.getColorMode() == osg::Material::DIFFUSE ||
+           material.getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE;
+}
+
 /// What is known of the alpha without textures and programs: it is this at most.
 float mostAlpha(const osgUtil::RenderLeaf& leaf) {
     const osgUtil::StateGraph* graph = leaf._parent;
-    if (hasTexture(graph) || resolvedAttribute(graph, A::PROGRAM)) return 1.0f;
+    if (textureUnits(graph) > 0 || resolvedAttribute(graph, A::PROGRAM)) return 1.0f;
     const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
     if (!isOn(graph, GL_LIGHTING)) return alphaOf(*leaf._drawable);
     if (!material) return 1.0f;
-    const bool tracks = material->getColorMode() == osg::Material::DIFFUSE ||
-                        material->getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE;
-    if (tracks && leaf._drawable->asGeometry() && leaf._drawable->asGeometry()->getColorArray())
+    if (tracksDiffuse(*material) && leaf._drawable->asGeometry() && leaf._drawable->asGeometry()->getColorArray())
         return alphaOf(*leaf._drawable);
     return std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a());
+}
+
+/// True if an alpha of 1 stands beside lesser ones; not if each pixel is either all there or clear.
+bool isTorn(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
+    const osgUtil::StateGraph* graph = leaf._parent;
+    if (resolvedAttribute(graph, A::PROGRAM)) return false;
+    for (unsigned unit = 0, end = textureUnits(graph); unit < end; ++unit) {
+        const auto* texture = textureAttribute<osg::Texture>(graph, unit, A::TEXTURE);
+        const auto* environment = textureAttribute<osg::TexEnv>(graph, unit, A::TEXENV);
+        const bool counts = texture && !(environment && environment->getMode() == osg::TexEnv::DECAL);
+        if (counts && known.of(*texture, texture->getImage(0)).areTorn(isBlurred(*texture))) return true;
+    }
+    const osg::Geometry* geometry = leaf._drawable->asGeometry();
+    const osg::Array* colors = geometry ? geometry->getColorArray() : nullptr;
+    if (!colors || colors->getNumElements() < 2) return false;
+    const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
+    const bool drawn = !isOn(graph, GL_LIGHTING) || (material && tracksDiffuse(*material));
+    return drawn && known.of(*colors, colors).areTorn(true);
 }
 
 /// What has no bounds draws something else than surfaces: a user interface, for one, which must not be drawn twice.
@@ -78,6 +179,7 @@ bool blendHides(const osgUtil::RenderLeaf& leaf) {
 
 LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number) {
     LateReceivers late;
+    KnownAlphas& known = keptBy<KnownAlphas>(stage);
     const auto& bins = stage.getRenderBinList();
     for (auto bin = bins.lower_bound(number); bin != bins.end(); ++bin)
         for (const DrawnLeaf& entry : leavesIn(*bin->second)) {
@@ -85,7 +187,11 @@ LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number) {
             const bool combines = isOn(entry.leaf->_parent, GL_COLOR_LOGIC_OP);
             if (combines && !operationHides(entry.leaf->_parent)) {
                 late.combined.push_back(entry);
-            } else if (combines || blendHides(*entry.leaf)) {
+            } else if (!combines && !blendHides(*entry.leaf)) {
+                continue;
+            } else if (!combines && isOn(entry.leaf->_parent, GL_BLEND) && isTorn(*entry.leaf, known)) {
+                late.torn.push_back(entry);
+            } else {
                 late.leaves.push_back(entry);
                 late.last = bin->second.get();
             }

@@ -6,12 +6,15 @@ namespace gnomon {
 
 /// Leaves of a stage that are drawn after its opaque bins and receive all the same.
 ///
-/// They have bounds and write depth, and no constant alpha lets what is behind shine through all of them. Loaders put whatever has a
-/// texture with an alpha channel among the transparent things.
+/// They have bounds and write depth, and neither a constant alpha nor that of a texture lets what is behind shine through. Loaders
+/// put whatever has a texture with an alpha channel among the transparent things.
+///
+/// Limits  of a program's alpha nothing is known: such leaves receive where it is 1.
 struct LateReceivers {
     std::vector<DrawnLeaf> leaves;
     std::vector<DrawnLeaf>
-        combined; ///< do not receive, because a logic operation combines them with what stands behind.
+        combined;                ///< do not receive, because a logic operation combines them with what stands behind.
+    std::vector<DrawnLeaf> torn; ///< do not receive, because their alpha is 1 in some parts only.
     osgUtil::RenderBin* last = nullptr; ///< the stage's last bin that draws some of them; null if there are none.
 };
 

@@ -29,15 +29,23 @@ void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUt
 }
 
 /// What stands behind would need its own shadow and that of what is combined with it.
-void reportCombined(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
-    const auto receiving = receivingOf(entry, drawn.late.combined, stage);
-    const auto first =
-        std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
-    if (first != receiving.end())
+void reportSeenThrough(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
+    const auto firstOf = [&](const std::vector<DrawnLeaf>& leaves) {
+        const Leaves all = receivingOf(entry, leaves, stage);
+        const auto first = std::find_if(all.begin(), all.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
+        return first == all.end() ? std::string() : nameOf(**first);
+    };
+    if (const std::string name = firstOf(drawn.late.combined); !name.empty())
         entry.technique->report(entry.frameNumber,
-                                "a logic operation combines '" + nameOf(**first) +
+                                "a logic operation combines '" + name +
                                     "' with what stands behind it, in a bin above 8, so it receives no shadow. Draw it "
                                     "in a bin below 8, or switch GL_COLOR_LOGIC_OP off.");
+    if (const std::string name = firstOf(drawn.late.torn); !name.empty())
+        entry.technique->report(entry.frameNumber,
+                                "'" + name +
+                                    "' blends by an alpha that is 1 in some parts only, in a bin above 8, so it "
+                                    "receives no shadow. Draw it in a bin below 8, or without GL_BLEND by an "
+                                    "osg::AlphaFunc.");
 }
 
 /// A factor is for what is seen, fog and all.
@@ -206,7 +214,7 @@ void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stag
 void reportReceiverStates(const EnlistedTechnique& entry, const Receiving& receiving, osgUtil::RenderStage& stage) {
     const auto& [early, late, drawn] = receiving;
     drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, early, late);
-    reportCombined(entry, drawn, stage);
+    reportSeenThrough(entry, drawn, stage);
     if (late.empty()) reportNoDepth(entry, early);
     if (!early.empty() || !late.empty()) reportFog(entry, drawn);
 }
