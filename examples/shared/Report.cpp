@@ -72,6 +72,7 @@ std::vector<std::pair<std::string, std::string>> lines(const ShadowMetrics& m) {
         {"RMSE", intensityText(m.pointSun) + " of a point sun, " + intensityText(m.discSun) + " of the sun's disc"},
         {"thin", "RMSE " + intensityText(m.thin) + " of a point sun, both filtered by 4 x 4 px"},
         {"apart", "terminator " + wrongText(m.terminator) + ", smooth self-shadow " + wrongText(m.selfShadowed)},
+        {"turned away", pixels(m.turnedAwayWrong) + " wrong"},
         {"pixels judged", judgedText(m)},
         {"catastrophes", catastropheText(m.catastrophes)}};
 }
@@ -145,6 +146,7 @@ static void allFields(Way& way, PartOf<Way, ShadowMetrics> m) {
     way.object("raw", m.raw);
     way.object("terminator", m.terminator);
     way.object("selfShadowed", m.selfShadowed);
+    way.field("turnedAwayWrong", m.turnedAwayWrong);
     way.object("boundaryPixels", m.boundary);
     way.object("causes", m.causes);
     way.object("rmsePointSun", m.pointSun);

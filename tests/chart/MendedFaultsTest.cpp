@@ -66,4 +66,21 @@ TEST(MendedFaults, TracedIsRightThroughATelescope) {
     }
 }
 
+/// L12: walls that map hatched and rimmed. A map has a few pixels of doubt at a degree and less: here walls are some pixels wide.
+TEST(MendedFaults, NoTechniqueLeavesWallsBrightOrStripedThatAreTurnedAway) {
+    for (const char* technique : {"map", "volume", "traced", "auto"})
+        for (const double degrees : {8.0, 1.0, 0.5}) {
+            const StabilityRow row = measured("L12", degrees, technique);
+            const std::size_t most = technique == std::string("map") && degrees < 8.0 ? 40 : 0;
+            EXPECT_LE(row.cells[0].everywhere.turnedAwayWrong, most) << technique << " " << degrees;
+            EXPECT_LE(row.flicker.turnedAwayWrong, most) << technique << " " << degrees;
+            EXPECT_TRUE(row.cells[0].inBudget()) << technique << " " << degrees;
+        }
+}
+
+TEST(MendedFaults, APictureWithoutShadowsHasWallsThatAreBrightThoughTurnedAway) {
+    EXPECT_GT(measured("L12", 8.0, StabilityContender{plainContender()}, 120).cells[0].everywhere.turnedAwayWrong,
+              500u);
+}
+
 } // namespace

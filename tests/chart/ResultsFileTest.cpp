@@ -49,6 +49,7 @@ ShadowMetrics fullErrors(Counter& next) {
     m.droppedShare = next.number();
     m.sound = false;
     for (Confusion* set : {&m.headline, &m.raw, &m.terminator, &m.selfShadowed}) *set = next.confusion();
+    m.turnedAwayWrong = next.count();
     m.boundary =
         BoundaryDistance{next.number(), next.number(), next.number(), next.number(), next.number(), next.number()};
     m.causes = CauseSplit{next.count(), next.count(), next.count(),  next.count(),  next.count(),
@@ -182,6 +183,7 @@ const std::vector<const char*> countedPlaces{"/cost/firstMs",
                                              "/errors/selfShadowed/falseShadow",
                                              "/errors/selfShadowed/falseLit",
                                              "/errors/selfShadowed/lit",
+                                             "/errors/turnedAwayWrong",
                                              "/errors/boundaryPixels/mean",
                                              "/errors/boundaryPixels/p95",
                                              "/errors/boundaryPixels/max",

@@ -217,6 +217,34 @@ TEST(StabilityJudge, CountsAWrongPixelAwayFromEdgesButNotOneBesideThem) {
     EXPECT_FALSE(judged(picture).inBudget());
 }
 
+/// A wall of 20 x 20 pixels that is turned away.
+metrics::TruthMaps turnedAwayBy(double cosine) {
+    metrics::TruthMaps truth = halfShadowed();
+    truth.lit = metrics::Picture(32, 32, 0.0);
+    truth.litCentre = metrics::Mask(32, 32, 0);
+    for (int y = 6; y < 26; ++y)
+        for (int x = 6; x < 26; ++x) truth.facing.at(x, y) = -cosine;
+    return truth;
+}
+
+TEST(StabilityJudge, CountsPixelsTurnedAwayThatAreBrightOrStripedAwayFromEdges) {
+    const auto wrong = [](const metrics::Picture& picture, const metrics::TruthMaps& truth) {
+        const metrics::PixelSets sets = metrics::pixelSets(truth, picture);
+        return judge(picture, truth, sets, sets.agreeing).turnedAwayWrong;
+    };
+    metrics::Picture dark(32, 32, 0.0), spot = dark, rim = dark;
+    const metrics::Picture bright(32, 32, 1.0);
+    spot.at(12, 12) = 1.0;
+    rim.at(7, 12) = 1.0; // two from another face
+    EXPECT_EQ(wrong(dark, turnedAwayBy(0.1)), 0u);
+    EXPECT_EQ(wrong(bright, turnedAwayBy(0.1)), 256u); // of 16 x 16 that are more than two from others
+    EXPECT_EQ(wrong(spot, turnedAwayBy(0.1)), 1u);
+    EXPECT_EQ(wrong(rim, turnedAwayBy(0.1)), 0u);
+    EXPECT_EQ(wrong(bright, turnedAwayBy(0.001)), 0u); // whole: depth does not tell to which side it turns
+    EXPECT_EQ(wrong(spot, turnedAwayBy(0.001)), 5u);   // itself and its neighbours
+    EXPECT_EQ(wrong(bright, turnedAwayBy(-0.001)), 0u);
+}
+
 TEST(StabilityJudge, CallsAShadowLostIfNothingOfItIsThere) {
     EXPECT_TRUE(judged(metrics::Picture(32, 32, 1.0)).lost);
     EXPECT_FALSE(judged(centreRays()).lost);

@@ -532,7 +532,8 @@ edge lies within 1 px of the true one, and no pixel away from edges is wrong.</p
 <h2>All cells</h2>
 <p><label>Show rows that contain <input class="filter"></label> <span class="note">A click on a head sorts.</span></p>
 <div class="wide"><table class="sortable"><thead><tr><th class="text">scene</th><th class="text">technique</th>
-<th class="text">outcome</th><th class="text">at</th><th>wrong px</th><th>edge off, px</th><th>IoU</th><th>flicker, share</th>
+<th class="text">outcome</th><th class="text">at</th><th>wrong px</th><th>turned away wrong, px</th><th>edge off, px</th><th>IoU</th>
+<th>flicker, share</th>
 <th>edge crawl, px</th><th class="text">pictures</th><th class="text">it says</th></tr></thead><tbody>
 {% for row in results.rows %}{% set scene = scenes[row.scene] %}{% set place = left_at(row) %}
 {% set cell = row.cells[-1 if place is none else place] %}
@@ -540,11 +541,16 @@ edge lies within 1 px of the true one, and no pixel away from edges is wrong.</p
 <td class="text" title="{{ scene.about }}">{{ scene.id }} {{ scene.title }}</td><td class="text">{{ contender(row) }}</td>
 <td class="text" style="background: {{ colour(row) }}" data-value="{{ row.reach }}">{{ row.outcome }}</td>
 <td class="text">{{ "the end" if place is none else value_text(scene, place) }}</td>
-<td>{{ cell.everywhere.wrong }}</td><td>{{ short(cell.everywhere.p95Pixels) }}</td><td>{{ short(cell.everywhere.iou) }}</td>
+<td>{{ cell.everywhere.wrong }}</td><td>{{ turned_away(row) }}</td>
+<td>{{ short(cell.everywhere.p95Pixels) }}</td><td>{{ short(cell.everywhere.iou) }}</td>
 <td>{{ short(row.flickerShare) }}</td><td>{{ short(row.crawlPixels) }}</td>
 <td class="text">{% for one in row.cells if one.picture %}<a href="{{ one.picture }}">{{ value_text(scene, loop.index0) }}</a> {% endfor %}{% if row.flickerPicture %}<a href="{{ row.flickerPicture }}">film</a>{% endif %}</td>
 <td class="text">{{ cell.message or cell.diagnosis|join(" ") }}</td></tr>{% endfor %}
 </tbody></table></div>""" + FOOT
+
+
+def turned_away(row):
+    return max([row["flickerTurnedAwayWrong"]] + [(cell["onReceiver"] or cell["everywhere"])["turnedAwayWrong"] for cell in row["cells"]])
 
 
 def report_stability(folder, table):
@@ -552,9 +558,9 @@ def report_stability(folder, table):
     scenes = {scene["id"]: scene for scene in table["scenes"]}
     save(stability_figure(table, contenders), folder, "stability")
     page = render(STABILITY_PAGE, title="When shadows break", results=table, file="stability", scenes=scenes, left_at=left_at,
-                  contender=contender, colour=reach_colour, value_text=value_text)  # fmt: skip
+                  contender=contender, colour=reach_colour, value_text=value_text, turned_away=turned_away)  # fmt: skip
     (folder / "stability.html").write_text(page, encoding="utf-8")
-    judged = ("p95Pixels", "wrong", "shadow", "iou")
+    judged = ("p95Pixels", "wrong", "turnedAwayWrong", "shadow", "iou")
     write_csv(folder / "stability.csv",
               ["scene", "parameter", "value", "unit", "kit", "technique", "setting", "outcome", "failure", *judged, "in_budget",
                "catastrophe", "it_says"],
@@ -571,7 +577,7 @@ def report_stability(folder, table):
                 cell = row["cells"][place]
                 what = f"{cell['failure']}, {cell['message']}" if cell["failure"] else f"{cell['everywhere']['wrong']} wrong pixels"
                 end = f"{row['outcome']} at {value_text(scene, place)}: {what}. {' '.join(cell['diagnosis'])}"
-            print(f"{row['scene']:5} {contender(row):36} {end}")
+            print(f"{row['scene']:5} {contender(row):36} {end}. Turned away and wrong: {turned_away(row)} px")
     print(f"{'':36}" + "".join(f"{outcome:>14}" for outcome in OUTCOMES))
     for name in contenders:
         outcomes = [row["outcome"] for row in table["rows"] if contender(row) == name]

@@ -8,7 +8,7 @@
 namespace gnomon::metrics {
 namespace {
 
-constexpr double terminatorCosine = 0.05;
+constexpr double terminatorCosine = 0.05, samePlaneCosine = 0.005;
 constexpr std::array<std::pair<int, int>, 5> plus{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 /// Whether the pixel and its 4 neighbours, as far as the picture goes, truly are and are drawn as one surface.
@@ -39,6 +39,19 @@ bool shadowedByItself(const TruthMaps& truth, std::size_t i) {
            truth.blockerDistance.cells[i] < 2.0 * truth.edgeLength.cells[i];
 }
 
+/// What bends or ends within 2 px is left out: there the light's terminator or another face is seen.
+bool isWithinTurnedAwayPlane(const TruthMaps& truth, int x, int y) {
+    constexpr int reach = 2;
+    const double cosine = truth.facing.at(x, y);
+    if (!(cosine <= 0.0)) return false;
+    for (int v = y - reach; v <= y + reach; ++v)
+        for (int u = x - reach; u <= x + reach; ++u)
+            if (!truth.receiver.holds(u, v) || truth.receiver.at(u, v) != truth.receiver.at(x, y) ||
+                !(std::abs(truth.facing.at(u, v) - cosine) < samePlaneCosine))
+                return false;
+    return true;
+}
+
 void sortPixel(const TruthMaps& truth, std::size_t i, PixelSets& sets) {
     const double cosine = truth.facing.cells[i], lit = truth.lit.cells[i];
     sets.facing.cells[i] = cosine > terminatorCosine;
@@ -55,7 +68,11 @@ PixelSets pixelSets(const TruthMaps& truth, const Picture& visibility) {
     sets.agreeing = agreeingIds(truth.receiver, drawn);
     sets.droppedShare = droppedShare(sets.agreeing, truth.receiver, drawn);
     const Mask none(truth.receiver.width, truth.receiver.height);
-    sets.facing = sets.certain = sets.terminator = sets.selfShadowed = none;
+    sets.facing = sets.certain = sets.turnedAway = sets.terminator = sets.selfShadowed = none;
+    for (int y = 0; y < visibility.height; ++y)
+        for (int x = 0; x < visibility.width; ++x)
+            sets.turnedAway.at(x, y) =
+                sets.agreeing.at(x, y) && std::isfinite(visibility.at(x, y)) && isWithinTurnedAwayPlane(truth, x, y);
     for (std::size_t i = 0; i < visibility.cells.size(); ++i) {
         if (!std::isfinite(visibility.cells[i])) sets.agreeing.cells[i] = 0;
         if (sets.agreeing.cells[i]) sortPixel(truth, i, sets);

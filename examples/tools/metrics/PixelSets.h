@@ -9,6 +9,7 @@ struct PixelSets {
     Mask agreeing;             ///< R: the pixel and its 4 neighbours are one surface, in the truth and as drawn.
     Mask facing;               ///< R+: pixels of R with N_g.L > 0.05.
     Mask certain;              ///< Rc: pixels of R+ whose rays all agree (T_a is 0 or 1). The headline set.
+    Mask turnedAway;           ///< Pixels of R with N_g.L <= 0 whose 24 neighbours lie on the same plane, by N_g.L.
     Mask terminator;           ///< Pixels of R with 0 < N_g.L <= 0.05. Reported apart.
     Mask selfShadowed;         ///< Pixels of R+ that their own object blocks within 2 edge lengths. Reported apart.
     double droppedShare = 0.0; ///< Share of surface pixels that R leaves out because of their ids, 0 … 1.

@@ -56,6 +56,25 @@ void countSets(const PixelSets& sets, ShadowMetrics& metrics) {
 
 } // namespace
 
+std::size_t turnedAwayWrong(const Picture& visibility, const TruthMaps& truth, const Mask& turnedAway) {
+    constexpr double doubt = 0.01;
+    const auto isDark = [&](int x, int y) { return isShadowed(visibility.at(x, y)); };
+    const auto differs = [&](int x, int y, int u, int v) {
+        return turnedAway.holds(u, v) && turnedAway.at(u, v) && isDark(u, v) != isDark(x, y);
+    };
+    std::size_t wrong = 0;
+    for (int y = 0; y < turnedAway.height; ++y)
+        for (int x = 0; x < turnedAway.width; ++x) {
+            if (!turnedAway.at(x, y)) continue;
+            if (truth.facing.at(x, y) < -doubt)
+                wrong += !isDark(x, y);
+            else
+                wrong += differs(x, y, x - 1, y) || differs(x, y, x + 1, y) || differs(x, y, x, y - 1) ||
+                         differs(x, y, x, y + 1);
+        }
+    return wrong;
+}
+
 ShadowMetrics shadowMetrics(const Visibility& visibility, const TruthMaps& truth, const CauseLimits& limits) {
     const Picture& v = visibility.value;
     requireSizes(v, truth);
@@ -67,6 +86,7 @@ ShadowMetrics shadowMetrics(const Visibility& visibility, const TruthMaps& truth
     metrics.raw = confusion(v, truth, sets.facing);
     metrics.terminator = confusion(v, truth, sets.terminator);
     metrics.selfShadowed = confusion(v, truth, sets.selfShadowed);
+    metrics.turnedAwayWrong = turnedAwayWrong(v, truth, sets.turnedAway);
     metrics.boundary = boundaryDistance(v, truth.lit, sets.facing);
     metrics.causes = causeSplit(v, truth, sets, limits);
     metrics.pointSun = intensityError(v, truth.lit, sets.facing);

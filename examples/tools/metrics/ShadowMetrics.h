@@ -35,6 +35,7 @@ struct ShadowMetrics {
     Confusion raw;                            ///< On R+.
     Confusion terminator;                     ///< On the set of this name, reported apart.
     Confusion selfShadowed;                   ///< On the set of this name, reported apart.
+    std::size_t turnedAwayWrong = 0;          ///< See the function turnedAwayWrong().
     std::optional<BoundaryDistance> boundary; ///< M4; nullopt without both boundaries.
     CauseSplit causes;                        ///< M5.
     IntensityError pointSun;                  ///< M6 for a point sun.
@@ -42,6 +43,12 @@ struct ShadowMetrics {
     IntensityError thin;                      ///< M6 for a point sun, after a filter of 4 x 4 px.
     Catastrophes catastrophes;                ///< M8.
 };
+
+/// The number of pixels of PixelSets::turnedAway that are bright, or striped.
+///
+/// Where N_g.L is below -0.01, a pixel is wrong that is lit. Nearer to the light's plane a depth buffer does not tell to which
+/// side a surface turns: it may be lit there as a whole, and a pixel is wrong that differs from one of its 4 neighbours.
+std::size_t turnedAwayWrong(const Picture& visibility, const TruthMaps& truth, const Mask& turnedAway);
 
 /// Measures one picture by all these metrics. The functions for single metrics stand in the other headers.
 ///

@@ -11,7 +11,7 @@ namespace gnomon::examples {
 /// A contender's visibility scene on a screen: white in the light alone, float colours.
 ///
 /// V = A / B: A is the frame, B the same with nothing in the passes that cast. Full shadow is black in such a scene, so
-/// that no third picture is needed.
+/// that no third picture is needed. Under BLEND there is some ambient light, which a shadow blackens, too.
 class Sight {
 public:
     /// @throws see Contender::stage.

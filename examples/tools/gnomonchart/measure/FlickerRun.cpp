@@ -2,7 +2,7 @@
 #include "FlickerRun.h"
 
 #include <gnomon/Convert.h>
-#include <metrics/PixelSets.h>
+#include <metrics/ShadowMetrics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -101,17 +101,21 @@ Film::Film(const Yardstick& yardstick, Motion motion, int frames, const std::fun
     }
 }
 
-metrics::FlickerMeter Film::measure(Sight& sight, const std::function<bool()>& stops, int objects) const {
+metrics::FlickerMeter Film::measure(Sight& sight, const std::function<bool()>& stops, int objects,
+                                    std::size_t* turnedAwayWrong) const {
     metrics::FlickerMeter meter;
     for (const Frame& frame : _frames) {
         if (stops()) break;
         sight.setCamera(frame.camera);
         sight.setLight(frame.light);
         metrics::Picture visibility = sight.visibility().value;
-        metrics::Mask facing = metrics::pixelSets(frame.truth, visibility).facing;
-        for (std::size_t i = 0; i < facing.cells.size(); ++i)
-            if (frame.truth.receiver.cells[i] > objects) facing.cells[i] = 0;
-        meter.add(flickerFrame(frame.truth, _origin, frame.camera, std::move(visibility), std::move(facing)));
+        metrics::PixelSets sets = metrics::pixelSets(frame.truth, visibility);
+        for (std::size_t i = 0; i < sets.facing.cells.size(); ++i)
+            if (frame.truth.receiver.cells[i] > objects) sets.facing.cells[i] = sets.turnedAway.cells[i] = 0;
+        if (turnedAwayWrong)
+            *turnedAwayWrong =
+                std::max(*turnedAwayWrong, metrics::turnedAwayWrong(visibility, frame.truth, sets.turnedAway));
+        meter.add(flickerFrame(frame.truth, _origin, frame.camera, std::move(visibility), std::move(sets.facing)));
     }
     return meter;
 }

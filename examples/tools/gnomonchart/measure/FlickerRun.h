@@ -26,9 +26,11 @@ public:
     Film(const Yardstick& yardstick, Motion motion, int frames, const std::function<bool()>& stops);
 
     /// What the contender's film is like. The sight is moved.
-    /// @param objects  only receivers of ids up to this count.
+    /// @param objects          only receivers of ids up to this count.
+    /// @param turnedAwayWrong  where not null, the most of any frame, see metrics::turnedAwayWrong().
     metrics::FlickerMeter measure(Sight& sight, const std::function<bool()>& stops,
-                                  int objects = std::numeric_limits<int>::max()) const;
+                                  int objects = std::numeric_limits<int>::max(),
+                                  std::size_t* turnedAwayWrong = nullptr) const;
 
 private:
     struct Frame {

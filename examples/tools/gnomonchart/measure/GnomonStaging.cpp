@@ -2,11 +2,18 @@
 #include "GnomonStaging.h"
 #include "SceneSetup.h"
 
+#include <osg/LightModel>
+
 namespace gnomon::examples {
 
 GnomonStaging::GnomonStaging(ShadowSpec spec, const ChartScene& scene, Look look)
     : Staging(scene, look), _group(new ShadowCasterGroup) {
-    if (look == Look::VISIBILITY && spec.composite == ShadowCasterGroup::BLEND) spec.dark = 0.0f;
+    if (look == Look::VISIBILITY && spec.composite == ShadowCasterGroup::BLEND) {
+        spec.dark = 0.0f;
+        osg::ref_ptr<osg::LightModel> model = new osg::LightModel; // or what is turned away is black, shadowed or not
+        model->setAmbientIntensity({0.25f, 0.25f, 0.25f, 1.0f});
+        _root->getOrCreateStateSet()->setAttributeAndModes(model);
+    }
     _group->addChild(_content);
     _root->addChild(_group);
     _techniques = addShadows(*_group, {spec});

@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned seedsAProcess = 25; // whose truths one process keeps
 constexpr double lostBelow = 0.5;
-constexpr std::size_t leastShadow = 200; // px
+constexpr std::size_t leastShadow = 200, leastTurnedAway = 50; // px
 
 StabilityScene seedsFrom(unsigned first, unsigned count) {
     StabilityScene scene;
@@ -82,7 +82,8 @@ bool isRandomFault(const StabilityCell& cell) {
     if (cell.failure == "crashed" || cell.failure == "hung" || cell.failure == "failed" || cell.notFinite > 0)
         return true;
     const StabilityJudgement& judged = cell.onReceiver ? *cell.onReceiver : cell.everywhere;
-    return cell.failure.empty() && !cell.stated() && judged.shadow > leastShadow && judged.iou < lostBelow;
+    const bool lost = judged.shadow > leastShadow && judged.iou < lostBelow;
+    return cell.failure.empty() && !cell.stated() && (lost || judged.turnedAwayWrong > leastTurnedAway);
 }
 
 unsigned searchRandomScenes(const RandomSearch& search,
@@ -104,7 +105,8 @@ unsigned searchRandomScenes(const RandomSearch& search,
 std::string faultText(const RandomFault& fault) {
     const StabilityJudgement& judged = fault.cell.onReceiver ? *fault.cell.onReceiver : fault.cell.everywhere;
     const std::string what = fault.cell.failure.empty()
-                                 ? "IoU " + valueText(judged.iou) + " of " + std::to_string(judged.shadow) + " px"
+                                 ? "IoU " + valueText(judged.iou) + " of " + std::to_string(judged.shadow) + " px, " +
+                                       std::to_string(judged.turnedAwayWrong) + " px turned away wrong"
                                  : fault.cell.failure + ", " + fault.cell.message;
     return fault.technique + " breaks (" + what + "): " + describe(fault.plainest);
 }

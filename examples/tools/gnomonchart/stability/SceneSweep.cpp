@@ -100,9 +100,14 @@ int SceneSweep::Run::receivers(const Value& value) const {
 StabilityFlicker SceneSweep::Run::flicker(std::size_t place) {
     const Value& value = _sweep.value(place);
     Sight sight(_contender, value.yardstick.scene());
-    const metrics::FlickerMeter meter = _sweep.film(place).measure(sight, never, receivers(value));
-    StabilityFlicker flicker{_sweep._scene.values[place], meter.energy(),   meter.share(),
-                             meter.crawlBeyondRays(),     meter.rayCrawl(), ""};
+    StabilityFlicker flicker;
+    const metrics::FlickerMeter meter =
+        _sweep.film(place).measure(sight, never, receivers(value), &flicker.turnedAwayWrong);
+    flicker.value = _sweep._scene.values[place];
+    flicker.energy = meter.energy();
+    flicker.share = meter.share();
+    flicker.crawl = meter.crawlBeyondRays();
+    flicker.rayCrawl = meter.rayCrawl();
     addStrip(meter.worst(), flicker);
     return flicker;
 }

@@ -17,6 +17,7 @@ static void fields(Way& way, PartOf<Way, StabilityJudgement> judgement) {
     way.field("p95Pixels", judgement.p95);
     way.field("floorPixels", judgement.floor);
     way.field("wrong", judgement.wrong);
+    way.field("turnedAwayWrong", judgement.turnedAwayWrong);
     way.field("shadow", judgement.shadow);
     way.field("iou", judgement.iou);
     way.field("lost", judgement.lost);
@@ -44,6 +45,7 @@ static void fields(Way& way, PartOf<Way, StabilityFlicker> flicker) {
     way.field("flickerShare", flicker.share);
     way.field("crawlPixels", flicker.crawl);
     way.field("rayCrawlPixels", flicker.rayCrawl);
+    way.field("flickerTurnedAwayWrong", flicker.turnedAwayWrong);
     way.field("flickerPicture", flicker.picture);
 }
 

@@ -5,6 +5,7 @@
 
 #include <metrics/BoundaryDistance.h>
 #include <metrics/Confusion.h>
+#include <metrics/ShadowMetrics.h>
 
 #include <algorithm>
 
@@ -68,6 +69,7 @@ StabilityJudgement judge(const metrics::Picture& visibility, const metrics::Trut
     if (const auto boundary = metrics::boundaryDistance(visibility, truth.lit, facing)) judged.p95 = boundary->p95;
     judged.floor = floorOf(truth, facing);
     judged.wrong = wrongAwayFromEdges(visibility, truth, certain);
+    judged.turnedAwayWrong = metrics::turnedAwayWrong(visibility, truth, both(sets.turnedAway, within));
     judged.shadow = counts.shadow + counts.falseLit;
     judged.iou = counts.intersectionOverUnion();
     judged.lost = judged.iou < lostBelow && judged.shadow + counts.falseShadow >= leastPixels;

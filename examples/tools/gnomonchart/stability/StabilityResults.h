@@ -11,12 +11,13 @@ namespace gnomon::examples {
 /// How right a picture's shadow is, over some of its pixels.
 struct StabilityJudgement {
     std::optional<double> p95; ///< 95th percentile of the boundary distance, px; none without both boundaries.
-    double floor = 0.0;     ///< the same of pictures that ask one ray a pixel, at its centre or 1/16 px beside it: the
-                            ///< largest. Nothing hard-edged knows its places better.
-    std::size_t wrong = 0;  ///< certain pixels that are wrong, away from edges.
-    std::size_t shadow = 0; ///< certain pixels that are truly shadowed.
-    double iou = 1.0;       ///< intersection over union of the shadow's certain pixels.
-    bool lost = false;      ///< a catastrophe: IoU below 0.2 where shadow or false shadow is of 50 pixels or more.
+    double floor = 0.0;    ///< the same of pictures that ask one ray a pixel, at its centre or 1/16 px beside it: the
+                           ///< largest. Nothing hard-edged knows its places better.
+    std::size_t wrong = 0; ///< certain pixels that are wrong, away from edges.
+    std::size_t turnedAwayWrong = 0; ///< see metrics::turnedAwayWrong(); a figure apart, of no weight in the budget.
+    std::size_t shadow = 0;          ///< certain pixels that are truly shadowed.
+    double iou = 1.0;                ///< intersection over union of the shadow's certain pixels.
+    bool lost = false; ///< a catastrophe: IoU below 0.2 where shadow or false shadow is of 50 pixels or more.
 
     /// At most 1 px at the 95th percentile, or as much as the floor, and no wrong pixels away from edges.
     bool inBudget() const { return !lost && wrong == 0 && p95.value_or(0.0) <= std::max(1.0, floor + 1e-9); }
@@ -58,12 +59,13 @@ enum class StabilityOutcome {
 
 /// How the shadow flickers while the camera goes on and turns, see metrics::FlickerMeter.
 struct StabilityFlicker {
-    std::optional<double> value;    ///< of the parameter, in the film; none: no value is right and has a shadow.
-    std::optional<double> energy;   ///< mean change beyond the truth's, in visibility.
-    std::optional<double> share;    ///< of pixels that change by more than a quarter.
-    std::optional<double> crawl;    ///< of the edges, beyond that of a picture of rays, px.
-    std::optional<double> rayCrawl; ///< of a picture of one ray a pixel, px.
-    std::string picture;            ///< file of the worst two frames in turn and their change; empty: none.
+    std::optional<double> value;     ///< of the parameter, in the film; none: no value is right and has a shadow.
+    std::optional<double> energy;    ///< mean change beyond the truth's, in visibility.
+    std::optional<double> share;     ///< of pixels that change by more than a quarter.
+    std::optional<double> crawl;     ///< of the edges, beyond that of a picture of rays, px.
+    std::optional<double> rayCrawl;  ///< of a picture of one ray a pixel, px.
+    std::size_t turnedAwayWrong = 0; ///< the most of any frame, see StabilityJudgement.
+    std::string picture;             ///< file of the worst two frames in turn and their change; empty: none.
 };
 
 /// One technique in one scene.

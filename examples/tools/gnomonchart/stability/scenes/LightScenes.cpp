@@ -3,7 +3,10 @@
 #include "SceneParts.h"
 #include "Sections.h"
 
+#include <osg/Geometry>
+
 #include <cmath>
+#include <map>
 
 namespace gnomon::examples {
 namespace {
@@ -12,6 +15,7 @@ using glm::dvec3;
 using osg::Vec4d;
 
 constexpr const char* section = "light";
+const std::vector<double> alongWalls{15.0, -15.0, 8.0, -8.0, 4.0, -4.0, 2.0, -2.0, 1.0, -1.0, 0.0, -0.5, 0.5};
 
 /// A house and a sphere on level ground.
 SceneParts houseAndSphere() {
@@ -91,6 +95,40 @@ SceneParts lampOverFace(double off) {
     SceneParts parts = onGround();
     parts.add(boxAt({0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}));
     parts.light = {1.0 + off, -3.0, 4.0, 1.0};
+    return parts;
+}
+
+/// One normal a corner, the mean of its faces', as modellers' exports have them: it takes walls that are turned away for lit ones.
+osg::ref_ptr<osg::Geode> withAveragedNormals(osg::ref_ptr<osg::Geode> geode) {
+    osg::Geometry& geometry = *geode->getDrawable(0)->asGeometry();
+    const auto& corners = static_cast<const osg::Vec3Array&>(*geometry.getVertexArray());
+    std::map<osg::Vec3, osg::Vec3> sums;
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        osg::Vec3 normal = (corners[i + 1] - corners[i]) ^ (corners[i + 2] - corners[i]);
+        normal.normalize();
+        for (std::size_t k = 0; k < 3; ++k) sums[corners[i + k]] += normal;
+    }
+    osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array;
+    for (const osg::Vec3& corner : corners) {
+        normals->push_back(sums[corner]);
+        normals->back().normalize();
+    }
+    geometry.setNormalArray(normals, osg::Array::BIND_PER_VERTEX);
+    return geode;
+}
+
+/// Houses along streets. @param degrees  by which the nearer walls are turned away from the sun; below 0: towards it.
+SceneParts streets(double degrees, bool averaged) {
+    SceneParts parts = onGround(30.0);
+    for (int i = 0; i < 6; ++i) {
+        osg::ref_ptr<osg::Geode> house =
+            node(boxAt({7.0 * (i % 3) - 7.0, 9.0 * (i / 3) - 4.5, 0.0}, {5.0, 6.0, 4.0 + i % 2}));
+        parts.add(averaged ? withAveragedNormals(house) : house);
+    }
+    const double way = osg::DegreesToRadians(degrees), rise = osg::DegreesToRadians(30.0);
+    parts.light = {std::cos(way) * std::cos(rise), std::sin(way) * std::cos(rise), std::sin(rise), 0.0};
+    parts.eye = {-14.0, -24.0, 13.0};
+    parts.radius = 12.0;
     return parts;
 }
 
@@ -178,6 +216,12 @@ std::vector<StabilityScene> lightScenes() {
          "m",
          {1.0, 0.1, 1e-2, 1e-4, 1e-6, 0.0},
          madeOf(lampOverFace)},
+        {"L11", section, "Sun along walls",
+         "A wall that is turned away from the sun by a little is in shadow as a whole, without stripes and bright "
+         "rims.",
+         "walls turned away by", "°", alongWalls, madeOf([](double degrees) { return streets(degrees, false); })},
+        {"L12", section, "Sun along walls, averaged normals", "The same of walls that their normals make bright.",
+         "walls turned away by", "°", alongWalls, madeOf([](double degrees) { return streets(degrees, true); })},
     };
 }
 
