@@ -5,7 +5,7 @@ find_package(OpenSceneGraph 3.6.5 REQUIRED COMPONENTS osg osgUtil osgDB osgFX os
 include(${CMAKE_CURRENT_LIST_DIR}/OsgTargets.cmake)
 set(gnomon_embree_versions 4 3)
 include(${CMAKE_CURRENT_LIST_DIR}/MathLibraries.cmake)
-foreach(pair TBB::tbb:libtbb-dev hwy::hwy:libhwy-dev)
+foreach(pair TBB::tbb:libtbb-dev)
   string(REGEX MATCH "(.*):(.*)" pair ${pair})
   if(NOT TARGET ${CMAKE_MATCH_1})
     message(FATAL_ERROR "Gnomon needs ${CMAKE_MATCH_1}. Install ${CMAKE_MATCH_2}.")

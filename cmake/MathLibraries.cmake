@@ -1,11 +1,8 @@
-# Looks for what the maths is made of, quietly: the targets TBB::tbb, hwy::hwy, embree, Qhull::qhullcpp, Qhull::qhull_r and
+# Looks for what the maths is made of, quietly: the targets TBB::tbb, embree, Qhull::qhullcpp, Qhull::qhull_r and
 # nova::nova. A target that the user's project has already is taken as it is.
 # gnomon_embree_versions: the major versions of Embree that may be taken. What embree_DIR names goes ahead of the others.
 if(NOT TARGET TBB::tbb)
   find_package(TBB CONFIG QUIET)
-endif()
-if(NOT TARGET hwy::hwy)
-  find_package(hwy CONFIG QUIET)
 endif()
 if(NOT TARGET TBB::tbb) # without it, Embree's own file would stop CMake
   return()

@@ -50,7 +50,7 @@ std::vector<std::string> TownControls::describe() const {
 
 const std::vector<Key<TownControls>>& townKeys() {
     static const std::vector<Key<TownControls>> keys = {
-        {'n', "Next shadow technique: none, box, hull, drape.", [](TownControls& c, Hud&) { c.nextTechnique(); }},
+        {'n', "Next shadow technique: none, box, hull.", [](TownControls& c, Hud&) { c.nextTechnique(); }},
         {'r', "Switch between relight and blend.", [](TownControls& c, Hud&) { c.toggleComposite(); }},
         {'j', "Half an hour earlier.", [](TownControls& c, Hud&) { c.passTime(-step); }},
         {'k', "Half an hour later.", [](TownControls& c, Hud&) { c.passTime(step); }},

@@ -10,7 +10,7 @@ class TownControls {
 public:
     explicit TownControls(TownScene& town);
 
-    /// none, box, hull, drape, and on from the first; that of the command line as it was given there.
+    /// none, box, hull, and on from the first; that of the command line as it was given there.
     void nextTechnique();
     void toggleComposite();
     /// Hours; stops while the sun is up.

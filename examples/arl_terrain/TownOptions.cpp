@@ -18,13 +18,13 @@ ShadowSpec readTownSpec(Text text) {
     const ShadowSpec spec = parseShadowSpec(text);
     const auto& allowed = townTechniques();
     if (std::find(allowed.begin(), allowed.end(), spec.technique) == allowed.end())
-        throw std::invalid_argument("Allowed: none, box, hull, drape.");
+        throw std::invalid_argument("Allowed: none, box, hull.");
     return spec;
 }
 
 Options townOptions(TownOptions& into) {
     Options table;
-    table.push_back({"--shadow", "none|box|hull|drape", "shadow technique, with keys as in SPEC below", "hull",
+    table.push_back({"--shadow", "none|box|hull", "shadow technique, with keys as in SPEC below", "hull",
                      [&into](Text t) { into.view.shadows = {readTownSpec(t)}; }});
     table.push_back({"--hour", "H",
                      "mean solar time on 20 March, 6.5 to 17.5 hours; the sun is due south shortly after 12", "9",
@@ -53,7 +53,7 @@ void takeElevation(osg::ArgumentParser& arguments, TownOptions& into) {
 } // namespace
 
 const std::vector<std::string>& townTechniques() {
-    static const std::vector<std::string> names = {"none", "box", "hull", "drape"};
+    static const std::vector<std::string> names = {"none", "box", "hull"};
     return names;
 }
 
@@ -73,13 +73,13 @@ std::string townHelp() {
     TownOptions defaults;
     return "arl_terrain [ELEVATION] [OPTION...]\n"
            "Shows a town on an elevation model, with shadows by the bounding-box method of ARL-TN-156 (box)\n"
-           "and by its two successors (hull, drape).\n\n"
+           "and by its successor (hull).\n\n"
            "ELEVATION is a file that GDAL reads, in metres, with .gdal added to its name: dem.tif.gdal. The default "
            "is\n"
            "the mountains around the Jacksboro fault, data/jacksboro.vrt.gdal.\n\n" +
            describeOptions(townOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp(townTechniques()) +
            "\nKEYS\n" + keysHelp(townKeys()) + windowKeysHelp("arl_terrain") +
-           "\nExample: arl_terrain --shadow drape:error=0.5 --hour 16.5 --out town.png\n";
+           "\nExample: arl_terrain --shadow box --hour 16.5 --out town.png\n";
 }
 
 } // namespace gnomon::examples

@@ -17,7 +17,7 @@ struct TownOptions {
     bool help = false;
 };
 
-/// none, box, hull, drape.
+/// none, box, hull.
 const std::vector<std::string>& townTechniques();
 
 /// @throws std::invalid_argument, one sentence that names what is wrong and what is allowed.

@@ -13,21 +13,17 @@ struct CompositorOptions {
     /// True: draws again only the drawables that a shadow can touch, and marks only the terrain tiles in sight.
     /// False, for comparison, gives the same picture more slowly. Default true.
     bool filter = true;
-    /// Most triangles of terrain shadows that a view draws as exact polygons, nearest tiles first. Farther tiles are
-    /// drawn as bitmaps. Default 10000.
-    unsigned mostDecals = 10000;
 
     /// True if all options are equal.
     bool operator==(const CompositorOptions& other) const {
-        return reservedStencilBits == other.reservedStencilBits && filter == other.filter &&
-               mostDecals == other.mostDecals;
+        return reservedStencilBits == other.reservedStencilBits && filter == other.filter;
     }
     /// True if any option differs.
     bool operator!=(const CompositorOptions& other) const { return !(*this == other); }
 
-    /// Options that suit both nodes. mostDecals stays as it is.
+    /// Options that suit both nodes.
     CompositorOptions with(const CompositorOptions& other) const {
-        return {reservedStencilBits | other.reservedStencilBits, filter && other.filter, mostDecals};
+        return {reservedStencilBits | other.reservedStencilBits, filter && other.filter};
     }
 };
 

@@ -21,7 +21,7 @@ namespace gnomon {
 ///
 ///     gnomon::addShadows(*group, {gnomon::parseShadowSpec("planar:composite=blend,dark=0.4,receiver=floor")});
 ///
-/// Syntax: NAME, or NAME:key=value,key=value. The names are none, planar, box, hull, drape, map, volume, traced and auto.
+/// Syntax: NAME, or NAME:key=value,key=value. The names are none, planar, box, hull, map, volume, traced and auto.
 /// shadowSpecHelp() lists the keys with ranges, units and defaults.
 struct ShadowSpec {
     std::string text;                                      ///< The string as given.
@@ -30,7 +30,6 @@ struct ShadowSpec {
     std::optional<float> dark;                             ///< See ShadowCasterGroup::setDark(). Default: the group's.
     ShadowMapOptions map;                                  ///< Settings of map.
     ShadowVolumeOptions volume;                            ///< Settings of volume.
-    TerrainShadowOptions terrain;                          ///< Settings of hull and drape. The name decides the method.
     AutoShadowOptions budget;                              ///< Settings of auto.
     /// Name of the nodes that receive, all of that name. Default, empty: everything for map, volume, traced and auto, else the node named "ground".
     std::string receiver;
@@ -52,7 +51,7 @@ GNOMON_EXPORT std::string shadowSpecHelp(const std::vector<std::string>& names =
 ///
 /// It looks for receivers by name under the group.
 /// - planar: takes the receivers' flat parts as planes. At most eight, and none below 1 % of the largest.
-/// - box, hull, drape: take the receiver as terrain.
+/// - box, hull: take the receiver as terrain.
 /// - map, volume, traced, auto: take everything as receiver, unless one is named.
 ///
 /// @return the techniques in the order of `specs`. "none" adds none.

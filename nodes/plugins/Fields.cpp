@@ -54,13 +54,13 @@ void UnavailableWarning::objectRead(osgDB::InputStream&, osg::Object& object) {
 }
 
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options) {
-    out << options.reservedStencilBits << options.filter << options.mostDecals << std::endl;
+    out << options.reservedStencilBits << options.filter << std::endl;
     return true;
 }
 
 CompositorOptions readOptions(osgDB::InputStream& in) {
     CompositorOptions options;
-    in >> options.reservedStencilBits >> options.filter >> options.mostDecals;
+    in >> options.reservedStencilBits >> options.filter;
     return options;
 }
 

@@ -37,12 +37,16 @@ public:
     bool read(osgDB::InputStream& in, osg::Object&) override {
         int version = fileVersion; // text may have any property
         if (in.isBinary()) {
-            version = gnomon::fields::unmarkedVersion;
+            version = 0;
             if (isMarked(in)) in >> version;
         }
         if (version > fileVersion)
             in.throwException("gnomon: the file is of version " + std::to_string(version) +
                               ", which this Gnomon does not know. Update Gnomon, or save the file as .osgt.");
+        if (version < fileVersion)
+            in.throwException(
+                "gnomon: the file is of a version before the first release. Save it as .osgt with the Gnomon "
+                "that wrote it.");
         in.setFileVersion(fileDomain, version);
         return true;
     }

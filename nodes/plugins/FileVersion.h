@@ -7,20 +7,18 @@
 ///
 /// In binary files each object of the kit begins with a mark and a version. OSG's own header cannot tell it, because the
 /// programs that write files do not know the kit. Text files name their properties and need no version. A property that
-/// is added belongs into a new version, here 3, and `fileVersion` becomes 3:
+/// is added belongs into a new version, here 4, and `fileVersion` becomes 4:
 ///
 ///     {
-///         UPDATE_TO_VERSION_SCOPED(3)
+///         UPDATE_TO_VERSION_SCOPED(4)
 ///         ADD_BOOL_SERIALIZER(Tint, fresh->getTint());
 ///     }
 namespace gnomon::fields {
 
 /// OSG's word for the library that a version belongs to.
 constexpr const char* fileDomain = "gnomon";
-/// The version that is written, and the newest that is read.
-constexpr int fileVersion = 2;
-/// The version of binary files that have no mark. They were written up to 25 November 2026.
-constexpr int unmarkedVersion = 1;
+/// The version that is written, and the only one that is read: older ones are of no release.
+constexpr int fileVersion = 3;
 
 /// A place in a file to go back to.
 class Bookmark {

@@ -107,28 +107,6 @@ static bool writeOtherCasters(osgDB::OutputStream& out, const ShadowCasterGroup&
     return fields::writeOthers(out, group.getCasters());
 }
 
-/// Binary files of before 24 November 2026 lack it. What they have there, four switches or one and a short list's length,
-/// would be a number far too small for an opacity that somebody has set. A 0 in a file without a version is lost.
-class OpaqueFrom : public fields::ExactNumber<ShadowCasterGroup, float> {
-public:
-    using Exact::Exact;
-
-    bool read(osgDB::InputStream& in, osg::Object& object) override {
-        if (in.isBinary() && in.getFileVersion(fields::fileDomain) == fields::unmarkedVersion && isMissing(in))
-            return true;
-        return Exact::read(in, object);
-    }
-
-private:
-    static bool isMissing(osgDB::InputStream& in) {
-        const fields::Bookmark here(in);
-        float number = 0.0f;
-        in >> number;
-        here.goBack();
-        return std::abs(number) < 1e-30f;
-    }
-};
-
 /// Programs that know nothing of Gnomon, such as osgviewer, make their window after they have read the file.
 static ShadowCasterGroup* newGroup() {
     askForStencilBits();
@@ -144,9 +122,9 @@ GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group"
     wrapper->addSerializer(
         new fields::ExactNumber<MyClass, float>("Dark", fresh->getDark(), &MyClass::getDark, &MyClass::setDark),
         osgDB::BaseSerializer::RW_FLOAT);
-    wrapper->addSerializer(
-        new OpaqueFrom("OpaqueFrom", fresh->getOpaqueFrom(), &MyClass::getOpaqueFrom, &MyClass::setOpaqueFrom),
-        osgDB::BaseSerializer::RW_FLOAT);
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, float>("OpaqueFrom", fresh->getOpaqueFrom(),
+                                                                   &MyClass::getOpaqueFrom, &MyClass::setOpaqueFrom),
+                           osgDB::BaseSerializer::RW_FLOAT);
     ADD_USER_SERIALIZER(LightSources);
     ADD_USER_SERIALIZER(Lights);
     ADD_USER_SERIALIZER(Spots);

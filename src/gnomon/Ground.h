@@ -3,21 +3,15 @@
 #include <gnomon/Export.h>
 
 #include <array>
-#include <cstdint>
-#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
-#include <vector>
 
 namespace gnomon {
 
 /// A triangle of the ground, counter-clockwise from above.
 using GroundTriangle = std::array<glm::dvec3, 3>;
-
-/// A set of planes: one bit for each of the first 64.
-using PlaneSet = std::uint64_t;
 
 /// Bounds of the ground over a rectangle; see Ground::range().
 struct GroundRange {
@@ -54,14 +48,6 @@ public:
     /// First point of the ground on a ray, from either side. nullopt if there is none.
     /// @param along  direction, any length but 0. The ray has no end.
     virtual std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const = 0;
-    /// Approximates a part of the ground by triangles. Each point of it is covered once in plan.
-    /// @param planes  half-spaces with unit normals. Only triangles that may reach the inner side of all are needed.
-    /// @param error   largest error in height, scene's unit; 0 gives the ground's own triangles.
-    /// @param take    receives each triangle, and some of the planes that have all of it on their inner side.
-    virtual void cover(const std::vector<glm::dvec4>& planes, double error,
-                       const std::function<void(const GroundTriangle&, PlaneSet)>& take) const = 0;
-    /// Greatest slope, as a tangent, of ground that may be on the inner side of all planes. 0 if there is none.
-    virtual double steepest(const std::vector<glm::dvec4>& planes) const = 0;
     /// Finds out whether the ground may throw a shadow on itself.
     /// @param light  homogeneous: w = 0 is the direction towards a sun, w = 1 a lamp's position.
     virtual TurnedAway turnedAway(const glm::dvec4& light) const = 0;

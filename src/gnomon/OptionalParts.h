@@ -9,7 +9,7 @@ namespace gnomon {
 /// A part of Gnomon that a build may leave out. Each needs a library of its own.
 enum class OptionalPart {
     Traced,  ///< Rays: TracedShadowTechnique, ShadowQuery, RayScene, shadowTruth(). By Embree.
-    Terrain, ///< HULL and DRAPE of TerrainShadowGeode. By Qhull.
+    Terrain, ///< HULL of TerrainShadowGeode. By Qhull.
     Sun,     ///< SunClock, julianDay(), momentOf(). By libnova.
 };
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Shadows of a town's houses on hills with posts every 10 m: houses a second, a step of the sun, memory, and what the
-// machine could do at most. Each run's result is checked before it is timed.
+// Shadows of a town's houses on hills with posts every 10 m: houses a second, a step of the sun, memory. Each run's result is
+// checked before it is timed.
 #include <support/Drawn.h>
 #include <support/TerrainTrial.h>
 
 #include <gnomon/ground/HeightPyramid.h>
-#include <gnomon/onterrain/PackedShadows.h>
-#include <gnomon/simd/ShadowKernel.h>
+#include <gnomon/ground/HullSolids.h>
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
@@ -16,10 +15,6 @@
 #include <map>
 #include <memory>
 #include <random>
-
-using gnomon::PackedParts;
-using gnomon::PackedShadows;
-using gnomon::TerrainMethod;
 
 namespace {
 
@@ -38,8 +33,8 @@ const gnomon::HeightPyramid& ground() {
 }
 
 struct Tile {
-    PackedParts parts;
-    PackedShadows shadows;
+    std::vector<gnomon::HullPart> parts;
+    gnomon::HullSolids solids;
     glm::dvec3 origin{0.0};
 };
 
@@ -73,7 +68,7 @@ Town townOf(std::size_t count) {
         for (std::size_t i = 0; i < tileSize && town.size < count; ++i, ++town.size) {
             const test::Prism house = houseNear(corner + test::drawn(within, random), random);
             if (t == 0) town.prisms.push_back(house);
-            tile.parts.add(house.parts().front());
+            tile.parts.emplace_back(house.parts().front());
         }
         town.tiles.push_back(std::move(tile));
     }
@@ -88,100 +83,50 @@ Town& town(std::size_t count) {
 
 glm::dvec4 sunAt(double azimuth) { return {test::sunAt(azimuth, 30.0), 0.0}; }
 
-void step(Town& town, const glm::dvec4& sun, TerrainMethod method, const gnomon::ShadowKernel& kernel) {
+void step(Town& town, const glm::dvec4& sun) {
+    const gnomon::HullGround on(ground());
     tbb::parallel_for(std::size_t{0}, town.tiles.size(), [&](std::size_t i) {
         Tile& tile = town.tiles[i];
-        packedShadows(ground(), tile.parts, sun, method, 0.1, tile.origin, tile.shadows, &kernel);
+        hullSolids(on, tile.parts, sun, tile.origin, tile.solids);
     });
 }
 
 /// Intersection over union with rays at the houses of the first tile.
 double quality(const Town& town, const glm::dvec4& sun) {
     std::vector<test::Share> shares;
-    for (std::size_t i = 0; i < town.prisms.size(); i += 8) {
-        const test::Method found = [&](const auto&, const auto&, const auto&) {
-            return town.tiles[0].shadows.triangles(i);
-        };
-        shares.push_back(judge(ground(), town.prisms[i], sun, {{"found", found}}, 1000)[0]);
-    }
+    for (std::size_t i = 0; i < town.prisms.size(); i += 8)
+        shares.push_back(judge(ground(), town.prisms[i], sun, {{"hull", test::hullMethod()}}, 1000)[0]);
     return tally(shares).pooled;
 }
 
-const gnomon::ShadowKernel& kernel(bool simd) {
-    return simd ? gnomon::shadowKernels().back() : gnomon::shadowKernels().front();
-}
-
-/// A step of the sun over all of the town. Arguments: houses, threads, with SIMD or without.
-void sunStep(benchmark::State& state, TerrainMethod method) {
+/// A step of the sun over all of the town. Arguments: houses, threads.
+void sunStep(benchmark::State& state) {
     Town& houses = town(std::size_t(state.range(0)));
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, std::size_t(state.range(1)));
-    const gnomon::ShadowKernel& with = kernel(state.range(2) != 0);
     double azimuth = 100.0;
-    step(houses, sunAt(azimuth), method, with);
+    step(houses, sunAt(azimuth));
     if (!(quality(houses, sunAt(azimuth)) > 0.99)) return state.SkipWithError("the shadows are wrong.");
-    std::size_t triangles = 0, kept = 0, parts = 0;
-    for (auto _ : state) step(houses, sunAt(azimuth += 0.25), method, with);
+    std::size_t triangles = 0, kept = 0;
+    for (auto _ : state) step(houses, sunAt(azimuth += 0.25));
     for (const Tile& tile : houses.tiles) {
-        parts += tile.parts.bytes();
-        kept += tile.shadows.bytes();
-        triangles += tile.shadows.triangleCount();
+        for (const gnomon::HullPart& part : tile.parts)
+            kept += sizeof part + part.corners.size() * sizeof(glm::vec3) + part.faces.size() * sizeof(glm::vec4);
+        kept += tile.solids.vertices.size() * sizeof(glm::vec4) + tile.solids.corners.size() * sizeof(unsigned);
+        triangles += tile.solids.corners.size() / 3;
     }
     const auto count = double(houses.size);
     state.counters["houses/s"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
     state.counters["triangles"] = double(triangles) / count;
-    state.counters["B/house"] = double(parts + kept) / count;
-    state.counters["B/triangle"] = double(kept) / double(triangles);
+    state.counters["B/house"] = double(kept) / count;
 }
 
 void sizes(benchmark::internal::Benchmark* run) {
-    run->ArgNames({"houses", "threads", "simd"})->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
-    for (const int count : {1000, 10000, 100000, 1000000}) run->Args({count, 2, 1});
-    run->Args({100000, 1, 1})->Args({100000, 2, 0})->Args({100000, 1, 0});
+    run->ArgNames({"houses", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime();
+    for (const int count : {1000, 10000, 100000, 1000000}) run->Args({count, 2});
+    run->Args({100000, 1});
 }
 
-BENCHMARK_CAPTURE(sunStep, hull, TerrainMethod::hull)->Apply(sizes);
-BENCHMARK_CAPTURE(sunStep, drape, TerrainMethod::drape)->Apply(sizes);
-
-/// What bounds a step: heights of the ground at places in random houses' shadows, by the kernel alone. Without SIMD or with.
-void heightsAlone(benchmark::State& state) {
-    const gnomon::ShadowKernel& with = kernel(state.range(0) != 0);
-    constexpr std::size_t count = 4096, together = 16;
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> anywhere(30.0, posts - 30.0), near(-3.0, 3.0);
-    std::vector<gnomon::KernelPlace> places(count / gnomon::kernelLanes);
-    const auto at = [&](std::size_t i) { return std::pair(i / gnomon::kernelLanes, i % gnomon::kernelLanes); };
-    for (std::size_t i = 0; i < count; i += together) {
-        const double x = anywhere(random), y = anywhere(random);
-        for (std::size_t k = i; k < i + together; ++k) {
-            const auto [block, lane] = at(k);
-            places[block].u[lane] = x + near(random);
-            places[block].v[lane] = y + near(random);
-        }
-    }
-    const gnomon::HeightField& field = ground().field();
-    const gnomon::GridView view{field.heights(), field.cuts(), field.columns(), field.rows(), true};
-    for (auto _ : state) with.heights(view, places.data(), places.size(), gnomon::kernelLanes);
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto [block, lane] = at(i);
-        const double u = places[block].u[lane] * pitch, v = places[block].v[lane] * pitch;
-        if (!(std::abs(places[block].z[lane] - *field.height(u, v)) < 1e-9))
-            return state.SkipWithError("the heights are wrong.");
-    }
-    state.counters["heights/s"] = benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
-}
-
-/// The other bound: memory, read and written.
-void memoryAlone(benchmark::State& state) {
-    std::vector<double> from(std::size_t(1) << 24, 1.0), to(from.size());
-    for (auto _ : state) {
-        std::copy(from.begin(), from.end(), to.begin());
-        benchmark::ClobberMemory();
-    }
-    state.SetBytesProcessed(std::int64_t(state.iterations()) * std::int64_t(2 * from.size() * sizeof(double)));
-}
-
-BENCHMARK(heightsAlone)->ArgName("simd")->Arg(1)->Arg(0);
-BENCHMARK(memoryAlone);
+BENCHMARK(sunStep)->Apply(sizes);
 
 } // namespace
 

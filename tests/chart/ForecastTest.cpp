@@ -23,9 +23,8 @@ std::vector<ShadowCandidate> candidatesOf(const std::vector<std::string>& specs)
 }
 
 std::string found(const char* spec) {
-    std::vector<ShadowCandidate> some =
-        candidatesOf({"volume+map:size=512", "volume", "map:size=512", "map:size=512,cascades=1",
-                      "map:size=2048,cascades=1", "drape:error=0"});
+    std::vector<ShadowCandidate> some = candidatesOf({"volume+map:size=512", "volume", "map:size=512",
+                                                      "map:size=512,cascades=1", "map:size=2048,cascades=1", "hull"});
     some.front().mixed = true;
     const ShadowCandidate* candidate = candidateOf(some, parseShadowSpec(spec));
     return candidate ? candidate->spec : "";
@@ -47,8 +46,7 @@ TEST(Forecasts, FindTheCandidateThatDrawsAsASettingDoes) {
     EXPECT_EQ(found("map:size=2048"), "map:size=2048,cascades=1") << "as many cascades as it asks for are one";
     EXPECT_EQ(found("map:size=2048,cascades=2"), "");
     EXPECT_EQ(found("map:size=512,edges=smooth"), "");
-    EXPECT_EQ(found("drape:error=0"), "drape:error=0");
-    EXPECT_EQ(found("drape"), "");
+    EXPECT_EQ(found("hull"), "hull");
     EXPECT_EQ(found("auto"), "");
 }
 

@@ -119,7 +119,7 @@ TEST(RandomFaults, AreLargeShadowsLostWithoutAWord) {
     elsewhere.onReceiver = right.everywhere;
     for (const StabilityCell& fine : {small, said, right, elsewhere}) EXPECT_FALSE(isRandomFault(fine));
     StabilityCell remarked = cell; // which is no limit
-    remarked.diagnosis = {"draped instead. The shadow is right, but takes longer."};
+    remarked.diagnosis = {"invalid triangles are left out: 3, the first in 'a'."};
     EXPECT_TRUE(isRandomFault(remarked));
     said.failure = "crashed";
     EXPECT_TRUE(isRandomFault(said));

@@ -69,7 +69,7 @@ TEST(StabilityOutcomes, AreTheWorstOfTheSweep) {
 
 TEST(StabilityOutcomes, DoNotTakeARemarkForALimit) {
     StabilityCell wrong = wrongCell(), lost = lostCell();
-    wrong.diagnosis = {"TerrainShadowGeode: 1 of 2 casters: draped instead. The shadow is right, but takes longer."};
+    wrong.diagnosis = {"ShadowVolumeTechnique: invalid triangles are left out: 1, the first in 'b'."};
     lost.diagnosis = {"ShadowMapTechnique: invalid triangles are left out: 3, the first in 'a'."};
     EXPECT_EQ(rowOf({wrong}).outcome(), Outcome::LEFT);
     EXPECT_EQ(rowOf({lost}).outcome(), Outcome::CATASTROPHE);

@@ -58,7 +58,7 @@ expect_refusal("GNOMON_WITH_LIBNOVA is ON, but libnova is not found."
   ${configure} -B ${SCRATCH}/refused -DGNOMON_WITH_EMBREE=OFF -DGNOMON_WITH_LIBNOVA=ON -DNOVA_INCLUDE_DIR=OFF)
 expect_refusal("Gnomon needs TBB::tbb. Install libtbb-dev." ${configure} -B ${SCRATCH}/refused -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON)
 set(others)
-foreach(package embree TBB hwy Qhull PkgConfig OpenGL)
+foreach(package embree TBB Qhull PkgConfig OpenGL)
   list(APPEND others -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 run(${configure} -B ${build} -DBUILD_SHARED_LIBS=ON ${off})

@@ -126,10 +126,9 @@ TEST_F(BadInput, VerticesThatAreNotFinite) {
 }
 
 TEST_F(BadInput, UnknownTechniqueOrKey) {
-    EXPECT_EQ(
-        refusalWith({"--shadow", "plane"}),
-        "--shadow plane cannot be used. \"plane\" is not a shadow technique. Allowed: none, planar, box, hull, drape, "
-        "map, volume, traced, auto.");
+    EXPECT_EQ(refusalWith({"--shadow", "plane"}),
+              "--shadow plane cannot be used. \"plane\" is not a shadow technique. Allowed: none, planar, box, hull, "
+              "map, volume, traced, auto.");
     EXPECT_EQ(refusalWith({"--shadow", "planar:soft=1"}), "--shadow planar:soft=1 cannot be used. the technique planar "
                                                           "has no key \"soft\". Allowed: composite, dark, receiver.");
 }

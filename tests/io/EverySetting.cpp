@@ -16,7 +16,7 @@
 namespace test {
 namespace {
 
-const gnomon::CompositorOptions options{0x80, false, 77};
+const gnomon::CompositorOptions options{0x80, false};
 
 osg::ref_ptr<gnomon::PlanarShadowNode> planarOf(const gnomon::Selection& receiver) {
     osg::ref_ptr<gnomon::PlanarShadowNode> result = new gnomon::PlanarShadowNode;
@@ -42,14 +42,9 @@ osg::ref_ptr<gnomon::ShadowMapTechnique> mapOf() {
     return result;
 }
 
-osg::ref_ptr<gnomon::TerrainShadowGeode> terrainOf(osg::Node* object) {
+osg::ref_ptr<gnomon::TerrainShadowGeode> terrainOf() {
     osg::ref_ptr<gnomon::TerrainShadowGeode> result = new gnomon::TerrainShadowGeode;
-    result->setMethod(gnomon::TerrainShadowGeode::DRAPE);
-    result->setError(1.0 / 3.0);
-    result->setObjectGraphic(object);
-    result->setObjectPos({433000.1, -1.0 / 3.0, 1e-300});
-    result->setObjectOrientation(0.1);
-    result->setObjectBounds({{-0.1, -0.2, -0.3}, {0.1, 0.2, 1.0 / 3.0}});
+    result->setMethod(gnomon::TerrainShadowGeode::BOX);
     return result;
 }
 
@@ -98,7 +93,7 @@ osg::ref_ptr<osg::Group> everySetting() {
 
     group->addChild(planarOf(ground));
     group->addChild(mapOf());
-    group->addChild(terrainOf(group->getChild(3)));
+    group->addChild(terrainOf());
     osg::ref_ptr<gnomon::ShadowVolumeTechnique> volume = new gnomon::ShadowVolumeTechnique;
     volume->setView(gnomon::ShadowVolumeTechnique::VOLUMES);
     group->addChild(volume);

@@ -38,8 +38,7 @@ TEST_P(SceneFile, DrawsTheSameMappedPictureOnceLoaded) {
 }
 
 TEST_P(SceneFile, DrawsTheSamePicturesOnTerrainOnceLoaded) {
-    for (const auto method :
-         {gnomon::TerrainShadowGeode::HULL, gnomon::TerrainShadowGeode::DRAPE, gnomon::TerrainShadowGeode::BOX}) {
+    for (const auto method : {gnomon::TerrainShadowGeode::HULL, gnomon::TerrainShadowGeode::BOX}) {
         test::Scene scene = boxOverGround(0.0);
         const osg::ref_ptr<gnomon::TerrainShadowGeode> technique = new gnomon::TerrainShadowGeode;
         technique->setMethod(method);
@@ -119,33 +118,31 @@ TEST_P(SceneFile, KeepsTheViewOfVolumesAndTheirPicture) {
     expectSamePictureOnceLoaded(scene);
 }
 
-TEST_P(SceneFile, KeepsATerrainShadowGeodeToTheBit) {
+TEST_P(SceneFile, KeepsTheMethodOfATerrainShadowGeode) {
     osg::ref_ptr<gnomon::TerrainShadowGeode> shadow = new gnomon::TerrainShadowGeode;
-    shadow->setMethod(gnomon::TerrainShadowGeode::DRAPE);
-    shadow->setError(1.0 / 3.0);
-    shadow->setObjectGraphic(test::node(test::box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}), "house"));
-    shadow->setObjectPos({433000.1, -1.0 / 3.0, 1e-300});
-    shadow->setObjectOrientation(0.1);
-    shadow->setObjectBounds({{-0.1, -0.2, -0.3}, {0.1, 0.2, 1.0 / 3.0}});
+    shadow->setMethod(gnomon::TerrainShadowGeode::BOX);
     const osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(shadow);
     root->addChild(new gnomon::TerrainShadowGeode);
     const auto copy = test::throughFile(*root, kind());
     ASSERT_TRUE(copy);
-    const auto& read = childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 0);
-    EXPECT_EQ(read.getMethod(), gnomon::TerrainShadowGeode::DRAPE);
-    EXPECT_EQ(read.getError(), 1.0 / 3.0);
-    ASSERT_TRUE(read.getObjectGraphic());
-    EXPECT_EQ(read.getObjectGraphic()->getName(), "house");
-    EXPECT_EQ(read.getObjectPos(), shadow->getObjectPos());
-    EXPECT_EQ(read.getObjectOrientation(), 0.1);
-    EXPECT_EQ(read.getObjectBounds()._min, shadow->getObjectBounds()._min);
-    EXPECT_EQ(read.getObjectBounds()._max, shadow->getObjectBounds()._max);
-    const auto& fresh = childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 1);
-    EXPECT_EQ(fresh.getMethod(), gnomon::TerrainShadowGeode::HULL);
-    EXPECT_EQ(fresh.getError(), 0.1);
-    EXPECT_FALSE(fresh.getObjectGraphic());
-    EXPECT_FALSE(fresh.getObjectBounds().valid());
+    EXPECT_EQ(childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 0).getMethod(), gnomon::TerrainShadowGeode::BOX);
+    EXPECT_EQ(childOf<gnomon::TerrainShadowGeode>(*copy->asGroup(), 1).getMethod(), gnomon::TerrainShadowGeode::HULL);
+}
+
+/// As a file of an earlier version may have it.
+TEST(TextFile, WithTheMethodDrapeLoadsAsHullAndSaysWhatTakesItsPlace) {
+    test::usePluginsOfThisBuild();
+    osg::ref_ptr<gnomon::TerrainShadowGeode> shadow = new gnomon::TerrainShadowGeode;
+    shadow->setMethod(gnomon::TerrainShadowGeode::BOX);
+    std::string file = test::written(*shadow, "osgt");
+    file.replace(file.find("Method BOX"), 10, "Method DRAPE");
+    testing::internal::CaptureStderr();
+    const auto loaded = test::loaded(file, "osgt");
+    ASSERT_TRUE(loaded);
+    EXPECT_EQ(dynamic_cast<const gnomon::TerrainShadowGeode&>(*loaded).getMethod(), gnomon::TerrainShadowGeode::HULL);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_NE(said.find("Use hull on terrain, or map or traced"), std::string::npos) << said;
 }
 
 } // namespace

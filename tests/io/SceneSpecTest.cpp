@@ -53,11 +53,11 @@ TEST(SceneSpec, IsAutoWithASunWhereNothingIsTold) {
 }
 
 TEST(SceneSpec, HoldsItemsWithAPlusBetweenThem) {
-    const SceneSpec spec =
-        parseSceneSpec("drape:error=1e+2;receiver=hill+map:edges=soft,size=2048+sun:azimuth=-7.5;elevation=30+ground:side=9");
+    const SceneSpec spec = parseSceneSpec(
+        "map:lamp-size=1e+2;receiver=hill+map:edges=soft,size=2048+sun:azimuth=-7.5;elevation=30+ground:side=9");
     ASSERT_EQ(spec.shadows.size(), 2u);
-    EXPECT_EQ(spec.shadows[0].technique, "drape");
-    EXPECT_EQ(spec.shadows[0].terrain.error, 100.0);
+    EXPECT_EQ(spec.shadows[0].technique, "map");
+    EXPECT_EQ(spec.shadows[0].map.lampSize, 100.0);
     EXPECT_EQ(spec.shadows[0].receiver, "hill");
     EXPECT_EQ(spec.shadows[1].map.edges, ShadowMapOptions::SOFT);
     EXPECT_EQ(spec.shadows[1].map.size, 2048);
@@ -70,7 +70,8 @@ TEST(SceneSpec, HoldsItemsWithAPlusBetweenThem) {
 
 TEST(SceneSpec, RefusesWithThePartThatIsWrongAndWhatIsAllowed) {
     const std::string names = "none, planar, ";
-    EXPECT_EQ(refusal("mapp").find("\"mapp\" is neither a shadow technique nor a part of a scene. Allowed: " + names), 0u);
+    EXPECT_EQ(refusal("mapp").find("\"mapp\" is neither a shadow technique nor a part of a scene. Allowed: " + names),
+              0u);
     EXPECT_NE(refusal("mapp").find(", ground, sun, nosun."), std::string::npos);
     EXPECT_EQ(refusal("map+sun:height=3"), "the item sun has no key \"height\". Allowed: azimuth, elevation.");
     EXPECT_EQ(refusal("nosun:height=3"), "the item nosun has no key \"height\". Allowed: none.");

@@ -77,7 +77,7 @@ TEST_P(SceneFile, KeepsUniformsOfLights) {
 }
 
 TEST_P(SceneFile, KeepsWhatTheCompositorMayUse) {
-    const gnomon::CompositorOptions options{0xa5, false, 77};
+    const gnomon::CompositorOptions options{0xa5, false};
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;
     group->setCompositorOptions(options);
     const auto copy = test::throughFile(*group, kind());

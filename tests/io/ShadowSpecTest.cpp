@@ -33,10 +33,7 @@ auto fieldsOf(const ShadowMapOptions& options) {
     return std::tuple(size, filter, cascades, edges, sunAngle, lampSize, radius, view, programUnit);
 }
 
-auto fieldsOf(const TerrainShadowOptions& options) {
-    const auto [method, error] = options;
-    return std::tuple(method, error);
-}
+auto fieldsOf(const TerrainShadowOptions& options) { return std::tuple(options.method); }
 
 auto propertiesOf(const ShadowMapTechnique& map) {
     return std::tuple(map.getSize(), map.getFilter(), map.getCascades(), map.getEdges(), map.getSunAngle(),
@@ -55,13 +52,12 @@ TEST(Options, OfAFreshTechniqueAreTheDefaults) {
     EXPECT_EQ(propertiesOf(*map), fieldsOf(ShadowMapOptions()));
     osg::ref_ptr<TerrainShadowGeode> terrain = new TerrainShadowGeode;
     EXPECT_EQ(fieldsOf(terrain->getOptions()), fieldsOf(TerrainShadowOptions()));
-    EXPECT_EQ(std::tuple(terrain->getMethod(), terrain->getError()), fieldsOf(TerrainShadowOptions()));
+    EXPECT_EQ(std::tuple(terrain->getMethod()), fieldsOf(TerrainShadowOptions()));
 }
 
 TEST(Options, OfASpecificationWithoutKeysAreTheDefaults) {
     EXPECT_EQ(propertiesOf(*made<ShadowMapTechnique>("map")), fieldsOf(ShadowMapOptions()));
-    EXPECT_EQ(made<TerrainShadowGeode>("hull")->getError(), TerrainShadowOptions().error);
-    EXPECT_EQ(made<TerrainShadowGeode>("drape")->getError(), TerrainShadowOptions().error);
+    EXPECT_EQ(made<TerrainShadowGeode>("hull")->getMethod(), TerrainShadowOptions().method);
 }
 
 TEST(Options, AreMadeUsableAsTheSettersMakeThem) {
@@ -80,10 +76,10 @@ TEST(Options, AreMadeUsableAsTheSettersMakeThem) {
     EXPECT_EQ(propertiesOf(*map), std::tuple(16, ShadowMapTechnique::BICUBIC, 4, ShadowMapTechnique::HARD, 20.0, 0.0,
                                              0.0, ShadowMapTechnique::NOTHING, -1));
     osg::ref_ptr<TerrainShadowGeode> terrain = new TerrainShadowGeode;
-    terrain->setOptions({TerrainShadowGeode::Method(3), -1.0});
+    terrain->setOptions({TerrainShadowGeode::Method(3)});
     EXPECT_EQ(fieldsOf(terrain->getOptions()), fieldsOf(TerrainShadowOptions()));
-    terrain->setOptions({TerrainShadowGeode::BOX, 2.0});
-    EXPECT_EQ(fieldsOf(terrain->getOptions()), std::tuple(TerrainShadowGeode::BOX, 2.0));
+    terrain->setOptions({TerrainShadowGeode::BOX});
+    EXPECT_EQ(fieldsOf(terrain->getOptions()), std::tuple(TerrainShadowGeode::BOX));
 }
 
 TEST(SpecTable, PrintsTheDefaultsThatAreSet) {
@@ -94,7 +90,6 @@ TEST(SpecTable, PrintsTheDefaultsThatAreSet) {
             ShadowSpec spec;
             EXPECT_TRUE(key.take(spec, key.byDefault)) << technique.name << ": " << key.name << "=" << key.byDefault;
             EXPECT_EQ(fieldsOf(spec.map), fieldsOf(ShadowMapOptions())) << key.name;
-            EXPECT_EQ(fieldsOf(spec.terrain), fieldsOf(TerrainShadowOptions())) << key.name;
             EXPECT_EQ(spec.composite.value_or(fresh->getComposite()), fresh->getComposite());
             EXPECT_EQ(spec.dark.value_or(fresh->getDark()), fresh->getDark());
         }
@@ -102,8 +97,6 @@ TEST(SpecTable, PrintsTheDefaultsThatAreSet) {
 
 TEST(SpecTable, HasAKeyForEachOptionButTheUnitOfAProgram) {
     EXPECT_EQ(requireTechnique("map").keys.size() + 1, std::tuple_size_v<decltype(fieldsOf(ShadowMapOptions()))>);
-    EXPECT_EQ(requireTechnique("drape").keys.size() + 1, std::tuple_size_v<decltype(fieldsOf(TerrainShadowOptions()))>)
-        << "the technique's name is the method";
 }
 
 TEST(SpecTable, NamesOnlyTechniquesThatCanBeAdded) {
@@ -187,31 +180,29 @@ TEST(ShadowSpec, AutoTakesAnErrorAndATime) {
 }
 
 TEST(ShadowSpec, UnknownNamesAreRefusedWithThoseAllowed) {
-    const std::string allowed = "Allowed: none, planar, box, hull, drape, map, volume, traced, auto.";
+    const std::string allowed = "Allowed: none, planar, box, hull, map, volume, traced, auto.";
     EXPECT_EQ(refusal("plane"), "\"plane\" is not a shadow technique. " + allowed);
     EXPECT_EQ(refusal(""), "\"\" is not a shadow technique. " + allowed);
     EXPECT_EQ(refusal("Planar"), "\"Planar\" is not a shadow technique. " + allowed);
 }
 
-TEST(ShadowSpec, HullAndDrapeTakeAnErrorAndAllThreeTheTerrain) {
+TEST(ShadowSpec, BoxAndHullTakeTheTerrain) {
     const auto group = groupOf(square("hills", 1));
     const auto added =
-        addShadows(*group, {parseShadowSpec("box:receiver=hills"), parseShadowSpec("hull:receiver=hills"),
-                            parseShadowSpec("drape:error=0.25,receiver=hills")});
-    ASSERT_EQ(added.size(), 3u);
-    using gnomon::TerrainShadowGeode;
-    const TerrainShadowGeode::Method methods[] = {TerrainShadowGeode::BOX, TerrainShadowGeode::HULL,
-                                                  TerrainShadowGeode::DRAPE};
-    for (unsigned i = 0; i < 3; ++i) {
-        const auto& shadow = dynamic_cast<const TerrainShadowGeode&>(*added[i]);
-        EXPECT_EQ(shadow.getMethod(), methods[i]);
-        EXPECT_EQ(shadow.getError(), i == 2 ? 0.25 : 0.1);
+        addShadows(*group, {parseShadowSpec("box:receiver=hills"), parseShadowSpec("hull:receiver=hills")});
+    ASSERT_EQ(added.size(), 2u);
+    for (unsigned i = 0; i < 2; ++i) {
+        const auto& shadow = dynamic_cast<const gnomon::TerrainShadowGeode&>(*added[i]);
+        EXPECT_EQ(shadow.getMethod(), i == 0 ? gnomon::TerrainShadowGeode::BOX : gnomon::TerrainShadowGeode::HULL);
         EXPECT_EQ(shadow.getReceiver().node->getName(), "hills");
     }
-    EXPECT_EQ(parseShadowSpec("drape:error=0").terrain.error, 0.0);
-    EXPECT_EQ(refusal("drape:error=-1"), "error=-1 cannot be used. Allowed: 0 to 1e6, scene's unit.");
-    EXPECT_EQ(refusal("hull:error=nan"), "error=nan cannot be used. Allowed: 0 to 1e6, scene's unit.");
-    EXPECT_EQ(refusal("box:error=1"), "the technique box has no key \"error\". Allowed: composite, dark, receiver.");
+    EXPECT_EQ(refusal("hull:error=1"), "the technique hull has no key \"error\". Allowed: composite, dark, receiver.");
+}
+
+TEST(ShadowSpec, DrapeIsRefusedWithWhatTakesItsPlace) {
+    EXPECT_EQ(refusal("drape:error=0.1"),
+              "there is no technique drape any more. Use hull on terrain, which is exact there, or "
+              "map or traced if other surfaces receive.");
 }
 
 TEST(ShadowSpec, UnknownKeysAreRefusedWithThoseAllowed) {

@@ -118,8 +118,8 @@ protected:
         return desktop.pictureWhere("g hides the text", [](const Screenshot& p) { return !hasText(p); });
     }
 
-    /// From planar shadows on through box, hull, drape, map, volume, traced and auto to none; from there n leads back.
-    Screenshot withoutShadow() { return after("n", 8); }
+    /// From planar shadows on through box, hull, map, volume, traced and auto to none; from there n leads back.
+    Screenshot withoutShadow() { return after("n", 7); }
     /// The first picture without its shadow, which n then brings back.
     Screenshot glimpseWithoutShadow() {
         const Screenshot none = withoutShadow();
@@ -153,7 +153,7 @@ TEST_F(Viewer, StartsWithTheShadowsOfAutoUnlessAskedForOthers) {
     for (std::size_t i = 0; i < shadow.size(); ++i) shadow[i] = shadow[i] && isGrey(none.pixels[i]); // on the ground
     EXPECT_GT(count(shadow), 5000);
     EXPECT_LE(misplaced(shadow, lamp), atFeet);
-    after("n", 7); // planar, box, hull, drape, map, volume, traced
+    after("n", 6); // planar, box, hull, map, volume, traced
     expectAfter("n", first);
 }
 

@@ -3,14 +3,14 @@
 // it is.
 #include "Houses.h"
 
-#include <gnomon/drape/BoxShadow.h>
+#include <gnomon/ground/BoxMethod.h>
 #include <gtest/gtest.h>
 
 #include <iostream>
 #include <limits>
 
 using gnomon::BoxCaster;
-using gnomon::Drape;
+using gnomon::BoxTriangles;
 using gnomon::Ground;
 using gnomon::HeightPyramid;
 using test::areaInPlan;
@@ -33,7 +33,7 @@ BoxCaster boxOf(const std::vector<glm::dvec3>& points, const House& house, doubl
 
 BoxCaster boxOf(const House& house, double base) { return boxOf(house.corners(), house, base); }
 
-std::optional<Drape> shadowOf(const Ground& ground, const House& house, const glm::dvec4& light) {
+std::optional<BoxTriangles> shadowOf(const Ground& ground, const House& house, const glm::dvec4& light) {
     return gnomon::boxShadow(ground, boxOf(house, 3.0), light);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes that are their own hulls, and those that only look so.
 #include <gnomon/geometry/ConvexSolid.h>
-#include <gnomon/onterrain/HullTopology.h>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -51,11 +50,10 @@ TEST(ConvexSolid, OfACubeHasItsSixPlanes) {
     EXPECT_TRUE(solid(tetrahedron()));
 }
 
-/// Of floats the two triangles of a turned wall are not quite in one plane: all boxes hang together alike all the same.
+/// Of floats the two triangles of a turned wall are not quite in one plane.
 TEST(ConvexSolid, OfATurnedBoxOfFloatsHasSixFlatFaces) {
     std::mt19937 dice(3);
     std::uniform_real_distribution<double> any(0.0, 1.0);
-    std::shared_ptr<const gnomon::HullTopology> first;
     for (int i = 0; i < 100; ++i) {
         Mesh box = cube();
         const glm::dvec3 axis = glm::normalize(glm::dvec3(any(dice), any(dice), any(dice) - 0.5));
@@ -65,10 +63,9 @@ TEST(ConvexSolid, OfATurnedBoxOfFloatsHasSixFlatFaces) {
             point = glm::dvec3(glm::vec3(glm::dvec3(turn * glm::dvec4(size * point, 1.0))));
         const auto hull = solid(box);
         ASSERT_TRUE(hull);
-        const gnomon::ArrangedHull arranged(*hull);
-        EXPECT_EQ(arranged.topology->faces.size(), 6u);
-        if (!first) first = arranged.topology;
-        EXPECT_EQ(arranged.topology, first);
+        std::set<std::array<double, 4>> planes;
+        for (const auto& face : hull->faces) planes.insert({face.plane.x, face.plane.y, face.plane.z, face.plane.w});
+        EXPECT_EQ(planes.size(), 6u);
     }
 }
 

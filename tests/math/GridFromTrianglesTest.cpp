@@ -77,41 +77,6 @@ TEST(HeightPyramid, OfCellsCutEitherWayIsTheGroundOfItsTriangles) {
         ASSERT_EQ(bool(hit), bool(expectedHit));
         EXPECT_TRUE(near(hit.value_or(at), expectedHit.value_or(at), 1e-9));
     }
-    const test::House house{{300.0, 250.0}, {40.0, 20.0}, 0.3, 530.0};
-    for (const double elevation : {50.0, 10.0}) {
-        const auto shadow =
-            gnomon::convexShadow(*gnomon::convexHull(house.corners()), {test::sunAt(70.0, elevation), 0.0});
-        const double expected = test::areaOf(gnomon::drape(triangles, *shadow, 0.0));
-        EXPECT_NEAR(test::areaOf(gnomon::drape(grid, *shadow, 0.0)), expected, 1e-9 * expected);
-    }
-}
-
-TEST(HeightPyramid, KeepsToItsErrorInTheMiddleOfCellsThatFall) {
-    // A fold along the blocks' own diagonal: flat to the posts, and only cells that fall cross it.
-    std::vector<float> heights;
-    for (int y = 0; y < 9; ++y)
-        for (int x = 0; x < 9; ++x) heights.push_back(float(std::max(0, x - y)));
-    for (const CellCut cut : {CellCut::rising, CellCut::falling}) {
-        const HeightPyramid ground({9, 9, {}, {1.0, 1.0}, heights, 0.0, std::vector<CellCut>(64, cut)});
-        for (const double error : {0.0, 0.49, 0.51}) {
-            int count = 0;
-            double most = 0.0;
-            ground.cover({}, error, [&](const GroundTriangle& t, gnomon::PlaneSet) {
-                ++count;
-                const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
-                for (int y = 0; y < 8; ++y) {
-                    const double height =
-                        t[0].z + (normal.x * (t[0].x - y - 0.5) + normal.y * (t[0].y - y - 0.5)) / normal.z;
-                    if (std::min({t[0].x, t[1].x, t[2].x}) < y + 0.5 && std::max({t[0].x, t[1].x, t[2].x}) > y + 0.5 &&
-                        std::min({t[0].y, t[1].y, t[2].y}) < y + 0.5 && std::max({t[0].y, t[1].y, t[2].y}) > y + 0.5)
-                        most = std::max(most, std::abs(height - *ground.height(y + 0.5, y + 0.5)));
-                }
-            });
-            EXPECT_LE(most, error);
-            const bool oneBlock = cut == CellCut::rising || error > 0.5;
-            EXPECT_EQ(count == 2, oneBlock) << error << ": half a step off in the middle of a cell on the fold";
-        }
-    }
 }
 
 TEST(TriangleGrid, LeavesSkirtsOut) {

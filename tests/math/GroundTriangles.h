@@ -2,7 +2,6 @@
 #pragma once
 #include <gnomon/ground/TriangleGround.h>
 
-#include <gnomon/drape/Drape.h>
 #include <gnomon/ground/HeightField.h>
 
 #include <glm/geometric.hpp>
@@ -36,13 +35,6 @@ inline std::vector<gnomon::GroundTriangle> trianglesOf(const gnomon::HeightField
             triangles.push_back({b[0] + offset, b[2] + offset, b[1] + offset});
         }
     return triangles;
-}
-
-inline double areaOf(const gnomon::Drape& drape) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i + 2 < drape.size(); i += 3)
-        sum += 0.5 * glm::length(glm::cross(drape[i + 1] - drape[i], drape[i + 2] - drape[i]));
-    return sum;
 }
 
 } // namespace test

@@ -67,8 +67,8 @@ inline std::vector<House> houses(int count, const gnomon::Ground& ground) {
     return result;
 }
 
-/// Of a drape's triangles; those that are clockwise count as less than nothing.
-inline double areaInPlan(const gnomon::Drape& triangles) {
+/// Of triangles; those that are clockwise count as less than nothing.
+inline double areaInPlan(const gnomon::BoxTriangles& triangles) {
     double sum = 0.0;
     for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
         const glm::dvec2 a(triangles[i]), b(triangles[i + 1]), c(triangles[i + 2]);

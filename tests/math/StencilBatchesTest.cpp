@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/overlay/StencilBatches.h>
+#include <gnomon/silhouette/StencilBatches.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

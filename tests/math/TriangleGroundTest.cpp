@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <ctime>
 
-using gnomon::Drape;
 using gnomon::Ground;
 using gnomon::GroundTriangle;
 using gnomon::HeightPyramid;
 using gnomon::TriangleGround;
 using gnomon::test::near;
 using gnomon::test::Random;
-using test::areaOf;
 
 namespace {
 
@@ -44,12 +42,6 @@ std::vector<GroundTriangle> terraces() {
     const glm::dvec3 a(0, 0, 8), b(10, 0, 8), c(10, 20, 8), d(0, 20, 8);
     const glm::dvec3 e(10, 0, 0), f(30, 0, 0), g(30, 20, 0), h(10, 20, 0);
     return {{a, b, c}, {a, c, d}, {e, f, g}, {e, g, h}, {b, e, h}, {b, h, c}};
-}
-
-int covered(const Ground& ground, const std::vector<glm::dvec4>& planes) {
-    int count = 0;
-    ground.cover(planes, 1.0, [&](const GroundTriangle&, gnomon::PlaneSet) { ++count; });
-    return count;
 }
 
 TEST(TriangleGround, HasTheHeightsOfTheHeightFieldThatItWasCutFrom) {
@@ -138,24 +130,6 @@ TEST(GroundBox, IsEnteredByRaysThatGrazeItsCorners) {
     }
 }
 
-TEST(TriangleGround, TakesTheSameShadowsAsTheHeightField) {
-    const HeightPyramid field = holed();
-    const TriangleGround ground = cellsOf(field.field());
-    double sum = 0.0;
-    for (const test::House& house : test::houses(60, test::groundOf(hills, 130)))
-        for (const double elevation : {60.0, 25.0, 8.0}) {
-            const auto hull = gnomon::convexHull(house.corners());
-            const auto shadow = gnomon::convexShadow(*hull, glm::dvec4(test::sunAt(37.0 * house.roof, elevation), 0.0));
-            const double expected = areaOf(gnomon::drape(field, *shadow, 0.0));
-            // 10⁻⁹ of a side of 1000 m.
-            EXPECT_NEAR(areaOf(gnomon::drape(ground, *shadow, 0.0)), expected, 1e-6);
-            EXPECT_LE(ground.steepest(shadow->planes), field.steepest(shadow->planes))
-                << "asked by triangle, not by cell";
-            sum += expected;
-        }
-    EXPECT_GT(sum, 10000.0);
-}
-
 TEST(TriangleGround, OfNothingIsNowhere) {
     const double nan = gnomon::test::notANumber;
     const glm::dvec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
@@ -172,8 +146,7 @@ TEST(TriangleGround, OfNothingIsNowhere) {
         EXPECT_EQ(ground.triangles(), 0u);
         EXPECT_FALSE(ground.height(0.2, 0.2));
         EXPECT_FALSE(ground.hit({0.2, 0.2, 5.0}, {0.0, 0.0, -1.0}));
-        EXPECT_EQ(covered(ground, {}), 0);
-        EXPECT_EQ(ground.steepest({}), 0.0);
+        EXPECT_FALSE(ground.range({-9.0, -9.0}, {9.0, 9.0}));
     }
 }
 
@@ -187,40 +160,19 @@ TEST(TriangleGround, OfOneTriangleIsThatTriangleWhicheverWayItTurns) {
         EXPECT_TRUE(near(*ground.hit({1, 2, 9}, {0, 0, -3}), glm::dvec3(1, 2, 3), 1e-12));
         EXPECT_TRUE(near(*ground.hit({1, 2, -9}, {0, 0, 3}), glm::dvec3(1, 2, 3), 1e-12)) << "from below";
         EXPECT_FALSE(ground.hit({1, 2, 9}, {0, 0, 3}));
-        EXPECT_DOUBLE_EQ(ground.steepest({}), 1.0);
-        ground.cover({}, 0.0, [](const GroundTriangle& t, gnomon::PlaneSet) {
-            EXPECT_GT(glm::cross(t[1] - t[0], t[2] - t[0]).z, 0.0) << "counter-clockwise from above";
-        });
-        EXPECT_EQ(covered(ground, {}), 1);
-        EXPECT_EQ(covered(ground, {{1, 0, 0, -3.9}}), 1);
-        EXPECT_EQ(covered(ground, {{1, 0, 0, -4.1}}), 0) << "beside it";
+        EXPECT_DOUBLE_EQ(ground.range({0, 0}, {4, 4})->steepest, 1.0);
     }
 }
 
-TEST(TriangleGround, HasCliffsThatStopRaysAndTakeShadowsButHaveNoHeight) {
+TEST(TriangleGround, HasCliffsThatStopRaysButHaveNoHeight) {
     const TriangleGround ground = groundOf(terraces());
     EXPECT_DOUBLE_EQ(*ground.height(9.9, 5.0), 8.0);
     EXPECT_DOUBLE_EQ(*ground.height(10.1, 5.0), 0.0);
     EXPECT_DOUBLE_EQ(*ground.height(10.0, 5.0), 8.0) << "the highest";
     EXPECT_TRUE(near(*ground.hit({20, 5, 6}, {-5, 1, -1}), glm::dvec3(10, 7, 4), 1e-12));
     EXPECT_TRUE(near(*ground.hit({20, 5, 4}, {0, 0, -1}), glm::dvec3(20, 5, 0), 1e-12));
-    EXPECT_EQ(covered(ground, {}), 6) << "the cliff, too";
-    EXPECT_EQ(covered(ground, {{std::sqrt(0.5), -std::sqrt(0.5), 0, -11.0}}), 1) << "one half of the lower terrace";
-    EXPECT_EQ(ground.steepest({{1, 0, 0, -10.5}}), 0.0);
-    EXPECT_EQ(ground.steepest({{1, 0, 0, -9.5}}), gnomon::test::infinite);
-    // A pole of 0.2 by 0.2 and 2 over the lower terrace; the sun is east of it, 45° high: it
-    // reaches the cliff, and what is left goes up the cliff.
-    const test::House pole{{11.0, 9.0}, {0.1, 0.1}, 0.0, 2.0};
-    const auto shadow = gnomon::convexShadow(*gnomon::convexHull(pole.corners()), {1.0, 0.0, 1.0, 0.0});
-    double onGround = 0.0, onCliff = 0.0;
-    const Drape drape = gnomon::drape(ground, *shadow, 0.0);
-    for (std::size_t i = 0; i < drape.size(); i += 3) {
-        const Drape triangle(drape.begin() + std::ptrdiff_t(i), drape.begin() + std::ptrdiff_t(i) + 3);
-        const bool level = triangle[0].z == 0.0 && triangle[1].z == 0.0 && triangle[2].z == 0.0;
-        (level ? onGround : onCliff) += areaOf(triangle);
-    }
-    EXPECT_NEAR(onGround, 0.2 * 1.1, 1e-12) << "under the pole's own foot as well";
-    EXPECT_NEAR(onCliff, 0.2 * 1.1, 1e-12) << "the roof begins 0.9 from the cliff: its shadow ends 2 - 0.9 up";
+    EXPECT_EQ(ground.range({10.5, 1.0}, {29.0, 19.0})->steepest, 0.0);
+    EXPECT_EQ(ground.range({9.5, 1.0}, {29.0, 19.0})->steepest, gnomon::test::infinite);
 }
 
 TEST(TriangleGround, UnderABridgeIsGroundTooButTheHeightIsTheBridges) {
@@ -231,7 +183,8 @@ TEST(TriangleGround, UnderABridgeIsGroundTooButTheHeightIsTheBridges) {
     EXPECT_DOUBLE_EQ(*ground.height(2.0, 5.0), 0.0);
     EXPECT_TRUE(near(*ground.hit({4, 5, 9}, {0, 0, -1}), glm::dvec3(4, 5, 5), 1e-12));
     EXPECT_TRUE(near(*ground.hit({4, 5, 4}, {0, 0, -1}), glm::dvec3(4, 5, 0), 1e-12));
-    EXPECT_EQ(covered(ground, {{1, 0, 0, -4.0}, {-1, 0, 0, 5.0}}), 4);
+    EXPECT_EQ(ground.range({4.0, 1.0}, {5.0, 2.0})->low, 0.0);
+    EXPECT_EQ(ground.range({4.0, 1.0}, {5.0, 2.0})->high, 5.0);
 }
 
 /// Against all posts over the rectangle, a hole and the border among them.
@@ -252,8 +205,6 @@ TEST(Ground, HasNothingLowerHigherOrSteeperThanItsRange) {
                 ASSERT_TRUE(range);
                 EXPECT_TRUE(*height >= range->low && *height <= range->high);
                 EXPECT_LE(range->high - range->low, 60.0) << "of the whole";
-                EXPECT_LE(ground->steepest({{1, 0, 0, -p.x}, {-1, 0, 0, p.x}, {0, 1, 0, -p.y}, {0, -1, 0, p.y}}),
-                          range->steepest);
             }
         }
     }

@@ -26,11 +26,6 @@ osg::ref_ptr<const gnomon::GroundRevision> drawn(osg::Node& node) {
 
 } // namespace
 
-TEST(GroundRevision, TellsWhatADriverCutsByItsOwnRule) {
-    EXPECT_FALSE(drawn(*square(GL_TRIANGLES))->hasQuads);
-    for (const GLenum mode : {GL_QUADS, GL_POLYGON}) EXPECT_TRUE(drawn(*square(mode))->hasQuads) << mode;
-}
-
 TEST(GroundRevision, TellsLevelsOfDetailThoughTheyAreDrawnOutsideToo) {
     const osg::ref_ptr<osg::Geode> fine = square(GL_TRIANGLES);
     const osg::ref_ptr<osg::LOD> lod = new osg::LOD;

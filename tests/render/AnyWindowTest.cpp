@@ -81,7 +81,8 @@ std::vector<std::string> causesOf(const Scene& scene) {
     std::vector<std::string> all;
     for (unsigned i = 0; i < scene.group->getNumChildren(); ++i)
         if (const auto* technique = dynamic_cast<gnomon::ShadowTechnique*>(scene.group->getChild(i)))
-            for (const std::string& cause : causesButLitSurfaces(*technique)) all.push_back(cause); // one casts on another
+            for (const std::string& cause : causesButLitSurfaces(*technique))
+                all.push_back(cause); // one casts on another
     return all;
 }
 
@@ -130,10 +131,9 @@ void expectNoCausesButThoseOfBox(const std::string& spec, const Scene& scene, co
 class AnyWindowBy : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(AnyWindow, AnyWindowBy,
                          testing::Values("planar", "planar:composite=blend", "box", "hull", "hull:composite=blend",
-                                         "drape", "drape:composite=blend", "traced", "traced:composite=blend", "map",
-                                         "map:composite=blend", "map:receiver=ground", "map:edges=smooth",
-                                         "map:edges=smooth,composite=blend", "map:edges=soft,sun-angle=4", "volume",
-                                         "volume:composite=blend"),
+                                         "traced", "traced:composite=blend", "map", "map:composite=blend",
+                                         "map:receiver=ground", "map:edges=smooth", "map:edges=smooth,composite=blend",
+                                         "map:edges=soft,sun-angle=4", "volume", "volume:composite=blend"),
                          [](const auto& spec) { return nameOf(spec.param); });
 
 } // namespace
@@ -152,8 +152,8 @@ TEST_P(AnyWindowBy, WithoutStencilShowsTheSameBits) {
 TEST_P(AnyWindowBy, AnObjectWithoutStencilAndOneWithoutAlphaShowTheSameBits) {
     for (const unsigned samples : {0u, 4u}) {
         const Scene withStencil = shadowed(GetParam());
-        const Picture with = inObject(withStencil.root, {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER,
-                                                         GL_DEPTH24_STENCIL8_EXT, samples});
+        const Picture with = inObject(
+            withStencil.root, {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, samples});
         EXPECT_GT(with.different(inObject(shadowed("").root, without(samples))), 300);
         const Scene scene = shadowed(GetParam());
         EXPECT_EQ(inObject(scene.root, without(samples)).different(with), 0) << samples;

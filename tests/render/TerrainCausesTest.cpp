@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What box, hull and drape say of shadows that they cannot draw, or not where they belong.
+// What box and hull say of shadows that they cannot draw, or not where they belong.
 #include <support/Causes.h>
 #include <support/Scene.h>
 
 #include <gnomon/TerrainShadowGeode.h>
 #include <gtest/gtest.h>
-#include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <support/Picture.h>
 
@@ -43,7 +42,7 @@ TEST(TerrainCauses, SaysWhereTheTerrainsShadowOnItselfIsMissing) {
         }
         scene.content->addChild(roof);
         scene.content->addChild(test::node(test::box({-1.0, house - 1.0, -3.0}, {1.0, house + 1.0, 3.0})));
-        return causesOf(scene, roof, TerrainShadowGeode::DRAPE);
+        return causesOf(scene, roof, TerrainShadowGeode::HULL);
     };
     const auto sunAt = [](double x, double y, double degrees) {
         const double elevation = osg::DegreesToRadians(degrees);
@@ -56,23 +55,6 @@ TEST(TerrainCauses, SaysWhereTheTerrainsShadowOnItselfIsMissing) {
     EXPECT_EQ(causes(sunAt(1.0, 0.0, 28.0), 300.0).size(), 1u) << "the house is out of sight, the roof is not";
     for (const osg::Vec4d& light : {sunAt(1.0, 0.0, 32.0), sunAt(0.0, 1.0, 28.0), osg::Vec4d(9.0, 0.0, 6.0, 1.0)})
         EXPECT_TRUE(causes(light).empty()) << light.x() << ' ' << light.y() << ' ' << light.z();
-}
-
-TEST(TerrainCauses, SaysThatACoarserLevelOfTheTerrainIsDrawn) {
-    for (const bool isCoarse : {true, false}) {
-        Scene scene = test::scene(sun);
-        osg::ref_ptr<osg::LOD> levels = new osg::LOD;
-        levels->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-        levels->setRadius(20.0);
-        levels->addChild(test::node(test::square(20.0)), 0.0f, isCoarse ? 1.0f : 1e6f);
-        levels->addChild(test::node(test::square(20.0)), isCoarse ? 1.0f : 1e6f, 1e7f);
-        scene.content->addChild(levels);
-        scene.content->addChild(test::node(test::box({-1.0, -1.0, -1.0}, {1.0, 1.0, 3.0})));
-        const std::vector<std::string> causes = causesOf(scene, levels, TerrainShadowGeode::HULL);
-        ASSERT_EQ(causes.size(), isCoarse ? 1u : 0u);
-        if (isCoarse)
-            EXPECT_NE(causes[0].find("a coarser level of detail of the terrain"), std::string::npos) << causes[0];
-    }
 }
 
 TEST(TerrainCauses, AsBoxSaysHowManyCastersAreNoBoxes) {

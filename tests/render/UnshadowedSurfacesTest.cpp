@@ -121,7 +121,6 @@ TEST(UnshadowedSurfaces, AWallBehindATowerIsNamed) {
     expectNamed(planar(), true, "planar with a receiver");
     expectNamed(onTerrain(gnomon::TerrainShadowOptions::BOX), true, "box");
     expectNamed(onTerrain(gnomon::TerrainShadowOptions::HULL), true, "hull");
-    expectNamed(onTerrain(gnomon::TerrainShadowOptions::DRAPE), true, "drape");
 }
 
 // (6, 0, 9), which OpenGL takes for the same lamp.

@@ -97,7 +97,7 @@ TEST_P(AnyBin, ASceneThatALogicOperationCombinesWithWhatIsBehindIsNamedAsTheCaus
     const Trial trial = houseTrial();
     Scene scene = trial.build();
     osg::Node* ground = find(*scene.root, "ground");
-    const auto technique = castingTechnique(GetParam() == By::Hull || GetParam() == By::Drape ? ground : nullptr);
+    const auto technique = castingTechnique(GetParam() == By::Hull ? ground : nullptr);
     scene.addShadow(technique);
     operateLate(*ground, osg::LogicOp::OR_INVERTED);
     Camera camera(scene.root, trial.view);
@@ -203,8 +203,7 @@ TEST_P(AnyBin, ATextureWhosePixelsAreAllThereOrClearReceivesWhereTheyAreThere) {
 TEST_P(AnyBin, ASceneThatWritesNoDepthIsNamedAsTheCause) {
     const Trial trial = houseTrial();
     Scene scene = trial.build();
-    const auto technique =
-        castingTechnique(GetParam() == By::Hull || GetParam() == By::Drape ? find(*scene.root, "ground") : nullptr);
+    const auto technique = castingTechnique(GetParam() == By::Hull ? find(*scene.root, "ground") : nullptr);
     scene.addShadow(technique);
     scene.content->getOrCreateStateSet()->setMode(GL_DEPTH_TEST, osg::StateAttribute::OFF);
     Camera camera(scene.root, trial.view);

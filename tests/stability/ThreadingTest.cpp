@@ -86,7 +86,7 @@ void MovingScene::changeTechnique(unsigned frame) {
         map->setFilter(frame % 11 < 6 ? gnomon::ShadowMapOptions::BICUBIC : gnomon::ShadowMapOptions::NEAREST);
     }
     if (auto* terrain = dynamic_cast<gnomon::TerrainShadowGeode*>(_technique.get()))
-        terrain->setError(frame % 13 < 7 ? 0.1 : 0.2);
+        terrain->setMethod(frame % 13 < 7 ? gnomon::TerrainShadowGeode::HULL : gnomon::TerrainShadowGeode::BOX);
 }
 
 void MovingScene::change(unsigned frame) {

@@ -12,7 +12,6 @@ namespace test {
 namespace {
 
 using gnomon::ShadowCasterGroup;
-using gnomon::TerrainShadowGeode;
 
 By casting = By::Planar;
 
@@ -27,12 +26,6 @@ bool shadowsWhatFacesAway() { return casting == By::Traced || casting == By::Map
                                          << found.wrongAtEdge << " at edges are neither lit nor dark";
 }
 
-osg::ref_ptr<TerrainShadowGeode> terrainShadow(TerrainShadowGeode::Method method) {
-    osg::ref_ptr<TerrainShadowGeode> shadow = new TerrainShadowGeode;
-    shadow->setMethod(method);
-    return shadow;
-}
-
 void blendToBlack(Scene& scene) {
     scene.group->setComposite(ShadowCasterGroup::BLEND);
     scene.group->setDark(0.0f);
@@ -44,7 +37,7 @@ ByTechnique::ByTechnique() { casting = GetParam(); }
 ByTechnique::~ByTechnique() { casting = By::Planar; }
 
 std::ostream& operator<<(std::ostream& out, By technique) {
-    constexpr const char* names[] = {"Planar", "Hull", "Drape", "Traced", "Map", "Volume"};
+    constexpr const char* names[] = {"Planar", "Hull", "Traced", "Map", "Volume"};
     return out << names[static_cast<int>(technique)];
 }
 
@@ -58,7 +51,7 @@ osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver) {
     else if (casting == By::Volume)
         technique = new gnomon::ShadowVolumeTechnique;
     else
-        technique = terrainShadow(casting == By::Hull ? TerrainShadowGeode::HULL : TerrainShadowGeode::DRAPE);
+        technique = new gnomon::TerrainShadowGeode;
     if (receiver) technique->setReceiver({receiver});
     return technique;
 }

@@ -2,9 +2,6 @@
 #include "support/TerrainTrial.h"
 #include "support/Drawn.h"
 
-#include <gnomon/drape/BoxShadow.h>
-#include <gnomon/onterrain/TerrainShadow.h>
-
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -42,16 +39,6 @@ std::vector<glm::dvec2> circle(int sides, double radius) {
 
 std::vector<glm::dvec2> rectangle(const glm::dvec2& half) {
     return {{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
-}
-
-gnomon::Drape together(const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light,
-                       gnomon::TerrainMethod method, double error) {
-    gnomon::Drape all;
-    for (const gnomon::ConvexPart& part : prism.parts()) {
-        const gnomon::TerrainShadow shadow = gnomon::terrainShadow(ground, part, light, method, error);
-        all.insert(all.end(), shadow.triangles.begin(), shadow.triangles.end());
-    }
-    return all;
 }
 
 /// A part of the plan, along the light's azimuth and across it.
@@ -112,30 +99,6 @@ bool holds(const PlanTriangle& t, const glm::dvec2& p) {
     return true;
 }
 
-/// Triangles in plan, to be asked often.
-class Plan {
-public:
-    explicit Plan(const gnomon::Drape& drape) {
-        for (std::size_t i = 0; i + 2 < drape.size(); i += 3) {
-            const PlanTriangle t{glm::dvec2(drape[i]), glm::dvec2(drape[i + 1]), glm::dvec2(drape[i + 2])};
-            _boxes.push_back({t, glm::min(t[0], glm::min(t[1], t[2])), glm::max(t[0], glm::max(t[1], t[2]))});
-        }
-    }
-    bool covers(const glm::dvec2& p) const {
-        return std::any_of(_boxes.begin(), _boxes.end(), [&](const Box& box) {
-            return p.x >= box.low.x && p.y >= box.low.y && p.x <= box.high.x && p.y <= box.high.y &&
-                   holds(box.triangle, p);
-        });
-    }
-
-private:
-    struct Box {
-        PlanTriangle triangle;
-        glm::dvec2 low, high;
-    };
-    std::vector<Box> _boxes;
-};
-
 bool isBehindGround(const gnomon::Ground& ground, const glm::dvec2& p, const glm::dvec4& light) {
     const auto height = ground.height(p.x, p.y);
     const glm::dvec3 start(p, height.value_or(0.0) + 0.01); // not the ground that it stands on
@@ -154,7 +117,7 @@ double hills(double x, double y) {
            2.0 * std::sin(x * 0.04 + y * 0.03);
 }
 
-int over(const gnomon::Drape& drape, const glm::dvec2& place) {
+int over(const gnomon::BoxTriangles& drape, const glm::dvec2& place) {
     int count = 0;
     for (std::size_t i = 0; i + 2 < drape.size(); i += 3)
         count += holds({glm::dvec2(drape[i]), glm::dvec2(drape[i + 1]), glm::dvec2(drape[i + 2])}, place);
@@ -245,54 +208,42 @@ Method boxMethod() {
         std::vector<glm::dvec3> points;
         for (const glm::dvec2& corner : prism.outline)
             for (const double z : {prism.base, prism.roof}) points.emplace_back(corner, z);
-        const gnomon::BoxCaster caster = gnomon::boxCaster(points);
-        return gnomon::boxShadow(ground, caster, light).value_or(gnomon::Drape());
+        const auto shadow =
+            gnomon::boxShadow(ground, gnomon::boxCaster(points), light).value_or(gnomon::BoxTriangles());
+        return Found{[shadow](const glm::dvec3& place) { return over(shadow, glm::dvec2(place)) > 0; }, 12};
     };
 }
 
-Method hullMethod(double error) {
-    return [error](const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light) {
-        return together(ground, prism, light, gnomon::TerrainMethod::hull, error);
-    };
-}
-
-Method drapeMethod(double error) {
-    return [error](const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light) {
-        return together(ground, prism, light, gnomon::TerrainMethod::drape, error);
+Method hullMethod() {
+    return [](const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light) {
+        std::vector<gnomon::HullPart> parts;
+        for (const gnomon::ConvexPart& part : prism.parts()) parts.emplace_back(part);
+        gnomon::HullSolids solids;
+        hullSolids(gnomon::HullGround(ground), parts, light, glm::dvec3(prism.middle(), prism.roof), solids);
+        return Found{[solids](const glm::dvec3& place) { return solids.around(place) != 0; },
+                     solids.corners.size() / 3};
     };
 }
 
 std::vector<Share> judge(const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light,
                          const std::vector<Contestant>& contestants, int points, Places places) {
-    Region region = reachOf(ground, prism, light);
+    const Region region = reachOf(ground, prism, light);
     std::vector<Share> shares(contestants.size());
-    std::vector<Plan> plans;
+    std::vector<Found> found;
     for (std::size_t i = 0; i < contestants.size(); ++i) {
-        const gnomon::Drape shadow = contestants[i].method(ground, prism, light);
-        for (const glm::dvec3& corner : shadow) region.add(glm::dvec2(corner));
-        shares[i].triangles = shadow.size() / 3;
-        plans.emplace_back(shadow);
+        found.push_back(contestants[i].method(ground, prism, light));
+        shares[i].triangles = found.back().triangles;
     }
-    const auto dark = [&](const glm::dvec2& p) {
-        const auto height = ground.height(p.x, p.y);
-        return height && prism.blocks({p.x, p.y, *height}, light);
-    };
-    const auto isNearOther = [&](const glm::dvec2& p, bool expected, double bound) {
-        const glm::dvec2 away = glm::normalize(light.w * p - glm::dvec2(light));
-        for (int i = -20; i <= 20; ++i)
-            if (dark(p + away * (bound * i / 20.0)) != expected) return true;
-        return false;
-    };
     region.spread(points, [&](const glm::dvec2& p) {
         if (prism.isUnder(p) || (places == Places::sunlit && isBehindGround(ground, p, light))) return;
-        const bool expected = dark(p);
-        for (std::size_t i = 0; i < plans.size(); ++i) {
-            const bool found = plans[i].covers(p);
+        const auto height = ground.height(p.x, p.y);
+        const glm::dvec3 place(p, height.value_or(0.0));
+        const bool expected = height && prism.blocks(place, light);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const bool covered = height && found[i].covers(place);
             ++shares[i].rays;
-            shares[i].both += expected && found;
-            shares[i].either += expected || found;
-            const double bound = contestants[i].bound;
-            shares[i].beyond += found != expected && bound > 0.0 && !isNearOther(p, expected, bound);
+            shares[i].both += expected && covered;
+            shares[i].either += expected || covered;
         }
     });
     return shares;
@@ -307,7 +258,6 @@ Figures tally(const std::vector<Share>& shares) {
         either += share.either;
         overlaps.push_back(share.overlap());
         result.triangles += double(share.triangles) / double(shares.size());
-        result.beyond += share.beyond;
         result.rays += share.rays;
     }
     if (overlaps.empty()) return result;

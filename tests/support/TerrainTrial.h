@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/drape/Drape.h>
+#include <gnomon/Ground.h>
 #include <gnomon/geometry/ConvexParts.h>
+#include <gnomon/ground/BoxMethod.h>
+#include <gnomon/ground/HullSolids.h>
 
 #include <glm/vec2.hpp>
 
@@ -19,8 +21,8 @@ glm::dvec3 sunAt(double azimuth, double elevation);
 /// Height of hills with slopes of 8.5 degrees, root mean square, as the Appalachians have them; metres.
 double hills(double x, double y);
 
-/// Triangles of a drape over a place, those whose edge it lies on too.
-int over(const gnomon::Drape& drape, const glm::dvec2& place);
+/// Triangles over a place in plan, those whose edge it lies on too.
+int over(const gnomon::BoxTriangles& triangles, const glm::dvec2& place);
 
 /// An upright caster with a flat roof.
 struct Prism {
@@ -44,23 +46,24 @@ Prism boxAt(const glm::dvec2& middle, const glm::dvec2& half, double turn, doubl
 std::vector<Prism> prismsOn(const gnomon::Ground& ground, const glm::dvec2& low, const glm::dvec2& high, int count,
                             unsigned seed);
 
-/// A method under trial: its triangles for one caster. @param light  homogeneous.
-using Method = std::function<gnomon::Drape(const gnomon::Ground&, const Prism&, const glm::dvec4& light)>;
-Method boxMethod();                    ///< the published one.
-Method hullMethod(double error = 0.1); ///< terrainShadow() of each part, as is the next.
-Method drapeMethod(double error);      ///< 0 is exact.
+/// What a method under trial finds of one caster.
+struct Found {
+    std::function<bool(const glm::dvec3& place)> covers; ///< of a place on the ground.
+    std::size_t triangles;
+};
+/// @param light  homogeneous.
+using Method = std::function<Found(const gnomon::Ground&, const Prism&, const glm::dvec4& light)>;
+Method boxMethod();  ///< the published one.
+Method hullMethod(); ///< hullSolids().
 
-/// A method with its name and bound. @param bound  in plan along the light's azimuth; 0 is not tried.
 struct Contestant {
     std::string name;
     Method method;
-    double bound = 0.0;
 };
 
 /// One caster's shadow against rays, in plan, without the ground under the caster.
 struct Share {
     int both = 0, either = 0;
-    int beyond = 0; ///< points with the wrong answer that have no point of the other answer within the bound.
     int rays = 0;
     std::size_t triangles = 0;
     double overlap() const { return either > 0 ? double(both) / either : 1.0; }
@@ -80,7 +83,7 @@ std::vector<Share> judge(const gnomon::Ground& ground, const Prism& prism, const
 struct Figures {
     double pooled = 1.0, fifth = 1.0, least = 1.0;
     double triangles = 0.0; ///< mean of a caster.
-    int beyond = 0, rays = 0;
+    int rays = 0;
 };
 
 Figures tally(const std::vector<Share>& shares);

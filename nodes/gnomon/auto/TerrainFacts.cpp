@@ -3,7 +3,6 @@
 #include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/TerrainFacts.h>
-#include <gnomon/compositor/ResolvedState.h>
 
 #include <glm/geometric.hpp>
 
@@ -42,8 +41,6 @@ TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receive
         facts.obstacle = "the light is no sun above the horizon";
     const std::string cutOut = whyCutOut(view.casters);
     if (!cutOut.empty()) facts.obstacle = cutOut;
-    for (const osgUtil::RenderLeaf* leaf : view.frame.seen)
-        if (isPulledForward(leaf->_parent)) facts.obstacle = "a polygon offset pulls the terrain forward";
     if (!facts.obstacle.empty()) return facts;
     _drawn = TerrainPlace::inFrameOf(*view.frame.group, receiver).drawn(_drawn);
     const Ground& ground = *_drawn->ground;

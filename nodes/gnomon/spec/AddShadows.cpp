@@ -84,9 +84,8 @@ osg::ref_ptr<ShadowTechnique> makeMap(const ShadowSpec& spec, const Receivers&) 
 }
 
 template <TerrainShadowOptions::Method method>
-osg::ref_ptr<ShadowTechnique> makeTerrain(const ShadowSpec& spec, const Receivers&) {
+osg::ref_ptr<ShadowTechnique> makeTerrain(const ShadowSpec&, const Receivers&) {
     osg::ref_ptr<TerrainShadowGeode> node = new TerrainShadowGeode;
-    node->setOptions(spec.terrain);
     node->setMethod(method);
     return node;
 }
@@ -97,7 +96,6 @@ const std::map<std::string, Maker>& makers() {
         {"planar", makePlanar},
         {"box", makeTerrain<TerrainShadowOptions::BOX>},
         {"hull", makeTerrain<TerrainShadowOptions::HULL>},
-        {"drape", makeTerrain<TerrainShadowOptions::DRAPE>},
         {"map", makeMap},
         {"volume", makeVolume},
         {"traced", makeTraced},

@@ -14,7 +14,6 @@ namespace {
 using Map = ShadowMapOptions;
 
 constexpr const char* ground = "ground"; // receives where nothing is named and not everything can
-constexpr double mostError = 1e6;        // setError() has no limit: this one is against slips of the keyboard
 
 /// What a key sets: its default, and how it is put into a specification.
 template <typename Value>
@@ -26,10 +25,6 @@ struct Option {
 template <typename Value>
 Option<Value> ofMap(Value ShadowMapOptions::*option) {
     return {ShadowMapOptions().*option, [option](ShadowSpec& spec, Value value) { spec.map.*option = value; }};
-}
-
-Option<double> terrainError() {
-    return {TerrainShadowOptions().error, [](ShadowSpec& spec, double value) { spec.terrain.error = value; }};
 }
 
 Option<ShadowCasterGroup::Composite> composite() {
@@ -86,11 +81,6 @@ SpecKey receiverKey(const std::string& byDefault) {
 
 std::string receiverOf(const SpecTechnique& technique) {
     return technique.receiver.empty() ? "everything" : technique.receiver;
-}
-
-SpecKey errorKey() {
-    return numberKey({"error", "largest error of a draped edge in plan; 0 is exact", "setError()", "scene's unit"},
-                     terrainError(), 0.0, mostError);
 }
 
 SpecKey budgetKey(SpecKey key, double AutoShadowOptions::*option, double least, double most, const char* unset) {
@@ -183,14 +173,9 @@ const std::vector<SpecTechnique>& specTechniques() {
         {"planar", "flattens the casters onto the receiver's planes; exact on flat receivers", ground},
         {"box", "bounding-box method of ARL-TN-156 on terrain, as published", ground},
         {"hull",
-         "polygons on terrain: silhouettes of the casters' convex parts, one ray for each corner",
+         "silhouettes of the casters' convex parts, followed into the terrain",
          ground,
-         {errorKey()},
-         OptionalPart::Terrain},
-        {"drape",
-         "the terrain's triangles, cut by the casters' shadows to within error",
-         ground,
-         {errorKey()},
+         {},
          OptionalPart::Terrain},
         {"map", "shadow maps; on every visible surface", "", mapKeys()},
         {"volume", "stencil volumes; exact on every visible surface", "", volumeKeys()},
@@ -208,6 +193,10 @@ const SpecTechnique& requireTechnique(const std::string& name) {
             throw std::invalid_argument("the technique " + name + " cannot be used. " + why);
         return technique;
     }
+    if (name == "drape")
+        throw std::invalid_argument(
+            "there is no technique drape any more. Use hull on terrain, which is exact there, or map "
+            "or traced if other surfaces receive.");
     throw std::invalid_argument("\"" + name + "\" is not a shadow technique." + allowed);
 }
 

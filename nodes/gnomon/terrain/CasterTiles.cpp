@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/ProgressLine.h>
+#include <gnomon/casters/CasterMesh.h>
 #include <gnomon/casters/WeldedDrawables.h>
 #include <gnomon/terrain/CasterTiles.h>
 
@@ -50,11 +51,8 @@ void measure(CasterTiles::Tile& tile) {
         tile.high = glm::max(tile.high, point);
     };
     for (const BoxCaster& box : tile.boxes) take(box.low), take(box.high);
-    for (std::size_t i = 0; i < tile.parts.size(); ++i) {
-        take(tile.parts.anchor(i));
-        for (unsigned k = 0; k + 1 < tile.parts.topology(i).corners; ++k)
-            take(tile.parts.anchor(i) + glm::dvec3(tile.parts.others(i)[k]));
-    }
+    for (const HullPart& part : tile.parts)
+        for (const glm::vec3& corner : part.corners) take(part.anchor + glm::dvec3(corner));
 }
 
 /// The last one takes the place of the one that goes.
@@ -66,14 +64,25 @@ void removeAt(List& list, std::size_t at) {
 
 } // namespace
 
+std::vector<BoxCaster> boxCastersOf(const CasterMesh& mesh) {
+    std::vector<BoxCaster> boxes;
+    if (mesh.triangles->empty()) return boxes;
+    for (auto& points :
+         connectedPoints(positionsOf(mesh), mesh.vertices->size(), &mesh.triangles->front(), mesh.triangles->size())) {
+        for (glm::dvec3& point : points) point += toGlm(mesh.origin);
+        boxes.push_back(boxCaster(points));
+    }
+    return boxes;
+}
+
 /// Of one unit, or of all.
 struct CasterTiles::Found {
     CasterDrawables::List pieces;
-    PackedParts parts;
+    std::vector<HullPart> parts;
     std::vector<BoxCaster> boxes;
 
     std::size_t size() const { return parts.size() + boxes.size(); }
-    glm::dvec2 place(std::size_t i) const { return boxes.empty() ? glm::dvec2(parts.anchor(i)) : boxes[i].vertices[0]; }
+    glm::dvec2 place(std::size_t i) const { return boxes.empty() ? glm::dvec2(parts[i].anchor) : boxes[i].vertices[0]; }
 };
 
 void CasterTiles::take(const CasterDrawables& casters, const std::set<const osg::Drawable*>& terrain) {
@@ -139,7 +148,7 @@ void CasterTiles::dissolve(unsigned unit, CasterDrawables::List& loose) {
         Tile& tile = _tiles[changed(index)];
         for (std::size_t i = tile.size(); i-- > 0;) {
             if (tile.units[i] != unit) continue;
-            _asBoxes ? removeAt(tile.boxes, i) : tile.parts.remove(i);
+            _asBoxes ? removeAt(tile.boxes, i) : removeAt(tile.parts, i);
             removeAt(tile.units, i);
             --_size;
         }
@@ -180,10 +189,15 @@ std::vector<CasterDrawables::List> CasterTiles::weld(CasterDrawables::List loose
 CasterTiles::Found CasterTiles::find(CasterDrawables::List pieces) const {
     Found found;
     const osg::ref_ptr<const CasterMesh> mesh = meshOf(pieces);
+    const osg::DrawElementsUInt& triangles = *mesh->triangles;
     if (_asBoxes)
         found.boxes = boxCastersOf(*mesh);
     else
-        found.parts = PackedParts(partsOf(*mesh));
+        for (const ConvexPart& part :
+             convexParts(positionsOf(*mesh), mesh->vertices->size(), &triangles.front(), triangles.size())) {
+            found.parts.emplace_back(part);
+            found.parts.back().anchor += toGlm(mesh->origin);
+        }
     found.pieces = std::move(pieces);
     return found;
 }
@@ -195,7 +209,7 @@ void CasterTiles::add(Found found) {
         if (_asBoxes)
             tile.boxes.push_back(found.boxes[i]);
         else
-            tile.parts.add(found.parts, i);
+            tile.parts.push_back(std::move(found.parts[i]));
         tile.units.push_back(_lastUnit);
         const auto index = static_cast<unsigned>(&tile - _tiles.data());
         if (std::find(unit.tiles.begin(), unit.tiles.end(), index) == unit.tiles.end()) unit.tiles.push_back(index);
@@ -224,7 +238,7 @@ std::vector<CasterTiles::Found> CasterTiles::takeAll() {
             if (_asBoxes)
                 unit.boxes.push_back(tile.boxes[i]);
             else
-                unit.parts.add(tile.parts, i);
+                unit.parts.push_back(std::move(tile.parts[i]));
         }
     _units.clear();
     _tiles.clear();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/onterrain/PackedParts.h>
-#include <gnomon/terrain/CasterParts.h>
+#include <gnomon/ground/HullSolids.h>
 
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,9 @@
 #include <vector>
 
 namespace gnomon {
+
+/// What BOX takes for objects: what is connected, group frame.
+std::vector<BoxCaster> boxCastersOf(const CasterMesh& mesh);
 
 /// What casts on a ground, in tiles of neighbours.
 ///
@@ -27,7 +29,7 @@ public:
     /// Convex parts, or boxes, that stand near one another.
     struct Tile {
         std::uint64_t revision = 0; ///< another with each change, never used twice.
-        PackedParts parts;
+        std::vector<HullPart> parts;
         std::vector<BoxCaster> boxes;
         std::vector<unsigned> units;               ///< whose they are.
         glm::dvec3 low{infinite}, high{-infinite}; ///< bounds of all, group frame.
@@ -45,6 +47,7 @@ public:
     bool areRetired() const { return !_casters || _casters->isRetired(); }
     const std::vector<Tile>& tiles() const { return _tiles; }
     bool asBoxes() const { return _asBoxes; }
+    std::size_t size() const { return _size; } ///< of all tiles.
     /// Near the casters, group frame: shadows are floats about it. Another one only when most tiles are, too.
     const glm::dvec3& origin() const { return _origin; }
 

@@ -9,24 +9,15 @@
 #include <osg/LOD>
 
 #include <algorithm>
-#include <iterator>
+#include <limits>
 
 namespace gnomon {
 namespace {
 
-/// Whether some of it is more than triangles.
-bool isOfQuads(const osg::Drawable& drawable) {
-    const osg::Geometry* geometry = drawable.asGeometry();
-    const auto isQuads = [](const auto& set) { return set->getMode() >= GL_QUADS && set->getMode() <= GL_POLYGON; };
-    return geometry &&
-           std::any_of(geometry->getPrimitiveSetList().begin(), geometry->getPrimitiveSetList().end(), isQuads);
-}
-
 /// The terrain's drawables, and what they are made of.
 class TerrainVisitor : public CasterVisitor {
 public:
-    /// @param levels  All, for views may show any, or those of the ground.
-    TerrainVisitor(const Selection& terrain, Levels levels) : CasterVisitor(terrain) { setLevels(levels); }
+    explicit TerrainVisitor(const Selection& terrain) : CasterVisitor(terrain) { setLevels(Levels::All); }
     using CasterVisitor::apply;
     void apply(osg::LOD& lod) override {
         const unsigned before = _met;
@@ -35,13 +26,12 @@ public:
     }
     std::set<const osg::Drawable*> drawables;
     std::vector<osg::ref_ptr<const osg::Referenced>> sources;
-    bool hasLevels = false, hasQuads = false;
+    bool hasLevels = false;
 
 protected:
     void applyCaster(osg::Drawable& drawable, const Casting&) override {
         ++_met;
         drawables.insert(&drawable);
-        hasQuads = hasQuads || isOfQuads(drawable);
         holdSources(drawable, sources);
     }
 
@@ -84,30 +74,20 @@ std::uint64_t TerrainPlace::revision() const {
     return revision.value();
 }
 
-/// Those of all levels that groundOf() leaves out.
-std::set<const osg::Drawable*> TerrainPlace::coarseOf(const std::set<const osg::Drawable*>& all) const {
-    TerrainVisitor finest(terrain, CasterVisitor::Levels::Chosen);
-    root.accept(finest);
-    std::set<const osg::Drawable*> coarse;
-    std::set_difference(all.begin(), all.end(), finest.drawables.begin(), finest.drawables.end(),
-                        std::inserter(coarse, coarse.end()));
-    return coarse;
-}
-
 osg::ref_ptr<const GroundRevision> TerrainPlace::drawn(const osg::ref_ptr<const GroundRevision>& known) const {
     const std::uint64_t now = revision();
     if (known && known->revision == now) return known;
-    TerrainVisitor visitor(terrain, CasterVisitor::Levels::All);
+    TerrainVisitor visitor(terrain);
     root.accept(visitor);
     osg::ref_ptr<GroundRevision> drawn = new GroundRevision;
     drawn->revision = now;
     drawn->drawables = std::move(visitor.drawables);
-    if (visitor.hasLevels) drawn->coarse = coarseOf(drawn->drawables);
     drawn->sources = std::move(visitor.sources);
     drawn->hasLevels = visitor.hasLevels;
-    drawn->hasQuads = visitor.hasQuads;
     drawn->ground = groundOf(root, terrain, groundFromRoot);
-    drawn->steepest = drawn->ground->steepest({});
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
+    const auto all = drawn->ground->range(glm::dvec2(-everywhere), glm::dvec2(everywhere));
+    drawn->steepest = all ? all->steepest : 0.0;
     return drawn;
 }
 

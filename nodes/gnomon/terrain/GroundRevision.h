@@ -17,10 +17,8 @@ namespace gnomon {
 struct GroundRevision : public osg::Referenced {
     std::uint64_t revision = 0;
     std::set<const osg::Drawable*> drawables; ///< of all levels of detail; to be told apart from others only.
-    std::set<const osg::Drawable*> coarse;    ///< those that are not of the ground below, but of coarser levels.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< see CasterExtraction::getSources().
     bool hasLevels = false; ///< what is drawn may be coarser than this ground, for there are levels of detail.
-    bool hasQuads = false;  ///< which a driver cuts into triangles by its own rule.
     std::shared_ptr<const Ground> ground;
     double steepest = 0.0; ///< slope of all of it, as a tangent.
 
@@ -44,9 +42,6 @@ struct TerrainPlace {
     std::uint64_t revision() const;
     /// @param known  may be null. @return `known` itself if nothing changed.
     osg::ref_ptr<const GroundRevision> drawn(const osg::ref_ptr<const GroundRevision>& known) const;
-
-private:
-    std::set<const osg::Drawable*> coarseOf(const std::set<const osg::Drawable*>& all) const;
 };
 
 } // namespace gnomon

@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/terrain/GroundRevision.h>
-#include <gnomon/terrain/TileUpdates.h>
+#include <gnomon/terrain/HullTiles.h>
 
 #include <OpenThreads/Mutex>
 
@@ -18,21 +18,19 @@ struct ViewFrame;
 
 /// What one frame draws of one light.
 struct TerrainFrame {
-    TileUpdates::List tiles;
-    TileUpdates::Bitmaps bitmaps;    ///< see TileUpdates::bitmapsIn().
-    std::vector<std::string> causes; ///< why some are missing, or not of the method that was asked for.
+    HullTiles::List tiles;
+    std::vector<std::string> causes; ///< why some are missing, or not the caster's own.
     glm::dvec3 origin{0.0};          ///< that tiles are about, group frame.
-    bool fromAbove = false;          ///< nothing of the ground that is turned away is seen.
+    bool fromAbove = false;          ///< no line of sight to the ground comes out of the ground.
 };
 
 /// All shadows of one light, to be asked for places.
 struct TerrainAnswer : public osg::Referenced {
     osg::ref_ptr<const GroundRevision> drawn;
-    TileUpdates::List tiles; ///< without meshes.
-    glm::dvec3 origin{0.0};
+    std::vector<HullSolids> tiles;
 
-    /// Whether a place is under one of the shadows in plan. @param place  group frame.
-    bool covers(const glm::dvec2& place) const;
+    /// Whether a place of the ground is in one of the shadows. @param place  group frame.
+    bool holds(const glm::dvec3& place) const;
 
 protected:
     ~TerrainAnswer() override = default;
@@ -46,11 +44,10 @@ public:
     /// @param casters  of the view's group, now.
     /// @param number   the light's.
     TerrainFrame frame(const ViewFrame& view, const CasterDrawables& casters, const TerrainPlace& place, int number,
-                       const glm::dvec4& light, const TerrainSettings& settings);
+                       const glm::dvec4& light, bool asBoxes);
     /// Of any light; what is drawn is not touched.
     osg::ref_ptr<const TerrainAnswer> answer(const ShadowCasterGroup& group, const CasterDrawables& casters,
-                                             const TerrainPlace& place, const glm::dvec4& light,
-                                             const TerrainSettings& settings);
+                                             const TerrainPlace& place, const glm::dvec4& light, bool asBoxes);
     /// Drops what is of retired casters.
     void letGo();
     unsigned found() const; ///< how many tiles' shadows, so far.
@@ -58,18 +55,24 @@ public:
     void releaseGLObjects(osg::State* state) const;
 
 private:
+    /// Who asks: a view, or a query, whose stage is null.
+    struct Asker {
+        const ShadowCasterGroup& group;
+        const void* stage;
+        bool asBoxes;
+        bool isLoose; ///< the ground may be drawn beside its place.
+    };
     struct Town {
+        Town(const ShadowCasterGroup& of, bool asBoxes) : group(&of), casters(asBoxes) {}
         const ShadowCasterGroup* group; ///< to be told apart from others only.
-        const void* stage;              ///< of the view that had it last; null for a query.
+        const void* stage = nullptr;    ///< of the view that had it last.
         osg::ref_ptr<const GroundRevision> drawn;
+        std::unique_ptr<const HullGround> ground; ///< of `drawn`.
         CasterTiles casters;
-        std::map<int, TileUpdates> lights;
+        std::map<int, HullTiles> lights;
     };
     Town* findTown(const ShadowCasterGroup& group, const CasterDrawables& casters, const void* stage, bool asBoxes);
-    Town& townOf(const ShadowCasterGroup& group, const CasterDrawables& casters, const void* stage,
-                 const TerrainPlace& place, bool asBoxes);
-    static void addLimits(const ViewFrame& view, const Town& town, const TileUpdates& tiles,
-                          std::vector<std::string>& causes);
+    Town& townOf(const Asker& asker, const CasterDrawables& casters, const TerrainPlace& place);
 
     mutable OpenThreads::Mutex _mutex;
     RecentCache<std::unique_ptr<Town>> _towns;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/gl/VolumeGeometry.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/silhouette/SightStart.h>
 #include <gnomon/volume/ReceiverBox.h>
 #include <gnomon/volume/VolumeCasters.h>
-#include <gnomon/volume/VolumeGeometry.h>
 
 #include <map>
 #include <utility>

@@ -6,25 +6,12 @@
 #include <gnomon/volume/VolumeMark.h>
 
 #include <glm/common.hpp>
-#include <glm/gtc/matrix_access.hpp>
-#include <glm/matrix.hpp>
 
 namespace gnomon {
 namespace {
 
-/// Where lines of sight are parallel, a triangle at infinity is beside all of them. A lamp's then ends far beyond all that
-/// is seen: 10^7 times as far from it as the caster, which floats still hold.
-double endlessIn(const glm::dmat4& clipFromMesh, const glm::dvec4& light) {
-    const bool parallel = glm::dvec3(glm::row(clipFromMesh, 3)) == glm::dvec3(0.0);
-    return parallel && light.w != 0.0 ? 1e7 : -1.0;
-}
-
-void place(osg::State& state, const MeshInView& mesh) {
-    const glm::dvec4& light = mesh.volumes->volumes().light;
-    setUniform(state, "clipFromVertex", mesh.clipFromMesh);
-    setUniform(state, "light", light);
-    setUniform(state, "endless", endlessIn(mesh.clipFromMesh, light));
-    glFrontFace(glm::determinant(mesh.clipFromMesh) > 0.0 ? GL_CW : GL_CCW); // clip space is left-handed
+void place(const osg::State& state, const MeshInView& mesh) {
+    placeVolumes(state, mesh.clipFromMesh, mesh.volumes->volumes().light);
 }
 
 /// Of a cap from its surface: pixels of the slope, and steps of the depth buffer. OpenGL draws the two by different numbers.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/geometry/Across.h>
-#include <gnomon/overlay/StencilBatches.h>
 #include <gnomon/silhouette/SightStart.h>
+#include <gnomon/silhouette/StencilBatches.h>
 #include <gnomon/volume/VolumeHull.h>
 #include <gnomon/volume/VolumeView.h>
 

@@ -314,10 +314,6 @@ void addPlates(const Piece& piece, std::vector<ConvexPart>& parts) {
 
 } // namespace
 
-bool isTurnedAway(const ConvexPart& part, const glm::dvec4& light) {
-    return part.front && !(glm::dot(*part.front, light) > 0.0);
-}
-
 std::vector<ConvexPart> convexParts(const glm::vec3* positions, std::size_t vertexCount, const unsigned* indices,
                                     std::size_t indexCount) {
     std::vector<ConvexPart> parts;

@@ -14,9 +14,6 @@ struct ConvexPart {
     std::optional<glm::dvec4> front;
 };
 
-/// Whether a part can be left out. @param light  homogeneous: w = 0 the way towards a sun, w > 0 a lamp.
-bool isTurnedAway(const ConvexPart& part, const glm::dvec4& light);
-
 /// Casters cut into convex pieces whose shadows together are the casters' shadow, wherever the light is above what it
 /// falls on. Independent of the light: once a revision of the casters.
 ///

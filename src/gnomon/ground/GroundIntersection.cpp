@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/Plane.h>
 #include <gnomon/ground/GroundIntersection.h>
 
 #include <glm/common.hpp>
@@ -10,11 +9,6 @@
 #include <limits>
 
 namespace gnomon {
-namespace {
-
-
-} // namespace
-
 RaySpan spanInside(const GroundBox& box, const glm::dvec3& start, const glm::dvec3& along) {
     RaySpan span{0.0, std::numeric_limits<double>::infinity()};
     for (int axis = 0; axis < 3; ++axis) {
@@ -74,21 +68,6 @@ std::optional<double> meet(const GroundTriangle& t, const glm::dvec3& start, con
 double slopeOf(const GroundTriangle& t) {
     const glm::dvec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]);
     return std::hypot(normal.x, normal.y) / std::abs(normal.z);
-}
-
-bool mayHold(const GroundBox& box, const std::vector<glm::dvec4>& planes) {
-    const auto holds = [&](const glm::dvec4& plane) {
-        const auto corner = [&](int axis) { return plane[axis] > 0.0 ? box.high[axis] : box.low[axis]; };
-        return distance(plane, {corner(0), corner(1), corner(2)}) >= 0.0;
-    };
-    return std::all_of(planes.begin(), planes.end(), holds);
-}
-
-bool mayHold(const GroundTriangle& t, const std::vector<glm::dvec4>& planes) {
-    const auto holds = [&](const glm::dvec4& plane) {
-        return distance(plane, t[0]) >= 0.0 || distance(plane, t[1]) >= 0.0 || distance(plane, t[2]) >= 0.0;
-    };
-    return std::all_of(planes.begin(), planes.end(), holds);
 }
 
 } // namespace gnomon

@@ -23,14 +23,6 @@ inline double doubleArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dv
     return cross(glm::dvec2(b - a), glm::dvec2(c - a));
 }
 
-/// Whether a polygon turns left, or not at all, at each of its corners in plan.
-template <class Corner>
-bool isConvex(const Corner* corners, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-        if (doubleArea(corners[i], corners[(i + 1) % count], corners[(i + 2) % count]) < 0.0) return false;
-    return true;
-}
-
 /// Where a ray is inside a box.
 RaySpan spanInside(const GroundBox& box, const glm::dvec3& start, const glm::dvec3& along);
 
@@ -40,9 +32,5 @@ std::optional<double> meet(const GroundTriangle& triangle, const glm::dvec3& sta
 
 /// Tangent of a triangle's slope; infinite if it is vertical.
 double slopeOf(const GroundTriangle& triangle);
-
-/// Whether no plane has all of it on its outer side.
-bool mayHold(const GroundBox& box, const std::vector<glm::dvec4>& planes);
-bool mayHold(const GroundTriangle& triangle, const std::vector<glm::dvec4>& planes);
 
 } // namespace gnomon

@@ -34,9 +34,9 @@ bool HeightField::isHole(int x, int y) const {
     return !std::isfinite(sum);
 }
 
-std::array<GroundTriangle, 2> HeightField::triangles(int x, int y, int side) const {
-    const glm::dvec3 a = post(x, y), b = post(x + side, y), c = post(x + side, y + side), d = post(x, y + side);
-    if (side == 1 && cut(x, y) == CellCut::falling) return {GroundTriangle{a, b, d}, GroundTriangle{b, c, d}};
+std::array<GroundTriangle, 2> HeightField::triangles(int x, int y) const {
+    const glm::dvec3 a = post(x, y), b = post(x + 1, y), c = post(x + 1, y + 1), d = post(x, y + 1);
+    if (cut(x, y) == CellCut::falling) return {GroundTriangle{a, b, d}, GroundTriangle{b, c, d}};
     return {GroundTriangle{a, b, c}, GroundTriangle{a, c, d}};
 }
 

@@ -4,6 +4,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <vector>
+
 namespace gnomon {
 
 /// How a cell becomes two triangles, or none.
@@ -36,19 +38,14 @@ public:
     CellCut cut(int x, int y) const {
         return _cuts.empty() ? CellCut::rising : _cuts[std::size_t(y) * std::size_t(_columns - 1) + std::size_t(x)];
     }
-    bool allRising() const { return _cuts.empty(); }
     const glm::dvec2& origin() const { return _origin; }
     const glm::dvec2& step() const { return _step; }
-    double base() const { return _base; }
-    const float* heights() const { return _heights.data(); } ///< as given.
-    const CellCut* cuts() const { return _cuts.empty() ? nullptr : _cuts.data(); }
     glm::dvec3 post(int x, int y) const {
         const float height = _heights[std::size_t(y) * std::size_t(_columns) + std::size_t(x)];
         return {_origin.x + x * _step.x, _origin.y + y * _step.y, _base + double(height)};
     }
-    /// The two triangles over a block of side × side cells, from its corner posts alone; cut as its cell is if it is one,
-    /// else rising.
-    std::array<GroundTriangle, 2> triangles(int x, int y, int side = 1) const;
+    /// The two triangles of a cell.
+    std::array<GroundTriangle, 2> triangles(int x, int y) const;
     /// nullopt beside the ground and in a hole.
     std::optional<double> height(double x, double y) const;
 

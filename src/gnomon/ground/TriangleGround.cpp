@@ -182,27 +182,6 @@ std::optional<glm::dvec3> TriangleGround::hit(const glm::dvec3& start, const glm
     return start + nearest * along;
 }
 
-void TriangleGround::cover(const std::vector<glm::dvec4>& planes, double,
-                           const std::function<void(const GroundTriangle&, PlaneSet)>& take) const {
-    descend(
-        all(), [&](const Node& node) { return mayHold(node.box, planes); },
-        [&](const Corners& c) {
-            const GroundTriangle t = triangle(c);
-            if (mayHold(t, planes)) take(t, 0);
-        });
-}
-
-double TriangleGround::steepest(const std::vector<glm::dvec4>& planes) const {
-    double most = 0.0;
-    descend(
-        all(), [&](const Node& node) { return node.slope > most && mayHold(node.box, planes); },
-        [&](const Corners& c) {
-            const GroundTriangle t = triangle(c);
-            if (mayHold(t, planes)) most = std::max(most, slopeOf(t));
-        });
-    return most;
-}
-
 TurnedAway TriangleGround::turnedAway(const glm::dvec4& light) const {
     TurnedAwaySearch search(light);
     descend(

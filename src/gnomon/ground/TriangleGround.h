@@ -2,6 +2,8 @@
 #pragma once
 #include <gnomon/ground/GroundIntersection.h>
 
+#include <vector>
+
 namespace gnomon {
 
 /// Ground given as loose triangles: a TIN, a tile of any file's, many of them. A tree of boxes finds them.
@@ -19,7 +21,6 @@ namespace gnomon {
 ///         4 µs, a ray 6 µs.
 /// Limits  range() takes seams at which corners do not meet, and ends that are on no side of the bounding rectangle, for holes;
 ///         it does not tell where rays come in under an end of one of several layers.
-///         cover() gives the ground's own triangles, whatever the error: HeightPyramid takes fewer where it is flat.
 class TriangleGround : public Ground {
 public:
     /// @param vertices  doubles: coordinates of a map grid lose nothing.
@@ -30,10 +31,6 @@ public:
 
     std::optional<double> height(double x, double y) const override;
     std::optional<glm::dvec3> hit(const glm::dvec3& start, const glm::dvec3& along) const override;
-    void cover(const std::vector<glm::dvec4>& planes, double error,
-               const std::function<void(const GroundTriangle&, PlaneSet)>& take) const override;
-    /// Infinite where a vertical triangle may be within.
-    double steepest(const std::vector<glm::dvec4>& planes) const override;
     TurnedAway turnedAway(const glm::dvec4& light) const override;
     std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;
 

@@ -121,7 +121,7 @@ void autoTakesAnother() {
 }
 
 void namesAreRefused() {
-    for (const auto& [name, library] : {std::pair("traced", "Embree"), {"hull", "Qhull"}, {"drape:error=1", "Qhull"}})
+    for (const auto& [name, library] : {std::pair("traced", "Embree"), {"hull", "Qhull"}})
         expectRefusal(name, thrownBy([name = name] { gnomon::parseShadowSpec(name); }), library);
     const std::vector<std::string> allowed = {"none", "planar", "box", "map", "volume", "auto"};
     expect(gnomon::shadowTechniques() == allowed, "other techniques can be used");

@@ -4,6 +4,7 @@
 #pragma GCC diagnostic ignored "-Wshadow" // pages declare what others take for granted
 #pragma GCC diagnostic ignored "-Wunused-variable"
 #include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/BoxShadow.h>
 #include <gnomon/HaloNode.h>
 #include <gnomon/HaloPulse.h>
 #include <gnomon/HeadlessContext.h>
@@ -18,6 +19,7 @@
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/ShadowedScene.h>
 #include <gnomon/SunClock.h>
+#include <gnomon/TerrainGround.h>
 #include <gnomon/TerrainShadowGeode.h>
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/VertexTraverser.h>

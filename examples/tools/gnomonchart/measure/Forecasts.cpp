@@ -11,9 +11,7 @@ bool isSame(const ShadowMapOptions& a, const ShadowMapOptions& b) {
     return a.size == b.size && a.filter == b.filter && a.cascades == b.cascades && a.edges == b.edges;
 }
 
-bool isSame(const ShadowSpec& a, const ShadowSpec& b) {
-    return a.technique == b.technique && isSame(a.map, b.map) && a.terrain.error == b.terrain.error;
-}
+bool isSame(const ShadowSpec& a, const ShadowSpec& b) { return a.technique == b.technique && isSame(a.map, b.map); }
 
 const ShadowCandidate* exactly(const std::vector<ShadowCandidate>& candidates, const ShadowSpec& spec) {
     for (const ShadowCandidate& candidate : candidates)

@@ -10,7 +10,7 @@ namespace gnomon::examples {
 namespace {
 
 /// What diagnose() says besides limits: nothing of the shadow is missing then.
-constexpr const char* remarks[] = {"The shadow is right", "invalid triangles are left out"};
+constexpr const char* remarks[] = {"invalid triangles are left out"};
 
 constexpr std::size_t leastShadow = 50; ///< pixels, of a shadow that is worth a film.
 
