@@ -4,6 +4,7 @@
 #include <osg/Geometry>
 #include <osg/Material>
 #include <osg/Node>
+#include <osg/PolygonMode>
 #include <osg/State>
 
 #include <algorithm>
@@ -105,6 +106,15 @@ std::optional<Cutout> Cutout::blended(const osg::NodePath& path, const osg::Draw
     if (test && test->getFunction() != osg::AlphaFunc::ALWAYS) return std::nullopt;
     static const osg::ref_ptr<osg::AlphaFunc> half = new osg::AlphaFunc(osg::AlphaFunc::GEQUAL, 0.5f);
     return Cutout(*half, texture(*state), baseAlphaOf(*state, drawable));
+}
+
+bool Cutout::isUnfilled(const osg::NodePath& path, const osg::Drawable& drawable) {
+    const osg::ref_ptr<osg::State> state = new osg::State;
+    push(*state, path, drawable);
+    using Mode = osg::PolygonMode;
+    const auto* mode =
+        dynamic_cast<const Mode*>(attribute(state->getAttributeMap(), osg::StateAttribute::POLYGONMODE));
+    return mode && mode->getMode(Mode::FRONT) != Mode::FILL && mode->getMode(Mode::BACK) != Mode::FILL;
 }
 
 Cutout::Cutout(const osg::AlphaFunc& test, const osg::Texture2D* texture, double alpha)

@@ -22,6 +22,9 @@ public:
     /// The same of a surface that blends, without a test; nullopt if it does not blend.
     static std::optional<Cutout> blended(const osg::NodePath& path, const osg::Drawable& drawable);
 
+    /// Whether polygon modes let no side of a surface be filled: lines and points block no ray.
+    static bool isUnfilled(const osg::NodePath& path, const osg::Drawable& drawable);
+
     /// Whether the surface is there. @param texcoord  of unit 0.
     bool keeps(const osg::Vec2d& texcoord) const;
 

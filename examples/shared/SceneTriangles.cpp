@@ -65,7 +65,7 @@ public:
     void apply(osg::Projection&) override {}
     void apply(osg::Geometry& geometry) override {
         const std::vector<osg::Vec3d> local = positions(geometry.getVertexArray());
-        if (local.empty()) return;
+        if (local.empty() || Cutout::isUnfilled(getNodePath(), geometry)) return;
         const osg::Matrixd world = osg::computeLocalToWorld(getNodePath());
         _into.objects.push_back({Cutout::of(getNodePath(), geometry)});
         if (_clear == Clear::PASSES && !_into.objects.back().cutout)
