@@ -34,7 +34,8 @@ class ShadowMapCache;
 /// - SMOOTH and SOFT edges: alpha bits, unless a single light blends.
 /// - Penumbras: OpenGL 3.3 or its sampler objects.
 /// Limits
-/// - A caster 10⁷ m from the others costs all of them their shadow. Up to 10⁶ m it does not.
+/// - On a ground of many kilometres that begins under a close near plane, things of centimetres may lose their shadow, if the
+///   ground is one drawable of more than 2,000 triangles or a program moves it.
 /// - Facets decide what faces away from the light, and such a facet is wholly in shadow; one along the light is wholly lit or
 ///   wholly dark. On finely facetted, smooth bodies the map decides near the terminator.
 /// - An edge is off by a fraction of a texel, see ShadowMapOptions::Filter.

@@ -337,7 +337,11 @@ TEST(MapCutout, WhatBlendsCastsWhereItsAlphaIsAHalfOrMore) {
         fence.getStateSet()->setMode(GL_BLEND, On::ON);
         fence.getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
     };
-    EXPECT_EQ(expectShadowOf({leaning, lamp, greater, blends}), Causes());
+    // By an alpha that is 1 in parts only it receives as a whole or not at all.
+    const auto castsOnly = [](const Causes& causes) {
+        return causes.size() == 1 && causes.front().find("so it receives no shadow") != std::string::npos;
+    };
+    EXPECT_TRUE(castsOnly(expectShadowOf({leaning, lamp, greater, blends})));
     const auto paler = [&](osg::Geometry& fence) {
         blends(fence);
         const osg::ref_ptr<osg::Material> material = new osg::Material;
@@ -347,7 +351,7 @@ TEST(MapCutout, WhatBlendsCastsWhereItsAlphaIsAHalfOrMore) {
     const auto from213 = [](double s, double t) {
         return alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows) > 212;
     };
-    EXPECT_EQ(expectShadowOf({upright, afternoon, from213, paler}), Causes());
+    EXPECT_TRUE(castsOnly(expectShadowOf({upright, afternoon, from213, paler})));
     const auto fading = [&](osg::Geometry& fence) { // in colours of the vertices, upwards
         blends(fence);
         const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;

@@ -60,6 +60,7 @@ osg::ref_ptr<gnomon::ShadowTechnique> map() {
 int wrong(const Case& given, const Technique& technique, int reach = 1) {
     test::Scene shadowed = given.build();
     shadowed.addShadow(technique());
+    shadowed.group->setCasters({nullptr, 2}); // no sky
     test::Scene dark = given.build();
     dark.takeLightAway();
     const auto drawn = [&given](test::Scene scene) { return test::render(scene.root, given.view); };
@@ -193,10 +194,28 @@ Case withStray(double distance, double size) {
 
 TEST(Scales, ACasterFarAwayDoesNotShiftTheShadowsOfTheOthers) {
     for (const Technique& technique : {Technique(traced), Technique(map), Technique(planar)})
-        for (const double distance : {0.0, 1e4, 1e5, 1e6})
+        for (const double distance : {0.0, 1e4, 1e5, 1e6, 1e7})
             EXPECT_EQ(wrong(withStray(distance, 1.0), technique), 0) << technique()->className() << " " << distance;
-    for (const Technique& technique : {Technique(traced), Technique(planar)})
-        EXPECT_EQ(wrong(withStray(1e7, 1.0), technique), 0) << technique()->className();
+}
+
+/// A sky, which casts nothing and receives as all that is seen does, takes no depth from the map of what is before it.
+TEST(Scales, MapKeepsItsShadowsUnderASkyHoweverVast) {
+    for (const double radius : {1e4, 1e5, 1e6, 1e7}) {
+        Case given = withStray(0.0, 1.0);
+        given.light = osg::Vec4d(-1.0, -0.7, 0.8, 0.0); // one sees down what the boxes darken, as far as the sky is
+        given.view = test::perspective({-6.0, -10.0, 7.0}, {0.0, 0.0, 0.0}, 320, 240, 40.0, 1.0, 2.0 * radius);
+        given.stray = test::node(test::insideOut(test::sphere({0.0, 0.0, 0.0}, radius, 16)), "sky");
+        given.stray->setNodeMask(1);
+        EXPECT_EQ(wrong(given, map, 2), 0) << radius;
+    }
+}
+
+TEST(Scales, MapKeepsShadowsOfCentimetresOnALevelGroundOfKilometres) {
+    for (const double half : {1e3, 1e4, 3e4, 1e5}) {
+        Case given = withStray(0.0, 0.02);
+        given.ground = test::square(half);
+        EXPECT_EQ(wrong(given, map, 2), 0) << half;
+    }
 }
 
 TEST(Scales, TracedShadowsOfCentimetresAreRightOnAGroundOfKilometres) {

@@ -166,6 +166,7 @@ std::vector<glm::dvec4> LightShadowMaps::find(const std::vector<MapReceiver>& re
     findSplits(receivers, clipFromScene, pixels.x);
     if (_faces.front().frame.sun)
         for (MapSlice& face : _faces) {
+            face.isAlone = _splits.empty();
             if (face.part <= _splits.size())
                 face.find(_cause, receivers, viewPart(clipFromScene, _splits, face.part),
                           TexelDensity(face.frame, clipFromScene, pixels), _texels);
@@ -283,7 +284,8 @@ MapFit LightShadowMaps::fitOf(const MapSlice& face) const {
 glm::dvec3 LightShadowMaps::reachOf(const MapSlice& face) const {
     glm::dvec3 result(0.0);
     for (const glm::dvec4& point : face.held.body()) result = glm::max(result, glm::abs(glm::dvec3(point) / point.w));
-    return glm::min(_cause.casters->layers->reach, result + _cause.casters->layers->widest);
+    const CasterLayers& layers = *_cause.casters->layers;
+    return glm::min(layers.reach, result + (_cause.flats ? layers.widest : layers.widestBody));
 }
 
 void LightShadowMaps::resizeGLObjectBuffers(unsigned maxSize) {

@@ -36,6 +36,21 @@ MapReceiver wholeView(const ViewFrame& view, const glm::dmat4& sceneFromEye) {
     return receiver;
 }
 
+/// The same of each body: all of them may be thin together, for one is very far away.
+bool areThin(const MapRequest& cause, const LightFrame& frame) {
+    const auto isBoxThin = [&frame](const MapLayer::Box& box) {
+        MapOutline outline(frame);
+        outline.addBox(box.low, box.high, glm::dmat4(1.0));
+        return outline.empty() || isThin(frame, outline);
+    };
+    const auto areAll = [&](const MapLayer& layer) {
+        return std::all_of(layer.bodyBoxes.begin(), layer.bodyBoxes.end(), isBoxThin);
+    };
+    return areAll(*cause.casters->still) && areAll(*cause.casters->moving) &&
+           std::all_of(cause.casters->own.begin(), cause.casters->own.end(),
+                       [&](const OwnCaster& caster) { return isBoxThin(caster.box); });
+}
+
 LayerOutlines outlinesOf(const MapRequest& cause, const MapLayer& layer, const LightFrame& frame) {
     LayerOutlines outlines{MapOutline(frame), {}};
     for (const MapLayer::Box& box : layer.bodyBoxes) outlines.bodies.addBox(box.low, box.high, glm::dmat4(1.0));
@@ -106,18 +121,18 @@ void MapSlice::takeBlockers(const MapRequest& cause) {
     blockers.clear();
     const bool wide = cause.isWide(frame);
     const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
-        if (!outline.empty() && (wide || !isThin(frame, outline))) blockers.push_back({outline, halfSpaces});
+        if (!outline.empty()) blockers.push_back({outline, halfSpaces});
     };
     const auto addFlats = [&](const LayerOutlines& outlines, const MapLayer& layer, const MapOutline& bodies) {
         for (std::size_t i = 0; i < outlines.flats.size(); ++i)
-            if (wide || !bodies.isBefore(outlines.flats[i]))
+            if (wide || !(bodies.isBefore(outlines.flats[i]) || isThin(frame, outlines.flats[i])))
                 add(outlines.flats[i], {beyond(layer.flatBoxes[i], cause.light, cause.casters->layers->reach)});
     };
     const LayerOutlines moving = outlinesOf(cause, *cause.casters->moving, frame);
     MapOutline bodies = still.bodies;
     bodies.merge(moving.bodies);
     for (const OwnCaster& caster : cause.casters->own) bodies.addBox(caster.box.low, caster.box.high, glm::dmat4(1.0));
-    add(bodies, {});
+    if (!bodies.empty() && (wide || !isThin(frame, bodies) || !areThin(cause, frame))) add(bodies, {});
     addFlats(still, *cause.casters->still, bodies);
     addFlats(moving, *cause.casters->moving, bodies);
 }
@@ -138,7 +153,12 @@ void MapSlice::find(const MapRequest& cause, const std::vector<MapReceiver>& rec
 /// Of edges that are wider than the filter: what is about each place, too, and how far away what blocks the light is.
 void MapSlice::findHeld(const MapRequest& cause, int texels) {
     held = needed;
-    if (!cause.isWide(frame) || needed.empty()) return;
+    if (needed.empty()) return;
+    if (!cause.isWide(frame)) {
+        if (isAlone) // what is farther than all that blocks the light, a sky say, is compared as if it were there
+            held.farthest = std::min(needed.farthest, std::max(needed.nearest, reach.farthest));
+        return;
+    }
     const double most = 1.5 * widestSpread / texels * needed.length(); // a map so much larger has wider texels
     MapOutline blocking = reach;
     blocking.nearest = nearestBlocker;

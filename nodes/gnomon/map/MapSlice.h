@@ -73,6 +73,7 @@ struct MapSlice {
     void findHeld(const MapRequest& cause, int texels);
 
     LightFrame frame;
+    bool isAlone = false; ///< no other map of its light's frame holds part of what is seen.
     std::size_t part = 0; ///< of a sun see viewPart(); of a lamp 1 is what is near it, if one map cannot hold all.
     LayerOutlines still;
     std::vector<MapBlocker> blockers;
