@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // cs4470_fakeshadow: the fake shadows of CS-4470, a turning cube over a checkerboard, the light at infinity.
-#include "EveryFrame.h"
 #include "Example.h"
 #include "Mesh.h"
 #include "Paint.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // gus_shadow: GusOnGames' box and its shadow on a plane that three points give.
-#include "EveryFrame.h"
 #include "Example.h"
 #include "Mesh.h"
 #include "Paint.h"

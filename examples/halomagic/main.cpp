@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // halomagic: M. Kilgard's shadows, reflections and halos in one scene, by Gnomon's nodes.
-#include "EveryFrame.h"
 #include "Example.h"
-#include "Named.h"
 #include "Paint.h"
 
 #include <gnomon/HaloNode.h>

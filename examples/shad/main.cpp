@@ -2,9 +2,8 @@
 // shad: CS-4470's two-pass z-buffer shadows, one additive pass a light, and Gnomon's compositor beside them.
 #include "AddedLamps.h"
 #include "Disco.h"
-#include "EveryFrame.h"
 #include "Example.h"
-#include "SceneBounds.h"
+#include "SceneCamera.h"
 #include "SceneFile.h"
 
 #include <gnomon/ShadowMapTechnique.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "ImageFile.h"
-#include "ImageColours.h"
 #include "InputFile.h"
 
 #include <array>

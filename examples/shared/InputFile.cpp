@@ -1,16 +1,51 @@
 // SPDX-License-Identifier: MIT
 #include "InputFile.h"
-#include "CrashGuard.h"
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 
+#include <array>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace gnomon::examples {
 namespace {
+
+/// While it lives, a crash prints one sentence and ends the program: readers of old formats trust their input.
+class CrashGuard {
+public:
+    explicit CrashGuard(const std::string& sentence);
+    ~CrashGuard();
+    CrashGuard(const CrashGuard&) = delete;
+    CrashGuard& operator=(const CrashGuard&) = delete;
+
+private:
+    static constexpr std::array<int, 4> signals = {SIGSEGV, SIGABRT, SIGFPE, SIGBUS};
+
+    static void say(int);
+
+    static std::string _sentence;
+    std::array<void (*)(int), signals.size()> _before{};
+};
+
+std::string CrashGuard::_sentence;
+
+CrashGuard::CrashGuard(const std::string& sentence) {
+    _sentence = sentence + "\n";
+    for (std::size_t i = 0; i < signals.size(); ++i) _before[i] = std::signal(signals[i], say);
+}
+
+CrashGuard::~CrashGuard() {
+    for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], _before[i]);
+}
+
+void CrashGuard::say(int) {
+    const ssize_t written = write(STDERR_FILENO, _sentence.data(), _sentence.size());
+    _exit(written > 0 ? 1 : 2);
+}
 
 /// OpenSceneGraph's reader goes on at the end of a file that is cut off, with whatever number of things it last read: for
 /// hours, or until memory ends. So the end is an exception.

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/SceneProps.h>
 #include <osg/BoundingBox>
 #include <osg/Camera>
+#include <osg/MatrixTransform>
 #include <osg/Matrixd>
 
 namespace gnomon::examples {
+
+/// A subgraph moved and scaled so that the box about it has its middle at the origin and its corners this far away.
+osg::ref_ptr<osg::MatrixTransform> fitted(osg::Node& root, double radius);
 
 /// A camera of fixed near and far planes.
 struct SceneCamera {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "SceneFile.h"
 #include "InputFile.h"
-#include "SceneBounds.h"
+#include "SceneCamera.h"
 
 #include <osg/Group>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "SceneSetup.h"
-#include "SceneBounds.h"
+#include "SceneCamera.h"
 
 #include <gnomon/NamedNode.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "SceneWindow.h"
-#include "Legible.h"
+#include "Hud.h"
 
 #include <gnomon/SceneProps.h>
 #include <gnomon/ShadowStats.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Shot.h"
 #include "FrameTime.h"
-#include "SceneBounds.h"
+#include "SceneCamera.h"
 #include "SceneTruth.h"
 
 #include <gnomon/PlanarShadowNode.h>

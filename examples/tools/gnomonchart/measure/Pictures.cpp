@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Pictures.h"
-#include "ImageColours.h"
+#include "ImageFile.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ChartScene.h"
-#include "SceneBounds.h"
+#include "SceneCamera.h"
 #include "SceneSetup.h"
 
 #include <gnomon/NamedNode.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "SceneParts.h"
 
-#include "SceneBounds.h"
+#include "SceneCamera.h"
 
 #include <gnomon/NamedNode.h>
 
