@@ -123,20 +123,20 @@ private:
             for (unsigned i = 2; i < n; ++i) corners(at(0), at(i - 1), at(i));
             break;
         case Set::QUADS:
-            for (unsigned i = 3; i < n; i += 4) quad(at(i - 2), at(i - 1), at(i), at(i - 3));
+            for (unsigned i = 3; i < n; i += 4) {
+                corners(at(i - 3), at(i - 2), at(i));
+                corners(at(i - 2), at(i - 1), at(i));
+            }
             break;
         case Set::QUAD_STRIP:
-            for (unsigned i = 3; i < n; i += 2) quad(at(i - 3), at(i - 2), at(i), at(i - 1));
+            for (unsigned i = 3; i < n; i += 2) {
+                corners(at(i - 3), at(i - 2), at(i));
+                corners(at(i - 3), at(i), at(i - 1));
+            }
             break;
         default:
             for (unsigned i = 0; i < n; ++i) point(at(i));
         }
-    }
-
-    /// In their order about it, cut from a to c.
-    void quad(unsigned a, unsigned b, unsigned c, unsigned d) {
-        corners(a, b, c);
-        corners(a, c, d);
     }
 
     void corners(unsigned a, unsigned b, unsigned c) {
