@@ -95,6 +95,9 @@ TEST_P(EveryContender, WithoutCastersIsTheSceneWithoutShadows) {
     StageViewer viewer = viewerOf(GetParam(), scene, Look::VISIBILITY);
     StageViewer plain = viewerOf(plainContender(), scene, Look::VISIBILITY);
     viewer.staging().setCasting(false);
+    osg::StateSet &ours = *viewer.staging().root().getOrCreateStateSet(),
+                  &theirs = *plain.staging().root().getOrCreateStateSet();
+    if (auto* ambient = ours.getAttribute(osg::StateAttribute::LIGHTMODEL)) theirs.setAttribute(ambient); // BLEND's
     viewer.draw();
     plain.draw();
     const Picture with = greysOf(*viewer.image()), without = greysOf(*plain.image());

@@ -46,22 +46,26 @@ TEST(RandomScenes, AreTheSameForTheSameSeed) {
 }
 
 TEST(RandomScenes, AreOfEveryKind) {
-    std::set<int> shapes, grounds;
-    unsigned lamps = 0, broken = 0, nested = 0, far = 0;
+    std::set<int> shapes, grounds, states;
+    unsigned lamps = 0, broken = 0, nested = 0, far = 0, vast = 0, stray = 0;
     for (unsigned seed = 1; seed <= inCi; ++seed) {
         const RandomScene scene = randomScene(seed);
         grounds.insert(int(scene.ground));
         lamps += scene.light.w == 1.0;
         far += scene.offset > 1e5;
+        vast += scene.half > 100.0;
+        stray += scene.stray > 0.0;
         for (const RandomCaster& caster : scene.casters) {
             shapes.insert(int(caster.shape));
+            states.insert(int(caster.state));
             broken += caster.broken;
             nested += caster.transforms > 0;
         }
     }
-    EXPECT_EQ(shapes.size(), 6u);
+    EXPECT_EQ(shapes.size(), 7u);
+    EXPECT_EQ(states.size(), 18u);
     EXPECT_EQ(grounds.size(), 3u);
-    for (const unsigned count : {lamps, broken, nested, far}) EXPECT_GT(count, 40u);
+    for (const unsigned count : {lamps, broken, nested, far, vast, stray}) EXPECT_GT(count, 40u);
 }
 
 /// A scene without shadows is as wrong with one box on level ground as with all else.
@@ -103,6 +107,8 @@ TEST(RandomScenes, HavePlainerOnesUntilNothingIsLeftToTakeAway) {
     }
     ASSERT_EQ(scene.casters.size(), 1u);
     EXPECT_EQ(scene.casters[0].shape, RandomShape::BOX);
+    EXPECT_EQ(scene.casters[0].state, RandomState::PLAIN);
+    EXPECT_EQ(scene.half, RandomScene().half);
     EXPECT_EQ(scene.ground, RandomScene::Ground::FLAT);
 }
 
@@ -112,6 +118,11 @@ TEST(RandomFaults, AreLargeShadowsLostWithoutAWord) {
     cell.everywhere.shadow = 201;
     cell.everywhere.iou = 0.49;
     EXPECT_TRUE(isRandomFault(cell));
+    StabilityCell invented = cell; // where there is none
+    invented.everywhere.shadow = 0;
+    invented.everywhere.wrong = 201;
+    invented.everywhere.iou = 0.0;
+    EXPECT_TRUE(isRandomFault(invented));
     StabilityCell small = cell, said = cell, right = cell, elsewhere = cell;
     small.everywhere.shadow = 200;
     said.diagnosis = {"it says so."};

@@ -12,15 +12,32 @@ namespace {
 
 using Attribute = osg::StateAttribute;
 
-constexpr std::array<Attribute::Type, 4> shapeAttributes{Attribute::CULLFACE, Attribute::FRONTFACE,
-                                                         Attribute::POLYGONOFFSET, Attribute::ALPHAFUNC};
-constexpr std::array<GLenum, 3> shapeModes{GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL};
+constexpr std::array<Attribute::Type, 8> shapeAttributes{
+    Attribute::CULLFACE, Attribute::FRONTFACE, Attribute::POLYGONOFFSET, Attribute::ALPHAFUNC,
+    Attribute::DEPTH,    Attribute::COLORMASK, Attribute::POLYGONMODE,   Attribute::PRIMITIVERESTARTINDEX};
+constexpr std::array<GLenum, 5> shapeModes{GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL, GL_DEPTH_TEST,
+                                           GL_PRIMITIVE_RESTART};
+constexpr unsigned clipPlanes = 6;
+
+void keepAttribute(const osg::StateSet& from, Attribute::Type type, osg::StateSet& into, unsigned member = 0) {
+    if (const osg::StateSet::RefAttributePair* pair = from.getAttributePair(type, member))
+        into.setAttribute(pair->first, pair->second);
+}
 
 void keepAttributes(const osg::StateSet& from, osg::StateSet& into) {
-    for (const Attribute::Type type : shapeAttributes)
-        if (const osg::StateSet::RefAttributePair* pair = from.getAttributePair(type))
-            into.setAttribute(pair->first, pair->second);
+    for (const Attribute::Type type : shapeAttributes) keepAttribute(from, type, into);
     for (const GLenum mode : shapeModes) into.setMode(mode, from.getMode(mode));
+    for (unsigned plane = 0; plane < clipPlanes; ++plane) {
+        keepAttribute(from, Attribute::CLIPPLANE, into, plane);
+        into.setMode(GL_CLIP_PLANE0 + plane, from.getMode(GL_CLIP_PLANE0 + plane));
+    }
+}
+
+/// Of a set that blends, with the material that has the alpha.
+void keepBlending(const osg::StateSet& from, osg::StateSet& into) {
+    for (const Attribute::Type type : {Attribute::BLENDFUNC, Attribute::MATERIAL}) keepAttribute(from, type, into);
+    into.setMode(GL_BLEND, Attribute::ON);
+    if (from.useRenderBinDetails()) into.setRenderBinDetails(from.getBinNumber(), from.getBinName());
 }
 
 void keepTexture(const osg::StateSet& from, osg::StateSet& into) {
@@ -54,7 +71,9 @@ private:
         const Attribute::GLModeValue test = state.getMode(GL_ALPHA_TEST);
         if (!(test & Attribute::INHERIT)) _alphaTested = (test & Attribute::ON) != 0;
         _texture = textureBelow(state);
-        if (_alphaTested) keepTexture(*_texture, *shape);
+        const bool blends = (state.getMode(GL_BLEND) & Attribute::ON) != 0;
+        if (blends) keepBlending(state, *shape);
+        if (_alphaTested || blends) keepTexture(*_texture, *shape);
         return shape;
     }
 

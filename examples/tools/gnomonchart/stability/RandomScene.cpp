@@ -3,11 +3,23 @@
 
 #include "scenes/SceneParts.h"
 
+#include <osg/AlphaFunc>
+#include <osg/ClipNode>
+#include <osg/ColorMask>
+#include <osg/CullFace>
+#include <osg/Depth>
+#include <osg/Geometry>
+#include <osg/Material>
 #include <osg/MatrixTransform>
+#include <osg/PolygonMode>
+#include <osg/PrimitiveRestartIndex>
+#include <osg/PrimitiveSetIndirect>
+#include <osg/Texture2D>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <random>
 #include <sstream>
@@ -15,9 +27,31 @@
 namespace gnomon::examples {
 namespace {
 
-constexpr double groundHalf = 14.0, hillHeight = 1.2; // metres
+constexpr double hillHeight = 1.2; // metres
 constexpr double slopeDegrees = 18.0;
-constexpr const char* shapeNames[] = {"box", "sphere", "prism", "sheet", "open sphere", "turned sphere"};
+constexpr const char* shapeNames[] = {"box", "sphere", "prism", "sheet", "open sphere", "turned sphere", "fence"};
+constexpr const char* stateNames[] = {"plain",
+                                      "clipped",
+                                      "with a clear texture",
+                                      "with a solid texture",
+                                      "tested as clear",
+                                      "tested as solid",
+                                      "of clear colours",
+                                      "of solid colours",
+                                      "of clear material",
+                                      "of solid material",
+                                      "restarted",
+                                      "indirect",
+                                      "back culled",
+                                      "front culled",
+                                      "culled",
+                                      "never passing",
+                                      "masked",
+                                      "of lines"};
+constexpr int states = static_cast<int>(std::size(stateNames));
+constexpr double clippedAt = 0.5; // of a unit mesh's height
+constexpr unsigned clipPlanes = 6;
+const RandomScene usual;
 constexpr const char* groundNames[] = {"flat", "tilted", "hills"};
 
 /// std's distributions differ between libraries.
@@ -46,17 +80,17 @@ double groundHeight(RandomScene::Ground ground, double x, double y) {
     return hillHeight * std::sin(0.5 * x) * std::cos(0.4 * y);
 }
 
-osg::ref_ptr<osg::Geode> groundNode(RandomScene::Ground ground) {
-    switch (ground) {
+osg::ref_ptr<osg::Geode> groundNode(const RandomScene& scene) {
+    switch (scene.ground) {
     case RandomScene::Ground::FLAT:
-        return node(square(groundHalf), "ground");
+        return node(square(scene.half), "ground");
     case RandomScene::Ground::TILTED:
-        return node(tilted(groundHalf, slopeDegrees), "ground");
+        return node(tilted(scene.half, slopeDegrees), "ground");
     case RandomScene::Ground::HILLS:
         break;
     }
     return node(
-        landscape([](double x, double y) { return groundHeight(RandomScene::Ground::HILLS, x, y); }, groundHalf, 28),
+        landscape([](double x, double y) { return groundHeight(RandomScene::Ground::HILLS, x, y); }, scene.half, 28),
         "terrain");
 }
 
@@ -94,6 +128,14 @@ Mesh turnedSphere(Mesh mesh) {
     return mesh;
 }
 
+/// Five bars and two rails.
+Mesh fence() {
+    std::vector<Mesh> parts;
+    for (int bar = 0; bar < 5; ++bar) parts.push_back(boxAt({0.22 * bar - 0.44, 0.0, 0.0}, {0.08, 0.08, 1.0}));
+    for (const double height : {0.3, 0.8}) parts.push_back(boxAt({0.0, 0.0, height}, {1.0, 0.04, 0.06}));
+    return joined(parts);
+}
+
 /// Of size 1, standing on the origin.
 Mesh unitMesh(RandomShape shape) {
     const Mesh ball = sphere({0.0, 0.0, 0.5}, 0.5, 16);
@@ -108,10 +150,167 @@ Mesh unitMesh(RandomShape shape) {
         return quad({-0.5, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
     case RandomShape::OPEN:
         return openSphere(ball);
+    case RandomShape::FENCE:
+        return fence();
     case RandomShape::TURNED:
         break;
     }
     return turnedSphere(ball);
+}
+
+/// What is below a height.
+Mesh clipped(const Mesh& mesh, double height) {
+    Mesh result;
+    for (std::size_t i = 0; i + 2 < mesh.size(); i += 3) {
+        Mesh polygon;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec3 &a = mesh[i + k], &b = mesh[i + (k + 1) % 3];
+            if (a.z <= height) polygon.push_back(a);
+            if ((a.z <= height) != (b.z <= height)) polygon.push_back(a + (b - a) * ((height - a.z) / (b.z - a.z)));
+        }
+        for (std::size_t k = 2; k < polygon.size(); ++k)
+            result.insert(result.end(), {polygon[0], polygon[k - 1], polygon[k]});
+    }
+    return result;
+}
+
+bool isThere(RandomState state) {
+    switch (state) {
+    case RandomState::CLEAR_TEXTURE:
+    case RandomState::CLEAR_TEST:
+    case RandomState::CLEAR_COLORS:
+    case RandomState::CLEAR_MATERIAL:
+    case RandomState::BOTH_CULLED:
+    case RandomState::NEVER:
+    case RandomState::MASKED:
+    case RandomState::LINES:
+        return false;
+    default:
+        return true;
+    }
+}
+
+void blend(osg::StateSet& set) {
+    set.setMode(GL_BLEND, osg::StateAttribute::ON);
+    set.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+}
+
+void addTexture(osg::Geometry& geometry, osg::StateSet& set, float alpha) {
+    const osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(2, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    for (unsigned texel = 0; texel < 4; ++texel) image->setColor({1.0f, 1.0f, 1.0f, alpha}, texel % 2, texel / 2);
+    const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
+    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T}) texture->setWrap(wrap, osg::Texture::REPEAT);
+    set.setTextureAttributeAndModes(0, texture);
+    const osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+    for (const osg::Vec3& at : static_cast<const osg::Vec3Array&>(*geometry.getVertexArray()))
+        places->push_back({at.x() + at.y(), at.z()});
+    geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
+}
+
+osg::ref_ptr<osg::Material> material(osg::Material::ColorMode mode, float alpha) {
+    const osg::ref_ptr<osg::Material> result = new osg::Material;
+    result->setColorMode(mode);
+    result->setDiffuse(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, alpha});
+    result->setAmbient(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, alpha});
+    return result;
+}
+
+/// By indices, and through buffers.
+void setIndices(osg::Geometry& geometry, osg::PrimitiveSet* indices) {
+    geometry.setPrimitiveSet(0, indices);
+    geometry.setUseDisplayList(false);
+    geometry.setUseVertexBufferObjects(true);
+}
+
+/// Each triangle is a strip, and the first vertex, another one, ends it.
+void restart(osg::Geometry& geometry, osg::StateSet& set) {
+    auto& corners = static_cast<osg::Vec3Array&>(*geometry.getVertexArray());
+    auto& normals = static_cast<osg::Vec3Array&>(*geometry.getNormalArray());
+    const osg::ref_ptr<osg::DrawElementsUInt> strips = new osg::DrawElementsUInt(GL_TRIANGLE_STRIP);
+    for (unsigned i = 0; i + 2 < corners.size(); i += 3)
+        for (const unsigned index : {i + 1, i + 2, i + 3, 0u}) strips->push_back(index);
+    corners.insert(corners.begin(), osg::Vec3(0.0f, 0.0f, 0.5f));
+    normals.insert(normals.begin(), osg::Vec3(0.0f, 0.0f, 1.0f));
+    setIndices(geometry, strips);
+    set.setMode(GL_PRIMITIVE_RESTART, osg::StateAttribute::ON);
+    set.setAttribute(new osg::PrimitiveRestartIndex(0));
+}
+
+void drawIndirect(osg::Geometry& geometry) {
+    const osg::ref_ptr<osg::DrawElementsIndirectUInt> all = new osg::DrawElementsIndirectUInt(GL_TRIANGLES);
+    for (unsigned i = 0; i < geometry.getVertexArray()->getNumElements(); ++i) all->push_back(i);
+    static_cast<osg::DefaultIndirectCommandDrawElements&>(*all->getIndirectCommandArray())
+        .push_back(osg::DrawElementsIndirectCommand(all->getNumIndices(), 1, 0, 0, 0));
+    setIndices(geometry, all);
+}
+
+/// @param plane  number of a clip plane that nobody else has.
+osg::ref_ptr<osg::Node> withState(osg::Geode& geode, RandomState state, unsigned plane) {
+    osg::Geometry& geometry = *geode.getDrawable(0)->asGeometry();
+    osg::StateSet& set = *geometry.getOrCreateStateSet();
+    const auto colors = [&](float alpha) {
+        const osg::ref_ptr<osg::Vec4Array> all = new osg::Vec4Array;
+        all->resize(geometry.getVertexArray()->getNumElements(), {1.0f, 1.0f, 1.0f, alpha});
+        geometry.setColorArray(all, osg::Array::BIND_PER_VERTEX);
+        set.setAttribute(material(osg::Material::AMBIENT_AND_DIFFUSE, 1.0f));
+        blend(set);
+    };
+    switch (state) {
+    case RandomState::PLAIN:
+        break;
+    case RandomState::CLIPPED: {
+        const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+        clip->addClipPlane(new osg::ClipPlane(plane, osg::Vec4d(0.0, 0.0, -1.0, clippedAt)));
+        clip->addChild(&geode);
+        return clip;
+    }
+    case RandomState::CLEAR_TEXTURE:
+    case RandomState::SOLID_TEXTURE:
+        addTexture(geometry, set, state == RandomState::CLEAR_TEXTURE ? 0.3f : 0.97f);
+        blend(set);
+        break;
+    case RandomState::CLEAR_TEST:
+    case RandomState::SOLID_TEST:
+        addTexture(geometry, set, state == RandomState::CLEAR_TEST ? 0.3f : 0.97f);
+        set.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
+        break;
+    case RandomState::CLEAR_COLORS:
+    case RandomState::SOLID_COLORS:
+        colors(state == RandomState::CLEAR_COLORS ? 0.3f : 0.97f);
+        break;
+    case RandomState::CLEAR_MATERIAL:
+    case RandomState::SOLID_MATERIAL:
+        set.setAttribute(material(osg::Material::OFF, state == RandomState::CLEAR_MATERIAL ? 0.3f : 0.97f));
+        blend(set);
+        break;
+    case RandomState::RESTARTED:
+        restart(geometry, set);
+        break;
+    case RandomState::INDIRECT:
+        drawIndirect(geometry);
+        break;
+    case RandomState::BACK_CULLED:
+        set.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
+        break;
+    case RandomState::FRONT_CULLED:
+        set.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT));
+        break;
+    case RandomState::BOTH_CULLED:
+        set.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT_AND_BACK));
+        break;
+    case RandomState::NEVER:
+        set.setAttributeAndModes(new osg::Depth(osg::Depth::NEVER));
+        break;
+    case RandomState::MASKED:
+        set.setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
+        set.setAttribute(new osg::ColorMask(false, false, false, false));
+        break;
+    case RandomState::LINES:
+        set.setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
+        break;
+    }
+    return &geode;
 }
 
 void breakMesh(Mesh& mesh) {
@@ -120,10 +319,14 @@ void breakMesh(Mesh& mesh) {
     mesh.insert(mesh.end(), {corner, corner, corner, corner, bad, corner, bad, bad, bad});
 }
 
-osg::ref_ptr<osg::Node> casterNode(const RandomCaster& caster, bool broken) {
+/// @param drawn  not as rays see it. @param plane  see withState().
+osg::ref_ptr<osg::Node> casterNode(const RandomCaster& caster, bool drawn, unsigned plane) {
     Mesh mesh = unitMesh(caster.shape);
-    if (broken) breakMesh(mesh);
+    if (drawn && caster.broken) breakMesh(mesh);
+    const bool culled = caster.state == RandomState::BACK_CULLED || caster.state == RandomState::FRONT_CULLED;
+    if (!drawn && caster.state == RandomState::CLIPPED) mesh = clipped(mesh, clippedAt);
     osg::ref_ptr<osg::Node> below = node(mesh);
+    if (drawn || culled) below = withState(*below->asGeode(), caster.state, plane); // the eye sees them so, too
     for (int i = 0; i < caster.transforms; ++i) {
         osg::ref_ptr<osg::MatrixTransform> over =
             new osg::MatrixTransform(osg::Matrixd::scale(i % 2 ? -0.5 : -2.0, 1.0, i % 2 ? 1.25 : 0.8));
@@ -146,10 +349,22 @@ osg::Matrixd placeOf(const RandomScene& scene) {
            osg::Matrixd::translate(scene.offset, -0.6 * scene.offset, 0.1 * scene.offset);
 }
 
-osg::ref_ptr<osg::Group> contentOf(const RandomScene& scene, bool broken) {
+osg::ref_ptr<osg::Group> contentOf(const RandomScene& scene, bool drawn) {
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(placeOf(scene));
-    place->addChild(groundNode(scene.ground));
-    for (const RandomCaster& caster : scene.casters) place->addChild(casterNode(caster, broken && caster.broken));
+    place->addChild(groundNode(scene));
+    unsigned planes = 0;
+    for (const RandomCaster& caster : scene.casters)
+        if (drawn || isThere(caster.state)) {
+            const bool clips = caster.state == RandomState::CLIPPED;
+            place->addChild(casterNode(caster, drawn, planes));
+            planes += clips ? 1 : 0;
+        }
+    if (scene.stray > 0.0) {
+        const osg::ref_ptr<osg::MatrixTransform> far =
+            new osg::MatrixTransform(osg::Matrixd::translate(scene.stray, 0.4 * scene.stray, 0.0));
+        far->addChild(node(unitMesh(RandomShape::BOX)));
+        place->addChild(far);
+    }
     osg::ref_ptr<osg::Group> content = new osg::Group;
     content->addChild(place);
     return content;
@@ -157,6 +372,26 @@ osg::ref_ptr<osg::Group> contentOf(const RandomScene& scene, bool broken) {
 
 osg::Vec3d placed(const glm::dvec3& point, const RandomScene& scene) {
     return osg::Vec3d(point.x, point.y, point.z) * placeOf(scene);
+}
+
+void addStates(RandomScene& scene, Dice& dice) {
+    unsigned clips = 0;
+    for (RandomCaster& caster : scene.casters) {
+        if (dice.one(12)) caster.shape = RandomShape::FENCE;
+        if (dice.one(3)) caster.state = static_cast<RandomState>(1 + dice.below(states - 1));
+        if (caster.state == RandomState::CLIPPED && ++clips > clipPlanes) caster.state = RandomState::PLAIN;
+    }
+}
+
+/// Walls stand within some degrees of a plane with the sun.
+void turnAlong(RandomScene& scene, double degrees) {
+    const double turn = scene.casters.front().turn, along = osg::DegreesToRadians(turn + degrees),
+                 level = std::hypot(scene.light.x, scene.light.y);
+    scene.light = {level * std::cos(along), level * std::sin(along), scene.light.z, 0.0};
+    for (RandomCaster& caster : scene.casters) {
+        caster.turn = turn;
+        caster.tilt = 0.0;
+    }
 }
 
 /// Adds what `change` makes of a copy, if that is any different.
@@ -186,6 +421,10 @@ RandomScene randomScene(unsigned seed) {
     scene.fovy = dice.between(25.0, 60.0);
     if (dice.one(4)) scene.offset = std::pow(10.0, dice.between(2.0, 7.0));
     if (dice.one(4)) scene.scale = std::pow(10.0, dice.between(-3.0, 3.0));
+    addStates(scene, dice);
+    if (dice.one(6) && scene.ground != RandomScene::Ground::HILLS) scene.half = std::pow(10.0, dice.between(2.0, 5.0));
+    if (dice.one(8)) scene.stray = std::pow(10.0, dice.between(2.0, 7.0));
+    if (dice.one(5) && scene.light.w == 0.0) turnAlong(scene, dice.between(-5.0, 5.0));
     return scene;
 }
 
@@ -200,6 +439,10 @@ StabilityCase caseOf(const RandomScene& scene, int width, int height) {
     parts.center = placed(scene.center, scene);
     parts.fovy = scene.fovy;
     parts.radius = 6.0 * scene.scale;
+    if (scene.half > usual.half || scene.stray > 0.0) { // else the near plane would go with what is far
+        parts.near = 1.0 * scene.scale;
+        parts.far = std::max(100.0, 3.0 * scene.half) * scene.scale;
+    }
     return stabilityCase(parts, width, height);
 }
 
@@ -214,10 +457,16 @@ std::vector<RandomScene> simpler(const RandomScene& scene) {
     plainer(
         all, scene, [](RandomScene & s) -> auto& { return s.scale; }, 1.0);
     plainer(
+        all, scene, [](RandomScene & s) -> auto& { return s.half; }, usual.half);
+    plainer(
+        all, scene, [](RandomScene & s) -> auto& { return s.stray; }, usual.stray);
+    plainer(
         all, scene, [](RandomScene & s) -> auto& { return s.ground; }, RandomScene::Ground::FLAT);
     for (std::size_t i = 0; i < scene.casters.size(); ++i) {
         plainer(
             all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].broken; }, false);
+        plainer(
+            all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].state; }, RandomState::PLAIN);
         plainer(
             all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].transforms; }, 0);
         plainer(
@@ -240,9 +489,10 @@ std::string describe(const RandomScene& scene) {
     put(scene.eye);
     out << ", center ";
     put(scene.center);
-    out << ", fovy " << scene.fovy << ", offset " << scene.offset << ", scale " << scene.scale;
+    out << ", fovy " << scene.fovy << ", offset " << scene.offset << ", scale " << scene.scale << ", half "
+        << scene.half << ", stray " << scene.stray;
     for (const RandomCaster& caster : scene.casters) {
-        out << "; " << shapeNames[int(caster.shape)] << " at ";
+        out << "; " << shapeNames[int(caster.shape)] << " " << stateNames[int(caster.state)] << " at ";
         put(caster.foot);
         out << " of ";
         put(caster.size);

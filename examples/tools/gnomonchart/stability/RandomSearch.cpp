@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned seedsAProcess = 25; // whose truths one process keeps
 constexpr double lostBelow = 0.5;
-constexpr std::size_t leastShadow = 200, leastTurnedAway = 50; // px
+constexpr std::size_t leastShadow = 200, leastTurnedAway = 50; // px; the first of a false one, too
 
 StabilityScene seedsFrom(unsigned first, unsigned count) {
     StabilityScene scene;
@@ -82,7 +82,7 @@ bool isRandomFault(const StabilityCell& cell) {
     if (cell.failure == "crashed" || cell.failure == "hung" || cell.failure == "failed" || cell.notFinite > 0)
         return true;
     const StabilityJudgement& judged = cell.onReceiver ? *cell.onReceiver : cell.everywhere;
-    const bool lost = judged.shadow > leastShadow && judged.iou < lostBelow;
+    const bool lost = std::max(judged.shadow, judged.wrong) > leastShadow && judged.iou < lostBelow;
     return cell.failure.empty() && !cell.stated() && (lost || judged.turnedAwayWrong > leastTurnedAway);
 }
 

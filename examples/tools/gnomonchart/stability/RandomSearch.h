@@ -25,7 +25,7 @@ struct RandomFault {
 };
 
 /// Whether a cell is a catastrophe among random scenes: a crash, a hang, a failure, NaN, or an IoU below 0.5 where more than
-/// 200 pixels are shadowed and no limit is stated. A technique with a receiver of its own is judged there.
+/// 200 pixels are shadowed, or wrong away from edges, and no limit is stated. A technique with a receiver of its own is judged there.
 bool isRandomFault(const StabilityCell& cell);
 
 /// Measures random scenes, and makes each fault's scene plainer for as long as the fault stays.
