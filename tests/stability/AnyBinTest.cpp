@@ -132,6 +132,30 @@ TEST_P(AnyBin, WhatLetsTheGroundShineThroughReceivesNothingAndLeavesTheGroundIts
     EXPECT_TRUE(isRightWith([](Scene& scene) { scene.root->addChild(pane(0.5f, true)); }, false));
 }
 
+/// As it is lit without shadows, and nothing can be wrong about what is not lit.
+TEST_P(AnyBin, ALitPaneIsNamed) {
+    const Trial trial = houseTrial();
+    Scene scene = trial.build();
+    const auto technique = castingTechnique(GetParam() == By::Hull ? find(*scene.root, "ground") : nullptr);
+    scene.addShadow(technique);
+    const osg::ref_ptr<osg::Geode> glass = pane(0.5f, true);
+    scene.root->addChild(glass);
+    Camera camera(scene.root, trial.view);
+    const auto isNamed = [&] {
+        camera.frame();
+        const std::vector<std::string> causes = technique->diagnose();
+        return std::any_of(causes.begin(), causes.end(), [](const std::string& cause) {
+            return cause.find("'pane' blends with what stands behind it") != std::string::npos;
+        });
+    };
+    EXPECT_FALSE(isNamed());
+    osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, {0.2f, 0.6f, 1.0f, 0.5f});
+    glass->getStateSet()->setAttributeAndModes(material);
+    glass->getStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
+    EXPECT_EQ(isNamed(), GetParam() != By::Hull) << "hull names its receiver: nothing else receives";
+}
+
 /// A receiver that is named keeps others from receiving, in the late bins too.
 TEST_P(AnyBin, AnotherReceiverThanTheNamedOneReceivesNothing) {
     if (GetParam() == By::Planar) return; // names none here

@@ -188,7 +188,7 @@ LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number) {
             if (combines && !operationHides(entry.leaf->_parent)) {
                 late.combined.push_back(entry);
             } else if (!combines && !blendHides(*entry.leaf)) {
-                continue;
+                late.clear.push_back(entry);
             } else if (!combines && isOn(entry.leaf->_parent, GL_BLEND) && isTorn(*entry.leaf, known)) {
                 late.torn.push_back(entry);
             } else {

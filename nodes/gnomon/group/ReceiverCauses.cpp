@@ -46,6 +46,11 @@ void reportSeenThrough(const EnlistedTechnique& entry, const StageLeaves& drawn,
                                     "' blends by an alpha that is 1 in some parts only, in a bin above 8, so it "
                                     "receives no shadow. Draw it in a bin below 8, or without GL_BLEND by an "
                                     "osg::AlphaFunc.");
+    if (const std::string name = firstOf(drawn.late.clear); !name.empty())
+        entry.technique->report(entry.frameNumber,
+                                "'" + name +
+                                    "' blends with what stands behind it, so it is as bright as without shadows; what "
+                                    "is seen through it has its shadow. Switch GL_BLEND off if it is opaque.");
 }
 
 /// A factor is for what is seen, fog and all.
