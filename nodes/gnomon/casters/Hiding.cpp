@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/Hiding.h>
 
 #include <osg/CullFace>
 #include <osg/Depth>
 #include <osg/FrontFace>
 #include <osg/PolygonMode>
-#include <osg/Program>
 
 #include <algorithm>
 
@@ -19,12 +19,6 @@ constexpr int firstLate = 8; // the ShadowBin's number
 template <class Class>
 const Class* as(const osg::StateSet::RefAttributePair* pair) {
     return pair ? static_cast<const Class*>(pair->first.get()) : nullptr;
-}
-
-bool discards(const osg::Program& program) {
-    for (unsigned i = 0; i < program.getNumShaders(); ++i)
-        if (program.getShader(i)->getShaderSource().find("discard") != std::string::npos) return true;
-    return false;
 }
 
 bool isPlain(const osg::Depth& depth) {
@@ -59,7 +53,7 @@ void HidingState::apply(const osg::StateSet& set) {
                                                                : nullptr;
         if (!now || (*now && ((*now)->second & A::OVERRIDE) && !(given.second & A::PROTECTED))) continue;
         *now = &given;
-        if (now == &_program) _discards = discards(*as<osg::Program>(_program));
+        if (now == &_program) _discards = mayDiscard(*as<osg::Program>(_program));
     }
     if (set.useRenderBinDetails()) _late = set.getBinNumber() >= firstLate;
 }

@@ -76,7 +76,7 @@ bool takeReceiver(ShadowSpec& spec, const std::string& value) {
 }
 
 SpecKey receiverKey(const std::string& byDefault) {
-    return {"receiver", "nodes that receive", "setReceiver()", "", {}, "a node's name", byDefault, takeReceiver};
+    return {"receiver", "nodes that receive", "", {}, "a node's name", byDefault, takeReceiver};
 }
 
 std::string receiverOf(const SpecTechnique& technique) {
@@ -90,33 +90,31 @@ SpecKey budgetKey(SpecKey key, double AutoShadowOptions::*option, double least, 
 
 std::vector<SpecKey> autoKeys() {
     using Budget = AutoShadowOptions;
-    return {budgetKey({"error", "largest error of the edge; auto is 1, with time= the least", "setError()", "pixels"},
-                      &Budget::error, Budget::leastError, Budget::mostError, "auto"),
-            budgetKey({"time", "most time that drawing a view's shadows may take", "setTime()", "ms"}, &Budget::time,
+    return {budgetKey({"error", "largest error of the edge; auto is 1, with time= the least", "pixels"}, &Budget::error,
+                      Budget::leastError, Budget::mostError, "auto"),
+            budgetKey({"time", "most time that drawing a view's shadows may take", "ms"}, &Budget::time,
                       Budget::leastTime, Budget::mostTime, "unlimited")};
 }
 
 std::vector<SpecKey> mapKeys() {
     return {
-        numberKey({"size", "most texels on a side of a shadow map", "setSize()", "texels"}, ofMap(&Map::size),
-                  Map::leastSize, Map::mostSize),
+        numberKey({"size", "most texels on a side of a shadow map", "texels"}, ofMap(&Map::size), Map::leastSize,
+                  Map::mostSize),
         wordKey(
-            {"filter", "texels compared: 1, 2 x 2, 4 x 4; fine: the most", "setFilter()"}, ofMap(&Map::filter),
+            {"filter", "texels compared: 1, 2 x 2, 4 x 4; fine: the most"}, ofMap(&Map::filter),
             {{"nearest", Map::NEAREST}, {"bilinear", Map::BILINEAR}, {"bicubic", Map::BICUBIC}, {"fine", Map::FINE}}),
-        wordKey(numberKey({"cascades", "most shadow maps of a sun, each for a part of the view", "setCascades()"},
-                          ofMap(&Map::cascades), 1, Map::mostCascades),
+        wordKey(numberKey({"cascades", "most shadow maps of a sun, each for a part of the view"}, ofMap(&Map::cascades),
+                          1, Map::mostCascades),
                 ofMap(&Map::cascades), {{"auto", 0}}),
-        wordKey({"edges", "lit or unlit; smooth over one pixel; or penumbras", "setEdges()"}, ofMap(&Map::edges),
+        wordKey({"edges", "lit or unlit; smooth over one pixel; or penumbras"}, ofMap(&Map::edges),
                 {{"hard", Map::HARD}, {"smooth", Map::SMOOTH}, {"soft", Map::SOFT}}),
-        numberKey({"sun-angle", "with edges=soft: angular diameter of a sun; 0 is a point", "setSunAngle()", "degrees"},
+        numberKey({"sun-angle", "with edges=soft: angular diameter of a sun; 0 is a point", "degrees"},
                   ofMap(&Map::sunAngle), 0.0, Map::mostAngle),
-        numberKey({"lamp-size", "with edges=soft: diameter of lamps and spots; 0 is a point", "setLampSize()",
-                   "scene's unit"},
+        numberKey({"lamp-size", "with edges=soft: diameter of lamps and spots; 0 is a point", "scene's unit"},
                   ofMap(&Map::lampSize), 0.0, Map::mostLength),
-        numberKey({"radius", "with edges=soft: blur radius of all edges; 0 is the filter alone", "setRadius()",
-                   "scene's unit"},
+        numberKey({"radius", "with edges=soft: blur radius of all edges; 0 is the filter alone", "scene's unit"},
                   ofMap(&Map::radius), 0.0, Map::mostLength),
-        wordKey({"view", "debug view drawn over the picture", "setView()"}, ofMap(&Map::view),
+        wordKey({"view", "debug view drawn over the picture"}, ofMap(&Map::view),
                 {{"nothing", Map::NOTHING}, {"map", Map::MAP}, {"texels", Map::TEXELS}, {"cascades", Map::CASCADES}}),
     };
 }
@@ -125,7 +123,7 @@ std::vector<SpecKey> volumeKeys() {
     const Option<ShadowVolumeOptions::View> view = {
         ShadowVolumeOptions().view,
         [](ShadowSpec& spec, ShadowVolumeOptions::View value) { spec.volume.view = value; }};
-    return {wordKey({"view", "debug view drawn over the picture", "setView()"}, view,
+    return {wordKey({"view", "debug view drawn over the picture"}, view,
                     {{"nothing", ShadowVolumeOptions::NOTHING}, {"volumes", ShadowVolumeOptions::VOLUMES}})};
 }
 
@@ -139,11 +137,9 @@ std::string receiversByDefault() {
 
 std::vector<SpecKey> sharedKeys(const std::string& receiver) {
     return {
-        wordKey({"composite", "removes the blocked light, or multiplies the colour by dark",
-                 "ShadowCasterGroup::setComposite()"},
-                composite(), {{"relight", ShadowCasterGroup::RELIGHT}, {"blend", ShadowCasterGroup::BLEND}}),
-        numberKey({"dark", "with composite=blend: factor for the colour in shadow", "ShadowCasterGroup::setDark()"},
-                  dark(), 0.0f, 1.0f),
+        wordKey({"composite", "removes the blocked light, or multiplies the colour by dark"}, composite(),
+                {{"relight", ShadowCasterGroup::RELIGHT}, {"blend", ShadowCasterGroup::BLEND}}),
+        numberKey({"dark", "with composite=blend: factor for the colour in shadow"}, dark(), 0.0f, 1.0f),
         receiverKey(receiver),
     };
 }

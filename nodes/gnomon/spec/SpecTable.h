@@ -14,7 +14,6 @@ namespace gnomon {
 struct SpecKey {
     std::string name;
     std::string meaning;
-    std::string setter;                  ///< of C++ that does the same.
     std::string unit = {};               ///< of the range; empty: none.
     std::vector<std::string> words = {}; ///< that are allowed, beside the range.
     std::string range = {};              ///< "0 to 20"; empty: only words are allowed.
