@@ -6,7 +6,7 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
-#include <gnomon/group/CoarseDepth.h>
+#include <gnomon/group/LitCauses.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

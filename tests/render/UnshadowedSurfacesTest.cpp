@@ -6,7 +6,7 @@
 
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
-#include <gnomon/group/RecalledCauses.h>
+#include <gnomon/group/LitCauses.h>
 #include <gtest/gtest.h>
 #include <osg/CullFace>
 #include <osg/FrontFace>

@@ -3,10 +3,8 @@
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/group/CoarseDepth.h>
-#include <gnomon/group/EnclosingCasters.h>
+#include <gnomon/group/LitCauses.h>
 #include <gnomon/group/ReceiverCauses.h>
-#include <gnomon/group/UnshadowedSurfaces.h>
 
 #include <osg/Program>
 #include <osgUtil/StateGraph>
