@@ -34,8 +34,9 @@ struct TruthPixel {
     glm::dvec3 position{0.0};        ///< Surface point at the centre, world.
     glm::dvec3 normal{0.0};          ///< Geometric unit normal towards the eye.
     double facing = 0.0;             ///< N_g·L: cosine between normal and light. <= 0 faces away.
-    unsigned blocker = RayHit::none; ///< First triangle of the casters on the way to the light.
-    double blockerDistance = 0.0;    ///< t_b: distance to the blocker, world units. 0 without a blocker.
+    /// First triangle of the casters on the way to the light. Of what faces away, beyond its own: a single sheet has none.
+    unsigned blocker = RayHit::none;
+    double blockerDistance = 0.0; ///< t_b: distance to the blocker, world units. 0 without a blocker.
 
     /// True if the pixel's centre shows a surface.
     bool seen() const { return receiver != RayHit::none; }

@@ -305,6 +305,20 @@ TEST(ShadowTruth, OfWhatFacesAwayIsUnlitWithoutABlocker) {
     }
 }
 
+/// A sheet's back has no blocker but where a box is beyond it; a solid's has its own far side.
+TEST(ShadowTruth, OfWhatFacesAwayTellsWhatElseIsBetween) {
+    const TruthView view{plan(5.0), 100, 100, {0.0, 0.0, -1.0, 0.0}};
+    Soup sheet = onGround();
+    sheet.box({-1.0, -1.0, -3.0}, {1.0, 1.0, -2.0});
+    const TruthImage beyond = truthOf(sheet, view);
+    EXPECT_NEAR(beyond.at(50, 50).blockerDistance, 2.0, 1e-3);
+    EXPECT_EQ(beyond.at(50, 80).blocker, gnomon::RayHit::none);
+    EXPECT_EQ(beyond.at(50, 80).blockerDistance, 0.0);
+    Soup solid;
+    solid.box({-9.0, -9.0, -0.5}, {9.0, 9.0, 0.0});
+    EXPECT_NEAR(truthOf(solid, view).at(50, 80).blockerDistance, 0.5, 1e-3);
+}
+
 TEST(ShadowTruth, IsTheSameFarFromTheOrigin) {
     Soup soup = onGround();
     soup.box({-1.0, -1.2, 0.0}, {1.3, 1.0, 2.0});

@@ -39,7 +39,11 @@ bool shadowedByItself(const TruthMaps& truth, std::size_t i) {
            truth.blockerDistance.cells[i] < 2.0 * truth.edgeLength.cells[i];
 }
 
-/// What bends or ends within 2 px is left out: there the light's terminator or another face is seen.
+/// Other than its own surface, which is a single sheet if there is nothing.
+bool isBlocked(const TruthMaps& truth, int x, int y) { return truth.blockerDistance.at(x, y) > 0.0; }
+
+/// What bends or ends within 2 px is left out: there the light's terminator or another face is seen. So is what a shadow's edge
+/// on a single sheet is as close to.
 bool isWithinTurnedAwayPlane(const TruthMaps& truth, int x, int y) {
     constexpr int reach = 2;
     const double cosine = truth.facing.at(x, y);
@@ -47,7 +51,8 @@ bool isWithinTurnedAwayPlane(const TruthMaps& truth, int x, int y) {
     for (int v = y - reach; v <= y + reach; ++v)
         for (int u = x - reach; u <= x + reach; ++u)
             if (!truth.receiver.holds(u, v) || truth.receiver.at(u, v) != truth.receiver.at(x, y) ||
-                !(std::abs(truth.facing.at(u, v) - cosine) < samePlaneCosine))
+                !(std::abs(truth.facing.at(u, v) - cosine) < samePlaneCosine) ||
+                isBlocked(truth, u, v) != isBlocked(truth, x, y))
                 return false;
     return true;
 }

@@ -4,7 +4,8 @@
 
 namespace gnomon::metrics {
 
-/// The sets of pixels that metrics look at. No set has pixels whose visibility is unmeasured.
+/// The sets of pixels that metrics look at. No set has pixels whose visibility is unmeasured. Of the pixels turned away, those
+/// within 2 px of a shadow's edge on the back of a single sheet are left out, too.
 struct PixelSets {
     Mask agreeing;             ///< R: the pixel and its 4 neighbours are one surface, in the truth and as drawn.
     Mask facing;               ///< R+: pixels of R with N_g.L > 0.05.

@@ -67,7 +67,7 @@ std::size_t turnedAwayWrong(const Picture& visibility, const TruthMaps& truth, c
         for (int x = 0; x < turnedAway.width; ++x) {
             if (!turnedAway.at(x, y)) continue;
             if (truth.facing.at(x, y) < -doubt)
-                wrong += !isDark(x, y);
+                wrong += isDark(x, y) != (truth.blockerDistance.at(x, y) > 0.0);
             else
                 wrong += differs(x, y, x - 1, y) || differs(x, y, x + 1, y) || differs(x, y, x, y - 1) ||
                          differs(x, y, x, y + 1);

@@ -44,10 +44,12 @@ struct ShadowMetrics {
     Catastrophes catastrophes;                ///< M8.
 };
 
-/// The number of pixels of PixelSets::turnedAway that are bright, or striped.
+/// The number of pixels of PixelSets::turnedAway that are bright, or striped; on the back of a single sheet, those that are dark.
 ///
-/// Where N_g.L is below -0.01, a pixel is wrong that is lit. Nearer to the light's plane a depth buffer does not tell to which
-/// side a surface turns: it may be lit there as a whole, and a pixel is wrong that differs from one of its 4 neighbours.
+/// Where N_g.L is below -0.01, a pixel is wrong that is lit, or, if nothing but its own surface is between it and the light,
+/// dark: OpenGL lights both sides of a sheet alike, and it does not shadow itself. Nearer to the light's plane a depth buffer
+/// does not tell to which side a surface turns: it may be lit there as a whole, and a pixel is wrong that differs from one of
+/// its 4 neighbours.
 std::size_t turnedAwayWrong(const Picture& visibility, const TruthMaps& truth, const Mask& turnedAway);
 
 /// Measures one picture by all these metrics. The functions for single metrics stand in the other headers.

@@ -9,7 +9,8 @@ namespace gnomon::metrics {
 
 /// The truth at each pixel of one view with one light: the input that all metrics share.
 ///
-/// shadowTruth() traces one. All grids have one size. Optional grids may be empty.
+/// shadowTruth() traces one. All grids have one size. Optional grids may be empty. Where N_g.L is not above 0, t_b is to what
+/// else is between than the surface itself, and 0 if nothing is, as of a single sheet.
 struct TruthMaps {
     Picture lit;             ///< T_a: share, 0 … 1, of a pixel's rays (16 in a 4 x 4 grid) that reach the light.
     Mask litCentre;          ///< T_c: 1 if the ray from the pixel's centre reaches the light.

@@ -109,14 +109,16 @@ double Tracer::litByDisc(const Place& place, std::mt19937& random) const {
     return arrive / double(_disc.strata * _disc.strata);
 }
 
-/// Not only whether, but what blocks: hence the closest hit.
+/// Not only whether, but what blocks: hence the closest hit. What faces away is asked from its far side: its own triangle is no
+/// blocker.
 void Tracer::fillCentre(TruthPixel& pixel, const Place& place) const {
     const glm::dvec3 towards = towardsLight(place.position);
     pixel.receiver = place.triangle;
     pixel.position = place.position;
     pixel.normal = place.normal;
     pixel.facing = glm::dot(place.normal, glm::normalize(towards));
-    const Ray ray = rayToLight(place, towards);
+    const glm::dvec3 litSide = pixel.facing > 0.0 ? place.normal : -place.normal;
+    const Ray ray = rayToLight({place.triangle, place.position, litSide}, towards);
     const RayHit hit = _casters.blocked(ray) ? _casters.closest(ray) : RayHit(); // a lamp may lie on a surface
     pixel.litCentre = pixel.facing > 0.0 && !hit;
     if (!hit) return;

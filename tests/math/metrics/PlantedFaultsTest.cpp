@@ -167,6 +167,29 @@ TEST(PlantedFaults, HalfAPixelOfCameraErrorIsHalfAPixelOfBoundary) {
     EXPECT_TRUE(m.sound);
 }
 
+/// Surfaces of 20 x 20 px that are turned away by 60 degrees: a solid's side, and a single sheet, of which a body beyond it shadows
+/// the right half. Of these 16 x 16, and twice 6 x 16, lie more than two from an edge.
+TEST(PlantedFaults, WhatIsTurnedAwayIsDarkAndASingleSheetsBackIsAsLitAsWhatIsBeyondItLeavesIt) {
+    TruthMaps truth = BoxOnGround().truth();
+    const auto turnAway = [&truth](int x, int y, int w, double blockerDistance) {
+        truth.lit = filled(truth.lit, x, y, w, 20, 0.0);
+        truth.facing = filled(truth.facing, x, y, w, 20, -0.5);
+        truth.blockerDistance = filled(truth.blockerDistance, x, y, w, 20, blockerDistance);
+        for (int v = y; v < y + 20; ++v)
+            for (int u = x; u < x + w; ++u) truth.litCentre.at(u, v) = 0;
+    };
+    turnAway(80, 10, 20, 0.4);
+    turnAway(80, 40, 10, 0.0);
+    turnAway(90, 40, 10, 0.4);
+    const auto wrong = [&truth](const Picture& shown) { return measured(shown, truth).turnedAwayWrong; };
+    const Picture right = filled(truth.lit, 80, 40, 10, 20, 1.0);
+    EXPECT_EQ(wrong(right), 0u);
+    EXPECT_EQ(wrong(filled(right, 80, 10, 20, 20, 1.0)), 16u * 16u);
+    EXPECT_EQ(wrong(filled(right, 80, 40, 10, 20, 0.0)), 6u * 16u);
+    EXPECT_EQ(wrong(filled(right, 90, 40, 10, 20, 1.0)), 6u * 16u);
+    EXPECT_EQ(wrong(filled(right, 88, 40, 3, 20, 0.5)), 0u); // the shadow's edge on the sheet
+}
+
 TEST(PlantedFaults, PixelsThatAreNoNumbersAreCountedAndInNoAverage) {
     Picture broken = perfect();
     broken.at(90, 20) = std::nan("");
