@@ -35,6 +35,12 @@ vec2 changeOver(inout ivec2 way, float e, ivec2 here) {
     return (1.0 - e - vec2(seenDepth(ivec2(to.x, here.y)), seenDepth(ivec2(here.x, to.y)))) / vec2(way);
 }
 
+// The same at a pixel from one pixel to the next, across the axis x, or y.
+float changeAcross(ivec2 at, bool isX) {
+    ivec2 low = ivec2(seenPixels.xy), next = reach * (isX ? ivec2(0, at.y > low.y ? -1 : 1) : ivec2(at.x > low.x ? -1 : 1, 0));
+    return (seenDepth(at) - seenDepth(at + next)) / float(next.x + next.y);
+}
+
 // Where a map's axes lead, about a pixel: along both axes of the picture, and in e.
 struct Axes {
     vec3 x, y, z;
@@ -65,8 +71,16 @@ struct Lie {
 // to a part of a step of depth.
 //
 // What is turned away by less than some ten degrees, and bends but little on the way to where it faces the light, is of a smooth
-// body, whose facets are not its shape: its map decides.
+// body, whose facets are not its shape: its map decides. Another surface behind its rim may seem to go on so; but that lies otherwise
+// about the light, as a ground does beside a wall.
 //
+// Whether two surfaces that lead so much nearer to the eye, see nearerAlong(), lie as one does about the light: to half a right angle.
+// The second may be off by what `doubt` is along the map's axes.
+bool areAlike(vec2 one, vec2 other, vec2 doubt) {
+    float across = abs(one.x * other.y - one.y * other.x), off = dot(abs(one), doubt.yx) + dot(abs(one), doubt);
+    return across <= dot(one, other) + off;
+}
+
 // In one loop for llvmpipe: see mapOf(). steepest: see MapErrors, of a map whose side is 1.
 Lie lieOf(float e, ivec2 here, Axes axes, float steepest) {
     const float most = 64.0, enough = 16.0;           // pixels: the farthest are so far off; what is known over so many is known
@@ -76,7 +90,7 @@ Lie lieOf(float e, ivec2 here, Axes axes, float steepest) {
     float away = isX ? axes.z.x : axes.z.y, ahead = away > 0.0 ? -1.0 : 1.0;
     float snaps = min(depthError.y, 0.125), doubt = depthError.x * (abs(axes.z.x) + abs(axes.z.y));
     float over = 1.0, side = 1.0, limit = 0.0, rest = 0.0, last = 0.0, facing = -1e37;
-    vec2 after, before, afterOver = vec2(1.0), beforeOver = vec2(1.0);
+    vec2 about, after, before, afterOver = vec2(1.0), beforeOver = vec2(1.0);
     bool asked, unclear = false, smoothly = false;
     ivec2 way = reach * (2 * ivec2(isSecond) - 1);
 #ifdef ODD
@@ -104,6 +118,7 @@ Lie lieOf(float e, ivec2 here, Axes axes, float steepest) {
             lie.turned = nearer.z - max(other.x, 0.0) - max(other.y, 0.0) > doubt;
             lie.facing = nearer.z - min(other.x, 0.0) - min(other.y, 0.0) < -doubt;
             unclear = !lie.turned && !lie.facing;
+            about = nearer.xy;
             limit = (abs(nearer.x) + abs(nearer.y)) / steepest;
             smoothly = !lie.facing && nearer.z < grazing * limit;
             rest = nearer.z + away * (isX ? least.x : least.y);
@@ -122,12 +137,16 @@ Lie lieOf(float e, ivec2 here, Axes axes, float steepest) {
             beforeOver = mix(nextOver, beforeOver, isAfter);
             if ((isX ? way.x : way.y) * int(ahead) > 0) {
                 float mean = isX ? change.x : change.y;
-                float towards = away * (2.0 * mean - last) - rest; // by so much the outer half faces the light
+                float outer = 2.0 * mean - last, towards = away * outer - rest; // by so much the outer half faces the light
                 last = mean;
                 smoothly = smoothly && abs(towards) < faces * limit && towards > facing - 4.0 * doubt / over;
                 if (towards > 2.0 * doubt / over) {
                     lit += 1.0;
                     facing = towards;
+                    float across = changeAcross(here + (isX ? ivec2(way.x, 0) : ivec2(0, way.y)), isX);
+                    vec2 off = depthError.x * (isX ? vec2(abs(axes.x.y), abs(axes.y.y)) : vec2(abs(axes.x.x), abs(axes.y.x)));
+                    vec3 there = nearerAlong(axes, isX ? vec2(outer, across) : vec2(across, outer));
+                    smoothly = smoothly && areAlike(about, there.xy, 2.0 * off);
                 }
             }
         }

@@ -68,13 +68,15 @@ TEST(MendedFaults, TracedIsRightThroughATelescope) {
     }
 }
 
-/// L12: walls that map hatched and rimmed. A map has a few pixels of doubt at a degree and less: here walls are some pixels wide.
+/// L12: walls that map hatched and rimmed, and that took ground behind a wall's rim for the round of a smooth body; and, at 0,
+/// walls in which sides of another house's volume lie.
 TEST(MendedFaults, NoTechniqueLeavesWallsBrightOrStripedThatAreTurnedAway) {
     for (const char* technique : {"map", "volume", "traced", "auto"})
-        for (const double degrees : {8.0, 1.0, 0.5}) {
+        for (const double degrees : {8.0, 1.0, 0.5, 0.0}) {
             const StabilityRow row = measured("L12", degrees, technique);
-            const std::size_t most = technique == std::string("map") && degrees < 8.0 ? 40 : 0;
-            EXPECT_LE(row.cells[0].everywhere.turnedAwayWrong, most) << technique << " " << degrees;
+            EXPECT_EQ(row.cells[0].everywhere.turnedAwayWrong, 0u) << technique << " " << degrees;
+            // One pixel in two of the film's frames, with its neighbours: for map a wall of some pixels has no certain lie at 0.
+            const std::size_t most = technique == std::string("map") && degrees == 0.0 ? 8 : 0;
             EXPECT_LE(row.flicker.turnedAwayWrong, most) << technique << " " << degrees;
             EXPECT_TRUE(row.cells[0].inBudget()) << technique << " " << degrees;
         }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 using gnomon::ShadowVolumes;
 using gnomon::SilhouetteMesh;
@@ -189,6 +190,16 @@ TEST(ShadowVolumes, AnEdgeOnWallFacesTheLight) {
         gnomon::faceLight(mesh, {glm::normalize(glm::dvec3(1.0, tilt, 1.0)), 0.0}, weights);
         for (std::size_t i = 0; i < mesh.triangles(); ++i)
             if (std::abs(mesh.planeY[i]) > 0.5) EXPECT_EQ(int(weights[i]), 1) << tilt;
+    }
+}
+
+TEST(ShadowVolumes, TellWhetherASideLiesInAFaceAlongTheLight) {
+    const SilhouetteMesh mesh = edgesOf(box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}));
+    for (const auto& [along, grazed] : {std::pair(0.0, true), {1e-6, true}, {1e-3, false}, {0.5, false}}) {
+        ShadowVolumes volumes;
+        gnomon::findShadowVolumes(mesh, {glm::normalize(glm::dvec3(1.0, along, 1.0)), 0.0}, {}, volumes);
+        EXPECT_EQ(volumes.parts[0].edges, 6u);
+        EXPECT_EQ(volumes.parts[0].grazed, grazed) << along;
     }
 }
 

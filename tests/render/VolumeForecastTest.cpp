@@ -35,7 +35,8 @@ Work drawnOf(const gnomon::SeenVolumes& seen) {
     Work work;
     for (const gnomon::VolumeRound& round : seen.rounds(~0u))
         for (const auto& [mesh, share] : round.shares) {
-            work.sides += (cornersOf(share.entered) + cornersOf(share.left)) / 6.0;
+            for (const auto* sides : {&share.entered, &share.left})
+                work.sides += (cornersOf(sides->usual) + cornersOf(sides->grazed)) / 6.0;
             work.caps += (cornersOf(share.lightCaps) + cornersOf(share.darkCaps) + cornersOf(share.backs) +
                           2.0 * cornersOf(share.bothCaps)) /
                          3.0;

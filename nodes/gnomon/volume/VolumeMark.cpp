@@ -20,14 +20,24 @@ constexpr glm::dvec2 behind(1.0, 8.0);
 /// outer face of a wall, or the lit side of a ridge.
 constexpr glm::dvec2 before(1.0 / 64.0, 8.0);
 
+/// A side in the plane of a face that the light grazes may lie in another body's wall, too. It is behind that as a whole, for rays
+/// that begin before the wall do not meet it; and so are the sides that end in the wall. No other sides are: where a wall is turned
+/// away by a degree, they are close before it.
+constexpr glm::dvec2 grazed = before;
+
 /// @param by  pixels of the slope, and steps of the depth buffer.
-void drawOffset(osg::RenderInfo& renderInfo, const VolumeGeometry& caps,
+void drawOffset(osg::RenderInfo& renderInfo, const VolumeGeometry& geometry,
                 const std::vector<VolumeGeometry::Range>& ranges, const glm::dvec2& by) {
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(static_cast<GLfloat>(by.x), static_cast<GLfloat>(by.y));
-    caps.draw(renderInfo, ranges);
+    geometry.draw(renderInfo, ranges);
     glPolygonOffset(0.0f, 0.0f);
     glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void drawSides(osg::RenderInfo& renderInfo, const VolumeGeometry& sides, const VolumeRound::Sides& ranges) {
+    sides.draw(renderInfo, ranges.usual);
+    if (!ranges.grazed.empty()) drawOffset(renderInfo, sides, ranges.grazed, grazed);
 }
 
 /// Where nothing stands.
@@ -48,14 +58,12 @@ constexpr const char* overflow =
 void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                        const VolumeRound::Share& share) const {
     place(*renderInfo.getState(), mesh);
-    if (!share.entered.empty()) {
-        pass.countEntered(counters);
-        mesh.volumes->sides().draw(renderInfo, share.entered);
-    }
+    pass.countEntered(counters);
+    drawSides(renderInfo, mesh.volumes->sides(), share.entered);
     if (share.lightCaps.empty() && share.bothCaps.empty()) return;
     const glm::dvec2 back = glm::max(pushedBack, 0.0) + behind, forward = glm::min(pushedBack, 0.0) - before;
     pass.countHolding(counters);
-    mesh.volumes->sides().draw(renderInfo, share.left);
+    drawSides(renderInfo, mesh.volumes->sides(), share.left);
     mesh.caps->draw(renderInfo, share.darkCaps);
     if (!share.lightCaps.empty()) drawOffset(renderInfo, *mesh.caps, share.lightCaps, back);
     if (share.bothCaps.empty()) return;
@@ -116,9 +124,9 @@ void VolumeMark::drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int) co
         for (const auto& [mesh, share] : round.shares) {
             place(state, seen.meshes[mesh]);
             setUniform(state, "wire", glm::dvec4(1.0, 0.85, 0.0, 1.0));
-            seen.meshes[mesh].volumes->sides().draw(renderInfo, share.entered);
+            drawSides(renderInfo, seen.meshes[mesh].volumes->sides(), share.entered);
             setUniform(state, "wire", glm::dvec4(1.0, 0.2, 0.1, 1.0));
-            seen.meshes[mesh].volumes->sides().draw(renderInfo, share.left);
+            drawSides(renderInfo, seen.meshes[mesh].volumes->sides(), share.left);
         }
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

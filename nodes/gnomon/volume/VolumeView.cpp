@@ -58,7 +58,8 @@ const ShadowVolumes::Part& volumeOf(const SeenVolumes& all, const SeenPart& seen
 void add(VolumeRound& round, const SeenVolumes& all, const SeenPart& seen) {
     VolumeRound::Share& share = round.shares[seen.mesh];
     const ShadowVolumes::Part& part = volumeOf(all, seen);
-    append(seen.holding ? share.entered : share.left, {part.first, part.count});
+    VolumeRound::Sides& sides = seen.holding ? share.entered : share.left;
+    append(part.grazed ? sides.grazed : sides.usual, {part.first, part.count});
     if (!seen.holding) append(seen.showsBack ? share.bothCaps : share.lightCaps, seen.caps.light);
     append(share.darkCaps, seen.caps.dark);
     if (seen.holding && seen.showsBack) append(share.backs, seen.caps.light);

@@ -29,11 +29,16 @@ struct SeenPart {
 
 /// Volumes that are counted together: not more of them hold any one point than a counter can count.
 struct VolumeRound {
+    /// Sides, those of parts apart that have one in the plane of a face that the light grazes.
+    struct Sides {
+        std::vector<VolumeGeometry::Range> usual, grazed;
+    };
     /// Of one mesh: sides to count from the eye, and from behind; for those light caps, others that may be seen from either
     /// side, and dark caps; and of what is counted from the eye surfaces that cast, which do not count where they are seen
     /// from behind.
     struct Share {
-        std::vector<VolumeGeometry::Range> entered, left, lightCaps, bothCaps, darkCaps, backs;
+        Sides entered, left;
+        std::vector<VolumeGeometry::Range> lightCaps, bothCaps, darkCaps, backs;
     };
     std::map<std::size_t, Share> shares; ///< by mesh.
     int holding = 0;                     ///< those counted from the eye that the eye is in.

@@ -6,6 +6,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <cmath>
+
 namespace gnomon {
 namespace {
 
@@ -33,13 +35,16 @@ double toleranceOf(const Part& part, const glm::dvec4& light) {
     return grazing * glm::length(glm::max(glm::abs(at - low), glm::abs(high - at)));
 }
 
+double sideOf(const SilhouetteMesh& mesh, const glm::dvec4& light, std::size_t i) {
+    return mesh.planeX[i] * light.x + mesh.planeY[i] * light.y + mesh.planeZ[i] * light.z + mesh.planeD[i] * light.w;
+}
+
 void faceLight(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& light, std::size_t first,
                std::size_t end, std::int8_t* weights) {
     const Weights of = weightsOf(part, light);
     const double least = toleranceOf(part, light);
-    const double *x = mesh.planeX.data(), *y = mesh.planeY.data(), *z = mesh.planeZ.data(), *d = mesh.planeD.data();
     for (std::size_t i = first; i < end; ++i) {
-        const double side = x[i] * light.x + y[i] * light.y + z[i] * light.z + d[i] * light.w;
+        const double side = sideOf(mesh, light, i);
         weights[i] = side > least ? of.facing : side >= -least ? of.edgeOn : of.turned;
     }
 }
@@ -65,6 +70,11 @@ void faceLight(const SilhouetteMesh& mesh, const glm::dvec4& light, FacingWeight
     const std::size_t grain = 1 + mesh.parts.size() * block / (mesh.triangles() + 1);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.parts.size(), grain), faceParts);
     for (const SilhouetteMesh::Thin& thin : mesh.thin) weights[thin.triangle] = weights[thin.like];
+}
+
+bool grazes(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& light, std::size_t triangle) {
+    const glm::dvec3 normal(mesh.planeX[triangle], mesh.planeY[triangle], mesh.planeZ[triangle]);
+    return normal != glm::dvec3(0.0) && std::abs(sideOf(mesh, light, triangle)) <= toleranceOf(part, light);
 }
 
 } // namespace gnomon

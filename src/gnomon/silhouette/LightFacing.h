@@ -19,6 +19,10 @@ using FacingWeights = std::vector<std::int8_t>;
 /// Cost  linear in the triangles, in parallel.
 void faceLight(const SilhouetteMesh& mesh, const glm::dvec4& light, FacingWeights& weights);
 
+/// Whether the light grazes a triangle of a part, as faceLight() has it; not if it has no plane.
+bool grazes(const SilhouetteMesh& mesh, const SilhouetteMesh::Part& part, const glm::dvec4& light,
+            std::size_t triangle);
+
 /// From the light to a place, of a lamp with its length; else of length 1.
 inline glm::dvec3 awayFrom(const glm::dvec4& light, const glm::dvec3& place) {
     return light.w * place - glm::dvec3(light);

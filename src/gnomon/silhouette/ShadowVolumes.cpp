@@ -17,33 +17,38 @@ namespace {
 using Outline = ShadowVolumes::Outline;
 constexpr std::size_t block = 1 << 14; // edges that are worth a task
 
-/// The outline that some edges have. Room for all is needed, for each is written before it is known to count.
-std::size_t outlineOf(const SilhouetteMesh& mesh, const std::int8_t* weights, std::size_t first, std::size_t end,
-                      Outline* into) {
+/// Edges in runs, each with room of its own in the outline.
+struct Run {
+    std::size_t part, first, end, found;
+    bool grazed;
+};
+
+/// Finds the outline that some edges have. Room for all is needed, for each is written before it is known to count.
+void findOutline(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, Run& run, Outline* into) {
+    const std::int8_t* weights = volumes.weights.data();
+    const auto isGrazed = [&](unsigned triangle) {
+        return triangle < mesh.triangles() && grazes(mesh, mesh.parts[run.part], volumes.light, triangle);
+    };
     std::size_t count = 0;
-    for (std::size_t i = first; i < end; ++i) {
+    for (std::size_t i = run.first; i < run.end; ++i) {
         const SilhouetteMesh::Edge& edge = mesh.edges[i];
         const int times = weights[edge.left] - weights[edge.right];
         const bool on = times > 0;
         into[count] = {on ? edge.from : edge.to, on ? edge.to : edge.from};
+        if (times != 0 && !run.grazed) run.grazed = isGrazed(edge.left) || isGrazed(edge.right);
         count += times != 0;
         if (times == 2 || times == -2) into[count] = into[count - 1], ++count;
     }
-    return count;
+    run.found = count;
 }
-
-/// Edges in runs, each with room of its own in the outline.
-struct Run {
-    std::size_t part, first, end, found;
-};
 
 std::vector<Run> runsOf(const SilhouetteMesh& mesh) {
     std::vector<Run> runs;
     for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
         const SilhouetteMesh::Part& part = mesh.parts[p];
         for (std::size_t first = 0; first < part.edges; first += block)
-            runs.push_back(
-                {p, part.firstEdge + first, part.firstEdge + std::min<std::size_t>(part.edges, first + block), 0});
+            runs.push_back({p, part.firstEdge + first,
+                            part.firstEdge + std::min<std::size_t>(part.edges, first + block), 0, false});
     }
     return runs;
 }
@@ -139,12 +144,11 @@ private:
 void findOutline(const SilhouetteMesh& mesh, ShadowVolumes& into) {
     std::vector<Run> runs = runsOf(mesh);
     into.outline.resize(2 * mesh.edges.size() + 1);
-    const std::int8_t* weights = into.weights.data();
     const std::size_t grain = 1 + runs.size() * block / (mesh.edges.size() + 1);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, runs.size(), grain), [&](const auto& some) {
         for (std::size_t i = some.begin(); i < some.end(); ++i) {
             Run& run = runs[i];
-            run.found = outlineOf(mesh, weights, run.first, run.end, into.outline.data() + 2 * run.first);
+            findOutline(mesh, into, run, into.outline.data() + 2 * run.first);
         }
     });
     std::size_t used = 0;
@@ -154,6 +158,7 @@ void findOutline(const SilhouetteMesh& mesh, ShadowVolumes& into) {
         const auto first = into.outline.begin() + static_cast<std::ptrdiff_t>(2 * run.first);
         std::copy_n(first, run.found, into.outline.begin() + static_cast<std::ptrdiff_t>(used));
         part.edges += static_cast<unsigned>(run.found);
+        part.grazed = part.grazed || run.grazed;
         used += run.found;
     }
 }
