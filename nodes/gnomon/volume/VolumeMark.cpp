@@ -22,8 +22,8 @@ constexpr glm::dvec2 before(1.0 / 64.0, 8.0);
 
 /// A side in the plane of a face that the light grazes may lie in another body's wall, too. It is behind that as a whole, for rays
 /// that begin before the wall do not meet it; and so are the sides that end in the wall. No other sides are: where a wall is turned
-/// away by a degree, they are close before it.
-constexpr glm::dvec2 grazed = before;
+/// away by a degree, they are close before it. By no more than rounding, for shadows' edges move with them.
+constexpr glm::dvec2 grazed(1.0 / 64.0, 2.0);
 
 /// @param by  pixels of the slope, and steps of the depth buffer.
 void drawOffset(osg::RenderInfo& renderInfo, const VolumeGeometry& geometry,
