@@ -218,6 +218,26 @@ TEST(Scales, MapKeepsShadowsOfCentimetresOnALevelGroundOfKilometres) {
     }
 }
 
+/// What lies under a ground puts that into the map. A low sun makes much of it if the ground is drawn off its place.
+TEST(Scales, MapDarkensNoVastGroundOverWhatIsBuriedInIt) {
+    for (const double half : {1e4, 2e4, 29346.0, 4e4, 1e5})
+        for (const int width : {128, 160, 256}) {
+            const Case given{test::square(half),
+                             {test::box({-2.95, -3.32, -0.6}, {-0.18, -0.97, -0.087})},
+                             osg::Vec4d(-0.94313, -0.285606, 0.170103, 0.0),
+                             test::perspective({0.552249, 22.6447, 17.3084}, {0.214287, -0.711781, 0.5}, width,
+                                               3 * width / 4, 27.8368, 1.0, 3.0 * half)};
+            test::Scene shadowed = given.build();
+            shadowed.addShadow("map");
+            const test::Picture lit = test::render(given.build().root, given.view),
+                                drawn = test::render(shadowed.root, given.view);
+            int darkened = 0;
+            for (int y = 0; y < drawn.height; ++y)
+                for (int x = 0; x < drawn.width; ++x) darkened += drawn.at(x, y) != lit.at(x, y);
+            EXPECT_EQ(darkened, 0) << half << ", " << width;
+        }
+}
+
 TEST(Scales, TracedShadowsOfCentimetresAreRightOnAGroundOfKilometres) {
     for (const double place : {0.0, 1e3, 4e3})
         for (const double size : {0.01, 0.05, 1.0}) {

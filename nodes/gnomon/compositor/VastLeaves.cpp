@@ -18,9 +18,10 @@ namespace gnomon {
 namespace {
 
 constexpr unsigned mostTriangles = 2000;
-/// A shadow's edge may be off by so many pixels. What is lost at the near plane is a tenth of a step of a float as large as the
+/// A surface may be off by so many pixels. Under a sun at 7 degrees a shadow's edge is off by eight times as much, and a map with a
+/// texel a pixel allows for sixteen times. What is lost at the near plane is a tenth of a step of a float as large as the
 /// polygon, as llvmpipe draws it.
-constexpr double tolerance = 0.25, lost = 0.1 / (1 << 23);
+constexpr double tolerance = 1.0 / 32.0, lost = 0.1 / (1 << 23);
 
 using Polygon = std::vector<glm::dvec4>;
 
