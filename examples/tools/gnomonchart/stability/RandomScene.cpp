@@ -195,10 +195,15 @@ void blend(osg::StateSet& set) {
     set.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
+/// What is clear is black: it adds no light to what is seen through it, by which that is measured.
+osg::Vec4 colorOf(float alpha) {
+    return alpha < 0.5f ? osg::Vec4(0.0f, 0.0f, 0.0f, alpha) : osg::Vec4(1.0f, 1.0f, 1.0f, alpha);
+}
+
 void addTexture(osg::Geometry& geometry, osg::StateSet& set, float alpha) {
     const osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(2, 2, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-    for (unsigned texel = 0; texel < 4; ++texel) image->setColor({1.0f, 1.0f, 1.0f, alpha}, texel % 2, texel / 2);
+    for (unsigned texel = 0; texel < 4; ++texel) image->setColor(colorOf(alpha), texel % 2, texel / 2);
     const osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
     for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T}) texture->setWrap(wrap, osg::Texture::REPEAT);
     set.setTextureAttributeAndModes(0, texture);
@@ -211,8 +216,8 @@ void addTexture(osg::Geometry& geometry, osg::StateSet& set, float alpha) {
 osg::ref_ptr<osg::Material> material(osg::Material::ColorMode mode, float alpha) {
     const osg::ref_ptr<osg::Material> result = new osg::Material;
     result->setColorMode(mode);
-    result->setDiffuse(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, alpha});
-    result->setAmbient(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, alpha});
+    result->setDiffuse(osg::Material::FRONT_AND_BACK, colorOf(alpha));
+    result->setAmbient(osg::Material::FRONT_AND_BACK, colorOf(alpha));
     return result;
 }
 
@@ -251,7 +256,7 @@ osg::ref_ptr<osg::Node> withState(osg::Geode& geode, RandomState state, unsigned
     osg::StateSet& set = *geometry.getOrCreateStateSet();
     const auto colors = [&](float alpha) {
         const osg::ref_ptr<osg::Vec4Array> all = new osg::Vec4Array;
-        all->resize(geometry.getVertexArray()->getNumElements(), {1.0f, 1.0f, 1.0f, alpha});
+        all->resize(geometry.getVertexArray()->getNumElements(), colorOf(alpha));
         geometry.setColorArray(all, osg::Array::BIND_PER_VERTEX);
         set.setAttribute(material(osg::Material::AMBIENT_AND_DIFFUSE, 1.0f));
         blend(set);

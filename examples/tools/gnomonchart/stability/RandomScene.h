@@ -10,7 +10,7 @@ namespace gnomon::examples {
 /// What a random scene's casters are.
 enum class RandomShape { BOX, SPHERE, PRISM, SHEET, OPEN, TURNED, FENCE };
 
-/// How they are drawn. CLEAR has an alpha of 0.3, SOLID one of 0.97; what is clear, cut or not drawn is not there for rays.
+/// How they are drawn. CLEAR has an alpha of 0.3 and is black, SOLID one of 0.97; what is clear, cut or not drawn is not there for rays.
 enum class RandomState {
     PLAIN,
     CLIPPED,
