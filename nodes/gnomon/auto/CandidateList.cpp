@@ -52,7 +52,7 @@ constexpr double darkened = 0.25;       // of the pixels where a shadow can be
 constexpr double relitAnew = 0.5;       // the same, besides, where all that is there is drawn again
 constexpr double callsALeaf = 0.1;      // to draw it again
 constexpr double facedAnObject = 0.03;  // to ask a triangle whether it faces the light; see ShadowWork::objects
-/// Of 256 texels a side saves a tenth of a millisecond where things move, and leaks light between fins that lie a few pixels apart.
+/// Smaller ones leak light between fins that lie a few pixels apart, where no edge of a shadow tells it.
 constexpr int sizes[] = {512, 1024, 2048, 4096};
 
 /// Why a candidate would leave a caster out; empty if it would not.
