@@ -46,7 +46,7 @@ public:
 };
 
 /// A program that knows a context from one that had its ID before. OSG does not: where a program is in no graph when a window
-/// closes, it would go by names of that window in the next.
+/// closes, it would go by names of that window in the next. Where GLSL is older it is none: Mesa 25 crashes as it links it.
 class OwnProgram : public osg::Program {
 public:
     OwnProgram(const std::string& vertex, const std::string& fragment)
@@ -55,6 +55,12 @@ public:
     }
 
     void apply(osg::State& state) const override {
+        const auto* gl = state.get<osg::GLExtensions>();
+        if (gl->isGlslSupported && gl->glslLanguageVersion < 1.25f) { // 1.20, rounded
+            gl->glUseProgram(0);
+            state.setLastAppliedProgramObject(nullptr);
+            return;
+        }
         const unsigned context = state.getContextID();
         const osg::ref_ptr<osg::ContextData> now = osg::getContextData(context);
         if (_contexts[context] != now) forget(context);
