@@ -74,9 +74,10 @@ protected:
     static void TearDownTestSuite() { made.reset(); }
 
     /// Runs gnomonrun in the test's folder, on its own X server.
-    Ending run(const std::string& arguments) {
-        return runProgram("/bin/sh",
-                          {"-c", "DISPLAY=" + desktop.name() + " OSG_WINDOW='0 0 320 240' " GNOMONRUN " " + arguments},
+    Ending run(const std::string& arguments) { return runAlone(GNOMONRUN " " + arguments); }
+    /// The same without gnomonrun.
+    Ending runAlone(const std::string& command) {
+        return runProgram("/bin/sh", {"-c", "DISPLAY=" + desktop.name() + " OSG_WINDOW='0 0 320 240' " + command},
                           folder.path());
     }
     osg::ref_ptr<osg::Image> picture(const std::string& name) { return osgDB::readRefImageFile(folder.path() / name); }
@@ -139,6 +140,8 @@ TEST_F(Gnomonrun, OneFrameIsComparedInEveryWay) {
 }
 
 TEST_F(Gnomonrun, AWindowOfFourSamplesWithoutStencilHasTheSameShadow) {
+    if (runAlone(built("scene") + " samples").status == 1)
+        GTEST_SKIP() << "The X server has no window of four samples, as with Mesa 25's llvmpipe.";
     for (const std::string technique : {"none", "traced", "map", "volume"}) {
         const Ending ending = run("--shadow " + technique + " --frames 5 --out " + technique + ".png -- " +
                                   built("scene") + " multisampled");
