@@ -198,6 +198,26 @@ TEST(Scales, ACasterFarAwayDoesNotShiftTheShadowsOfTheOthers) {
             EXPECT_EQ(wrong(withStray(distance, 1.0), technique), 0) << technique()->className() << " " << distance;
 }
 
+/// Where most triangles are, vertices are fine: of a ground alone, the far box has more.
+TEST(Scales, VolumeSaysWhereCastersAreTooFarApart) {
+    const auto causes = [](Case given) {
+        const osg::ref_ptr<gnomon::ShadowTechnique> technique = volume();
+        test::Scene scene = given.build();
+        scene.addShadow(technique);
+        test::render(scene.root, given.view);
+        return technique->diagnose();
+    };
+    Case ground = withStray(4.2e6, 1.0);
+    EXPECT_TRUE(causes(ground).empty()) << causes(ground).front();
+    ground.casters.clear();
+    ASSERT_EQ(causes(ground).size(), 1u);
+    EXPECT_NE(causes(ground).front().find("so far from one another"), std::string::npos) << causes(ground).front();
+    for (const double distance : {0.0, 1e3, 1e4}) {
+        ground.stray = strayAt({distance, 0.0, 0.0});
+        EXPECT_TRUE(causes(ground).empty()) << distance << ": " << causes(ground).front();
+    }
+}
+
 /// A sky, which casts nothing and receives as all that is seen does, takes no depth from the map of what is before it.
 TEST(Scales, MapKeepsItsShadowsUnderASkyHoweverVast) {
     for (const double radius : {1e4, 1e5, 1e6, 1e7}) {

@@ -7,6 +7,21 @@
 
 namespace gnomon {
 
+namespace {
+
+constexpr double mostOff = 1.0; // pixels
+constexpr const char* coarse = "casters are so far from one another, or so far from the origin of their vertices, that "
+                               "floats place those near the eye only to "
+                               "more than a pixel. Leave what is far away out of the casters, give it a group of its "
+                               "own, or put the offset into a transform.";
+
+/// Least w of what is drawn.
+double nearOf(const osg::Matrixd& projection) {
+    return projection(3, 3) != 0.0 ? 1.0 : projection(3, 2) / (projection(2, 2) - 1.0);
+}
+
+} // namespace
+
 ShadowVolumeOptions ShadowVolumeOptions::usable() const {
     return {view == VOLUMES ? VOLUMES : ShadowVolumeOptions().view};
 }
@@ -31,6 +46,7 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowVolumeTechnique::prepare(const ViewFram
     }
     std::optional<SeenVolumes> seen = _cache->see(layers, view, light.number, *usable, scene);
     if (!seen) return {}; // out of sight: nothing to say
+    if (seen->vertexStep(view.pixels.x(), nearOf(view.projection)) > mostOff) report(view.frameNumber, coarse);
     osg::ref_ptr<VolumeMark> mark = new VolumeMark;
     mark->seen = std::move(*seen);
     mark->screenBounds = mark->seen.bounds;

@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -140,6 +142,21 @@ std::vector<VolumeRound> SeenVolumes::rounds(unsigned capacity) const {
 bool SeenVolumes::overflow(unsigned capacity) const {
     return std::any_of(parts.begin(), parts.end(),
                        [&](const SeenPart& seen) { return volumeOf(*this, seen).layers > capacity; });
+}
+
+double SeenVolumes::vertexStep(double width, double near) const {
+    double most = 0.0;
+    for (const SeenPart& seen : parts) {
+        const MeshInView& mesh = meshes[seen.mesh];
+        const SilhouetteMesh::Part& part = mesh.volumes->caster().mesh->parts[seen.part];
+        const glm::dvec3 low(part.low), high(part.high), away = glm::max(glm::max(low, -high), 0.0);
+        const glm::dvec4 across = glm::row(mesh.clipFromMesh, 0), towards = glm::row(mesh.clipFromMesh, 3);
+        const glm::dvec3 nearest = glm::mix(low, high, glm::lessThan(glm::dvec3(towards), glm::dvec3(0.0)));
+        const double w = std::max(glm::dot(towards, glm::dvec4(nearest, 1.0)), near);
+        const double step = std::max({away.x, away.y, away.z}) / (1 << 24);
+        most = std::max(most, step * glm::length(glm::dvec3(across)) * width / 2.0 / w);
+    }
+    return most;
 }
 
 std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,

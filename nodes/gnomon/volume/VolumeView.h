@@ -52,6 +52,9 @@ struct SeenVolumes {
 
     /// @param capacity  what a counter can count to, 1 or more.
     std::vector<VolumeRound> rounds(unsigned capacity) const;
+    /// How long the longest step of a vertex's floats is where it is seen at its nearest, in pixels.
+    /// @param width  of the viewport, pixels. @param near  least w of what is seen.
+    double vertexStep(double width, double near) const;
     /// True if a counter may pass its range.
     bool overflow(unsigned capacity) const;
 };
