@@ -130,6 +130,33 @@ TEST(TurnedAway, WallsAlongTheLightAreWhollyLitOrWhollyDark) {
     }
 }
 
+// A slope of 18 degrees that one looks along from below, and a box over it, whose shadow and rim do not count.
+TEST(TurnedAway, ASingleSheetSeenFromBehindHasNoSpecks) {
+    const double drop = 14.0 * std::tan(osg::DegreesToRadians(18.0));
+    for (const double below : {2.0, 1.0, 0.6}) {
+        const TracedCase given{
+            "slope",
+            {quad({-14.0, -14.0, drop}, {28.0, 0.0, -2.0 * drop}, {0.0, 28.0, 0.0}),
+             box({0.13, -1.15, 0.78}, {1.5, 0.47, 2.9})},
+            {-0.105616, 0.729771, 0.675485, 0.0},
+            perspective({-24.0, -4.8, 7.8 - below}, {-0.5, 1.5, 0.17 - 0.2 * below}, 320, 240, 44.0, 4.0, 60.0)};
+        const gnomon::TruthImage truth = given.truth();
+        Scene lit = given.build(), cast = given.build();
+        cast.addShadow("map");
+        const Picture asLit = render(lit.root, given.view), drawn = render(cast.root, given.view);
+        int sheet = 0, dark = 0;
+        for (int y = 1; y + 1 < truth.height; ++y)
+            for (int x = 1; x + 1 < truth.width; ++x) {
+                const gnomon::TruthPixel& pixel = truth.at(x, y);
+                if (!isWithin(truth, x, y) || !(pixel.facing < -0.1) || pixel.blockerDistance > 0.0) continue;
+                ++sheet;
+                dark += drawn.at(x, y) != asLit.at(x, y);
+            }
+        EXPECT_GT(sheet, 2000) << below;
+        EXPECT_LE(dark, sheet / 500) << below; // beside the box's shadow
+    }
+}
+
 // A wall before the sun casts nothing; a box behind the left half of it does.
 TEST(TurnedAway, AWallThatDoesNotCastIsInNoShadowOfItsOwn) {
     const TracedCase given{
