@@ -66,6 +66,13 @@ struct Lie {
     bool isAtRim; // of a surface: beside the pixel there is another, or this one bends
 };
 
+// Whether two surfaces that lead so much nearer to the eye, see nearerAlong(), lie as one does about the light: to half a right angle.
+// The second may be off by what `doubt` is along the map's axes.
+bool areAlike(vec2 one, vec2 other, vec2 doubt) {
+    float across = abs(one.x * other.y - one.y * other.x), off = dot(abs(one), doubt.yx) + dot(abs(one), doubt);
+    return across <= dot(one, other) + off;
+}
+
 // It is turned away, or is not, by all that the changes to both sides may mean. Where these do not agree, for the light is in its
 // plane or there are two surfaces, pixels farther and farther off on either side say which of them goes on there, and how it lies
 // to a part of a step of depth.
@@ -74,13 +81,6 @@ struct Lie {
 // body, whose facets are not its shape: its map decides. Another surface behind its rim may seem to go on so; but that lies otherwise
 // about the light, as a ground does beside a wall.
 //
-// Whether two surfaces that lead so much nearer to the eye, see nearerAlong(), lie as one does about the light: to half a right angle.
-// The second may be off by what `doubt` is along the map's axes.
-bool areAlike(vec2 one, vec2 other, vec2 doubt) {
-    float across = abs(one.x * other.y - one.y * other.x), off = dot(abs(one), doubt.yx) + dot(abs(one), doubt);
-    return across <= dot(one, other) + off;
-}
-
 // In one loop for llvmpipe: see mapOf(). steepest: see MapErrors, of a map whose side is 1.
 Lie lieOf(float e, ivec2 here, Axes axes, float steepest) {
     const float most = 64.0, enough = 16.0;           // pixels: the farthest are so far off; what is known over so many is known
