@@ -91,7 +91,7 @@ TEST(Forecasts, OfMapsAreByTheEdgesThatAreSeen) {
         const ChartScene scene = chartScene(name, 320, 240);
         const Yardstick yardstick(scene, false);
         Forecasts forecasts(scene);
-        for (const char* spec : {"map:filter=nearest,composite=blend,size=256,cascades=1", "map"}) {
+        for (const char* spec : {"map:filter=nearest,composite=blend,size=1024,cascades=1", "map"}) {
             const Contender contender = gnomonContender(spec, Receives::EVERYTHING);
             Sight sight(contender, scene);
             const auto measured =

@@ -23,11 +23,13 @@ struct Run {
     bool grazed;
 };
 
-/// Finds the outline that some edges have. Room for all is needed, for each is written before it is known to count.
+/// Finds the outline that some edges have. Room for all is needed, for each is written before it is known to count. A sheet has no
+/// wall that lies in another body's: of hills, where the light grazes a facet here and there, edges would only move.
 void findOutline(const SilhouetteMesh& mesh, const ShadowVolumes& volumes, Run& run, Outline* into) {
     const std::int8_t* weights = volumes.weights.data();
+    const SilhouetteMesh::Part& part = mesh.parts[run.part];
     const auto isGrazed = [&](unsigned triangle) {
-        return triangle < mesh.triangles() && grazes(mesh, mesh.parts[run.part], volumes.light, triangle);
+        return part.closed && triangle < mesh.triangles() && grazes(mesh, part, volumes.light, triangle);
     };
     std::size_t count = 0;
     for (std::size_t i = run.first; i < run.end; ++i) {
