@@ -35,16 +35,18 @@ double toleranceOf(const Part& part, const glm::dvec4& light) {
     return grazing * glm::length(glm::max(glm::abs(at - low), glm::abs(high - at)));
 }
 
-double sideOf(const SilhouetteMesh& mesh, const glm::dvec4& light, std::size_t i) {
-    return mesh.planeX[i] * light.x + mesh.planeY[i] * light.y + mesh.planeZ[i] * light.z + mesh.planeD[i] * light.w;
+double sideOf(double x, double y, double z, double d, const glm::dvec4& light) {
+    return x * light.x + y * light.y + z * light.z + d * light.w;
 }
 
 void faceLight(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& light, std::size_t first,
                std::size_t end, std::int8_t* weights) {
     const Weights of = weightsOf(part, light);
     const double least = toleranceOf(part, light);
+    // By pointers of its own: weights are chars, and a write of these might change the mesh's.
+    const double *x = mesh.planeX.data(), *y = mesh.planeY.data(), *z = mesh.planeZ.data(), *d = mesh.planeD.data();
     for (std::size_t i = first; i < end; ++i) {
-        const double side = sideOf(mesh, light, i);
+        const double side = sideOf(x[i], y[i], z[i], d[i], light);
         weights[i] = side > least ? of.facing : side >= -least ? of.edgeOn : of.turned;
     }
 }
@@ -74,7 +76,8 @@ void faceLight(const SilhouetteMesh& mesh, const glm::dvec4& light, FacingWeight
 
 bool grazes(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& light, std::size_t triangle) {
     const glm::dvec3 normal(mesh.planeX[triangle], mesh.planeY[triangle], mesh.planeZ[triangle]);
-    return normal != glm::dvec3(0.0) && std::abs(sideOf(mesh, light, triangle)) <= toleranceOf(part, light);
+    const double side = sideOf(normal.x, normal.y, normal.z, mesh.planeD[triangle], light);
+    return normal != glm::dvec3(0.0) && std::abs(side) <= toleranceOf(part, light);
 }
 
 } // namespace gnomon
