@@ -3,6 +3,7 @@
 #include <gnomon/compositor/ResolvedState.h>
 
 #include <osg/Geometry>
+#include <osg/Program>
 
 #include <limits>
 
@@ -73,10 +74,15 @@ bool standsAfter(const std::vector<DrawnLeaf>& leaves) {
     return !above || above == materialOf(graph) || above->getColorMode() == osg::Material::OFF;
 }
 
-/// As Mesa does whenever it draws: what is set beside is taken over, and forgotten.
-void takeOver() {
+/// As Mesa does whenever it draws: what is set beside is taken over, and forgotten. A program of tessellation draws no
+/// points, so none is bound meanwhile.
+void takeOver(const osg::State& state) {
+    const osg::Program::PerContextProgram* program = state.getLastAppliedProgramObject();
+    const osg::GLExtensions* gl = state.get<osg::GLExtensions>();
+    if (program) gl->glUseProgram(0);
     glBegin(GL_POINTS);
     glEnd();
+    if (program) gl->glUseProgram(program->getHandle());
     glPushAttrib(GL_POINT_BIT);
     glPopAttrib();
 }
@@ -128,7 +134,7 @@ void MaterialHistory::leadTo(const osgUtil::RenderLeaf& leaf) {
 }
 
 void MaterialHistory::lead(const osg::Material& material, const Found& found) {
-    takeOver();
+    takeOver(_state);
     const osg::StateAttribute* byDefault = _state.getGlobalDefaultAttribute(A::MATERIAL);
     if (found.byDefault && byDefault)
         byDefault->apply(_state);
@@ -145,7 +151,7 @@ void MaterialHistory::restore() {
     }
     lead(*_material, _now);
     _state.haveAppliedAttribute(_material);
-    if (!isDefault(_state) || !standsAfter(leavesBelow(_stage, last))) takeOver();
+    if (!isDefault(_state) || !standsAfter(leavesBelow(_stage, last))) takeOver(_state);
 }
 
 } // namespace gnomon
