@@ -61,7 +61,10 @@ public:
         _viewer.setSceneData(&scene);
     }
     bool fits(const SceneCamera& camera) const { return camera.width == _width && camera.height == _height; }
-    osg::ref_ptr<osg::Image> depth(const SceneCamera& camera) {
+    /// @param culls  as the scene has it; false: no face, as rays have it.
+    osg::ref_ptr<osg::Image> depth(const SceneCamera& camera, bool culls) {
+        using M = osg::StateAttribute;
+        _viewer.getCamera()->getOrCreateStateSet()->setMode(GL_CULL_FACE, culls ? M::INHERIT : M::OFF | M::OVERRIDE);
         _viewer.getCamera()->setProjectionMatrix(camera.projection);
         _viewer.getCamera()->setViewMatrix(camera.view);
         _viewer.frame();
@@ -110,16 +113,26 @@ Depth depthOf(const TruthPixel& pixel, const TruthView& view, const glm::dmat4& 
     return {0.5 + 0.5 * clip.z / clip.w, 0.5 * (across + up) + std::ldexp(8.0, -24)};
 }
 
-/// The truth's receivers, but 0 where something else than they is drawn.
-Grid<int> drawnIds(const TruthImage& truth, const Grid<int>& receiver, const TruthView& view, const osg::Image& depth) {
+/// A scene's depths, and those it has if no face is culled.
+struct Depths {
+    osg::ref_ptr<osg::Image> drawn, unculled;
+};
+
+double depthAt(const osg::Image& image, int x, int y) {
+    return double(*reinterpret_cast<const float*>(image.data(unsigned(x), unsigned(y))));
+}
+
+/// The truth's receivers, but 0 where something else than they is drawn: what lies close behind a culled face, too.
+Grid<int> drawnIds(const TruthImage& truth, const Grid<int>& receiver, const TruthView& view, const Depths& depths) {
     const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
     Grid<int> drawn(truth.width, truth.height);
     for (int y = 0; y < truth.height; ++y)
         for (int x = 0; x < truth.width; ++x) {
             if (!truth.at(x, y).seen()) continue;
             const Depth expected = depthOf(truth.at(x, y), view, worldFromClip);
-            const float* actual = reinterpret_cast<const float*>(depth.data(unsigned(x), unsigned(y)));
-            if (std::abs(double(*actual) - expected.value) <= expected.tolerance) drawn.at(x, y) = receiver.at(x, y);
+            const double actual = depthAt(*depths.drawn, x, y);
+            if (actual == depthAt(*depths.unculled, x, y) && std::abs(actual - expected.value) <= expected.tolerance)
+                drawn.at(x, y) = receiver.at(x, y);
         }
     return drawn;
 }
@@ -173,10 +186,10 @@ struct SceneTruth::Parts {
                 toGlm(local)};
     }
 
-    osg::ref_ptr<osg::Image> depth(const SceneCamera& camera) {
+    Depths depths(const SceneCamera& camera) {
         if (depthCamera && !depthCamera->fits(camera)) depthCamera.reset(); // one context at a time
         if (!depthCamera) depthCamera = std::make_unique<DepthCamera>(*scene, camera.width, camera.height);
-        return depthCamera->depth(camera);
+        return {depthCamera->depth(camera, true), depthCamera->depth(camera, false)};
     }
 
     const osg::ref_ptr<osg::Node> scene;
@@ -193,7 +206,7 @@ metrics::TruthMaps SceneTruth::maps(const SceneCamera& camera, const osg::Vec4d&
     const TruthView view = _parts->view(camera, light);
     const TruthImage truth = shadowTruth(*_parts->tree, *_parts->tree, view);
     metrics::TruthMaps maps = mapsOf(truth, _parts->triangles);
-    maps.drawn = drawnIds(truth, maps.receiver, view, *_parts->depth(camera));
+    maps.drawn = drawnIds(truth, maps.receiver, view, _parts->depths(camera));
     if (light.w() == 0.0) maps.towardsLight = {light.x(), light.y(), light.z()};
     return maps;
 }

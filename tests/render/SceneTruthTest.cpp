@@ -109,6 +109,20 @@ TEST(SceneTruth, FindsEveryPixelDrawnAsItIsTrueButWhereItSeesSomethingElse) {
     EXPECT_LT(wrong, 60) << "silhouettes";
 }
 
+TEST(SceneTruth, OfACulledFaceNothingIsDrawnHoweverCloseBehindItAnotherLies) {
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(test::node(test::square(4.0), "ground"));
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
+        osg::Matrixd::rotate(osg::PI, osg::Vec3d(1.0, 0.0, 0.0)) * osg::Matrixd::translate(0.0, 0.0, 1e-4));
+    place->addChild(test::node(test::square(1.0), "lid"));
+    scene->addChild(place);
+    const SceneCamera camera = cameraOf(test::perspective({0.0, -9.0, 2.0}, {}, 160, 120));
+    const auto drawn = [&] { return count(SceneTruth(*scene).maps(camera, {2.0, 0.0, 2.0, 0.0}).drawn, 2); };
+    EXPECT_GT(drawn(), 200);
+    place->getOrCreateStateSet()->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
+    EXPECT_EQ(drawn(), 0);
+}
+
 /// Stripes that stand along y: texel columns 0 and 2 of 4 are there, 1 and 3 not.
 osg::ref_ptr<osg::Geode> fence(bool tested, osg::Texture::FilterMode filter) {
     osg::ref_ptr<osg::Image> image = new osg::Image;
