@@ -30,7 +30,6 @@ class VolumeCache;
 /// - Dense meshes have thousands of edges one before the other: maps are faster there.
 /// - A single sheet seen from behind is lit as OpenGL lights it: it does not shadow itself.
 /// - Single pixels of a seam may stay lit where the dark side of an open sheet meets the ground, as at a cliff's foot.
-/// - Where one sees past the culled side of a sheet, the ground is lit if it is nearer behind that than a pixel is long.
 /// - Facets decide what faces the light, not smoothed normals. Coarse models show them near the terminator.
 /// - Casters that are clear in part cast as if they were solid, and diagnose() says so.
 /// - Casters that draw themselves, or are made of patches, cast nothing. diagnose() says so.

@@ -160,6 +160,25 @@ TEST(Sheets, WhoseBacksAreCulledKeepTheSunFromTheRoomBehindThem) {
     }
 }
 
+/// A bowl's underside close above the ground, seen from above: nearer to that than a pixel of the ground is long.
+TEST(Sheets, WhoseBacksAreCulledShadowWhatLiesCloseBehindThem) {
+    const osg::Vec4d sun(0.3, -1.0, 1.5, 0.0);
+    const View view = test::perspective({2.0, -9.0, 5.0}, {0.0, 0.0, 0.0}, 120, 90);
+    const test::Mesh ground = test::square(8.0), sheet = test::insideOut(test::square(1.5, 0.02));
+    const test::Mask truth = test::castRays(ground, {}, sun, view, {sheet});
+    ASSERT_GT(truth.count(test::Seen::ShadowedReceiver), 300);
+    const auto build = [&] {
+        Scene scene = test::scene(sun);
+        scene.content->addChild(test::node(ground));
+        const osg::ref_ptr<osg::Node> node = test::node(sheet);
+        node->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace);
+        scene.content->addChild(node);
+        return scene;
+    };
+    EXPECT_EQ(compared(build, new gnomon::ShadowVolumeTechnique, view, truth).wrongInside, 0);
+    EXPECT_EQ(compared(build, new gnomon::TracedShadowTechnique, view, truth).wrongInside, 0);
+}
+
 /// What one looks through is a pane, or a node that the camera's mask leaves out.
 TEST(Sheets, ThatOneLooksThroughShadowWhatIsBehindThem) {
     const test::Mesh slab = test::box({-1.5, -0.2, 0.5}, {1.5, 0.2, 3.0}),

@@ -14,11 +14,10 @@ void place(const osg::State& state, const MeshInView& mesh) {
     placeVolumes(state, mesh.clipFromMesh, mesh.volumes->volumes().light);
 }
 
-/// Of a cap from its surface: pixels of the slope, and steps of the depth buffer. OpenGL draws the two by different numbers.
-constexpr glm::dvec2 behind(1.0, 8.0);
-/// Drivers snap vertices to a 256th of a pixel. A larger part of it would reach what is close before a surface, such as the
-/// outer face of a wall, or the lit side of a ridge.
-constexpr glm::dvec2 before(1.0 / 64.0, 8.0);
+/// Of a light cap from its surface, which OpenGL draws by other numbers: pixels of the slope, and steps of the depth buffer.
+/// Drivers snap vertices to a 256th of a pixel. A larger part of it would reach what is close on either side of a surface: the
+/// ground behind a culled face, the outer face of a wall, or the lit side of a ridge.
+constexpr glm::dvec2 apart(1.0 / 64.0, 8.0);
 
 /// A side in the plane of a face that the light grazes may lie in another body's wall, too. It is behind that as a whole, for rays
 /// that begin before the wall do not meet it; and so are the sides that end in the wall. No other sides are: where a wall is turned
@@ -61,7 +60,7 @@ void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned c
     pass.countEntered(counters);
     drawSides(renderInfo, mesh.volumes->sides(), share.entered);
     if (share.lightCaps.empty() && share.bothCaps.empty()) return;
-    const glm::dvec2 back = glm::max(pushedBack, 0.0) + behind, forward = glm::min(pushedBack, 0.0) - before;
+    const glm::dvec2 back = glm::max(pushedBack, 0.0) + apart, forward = glm::min(pushedBack, 0.0) - apart;
     pass.countHolding(counters);
     drawSides(renderInfo, mesh.volumes->sides(), share.left);
     mesh.caps->draw(renderInfo, share.darkCaps);
@@ -84,7 +83,7 @@ void VolumeMark::uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, uns
     glDisable(depthClamp); // what is cut away before the near plane is not seen
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
-    drawOffset(renderInfo, *mesh.caps, share.backs, glm::min(pushedBack, 0.0) - before);
+    drawOffset(renderInfo, *mesh.caps, share.backs, glm::min(pushedBack, 0.0) - apart);
     glCullFace(GL_BACK);
     glDisable(GL_CULL_FACE);
     glEnable(depthClamp);
