@@ -237,6 +237,16 @@ TEST(AutoLights, ALightThatTakesLightAwayCasts) {
     EXPECT_GT(drawn(true).different(drawn(false)), 1000);
 }
 
+/// All that is in shadow is the wall, which nobody sees. On its plane, the ground's shadow is as wide as the ground.
+TEST(AutoPlanes, AWallInTheGroundLeavesTheGroundLit) {
+    const Mesh wall = quad({5.2, 0.96, -0.6}, {1.5, 0.0, 0.0}, {0.0, 0.0, 0.59});
+    const View view = perspective({-4.7, -15.9, 6.1}, {-1.2, 1.6, 0.5}, 160, 120);
+    const osg::Vec4d lamp(2.8, -3.0, 12.4, 1.0);
+    Trial trial({wall}, 14.0, lamp);
+    EXPECT_EQ(render(trial.scene.root, view).different(render(groundScene({wall}, 14.0, lamp).root, view)), 0)
+        << trial.chosen();
+}
+
 TEST(AutoCasters, ThatAreGoneAreLetGo) {
     const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
     Trial trial({tall});

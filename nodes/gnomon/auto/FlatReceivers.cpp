@@ -324,14 +324,15 @@ private:
         if (!(glm::dot(plane, _eye) > 0.0)) return refuse("a flat receiver is seen from the side away from the light");
         if (!depthPlacementOf(leaf._parent).isPlain() || isPulledForward(leaf._parent))
             return refuse("a flat receiver has a polygon offset or a depth range");
-        _result.leaves.insert(&leaf);
         if (_vast.empty() && isVast(leaf, plane)) _vast = nameOf(leaf);
         const auto isSame = [&](const osg::Vec4d& other) {
             return glm::distance(glm::dvec3(toGlm(other)), glm::dvec3(plane)) <= touching &&
                    std::abs(other.w() - plane.w) <= rounding;
         };
-        if (std::any_of(_result.planes.begin(), _result.planes.end(), isSame)) return;
-        _result.planes.emplace_back(plane.x, plane.y, plane.z, plane.w);
+        const auto known = std::find_if(_result.planes.begin(), _result.planes.end(), isSame);
+        _flat.emplace_back(&leaf, known != _result.planes.end() ? *known : osg::Vec4d(plane.x, plane.y, plane.z, plane.w));
+        if (known != _result.planes.end()) return;
+        _result.planes.push_back(_flat.back().second);
         if (_result.planes.size() > mostPlanes) refuse("there are more than eight flat receivers");
     }
 
@@ -365,7 +366,7 @@ private:
         }
     }
 
-    /// Those that a caster reaches above.
+    /// Those that a caster reaches above, and the leaves in them.
     void keepPlanesInUse() {
         const auto reachesAbove = [](const CasterDrawable& piece, const osg::Vec4d& given) {
             if (!piece.bounds.valid()) return false;
@@ -381,6 +382,8 @@ private:
         };
         auto& planes = _result.planes;
         planes.erase(std::remove_if(planes.begin(), planes.end(), isBare), planes.end());
+        for (const auto& [leaf, plane] : _flat)
+            if (std::find(planes.begin(), planes.end(), plane) != planes.end()) _result.leaves.insert(leaf);
     }
 
     const AutoView& _view;
@@ -390,6 +393,7 @@ private:
     glm::dvec4 _eye{0.0};
     bool _blends = false;
     std::string _vast; ///< a receiver that is so.
+    std::vector<std::pair<const osgUtil::RenderLeaf*, osg::Vec4d>> _flat; ///< leaves that lie in a plane, and that.
     std::vector<const ConvexBody*> _receiving;
     std::vector<ConvexBody> _boxes;
     FlatReceivers _result;

@@ -56,7 +56,7 @@ bool mayShadow(const ConvexBody& caster, const ConvexBody& body, const glm::dvec
 struct FlatReceivers {
     std::vector<osg::Vec4d>
         planes;           ///< group frame, normals to the light's side; only those that something stands above.
-    LeafSet leaves;       ///< that lie in planes, those above which nothing stands among them.
+    LeafSet leaves;       ///< that lie in these planes.
     bool whole = true;    ///< nothing of these leaves is outside of their planes.
     std::string obstacle; ///< empty: a PlanarShadowNode of these planes draws all of the shadow.
 
