@@ -163,3 +163,18 @@ void addEnum(osgDB::ObjectWrapper& wrapper, const char* property, Value byDefaul
 }
 
 } // namespace gnomon::fields
+
+/// Registers the wrapper of gnomon::NAME. The body of a function that adds properties to `wrapper` follows. It stands
+/// outside of namespaces.
+/// @param OSG_BASES  names of OSG's classes that it inherits, the first one first.
+/// @param KIT_BASES  the same of the kit's classes.
+#define GNOMON_WRAPPER(NAME, CREATE, OSG_BASES, KIT_BASES)                                                             \
+    namespace NAME##Fields {                                                                                           \
+        void addProperties(osgDB::ObjectWrapper* wrapper);                                                             \
+        REGISTER_CUSTOM_OBJECT_WRAPPER(gnomon, gnomon_##NAME, CREATE, gnomon::NAME,                                    \
+                                       OSG_BASES " gnomon::FileVersion " KIT_BASES " gnomon::" #NAME) {                \
+            static_cast<void>(domain);                                                                                 \
+            addProperties(wrapper);                                                                                    \
+        }                                                                                                              \
+    }                                                                                                                  \
+    void NAME##Fields::addProperties(osgDB::ObjectWrapper* wrapper)

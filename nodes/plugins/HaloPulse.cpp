@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #define OBJECT_CAST dynamic_cast // a callback has osg::Object for a virtual base
 #include "Fields.h"
-#include "FileVersion.h"
 
 #include <gnomon/HaloPulse.h>
 

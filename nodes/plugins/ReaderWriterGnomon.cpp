@@ -39,9 +39,9 @@ SuffixedName takeApart(const std::string& name) {
     const bool closed = !name.empty() && name.back() == ')';
     if (closed != (open != std::string::npos))
         throw std::invalid_argument(std::string("its brackets do not match. ") + spelling);
-    const SuffixedName result =
-        closed ? SuffixedName{name.substr(0, open), name.substr(open + 2, name.size() - open - 3)}
-               : withoutBrackets(name);
+    const SuffixedName result = closed
+                                    ? SuffixedName{name.substr(0, open), name.substr(open + 2, name.size() - open - 3)}
+                                    : withoutBrackets(name);
     if (result.file.empty()) throw std::invalid_argument(std::string("it names no file. ") + spelling);
     return result;
 }

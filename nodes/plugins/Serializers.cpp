@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+#include "Fields.h"
+
+#include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/HaloNode.h>
+#include <gnomon/PlanarReflectionNode.h>
+#include <gnomon/PlanarShadowNode.h>
+#include <gnomon/SceneProps.h>
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowMapTechnique.h>
+#include <gnomon/ShadowTechnique.h>
+#include <gnomon/ShadowVolumeTechnique.h>
+#include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/TracedShadowTechnique.h>
+
+#include <osgDB/OutputStream>
+#include <osgDB/Serializer>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+using namespace gnomon;
+
+// Versions of the kit's part of scene files.
+//
+// In binary files each object of the kit begins with a mark and a version. OSG's own header cannot tell it, because the
+// programs that write files do not know the kit. Text files name their properties and need no version. A property that
+// is added belongs into a new version, here 4, and `fileVersion` becomes 4:
+//
+//     {
+//         UPDATE_TO_VERSION_SCOPED(4)
+//         ADD_BOOL_SERIALIZER(Tint, fresh->getTint());
+//     }
+namespace {
+
+/// OSG's word for the library that a version belongs to.
+constexpr const char* fileDomain = "gnomon";
+/// The version that is written, and the only one that is read: older ones are of no release.
+constexpr int fileVersion = 3;
+constexpr char mark[] = {'g', 'n', 'm', 'n'}; // files without it have switches, enumerators or numbers here
+
+/// The stream below, which OSG shows to none but classes that inherit.
+struct Below : osgDB::InputStream {
+    static std::istream& of(osgDB::InputStream& in) { return *(in.*&Below::_in)->getStream(); }
+};
+
+/// A place in a file to go back to.
+class Bookmark {
+public:
+    explicit Bookmark(osgDB::InputStream& in) : _file(Below::of(in)), _place(_file.tellg()) {}
+
+    void goBack() const {
+        _file.clear(); // the end may have been met
+        _file.seekg(_place);
+    }
+
+private:
+    std::istream& _file;
+    const std::istream::pos_type _place;
+};
+
+bool isMarked(osgDB::InputStream& in) {
+    char found[std::size(mark)] = {};
+    const Bookmark here(in);
+    in.readCharArray(found, std::size(mark));
+    const bool is = std::equal(std::begin(mark), std::end(mark), found);
+    if (!is) here.goBack();
+    return is;
+}
+
+/// Tells the stream the version of the properties that follow.
+class VersionSerializer : public osgDB::BaseSerializer {
+public:
+    VersionSerializer() : BaseSerializer(READ_WRITE_PROPERTY) {}
+    const std::string& getName() const override { return _name; }
+
+    bool read(osgDB::InputStream& in, osg::Object&) override {
+        int version = fileVersion; // text may have any property
+        if (in.isBinary()) {
+            version = 0;
+            if (isMarked(in)) in >> version;
+        }
+        if (version > fileVersion)
+            in.throwException("gnomon: the file is of version " + std::to_string(version) +
+                              ", which this Gnomon does not know. Update Gnomon, or save the file as .osgt.");
+        if (version < fileVersion)
+            in.throwException(
+                "gnomon: the file is of a version before the first release. Save it as .osgt with the Gnomon "
+                "that wrote it.");
+        in.setFileVersion(fileDomain, version);
+        return true;
+    }
+
+    bool write(osgDB::OutputStream& out, const osg::Object&) override {
+        out.setFileVersion(fileDomain, fileVersion);
+        if (out.isBinary()) {
+            out.writeCharArray(mark, std::size(mark));
+            out << fileVersion;
+        }
+        return true;
+    }
+
+private:
+    const std::string _name = "FileVersion";
+};
+
+} // namespace
+
+// No class of its own: what every class of the kit has before its properties.
+namespace FileVersionFields {
+REGISTER_CUSTOM_OBJECT_WRAPPER2(gnomon, gnomon_FileVersion, nullptr, osg::Object, "gnomon::FileVersion", "") {
+    static_cast<void>(domain);
+    wrapper->addSerializer(new VersionSerializer, osgDB::BaseSerializer::RW_UNDEFINED);
+}
+} // namespace FileVersionFields
+
+static bool checkCasters(const ShadowCasterGroup& group) { return group.getCasters() != Selection(); }
+
+static bool readCasters(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setCasters(fields::readSelection(in));
+    return true;
+}
+
+static bool writeCasters(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeSelection(out, group.getCasters());
+}
+
+static bool checkLightSources(const ShadowCasterGroup& group) { return !group.getLightSources().empty(); }
+
+static bool readLightSources(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setLightSources(fields::readList(in, [&] { return in.readObjectOfType<osg::LightSource>(); }));
+    return true;
+}
+
+static bool writeLightSources(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeList(out, group.getLightSources(), [&](const auto& source) { out.writeObject(source.get()); });
+}
+
+static bool checkLights(const ShadowCasterGroup& group) { return !group.getLights().empty(); }
+
+static bool readLights(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setLights(fields::readList(in, [&] {
+        ShadowLight light;
+        in >> light.number;
+        light.inGroup = fields::readExactVector<osg::Vec4d>(in);
+        return light;
+    }));
+    return true;
+}
+
+static bool writeLights(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeList(out, group.getLights(), [&](const ShadowLight& light) {
+        out << light.number;
+        fields::writeExactVector(out, light.inGroup);
+    });
+}
+
+/// Direction and cutoff of each of Lights, where any of those is a spot.
+static bool checkSpots(const ShadowCasterGroup& group) {
+    const auto& lights = group.getLights();
+    const auto isSpot = [](const ShadowLight& light) {
+        return light.cutoff != ShadowLight().cutoff || light.direction != ShadowLight().direction;
+    };
+    return std::any_of(lights.begin(), lights.end(), isSpot);
+}
+
+static bool readSpots(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    const auto spots = fields::readList(in, [&] { return fields::readExactVector<osg::Vec4d>(in); });
+    std::vector<ShadowLight> lights = group.getLights();
+    for (std::size_t i = 0; i < std::min(lights.size(), spots.size()); ++i) {
+        lights[i].direction = {spots[i].x(), spots[i].y(), spots[i].z()};
+        lights[i].cutoff = spots[i].w();
+    }
+    group.setLights(lights);
+    return true;
+}
+
+static bool writeSpots(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeList(out, group.getLights(), [&](const ShadowLight& light) {
+        fields::writeExactVector(out, osg::Vec4d(light.direction, light.cutoff));
+    });
+}
+
+static bool checkLightUniforms(const ShadowCasterGroup& group) { return !group.getLightUniforms().empty(); }
+
+static bool readLightUniforms(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setLightUniforms(fields::readList(in, [&] {
+        LightUniform uniform;
+        in >> uniform.number;
+        in.readWrappedString(uniform.name);
+        return uniform;
+    }));
+    return true;
+}
+
+static bool writeLightUniforms(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeList(out, group.getLightUniforms(), [&](const LightUniform& uniform) {
+        out << uniform.number;
+        out.writeWrappedString(uniform.name);
+    });
+}
+
+static bool checkOtherCasters(const ShadowCasterGroup& group) { return !group.getCasters().others.empty(); }
+
+static bool readOtherCasters(osgDB::InputStream& in, ShadowCasterGroup& group) {
+    group.setCasters(fields::withOthers(in, group.getCasters()));
+    return true;
+}
+
+static bool writeOtherCasters(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
+    return fields::writeOthers(out, group.getCasters());
+}
+
+/// Programs that know nothing of Gnomon, such as osgviewer, make their window after they have read the file.
+static ShadowCasterGroup* newGroup() {
+    askForStencilBits();
+    return new ShadowCasterGroup;
+}
+
+GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group", "") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    ADD_USER_SERIALIZER(Casters);
+    ADD_USER_SERIALIZER(OtherCasters);
+    fields::addEnum(*wrapper, "Composite", fresh->getComposite(), &MyClass::getComposite, &MyClass::setComposite,
+                    {{"RELIGHT", MyClass::RELIGHT}, {"BLEND", MyClass::BLEND}});
+    wrapper->addSerializer(
+        new fields::ExactNumber<MyClass, float>("Dark", fresh->getDark(), &MyClass::getDark, &MyClass::setDark),
+        osgDB::BaseSerializer::RW_FLOAT);
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, float>("OpaqueFrom", fresh->getOpaqueFrom(),
+                                                                   &MyClass::getOpaqueFrom, &MyClass::setOpaqueFrom),
+                           osgDB::BaseSerializer::RW_FLOAT);
+    ADD_USER_SERIALIZER(LightSources);
+    ADD_USER_SERIALIZER(Lights);
+    ADD_USER_SERIALIZER(Spots);
+    ADD_USER_SERIALIZER(LightUniforms);
+    fields::addCompositorOptions<MyClass>(*wrapper);
+}
+
+static bool checkReceiver(const ShadowTechnique& technique) { return technique.hasReceiver(); }
+
+static bool readReceiver(osgDB::InputStream& in, ShadowTechnique& technique) {
+    technique.setReceiver(fields::readSelection(in));
+    return true;
+}
+
+static bool writeReceiver(osgDB::OutputStream& out, const ShadowTechnique& technique) {
+    return fields::writeSelection(out, technique.getReceiver());
+}
+
+static bool checkOtherReceiver(const ShadowTechnique& technique) { return !technique.getReceiver().others.empty(); }
+
+static bool readOtherReceiver(osgDB::InputStream& in, ShadowTechnique& technique) {
+    technique.setReceiver(fields::withOthers(in, technique.getReceiver()));
+    return true;
+}
+
+static bool writeOtherReceiver(osgDB::OutputStream& out, const ShadowTechnique& technique) {
+    return fields::writeOthers(out, technique.getReceiver());
+}
+
+GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "") {
+    ADD_USER_SERIALIZER(Receiver);
+    ADD_USER_SERIALIZER(OtherReceiver);
+}
+
+static bool checkPlanes(const PlanarShadowNode& node) { return !node.getPlanes().empty(); }
+
+static bool readPlanes(osgDB::InputStream& in, PlanarShadowNode& node) {
+    node.setPlanes(fields::readList(in, [&] { return fields::readExactVector<osg::Vec4d>(in); }));
+    return true;
+}
+
+static bool writePlanes(osgDB::OutputStream& out, const PlanarShadowNode& node) {
+    return fields::writeList(out, node.getPlanes(),
+                             [&](const osg::Vec4d& plane) { fields::writeExactVector(out, plane); });
+}
+
+GNOMON_WRAPPER(PlanarShadowNode, new gnomon::PlanarShadowNode, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    ADD_USER_SERIALIZER(Planes);
+    ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
+    ADD_BOOL_SERIALIZER(OffsetCure, fresh->getOffsetCure());
+    ADD_BOOL_SERIALIZER(ClipCure, fresh->getClipCure());
+}
+
+/// Windows made later have alpha bits.
+struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
+    void objectRead(osgDB::InputStream&, osg::Object& object) override {
+        if (static_cast<const ShadowMapTechnique&>(object).getEdges() != ShadowMapTechnique::HARD) askForAlphaBits();
+    }
+};
+
+GNOMON_WRAPPER(ShadowMapTechnique, new gnomon::ShadowMapTechnique, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    wrapper->addFinishedObjectReadCallback(new AskForAlphaBits);
+    ADD_INT_SERIALIZER(Size, fresh->getSize());
+    fields::addEnum(*wrapper, "Filter", fresh->getFilter(), &MyClass::getFilter, &MyClass::setFilter,
+                    {{"NEAREST", MyClass::NEAREST},
+                     {"BILINEAR", MyClass::BILINEAR},
+                     {"BICUBIC", MyClass::BICUBIC},
+                     {"FINE", MyClass::FINE}});
+    ADD_INT_SERIALIZER(Cascades, fresh->getCascades());
+    fields::addEnum(*wrapper, "Edges", fresh->getEdges(), &MyClass::getEdges, &MyClass::setEdges,
+                    {{"HARD", MyClass::HARD}, {"SMOOTH", MyClass::SMOOTH}, {"SOFT", MyClass::SOFT}});
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("SunAngle", fresh->getSunAngle(),
+                                                                    &MyClass::getSunAngle, &MyClass::setSunAngle),
+                           osgDB::BaseSerializer::RW_DOUBLE);
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("LampSize", fresh->getLampSize(),
+                                                                    &MyClass::getLampSize, &MyClass::setLampSize),
+                           osgDB::BaseSerializer::RW_DOUBLE);
+    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("Radius", fresh->getRadius(), &MyClass::getRadius,
+                                                                    &MyClass::setRadius),
+                           osgDB::BaseSerializer::RW_DOUBLE);
+    ADD_INT_SERIALIZER(ProgramUnit, fresh->getProgramUnit());
+    fields::addEnum(*wrapper, "View", fresh->getView(), &MyClass::getView, &MyClass::setView,
+                    {{"NOTHING", MyClass::NOTHING},
+                     {"MAP", MyClass::MAP},
+                     {"TEXELS", MyClass::TEXELS},
+                     {"CASCADES", MyClass::CASCADES}});
+}
+
+GNOMON_WRAPPER(ShadowVolumeTechnique, new gnomon::ShadowVolumeTechnique, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    fields::addEnum(*wrapper, "View", fresh->getView(), &MyClass::getView, &MyClass::setView,
+                    {{"NOTHING", MyClass::NOTHING}, {"VOLUMES", MyClass::VOLUMES}});
+}
+
+GNOMON_WRAPPER(TerrainShadowGeode, new gnomon::TerrainShadowGeode, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    fields::addEnum(*wrapper, "Method", fresh->getMethod(), &MyClass::getMethod, &MyClass::setMethod,
+                    {{"BOX", MyClass::BOX}, {"HULL", MyClass::HULL}, {"DRAPE", MyClass::Method(2)}}); // is refused
+    wrapper->addFinishedObjectReadCallback(new fields::UnavailableWarning);
+}
+
+GNOMON_WRAPPER(TracedShadowTechnique, new gnomon::TracedShadowTechnique, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
+    wrapper->addFinishedObjectReadCallback(new fields::UnavailableWarning);
+}
+
+GNOMON_WRAPPER(AutoShadowTechnique, new gnomon::AutoShadowTechnique, "osg::Object osg::Node osg::Geode",
+               "gnomon::ShadowTechnique") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    wrapper->addSerializer(
+        new fields::ExactNumber<MyClass, double>("Error", fresh->getError(), &MyClass::getError, &MyClass::setError),
+        osgDB::BaseSerializer::RW_DOUBLE);
+    wrapper->addSerializer(
+        new fields::ExactNumber<MyClass, double>("Time", fresh->getTime(), &MyClass::getTime, &MyClass::setTime),
+        osgDB::BaseSerializer::RW_DOUBLE);
+}
+
+GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group", "") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    fields::addEnum(*wrapper, "Shape", fresh->getShape(), &MyClass::getShape, &MyClass::setShape,
+                    {{"WHOLE", MyClass::WHOLE}, {"PARTS", MyClass::PARTS}, {"PIXELS", MyClass::PIXELS}});
+    wrapper->addSerializer(
+        new fields::ExactNumber<MyClass, double>("Scale", fresh->getScale(), &MyClass::getScale, &MyClass::setScale),
+        osgDB::BaseSerializer::RW_DOUBLE);
+    ADD_INT_SERIALIZER(Width, fresh->getWidth());
+    wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec4f>("Color", fresh->getColor(), &MyClass::getColor,
+                                                                        &MyClass::setColor),
+                           osgDB::BaseSerializer::RW_VEC4F);
+    ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
+    fields::addCompositorOptions<MyClass>(*wrapper);
+}
+
+static bool checkSurface(const PlanarReflectionNode& node) { return node.getSurface() != Selection(); }
+
+static bool readSurface(osgDB::InputStream& in, PlanarReflectionNode& node) {
+    node.setSurface(fields::readSelection(in));
+    return true;
+}
+
+static bool writeSurface(osgDB::OutputStream& out, const PlanarReflectionNode& node) {
+    return fields::writeSelection(out, node.getSurface());
+}
+
+static bool checkOtherSurface(const PlanarReflectionNode& node) { return !node.getSurface().others.empty(); }
+
+static bool readOtherSurface(osgDB::InputStream& in, PlanarReflectionNode& node) {
+    node.setSurface(fields::withOthers(in, node.getSurface()));
+    return true;
+}
+
+static bool writeOtherSurface(osgDB::OutputStream& out, const PlanarReflectionNode& node) {
+    return fields::writeOthers(out, node.getSurface());
+}
+
+GNOMON_WRAPPER(PlanarReflectionNode, new gnomon::PlanarReflectionNode, "osg::Object osg::Node osg::Group", "") {
+    const osg::ref_ptr<const MyClass> fresh = new MyClass;
+    wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec4d>("Plane", fresh->getPlane(), &MyClass::getPlane,
+                                                                        &MyClass::setPlane),
+                           osgDB::BaseSerializer::RW_VEC4D);
+    ADD_USER_SERIALIZER(Surface);
+    ADD_USER_SERIALIZER(OtherSurface);
+    wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec3f>("Reflectance", fresh->getReflectance(),
+                                                                        &MyClass::getReflectance,
+                                                                        &MyClass::setReflectance),
+                           osgDB::BaseSerializer::RW_VEC3F);
+    ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
+    fields::addCompositorOptions<MyClass>(*wrapper);
+}
