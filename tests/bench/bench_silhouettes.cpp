@@ -3,7 +3,6 @@
 #include <Mesh.h>
 
 #include <gnomon/silhouette/ShadowVolumes.h>
-#include <gnomon/silhouette/VolumeEnd.h>
 
 #include <benchmark/benchmark.h>
 #include <glm/common.hpp>

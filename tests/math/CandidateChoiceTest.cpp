@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which of several ways to draw a shadow is taken, and when it changes.
 #include <gnomon/choice/CandidateChoice.h>
-#include <gnomon/choice/ErrorControl.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes that are their own hulls, and those that only look so.
-#include <gnomon/geometry/ConvexSolid.h>
+#include <gnomon/geometry/ConvexParts.h>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/mapfit/RayBins.h>
+#include <gnomon/mapfit/SeenEdges.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pixels that a quadrangle covers of a screen, against closed forms.
-#include <gnomon/geometry/ScreenArea.h>
+#include <gnomon/geometry/ScreenBounds.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include "Soup.h"
 
 #include <gnomon/silhouette/ShadowVolumes.h>
-#include <gnomon/silhouette/VolumeEnd.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

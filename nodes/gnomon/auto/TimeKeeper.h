@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/choice/CandidateChoice.h>
-#include <gnomon/choice/ErrorControl.h>
 #include <gnomon/compositor/DrawWatch.h>
 
 #include <OpenThreads/Mutex>

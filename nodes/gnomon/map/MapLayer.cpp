@@ -2,7 +2,6 @@
 #include <gnomon/Convert.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/geometry/TriangleDistance.h>
 #include <gnomon/map/MapBodies.h>
 #include <gnomon/map/MapLayer.h>
 
@@ -18,6 +17,25 @@
 
 namespace gnomon {
 namespace {
+
+/// From the origin to the segment between two points.
+inline double segmentDistance(const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 way = b - a;
+    const double square = glm::dot(way, way);
+    const double at = square > 0.0 ? glm::clamp(-glm::dot(a, way) / square, 0.0, 1.0) : 0.0;
+    return glm::length(a + at * way);
+}
+
+/// From the origin to a triangle.
+inline double triangleDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const auto within = [&normal](const glm::dvec3& from, const glm::dvec3& to) {
+        return glm::dot(glm::cross(to - from, -from), normal) >= 0.0;
+    };
+    const double area = glm::length(normal);
+    if (area > 0.0 && within(a, b) && within(b, c) && within(c, a)) return std::abs(glm::dot(a, normal)) / area;
+    return std::min({segmentDistance(a, b), segmentDistance(b, c), segmentDistance(c, a)});
+}
 
 /// As it is drawn.
 MapLayer::Box boxOf(const CasterMesh& mesh, std::size_t first, std::size_t end) {

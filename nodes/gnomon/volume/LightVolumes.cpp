@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Plane.h>
-#include <gnomon/silhouette/VolumeEnd.h>
+#include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/volume/LightVolumes.h>
 
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/geometry/ScreenArea.h>
+#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/silhouette/LightFacing.h>
-#include <gnomon/silhouette/VolumeEnd.h>
+#include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/volume/LightVolumes.h>
 #include <gnomon/volume/VolumeForecast.h>
 #include <gnomon/volume/VolumeHull.h>

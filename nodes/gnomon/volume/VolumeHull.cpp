@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/silhouette/LightFacing.h>
-#include <gnomon/silhouette/VolumeEnd.h>
+#include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/volume/VolumeHull.h>
 
 #include <glm/common.hpp>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/geometry/ClosedParts.h>
 #include <gnomon/geometry/MeshEdges.h>
-#include <gnomon/geometry/NearWeld.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -194,9 +193,9 @@ ClosedParts closedParts(const glm::vec3* positions, std::size_t vertexCount, con
     std::vector<unsigned> corners(indexCount);
     for (std::size_t i = 0; i < indexCount; ++i) corners[i] = result.welded[indices[i]];
     std::vector<OpenEdge> open = openEdges(corners);
-    const std::vector<unsigned> first =
-        overSeams && open.size() <= mostOpenEdges ? withoutSeams(endsOf(open), positions, vertexCount)
-                                                  : std::vector<unsigned>();
+    const std::vector<unsigned> first = overSeams && open.size() <= mostOpenEdges
+                                            ? withoutSeams(endsOf(open), positions, vertexCount)
+                                            : std::vector<unsigned>();
     if (!first.empty()) {
         for (unsigned& corner : corners) corner = first[corner];
         open = openEdges(corners);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/geometry/ConvexHull2D.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
-#include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace gnomon {
@@ -122,6 +123,32 @@ Limits limitsAlong(const std::vector<glm::dvec4>& points, int axis) {
     return limits;
 }
 
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+constexpr std::size_t most = 8; // each of four cuts adds one corner
+
+/// The four sides of the screen: a point is kept where the product is not below 0.
+const std::array<glm::dvec4, 4> sides{
+    {{1.0, 0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0, 1.0}, {0.0, 1.0, 0.0, 1.0}, {0.0, -1.0, 0.0, 1.0}}};
+
+struct Polygon {
+    std::array<glm::dvec4, most> corners;
+    std::size_t count = 0;
+
+    void add(const glm::dvec4& corner) { corners[count++] = corner; }
+};
+
+Polygon cut(const Polygon& polygon, const glm::dvec4& half) {
+    Polygon result;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const glm::dvec4 &a = polygon.corners[i], &b = polygon.corners[(i + 1) % polygon.count];
+        const double fromA = glm::dot(half, a), fromB = glm::dot(half, b);
+        if (fromA >= 0.0) result.add(a);
+        if ((fromA < 0.0) != (fromB < 0.0)) result.add(a + (b - a) * (fromA / (fromA - fromB)));
+    }
+    return result;
+}
+
 } // namespace
 
 std::array<glm::dvec4, 8> boxCorners(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& frameFromBox) {
@@ -186,6 +213,53 @@ ScreenRect common(const ScreenRect& a, const ScreenRect& b) {
 
 bool overlap(const ScreenRect& a, const ScreenRect& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+std::vector<glm::dvec2> convexHull2D(std::vector<glm::dvec2> points) {
+    std::sort(points.begin(), points.end(),
+              [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    if (points.size() < 3) return points;
+    std::vector<glm::dvec2> hull;
+    for (const bool back : {false, true}) {
+        const std::size_t start = hull.size();
+        for (const glm::dvec2& point : points) {
+            while (hull.size() >= start + 2 && !(cross(hull.back() - hull[hull.size() - 2], point - hull.back()) > 0.0))
+                hull.pop_back();
+            hull.push_back(point);
+        }
+        hull.pop_back(); // the other half begins with it
+        if (!back) std::reverse(points.begin(), points.end());
+    }
+    return hull;
+}
+
+std::vector<glm::dvec2> grownOutline(const std::vector<glm::dvec2>& corners, const glm::dvec2& by) {
+    std::vector<glm::dvec2> wider;
+    for (const glm::dvec2& corner : corners)
+        for (const double x : {-by.x, by.x})
+            for (const double y : {-by.y, by.y}) wider.push_back(corner + glm::dvec2(x, y));
+    return convexHull2D(std::move(wider));
+}
+
+ScreenArea screenArea(const std::array<glm::dvec4, 4>& quad, const glm::dvec2& pixels) {
+    Polygon polygon;
+    for (const glm::dvec4& corner : quad) polygon.add(corner);
+    for (const glm::dvec4& half : sides) polygon = cut(polygon, half);
+    std::array<glm::dvec2, most> places;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const glm::dvec4& corner = polygon.corners[i];
+        if (!(corner.w > 0.0)) return {}; // all of it is in the eye
+        places[i] = glm::dvec2(corner) / corner.w * pixels / 2.0;
+    }
+    ScreenArea result;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+        const glm::dvec2 &a = places[i], &b = places[(i + 1) % polygon.count];
+        result.area += (a.x * b.y - a.y * b.x) / 2.0;
+        result.around += glm::distance(a, b);
+    }
+    result.area = std::abs(result.area);
+    return result;
 }
 
 } // namespace gnomon

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -47,5 +48,24 @@ std::vector<glm::dvec2> screenOutline(const std::vector<glm::dvec4>& clipPoints,
 /// The point all lines of sight go through, homogeneous, w >= 0: the eye, or for an orthographic view the direction
 /// towards it. Not finite if the matrix cannot be inverted.
 glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame);
+
+/// Corners of the convex hull of points in a plane, counter-clockwise; of points on a line its ends, of fewer than three
+/// places those.
+/// Source: A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions", IPL 9(5), 1979.
+std::vector<glm::dvec2> convexHull2D(std::vector<glm::dvec2> points);
+
+/// What an outline covers that is grown by `by` to each side.
+std::vector<glm::dvec2> grownOutline(const std::vector<glm::dvec2>& corners, const glm::dvec2& by);
+
+/// What a polygon covers of the screen.
+struct ScreenArea {
+    double area = 0.0;   ///< pixels.
+    double around = 0.0; ///< length of its outline, pixels.
+};
+
+/// @param quad    convex, in clip space; corners may be behind the eye, or at infinity. Near and far planes do not count.
+/// @param pixels  of the whole screen.
+/// Source: I. Sutherland and G. Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974.
+ScreenArea screenArea(const std::array<glm::dvec4, 4>& quad, const glm::dvec2& pixels);
 
 } // namespace gnomon

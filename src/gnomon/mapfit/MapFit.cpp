@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/geometry/ConvexHull2D.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/mapfit/MapFit.h>
 

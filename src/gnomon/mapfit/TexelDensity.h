@@ -2,9 +2,17 @@
 #pragma once
 #include <gnomon/mapfit/MapFit.h>
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
 #include <limits>
+#include <optional>
 
 namespace gnomon {
+
+/// The axis along which a box is flat, as grounds are: in the scene its shortest side is an eighth of the next, or less.
+/// Nullopt for other boxes.
+std::optional<int> flatAxis(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox);
 
 /// How small the smallest pixel is on what is seen, as a light sees it: a map with finer texels than that tells nothing
 /// more.

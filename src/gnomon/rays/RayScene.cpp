@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/RayScene.h>
-#include <gnomon/rays/RayScene-inl.h>
+#include <gnomon/rays/Placement.h>
 
+#if GNOMON_EMBREE == 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -20,6 +30,8 @@ namespace {
 constexpr int liftSteps = 8;
 constexpr double exact = 1.0 / (1LL << 42); // of the scene's size: what doubles leave of a place on a plane
 constexpr double inPlane = 1.0 / (1 << 20); // of the coordinates: eight steps of a float
+
+double largestOf(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// False for NaN too.
 bool isUsable(const glm::vec3& v) {
@@ -60,6 +72,7 @@ double stepsAbove(float value, int steps) {
 
 // Embree 4 takes the context among further arguments.
 #if GNOMON_EMBREE == 4
+using RayContext = RTCRayQueryContext;
 void init(RayContext& context) { rtcInitRayQueryContext(&context); }
 void intersect(RTCScene scene, RayContext& context, RTCRayHit& ray) {
     RTCIntersectArguments arguments;
@@ -74,12 +87,11 @@ void occlude(RTCScene scene, RayContext& context, RTCRay& ray) {
     rtcOccluded1(scene, &ray, &arguments);
 }
 #else
+using RayContext = RTCIntersectContext;
 void init(RayContext& context) { rtcInitIntersectContext(&context); }
 void intersect(RTCScene scene, RayContext& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
 void occlude(RTCScene scene, RayContext& context, RTCRay& ray) { rtcOccluded1(scene, &context, &ray); }
 #endif
-
-} // namespace
 
 [[noreturn]] void failInEmbree(const char* what, RTCError error) {
     const std::string why = error == RTC_ERROR_OUT_OF_MEMORY     ? "there is not enough memory"
@@ -88,11 +100,74 @@ void occlude(RTCScene scene, RayContext& context, RTCRay& ray) { rtcOccluded1(sc
     throw std::runtime_error(std::string("Embree cannot ") + what + ": " + why + ".");
 }
 
+/// One for all scenes, as Embree advises; lives to the end of the program, for its threads do.
 RTCDevice embreeDevice() {
     static const RTCDevice made = rtcNewDevice(nullptr);
     if (!made) failInEmbree("start", rtcGetDeviceError(nullptr));
     return made;
 }
+
+} // namespace
+
+/// A ray in the frame of some triangles, in double.
+struct LocalRay {
+    glm::dvec3 start, along;
+    double reach;
+    double endSize; ///< of the coordinates of its end, in the frame that it was given in; 0 if it has none.
+};
+
+/// A tree of Embree's: over triangles, or over parts that have such trees.
+struct RayScene::Embree {
+    /// A scene as it is attached to another.
+    struct Part {
+        Part(const PlacedRayScene& given, unsigned itsIndex);
+        LocalRay inside(const LocalRay& ray) const;
+
+        std::shared_ptr<const RayScene> scene;
+        unsigned index;                          ///< among those given.
+        double stretched;                        ///< see stretch().
+        glm::dmat4 outerFromPart, partFromOuter; ///< from and to what the part's triangles are relative to.
+    };
+    /// What the filter knows of the ray that is cast.
+    struct Cast : RayContext {
+        Cast(const Ray& ray, const Embree& embree);
+        LocalRay local;
+        const Embree& outer;
+        bool overEnd = false; ///< meets a surface on which it ends, too.
+    };
+
+    Embree();
+    ~Embree() { rtcReleaseScene(scene); }
+    Embree(const Embree&) = delete;
+    Embree& operator=(const Embree&) = delete;
+
+    static void filter(const RTCFilterFunctionNArguments* arguments);
+
+    void take(const TriangleSoup& soup);
+    void take(const std::vector<PlacedRayScene>& given);
+    void commit(const ProgressLine& progress);
+    bool empty() const { return kept.empty() && parts.empty(); }
+    void measure();
+    void measureParts();
+    RTCRay ray(const Ray& ray) const;
+    bool meets(const LocalRay& ray, bool overEnd, unsigned primitive) const;
+    RayHit refined(const LocalRay& ray, unsigned primitive) const;
+    RayHit refined(const Cast& cast, const RTCHit& hit) const;
+    double step(double coordinate) const;
+    glm::dvec3 corner(std::size_t primitive, int i) const { return glm::dvec3(vertices[indices[3 * primitive + i]]); }
+
+    RTCScene scene = nullptr;
+    glm::dvec3 origin{0.0};
+    const glm::vec3* vertices = nullptr; ///< Embree's own copy.
+    const unsigned* indices = nullptr;   ///< the same; only of triangles that are kept.
+    std::vector<unsigned> kept;          ///< for each of them, its place among those given.
+    std::vector<Part> parts;             ///< by Embree's number.
+    std::function<bool(unsigned, double, double)> solidAt;
+    std::size_t leftOut = 0;
+    double reach = 0.0;
+    double size = 0.0; ///< how far from the origin the middle one of the triangles is: what is far off does not count.
+    double longest = 0.0; ///< a triangle's side.
+};
 
 RayScene::Embree::Embree() : scene(rtcNewScene(embreeDevice())) {
     if (!scene) failInEmbree("make a scene", rtcGetDeviceError(embreeDevice()));
@@ -221,6 +296,69 @@ RayHit RayScene::Embree::refined(const LocalRay& ray, unsigned primitive) const 
     hit.normal = normal;
     hit.distance = glm::dot(a - ray.start, normal) / glm::dot(ray.along, normal);
     return hit;
+}
+
+RayScene::Embree::Part::Part(const PlacedRayScene& given, unsigned itsIndex)
+    : scene(given.scene),
+      index(itsIndex),
+      stretched(stretch(given.outerFromInner)),
+      outerFromPart(glm::translate(given.outerFromInner, given.scene->_embree->origin)),
+      partFromOuter(glm::inverse(outerFromPart)) {}
+
+LocalRay RayScene::Embree::Part::inside(const LocalRay& ray) const {
+    return {glm::dvec3(partFromOuter * glm::dvec4(ray.start, 1.0)), glm::dmat3(partFromOuter) * ray.along, ray.reach,
+            ray.endSize / stretched};
+}
+
+void RayScene::Embree::take(const std::vector<PlacedRayScene>& given) {
+    for (unsigned i = 0; i < given.size(); ++i) {
+        if (!given[i].scene || !given[i].scene->_embree->parts.empty())
+            throw std::invalid_argument("gnomon::RayScene: a part must be a scene that has no parts of its own.");
+        const Embree& inner = *given[i].scene->_embree;
+        leftOut += inner.leftOut;
+        if (!isPlacement(given[i].outerFromInner)) leftOut += inner.kept.size();
+        if (inner.kept.empty() || !isPlacement(given[i].outerFromInner)) continue;
+        parts.emplace_back(given[i], i);
+        const RTCGeometry instance = rtcNewGeometry(embreeDevice(), RTC_GEOMETRY_TYPE_INSTANCE);
+        const glm::mat4x3 matrix(parts.back().outerFromPart);
+        rtcSetGeometryInstancedScene(instance, inner.scene);
+        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &matrix[0][0]);
+        rtcCommitGeometry(instance);
+        rtcAttachGeometryByID(scene, instance, static_cast<unsigned>(parts.size() - 1));
+        rtcReleaseGeometry(instance);
+    }
+}
+
+/// As measure(), of triangles where they are.
+void RayScene::Embree::measureParts() {
+    std::size_t triangles = 0;
+    for (const Part& part : parts) triangles += part.scene->_embree->kept.size();
+    const std::size_t every = triangles / 1000 + 1;
+    std::vector<double> distances;
+    std::size_t next = 0; // of the part's
+    for (const Part& part : parts) {
+        const Embree& inner = *part.scene->_embree;
+        longest = std::max(longest, part.stretched * inner.longest);
+        const auto distance = [&](int i) {
+            return largestOf(glm::dvec3(part.outerFromPart * glm::dvec4(inner.corner(next, i), 1.0)));
+        };
+        for (; next < inner.kept.size(); next += every)
+            distances.push_back(std::max({distance(0), distance(1), distance(2)}));
+        next -= inner.kept.size();
+    }
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    size = *middle;
+}
+
+/// Distances along a ray are the same in every frame. A normal is turned as planes are.
+RayHit RayScene::Embree::refined(const Cast& cast, const RTCHit& hit) const {
+    if (parts.empty()) return refined(cast.local, hit.primID);
+    const Part& part = parts[hit.instID[0]];
+    RayHit result = part.scene->_embree->refined(part.inside(cast.local), hit.primID);
+    result.part = part.index;
+    result.normal = glm::normalize(glm::transpose(glm::dmat3(part.partFromOuter)) * result.normal);
+    return result;
 }
 
 RayScene::RayScene(const TriangleSoup& triangles, const ProgressLine& progress) : _embree(new Embree) {
