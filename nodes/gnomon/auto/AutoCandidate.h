@@ -3,10 +3,13 @@
 #include <gnomon/AutoShadowOptions.h>
 #include <gnomon/ShadowDecision.h>
 #include <gnomon/ShadowMapOptions.h>
+#include <gnomon/ShadowTechnique.h>
+#include <gnomon/base/RecentCache.h>
 #include <gnomon/choice/CandidateChoice.h>
 
 #include <osg/Vec4d>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -41,6 +44,32 @@ struct AutoCandidate {
     /// Milliseconds a frame, over many frames.
     double time(const CostRates& rates, const AutoMotion& motion) const;
     ShadowCandidate judged(const CostRates& rates, const AutoMotion& motion) const;
+};
+
+/// The techniques that draw what was chosen: made when they are needed, and let go when no view has chosen them lately.
+/// Each has its own settings, which never change.
+///
+/// Threads one at a time; what it gives out is good for any number.
+class InnerTechniques {
+public:
+    /// Null for no shadow. @param round  rises with each frame.
+    osg::ref_ptr<const ShadowTechnique> of(const AutoCandidate& candidate, const Selection& receiver, unsigned round);
+    /// Lets all go.
+    void clear();
+    /// Calls `visit` with each that is there.
+    void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
+    /// ShadowTechnique::passes() of all, those included that were let go.
+    unsigned passes() const;
+
+private:
+    struct Made {
+        AutoCandidate candidate;
+        Selection receiver;
+        osg::ref_ptr<ShadowTechnique> technique;
+        unsigned lastRound;
+    };
+    RecentCache<Made> _made;
+    unsigned _passesOfGone = 0;
 };
 
 } // namespace gnomon

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/auto/AutoCandidate.h>
 #include <gnomon/auto/CandidateList.h>
-#include <gnomon/auto/InnerTechniques.h>
 #include <gnomon/auto/TimeKeeper.h>
 #include <gnomon/base/RecentCache.h>
 

@@ -2,8 +2,8 @@
 #include <gnomon/Convert.h>
 #include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/auto/CandidateFacts.h>
 #include <gnomon/auto/CandidateList.h>
-#include <gnomon/auto/MapEdges.h>
 #include <gnomon/base/NumberText.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/map/MapCasters.h>

@@ -2,9 +2,8 @@
 #pragma once
 #include <gnomon/auto/AutoCandidate.h>
 #include <gnomon/auto/AutoView.h>
-#include <gnomon/auto/CasterSplit.h>
+#include <gnomon/auto/CandidateFacts.h>
 #include <gnomon/auto/FlatReceivers.h>
-#include <gnomon/auto/TerrainFacts.h>
 #include <gnomon/volume/OpenCasters.h>
 
 #include <optional>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/gl/ChangingBuffers.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/gl/VolumeGeometry.h>
 
@@ -8,6 +7,15 @@
 
 namespace gnomon {
 namespace {
+
+/// Keeps a geometry's arrays and primitive sets, which it has already, in buffer objects, and tells OpenGL that they change:
+/// a driver may put what is said to be static where writing takes long.
+inline void keepInChangingBuffers(osg::Geometry& geometry) {
+    geometry.setUseDisplayList(false);
+    geometry.setUseVertexBufferObjects(true);
+    geometry.getOrCreateVertexBufferObject()->setUsage(GL_DYNAMIC_DRAW);
+    geometry.getOrCreateElementBufferObject()->setUsage(GL_DYNAMIC_DRAW);
+}
 
 /// Where lines of sight are parallel, a triangle at infinity is beside all of them. A lamp's then ends far beyond all that
 /// is seen: 10^7 times as far from it as the caster, which floats still hold.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/map/DepthMap.h>
-#include <gnomon/map/MapBodies.h>
-#include <gnomon/map/MapForecast.h>
+#include <gnomon/map/MapLayer.h>
 #include <gnomon/map/MapLookupPass.h>
 #include <gnomon/map/MapSlice.h>
 

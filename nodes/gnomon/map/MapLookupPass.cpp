@@ -2,11 +2,12 @@
 #include <gnomon/Convert.h>
 #include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/SavedFramebuffers.h>
-#include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/gl/UncomparedSampler.h>
 #include <gnomon/map/MapLookupPass.h>
+#include <gnomon_shaders.h>
 
+#include <OpenThreads/ScopedLock>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -16,6 +17,8 @@
 
 namespace gnomon {
 namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 constexpr unsigned seenUnit = 0, mapUnit = 1, rawUnit = 2, blocksUnit = 3;
 constexpr GLenum maxVaryingComponents = 0x8B4B; // GL_MAX_VARYING_COMPONENTS
@@ -53,6 +56,47 @@ void addColumns(const glm::dmat4& matrix, int count, std::vector<glm::dvec4>& co
 bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p.height)) & 1) != 0; }
 
 } // namespace
+
+MapPrograms::MapPrograms()
+    : casterProgram(shaderProgram()), // for a clip distance costs a third more a vertex on llvmpipe
+      casterByLampProgram(shaderProgram("#define NEAREST\n")),
+      cutoutProgram(shaderProgram("#define NEAREST\n#define CUTOUT\n")),
+      blocksProgram(quadProgram("gnomon blocks", "", shaders::blocks_frag)),
+      coneProgram(quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag)) {}
+
+osg::ref_ptr<const osg::StateSet> MapPrograms::program(const std::string& defines) {
+    return of(_programs, defines, std::string(shaders::cone_frag) + shaders::map_filter_frag + shaders::map_frag);
+}
+
+osg::ref_ptr<const osg::StateSet> MapPrograms::viewProgram(const std::string& defines) {
+    return of(_viewPrograms, defines, shaders::map_view_frag);
+}
+
+osg::ref_ptr<const osg::StateSet> MapPrograms::of(Programs& programs, const std::string& defines,
+                                                  const std::string& shader) {
+    Lock lock(_mutex);
+    osg::ref_ptr<osg::StateSet>& set = programs[defines];
+    if (!set) set = quadProgram("gnomon map", defines, (shaders::map_place_frag + shader).c_str());
+    return set;
+}
+
+std::vector<osg::ref_ptr<osg::StateSet>> MapPrograms::all() {
+    Lock lock(_mutex);
+    std::vector<osg::ref_ptr<osg::StateSet>> sets{casterProgram, casterByLampProgram, cutoutProgram, blocksProgram,
+                                                  coneProgram};
+    for (const Programs* programs : {&_programs, &_viewPrograms})
+        for (const auto& [defines, set] : *programs) sets.push_back(set);
+    return sets;
+}
+
+void MapPrograms::resizeGLObjectBuffers(unsigned maxSize) {
+    for (const auto& set : all()) set->resizeGLObjectBuffers(maxSize);
+}
+
+void MapPrograms::release(osg::State* state) {
+    for (const auto& set : all()) set->releaseGLObjects(state);
+    seen.release(state);
+}
 
 glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
     const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);

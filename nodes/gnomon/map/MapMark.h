@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ShadowMapOptions.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/ProgramVisibilityJob.h>
 #include <gnomon/compositor/SoftMarkJob.h>
-#include <gnomon/map/MapDebugView.h>
+#include <gnomon/map/MapLookupPass.h>
 
 namespace gnomon {
+
+/// Draws over a picture how a light's maps lie; of texels and cascades those of the first light alone.
+/// @param before  how many lights have been drawn.
+void drawMapView(const MapLookupPass& quad, ShadowMapOptions::View view, osg::RenderInfo& renderInfo, ScreenPass& pass,
+                 int before);
 
 constexpr double allOfIt = 511.0 / 512.0; // of a light: less than that is a step of eight bits
 
@@ -47,5 +55,39 @@ public:
 protected:
     ~SoftMapMark() override = default;
 };
+
+/// Marks of one spot in one view: what of all that is seen is not in its cone.
+class SpotMark : public MarkJob {
+public:
+    osg::ref_ptr<MapPrograms> resources;
+    glm::dmat4 clipFromScene{1.0}; ///< as drawn.
+    glm::dmat4 coneFromScene{1.0}; ///< see gnomon::coneFromScene().
+
+    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    bool relightsOnly() const override { return true; }
+
+protected:
+    ~SpotMark() override = default;
+};
+
+/// A light's maps, as programs of a view's drawables find them: see visibility.glsl.
+class ProgramMaps : public ProgramVisibilityJob {
+public:
+    /// Of no maps: all of the light arrives. @param unit  of textures.
+    explicit ProgramMaps(unsigned unit);
+    ProgramMaps(const MapLookupPass& quad, const glm::dmat4& sceneFromEye, unsigned unit);
+
+    std::string drawAhead(osg::RenderInfo& renderInfo) const override;
+
+protected:
+    ~ProgramMaps() override = default;
+
+private:
+    std::optional<MapLookupPass> _quad;
+};
+
+/// The function that looks them up: GLSL 1.30.
+/// @param filter  defines of map_filter.frag.
+std::string visibilityFunction(const std::string& filter);
 
 } // namespace gnomon

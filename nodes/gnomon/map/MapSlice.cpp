@@ -7,7 +7,6 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace gnomon {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapSettings.h>
@@ -7,10 +8,29 @@
 #include <gnomon/mapfit/SpotCone.h>
 #include <gnomon/mapfit/TexelDensity.h>
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include <limits>
 #include <optional>
 #include <vector>
 
 namespace gnomon {
+
+/// What the maps of one light in one view would be like, found without making any: for whoever chooses among settings.
+struct MapForecast {
+    int maps = 0;        ///< 0: none of the shadow can be seen.
+    int most = 0;        ///< texels on a side of a map, by OpenGL's largest texture.
+    double texels = 0.0; ///< on a side of the largest map, with one texel a pixel where pixels are smallest.
+    double pixel = std::numeric_limits<double>::infinity(); ///< smallest side of a pixel, see TexelDensity.
+    std::optional<ScreenRect> bounds;                       ///< where on the screen the shadow can be.
+    /// One of the maps.
+    struct Map {
+        glm::dmat4 mapFromScene;            ///< what it holds is within 0 and 1, homogeneous.
+        std::vector<glm::dvec4> halfSpaces; ///< of the scene: what is looked up in it.
+    };
+    std::vector<Map> each{};
+};
 
 /// What the maps of one light are of.
 struct MapRequest {

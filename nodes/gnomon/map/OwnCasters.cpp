@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/map/MapState.h>
 #include <gnomon/map/OwnCasters.h>
 
 #include <glm/common.hpp>

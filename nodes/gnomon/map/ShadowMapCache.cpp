@@ -4,7 +4,6 @@
 #include <gnomon/group/LocalLight.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/MapMark.h>
-#include <gnomon/map/ProgramMaps.h>
 #include <gnomon/map/ShadowMapCache.h>
 
 #include <OpenThreads/ScopedLock>

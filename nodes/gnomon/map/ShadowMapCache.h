@@ -3,7 +3,7 @@
 #include <gnomon/ShadowLight.h>
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/map/LightShadowMaps.h>
-#include <gnomon/map/SpotMark.h>
+#include <gnomon/map/MapMark.h>
 
 #include <OpenThreads/Mutex>
 

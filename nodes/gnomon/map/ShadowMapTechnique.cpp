@@ -3,8 +3,8 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/LocalLight.h>
+#include <gnomon/map/MapMark.h>
 #include <gnomon/map/MapSettings.h>
-#include <gnomon/map/ProgramMaps.h>
 #include <gnomon/map/ShadowMapCache.h>
 
 namespace gnomon {

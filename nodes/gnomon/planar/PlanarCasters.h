@@ -1,16 +1,72 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/CasterLayers.h>
-#include <gnomon/planar/PlanarParts.h>
+#include <gnomon/casters/PlacedMesh.h>
 
+#include <OpenThreads/Mutex>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <osg/Geometry>
+#include <osg/Referenced>
 
 #include <cstddef>
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 namespace gnomon {
+
+/// Triangles that are drawn alike, flattened.
+struct PlanarPart {
+    osg::ref_ptr<osg::Geometry> geometry;
+    bool crossing;                 ///< they cross the plane and must be cut there; else they are wholly above it.
+    bool solid;                    ///< they bound solids: those turned away from the light need not be drawn.
+    glm::dmat4 sceneFromMesh{1.0}; ///< see PlacedMesh.
+    bool mirrored = false;         ///< the same.
+    double thickness = 0.0;        ///< height up to which vertices of what crosses the plane count as lying in it.
+};
+
+/// A mesh as it is drawn wherever it is, in one or two parts. Never changed.
+struct PlanarMesh : public osg::Referenced {
+    /// @param findSolids  look for solids (closedParts()): takes longer than all the rest, and halves the drawing.
+    PlanarMesh(const CasterMesh& mesh, bool findSolids, unsigned frame);
+
+    const osg::ref_ptr<const CasterMesh> mesh;
+    const bool knowsSolids;
+    const unsigned firstFrame;     ///< in which it was made.
+    std::vector<PlanarPart> parts; ///< in the mesh's frame.
+
+protected:
+    ~PlanarMesh() override = default;
+};
+
+/// What of a mesh is above one plane. Triangles in the plane are left out, and those under it unless asked for. Never
+/// changed.
+struct PlanarParts : public osg::Referenced {
+    /// Each triangle for itself. @param plane  unit normal, scene. @param under  keep what lies under the plane, too.
+    PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, bool under, bool findSolids, unsigned frame);
+    /// As a whole, cut by the plane if a triangle reaches below it or lies in it.
+    PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, const glm::dvec3& low, const glm::dvec3& high,
+                const PlanarMesh& whole);
+
+    bool madeFrom(const PlacedMesh& placed) const {
+        return mesh == placed.mesh && sceneFromMesh == placed.sceneFromMesh;
+    }
+
+    const osg::ref_ptr<const CasterMesh> mesh;
+    const glm::dmat4 sceneFromMesh;
+    osg::ref_ptr<const PlanarMesh> whole; ///< null if each triangle was looked at.
+    bool knowsSolids;
+    unsigned firstFrame; ///< in which its triangles were looked at.
+    std::vector<PlanarPart> parts;
+    glm::dvec3 low, high; ///< bounds of all parts, in the scene.
+    double highest = 0.0; ///< greatest height above the plane.
+
+protected:
+    ~PlanarParts() override = default;
+};
 
 /// The casters that reach above one plane, ready to be drawn flattened: made once a revision and plane, never changed.
 /// Triangles in the plane are left out, and those under it unless asked for.
@@ -54,6 +110,32 @@ private:
     glm::dvec4 _groupPlane;
     bool _under;
     std::vector<osg::ref_ptr<const PlanarParts>> _meshes; ///< in the order of the layers.
+};
+
+/// The casters above the planes of a PlanarShadowNode, so that no view and no light makes them again, nor what of them has
+/// not changed.
+///
+/// Threads
+/// - Any number.
+class PlanarCasterCache {
+public:
+    /// The casters above a plane. It searches for solids in those meshes that were asked for in an earlier frame.
+    /// @param groupPlane,under  see PlanarCasters.
+    /// @param frame             the frame that asks.
+    /// @param most              how many it keeps.
+    osg::ref_ptr<PlanarCasters> of(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under, unsigned frame,
+                                   std::size_t most);
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void releaseGLObjects(osg::State* state) const;
+
+private:
+    osg::ref_ptr<PlanarCasters> make(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under,
+                                     unsigned frame);
+    osg::ref_ptr<const PlanarMesh> wholeOf(const CasterMesh& mesh, unsigned frame);
+
+    mutable OpenThreads::Mutex _mutex;
+    RecentCache<osg::ref_ptr<PlanarCasters>> _entries;
+    std::unordered_map<const CasterMesh*, osg::ref_ptr<const PlanarMesh>> _wholes; ///< of bodies, which these hold.
 };
 
 } // namespace gnomon

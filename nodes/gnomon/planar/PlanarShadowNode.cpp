@@ -11,7 +11,7 @@
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
 #include <gnomon/group/ViewFrame.h>
-#include <gnomon/planar/PlanarCasterCache.h>
+#include <gnomon/planar/PlanarCasters.h>
 #include <gnomon/planar/PlanarMark.h>
 
 #include <glm/gtc/matrix_access.hpp>

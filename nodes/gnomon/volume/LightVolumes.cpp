@@ -1,13 +1,60 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Plane.h>
-#include <gnomon/silhouette/ShadowVolumes.h>
+#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/silhouette/LightFacing.h>
 #include <gnomon/volume/LightVolumes.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
 
 namespace gnomon {
 namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+void expand(ReceiverBox& all, const osg::BoundingBox& box, const osg::Matrixd& sceneFromBox) {
+    const osg::Vec3d middle = osg::Vec3d(box.center()) * sceneFromBox,
+                     half = (osg::Vec3d(box._max) - osg::Vec3d(box._min)) / 2.0;
+    glm::dvec3 reach(0.0);
+    for (int row = 0; row < 3; ++row)
+        reach += half[row] * glm::dvec3(std::abs(sceneFromBox(row, 0)), std::abs(sceneFromBox(row, 1)),
+                                        std::abs(sceneFromBox(row, 2)));
+    all.low = glm::min(all.low, toGlm(middle) - reach);
+    all.high = glm::max(all.high, toGlm(middle) + reach);
+}
+
+/// A bit each; none of what hides all.
+std::uint8_t kindOf(Hiding hiding) { return static_cast<std::uint8_t>(hiding); }
+
+/// What its drawables hide, a bit each, for each triangle; empty if that is all the same.
+std::vector<std::uint8_t> kindsOf(const CasterMesh& mesh) {
+    const auto hidesAll = [](const auto& drawn) { return drawn.hiding == Hiding::Both; };
+    std::vector<std::uint8_t> kinds;
+    if (std::all_of(mesh.drawn.begin(), mesh.drawn.end(), hidesAll)) return kinds;
+    kinds.resize(mesh.triangles->size() / 3);
+    for (std::size_t i = 0; i < mesh.drawn.size(); ++i) {
+        const std::size_t end = i + 1 < mesh.drawn.size() ? mesh.drawn[i + 1].first : mesh.triangles->size();
+        std::fill(kinds.begin() + std::ptrdiff_t(mesh.drawn[i].first / 3), kinds.begin() + std::ptrdiff_t(end / 3),
+                  kindOf(mesh.drawn[i].hiding));
+    }
+    return kinds;
+}
+
+std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
+    if (mesh.empty()) return std::make_shared<const SilhouetteMesh>();
+    const std::vector<std::uint8_t> kinds = kindsOf(mesh);
+    return std::make_shared<const SilhouetteMesh>(positionsOf(mesh), mesh.vertices->size(), &mesh.triangles->front(),
+                                                  mesh.triangles->size(), kinds.empty() ? nullptr : kinds.data());
+}
 
 /// Those of the scene, in the mesh's frame.
 std::vector<glm::dvec4> endsIn(const VolumeCaster& caster, const ReceiverBox& receivers) {
@@ -18,6 +65,56 @@ std::vector<glm::dvec4> endsIn(const VolumeCaster& caster, const ReceiverBox& re
 }
 
 } // namespace
+
+bool ReceiverBox::fits(const ReceiverBox& other) const {
+    if (!std::isfinite(glm::dot(low + high, glm::dvec3(1.0))))
+        return !std::isfinite(glm::dot(other.low + other.high, glm::dvec3(1.0)));
+    return glm::all(glm::lessThanEqual(low, other.low)) && glm::all(glm::greaterThanEqual(high, other.high)) &&
+           glm::distance(low, high) <= 2.0 * glm::distance(other.low, other.high);
+}
+
+ReceiverBox ReceiverBox::grown() const {
+    constexpr double share = 1.0 / 16.0;
+    return {low - share * (high - low), high + share * (high - low)};
+}
+
+/// Leaves share few matrices.
+ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene) {
+    const osg::Matrixd sceneFromEye = scene.sceneFromEye(view);
+    std::map<const osg::RefMatrix*, osg::Matrixd> known;
+    ReceiverBox all{glm::dvec3(never), glm::dvec3(-never)};
+    for (const osgUtil::RenderLeaf* leaf : view.seen) {
+        const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+        if (!box.valid()) return {glm::dvec3(-never), glm::dvec3(never)};
+        const auto found = known.find(leaf->_modelview.get());
+        const osg::Matrixd& sceneFromBox =
+            found != known.end()
+                ? found->second
+                : known.emplace(leaf->_modelview.get(), modelviewOf(*leaf) * sceneFromEye).first->second;
+        expand(all, box, sceneFromBox);
+    }
+    return all;
+}
+
+bool VolumeCaster::hides(const SilhouetteMesh::Part& part, const glm::dvec3& eye) const {
+    const unsigned kinds = part.kinds | kindOf(hiding);
+    if (kinds & kindOf(Hiding::Neither)) return false;
+    return !(kinds & kindOf(Hiding::Fronts)) || (part.closed && !part.inward && !part.boundsHold(eye));
+}
+
+std::vector<VolumeCaster> VolumeCasters::of(const CasterLayers& casters, unsigned round) {
+    std::vector<VolumeCaster> all;
+    for (const auto& layer : {casters.still, casters.moving})
+        for (const PlacedMesh& placed : layer->meshes) {
+            Entry& entry = _entries[placed.mesh.get()];
+            if (!entry.mesh) entry = {placed.mesh, edgesOf(*placed.mesh), 0};
+            entry.used = round;
+            all.push_back({entry.edges, placed.sceneFromMesh, placed.hiding});
+        }
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = round - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
+    return all;
+}
 
 glm::dvec4 lightIn(const VolumeCaster& caster, const glm::dvec4& lightInScene) {
     const glm::dvec4 light = glm::inverse(caster.sceneFromMesh) * lightInScene;
@@ -82,6 +179,44 @@ void LightVolumes::resizeGLObjectBuffers(unsigned maxSize) {
 void LightVolumes::releaseGLObjects(osg::State* state) const {
     _sides->releaseGLObjects(state);
     if (_caps) _caps->releaseGLObjects(state);
+}
+
+VolumeHull volumeHull(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& end, const glm::dvec4& light,
+                      const glm::dmat4& clipFromBox) {
+    VolumeHull points;
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+        const glm::dvec3 away = awayFrom(light, corner);
+        const double length = lengthTo(end, corner, light);
+        points[i] = clipFromBox * glm::dvec4(corner, 1.0);
+        points[i + 8] = clipFromBox * (length < 0.0 ? glm::dvec4(away, 0.0) : glm::dvec4(corner + length * away, 1.0));
+    }
+    return points;
+}
+
+/// Not if it is beyond one of the sides of what is seen.
+bool isInSight(const VolumeHull& hull) {
+    const auto isBeyond = [&hull](auto&& distance) { return std::all_of(hull.begin(), hull.begin() + 8, distance); };
+    return !(isBeyond([](const glm::dvec4& at) { return at.x < -at.w; }) ||
+             isBeyond([](const glm::dvec4& at) { return at.x > at.w; }) ||
+             isBeyond([](const glm::dvec4& at) { return at.y < -at.w; }) ||
+             isBeyond([](const glm::dvec4& at) { return at.y > at.w; }) ||
+             isBeyond([](const glm::dvec4& at) { return at.z < -at.w; }));
+}
+
+std::optional<ScreenRect> boundsOf(const VolumeHull& hull) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    ScreenRect rect{glm::dvec2(infinity), glm::dvec2(-infinity)};
+    for (const glm::dvec4& point : hull) {
+        if (!(point.w > 1e-6 * (std::abs(point.x) + std::abs(point.y))))
+            return screenBounds({hull.begin(), hull.end()});
+        const glm::dvec2 at = glm::dvec2(point) / point.w;
+        rect.low = glm::min(rect.low, at);
+        rect.high = glm::max(rect.high, at);
+    }
+    rect = common(rect, wholeScreen);
+    if (!overlap(rect, rect)) return std::nullopt;
+    return rect;
 }
 
 } // namespace gnomon

@@ -4,7 +4,6 @@
 #include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/volume/LightVolumes.h>
 #include <gnomon/volume/VolumeForecast.h>
-#include <gnomon/volume/VolumeHull.h>
 #include <gnomon/volume/VolumeView.h>
 
 #include <glm/common.hpp>

@@ -2,7 +2,7 @@
 #include <gnomon/geometry/Across.h>
 #include <gnomon/silhouette/SightStart.h>
 #include <gnomon/silhouette/StencilBatches.h>
-#include <gnomon/volume/VolumeHull.h>
+#include <gnomon/volume/LightVolumes.h>
 #include <gnomon/volume/VolumeView.h>
 
 #include <glm/common.hpp>

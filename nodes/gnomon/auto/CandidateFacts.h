@@ -1,13 +1,53 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/auto/AutoView.h>
 #include <gnomon/casters/CasterRevisions.h>
 #include <gnomon/group/FrameCasters.h>
+#include <gnomon/map/MapCasters.h>
+#include <gnomon/map/MapSlice.h>
+#include <gnomon/mapfit/EdgeWidths.h>
+#include <gnomon/terrain/GroundRevision.h>
 
 #include <osg/observer_ptr>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace gnomon {
+
+/// What a named receiver is like as terrain.
+struct TerrainFacts {
+    std::string obstacle; ///< empty: a TerrainShadowGeode draws all of the shadow.
+    double off = 0.0;     ///< of a hull's shadow in plan: 95 % of its edges lie within this distance; group's unit.
+};
+
+/// Terrain that was looked at last, so that it is read once a revision.
+///
+/// Threads one at a time.
+class TerrainKnowledge {
+public:
+    /// @param receiver  that the technique names.
+    TerrainFacts of(const AutoView& view, const Selection& receiver);
+
+private:
+    osg::ref_ptr<const GroundRevision> _drawn;
+};
+
+/// Edges of a light's shadow that are in sight in one view, found once for all maps that are thought of.
+class MapEdges {
+public:
+    /// @param boxes  of the casters. @param forecast  of as few maps as can be.
+    MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast);
+
+    /// As they are looked up in these maps. None where no place that is seen is in a map.
+    EdgeWidths in(const MapForecast& forecast) const;
+
+private:
+    glm::dmat4 _clipFromScene;
+    glm::dvec2 _pixels;
+    std::vector<SeenPlace> _places;
+};
 
 /// A group's casters in two parts: simple ones, for volumes, and those that a map draws better. These are dense, are cut out
 /// by an alpha test, or draw themselves.

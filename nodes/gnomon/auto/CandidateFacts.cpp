@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
+#include <gnomon/OptionalParts.h>
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/auto/CandidateFacts.h>
+#include <gnomon/base/Fingerprint.h>
+#include <gnomon/casters/CasterBodies.h>
+#include <gnomon/group/SceneFrame.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_set>
+#include <utility>
+
+namespace gnomon {
+namespace {
+
+constexpr double steepShare = 0.8;      // of the light's slope: ground as steep as that shadows itself soon
+constexpr std::size_t mostSamples = 64; // casters that are asked for the ground below their shadows
+
+/// How far the ground lies off the straight line between both ends of a shadow, half-way.
+std::optional<double> bend(const Ground& ground, const osg::BoundingBoxd& caster, const glm::dvec2& away) {
+    const osg::Vec3d centre = caster.center();
+    const glm::dvec2 from(centre.x(), centre.y()), to = from + (caster.zMax() - caster.zMin()) * away;
+    const glm::dvec2 middle = (from + to) / 2.0;
+    const auto a = ground.height(from.x, from.y), b = ground.height(middle.x, middle.y), c = ground.height(to.x, to.y);
+    if (!a || !b || !c) return std::nullopt;
+    return std::abs(*b - (*a + *c) / 2.0);
+}
+
+// Triangles that are looked at: more would take tens of milliseconds. Where drawables are as simple as boxes, these are as good,
+// and sooner.
+constexpr std::size_t mostTriangles = 150000, ofABox = 20;
+
+bool holds(const MapForecast::Map& map, const glm::dvec3& place) {
+    const glm::dvec4 here(place, 1.0), in = map.mapFromScene * here;
+    return in.w > 0.0 && in.x >= 0.0 && in.y >= 0.0 && in.x <= in.w && in.y <= in.w &&
+           std::all_of(map.halfSpaces.begin(), map.halfSpaces.end(),
+                       [&](const glm::dvec4& half) { return glm::dot(half, here) >= 0.0; });
+}
+
+bool areLookedAt(const CasterLayers& casters) {
+    return casters.triangles() <= mostTriangles && casters.triangles() > ofABox * casters.pieces->list.size();
+}
+
+std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
+    std::vector<PlacedTriangles> result;
+    for (const PlacedMesh& placed : casters.meshes()) {
+        const CasterMesh& mesh = *placed.mesh;
+        if (mesh.empty()) continue;
+        PlacedTriangles triangles{positionsOf(mesh),          mesh.vertices->size(), &mesh.triangles->front(),
+                                  mesh.triangles->size() / 3, placed.sceneFromMesh,  {}};
+        for (const CasterExtraction::Drawn& drawn : mesh.drawn) triangles.parts.push_back(drawn.first / 3);
+        if (triangles.parts.empty() || triangles.parts.front() > 0) triangles.parts.insert(triangles.parts.begin(), 0);
+        result.push_back(triangles);
+    }
+    return result;
+}
+
+/// The view without some casters: their triangles are looked at.
+ViewFrame without(const CasterDrawables& casters, const AutoView& view) {
+    std::unordered_set<const osg::Drawable*> casting;
+    for (const auto& piece : casters.list) casting.insert(piece->drawable.get());
+    ViewFrame result = view.frame;
+    const auto casts = [&](const osgUtil::RenderLeaf* leaf) { return casting.count(leaf->_drawable.get()) > 0; };
+    result.seen.erase(std::remove_if(result.seen.begin(), result.seen.end(), casts), result.seen.end());
+    return result;
+}
+
+constexpr std::size_t mostSplits = 4; // as CasterRevisions has choices
+constexpr unsigned keptCalls = 8;     // of retired casters: other views may be about to follow
+constexpr double large = 0.5;         // of the radius of all: so large a part is not told from the whole
+
+bool isForMap(const CasterDrawable& piece, double radius) {
+    return CasterSplit::isDense(piece, radius) || piece.cutOut;
+}
+
+} // namespace
+
+TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receiver) {
+    TerrainFacts facts;
+    if (!hasPart(OptionalPart::Terrain)) {
+        facts.obstacle = "this build has no Qhull";
+        return facts;
+    }
+    const glm::dvec3 sun(view.towards);
+    const double across = glm::length(glm::dvec2(sun));
+    if (!view.frame.receivers) facts.obstacle = "no terrain is named as receiver";
+    if (facts.obstacle.empty() && !(view.towards.w == 0.0 && sun.z > 0.0))
+        facts.obstacle = "the light is no sun above the horizon";
+    const std::string cutOut = whyCutOut(view.casters);
+    if (!cutOut.empty()) facts.obstacle = cutOut;
+    if (!facts.obstacle.empty()) return facts;
+    _drawn = TerrainPlace::inFrameOf(*view.frame.group, receiver).drawn(_drawn);
+    const Ground& ground = *_drawn->ground;
+    const double slope = _drawn->steepest;
+    if (_drawn->isAsSteepAs(sun, steepShare)) {
+        facts.obstacle = "the terrain is so steep that it may shadow itself";
+        return facts;
+    }
+    std::vector<double> bends;
+    const std::size_t step = view.casters.list.size() / mostSamples + 1;
+    for (std::size_t i = 0; i < view.casters.list.size(); i += step) {
+        const CasterDrawable& piece = *view.casters.list[i];
+        if (!piece.bounds.valid() || _drawn->drawables.count(piece.drawable.get())) continue;
+        if (const auto found = bend(ground, piece.bounds, -glm::dvec2(sun) / sun.z)) bends.push_back(*found);
+    }
+    std::sort(bends.begin(), bends.end());
+    const double rise = bends.empty() ? 0.0 : bends[std::size_t(0.95 * double(bends.size() - 1))];
+    facts.off = rise / std::max(sun.z / std::max(across, 1e-12) - slope, 1e-3);
+    return facts;
+}
+
+MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast)
+    : _pixels(view.frame.pixels.x(), view.frame.pixels.y()) {
+    const SceneFrame scene(boxes.layers->origin);
+    _clipFromScene = scene.clipFromScene(view.frame);
+    const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(scene.origin, 0.0);
+    const bool byTriangles = !view.frame.receivers && areLookedAt(*boxes.layers);
+    const std::vector<MapReceiver> receivers =
+        receiversOf(byTriangles ? without(*boxes.layers->pieces, view) : view.frame, scene.eyeFromScene(view.frame));
+    const auto seenOf = [&](SeenEdges::Relief relief) {
+        SeenEdges seen(_clipFromScene, _pixels, *forecast.bounds, light);
+        for (const MapReceiver& receiver : receivers)
+            seen.addReceiver({receiver.low, receiver.high, receiver.sceneFromBox}, relief);
+        for (const MapForecast::Map& map : forecast.each) seen.addMap(map.mapFromScene);
+        return seen;
+    };
+    SeenEdges seen = seenOf(SeenEdges::Relief::HalfWay);
+    if (byTriangles)
+        for (const PlacedTriangles& mesh : trianglesOf(*boxes.layers)) seen.addMesh(mesh);
+    else
+        for (const MapLayer* layer : {boxes.still.get(), boxes.moving.get()})
+            for (const auto* some : {&layer->bodyBoxes, &layer->flatBoxes})
+                for (const MapLayer::Box& box : *some) seen.addCaster({box.low, box.high});
+    _places = seen.edges();
+    if (!_places.empty()) return;
+    if (!byTriangles) seen = seenOf(SeenEdges::Relief::Whole); // a terrain shadows itself, who knows where
+    _places = seen.facing();
+}
+
+EdgeWidths MapEdges::in(const MapForecast& forecast) const {
+    EdgeWidths widths(_clipFromScene, _pixels);
+    for (const SeenPlace& seen : _places) {
+        const auto map = std::find_if(forecast.each.begin(), forecast.each.end(),
+                                      [&](const MapForecast::Map& each) { return holds(each, seen.place); });
+        if (map != forecast.each.end()) widths.add(seen, map->mapFromScene);
+    }
+    return widths;
+}
+
+bool CasterSplit::isDense(const CasterDrawable& piece, double radius) {
+    return piece.triangles >= CasterBodies::fewestTriangles && piece.bounds.radius() < large * radius;
+}
+
+void CasterSplit::follow(const CasterDrawables& all) {
+    if (isOf(all)) return;
+    _all = &all;
+    CasterDrawables::List simple, dense;
+    for (const auto& piece : all.list) {
+        if (!piece->bounds.valid()) continue;
+        (isForMap(*piece, all.bounds.radius()) ? dense : simple).push_back(piece);
+    }
+    set(_simple, std::move(simple), {}, all.choice);
+    set(_dense, std::move(dense), all.own, all.choice);
+}
+
+/// What is the same stays, and with it all that was made of it.
+void CasterSplit::set(Part& part, CasterDrawables::List pieces, CasterDrawables::OwnList own, std::uint64_t choice) {
+    if (pieces.empty() && own.empty()) {
+        part.pieces.set(nullptr);
+        part.layers.set(nullptr);
+        return;
+    }
+    const osg::ref_ptr<const CasterDrawables> before = part.pieces.get();
+    if (before && before->list == pieces && before->own == own) return;
+    Fingerprint fingerprint;
+    for (const auto& piece : pieces) fingerprint.mix(piece->fingerprint);
+    for (const auto& drawing : own) fingerprint.mix(static_cast<const void*>(drawing.get()));
+    part.pieces.set(new CasterDrawables(std::move(pieces), fingerprint.value(), choice, std::move(own)));
+}
+
+FrameCasters CasterSplit::partOf(const FrameCasters& all, const Part& part) {
+    const osg::ref_ptr<const CasterLayers> known = part.layers.get();
+    if (!known || known->pieces != part.pieces.get())
+        part.layers.set(all.group().castersAmong(*part.pieces.get(), known ? *known : all.layers()));
+    return all.part(*part.layers.get());
+}
+
+void CasterSplits::forgetOthersThan(const CasterDrawables& all) {
+    _splits.dropIf([&](const Entry& entry) { return entry.choice == all.choice && !entry.split->isOf(all); });
+}
+
+CasterSplit& CasterSplits::of(const CasterDrawables& all) {
+    Entry* known = _splits.find([&](const Entry& entry) { return entry.choice == all.choice; });
+    if (!known) {
+        _splits.dropOldestBeyond(mostSplits - 1);
+        known = &_splits.add({all.choice, std::make_unique<CasterSplit>()});
+    }
+    known->lastCall = ++_calls;
+    CasterSplit& split = *known->split;
+    split.follow(all);
+    _splits.dropIf(
+        [this](const Entry& entry) { return entry.split->isRetired() && _calls - entry.lastCall > keptCalls; });
+    return split;
+}
+
+} // namespace gnomon
