@@ -5,7 +5,6 @@
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/CasterMesh.h>
-#include <gnomon/casters/WeldedDrawables.h>
 
 #include <osg/AlphaFunc>
 #include <osg/CullFace>

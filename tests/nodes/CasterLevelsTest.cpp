@@ -4,7 +4,7 @@
 
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/casters/CasterRevisions.h>
-#include <gnomon/casters/CasterView.h>
+#include <gnomon/casters/Casting.h>
 
 #include <osg/LOD>
 #include <osg/PagedLOD>

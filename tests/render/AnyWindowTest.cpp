@@ -4,7 +4,7 @@
 #include "IntoTexture.h"
 
 #include <gnomon/compositor/MarkJob.h>
-#include <gnomon/gl/WorkBuffers.h>
+#include <gnomon/gl/WorkFramebuffer.h>
 #include <gnomon/group/ViewFrame.h>
 #include <support/Causes.h>
 #include <support/Oracle.h>

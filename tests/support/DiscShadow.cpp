@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <support/DiscShadow.h>
 
-#include <gnomon/compositor/SoftMarkJob.h>
+#include <gnomon/compositor/MarkJob.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <osg/GLExtensions>
 #include <osg/Program>

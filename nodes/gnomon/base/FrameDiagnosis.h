@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-
 #include <OpenThreads/Mutex>
 #include <osg/NodeVisitor>
 
@@ -75,5 +74,17 @@ double timeOf(const osg::NodeVisitor& visitor);
 
 /// "PlanarShadowNode 'floor'": what a cause begins with.
 std::string described(const osg::Object& node);
+
+/// Reports for one node in one frame; for what outlives the frame's cull.
+struct FrameReport {
+    osg::ref_ptr<FrameDiagnosis> diagnosis;
+    std::string who; ///< described() of the node.
+    unsigned frame = 0;
+
+    /// Notes a cause, if there is one.
+    void operator()(const std::string& cause) const {
+        if (!cause.empty()) diagnosis->add(frame, who, cause);
+    }
+};
 
 } // namespace gnomon

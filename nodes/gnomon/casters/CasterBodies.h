@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/casters/CasterDrawable.h>
-#include <gnomon/casters/PlacedMesh.h>
+#include <gnomon/casters/CasterMesh.h>
 
 #include <cstdint>
 #include <optional>

@@ -2,8 +2,7 @@
 #pragma once
 #include <gnomon/Selection.h>
 #include <gnomon/casters/CasterDrawable.h>
-#include <gnomon/casters/CasterView.h>
-#include <gnomon/casters/OwnDrawing.h>
+#include <gnomon/casters/Casting.h>
 
 #include <osg/BoundingBox>
 #include <osg/Referenced>
@@ -112,5 +111,14 @@ private:
 /// Joins pieces into one mesh. It reads the graph: call it in the traversal that found the pieces.
 /// @param origin  the mesh's origin, as CasterMesh takes it.
 osg::ref_ptr<CasterMesh> meshOf(const CasterDrawables::List& pieces, const std::optional<osg::Vec3d>& origin = {});
+
+/// Whether two closed boxes have a point in common.
+inline bool touch(const osg::BoundingBoxd& a, const osg::BoundingBoxd& b) { return a.intersects(b); }
+
+/// For each piece the first of those that it is connected with over vertices at exactly one place, group frame: walls and a
+/// roof of a house that are drawn apart. Reads the graph as a cull traversal does.
+///
+/// Cost  sorts the pieces, and those vertices that are within another piece's bounds.
+std::vector<std::size_t> weldedDrawables(const CasterDrawables::List& pieces);
 
 } // namespace gnomon

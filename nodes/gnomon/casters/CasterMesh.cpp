@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/CasterMesh.h>
 
 #include <osg/BufferObject>

@@ -2,9 +2,8 @@
 #pragma once
 #include <gnomon/Selection.h>
 #include <gnomon/base/Fingerprint.h>
-#include <gnomon/casters/CasterView.h>
 #include <gnomon/casters/Casting.h>
-#include <gnomon/casters/Hiding.h>
+#include <gnomon/casters/PathState.h>
 
 #include <osg/CullStack>
 #include <osg/Matrixd>

@@ -6,10 +6,8 @@
 #include <osg/PrimitiveSetIndirect>
 #include <osg/Vec4>
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <osg/Object>
 #include <osg/UserDataContainer>
 #include <osgUtil/RenderStage>
+
+#include <atomic>
 
 namespace gnomon {
 
@@ -15,5 +18,23 @@ Kept& keptBy(osgUtil::RenderStage& stage) {
     all.addUserObject(fresh);
     return *fresh;
 }
+
+/// Whether anything could be composed when a stage was last drawn. Only draw can tell, and cull wants to know: the stage
+/// keeps it, see keptBy().
+class StageVerdict : public osg::Object {
+public:
+    StageVerdict() = default;
+    StageVerdict(const StageVerdict& other, const osg::CopyOp& copyOp) : osg::Object(other, copyOp) {}
+    META_Object(gnomon, StageVerdict)
+
+    void refuse(bool refused) { _refused = refused; }
+    bool isRefused() const { return _refused; }
+
+protected:
+    ~StageVerdict() override = default;
+
+private:
+    std::atomic<bool> _refused{false};
+};
 
 } // namespace gnomon

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/LightUniform.h>
+#include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
@@ -7,11 +9,13 @@
 #include <osg/Matrixd>
 #include <osg/Referenced>
 #include <osg/RenderInfo>
+#include <osg/StateSet>
 #include <osgUtil/RenderLeaf>
 
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace gnomon {
 
@@ -70,6 +74,84 @@ public:
 
 protected:
     ~MarkJob() override = default;
+};
+
+/// A job whose edges are soft: each pixel knows what share of the light reaches it. mark() then marks what less than
+/// half of the light reaches. Pixels at which nothing stands (far depth) get all of the light.
+class SoftMarkJob : public MarkJob {
+public:
+    /// As mark(), wherever not all of the light arrives; with the share that does in the fragments' alpha. The pass's blending
+    /// and colour mask stand.
+    virtual std::string markTouched(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const = 0;
+
+    /// What drawShare() puts into alpha.
+    enum class Share { Arriving, Blocked };
+    /// Draws over the pixels that markTouched() marks, and any others; `share` of the light, 0 … 1, in alpha; pixels whose
+    /// alpha would be 1 may be left out. The pass's stencil test, blending and colour mask stand.
+    virtual std::string drawShare(osg::RenderInfo& renderInfo, ScreenPass& pass, Share share) const = 0;
+
+protected:
+    ~SoftMarkJob() override = default;
+};
+
+/// A job that marks nothing, but lets the programs of a view's drawables find out what share of a light arrives.
+class ProgramVisibilityJob : public MarkJob {
+public:
+    osg::ref_ptr<osg::StateSet> state; ///< applied under all that the stage draws.
+
+    /// Draws what the state refers to, before anything else of the stage is drawn. Called within a CleanState.
+    /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
+    virtual std::string drawAhead(osg::RenderInfo& renderInfo) const = 0;
+
+    double depthSteps() const final { return 0.0; }
+    std::string mark(osg::RenderInfo&, ScreenPass&, unsigned) const final { return ""; }
+
+protected:
+    ~ProgramVisibilityJob() override = default;
+};
+
+class ProgramVisibilityJob;
+class SoftMarkJob;
+
+/// True if two views have the same lens: the same but for near and far, which a nested camera finds for itself.
+bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b);
+
+/// A technique's job for one light in one view, and how its marks are to be used.
+struct ShadowJob {
+    osg::ref_ptr<const MarkJob> marks;
+    FrameReport report;  ///< for the technique.
+    int light = 0;       ///< OpenGL light number.
+    bool relight = true; ///< else blended.
+    float dark = 1.0f;
+    osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
+    bool receiverNamed = false;
+    std::shared_ptr<const LeafSet> receivers; ///< the leaves of the named receiver, for all jobs; null: none is named.
+    bool hidingOnly = false; ///< a receiver loses the light only where it hides what is behind, see LateReceivers.
+    std::vector<LightUniform> lightUniforms; ///< of the group.
+
+    /// True if the leaf is of the named receiver.
+    bool isNamed(const osgUtil::RenderLeaf* leaf) const { return receivers && receivers->count(leaf) > 0; }
+    /// The marks, if their edges are soft; else null.
+    const SoftMarkJob* softMarks() const;
+    /// The job, if it is for programs alone; else null.
+    const ProgramVisibilityJob* programMarks() const;
+    /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this view.
+    bool isReceiver(const osgUtil::RenderLeaf& leaf) const;
+    /// True if the leaf is seen through the technique's lens, unlike what a nested camera lays over the view.
+    bool isOfView(const osgUtil::RenderLeaf& leaf) const { return isOfView(projectionOf(leaf)); }
+    bool isOfView(const osg::Matrixd& lens) const { return isSameLens(lens, *projection); }
+};
+
+/// Is told, in draw, when the compositor begins its work for one stage, and when it has done it.
+class DrawWatch : public osg::Referenced {
+public:
+    /// State sets are off the stack. OpenGL's state stays as it is.
+    virtual void begin(osg::RenderInfo& renderInfo) = 0;
+    /// The same. Only called after begin().
+    virtual void end(osg::RenderInfo& renderInfo) = 0;
+
+protected:
+    ~DrawWatch() override = default;
 };
 
 } // namespace gnomon

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/ForgottenArrays.h>
+#include <gnomon/compositor/MarkJob.h>
 #include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/PrepassBin.h>
-#include <gnomon/compositor/ProgramVisibilityJob.h>
+#include <gnomon/gl/GlState.h>
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/gl/FrameColorCopy.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/gl/FrameCopies.h>
 
+#include <osg/State>
+#include <osg/VertexArrayState>
 #include <osgUtil/RenderBin>
 
 #include <memory>
@@ -46,5 +48,15 @@ private:
     bool _followsDefault = false;
     std::unique_ptr<FrameColorCopy> _colors; ///< null if they are not to be saved.
 };
+
+/// Makes osg::State dispatch the next drawable's arrays whatever it has dispatched before. It knows arrays by their
+/// addresses, and takes a new one at the address of a deleted one for that. Call it before and after drawables of the
+/// kit, whose arrays come and go with techniques.
+inline void forgetArrays(osg::State& state) {
+    const unsigned unit = state.getClientActiveTextureUnit();
+    state.bindVertexArrayObject(state.getCurrentVertexArrayState()); // whose arrays they are
+    state.disableAllVertexArrays();                                  // goes through all units
+    state.setClientActiveTextureUnit(unit);
+}
 
 } // namespace gnomon

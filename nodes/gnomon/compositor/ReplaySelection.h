@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/ShadowJob.h>
+#include <gnomon/compositor/MarkJob.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/LeafReplay.h>
+#include <gnomon/compositor/MarkJob.h>
 #include <gnomon/compositor/SoftCompositor.h>
-#include <gnomon/compositor/SoftMarkJob.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/base/FrameReport.h>
+#include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 
 #include <osg/Referenced>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/EffectNode.h>
-#include <gnomon/base/FrameReport.h>
+#include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/base/OptimizerGuard.h>
 #include <gnomon/effects/SubgraphCull.h>
 #include <gnomon/group/ShadowBin.h>

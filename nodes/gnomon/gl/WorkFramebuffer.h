@@ -1,11 +1,75 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
-#include <gnomon/gl/WorkBuffers.h>
 
+#include <OpenThreads/Mutex>
+#include <osg/GLObjects>
+#include <osg/State>
+
+#include <map>
 #include <optional>
+#include <tuple>
 
 namespace gnomon {
+
+/// What the buffers of a WorkFramebuffer have in common with those of the framebuffer that it stands for.
+struct WorkFormat {
+    GLenum color = 0; ///< with alpha; 0 if no colours are drawn there.
+    GLenum depth = 0; ///< with eight stencil bits; 0 if there is no depth.
+    GLint samples = 0;
+    bool keepsDepth = false; ///< depths can be copied bit for bit: of one sample, in 24 bits.
+
+    /// That of the framebuffer that is bound for drawing.
+    static WorkFormat ofBound();
+
+    bool operator<(const WorkFormat& other) const { return key() < other.key(); }
+
+private:
+    std::tuple<GLenum, GLenum, GLint> key() const { return {color, depth, samples}; }
+};
+
+/// The renderbuffers of a context's WorkFramebuffers, kept from frame to frame and for as long as the context lives.
+///
+/// Threads one a context.
+class WorkBuffers : public osg::GraphicsObjectManager {
+public:
+    /// How depths come from the framebuffer that is stood for.
+    enum class DepthCopy {
+        Untried,
+        Blit,
+        Memory, ///< blits change bits.
+    };
+    /// Of one format.
+    struct Buffers {
+        GLuint color = 0; ///< a renderbuffer.
+        GLuint depth = 0; ///< the same; of one sample and 24 bits a texture.
+        bool depthIsTexture = false;
+        GLsizei width = 0, height = 0;
+        bool tried = false;     ///< to copy colours to them.
+        bool takesColor = true; ///< false once OpenGL has refused that.
+        DepthCopy depthCopy = DepthCopy::Untried;
+    };
+
+    explicit WorkBuffers(unsigned context) : osg::GraphicsObjectManager("gnomon::WorkBuffers", context) {}
+
+    /// Buffers of that format: at least as wide; exactly as high.
+    Buffers& fitting(const osg::GLExtensions& extensions, const WorkFormat& format, GLsizei width, GLsizei height);
+
+    bool empty() const { return _buffers.empty(); }
+
+    void flushDeletedGLObjects(double, double&) override {}
+    void flushAllDeletedGLObjects() override {}
+    void deleteAllGLObjects() override;
+    void discardAllGLObjects() override;
+
+protected:
+    ~WorkBuffers() override = default;
+
+private:
+    OpenThreads::Mutex _mutex;
+    std::map<WorkFormat, Buffers> _buffers;
+};
 
 /// True if the rows of the framebuffer that is bound for reading go from the top: Mesa's windows', and those of what
 /// stands for them.

@@ -3,7 +3,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterLayers.h>
-#include <gnomon/casters/CasterView.h>
+#include <gnomon/casters/Casting.h>
 
 #include <utility>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/group/EnlistedTechnique.h>
 #include <gnomon/group/StageLeaves.h>
 #include <gnomon/group/ViewFrame.h>
 

@@ -2,7 +2,6 @@
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
-#include <gnomon/compositor/StageVerdict.h>
 #include <gnomon/group/ReceiverCauses.h>
 #include <gnomon/group/ShadowBin.h>
 #include <gnomon/group/ViewFrame.h>

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/compositor/CompositorTarget.h>
-#include <gnomon/compositor/DrawWatch.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/MarkJob.h>
 #include <gnomon/compositor/MaterialHistory.h>
-#include <gnomon/compositor/ShadowJob.h>
+#include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/compositor/ViewEffect.h>
-#include <gnomon/group/EnlistedTechnique.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/StageLeaves.h>
 #include <gnomon/group/ViewLights.h>

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
-// ShadowBin: its part of a draw traversal.
+// ShadowBin: its part of a draw traversal, and what it did, for those who ask. See ShadowReport and addShadowStats().
 #include <gnomon/compositor/Compositor.h>
-#include <gnomon/compositor/CompositorTarget.h>
-#include <gnomon/compositor/ForgottenArrays.h>
 #include <gnomon/compositor/KeptByStage.h>
+#include <gnomon/compositor/MarkJob.h>
 #include <gnomon/compositor/PrepassBin.h>
-#include <gnomon/compositor/SoftMarkJob.h>
-#include <gnomon/compositor/StageVerdict.h>
+#include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/group/ShadowBin.h>
 
+#include <osg/Camera>
+#include <osg/Stats>
+#include <osg/Timer>
+#include <osg/View>
+#include <osg/Viewport>
+#include <osgUtil/RenderStage>
+
 #include <algorithm>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace gnomon {
 namespace {
@@ -34,6 +42,63 @@ void drawDepths(const CompositorStage& draw, const ScreenRect& bounds) {
     TouchTest touches(bounds);
     for (const DrawnLeaf& entry : draw.leaves)
         if (touches(*entry.leaf)) replay.draw(entry);
+}
+
+/// OSG's statistics of a stage's camera and of its view, as long as the camera's collect. See addShadowStats().
+class StageStats {
+public:
+    explicit StageStats(const osgUtil::RenderStage& stage);
+
+    bool collect() const { return !_all.empty(); }
+    /// Notes a stretch of time. Several in one frame: the first begin, the last end, and the sum.
+    /// @param what   "Shadow cull" or "Shadow draw".
+    /// @param begin  seconds, of osg::Timer.
+    void addTime(unsigned frame, const std::string& what, double begin, double end) const;
+    /// Adds to a count.
+    void addCount(unsigned frame, const std::string& what, double count) const;
+
+private:
+    std::vector<osg::Stats*> _all;
+};
+
+double valueOf(const osg::Stats& stats, unsigned frame, const std::string& name, double otherwise) {
+    double value = otherwise;
+    stats.getAttribute(frame, name, value);
+    return value;
+}
+
+StageStats::StageStats(const osgUtil::RenderStage& stage) {
+    const osg::Camera* camera = stage.getCamera();
+    osg::Stats* own = camera ? const_cast<osg::Camera*>(camera)->getStats() : nullptr;
+    if (!own || !(own->collectStats("rendering") || own->collectStats("gnomon"))) return;
+    _all.push_back(own);
+    osg::View* view = const_cast<osg::Camera*>(camera)->getView();
+    if (view && view->getStats() && view->getStats() != own) _all.push_back(view->getStats());
+}
+
+void StageStats::addTime(unsigned frame, const std::string& what, double begin, double end) const {
+    for (osg::Stats* stats : _all) {
+        stats->setAttribute(frame, what + " begin time", valueOf(*stats, frame, what + " begin time", begin));
+        stats->setAttribute(frame, what + " end time", end);
+    }
+    addCount(frame, what + " time taken", end - begin);
+}
+
+void StageStats::addCount(unsigned frame, const std::string& what, double count) const {
+    for (osg::Stats* stats : _all) stats->setAttribute(frame, what, valueOf(*stats, frame, what, 0.0) + count);
+}
+
+double now() { return osg::Timer::instance()->time_s(); }
+double milliseconds(double begin, double end) { return 1000.0 * (end - begin); }
+
+void addMarks(FrameWork& work, const std::vector<ShadowJob>& jobs, std::size_t from, const osg::Viewport& viewport) {
+    const glm::dvec2 pixels(viewport.width(), viewport.height());
+    for (std::size_t i = from; i < jobs.size(); ++i) {
+        const ScreenRect& bounds = jobs[i].marks->screenBounds;
+        const glm::dvec2 size = 0.5 * (bounds.high - bounds.low) * pixels;
+        work.pixels += size.x * size.y;
+        ++work.marks;
+    }
 }
 
 } // namespace
@@ -113,6 +178,46 @@ void ShadowBin::tell(const std::string& cause) {
     const auto isForPrograms = [](const ShadowJob& job) { return job.programMarks() != nullptr; };
     const bool served = std::any_of(_jobs.begin(), _jobs.end(), isForPrograms);
     keptBy<StageVerdict>(*getStage()).refuse(!cause.empty() && !served);
+}
+
+std::optional<ShadowBin::Start> ShadowBin::startIfWatched(const EnlistedTechnique& entry) const {
+    if (!entry.technique->isRecorded() && !StageStats(*getStage()).collect()) return std::nullopt;
+    return Start{now(), _jobs.size(), _lateJobs.size()};
+}
+
+void ShadowBin::recordCull(const EnlistedTechnique& entry, const Start& start, std::size_t lights) const {
+    const double end = now();
+    FrameWork work;
+    work.frame = entry.frameNumber;
+    work.lights = static_cast<unsigned>(lights);
+    addMarks(work, _jobs, start.jobs, *getStage()->getViewport());
+    addMarks(work, _lateJobs, start.lateJobs, *getStage()->getViewport());
+    work.cull = milliseconds(start.time, end);
+    entry.technique->record(work);
+    const StageStats stats(*getStage());
+    stats.addTime(work.frame, "Shadow cull", start.time, end);
+    stats.addCount(work.frame, "Shadow marks", work.marks);
+}
+
+std::optional<double> ShadowBin::drawStartIfWatched() const {
+    const auto isRecorded = [](const ShadowJob& job) { return job.report.diagnosis->isRecorded(); };
+    const bool watched =
+        std::any_of(_jobs.begin(), _jobs.end(), isRecorded) || (!_jobs.empty() && StageStats(*getStage()).collect());
+    return watched ? std::optional<double>(now()) : std::nullopt;
+}
+
+/// All techniques of the stage are composed together.
+void ShadowBin::recordDraw(double begin) const {
+    const double end = now();
+    std::map<FrameDiagnosis*, unsigned> frames;
+    for (const ShadowJob& job : _jobs) frames[job.report.diagnosis.get()] = job.report.frame;
+    for (const auto& [technique, frame] : frames) {
+        FrameWork work;
+        work.frame = frame;
+        work.draw = milliseconds(begin, end);
+        technique->addWork(work);
+    }
+    StageStats(*getStage()).addTime(_jobs.front().report.frame, "Shadow draw", begin, end);
 }
 
 } // namespace gnomon

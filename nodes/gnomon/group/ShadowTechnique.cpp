@@ -1,10 +1,26 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ShadowReport.h>
 #include <gnomon/ShadowTechnique.h>
-#include <gnomon/base/FrameReport.h>
-#include <gnomon/compositor/DrawWatch.h>
+#include <gnomon/base/FrameDiagnosis.h>
+#include <gnomon/compositor/MarkJob.h>
 #include <gnomon/group/ShadowProbe.h>
 
+#include <osg/NodeVisitor>
+
 namespace gnomon {
+namespace {
+
+class Asker : public osg::NodeVisitor {
+public:
+    Asker() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) { setNodeMaskOverride(~0u); }
+    void apply(osg::Geode& geode) override {
+        if (const auto* technique = dynamic_cast<const ShadowTechnique*>(&geode))
+            reports.push_back(technique->lastReport());
+    }
+    std::vector<ShadowReport> reports;
+};
+
+} // namespace
 
 ShadowTechnique::ShadowTechnique() : _diagnosis(new FrameDiagnosis) { setCullingActive(false); }
 
@@ -61,6 +77,12 @@ std::string ShadowTechnique::describe() const { return described(*this); }
 std::vector<Selection> ShadowTechnique::namedParts() const {
     if (!hasReceiver()) return {};
     return {getReceiver()};
+}
+
+std::vector<ShadowReport> shadowReports(osg::Node& scene) {
+    Asker asker;
+    scene.accept(asker);
+    return asker.reports;
 }
 
 } // namespace gnomon

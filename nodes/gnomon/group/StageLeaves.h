@@ -1,14 +1,63 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ShadowCasterGroup.h>
+#include <gnomon/ShadowTechnique.h>
 #include <gnomon/base/Fingerprint.h>
+#include <gnomon/base/FrameDiagnosis.h>
+#include <gnomon/casters/Casting.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/LateReceivers.h>
 #include <gnomon/compositor/ResolvedState.h>
-#include <gnomon/group/ProgramCauses.h>
+
+#include <osg/Matrixd>
+#include <osg/Vec3>
+#include <osg/ref_ptr>
+#include <osgUtil/StateGraph>
 
 #include <map>
 #include <optional>
+#include <set>
+#include <vector>
 
 namespace gnomon {
+
+/// A technique met in the cull of one stage, and what it needs to know of the view.
+struct EnlistedTechnique {
+    osg::ref_ptr<const ShadowTechnique> technique;
+    osg::ref_ptr<const ShadowCasterGroup> group;
+    osg::Matrixd eyeFromGroup;
+    osg::Matrixd groupFromTechnique;
+    osg::ref_ptr<osg::RefMatrix> projection;    ///< shared with the leaves: near and far are set in it after the cull.
+    osg::Vec3 viewPoint;                        ///< eye space, see CasterView.
+    float lodScale = 1.0f;                      ///< of the cull.
+    osg::Node::NodeMask mask = ~0u;             ///< the same, see CasterView.
+    const osgUtil::StateGraph* state = nullptr; ///< that it was met in; valid as long as the stage's leaves.
+    unsigned frameNumber = 0;
+    double frameTime = 0.0; ///< seconds, see timeOf().
+};
+
+using Leaves = std::vector<const osgUtil::RenderLeaf*>;
+
+/// What the programs of one view do that shadows cannot follow, for diagnose(). Asked for once a view.
+///
+/// Cost    a look at each state's program, and once at each program's text.
+class ProgramCauses {
+public:
+    ProgramCauses() = default;
+    explicit ProgramCauses(osgUtil::RenderStage& stage);
+
+    /// For a technique of this group with these receivers.
+    void report(const FrameReport& report, const ShadowCasterGroup& group, const Leaves& receiving,
+                const Leaves& receivingLate) const;
+
+    /// True if the leaf's program moves its vertices, so that it is not where its box is.
+    bool moves(const osgUtil::RenderLeaf& leaf) const;
+
+private:
+    std::vector<DrawnLeaf> _moving;                  ///< Their program moves vertices.
+    std::set<const osgUtil::RenderLeaf*> _ownDepths; ///< Their program sets a depth of its own.
+    osg::Matrixd _eyeFromWorld;
+};
 
 /// What one stage draws, as its ShadowBin of number `number` sees it after the cull.
 struct StageLeaves {

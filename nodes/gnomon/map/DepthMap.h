@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/gl/ScreenPass.h>
+#include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapLayer.h>
-#include <gnomon/map/OwnCasters.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>

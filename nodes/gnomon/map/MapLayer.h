@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/casters/CasterLayer.h>
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CullableFaces.h>
 
 #include <glm/mat4x4.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/gl/FrameDepthCopy.h>
+#include <gnomon/gl/FrameCopies.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/map/DepthMap.h>
 #include <gnomon/mapfit/MapFit.h>

@@ -2,8 +2,6 @@
 #pragma once
 #include <gnomon/ShadowMapOptions.h>
 #include <gnomon/compositor/MarkJob.h>
-#include <gnomon/compositor/ProgramVisibilityJob.h>
-#include <gnomon/compositor/SoftMarkJob.h>
 #include <gnomon/map/MapLookupPass.h>
 
 namespace gnomon {

@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/CasterLayers.h>
-#include <gnomon/casters/PlacedMesh.h>
+#include <gnomon/casters/CasterMesh.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/ProgressLine.h>
+#include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterMesh.h>
-#include <gnomon/casters/WeldedDrawables.h>
 #include <gnomon/terrain/CasterTiles.h>
 
 #include <glm/common.hpp>

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/base/ProgramText.h>
 #include <gnomon/casters/DrawableTriangles.h>
-#include <gnomon/group/ProgramCauses.h>
+#include <gnomon/group/StageLeaves.h>
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
 namespace gnomon {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/map/OwnCasters.h>
+#include <gnomon/map/MapCasters.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
-#include <osg/State>
 #include <osgUtil/StateGraph>
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/PlacedBox.h>
+#include <gnomon/casters/CasterDrawable.h>
 #include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/DrawableTriangles.h>
-#include <gnomon/casters/OwnDrawing.h>
-#include <gnomon/casters/PathState.h>
 
 #include <algorithm>
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/ProgramText.h>
-#include <gnomon/casters/Hiding.h>
+#include <gnomon/casters/PathState.h>
 
 #include <osg/CullFace>
 #include <osg/Depth>
 #include <osg/FrontFace>
 #include <osg/PolygonMode>
-
-#include <algorithm>
 
 namespace gnomon {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/compositor/ProgramVisibilityJob.h>
-#include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/compositor/SoftMarkJob.h>
+#include <gnomon/compositor/MarkJob.h>
 
 namespace gnomon {
 

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/SavedFramebuffers.h>
+#include <gnomon/gl/WorkFramebuffer.h>
+
+#include <OpenThreads/ScopedLock>
+#include <osg/ContextData>
+#include <osg/FrameBufferObject>
+#include <osg/TexEnv>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+GLint attachedDepth(GLenum what) { return attachmentParameter(GL_DEPTH_ATTACHMENT_EXT, what); }
+
+/// The format of the depths that are drawn to: only between equal ones does OpenGL resolve. 0 if they are in no
+/// renderbuffer.
+GLenum depthFormat(const osg::GLExtensions& extensions) {
+    const auto name = static_cast<GLuint>(attachedDepth(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME_EXT));
+    const GLint kind = attachedDepth(GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE_EXT);
+    GLint format = 0;
+    if (kind != GL_RENDERBUFFER_EXT || !extensions.glGetRenderbufferParameteriv) return 0;
+    extensions.glBindRenderbuffer(GL_RENDERBUFFER_EXT, name);
+    extensions.glGetRenderbufferParameteriv(GL_RENDERBUFFER_EXT, GL_RENDERBUFFER_INTERNAL_FORMAT_EXT, &format);
+    return static_cast<GLenum>(format);
+}
+
+/// Leaves `to` bound for reading.
+void resolve(const osg::GLExtensions& extensions, GLuint from, GLuint to, GLint x, GLint y, GLsizei width,
+             GLsizei height) {
+    extensions.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, from);
+    extensions.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, to);
+    extensions.glBlitFramebuffer(x, y, x + width, y + height, x, y, x + width, y + height, GL_DEPTH_BUFFER_BIT,
+                                 GL_NEAREST);
+    extensions.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, to);
+}
+
+/// One pixel of several samples; bound for drawing while it lives.
+class Pixel {
+public:
+    Pixel(const osg::GLExtensions& extensions, GLenum format, GLint samples)
+        : framebuffer(extensions), _extensions(extensions) {
+        extensions.glGenRenderbuffers(1, &_depth);
+        extensions.glBindRenderbuffer(GL_RENDERBUFFER_EXT, _depth);
+        extensions.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, samples, format, 1, 1);
+        framebuffer.attachDepth(_depth);
+        glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT | GL_SCISSOR_BIT);
+        glViewport(0, 0, 1, 1);
+        for (const GLenum mode : {GL_SCISSOR_TEST, GL_STENCIL_TEST}) glDisable(mode);
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_ALWAYS);
+        glDepthMask(GL_TRUE);
+    }
+    ~Pixel() {
+        glPopAttrib();
+        _extensions.glDeleteRenderbuffers(1, &_depth);
+    }
+    Pixel(const Pixel&) = delete;
+    Pixel& operator=(const Pixel&) = delete;
+
+    const ScratchFramebuffer framebuffer;
+
+private:
+    const osg::GLExtensions& _extensions;
+    GLuint _depth = 0;
+};
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+/// Formats of depths: OpenGL copies between equal ones as they are, which is faster.
+bool isPacked() { return glInteger(GL_DEPTH_BITS) == 24 && glInteger(GL_STENCIL_BITS) == 8; }
+
+osg::ref_ptr<osg::Texture2D> depthTexture(bool packed) {
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+    texture->setInternalFormat(packed ? GL_DEPTH24_STENCIL8_EXT : GL_DEPTH_COMPONENT24);
+    texture->setSourceFormat(packed ? GL_DEPTH_STENCIL_EXT : GL_DEPTH_COMPONENT);
+    texture->setSourceType(packed ? GL_UNSIGNED_INT_24_8_EXT : GL_UNSIGNED_INT);
+    texture->setResizeNonPowerOfTwoHint(false);
+    for (const auto filter : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER})
+        texture->setFilter(filter, osg::Texture::NEAREST);
+    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T})
+        texture->setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
+    return texture;
+}
+
+/// Depths are copied as they are.
+class PlainTransfer {
+public:
+    PlainTransfer() {
+        glPushAttrib(GL_PIXEL_MODE_BIT);
+        glPixelTransferf(GL_DEPTH_SCALE, 1.0f);
+        glPixelTransferf(GL_DEPTH_BIAS, 0.0f);
+    }
+    ~PlainTransfer() { glPopAttrib(); }
+    PlainTransfer(const PlainTransfer&) = delete;
+    PlainTransfer& operator=(const PlainTransfer&) = delete;
+};
+
+/// From a window to what is bound for drawing, `height` rows high.
+void blitMirrored(const osg::GLExtensions& gl, const PixelRect& pixels, GLint height, GLbitfield what) {
+    const GLint right = pixels.x + pixels.width, top = pixels.y + pixels.height;
+    const GLboolean cut = glIsEnabled(GL_SCISSOR_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    gl.glBlitFramebuffer(pixels.x, pixels.y, right, top, pixels.x, height - pixels.y, right, height - top, what,
+                         GL_NEAREST);
+    if (cut) glEnable(GL_SCISSOR_TEST);
+}
+
+int endOf(double start, double size) { return static_cast<int>(std::ceil(start + size)); }
+
+constexpr double stepsOff = 4.0; // as depthBufferShadow()
+constexpr double snapsOff = 2.0;
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+GLint valueOf(GLenum what) {
+    GLint value = 0;
+    glGetIntegerv(what, &value);
+    return value;
+}
+
+osg::ref_ptr<osg::Texture2D> makeTexture() {
+    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
+    texture->setInternalFormat(valueOf(GL_RED_BITS) > 8 ? GL_RGBA32F_ARB : GL_RGBA8);
+    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    texture->setResizeNonPowerOfTwoHint(false);
+    return texture;
+}
+
+} // namespace
+
+std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, GLint x, GLint y, GLsizei width, GLsizei height,
+                                              const std::function<void()>& readOut) {
+    const auto& extensions = *state.get<osg::GLExtensions>();
+    const SavedFramebuffers bound(extensions);
+    const GLenum format = depthFormat(extensions);
+    if (!format || !extensions.glBlitFramebuffer || !extensions.glRenderbufferStorageMultisample) return std::nullopt;
+    Buffers& own = of(state.getContextID());
+    const GLint samples = glInteger(GL_SAMPLES);
+    const bool known = own.format == format && own.samples == samples;
+    if (!known || own.width < x + width || own.height < y + height) {
+        own.format = format;
+        own.samples = samples;
+        fit(own, extensions, x + width, y + height);
+    }
+    const ScratchFramebuffer framebuffer(extensions);
+    framebuffer.attachDepth(own.depth);
+    if (!framebuffer.isComplete()) return std::nullopt;
+    if (!known)
+        own.place = {placeOnSlope(own, framebuffer.name, state, false),
+                     placeOnSlope(own, framebuffer.name, state, true)};
+    resolve(extensions, bound.draw, framebuffer.name, x, y, width, height);
+    readOut();
+    return own.place;
+}
+
+ResolvedDepth::Buffers& ResolvedDepth::of(unsigned context) {
+    Lock lock(_mutex);
+    return _buffers[context];
+}
+
+void ResolvedDepth::fit(Buffers& buffers, const osg::GLExtensions& extensions, GLsizei width, GLsizei height) {
+    if (!buffers.depth) extensions.glGenRenderbuffers(1, &buffers.depth);
+    buffers.width = std::max(buffers.width, width);
+    buffers.height = std::max(buffers.height, height);
+    extensions.glBindRenderbuffer(GL_RENDERBUFFER_EXT, buffers.depth);
+    extensions.glRenderbufferStorage(GL_RENDERBUFFER_EXT, buffers.format, buffers.width, buffers.height);
+}
+
+/// Over a pixel whose depth rises from 0 to 1, the resolved depth is the place.
+double ResolvedDepth::placeOnSlope(const Buffers& buffers, GLuint into, osg::State& state, bool upwards) {
+    const auto& extensions = *state.get<osg::GLExtensions>();
+    const Pixel pixel(extensions, buffers.format, buffers.samples);
+    drawQuad(state, 0.0, upwards ? 0.0 : 1.0, upwards ? 1.0 : 0.0);
+    float place = 0.5f;
+    resolve(extensions, pixel.framebuffer.name, into, 0, 0, 1, 1);
+    glReadPixels(0, 0, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &place);
+    return static_cast<double>(place);
+}
+
+bool ResolvedDepth::isNeeded(const osg::State& state) {
+    return state.get<osg::GLExtensions>()->isFrameBufferObjectSupported && glInteger(GL_FRAMEBUFFER_BINDING_EXT) != 0 &&
+           glInteger(GL_SAMPLES) > 0;
+}
+
+void ResolvedDepth::release(const osg::State* state) {
+    Lock lock(_mutex);
+    for (auto entry = _buffers.begin(); entry != _buffers.end();) {
+        const bool meant = !state || state->getContextID() == entry->first;
+        if (meant) letGo(entry->first, entry->second);
+        entry = meant ? _buffers.erase(entry) : std::next(entry);
+    }
+}
+
+void ResolvedDepth::letGo(unsigned context, const Buffers& buffers) {
+    if (!buffers.depth) return;
+    osg::get<osg::GLRenderBufferManager>(context)->scheduleGLObjectForDeletion(buffers.depth);
+}
+
+FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pixels) {
+    Copy result;
+    const GLint bits = glInteger(GL_DEPTH_BITS);
+    if (bits == 0) return {noDepth};
+    result.error.x = stepsOff * std::ldexp(1.0, -std::min(bits, 24));
+    result.error.y = snapsOff * std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
+    const PlainTransfer plain;
+    const bool resolves = ResolvedDepth::isNeeded(state), packed = !resolves && isPacked();
+    Target& target = targetFor(state, pixels, packed);
+    result.texture = target.texture;
+    const auto read = [&] { result.rows = transfer(state, target, pixels); };
+    if (resolves) {
+        const auto place = _resolved.read(state, pixels.x, pixels.y, pixels.width, pixels.height, read);
+        if (!place) return {unresolvedDepth};
+        result.error.z = place->x - 0.5;
+        result.error.w = place->y - 0.5;
+        return result;
+    }
+    if (glInteger(GL_SAMPLES) > 0) result.error.y += 0.5; // whichever sample a window's depth is
+    read();
+    return result;
+}
+
+/// @return Copy::rows.
+glm::dvec2 FrameDepthCopy::transfer(osg::State& state, Target& target, const PixelRect& pixels) {
+    state.applyTextureAttribute(0, target.texture);
+    if (target.mirrors && mirror(state, target, pixels)) return {target.texture->getTextureHeight() - 1, -1};
+    glCopyTexSubImage2D(GL_TEXTURE_2D, 0, pixels.x, pixels.y, pixels.x, pixels.y, pixels.width, pixels.height);
+    return {0.0, 1.0};
+}
+
+/// Rows of Mesa's windows go from the top, a texture's from the bottom: so mirrored, memory is copied and nothing drawn.
+/// @return false if they do not, or pixels have several samples, or that is not possible: formats can differ though they have as many
+///         bits.
+bool FrameDepthCopy::mirror(osg::State& state, Target& target, const PixelRect& pixels) {
+    const auto& gl = *state.get<osg::GLExtensions>();
+    const bool sameBits = target.packed || glInteger(GL_DEPTH_BITS) == 24;
+    if (!gl.glBlitFramebuffer || !sameBits || glInteger(GL_SAMPLES) > 0 || !isTopDown(state)) return false;
+    const auto source = static_cast<GLuint>(glInteger(GL_READ_FRAMEBUFFER_BINDING_EXT));
+    const ScratchFramebuffer framebuffer(gl);
+    const osg::Texture::TextureObject* texture = target.texture->getTextureObject(state.getContextID());
+    framebuffer.attachDepth(*texture);
+    if (target.packed)
+        gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_STENCIL_ATTACHMENT_EXT, GL_TEXTURE_2D, texture->id(), 0);
+    const bool first = target.tried != texture;
+    target.tried = texture;
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, source);
+    if (first) glGetError(); // somebody else's
+    blitMirrored(gl, pixels, target.texture->getTextureHeight(),
+                 GL_DEPTH_BUFFER_BIT | (target.packed ? GL_STENCIL_BUFFER_BIT : 0));
+    if (first) target.mirrors = glGetError() == GL_NO_ERROR;
+    return target.mirrors;
+}
+
+FrameDepthCopy::Target& FrameDepthCopy::targetFor(const osg::State& state, const PixelRect& pixels, bool packed) {
+    const osg::Viewport& viewport = *state.getCurrentViewport();
+    Lock lock(_mutex);
+    Target& target = _targets[{state.getContextID(), packed}];
+    target.packed = packed;
+    osg::ref_ptr<osg::Texture2D>& texture = target.texture;
+    if (!texture) texture = depthTexture(packed);
+    // As the viewport, not as the pixels: these grow with a shadow that moves, and each time another texture would be made.
+    const int width =
+        std::max({texture->getTextureWidth(), pixels.x + pixels.width, endOf(viewport.x(), viewport.width())});
+    const int height =
+        std::max({texture->getTextureHeight(), pixels.y + pixels.height, endOf(viewport.y(), viewport.height())});
+    if (width != texture->getTextureWidth() || height != texture->getTextureHeight()) {
+        texture->setTextureSize(width, height);
+        texture->dirtyTextureObject();
+    }
+    return target;
+}
+
+void FrameDepthCopy::release(osg::State* state) {
+    _resolved.release(state);
+    Lock lock(_mutex);
+    for (auto entry = _targets.begin(); entry != _targets.end();) {
+        const bool meant = !state || state->getContextID() == entry->first.first;
+        if (meant) entry->second.texture->releaseGLObjects(state);
+        entry = meant ? _targets.erase(entry) : std::next(entry);
+    }
+}
+
+bool FrameColorCopy::save(osg::State& state, const osg::Viewport& viewport) {
+    const bool isObject = valueOf(GL_FRAMEBUFFER_BINDING_EXT) != 0;
+    if (isObject && valueOf(GL_SAMPLE_BUFFERS) > 0) return false;
+    state.setActiveTextureUnit(0);
+    osg::Texture2D& texture = of(state.getContextID());
+    const auto x = static_cast<int>(viewport.x()), y = static_cast<int>(viewport.y());
+    const auto width = static_cast<int>(viewport.width()), height = static_cast<int>(viewport.height());
+    GLint box[4];
+    glGetIntegerv(GL_SCISSOR_BOX, box);
+    if (texture.getTextureWidth() == width && texture.getTextureHeight() == height)
+        texture.copyTexSubImage2D(state, box[0] - x, box[1] - y, box[0], box[1], box[2], box[3]);
+    else
+        texture.copyTexImage2D(state, x, y, width, height);
+    return true;
+}
+
+void FrameColorCopy::draw(osg::State& state) {
+    const osg::ref_ptr<osg::StateSet> set = new osg::StateSet;
+    set->setTextureAttributeAndModes(0, &of(state.getContextID()));
+    set->setTextureAttribute(0, new osg::TexEnv(osg::TexEnv::REPLACE));
+    state.apply(set);
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
+    glBegin(GL_TRIANGLE_STRIP);
+    for (const int y : {0, 1})
+        for (const int x : {0, 1}) {
+            glTexCoord2i(x, y);
+            glVertex2i(2 * x - 1, 2 * y - 1);
+        }
+    glEnd();
+    state.apply();
+}
+
+osg::Texture2D& FrameColorCopy::of(unsigned context) {
+    Lock lock(_mutex);
+    osg::ref_ptr<osg::Texture2D>& texture = _textures[context];
+    if (!texture) texture = makeTexture();
+    return *texture;
+}
+
+void FrameColorCopy::resizeGLObjectBuffers(unsigned maxSize) {
+    Lock lock(_mutex);
+    for (const auto& entry : _textures) entry.second->resizeGLObjectBuffers(maxSize);
+}
+
+void FrameColorCopy::release(osg::State* state) {
+    Lock lock(_mutex);
+    for (auto entry = _textures.begin(); entry != _textures.end();) {
+        const bool meant = !state || state->getContextID() == entry->first;
+        if (meant) entry->second->releaseGLObjects(state);
+        entry = meant ? _textures.erase(entry) : std::next(entry);
+    }
+}
+
+} // namespace gnomon
