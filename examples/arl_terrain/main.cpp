@@ -3,16 +3,56 @@
 #include "ElevationFile.h"
 #include "OutputFile.h"
 #include "RunningSun.h"
+#include "ScenePicture.h"
 #include "SceneWindow.h"
-#include "TownControls.h"
 #include "TownOptions.h"
-#include "TownPictures.h"
+#include "TownScene.h"
 
+#include <filesystem>
 #include <iostream>
 
 namespace {
 
+using namespace gnomon;
 using namespace gnomon::examples;
+
+/// Draws a town into memory.
+class TownPictures {
+public:
+    /// @throws std::runtime_error, one sentence, if there is no OpenGL.
+    explicit TownPictures(TownScene& town);
+
+    osg::ref_ptr<osg::Image> draw();
+    /// Morning, noon and evening, with each technique: NAME-TECHNIQUE.png.
+    /// @throws std::runtime_error, one sentence, if the folder cannot be made or written to.
+    void report(const std::filesystem::path& folder);
+
+private:
+    TownScene& _town;
+    ScenePicture _picture;
+};
+
+struct TimeOfDay {
+    const char* name;
+    double hour;
+};
+constexpr TimeOfDay times[] = {{"morning", 8.0}, {"noon", 12.0}, {"evening", 16.0}};
+
+TownPictures::TownPictures(TownScene& town) : _town(town), _picture(town.view(), town.setup()) {}
+
+osg::ref_ptr<osg::Image> TownPictures::draw() { return _picture.draw(); }
+
+void TownPictures::report(const std::filesystem::path& folder) {
+    requireFolder(folder);
+    for (const std::string& technique : townTechniques()) {
+        _town.setup().cast({parseShadowSpec(technique)});
+        for (const TimeOfDay& time : times) {
+            OutputFile file((folder / (std::string(time.name) + "-" + technique + ".png")).string());
+            _town.setHour(time.hour);
+            file.write(*draw());
+        }
+    }
+}
 
 void tell(const TownScene& town) {
     for (const std::string& cause : town.setup().diagnose()) std::cerr << "arl_terrain: note: " << cause << std::endl;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "DrawTime.h"
+#include "FrameTime.h"
 #include "Keys.h"
 #include "OutputFile.h"
 #include "SceneWindow.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <metrics/TruthMaps.h>
+#include <metrics/PixelSets.h>
 #include <osg/Image>
 
 namespace gnomon::examples {

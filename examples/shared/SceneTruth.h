@@ -3,7 +3,7 @@
 #include "SceneCamera.h"
 #include "SceneTriangles.h"
 
-#include <metrics/TruthMaps.h>
+#include <metrics/PixelSets.h>
 
 #include <osg/Node>
 #include <osg/Vec4d>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "Keys.h"
 #include "SceneSetup.h"
 
 #include <gnomon/PlanarCures.h>
@@ -50,5 +51,8 @@ private:
     ShadowMapTechnique::View _view = ShadowMapTechnique::NOTHING;
     bool _showsVolumes = false, _showsReports = false;
 };
+
+/// The keys of Gnomon's own, of gnomonviewer and gnomonrun.
+const std::vector<Key<ShadowControls>>& shadowKeys();
 
 } // namespace gnomon::examples

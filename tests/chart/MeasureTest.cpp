@@ -8,8 +8,8 @@
 #include "ImageFile.h"
 #include "Race.h"
 #include "StageViewer.h"
+#include "Staging.h"
 #include "Sweep.h"
-#include "WhiteCopy.h"
 
 #include <gtest/gtest.h>
 

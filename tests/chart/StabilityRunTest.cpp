@@ -2,7 +2,7 @@
 // The stability table's runner: what crashes, hangs or refuses costs its own cell, and a right picture is called right.
 // This process never draws: the children do.
 #include "StabilityRun.h"
-#include "StabilityFiles.h"
+#include "StabilityResults.h"
 #include "scenes/SceneParts.h"
 
 #include <gtest/gtest.h>

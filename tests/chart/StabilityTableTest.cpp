@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the stability table makes of its cells; its files and its scenes.
-#include "StabilityFiles.h"
-#include "StabilityJudge.h"
+#include "StabilityResults.h"
 #include "StabilityScene.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 
 #include <osgDB/ReadFile>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

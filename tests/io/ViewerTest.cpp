@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // gnomonviewer as a user has it before him: a window on an X server, keys, and what is then to be seen.
 #include "Desktop.h"
-#include "Mask.h"
+#include "ExampleProgram.h"
 #include "Program.h"
 #include "Rays.h"
 

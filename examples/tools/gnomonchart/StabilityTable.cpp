@@ -6,7 +6,7 @@
 #include "Progress.h"
 #include "RandomSearch.h"
 #include "Report.h"
-#include "StabilityFiles.h"
+#include "StabilityResults.h"
 #include "StabilityRun.h"
 
 #include <algorithm>

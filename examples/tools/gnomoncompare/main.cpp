@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // gnomoncompare: two pictures and a truth in; how wrong the shadows are, and where, out.
-#include "CompareOptions.h"
+#include "CommandLine.h"
 #include "ImageFile.h"
 #include "OutputFile.h"
 #include "Overlay.h"
 #include "Report.h"
 #include "TruthFile.h"
+
+#include <metrics/CauseSplit.h>
 
 #include <iostream>
 #include <optional>
@@ -13,7 +15,105 @@
 
 namespace {
 
+using namespace gnomon;
 using namespace gnomon::examples;
+
+/// What gnomoncompare is asked for.
+struct CompareOptions {
+    std::string casting, notCasting, truth; ///< files; all three are needed
+    std::string shadowed;                   ///< file; empty: `ambient` everywhere
+    double ambient = 0.0;
+    std::string overlay, json; ///< files to write; empty: none
+    metrics::CauseLimits limits;
+    bool help = false;
+};
+
+using Text = const std::string&;
+
+void addPictures(Options& table, CompareOptions& into) {
+    table.push_back({"--casting", "IMAGE",
+                     "A: the picture with shadows, linear; surfaces white and unlit apart from shadows; required", "",
+                     [&into](Text t) { into.casting = t; }});
+    table.push_back({"--not-casting", "IMAGE", "B: the same, with everything drawn and nothing casting; required", "",
+                     [&into](Text t) { into.notCasting = t; }});
+    table.push_back({"--truth", "FILE.osgb", "the true shadows, see TRUTH below; required", "",
+                     [&into](Text t) { into.truth = t; }});
+    table.push_back({"--shadowed", "IMAGE", "S: the same, with everything in shadow", "none, --ambient is used",
+                     [&into](Text t) { into.shadowed = t; }});
+    table.push_back({"--ambient", "GREY", "grey level of full shadow, 0 to 1, instead of --shadowed", "0",
+                     [&into](Text t) { into.ambient = readNumber(t, 0.0, 1.0); }});
+}
+
+void addOutputs(Options& table, CompareOptions& into) {
+    table.push_back(
+        {"--overlay", "IMAGE",
+         "picture to write: visibility, dark where not judged; missed shadow red, false shadow blue (pale on\n"
+         "      edges), NaN magenta",
+         "none", [&into](Text t) { into.overlay = t; }});
+    table.push_back(
+        {"--json", "FILE.json", "file to write with all numbers", "none", [&into](Text t) { into.json = t; }});
+}
+
+void addLimits(Options& table, CompareOptions& into) {
+    table.push_back({"--contact", "METRES", "a pixel counts as contact if its blocker is nearer than this, 0 to 1e12",
+                     "0.5", [&into](Text t) { into.limits.contact = readNumber(t, 0.0, largestNumber); }});
+    table.push_back({"--attached", "PIXELS", "a pixel belongs to a true boundary that is nearer than this, 0 to 1e12",
+                     "2", [&into](Text t) { into.limits.boundary = readNumber(t, 0.0, largestNumber); }});
+    table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
+}
+
+Options compareOptions(CompareOptions& into) {
+    Options table;
+    addPictures(table, into);
+    addOutputs(table, into);
+    addLimits(table, into);
+    return table;
+}
+
+void require(const std::string& file, const char* option) {
+    if (file.empty()) throw std::invalid_argument(std::string(option) + " is missing. See --help.");
+}
+
+void requireConsistent(osg::ArgumentParser& arguments, const CompareOptions& options, bool ambient) {
+    if (arguments.argc() > 1)
+        throw std::invalid_argument(std::string("no option takes \"") + arguments.argv()[1] +
+                                    "\". Give each file after its option.");
+    require(options.casting, "--casting");
+    require(options.notCasting, "--not-casting");
+    require(options.truth, "--truth");
+    if (ambient && !options.shadowed.empty())
+        throw std::invalid_argument("--shadowed and --ambient exclude each other. Give one of them.");
+}
+
+/// @throws std::invalid_argument, one sentence, for what cannot be used.
+CompareOptions readCompareOptions(osg::ArgumentParser& arguments) {
+    CompareOptions options;
+    const bool ambient = arguments.find("--ambient") > 0;
+    readOptions(arguments, compareOptions(options));
+    readOsgOptions(arguments);
+    if (options.help) return options;
+    refuseUnknownOptions(arguments);
+    requireConsistent(arguments, options, ambient);
+    return options;
+}
+
+std::string compareHelp() {
+    CompareOptions defaults;
+    return "gnomoncompare --casting A --not-casting B --truth T [OPTION...]\n"
+           "Measures the errors of a picture's shadows. Any renderer may have drawn it.\n\n"
+           "Visibility is V = (A - S) / (B - S), for each pixel. Pictures are read as linear. 32-bit floats (.tif, "
+           ".osgb,\n"
+           ".osgt, .osgx, .ktx) lose nothing; with bytes, V is exact to 1/255 of B - S. Distances are in pixels.\n\n" +
+           describeOptions(compareOptions(defaults)) + osgOptionsHelp() +
+           "\nTRUTH is an osg::Image of floats with one layer for each map, named by the image's descriptions.\n"
+           "Required: lit (share of 16 rays), litCentre, blockerDistance (metres), receiver (id, 0 is none), facing "
+           "(cosine\n"
+           "to the light). Optional: drawn (id), litByDisc, blocker (id), edgeLength (metres), x, y, z (metres), and "
+           "the\n"
+           "user values towardsLight and up.\n\n"
+           "Example: gnomoncompare --casting on.tif --not-casting off.tif --truth t.osgb --overlay errors.png\n";
+}
+
 namespace metrics = gnomon::metrics;
 
 constexpr const char* program = "gnomoncompare";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "RunOptions.h"
-#include "ShadowKeys.h"
+#include "ShadowControls.h"
 
 #include <sstream>
 #include <stdexcept>

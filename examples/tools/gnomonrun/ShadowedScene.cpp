@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ShadowedScene.h"
-#include "ShadowKeys.h"
+#include "ShadowControls.h"
 
 #include <osgShadow/ShadowMap>
 #include <osgShadow/ShadowedScene>

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "SideBySide.h"
 #include "FrameTime.h"
-#include "GlErrorCount.h"
 #include "OutputFile.h"
 #include "RunClock.h"
 
 #include <gnomon/ShadowSpec.h>
+
 #include <nlohmann/json.hpp>
+#include <osg/Notify>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +16,51 @@
 
 namespace gnomon::examples {
 namespace {
+
+/// Counts OpenGL's errors, of which OpenSceneGraph warns, while it lives. All messages go where they went.
+class GlErrorCount {
+public:
+    GlErrorCount();
+    ~GlErrorCount();
+    GlErrorCount(const GlErrorCount&) = delete;
+    GlErrorCount& operator=(const GlErrorCount&) = delete;
+
+    int count() const;
+
+private:
+    struct Handler;
+    osg::ref_ptr<osg::NotifyHandler> _before;
+    osg::ref_ptr<Handler> _handler;
+};
+
+struct GlErrorCount::Handler : osg::NotifyHandler {
+    explicit Handler(osg::NotifyHandler* next) : after(next) {}
+    void notify(osg::NotifySeverity severity, const char* message) override {
+        errors += std::string(message).find("detected OpenGL error") != std::string::npos;
+        if (after) after->notify(severity, message);
+    }
+    osg::ref_ptr<osg::NotifyHandler> after;
+    int errors = 0;
+};
+
+GlErrorCount::GlErrorCount() : _before(osg::getNotifyHandler()), _handler(new Handler(_before)) {
+    osg::setNotifyHandler(_handler);
+}
+
+GlErrorCount::~GlErrorCount() { osg::setNotifyHandler(_before); }
+
+int GlErrorCount::count() const { return _handler->errors; }
+
+constexpr int channels = 3; // alpha is not seen
+
+/// All pixels about (x, y), as far as the picture goes, are as it is.
+bool isEven(const PictureChange& of, int x, int y, int reach) {
+    const std::uint8_t here = of.darker[std::size_t(y) * std::size_t(of.width) + std::size_t(x)];
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, of.height - 1); ++v)
+        for (int u = std::max(x - reach, 0); u <= std::min(x + reach, of.width - 1); ++u)
+            if (of.darker[std::size_t(v) * std::size_t(of.width) + std::size_t(u)] != here) return false;
+    return true;
+}
 
 constexpr int settling = 2; // frames: OSG keeps two scene views, each of which compiles in its first
 constexpr int timed = 3;    // frames
@@ -67,6 +113,54 @@ osg::ref_ptr<osg::GraphicsContext> firstWindow(osgViewer::ViewerBase& viewer) {
 }
 
 } // namespace
+
+WindowPicture::WindowPicture(osg::GraphicsContext& window) : _own(window.getSwapCallback()) {}
+
+void WindowPicture::swapBuffersImplementation(osg::GraphicsContext* window) {
+    const osg::GraphicsContext::Traits& traits = *window->getTraits();
+    _picture = new osg::
+        Image; // from what is bound: toolkits give their windows framebuffers that OpenSceneGraph does not know
+    glPushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
+    _picture->readPixels(0, 0, traits.width, traits.height, GL_RGBA, GL_UNSIGNED_BYTE);
+    glPopClientAttrib();
+    if (_own)
+        _own->swapBuffersImplementation(window);
+    else
+        window->swapBuffersImplementation();
+}
+
+PictureChange changeOf(const osg::Image& without, const osg::Image& with, int least) {
+    PictureChange change;
+    change.width = without.s();
+    change.height = without.t();
+    change.darker.resize(std::size_t(change.width) * std::size_t(change.height));
+    if (with.s() != change.width || with.t() != change.height) return change;
+    for (int y = 0; y < change.height; ++y)
+        for (int x = 0; x < change.width; ++x) {
+            const unsigned char *before = without.data(unsigned(x), unsigned(y)),
+                                *after = with.data(unsigned(x), unsigned(y));
+            bool darker = false, brighter = false;
+            for (int i = 0; i < channels; ++i) {
+                darker |= before[i] - after[i] > least;
+                brighter |= after[i] - before[i] > least;
+            }
+            change.brighterPixels += brighter;
+            change.darkerPixels += darker && !brighter;
+            change.darker[std::size_t(y) * std::size_t(change.width) + std::size_t(x)] = darker && !brighter;
+        }
+    return change;
+}
+
+int disagreement(const PictureChange& a, const PictureChange& b, int reach) {
+    if (a.width != b.width || a.height != b.height) return std::max(a.darkerPixels, b.darkerPixels);
+    int count = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(a.width) + std::size_t(x);
+            count += a.darker[i] != b.darker[i] && isEven(a, x, y, reach) && isEven(b, x, y, reach);
+        }
+    return count;
+}
 
 SideBySide::SideBySide(osgViewer::ViewerBase& viewer, std::function<void()> draw, std::string folder)
     : _viewer(viewer),

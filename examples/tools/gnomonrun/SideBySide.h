@@ -1,16 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "PictureChange.h"
 #include "ShadowedScene.h"
-#include "WindowPicture.h"
 
+#include <osg/GraphicsContext>
+#include <osg/Image>
 #include <osgViewer/ViewerBase>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace gnomon::examples {
+
+/// The picture of a window at each swap of its buffers: all of its cameras, whichever order they are drawn in. It waits
+/// until OpenGL has drawn all.
+class WindowPicture : public osg::GraphicsContext::SwapCallback {
+public:
+    /// Does as the window's own callback, if it has one, besides.
+    explicit WindowPicture(osg::GraphicsContext& window);
+
+    void swapBuffersImplementation(osg::GraphicsContext* window) override;
+    /// The last one, RGBA bytes; null before the first.
+    const osg::Image* last() const { return _picture; }
+
+private:
+    osg::ref_ptr<osg::GraphicsContext::SwapCallback> _own;
+    osg::ref_ptr<osg::Image> _picture;
+};
+
+/// Which pixels of a picture are not those of the same picture without shadows. Both are RGBA bytes of one size.
+struct PictureChange {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t>
+        darker; ///< a pixel each: 1 if a channel is darker by more than `least`, and none brighter.
+    int darkerPixels = 0;
+    int brighterPixels = 0; ///< with a channel that is brighter by more than `least`.
+};
+
+/// @param least  of 255: smaller differences do not count.
+PictureChange changeOf(const osg::Image& without, const osg::Image& with, int least = 2);
+
+/// Pixels at which two changes differ although neither has an edge near. @param reach  pixels that are near.
+int disagreement(const PictureChange& a, const PictureChange& b, int reach = 3);
 
 /// Draws one frame of a program again and again: without shadows, with every technique and both composites, and with
 /// osgShadow::ShadowMap. The program's scene stands still meanwhile.

@@ -3,14 +3,53 @@
 #include "RunningSun.h"
 #include "SceneFile.h"
 #include "SceneWindow.h"
-#include "ShadowKeys.h"
-#include "ViewerOptions.h"
+#include "ShadowControls.h"
+#include "ViewOptions.h"
 
 #include <iostream>
+#include <stdexcept>
 
 namespace {
 
+using namespace gnomon;
 using namespace gnomon::examples;
+
+/// What gnomonviewer's command line asks for.
+struct ViewerOptions {
+    ViewOptions view;
+    double sunSpeed = 0.0; ///< 1 is the clock's.
+    bool help = false;
+};
+
+Options viewerOptions(ViewerOptions& into) {
+    Options table = viewOptions(into.view);
+    table.push_back(sunSpeedOption(into.sunSpeed));
+    table.push_back({"--help", "", "print this", "", [&into](const std::string&) { into.help = true; }});
+    return table;
+}
+
+/// @throws std::invalid_argument, one sentence that names what is wrong and what is allowed.
+ViewerOptions readViewerOptions(osg::ArgumentParser& arguments) {
+    ViewerOptions options;
+    readOptions(arguments, viewerOptions(options));
+    readOsgOptions(arguments);
+    if (options.help) return options;
+    readFiles(arguments, options.view);
+    takeUsualShadow(options.view);
+    requireConsistent(options.view);
+    if (options.sunSpeed > 0.0 && (!options.view.sun || options.view.lights.size() != 1))
+        throw std::invalid_argument("--sun-speed needs exactly one --sun and no --light.");
+    return options;
+}
+
+/// What --help prints.
+std::string viewerHelp() {
+    ViewerOptions defaults;
+    return "gnomonviewer FILE... [OPTION...]\nShows scene files with shadows in a window.\n\nLengths are in the "
+           "scene's unit. The z axis points up.\n\n" +
+           describeOptions(viewerOptions(defaults)) + osgOptionsHelp() + "\nSPEC\n" + shadowSpecHelp() + "\nKEYS\n" +
+           keysHelp(shadowKeys()) + windowKeysHelp("gnomonviewer") + "\nExample: gnomonviewer data/lab8.osgt\n";
+}
 
 int show(const ViewerOptions& asked) {
     const ViewOptions& options = asked.view;

@@ -1,9 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <metrics/Grid.h>
 #include <metrics/PixelSets.h>
+
 #include <optional>
 
 namespace gnomon::metrics {
+
+/// Measures how far shadows have come off their casters: the mean length of the lit gaps at contact, metres.
+///
+/// The length is along the sun's azimuth on level ground. It is the gaps' horizontal area divided by their breadth
+/// across the azimuth. The breadth may be a pixel too large, unless the pixels lie along the azimuth.
+///
+/// @param peterPanning  the pixels of the gaps.
+/// @param truth         truth of the same size, with positions and the direction to the light.
+/// @return              nullopt without gaps or positions, or if the light is straight up or unknown.
+std::optional<double> contactGap(const Mask& peterPanning, const TruthMaps& truth);
+
+/// The connected parts of a set of pixels. A pixel is connected to its 8 neighbours.
+struct Components {
+    Grid<int> part; ///< Number of each pixel's part, from 0; -1 outside the set.
+    int count = 0;  ///< Number of parts.
+};
+
+/// Finds the connected parts of a set.
+Components components(const Mask& mask);
 
 /// Distances that sort errors by cause. For a shadow map, two of its texels may replace either default.
 struct CauseLimits {

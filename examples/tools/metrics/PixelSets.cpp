@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <metrics/PixelSets.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -1,8 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <metrics/TruthMaps.h>
+#include <glm/vec3.hpp>
+#include <metrics/Grid.h>
+
+#include <array>
 
 namespace gnomon::metrics {
+
+/// The truth at each pixel of one view with one light: the input that all metrics share.
+///
+/// shadowTruth() traces one. All grids have one size. Optional grids may be empty. Where N_g.L is not above 0, t_b is to what
+/// else is between than the surface itself, and 0 if nothing is, as of a single sheet.
+struct TruthMaps {
+    Picture lit;             ///< T_a: share, 0 … 1, of a pixel's rays (16 in a 4 x 4 grid) that reach the light.
+    Mask litCentre;          ///< T_c: 1 if the ray from the pixel's centre reaches the light.
+    Picture blockerDistance; ///< t_b: metres along the centre ray to its blocker. Ignored where T_c is 1.
+    Grid<int> receiver;      ///< Id of the surface at the pixel's centre; 0 is the background.
+    Picture facing;          ///< N_g.L, -1 … 1: cosine between geometric normal and direction to the light.
+    Grid<int> drawn;         ///< Optional: the receiver id as the renderer drew it.
+    Picture litByDisc;       ///< Optional: T_a for the sun's disc, 0.533 degrees across.
+    Grid<int> blocker;       ///< Optional: id of the object that blocks the centre ray; 0 is none.
+    Picture edgeLength;      ///< Optional: metres, longest edge of the receiver's triangle.
+    Mask undecided;          ///< Optional: 1 where an edge of the shadow comes so close to the pixel's centre that a
+                             ///< rasteriser may decide otherwise than T_c.
+    std::array<Mask, 4> litBeside; ///< Optional: the same as T_c, of rays from places that close to the pixel's centre.
+    Grid<glm::dvec3> position;     ///< Optional: metres, surface point at the pixel's centre.
+    glm::dvec3 towardsLight{0.0};  ///< Optional: direction to the light, any length; zero is unknown.
+    glm::dvec3 up{0.0, 0.0, 1.0};  ///< Unit vector upwards.
+};
 
 /// The sets of pixels that metrics look at. No set has pixels whose visibility is unmeasured. Of the pixels turned away, those
 /// within 2 px of a shadow's edge on the back of a single sheet are left out, too.

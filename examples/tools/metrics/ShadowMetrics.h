@@ -3,7 +3,6 @@
 #include <metrics/BoundaryDistance.h>
 #include <metrics/CauseSplit.h>
 #include <metrics/Confusion.h>
-#include <metrics/Intensity.h>
 #include <metrics/Visibility.h>
 
 namespace gnomon::metrics {

@@ -8,17 +8,19 @@
 #include "Machine.h"
 #include "OutputFile.h"
 #include "Overlay.h"
-#include "Pictures.h"
 #include "Progress.h"
 #include "Race.h"
-#include "ShaderCache.h"
+#include "StageViewer.h"
 
-#include <metrics/Intensity.h>
+#include <metrics/Visibility.h>
+#include <osg/Notify>
+#include <osg/ref_ptr>
 
 #include <algorithm>
 #include <exception>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
@@ -291,11 +293,35 @@ private:
     ChartResults _results;
 };
 
+using Facts = std::vector<std::pair<std::string, std::string>>;
+
+/// Whether it may differ between runs that go on with one another.
+bool mayDiffer(const std::string& fact) { return fact == "command" || fact == "date"; }
+
+void requireSame(const Facts& earlier, const Facts& now) {
+    for (const auto& fact : now)
+        if (!mayDiffer(fact.first) && std::find(earlier.begin(), earlier.end(), fact) == earlier.end())
+            throw std::invalid_argument("--resume: the results in the folder were not made with " + fact.first + " " +
+                                        fact.second + ". Leave --resume out to measure everything again.");
+}
+
 } // namespace
 
 ChartResults runChart(const ChartPlan& plan, const std::function<void(const ChartResults&)>& save,
                       const std::function<bool()>& stops) {
     return Run(plan, save, stops).run();
+}
+
+ChartResults keptOf(const ChartResults& earlier, const ChartPlan& plan) {
+    requireSame(earlier.made, plan.made);
+    requireSame(earlier.made, machineFacts());
+    ChartResults kept;
+    kept.scenes = earlier.scenes;
+    if (!earlier.complete && !kept.scenes.empty()) kept.scenes.pop_back();
+    for (const ChartPoint& point : earlier.points)
+        if (std::any_of(kept.scenes.begin(), kept.scenes.end(), [&](const auto& s) { return s.name == point.scene; }))
+            kept.points.push_back(point);
+    return kept;
 }
 
 } // namespace gnomon::examples

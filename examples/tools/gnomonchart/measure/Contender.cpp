@@ -1,14 +1,169 @@
 // SPDX-License-Identifier: MIT
 #include "Contender.h"
 #include "ChartResults.h"
-#include "GnomonStaging.h"
-#include "PeerStaging.h"
+#include "SceneSetup.h"
+
+#include <gnomon/NamedNode.h>
+#include <gnomon/ShadowSpec.h>
+
+#include <osg/LightModel>
+#include <osgShadow/ParallelSplitShadowMap>
+#include <osgShadow/ShadowedScene>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
+
+/// A scene under one of Gnomon's techniques. In Look::VISIBILITY composite=blend darkens to black.
+class GnomonStaging : public Staging {
+public:
+    /// @throws std::invalid_argument, one sentence, if the specification does not suit the scene.
+    GnomonStaging(ShadowSpec spec, const ChartScene& scene, Look look);
+    void setLight(const osg::Vec4d& light) override;
+    void setCasting(bool casts) override;
+    std::vector<std::string> diagnose() const override;
+    std::vector<ShadowDecision> decisions() const override;
+
+private:
+    osg::ref_ptr<ShadowCasterGroup> _group;
+    std::vector<osg::ref_ptr<ShadowTechnique>> _techniques;
+};
+
+GnomonStaging::GnomonStaging(ShadowSpec spec, const ChartScene& scene, Look look)
+    : Staging(scene, look), _group(new ShadowCasterGroup) {
+    if (look == Look::VISIBILITY && spec.composite == ShadowCasterGroup::BLEND) {
+        spec.dark = 0.0f;
+        osg::ref_ptr<osg::LightModel> model = new osg::LightModel; // or what is turned away is black, shadowed or not
+        model->setAmbientIntensity({0.25f, 0.25f, 0.25f, 1.0f});
+        _root->getOrCreateStateSet()->setAttributeAndModes(model);
+    }
+    _group->addChild(_content);
+    _root->addChild(_group);
+    _techniques = addShadows(*_group, {spec});
+    GnomonStaging::diagnose(); // who asks is not warned by osg::notify() besides
+    GnomonStaging::setLight(scene.light);
+}
+
+void GnomonStaging::setLight(const osg::Vec4d& light) {
+    Staging::setLight(light);
+    _group->setLights({{0, light}});
+}
+
+void GnomonStaging::setCasting(bool casts) {
+    Selection all;
+    if (!casts) all.mask = 0;
+    _group->setCasters(all);
+}
+
+std::vector<std::string> GnomonStaging::diagnose() const { return diagnoses(_techniques); }
+
+std::vector<ShadowDecision> GnomonStaging::decisions() const { return _techniques.front()->lastDecision(); }
+
+/// A scene under one of osgShadow's techniques.
+///
+/// Casting off  a cull callback keeps the content out of every camera that draws a shadow map, in Look::VISIBILITY only.
+///              Bounds are asked of all of it as before, so that maps lie where they lay. (An empty cast mask would do
+///              more: ViewDependentShadowMap's crop degenerates.)
+/// ParallelSplit  is given the light by setUserLight(), as its documentation asks: it reads no position. A lamp's light
+///              comes from the lamp through the scene's centre.
+/// ShadowTexture  needs receivers that do not cast: what ChartScene::receiver names receives, all else casts.
+class PeerStaging : public Staging {
+public:
+    /// @throws std::invalid_argument, one sentence, if the scene does not suit the peer or a setting is unknown.
+    PeerStaging(const Peer& peer, const Settings& settings, const ChartScene& scene, Look look);
+    ~PeerStaging() override;
+    void setCasting(bool casts) override;
+
+private:
+    class Gate;
+
+    osg::ref_ptr<Gate> _gate;
+};
+
+constexpr osg::Node::NodeMask casts = 0x1, receiveMask = 0x2;
+
+/// A camera of the technique's own that draws casters: no view has it, and it is not the one by which DrawBounds
+/// techniques look at receivers.
+bool isCastPass(osgUtil::CullVisitor& visitor) {
+    const osg::Camera* camera = visitor.getCurrentCamera();
+    return camera && !camera->getView() && camera->getName() != "AnalysisCamera";
+}
+
+/// Lets everything cast but the receiver, and the receiver alone receive; the way down to it lets both through.
+class SplitMasks : public osg::NodeVisitor {
+public:
+    explicit SplitMasks(const std::string& receiver) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _receiver(receiver) {
+        setNodeMaskOverride(~0u);
+    }
+
+    void apply(osg::Node& node) override {
+        const bool found = !_found && node.getName() == _receiver;
+        if (found) _found = true;
+        const bool foundBefore = _found;
+        if (!found) traverse(node);
+        const bool above = _found && !foundBefore;
+        if (node.getNodeMask() != 0) node.setNodeMask(found ? receiveMask : above ? casts | receiveMask : casts);
+    }
+
+    bool found() const { return _found; }
+
+private:
+    std::string _receiver;
+    bool _found = false;
+};
+
+osg::ref_ptr<osg::Group> splitCopy(const osg::Group& content, const std::string& receiver) {
+    osg::ref_ptr<osg::Group> copy = osg::clone(&content, osg::CopyOp(osg::CopyOp::DEEP_COPY_NODES));
+    SplitMasks split(receiver);
+    if (!receiver.empty()) copy->accept(split);
+    if (!split.found())
+        throw std::invalid_argument("ShadowTexture needs a receiver that does not cast, but the scene names none.");
+    return copy;
+}
+
+class PeerStaging::Gate : public osg::NodeCallback {
+public:
+    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+        osgUtil::CullVisitor* cull = visitor->asCullVisitor();
+        if (open || !cull || !isCastPass(*cull)) traverse(node, visitor);
+    }
+
+    bool open = true;
+};
+
+PeerStaging::PeerStaging(const Peer& peer, const Settings& settings, const ChartScene& scene, Look look)
+    : Staging(scene, look) {
+    const PeerParts parts = makePeer(peer, settings, scene.radius);
+    osg::ref_ptr<osgShadow::ShadowedScene> shadowed = new osgShadow::ShadowedScene(parts.technique);
+    if (!peer.partsCastAndReceive) {
+        _content = splitCopy(*_content, scene.receiver);
+        parts.settings->setCastsShadowTraversalMask(casts);
+        parts.settings->setReceivesShadowTraversalMask(receiveMask);
+    }
+    shadowed->setShadowSettings(parts.settings.get());
+    if (auto* splits = dynamic_cast<osgShadow::ParallelSplitShadowMap*>(parts.technique.get()))
+        splits->setUserLight(_light);
+    if (look == Look::VISIBILITY) {
+        if (!peer.lightOnly.empty()) setAmbientBias(*parts.technique, peer.lightOnly);
+        _gate = new Gate;
+        osg::ref_ptr<osg::Group> gated = new osg::Group;
+        gated->addChild(_content);
+        gated->setCullCallback(_gate);
+        shadowed->addChild(gated);
+    } else {
+        shadowed->addChild(_content);
+    }
+    _root->addChild(shadowed);
+}
+
+PeerStaging::~PeerStaging() = default;
+
+void PeerStaging::setCasting(bool on) {
+    if (_gate) _gate->open = on;
+}
 
 struct GnomonPoint {
     const char* technique;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Errors.h"
 #include "ImageFile.h"
-#include "Pictures.h"
+#include "StageViewer.h"
 
 namespace gnomon::examples {
 

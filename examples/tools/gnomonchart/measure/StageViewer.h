@@ -2,12 +2,15 @@
 #pragma once
 #include "FrameTime.h"
 #include "Staging.h"
+#include "Yardstick.h"
 
 #include <gnomon/HeadlessContext.h>
 
+#include <osg/Image>
 #include <osgViewer/Viewer>
 
 #include <memory>
+#include <string>
 
 namespace gnomon::examples {
 
@@ -33,5 +36,14 @@ private:
     osgViewer::Viewer _viewer;
     bool _first = true;
 };
+
+/// Red, green and blue as they stand in an image whose lowest row comes first.
+ShadedPicture coloursOf(const osg::Image& image);
+
+/// Bytes, clamped, without gamma: as a window shows it.
+osg::ref_ptr<osg::Image> bytesOf(const ShadedPicture& picture);
+
+/// A name for a file: small letters, digits and "-".
+std::string fileName(const std::vector<std::string>& parts, const std::string& ending);
 
 } // namespace gnomon::examples

@@ -4,6 +4,7 @@
 
 #include <gnomon/ShadowDecision.h>
 
+#include <osg/Group>
 #include <osg/Light>
 #include <osg/MatrixTransform>
 
@@ -63,5 +64,10 @@ public:
     PlainStaging(const ChartScene& scene, Look look);
     void setCasting(bool) override {}
 };
+
+/// A copy of a subgraph with the shapes as they are drawn, and none of their looks: no materials, textures, programs or fog.
+/// What is left is that without which other pixels would be drawn: culling, polygon offset and mode, clip planes, depth,
+/// masks, restarts, and an alpha test or blending with its texture and material. Geometries without normals get smooth ones. Vertex arrays are shared with the original.
+osg::ref_ptr<osg::Group> whiteCopy(const osg::Group& content);
 
 } // namespace gnomon::examples

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Yardstick.h"
 #include "Contender.h"
-#include "Pictures.h"
 #include "StageViewer.h"
 
 #include <metrics/PixelSets.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "SceneProcess.h"
 
-#include "StabilityFiles.h"
+#include "StabilityResults.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <metrics/PixelSets.h>
+#include <nlohmann/json_fwd.hpp>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -100,5 +103,21 @@ const char* nameOf(StabilityOutcome outcome);
 
 /// Six digits.
 std::string valueText(double value);
+
+/// Writes stability.json into an existing folder, whole or not at all.
+/// @throws std::runtime_error, one sentence, if the file cannot be written.
+void saveStability(const StabilityResults& results, const std::string& folder);
+
+/// What a child process hands over.
+nlohmann::json jsonOf(const StabilityCell& cell);
+nlohmann::json jsonOf(const StabilityFlicker& flicker);
+StabilityCell cellOf(const nlohmann::json& json);
+StabilityFlicker flickerOf(const nlohmann::json& json);
+
+/// Judges one picture over the pixels of `within`. A wrong pixel is away from edges if none of the 24 pixels about it is on
+/// an edge or truly otherwise: nearer ones are what the boundary's distance measures. Pixels that the truth leaves undecided
+/// are not wrong.
+StabilityJudgement judge(const metrics::Picture& visibility, const metrics::TruthMaps& truth,
+                         const metrics::PixelSets& sets, const metrics::Mask& within);
 
 } // namespace gnomon::examples
