@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // gnomonchart as users run it, small and short.
-#include "../io/ChildProcess.h"
 #include "../io/Program.h"
 #include "ChartResults.h"
 

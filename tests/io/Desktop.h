@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ChildProcess.h"
+#include "Program.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "CountedNew.h"
 #include "Scene.h"
 
 #include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/CasterMesh.h>
 
+#include <gtest/gtest.h>
 #include <osg/AlphaFunc>
 #include <osg/ClipNode>
 #include <osg/CullFace>
@@ -17,9 +17,39 @@
 #include <osg/TexMat>
 #include <osg/Texture2D>
 
-#include <gtest/gtest.h>
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
 
 using namespace scene;
+
+namespace {
+
+std::atomic<std::size_t> news{0};
+
+/// How often `operator new` has been called in this program, by any library and thread.
+std::size_t countedNews() { return news; }
+
+} // namespace
+
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    ++news;
+    return std::malloc(size > 0 ? size : 1);
+}
+
+void* operator new(std::size_t size) {
+    if (void* memory = operator new(size, std::nothrow)) return memory;
+    throw std::bad_alloc();
+}
+
+void* operator new[](std::size_t size) { return operator new(size); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return operator new(size, std::nothrow); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
 using Mode = osg::PrimitiveSet::Mode;
 
 namespace {

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 // What an automatic choice keeps from frame to frame, and what it tells of itself.
-#include <support/Picture.h>
-#include <support/Scene.h>
-
+// A camera flies, and what is chosen automatically changes: how often, why, and that nobody sees it.
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/group/LocalLight.h>
+
 #include <gtest/gtest.h>
 #include <osg/PolygonOffset>
+#include <support/Picture.h>
+#include <support/Scene.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iostream>
 #include <memory>
 #include <set>
 
@@ -40,6 +44,104 @@ public:
 private:
     mutable gnomon::AutoChooser _chooser;
 };
+
+constexpr int frames = 600;
+constexpr double budget = 1.0; // pixels, of the edge
+constexpr int width = 160, height = 120;
+
+/// 49 houses of several heights in streets.
+std::vector<Mesh> town() {
+    std::vector<Mesh> houses;
+    for (int y = -3; y <= 3; ++y)
+        for (int x = -3; x <= 3; ++x) {
+            const double tall = 2.0 + (x * 5 + y * 3 + 30) % 7;
+            houses.push_back(box({x * 6.0 - 1.5, y * 6.0 - 1.5, 0.0}, {x * 6.0 + 1.5, y * 6.0 + 1.5, tall}));
+        }
+    return houses;
+}
+
+View seen(const osg::Vec3d& eye, const osg::Vec3d& center) {
+    return perspective(eye, center, width, height, 50.0, 0.3, 200.0);
+}
+
+/// In over the roofs, down into a street, along it, and up again.
+View overTheTown(double at) {
+    const double above = 1.7 + 22.0 * std::pow(std::cos(osg::PI * at), 2.0);
+    const osg::Vec3d eye(2.9 + 0.05 * std::sin(20.0 * at), -30.0 + 60.0 * at, above);
+    return seen(eye, eye + osg::Vec3d(0.2, 10.0, -0.35 * above));
+}
+
+View aroundTheModel(double at) {
+    const double angle = 2.0 * osg::PI * at, away = 9.0 + 5.0 * std::sin(2.0 * angle);
+    return seen({away * std::cos(angle), away * std::sin(angle), 4.0 + 2.0 * std::cos(angle)}, {0.0, 0.0, 1.0});
+}
+
+/// Pixels that are not alike in two pictures, with no other edge of brightness of the first within the two budgets of it.
+int jumps(const Picture& before, const Picture& after) {
+    constexpr int reach = int(2.0 * budget);
+    int result = 0;
+    const auto isEdge = [&](int x, int y) {
+        for (int dy = -reach; dy <= reach; ++dy)
+            for (int dx = -reach; dx <= reach; ++dx) {
+                const int nx = std::clamp(x + dx, 0, width - 1), ny = std::clamp(y + dy, 0, height - 1);
+                if (before.at(nx, ny) != before.at(x, y) && after.at(nx, ny) == before.at(nx, ny)) return true;
+            }
+        return false;
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto a = int(before.at(x, y) & 0xffu), b = int(after.at(x, y) & 0xffu);
+            result += std::abs(a - b) > 2 && !isEdge(x, y);
+        }
+    return result;
+}
+
+struct Flight {
+    const char* name;
+    std::vector<Mesh> casters;
+    View (*at)(double);
+    double half;
+};
+
+/// A frame by a technique that is named.
+Picture drawnBy(const std::string& spec, const Flight& flight, const View& view) {
+    Scene scene = groundScene(flight.casters, flight.half, sun);
+    scene.addShadow(spec);
+    return render(scene.root, view);
+}
+
+void fly(const Flight& flight) {
+    Scene scene = groundScene(flight.casters, flight.half, sun);
+    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
+    technique->setError(budget);
+    scene.addShadow(technique);
+    Camera camera(scene.root, flight.at(0.0));
+    std::string before;
+    unsigned decisions = 0, changes = 0;
+    for (int i = 0; i < frames; ++i) {
+        const View view = flight.at(double(i) / frames);
+        camera.setView(view);
+        camera.viewer().frame();
+        const auto all = technique->lastDecision();
+        if (all.empty()) continue; // nothing casts in this view
+        const gnomon::ShadowDecision& now = all.front();
+        decisions = now.decisions;
+        if (!before.empty() && now.chosen.spec != before) {
+            ++changes;
+            EXPECT_FALSE(now.reason.empty());
+            const int jumped = jumps(drawnBy(before, flight, view), drawnBy(now.chosen.spec, flight, view));
+            std::cout << flight.name << ", frame " << i << ": " << before << " -> " << now.chosen.spec << ", "
+                      << now.reason << "; " << now.chosen.error << " px; " << jumped << " pixels jump\n";
+            EXPECT_LE(jumped, width * height / 1000) << before << " -> " << now.chosen.spec << " in frame " << i;
+        }
+        EXPECT_TRUE(now.keepsBudget) << now.reason;
+        before = now.chosen.spec;
+    }
+    std::cout << flight.name << ": " << frames << " frames, " << decisions << " decisions, " << changes << " changes\n";
+    EXPECT_GE(decisions, 7u) << "every 64 frames at least, also where the first one took long";
+    EXPECT_LE(changes, 12u) << "two a second of a flight of ten seconds, and less";
+    EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+}
 
 } // namespace
 
@@ -117,4 +219,12 @@ TEST(AutoCandidate, OfMapsAloneAMovingViewChangesWhatWasDrawn) {
     EXPECT_GT(texels.flying, 3.0);
     EXPECT_LT(texels.flying, 4.0) << "one frame in seven, about";
     EXPECT_NEAR(texels.time, (texels.flying + texels.moving) / 2.0, 1e-9);
+}
+
+TEST(AutoFlight, OverAndThroughATownChangesSeldomAndUnseen) { fly({"town", town(), overTheTown, 40.0}); }
+
+TEST(AutoFlight, AroundAModelChangesSeldomAndUnseen) {
+    const Mesh arch = joined({box({-2.0, -1.0, 0.0}, {-1.2, 1.0, 2.4}), box({1.2, -1.0, 0.0}, {2.0, 1.0, 2.4}),
+                              box({-2.0, -1.0, 2.4}, {2.0, 1.0, 3.0})});
+    fly({"model", {arch, sphere({0.0, 0.0, 1.0}, 0.9, 60)}, aroundTheModel, 12.0});
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Cascades: how far edges are off in a long view, seams, what is drawn again.
-#include "MovingCase.h"
+#include "TracedCases.h"
 
 #include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shadow maps against the truth image; acne, lights, passes, limits.
-#include "MovingCase.h"
+#include "TracedCases.h"
 
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>

@@ -1,9 +1,47 @@
 // SPDX-License-Identifier: MIT
 // Shadow volumes against the truth image: hard scenes, views and lights.
-#include "VolumeTrial.h"
+// Shadow volumes where they break: lamps on casters and in them, eyes in shadow, bad meshes, many layers.
+// Shadow volumes with what a scene brings along: cones of spots, samples, blending, more lights, other techniques.
+#include "IntoTexture.h"
+#include "TracedCases.h"
 
 #include <gnomon/ShadowVolumeTechnique.h>
+#include <gnomon/TracedShadowTechnique.h>
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+
+namespace test {
+namespace {
+
+CaseTrial drawVolume(const TracedCase& given) { return drawnBy(new gnomon::ShadowVolumeTechnique, given); }
+
+/// As good as one ray a pixel can be, but for a few pixels that the rasteriser decides; and nothing is complained of.
+/// @param least  pixels that are in shadow, or this shows nothing.
+void expectFloor(const TracedCase& given, int least = 300) {
+    const CaseTrial trial = drawVolume(given);
+    const TruthComparison& found = trial.comparison;
+    std::cout << given.name << ": " << found << "\n";
+    EXPECT_LE(found.wrong, 1.10 * found.floor + 5) << given.name << ": " << found;
+    EXPECT_EQ(found.certain, 0) << given.name << ": " << found;
+    EXPECT_EQ(found.neither, 0) << given.name << ": " << found;
+    EXPECT_GT(found.shadowed, least) << given.name;
+    EXPECT_GT(found.edges, least / 5) << given.name;
+    EXPECT_EQ(trial.causes, std::vector<std::string>()) << given.name;
+}
+
+/// The same case in a picture of this size.
+TracedCase sized(TracedCase given, int width, int height) {
+    given.view.width = width;
+    given.view.height = height;
+    return given;
+}
+
+} // namespace
+} // namespace test
 
 using test::expectFloor;
 using test::labEight;
@@ -53,6 +91,248 @@ TEST(Volume, OfALightAtRestIsFoundOnceWhileTheCameraMoves) {
         }
         EXPECT_LE(technique->passes(), before + 1) << "once more, where it is known that what receives stands still";
     }
+}
+
+} // namespace
+
+using test::expectFloor;
+using test::Mesh;
+using test::TracedCase;
+
+namespace {
+
+const test::View slanted = test::perspective({-5.0, -9.0, 7.0}, {0.0, 0.0, 0.3}, 160, 120);
+
+TracedCase onGround(const char* name, const std::vector<Mesh>& casters, const osg::Vec4d& light,
+                    const test::View& view = slanted) {
+    TracedCase given{name, {test::square(6.0)}, light, view};
+    given.meshes.insert(given.meshes.end(), casters.begin(), casters.end());
+    return given;
+}
+
+Mesh without(Mesh mesh, std::size_t first, std::size_t triangles) {
+    mesh.erase(mesh.begin() + std::ptrdiff_t(3 * first), mesh.begin() + std::ptrdiff_t(3 * (first + triangles)));
+    return mesh;
+}
+
+Mesh turned(Mesh mesh, std::size_t every) {
+    for (std::size_t i = 0; i + 2 < mesh.size(); i += 3 * every) std::swap(mesh[i + 1], mesh[i + 2]);
+    return mesh;
+}
+
+Mesh twice(const Mesh& mesh) { return test::joined({mesh, mesh}); }
+
+/// Triangles without an area, at corners and along edges.
+Mesh withNeedles(Mesh mesh) {
+    const std::size_t count = mesh.size();
+    for (std::size_t i = 0; i < count; i += 3) {
+        mesh.insert(mesh.end(), {mesh[i], mesh[i], mesh[i + 1]});
+        mesh.insert(mesh.end(), {mesh[i], mesh[i + 1], (mesh[i] + mesh[i + 1]) / 2.0});
+    }
+    return mesh;
+}
+
+/// Each triangle in two, by the middle of its longest side: the neighbours' long sides pass new vertices by.
+Mesh withJunctions(const Mesh& mesh, std::size_t every) {
+    Mesh result;
+    for (std::size_t i = 0; i < mesh.size(); i += 3) {
+        std::array<glm::dvec3, 3> t{mesh[i], mesh[i + 1], mesh[i + 2]};
+        if (i / 3 % every) {
+            result.insert(result.end(), t.begin(), t.end());
+            continue;
+        }
+        while (glm::distance(t[0], t[1]) < std::max(glm::distance(t[1], t[2]), glm::distance(t[2], t[0])))
+            std::rotate(t.begin(), t.begin() + 1, t.end());
+        const glm::dvec3 middle = 0.37 * t[0] + 0.63 * t[1];
+        result.insert(result.end(), {t[0], middle, t[2], middle, t[1], t[2]});
+    }
+    return result;
+}
+
+/// Three sheets on one edge, as no surface has them.
+Mesh fins() {
+    const glm::dvec3 low(0.0), up(0.0, 0.0, 1.2);
+    return test::joined({test::quad(low, {0.8, 0.2, 0.0}, up), test::quad(low, {-0.6, 0.5, 0.0}, up),
+                         test::quad(low, {-0.1, -0.8, 0.0}, up)});
+}
+
+/// One of each fault, on a ground.
+std::vector<Mesh> badMeshes() {
+    const Mesh house = test::house({0.0, 0.0}, {1.1, 0.9, 1.0}, 25.0), ball = test::sphere({0.0, 0.0, 0.7}, 0.6, 12);
+    const std::vector<Mesh> all{
+        without(ball, 20, 30),   turned(house, 3),       turned(ball, 2),      twice(house), withNeedles(house), fins(),
+        withJunctions(house, 2), withJunctions(ball, 3), test::insideOut(ball)};
+    std::vector<Mesh> placed;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        placed.push_back(test::moved(all[i], {3.0 * double(i % 3) - 3.0, 3.0 * double(i / 3) - 3.0, 0.01}));
+    return placed;
+}
+
+TEST(VolumeMeshes, OfAnyFaultCastTheirShadow) {
+    const test::View view = test::perspective({-6.0, -11.0, 10.0}, {0.3, 0.3, 0.0}, 320, 240);
+    expectFloor(onGround("bad meshes, sun", badMeshes(), {0.8, 0.5, 1.0, 0.0}, view));
+    expectFloor(onGround("bad meshes, low sun", badMeshes(), test::sunAt(200.0, 20.0), view));
+    expectFloor(onGround("bad meshes, lamp", badMeshes(), {0.4, -0.3, 3.0, 1.0}, view));
+}
+
+TEST(VolumeMeshes, OfThreeHundredShellsAreCountedWithoutOverflow) {
+    std::vector<Mesh> shells;
+    for (int i = 1; i <= 300; ++i) {
+        const double half = 0.7 + 0.002 * i;
+        shells.push_back(test::box({-half, -half, 1.4 - half}, {half, half, 1.4 + half}));
+    }
+    expectFloor(onGround("shells", shells, {0.8, 0.5, 1.0, 0.0}));
+}
+
+TEST(VolumeLights, OnAVertexInAFacesPlaneAndInACasterAreRight) {
+    const Mesh block = test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}),
+               post = test::box({2.0, -0.5, 0.0}, {2.5, 0.5, 1.0});
+    expectFloor(onGround("above a vertex", {block, post}, {1.0, 1.0, 2.0 + 1e-4, 1.0}));
+    expectFloor(onGround("in a face's plane", {block, post}, {3.5, 1.0, 3.0, 1.0}));
+    expectFloor(onGround("in an edge's line", {block, post}, {1.0, 1.0, 3.5, 1.0}));
+    expectFloor(onGround("sun along a face", {block, post}, {1.0, 0.0, 1.0, 0.0}));
+    const Mesh cage = test::box({-3.0, -3.0, -0.5}, {3.0, 3.0, 3.5});
+    expectFloor(onGround("in a closed caster", {cage, test::box({0.8, -0.4, 0.0}, {1.2, 0.4, 1.5})},
+                         {0.0, 0.0, 3.0, 1.0},
+                         test::perspective({0.5, -2.8, 2.8}, {1.5, 0.3, 0.0}, 160, 120, 60.0, 0.1, 20.0)));
+}
+
+TEST(VolumeViews, FromShadowAndThroughCutCastersAreRight) {
+    const Mesh block = test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}),
+               post = test::box({2.0, -0.5, 0.0}, {2.5, 0.5, 1.0});
+    const osg::Vec4d sun(-1.0, 0.2, 1.0, 0.0);
+    expectFloor(onGround("eye in the shadow", {block, post}, sun,
+                         test::perspective({1.3, 0.0, 0.8}, {3.0, 1.0, 0.0}, 160, 120, 70.0, 0.05, 40.0)));
+    expectFloor(onGround(
+        "eye in a caster", {test::insideOut(test::box({-4.0, -4.0, -1.0}, {4.0, 4.0, 5.0})), block, post},
+        {-2.0, 0.5, 4.0, 1.0}, test::perspective({-3.0, -3.0, 3.0}, {1.0, 0.0, 0.0}, 160, 120, 70.0, 0.05, 40.0)));
+    expectFloor(onGround("near plane through a caster", {block, post}, sun,
+                         test::perspective({0.0, -3.0, 1.6}, {0.4, 0.0, 0.8}, 160, 120, 80.0, 2.6, 40.0)),
+                200);
+    test::View orthographic = slanted;
+    orthographic.projection = osg::Matrixd::ortho(-5.0, 5.0, -3.75, 3.75, 1.0, 40.0);
+    expectFloor(onGround("orthographic", {block, post}, sun, orthographic));
+}
+
+} // namespace
+
+using gnomon::ShadowVolumeTechnique;
+using test::Picture;
+using test::Scene;
+using test::TracedCase;
+
+namespace {
+
+const std::vector<test::Mesh> casters{test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}),
+                                      test::sphere({2.5, 1.0, 1.0}, 0.8, 16)};
+const test::View view = test::perspective({-5.0, -9.0, 7.0}, {0.0, 0.0, 0.3}, 160, 120);
+
+TracedCase given(const osg::Vec4d& light) {
+    TracedCase all{"a box and a ball", {test::square(6.0)}, light, view};
+    all.meshes.insert(all.meshes.end(), casters.begin(), casters.end());
+    return all;
+}
+
+/// A ground of small squares, for OpenGL lights vertices.
+Scene underSpot(bool lit) {
+    TracedCase all = given({-2.0, -1.0, 6.0, 1.0});
+    test::Mesh ground;
+    for (int i = 0; i < 48 * 48; ++i) {
+        const test::Mesh tile =
+            test::quad({i % 48 * 0.25 - 6.0, i / 48 * 0.25 - 6.0, 0.0}, {0.25, 0.0, 0.0}, {0.0, 0.25, 0.0});
+        ground.insert(ground.end(), tile.begin(), tile.end());
+    }
+    all.meshes.front() = ground;
+    Scene scene = all.build();
+    scene.light->getLight()->setDirection({0.3f, 0.2f, -1.0f});
+    scene.light->getLight()->setSpotCutoff(32.0f);
+    if (!lit) scene.takeLightAway();
+    return scene;
+}
+
+TEST(VolumeCompany, ASpotCastsWithinItsCone) {
+    Scene shadowed = underSpot(true);
+    shadowed.addShadow(new ShadowVolumeTechnique);
+    const Picture lit = test::render(underSpot(true).root, view), dark = test::render(underSpot(false).root, view);
+    const test::TruthComparison found =
+        test::compare(test::render(shadowed.root, view), lit, dark, given({-2.0, -1.0, 6.0, 1.0}).truth());
+    EXPECT_LE(found.wrong, 1.10 * found.floor + 5) << found;
+    EXPECT_EQ(found.certain, 0) << found;
+    EXPECT_EQ(found.neither, 0) << found;
+    EXPECT_GT(found.shadowed, 150) << found;
+    EXPECT_LT(found.pixels, 9000) << "beyond the cone nothing is lit: " << found;
+}
+
+Picture inSamples(const Scene& scene) {
+    test::IntoTexture into(scene.root, view,
+                           {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, 4});
+    into.camera->frame();
+    return into.camera->frame();
+}
+
+/// Four samples a pixel halve the error of one.
+TEST(VolumeCompany, SeveralSamplesSmoothItsEdges) {
+    const TracedCase all = given({1.0, 0.4, 1.2, 0.0});
+    Scene shadowed = all.build(), dark = all.build();
+    shadowed.addShadow(new ShadowVolumeTechnique);
+    dark.takeLightAway();
+    const Picture lit = inSamples(all.build()), unlit = inSamples(dark), cast = inSamples(shadowed);
+    const test::CaseTrial single = test::drawVolume(all);
+    const double one = test::shareOff(single.cast, single.lit, single.dark, all.truth()),
+                 four = test::shareOff(cast, lit, unlit, all.truth());
+    EXPECT_LT(four, 0.6 * one);
+    EXPECT_GT(one, 0.01) << "there are edges";
+}
+
+TEST(VolumeCompany, BlendDarkensWhatRelightDoes) {
+    const TracedCase all = given({1.0, 0.4, 1.2, 0.0});
+    const test::CaseTrial relit = test::drawVolume(all);
+    Scene blended = all.build();
+    blended.addShadow(new ShadowVolumeTechnique);
+    blended.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    const Picture blend = test::render(blended.root, view);
+    int onlyRelit = 0, onlyBlended = 0;
+    for (std::size_t i = 0; i < blend.pixels.size(); ++i) {
+        const bool a = relit.cast.pixels[i] != relit.lit.pixels[i], b = blend.pixels[i] != relit.lit.pixels[i];
+        onlyRelit += a && !b;
+        onlyBlended += b && !a && relit.lit.pixels[i] != relit.dark.pixels[i];
+    }
+    EXPECT_EQ(onlyRelit, 0);
+    EXPECT_EQ(onlyBlended, 0) << "where the light arrives at all";
+    EXPECT_GT(blend.different(relit.lit), 500);
+}
+
+Scene underThree(const std::vector<osg::ref_ptr<gnomon::ShadowTechnique>>& techniques) {
+    Scene scene = given({1.0, 0.4, 1.2, 0.0}).build();
+    scene.light->getLight()->setDiffuse({0.3f, 0.2f, 0.1f, 1.0f});
+    const osg::Vec4 more[] = {{-1.0f, 0.3f, 1.0f, 0.0f}, {0.5f, -2.0f, 5.0f, 1.0f}};
+    for (int i = 0; i < 2; ++i) {
+        osg::ref_ptr<osg::LightSource> light = new osg::LightSource;
+        light->getLight()->setLightNum(i + 1);
+        light->getLight()->setPosition(more[i]);
+        light->getLight()->setAmbient({0.0f, 0.0f, 0.0f, 1.0f});
+        light->getLight()->setDiffuse({0.1f, 0.2f, 0.3f, 1.0f});
+        light->getLight()->setSpecular({0.0f, 0.0f, 0.0f, 1.0f});
+        scene.root->addChild(light);
+        scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1 + static_cast<unsigned>(i), osg::StateAttribute::ON);
+    }
+    if (!techniques.empty()) scene.addShadow(techniques.front());
+    for (std::size_t i = 1; i < techniques.size(); ++i) scene.group->addChild(techniques[i]);
+    return scene;
+}
+
+/// Of three lights rays and volumes say the same but for edges, and what stands beside volumes takes nothing away.
+TEST(VolumeCompany, ThreeLightsAndOtherTechniquesTakeNothingFromIt) {
+    const auto picture = [](const std::vector<osg::ref_ptr<gnomon::ShadowTechnique>>& techniques) {
+        return test::render(underThree(techniques).root, view);
+    };
+    const Picture plain = picture({}), traced = picture({new gnomon::TracedShadowTechnique}),
+                  volume = picture({new ShadowVolumeTechnique});
+    EXPECT_GT(traced.different(plain), 1000);
+    EXPECT_LE(volume.different(traced), 40) << "of some 400 pixels with edges";
+    EXPECT_LE(picture({new ShadowVolumeTechnique, test::planar()}).different(volume), 10);
+    EXPECT_LE(picture({test::planar(), new ShadowVolumeTechnique, new gnomon::TracedShadowTechnique}).different(traced),
+              40);
 }
 
 } // namespace
