@@ -6,12 +6,12 @@
 #include <gnomon/HeadlessContext.h>
 #include <gnomon/ShadowTruth.h>
 
-#include <osg/BoundingBox>
 #include <osg/Depth>
 #include <osgViewer/Viewer>
 
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,13 +26,21 @@ constexpr int discStrata = 4;         // a side: 16 rays for each of a pixel's 1
 
 bool isFinite(const osg::Vec3d& v) { return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()); }
 
+/// Where most corners are: floats about it tell the places there, however far a stray body is.
 osg::Vec3d middleOf(const SceneTriangles& triangles) {
-    osg::BoundingBoxd bounds;
+    std::vector<osg::Vec3d> corners;
     for (const unsigned corner : triangles.indices)
-        if (isFinite(triangles.vertices[corner])) bounds.expandBy(triangles.vertices[corner]);
-    if (!bounds.valid())
+        if (isFinite(triangles.vertices[corner])) corners.push_back(triangles.vertices[corner]);
+    if (corners.empty())
         throw std::runtime_error("the scene has no triangles, so it has no truth. Give a scene with triangles.");
-    return bounds.center();
+    osg::Vec3d middle;
+    const auto half = corners.begin() + std::ptrdiff_t(corners.size() / 2);
+    for (int axis = 0; axis < 3; ++axis) {
+        std::nth_element(corners.begin(), half, corners.end(),
+                         [axis](const osg::Vec3d& a, const osg::Vec3d& b) { return a[axis] < b[axis]; });
+        middle[axis] = (*half)[axis];
+    }
+    return middle;
 }
 
 std::unique_ptr<RayScene> treeOf(const SceneTriangles& triangles, const osg::Vec3d& origin) {

@@ -196,6 +196,31 @@ TEST(Scales, ACasterFarAwayDoesNotShiftTheShadowsOfTheOthers) {
     for (const Technique& technique : {Technique(traced), Technique(map), Technique(planar)})
         for (const double distance : {0.0, 1e4, 1e5, 1e6, 1e7})
             EXPECT_EQ(wrong(withStray(distance, 1.0), technique), 0) << technique()->className() << " " << distance;
+    for (const double distance : {0.0, 1e6, 1e7}) {
+        Case given = withStray(distance, 1.0);
+        given.light = {2.0, 1.0, 3.0, 1.0}; // between both, a metre above the larger one
+        for (const Technique& technique : {Technique(traced), Technique(map)})
+            EXPECT_EQ(wrong(given, technique, 2), 0) << technique()->className() << ", a lamp, " << distance;
+    }
+}
+
+/// What moves by more than rounding is another light, and its maps are drawn again.
+TEST(Scales, MapFollowsALightHoweverFarAwayACasterIs) {
+    for (const osg::Vec4& light : {osg::Vec4(1.0f, 0.3f, 0.8f, 0.0f), osg::Vec4(-4.0f, -0.8f, 5.0f, 1.0f)}) {
+        const osg::Vec4 moved = light + osg::Vec4(0.0f, 0.05f * light.z(), 0.0f, 0.0f);
+        Case given = withStray(1e7, 1.0);
+        given.light = light;
+        test::Scene scene = given.build();
+        scene.addShadow(map());
+        test::Camera camera(scene.root, given.view);
+        for (int frame = 0; frame < 4; ++frame) camera.frame();
+        scene.light->getLight()->setPosition(moved);
+        camera.frame();
+        given.light = moved;
+        test::Scene fresh = given.build();
+        fresh.addShadow(map());
+        EXPECT_LE(camera.frame().different(test::render(fresh.root, given.view)), 20) << "at edges: maps lie otherwise";
+    }
 }
 
 /// Where most triangles are, vertices are fine: of a ground alone, the far box has more.

@@ -61,8 +61,10 @@ constexpr double border = 3.0;        // texels: what a comparison reaches over,
 constexpr int largestTexture = 16384; // texels on a side: what OpenGL has in most places
 constexpr double sameLight = 1e-7;    // of the distance: what OSG's matrices and floats make of a light at rest
 
-bool isSame(const glm::dvec4& a, const glm::dvec4& b, double size) {
-    return a.w == b.w && glm::distance(a, b) <= sameLight * (glm::length(glm::dvec3(b)) + size);
+/// @param widest  of the drawables, which a lamp may be within.
+bool isSame(const glm::dvec4& a, const glm::dvec4& b, double widest) {
+    const double size = glm::length(glm::dvec3(b)) + (b.w == 0.0 ? 0.0 : widest);
+    return a.w == b.w && glm::distance(a, b) <= sameLight * size;
 }
 
 bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) {
@@ -79,7 +81,7 @@ void LightShadowMaps::setCause(const MapRequest& cause) {
     const bool sameMaps = old.settings == cause.settings;
     if (old.casters && old.casters->layers->origin == cause.casters->layers->origin && old.flats == cause.flats &&
         sameMaps && isSame(cause.cone, old.cone) &&
-        isSame(cause.light, old.light, glm::length(cause.casters->layers->reach)) &&
+        isSame(cause.light, old.light, cause.casters->layers->widest) &&
         (old.casters == cause.casters ||
          areSame(_frames, framesOf(old.light, old.cone, *cause.casters->layers, old.settings.size))))
         return takeCasters(*cause.casters);
@@ -111,11 +113,11 @@ double LightShadowMaps::clearance() {
 
 /// Distance along a frame's axis before which nothing is drawn. What is in a plane with the lamp would be anywhere, by
 /// floats. 0 for a sun.
-double LightShadowMaps::nearestDrawn(const LightFrame& frame) {
+double LightShadowMaps::nearestDrawn(const MapSlice& face) {
     constexpr double corner = 8.0;            // of the widest frame: the way to it to its distance
     constexpr double least = 1.0 / (1 << 20); // of the coordinates: what rays leave out, too
-    if (frame.sun) return 0.0;
-    const double size = glm::length(glm::dvec3(_cause.light)) + glm::length(_cause.casters->layers->reach);
+    if (face.frame.sun) return 0.0;
+    const double size = glm::length(glm::dvec3(_cause.light)) + glm::length(reachOf(face));
     return std::max(std::min(clearance(), size) / corner, least * size);
 }
 

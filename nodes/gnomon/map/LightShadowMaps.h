@@ -42,7 +42,7 @@ private:
     void begin();
     void addFaces(const LightFrame& frame);
     double clearance();
-    double nearestDrawn(const LightFrame& frame);
+    double nearestDrawn(const MapSlice& face);
     void settle(const glm::dmat4& clipFromScene, const glm::dvec2& pixels, const std::vector<MapReceiver>& receivers);
     bool isShown() const;
     void takeCasters(const MapCasters& casters);

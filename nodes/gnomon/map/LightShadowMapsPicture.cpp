@@ -119,7 +119,7 @@ void LightShadowMaps::update(const MapPrograms& resources, MapBodies& bodies, co
     const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
     for (const auto& [face, corner] : tiles) {
         _lookUps.push_back(lookUpOf(*face));
-        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene, nearestDrawn(face->frame), {}});
+        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene, nearestDrawn(*face), {}});
         picture->tiles.back().movers = moversIn(picture->tiles.back(), _lookUps.back().errors);
         end = glm::max(end, corner + picture->size);
     }
