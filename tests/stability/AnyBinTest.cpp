@@ -154,6 +154,12 @@ TEST_P(AnyBin, ALitPaneIsNamed) {
     glass->getStateSet()->setAttributeAndModes(material);
     glass->getStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
     EXPECT_EQ(isNamed(), GetParam() != By::Hull) << "hull names its receiver: nothing else receives";
+    material->setColorMode(osg::Material::AMBIENT_AND_DIFFUSE);
+    osg::Geometry& geometry = *glass->getDrawable(0)->asGeometry();
+    const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
+    colors->resize(geometry.getVertexArray()->getNumElements(), {0.2f, 0.6f, 1.0f, 0.5f});
+    geometry.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
+    EXPECT_EQ(isNamed(), GetParam() != By::Hull) << "by a colour for each vertex";
 }
 
 /// A receiver that is named keeps others from receiving, in the late bins too.

@@ -123,11 +123,11 @@ private:
     std::map<const osg::Object*, Entry> _known;
 };
 
-/// The alpha of the one colour that a geometry has; 1 where it has several, or none.
-float alphaOf(const osg::Drawable& drawable) {
+/// True if an alpha of 1 may be among the colours that a geometry has.
+bool mayBeSolid(const osg::Drawable& drawable, KnownAlphas& known) {
     const osg::Geometry* geometry = drawable.asGeometry();
-    const auto* colors = geometry ? dynamic_cast<const osg::Vec4Array*>(geometry->getColorArray()) : nullptr;
-    return colors && colors->size() == 1 ? colors->front().a() : 1.0f;
+    const osg::Array* colors = geometry ? geometry->getColorArray() : nullptr;
+    return !colors || colors->getNumElements() == 0 || known.of(*colors, colors).one;
 }
 
 /// True if colours of vertices take the place of the diffuse one.
@@ -136,16 +136,17 @@ bool tracksDiffuse(const osg::Material& material) {
            material.getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE;
 }
 
-/// What is known of the alpha without textures and programs: it is this at most.
-float mostAlpha(const osgUtil::RenderLeaf& leaf) {
+/// True if an alpha of 1 may be anywhere, by what is known without textures and programs.
+bool mayBeSolid(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
     const osgUtil::StateGraph* graph = leaf._parent;
-    if (textureUnits(graph) > 0 || resolvedAttribute(graph, A::PROGRAM)) return 1.0f;
+    if (textureUnits(graph) > 0 || resolvedAttribute(graph, A::PROGRAM)) return true;
     const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
-    if (!isOn(graph, GL_LIGHTING)) return alphaOf(*leaf._drawable);
-    if (!material) return 1.0f;
+    if (!isOn(graph, GL_LIGHTING)) return mayBeSolid(*leaf._drawable, known);
+    if (!material) return true;
     if (tracksDiffuse(*material) && leaf._drawable->asGeometry() && leaf._drawable->asGeometry()->getColorArray())
-        return alphaOf(*leaf._drawable);
-    return std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a());
+        return mayBeSolid(*leaf._drawable, known);
+    return std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a()) >=
+           opaqueAlpha;
 }
 
 /// True if an alpha of 1 stands beside lesser ones; not if each pixel is either all there or clear.
@@ -171,8 +172,8 @@ bool isSurface(const osgUtil::RenderLeaf& leaf) {
     return leaf._drawable->getBoundingBox().valid() && writesDepth(leaf._parent);
 }
 
-bool blendHides(const osgUtil::RenderLeaf& leaf) {
-    return !isOn(leaf._parent, GL_BLEND) || (alphaHides(leaf._parent) && mostAlpha(leaf) >= opaqueAlpha);
+bool blendHides(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
+    return !isOn(leaf._parent, GL_BLEND) || (alphaHides(leaf._parent) && mayBeSolid(leaf, known));
 }
 
 } // namespace
@@ -187,7 +188,7 @@ LateReceivers lateReceivers(osgUtil::RenderStage& stage, int number) {
             const bool combines = isOn(entry.leaf->_parent, GL_COLOR_LOGIC_OP);
             if (combines && !operationHides(entry.leaf->_parent)) {
                 late.combined.push_back(entry);
-            } else if (!combines && !blendHides(*entry.leaf)) {
+            } else if (!combines && !blendHides(*entry.leaf, known)) {
                 late.clear.push_back(entry);
             } else if (!combines && isOn(entry.leaf->_parent, GL_BLEND) && isTorn(*entry.leaf, known)) {
                 late.torn.push_back(entry);
