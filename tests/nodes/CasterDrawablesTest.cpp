@@ -3,8 +3,8 @@
 
 #include <gnomon/VertexTraverser.h>
 #include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterVisitor.h>
 
 #include <osg/AlphaFunc>
 #include <osg/CullFace>

@@ -2,8 +2,8 @@
 #include "Scene.h"
 
 #include <gnomon/casters/CasterExtraction.h>
-#include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterVisitor.h>
 
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>

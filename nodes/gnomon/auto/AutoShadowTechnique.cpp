@@ -3,7 +3,7 @@
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/group/FrameCasters.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ViewFrame.h>
 
 #include <osg/GraphicsContext>

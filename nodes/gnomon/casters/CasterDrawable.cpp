@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/PlacedBox.h>
 #include <gnomon/casters/CasterDrawable.h>
-#include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/casters/DrawableTriangles.h>
 
 #include <algorithm>

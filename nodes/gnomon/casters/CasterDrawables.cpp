@@ -3,8 +3,8 @@
 #include <gnomon/casters/CasterBodies.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterExtraction.h>
-#include <gnomon/casters/CasterFingerprint.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/casters/DrawableTriangles.h>
 
 #include <algorithm>

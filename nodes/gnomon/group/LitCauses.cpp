@@ -10,7 +10,7 @@
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/geometry/ShadowReach.h>
 #include <gnomon/group/LitCauses.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 
 #include <glm/geometric.hpp>
 #include <osg/CullFace>

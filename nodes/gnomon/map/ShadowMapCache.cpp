@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/group/LocalLight.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/MapMark.h>
 #include <gnomon/map/ShadowMapCache.h>

@@ -2,7 +2,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/group/FrameCasters.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/MapMark.h>
 #include <gnomon/map/MapSettings.h>
 #include <gnomon/map/ShadowMapCache.h>

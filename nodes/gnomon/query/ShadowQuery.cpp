@@ -3,7 +3,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowQuery.h>
 #include <gnomon/casters/RaySceneCache.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
 
 #include <glm/geometric.hpp>

@@ -4,7 +4,7 @@
 #include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/ground/BoxMethod.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/terrain/CasterTiles.h>
 
 #include <osg/MatrixTransform>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/TerrainGround.h>
-#include <gnomon/casters/CasterFingerprint.h>
+#include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/terrain/GroundRevision.h>
 
 #include <glm/geometric.hpp>

@@ -7,7 +7,7 @@
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/group/FrameCasters.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
 #include <gnomon/silhouette/StencilBatches.h>
 #include <gnomon/terrain/HullTiles.h>

@@ -4,7 +4,7 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/group/FrameCasters.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/traced/TracedMark.h>
 

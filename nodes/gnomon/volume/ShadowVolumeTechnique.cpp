@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/group/FrameCasters.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/volume/VolumeCache.h>
 #include <gnomon/volume/VolumeMark.h>
 
