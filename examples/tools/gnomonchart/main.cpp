@@ -3,28 +3,163 @@
 #include "ChartOptions.h"
 #include "ChartRun.h"
 #include "Contender.h"
+#include "Machine.h"
 #include "OutputFile.h"
-#include "Report.h"
+#include "Progress.h"
+#include "RandomSearch.h"
 #include "SceneFile.h"
 #include "SceneTruth.h"
 #include "StabilityResults.h"
+#include "StabilityRun.h"
 #include "StabilityScene.h"
-#include "StabilityTable.h"
 #include "StageViewer.h"
+
+#include <gnomon_report.h>
 
 #include <metrics/Visibility.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <stdexcept>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
 
 namespace {
 
 using namespace gnomon;
 using namespace gnomon::examples;
+
+/// Draws the figures and the page of the results in a folder, and prints what they say: report.py does.
+///
+/// Needs   python3 with matplotlib and jinja2, when it is called.
+/// @throws std::runtime_error, one sentence, if Python cannot be started or the report fails; it has said why then.
+void writeReport(const std::string& folder) {
+    std::cout.flush();
+    int ends[2];
+    if (pipe(ends) != 0)
+        throw std::runtime_error(std::string("the report cannot be made: ") + std::strerror(errno) + ".");
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(ends[0], STDIN_FILENO);
+        close(ends[0]);
+        close(ends[1]);
+        execlp(PYTHON3, PYTHON3, "-", folder.c_str(), static_cast<char*>(nullptr));
+        execlp("python3", "python3", "-", folder.c_str(), static_cast<char*>(nullptr));
+        _exit(127);
+    }
+    close(ends[0]);
+    const auto before = std::signal(SIGPIPE, SIG_IGN); // where Python cannot be started
+    const std::size_t length = std::strlen(report_py);
+    for (std::size_t at = 0; child > 0 && at < length;) {
+        const ssize_t written = write(ends[1], report_py + at, length - at);
+        if (written < 0 && errno != EINTR) break;
+        at += written > 0 ? static_cast<std::size_t>(written) : 0;
+    }
+    close(ends[1]);
+    int status = -1;
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    std::signal(SIGPIPE, before);
+    if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
+        throw std::runtime_error("the report needs Python, which cannot be started. Install python3.");
+    if (status != 0) throw std::runtime_error("the report could not be made; the results are kept.");
+}
+
+/// The first value, the middle one and the last.
+StabilityScene coarse(StabilityScene scene) {
+    const std::vector<double> all = scene.values;
+    scene.values = {all.front(), all[all.size() / 2], all.back()};
+    return scene;
+}
+
+StabilityPlan stabilityPlanOf(const ChartOptions& options) {
+    StabilityPlan plan;
+    plan.scenes = stabilityScenes(options.stabilityScenes);
+    if (options.quick) std::transform(plan.scenes.begin(), plan.scenes.end(), plan.scenes.begin(), coarse);
+    plan.contenders = stabilityContenders(options.techniques, !options.quick);
+    plan.width = options.view.width;
+    plan.height = options.view.height;
+    plan.workers = std::max(1u, std::thread::hardware_concurrency());
+    plan.folder = options.out;
+    plan.made = {{"size", std::to_string(plan.width) + "x" + std::to_string(plan.height)},
+                 {"sweep", options.quick ? "three values" : "all values"}};
+    return plan;
+}
+
+/// What an interrupted run did not measure to the end cannot be judged.
+void dropUnfinished(StabilityResults& results) {
+    const auto isUnfinished = [](const StabilityRow& row) {
+        return row.cells.empty() || std::any_of(row.cells.begin(), row.cells.end(), [](const StabilityCell& cell) {
+                   return !cell.measured && cell.failure.empty();
+               });
+    };
+    results.rows.erase(std::remove_if(results.rows.begin(), results.rows.end(), isUnfinished), results.rows.end());
+}
+
+/// @param stops  see makeStabilityTable().
+template <class Work>
+auto withProgress(std::size_t steps, const std::function<bool()>& stops, const Work& work) {
+    ProgressLine progress(static_cast<double>(steps));
+    return work([&](std::size_t done, const std::string& doing) {
+        if (done) progress.show(double(done), doing);
+        return !stops();
+    });
+}
+
+/// Measures the stability table, writes it into the options' folder, and prints it.
+/// @param stops  asked again and again; true ends the run with what there is.
+/// @return whether it is complete.
+/// @throws std::invalid_argument, one sentence, for a scene or technique that is not there; std::runtime_error, one
+/// sentence, if a file cannot be written.
+bool makeStabilityTable(const ChartOptions& options, const std::string& command, const std::function<bool()>& stops) {
+    StabilityPlan plan = stabilityPlanOf(options);
+    plan.made.insert(plan.made.begin(), {"command", command});
+    requireFolder(options.out);
+    std::size_t cells = 0;
+    for (const StabilityScene& scene : plan.scenes) cells += scene.values.size() * plan.contenders.size();
+    StabilityResults results =
+        withProgress(cells, stops, [&](const auto& progress) { return runStability(plan, progress); });
+    dropUnfinished(results);
+    for (auto& fact : machineFacts()) results.made.push_back(fact); // after the run: it makes a context
+    saveStability(results, options.out);
+    writeReport(options.out);
+    return results.complete;
+}
+
+/// Searches random scenes for shadows that Gnomon's techniques lose without a word, and prints each with the plainest scene
+/// in which it is lost.
+/// @return whether there is none, and the search went to its end.
+bool searchRandom(const ChartOptions& options, const std::function<bool()>& stops) {
+    RandomSearch search;
+    search.first = options.seed;
+    search.count = options.random.value_or(search.count);
+    search.contenders = stabilityContenders(options.techniques, false);
+    const auto isRough = [](const StabilityContender& each) {
+        return each.contender.kit != "Gnomon" || each.contender.technique == "box"; // box: shadows of bounding boxes
+    };
+    search.contenders.erase(std::remove_if(search.contenders.begin(), search.contenders.end(), isRough),
+                            search.contenders.end());
+    search.workers = std::max(1u, std::thread::hardware_concurrency());
+    search.batch = std::max(search.batch, 50 * search.workers); // two processes for each
+    const std::size_t cells = std::size_t(search.count) * search.contenders.size();
+    std::size_t faults = 0;
+    const auto print = [&faults](const RandomFault& fault) {
+        std::cout << faultText(fault) << std::endl; // at once: a long search may be ended
+        ++faults;
+    };
+    const unsigned done =
+        withProgress(cells, stops, [&](const auto& progress) { return searchRandomScenes(search, progress, print); });
+    std::cout << (done < search.count ? "interrupted after " + std::to_string(done) + " of " : std::string())
+              << search.count << " random scenes from seed " << search.first << ", " << faults << " faults\n";
+    return faults == 0 && done == search.count;
+}
 
 const osg::Vec4d suns[] = {{1.0, -1.0, 1.4, 0.0}, {-0.8, -0.5, 0.6, 0.0}};
 constexpr const char* usual[] = {"volume", "map", "traced", "auto"};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "RandomScene.h"
-#include "StabilityPlan.h"
+#include "StabilityScene.h"
 
 #include <functional>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "StabilityPlan.h"
+#include "StabilityScene.h"
 
 #include <nlohmann/json.hpp>
 
