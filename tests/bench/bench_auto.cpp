@@ -6,7 +6,7 @@
 
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/auto/AutoChooser.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -4,7 +4,7 @@
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/compositor/MarkJob.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 
 #include <gtest/gtest.h>
 #include <osg/PolygonOffset>

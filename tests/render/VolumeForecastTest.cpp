@@ -5,7 +5,7 @@
 
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/group/FrameCasters.h>
-#include <gnomon/group/LocalLight.h>
+#include <gnomon/group/SceneFrame.h>
 #include <gnomon/volume/VolumeCache.h>
 #include <gnomon/volume/VolumeForecast.h>
 #include <gtest/gtest.h>
