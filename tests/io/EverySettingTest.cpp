@@ -163,7 +163,6 @@ TEST_P(SceneFile, KeepsEverySettingOfEveryNode) {
 
 using gnomon::HaloNode;
 using gnomon::ShadowCasterGroup;
-using test::SceneFile;
 
 /// A property that a later version could add, before all others of its class.
 class AddedProperty {

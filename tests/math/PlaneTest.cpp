@@ -215,12 +215,8 @@ TEST(TransformedPlane, WhatIsNotFiniteGivesNone) {
 }
 
 using glm::dmat4;
-using glm::dvec3;
-using glm::dvec4;
 using gnomon::reflectionMatrix;
 using gnomon::test::flattened;
-using gnomon::test::near;
-using gnomon::test::Random;
 
 // x + y = 2, worked by hand: (3, 1, 5) is √2 before it, and comes to (1, -1, 5).
 TEST(Reflection, TakesAPointToTheOtherSideOfASlantedPlane) {

@@ -268,9 +268,6 @@ TEST(MapBias, LetsNoLightThroughTheFootOfAThinWall) {
 
 } // namespace
 
-using gnomon::ShadowMapTechnique;
-using namespace test;
-
 namespace {
 
 /// A map of which a texel is less than a pixel in the cases here.

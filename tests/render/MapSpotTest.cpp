@@ -282,7 +282,6 @@ TEST(MapSpot, OfNoDirectionOrOfACutoffThatIsNoneIsALampAllAround) {
 
 } // namespace
 
-using gnomon::ShadowMapTechnique;
 using gnomon::TruthImage;
 using namespace test;
 

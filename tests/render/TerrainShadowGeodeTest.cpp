@@ -314,9 +314,6 @@ TEST(TerrainShadowGeode, OnADeckIsTheDecks) {
     EXPECT_EQ(darkIn(0.2), 5) << "to -2.8";
 }
 
-using gnomon::TerrainShadowGeode;
-using test::Scene;
-
 namespace {
 
 std::vector<std::string> causesOf(Scene& scene, osg::Node* terrain, TerrainShadowGeode::Method method) {

@@ -95,9 +95,7 @@ TEST(Volume, OfALightAtRestIsFoundOnceWhileTheCameraMoves) {
 
 } // namespace
 
-using test::expectFloor;
 using test::Mesh;
-using test::TracedCase;
 
 namespace {
 
@@ -219,7 +217,6 @@ TEST(VolumeViews, FromShadowAndThroughCutCastersAreRight) {
 using gnomon::ShadowVolumeTechnique;
 using test::Picture;
 using test::Scene;
-using test::TracedCase;
 
 namespace {
 

@@ -70,8 +70,6 @@ private:
     GLuint _depth = 0;
 };
 
-using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
-
 /// Formats of depths: OpenGL copies between equal ones as they are, which is faster.
 bool isPacked() { return glInteger(GL_DEPTH_BITS) == 24 && glInteger(GL_STENCIL_BITS) == 8; }
 
@@ -115,8 +113,6 @@ int endOf(double start, double size) { return static_cast<int>(std::ceil(start +
 
 constexpr double stepsOff = 4.0; // as depthBufferShadow()
 constexpr double snapsOff = 2.0;
-
-using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
 GLint valueOf(GLenum what) {
     GLint value = 0;

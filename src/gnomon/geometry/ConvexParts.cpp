@@ -71,7 +71,6 @@ constexpr double tolerance = 1e-6; // of a part's size: what single precision le
 /// To within 10⁻⁵ radians: no light from above meets such a face from outside.
 bool looksDown(const glm::dvec3& normal) { return normal.z < -1.0 + 0.5e-10; }
 
-using Points = std::vector<glm::dvec3>;
 using Triangles = std::vector<Corners>;
 
 /// A connected part, its points welded and numbered anew.
