@@ -330,7 +330,8 @@ private:
                    std::abs(other.w() - plane.w) <= rounding;
         };
         const auto known = std::find_if(_result.planes.begin(), _result.planes.end(), isSame);
-        _flat.emplace_back(&leaf, known != _result.planes.end() ? *known : osg::Vec4d(plane.x, plane.y, plane.z, plane.w));
+        _flat.emplace_back(&leaf,
+                           known != _result.planes.end() ? *known : osg::Vec4d(plane.x, plane.y, plane.z, plane.w));
         if (known != _result.planes.end()) return;
         _result.planes.push_back(_flat.back().second);
         if (_result.planes.size() > mostPlanes) refuse("there are more than eight flat receivers");
@@ -392,7 +393,7 @@ private:
     glm::dmat4 _groupFromEye{1.0};
     glm::dvec4 _eye{0.0};
     bool _blends = false;
-    std::string _vast; ///< a receiver that is so.
+    std::string _vast;                                                    ///< a receiver that is so.
     std::vector<std::pair<const osgUtil::RenderLeaf*, osg::Vec4d>> _flat; ///< leaves that lie in a plane, and that.
     std::vector<const ConvexBody*> _receiving;
     std::vector<ConvexBody> _boxes;

@@ -80,8 +80,7 @@ void LightShadowMaps::setCause(const MapRequest& cause) {
     const MapRequest& old = _cause;
     const bool sameMaps = old.settings == cause.settings;
     if (old.casters && old.casters->layers->origin == cause.casters->layers->origin && old.flats == cause.flats &&
-        sameMaps && isSame(cause.cone, old.cone) &&
-        isSame(cause.light, old.light, cause.casters->layers->widest) &&
+        sameMaps && isSame(cause.cone, old.cone) && isSame(cause.light, old.light, cause.casters->layers->widest) &&
         (old.casters == cause.casters ||
          areSame(_frames, framesOf(old.light, old.cone, *cause.casters->layers, old.settings.size))))
         return takeCasters(*cause.casters);
