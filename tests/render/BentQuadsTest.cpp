@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Quads that are not flat: which diagonal they are cut along is the driver's choice; casters take that of most drivers. CTest
-// runs this with each of Mesa's drivers.
+// Quads that are not flat: which diagonal they are cut along is the driver's choice, and casters follow it. CTest runs this with
+// each of Mesa's drivers, which cut alike; NVIDIA's cuts along the other one.
 #include <support/Picture.h>
 #include <support/Scene.h>
 

@@ -2,6 +2,7 @@
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/casters/DrawableTriangles.h>
+#include <gnomon/casters/QuadCut.h>
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>
@@ -368,6 +369,7 @@ void CasterFingerprint::reset() {
 
 std::uint64_t CasterFingerprint::ofGeometry(const osg::Drawable& drawable, const Casting& casting) {
     Fingerprint result;
+    result.mix(std::uint64_t{cutsQuadsFromFirst()});
     if (const osg::Geometry* geometry = drawable.asGeometry())
         mixGeometry(*geometry, verticesOf(*geometry), result);
     else

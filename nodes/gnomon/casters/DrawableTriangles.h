@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/casters/QuadCut.h>
+
 #include <osg/Array>
 #include <osg/Drawable>
 #include <osg/Geometry>
@@ -16,8 +18,7 @@ namespace gnomon {
 
 /// Reads a drawable's primitives, of every mode, as triangles, and its vertices in the root's frame.
 ///
-/// OpenGL leaves open along which diagonal a quad is cut, and one that is not flat shows it. Most drivers cut from the second
-/// corner to the fourth, and those of a strip from the first to the fourth: the last vertex is in both triangles.
+/// Quads are cut as the driver cuts them, see QuadCut.h, and those of a strip from the first corner to the fourth.
 class TriangleDecoder : public osg::PrimitiveFunctor {
 public:
     explicit TriangleDecoder(const osg::Matrixd& rootFromLocal)
@@ -127,8 +128,8 @@ private:
             break;
         case Set::QUADS:
             for (unsigned i = 3; i < n; i += 4) {
-                corners(at(i - 3), at(i - 2), at(i));
-                corners(at(i - 2), at(i - 1), at(i));
+                corners(at(i - 3), at(i - 2), at(_quadsFromFirst ? i - 1 : i));
+                corners(at(_quadsFromFirst ? i - 3 : i - 2), at(i - 1), at(i));
             }
             break;
         case Set::QUAD_STRIP:
@@ -155,6 +156,7 @@ private:
     const osg::Matrixd _rootFromLocal;
     std::optional<unsigned> _restart;
     const bool _affine;
+    const bool _quadsFromFirst = cutsQuadsFromFirst();
     const float* _floats = nullptr;
     const double* _doubles = nullptr;
     unsigned _components = 0;

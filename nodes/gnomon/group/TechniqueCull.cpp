@@ -3,6 +3,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/base/FrameDiagnosis.h>
+#include <gnomon/casters/QuadCut.h>
 #include <gnomon/group/ShadowBin.h>
 
 #include <osg/GraphicsContext>
@@ -27,6 +28,15 @@ GroupAbove groupAbove(const osg::NodePath& path) {
         result.groupFromTechnique = osg::computeLocalToWorld(below, false);
     }
     return result;
+}
+
+/// Asks OpenGL where this thread may, so that the first frame is right. Once a material stands, what is drawn beside changes what
+/// OpenGL makes of it (see MaterialHistory): then the draw traversal asks.
+void findQuads(osgUtil::CullVisitor& cull) {
+    osg::State* state = cull.getState();
+    const osg::GraphicsContext* context = state ? state->getGraphicsContext() : nullptr;
+    if (context && context->isCurrent() && !state->getLastAppliedAttribute(osg::StateAttribute::MATERIAL))
+        findQuadCut(*state);
 }
 
 } // namespace
@@ -58,6 +68,7 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     entry.state = cull.getCurrentStateGraph();
     entry.frameNumber = frame;
     entry.frameTime = timeOf(cull);
+    findQuads(cull);
     ShadowBin::of(stage).enlist(entry);
 }
 
