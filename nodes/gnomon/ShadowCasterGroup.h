@@ -44,7 +44,8 @@ struct CasterView;
 /// Limits
 /// - RELIGHT shadows three lights. BLEND shadows any number, but darkens a pixel only once.
 /// - RELIGHT darkens unlit receivers by setDark(), and receivers whose program reads no light it knows.
-/// - RELIGHT falls back to BLEND if an opaque drawable has a stencil test of its own.
+/// - RELIGHT falls back to BLEND if an opaque drawable has a stencil test of its own. What the test hides takes shadows away
+///   where OpenGL hands over no depths: from several samples, or without GL_MESA_framebuffer_flip_y. diagnose() says so.
 /// - Reversed depth and core profile contexts are refused.
 /// - Depth that a program sets, and vertices that a program moves, are not followed.
 /// - A technique's diagnose() reports each of the five cases above.

@@ -202,6 +202,24 @@ TEST(AnyWindow, TheMarksOfAProgramStay) {
         EXPECT_EQ(stencilOf(spec), without) << spec;
 }
 
+/// Of several samples no depths are handed over: they are drawn again, and with them what its own test hides.
+TEST(AnyWindow, SaysThatWhatAStencilTestHidesTakesShadowsAwayWhereDepthsAreDrawnAgain) {
+    for (const auto function : {osg::Stencil::ALWAYS, osg::Stencil::EQUAL}) {
+        const Scene scene = shadowed("planar:composite=blend");
+        const osg::ref_ptr<osg::Geode> above = node(square(4.0, 2.5));
+        const osg::ref_ptr<osg::Stencil> test = new osg::Stencil;
+        test->setFunction(function, 1, 1u);
+        above->getOrCreateStateSet()->setAttributeAndModes(test);
+        scene.root->addChild(above);
+        IntoTexture into(scene.root, slanted,
+                         {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, 4});
+        third(*into.camera);
+        int told = 0;
+        for (const std::string& cause : causesOf(scene)) told += cause.find("OpenGL hands over no depths") != cause.npos;
+        EXPECT_EQ(told, function == osg::Stencil::ALWAYS ? 0 : 1);
+    }
+}
+
 TEST(AnyWindow, WhatCannotBeDrawnIsPreparedOnceAndAgainWhenItCan) {
     Scene scene = groundScene(casters);
     const osg::ref_ptr<CountingTechnique> technique = new CountingTechnique;

@@ -5,11 +5,13 @@
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/compositor/PrepassBin.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/group/ShadowBin.h>
 
 #include <osg/Camera>
 #include <osg/Stats>
+#include <osg/Stencil>
 #include <osg/Timer>
 #include <osg/View>
 #include <osg/Viewport>
@@ -43,6 +45,13 @@ void drawDepths(const CompositorStage& draw, const ScreenRect& bounds) {
     TouchTest touches(bounds);
     for (const DrawnLeaf& entry : draw.leaves)
         if (touches(*entry.leaf)) replay.draw(entry);
+}
+
+bool mayStencilHide(const DrawnLeaf& entry) {
+    const osgUtil::StateGraph* graph = entry.leaf->_parent;
+    if (!isOn(graph, GL_STENCIL_TEST)) return false;
+    const auto* test = resolved<osg::Stencil>(graph, osg::StateAttribute::STENCIL);
+    return !test || test->getFunction() != osg::Stencil::ALWAYS;
 }
 
 /// OSG's statistics of a stage's camera and of its view, as long as the camera's collect. See addShadowStats().
@@ -147,7 +156,14 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLea
     const CompositorStage draw(renderInfo, *getStage(), std::move(leaves), options, clean, ownBits(_jobs), materials);
     const std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
     if (cause.empty()) {
-        if (target.lacksDepth()) drawDepths(draw, needs.bounds);
+        if (target.lacksDepth()) {
+            drawDepths(draw, needs.bounds);
+            if (std::any_of(draw.leaves.begin(), draw.leaves.end(), mayStencilHide))
+                for (const ShadowJob& job : _jobs)
+                    job.report(
+                        "OpenGL hands over no depths of this framebuffer, so an object that its own stencil test hides "
+                        "takes shadows away from what is behind it. Draw that object in a bin above 8.");
+        }
         Compositor(draw).compose(_jobs, _effects);
     }
     draw.pattern.restore(state);
