@@ -68,4 +68,15 @@ TEST(DepthShadow, IsFreeOfAcneWhereItKnowsHowFarOffThePlaceMayBe) {
     EXPECT_EQ(shadowed(given), 0u);
 }
 
+/// Of interlaced stereo, where the other eye sees the sky above and below.
+TEST(DepthShadow, IsFreeOfAcneWhereRowsBetweenAreAnotherEyes) {
+    gnomon::DepthPicture given =
+        picture({0.5, 0.5 + gnomon::DepthPicture().subpixel}); // as corners that the rasteriser snaps
+    for (std::size_t i = 0; i < given.depths.size(); ++i)
+        if (i / width % 2) given.depths[i] = 1.0f;
+    EXPECT_GT(shadowed(given), std::size_t(width * height / 8)) << "or this test shows nothing";
+    given.neighbour = 2;
+    EXPECT_EQ(shadowed(given), 0u);
+}
+
 } // namespace

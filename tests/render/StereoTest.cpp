@@ -133,11 +133,11 @@ TEST_P(InterlacedStereo, ShowsEachEyeItsOwnPicture) {
     const Drawn left = draw(given, Mode::LEFT_EYE), right = draw(given, Mode::RIGHT_EYE);
     EXPECT_GT(left.third.different(bareLeft.third), 500);
     EXPECT_GT(left.third.different(right.third), 5000);
-    // Rays start, and smooth edges lie, by the slope of what is seen, of which an eye knows every other pixel.
-    const bool smooth = given.find("smooth") != std::string::npos, traced = given.find("traced") == 0;
-    EXPECT_EQ(wrong(actual.first, left.first, right.first, mode, swapped, !smooth && !traced), 0);
-    EXPECT_EQ(wrong(actual.third, left.third, right.third, mode, swapped, !smooth && !traced), 0);
-    EXPECT_LE(wrong(actual.third, left.third, right.third, mode, swapped), smooth ? 150 : traced ? 10 : 0);
+    // Smooth edges lie by the slope of what is seen, of which an eye knows every other pixel.
+    const bool smooth = given.find("smooth") != std::string::npos;
+    EXPECT_EQ(wrong(actual.first, left.first, right.first, mode, swapped, !smooth), 0);
+    EXPECT_EQ(wrong(actual.third, left.third, right.third, mode, swapped, !smooth), 0);
+    EXPECT_LE(wrong(actual.third, left.third, right.third, mode, swapped), smooth ? 150 : 0);
     EXPECT_EQ(actual.complaints, std::vector<std::string>());
     EXPECT_TRUE(actual.keepsPattern);
 }

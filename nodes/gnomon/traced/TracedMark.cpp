@@ -25,7 +25,7 @@ constexpr std::size_t mostBoxes = 16; // of what has changed: a look at more cos
 bool isSamePart(const DepthPicture& a, const DepthPicture& b) {
     const auto key = [](const DepthPicture& p) {
         return std::make_tuple(p.viewportWidth, p.viewportHeight, p.x, p.y, p.width, p.height, p.step, p.subpixel,
-                               p.place.x, p.place.y, p.offPlace, p.drawnPixels, p.drawnDepth);
+                               p.place.x, p.place.y, p.offPlace, p.neighbour, p.drawnPixels, p.drawnDepth);
     };
     return key(a) == key(b);
 }
@@ -166,6 +166,7 @@ std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     DepthPicture part = partInScissor(*state.getCurrentViewport());
     if (part.width <= 0 || part.height <= 0) return "";
     if (!readDepth(state, *resolved, part)) return unresolvedDepth;
+    if (pass.isInterlaced()) part.neighbour = 2;
     part.offPlace += pushedBack.x;
     part.step *= 1.0 + pushedBack.y; // of which depthBufferShadow() allows for a few
     const DrawnError drawn = drawnError(frame.clipFromScene, toGlm(state.getProjectionMatrix()), part.viewportWidth,

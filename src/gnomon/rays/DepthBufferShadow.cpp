@@ -78,11 +78,11 @@ private:
 
 Slope DepthTracer::slope(int x, int y, int dx, int dy) const {
     Slope slope{1.0, 0.0};
-    for (const int side : {-1, 1}) {
+    for (const int side : {-_picture.neighbour, _picture.neighbour}) {
         const int u = x + side * dx, v = y + side * dy;
         if (u < 0 || v < 0 || u >= _picture.width || v >= _picture.height) continue;
         if (!(depth(u, v) < 1.0)) continue;
-        const double change = std::abs(depth(u, v) - depth(x, y));
+        const double change = std::abs(depth(u, v) - depth(x, y)) / _picture.neighbour;
         slope = {std::min(slope.least, change), std::max(slope.most, change)};
     }
     return {std::min(slope.least, slope.most), slope.most};
@@ -189,7 +189,8 @@ bool isSameAbout(const DepthPicture& a, const DepthPicture& b, int x, int y) {
         const std::size_t at = std::size_t(v) * std::size_t(a.width) + std::size_t(u);
         return a.depths[at] == b.depths[at];
     };
-    return same(x, y) && same(x - 1, y) && same(x + 1, y) && same(x, y - 1) && same(x, y + 1);
+    const int n = a.neighbour;
+    return same(x, y) && same(x - n, y) && same(x + n, y) && same(x, y - n) && same(x, y + n);
 }
 
 bool isSameRow(const DepthPicture& a, const DepthPicture& b, int y) {
@@ -227,8 +228,9 @@ TracedBits depthBufferShadow(const RayScene& scene, const DepthPicture& picture,
     tbb::parallel_for(0, picture.height, [&](int y) {
         std::uint8_t* row = result.bits.data() + stride * std::size_t(y);
         const std::uint8_t* known = former ? former->bits.data() + stride * std::size_t(y) : nullptr;
-        const bool isAsBefore = former && former->changed.empty() && isSameRow(picture, former->picture, y - 1) &&
-                                isSameRow(picture, former->picture, y) && isSameRow(picture, former->picture, y + 1);
+        const int next = picture.neighbour;
+        const bool isAsBefore = former && former->changed.empty() && isSameRow(picture, former->picture, y - next) &&
+                                isSameRow(picture, former->picture, y) && isSameRow(picture, former->picture, y + next);
         if (isAsBefore)
             std::copy_n(known, stride, row);
         else

@@ -19,8 +19,9 @@ struct DepthPicture {
     double subpixel = 1.0 / (1 << 8); ///< part of a pixel to which the rasteriser snaps corners.
     glm::dvec2 place{0.5};            ///< where in its pixel a depth was taken, 0 … 1.
     double offPlace = 0.0;            ///< how far from there it may have been, pixels along either axis.
-    double drawnDepth = 0.0;          ///< how far off a surface may be drawn, in depth: see DrawnError.
-    double drawnPixels = 0.0;         ///< the same along either axis.
+    int neighbour = 1;        ///< pixels to the next of the same surface; 2 where those between are another eye's.
+    double drawnDepth = 0.0;  ///< how far off a surface may be drawn, in depth: see DrawnError.
+    double drawnPixels = 0.0; ///< the same along either axis.
 };
 
 /// A box in the frame of the rays.
