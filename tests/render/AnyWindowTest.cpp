@@ -215,7 +215,8 @@ TEST(AnyWindow, SaysThatWhatAStencilTestHidesTakesShadowsAwayWhereDepthsAreDrawn
                          {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, 4});
         third(*into.camera);
         int told = 0;
-        for (const std::string& cause : causesOf(scene)) told += cause.find("OpenGL hands over no depths") != cause.npos;
+        for (const std::string& cause : causesOf(scene))
+            told += cause.find("OpenGL hands over no depths") != cause.npos;
         EXPECT_EQ(told, function == osg::Stencil::ALWAYS ? 0 : 1);
     }
 }
