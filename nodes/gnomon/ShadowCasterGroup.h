@@ -59,9 +59,8 @@ struct CasterView;
 ///   Nor does what is drawn at the far plane, as skies are. Of what a stipple thins out, half must be left.
 /// - A ClipPlane that is no ClipNode's is taken as given in the frame of each drawable that it cuts.
 /// - A drawable that draws itself, or is made of patches, casts in ShadowMapTechnique alone. Others report it.
-/// - Quads that are not flat cast along the diagonal that the driver draws, found once a context; those of strips
-///   from the first corner to the fourth. Mesa's llvmpipe cuts quads of glDrawArrays() outside display lists now so, now so:
-///   draw those that are not flat by indices.
+/// - Quads that are not flat cast as NVIDIA's and Mesa's drivers cut them, by the driver's name; others may cut them otherwise.
+///   Mesa's llvmpipe cuts quads of glDrawArrays() outside display lists now so, now so. Draw those that are not flat by indices.
 /// - An LOD casts as its view shows it. A cull callback that chooses among children is not asked.
 /// - osgUtil::Optimizer leaves what is below the group as it is if the group, or a node below it, names nodes.
 /// - Its SPATIALIZE_GROUPS replaces a Geode that is named and stands elsewhere. Its COPY_SHARED_NODES copies such nodes.

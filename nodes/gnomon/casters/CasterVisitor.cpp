@@ -2,7 +2,6 @@
 #include <gnomon/CasterMarkers.h>
 #include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/casters/DrawableTriangles.h>
-#include <gnomon/casters/QuadCut.h>
 
 #include <osg/AutoTransform>
 #include <osg/Billboard>

@@ -6,6 +6,7 @@
 #include <osg/PrimitiveSetIndirect>
 #include <osg/Vec4>
 
+#include <atomic>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -14,6 +15,8 @@
 
 namespace gnomon {
 namespace {
+
+std::atomic<bool> quadsFromFirst{false};
 
 /// As OpenGL 4.2 and later take it: the smallest signed number is -1, as its neighbour.
 template <class Number>
@@ -166,6 +169,13 @@ bool giveVertices(const osg::Array& array, TriangleDecoder& into) {
 }
 
 } // namespace
+
+bool cutsQuadsFromFirst() { return quadsFromFirst; }
+
+void learnQuadCut() {
+    const GLubyte* vendor = glGetString(GL_VENDOR);
+    if (vendor) quadsFromFirst = std::strncmp(reinterpret_cast<const char*>(vendor), "NVIDIA", 6) == 0;
+}
 
 void readTriangles(const osg::Drawable& drawable, TriangleDecoder& into) {
     const osg::Geometry* geometry = drawable.asGeometry();

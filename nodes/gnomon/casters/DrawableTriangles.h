@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/casters/QuadCut.h>
-
 #include <osg/Array>
 #include <osg/Drawable>
 #include <osg/Geometry>
@@ -16,9 +14,16 @@
 
 namespace gnomon {
 
+/// Along which diagonal the driver cuts GL_QUADS. OpenGL leaves it open, and a quad that is not flat shows it: NVIDIA's (580)
+/// cuts from the first corner to the third, Mesa's from the second to the fourth, in lists, by indices and in buffers alike.
+/// Both cut those of a strip from the first corner to the fourth. A process has one driver.
+bool cutsQuadsFromFirst();
+/// Learns it from the name of the driver whose context is current.
+void learnQuadCut();
+
 /// Reads a drawable's primitives, of every mode, as triangles, and its vertices in the root's frame.
 ///
-/// Quads are cut as the driver cuts them, see QuadCut.h, and those of a strip from the first corner to the fourth.
+/// Quads are cut as the driver cuts them, and those of a strip from the first corner to the fourth.
 class TriangleDecoder : public osg::PrimitiveFunctor {
 public:
     explicit TriangleDecoder(const osg::Matrixd& rootFromLocal)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // ShadowBin: its part of a draw traversal, and what it did, for those who ask. See ShadowReport and addShadowStats().
-#include <gnomon/casters/QuadCut.h>
+#include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/Compositor.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/MarkJob.h>
@@ -134,7 +134,7 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*
     popLeafState(state, previous);
     const unsigned unit = state.getActiveTextureUnit();
     forgetArrays(state);
-    findQuadCut(state); // for the next cull
+    learnQuadCut(); // for the next cull
     for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->begin(renderInfo);
     const std::string cause = compose(renderInfo, std::move(leaves), materials);
     for (const osg::ref_ptr<DrawWatch>& watch : _watches) watch->end(renderInfo);

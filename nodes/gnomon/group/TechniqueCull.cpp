@@ -3,7 +3,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/base/FrameDiagnosis.h>
-#include <gnomon/casters/QuadCut.h>
+#include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/group/ShadowBin.h>
 
 #include <osg/GraphicsContext>
@@ -30,13 +30,10 @@ GroupAbove groupAbove(const osg::NodePath& path) {
     return result;
 }
 
-/// Asks OpenGL where this thread may, so that the first frame is right. Once a material stands, what is drawn beside changes what
-/// OpenGL makes of it (see MaterialHistory): then the draw traversal asks.
-void findQuads(osgUtil::CullVisitor& cull) {
-    osg::State* state = cull.getState();
-    const osg::GraphicsContext* context = state ? state->getGraphicsContext() : nullptr;
-    if (context && context->isCurrent() && !state->getLastAppliedAttribute(osg::StateAttribute::MATERIAL))
-        findQuadCut(*state);
+/// Asks OpenGL where this thread may, so that the first frame is right; else the draw traversal does.
+void learnQuads(osgUtil::CullVisitor& cull) {
+    const osg::GraphicsContext* context = cull.getState() ? cull.getState()->getGraphicsContext() : nullptr;
+    if (context && context->isCurrent()) learnQuadCut();
 }
 
 } // namespace
@@ -68,7 +65,7 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     entry.state = cull.getCurrentStateGraph();
     entry.frameNumber = frame;
     entry.frameTime = timeOf(cull);
-    findQuads(cull);
+    learnQuads(cull);
     ShadowBin::of(stage).enlist(entry);
 }
 
