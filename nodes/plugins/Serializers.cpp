@@ -17,7 +17,6 @@
 #include <osgDB/Serializer>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 using namespace gnomon;

@@ -5,7 +5,6 @@
 #include <gnomon/silhouette/ShadowVolumes.h>
 
 #include <benchmark/benchmark.h>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <osg/TriangleFunctor>
 #include <osgDB/ReadFile>

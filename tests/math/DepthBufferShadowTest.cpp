@@ -5,7 +5,6 @@
 #include <gnomon/rays/DepthBufferShadow.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 

@@ -5,7 +5,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
 using namespace gnomon;

@@ -16,7 +16,6 @@
 #include <osgUtil/Optimizer>
 
 #include <cmath>
-#include <limits>
 
 using namespace scene;
 

@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
 #include <osg/MatrixTransform>
 #include <osg/Program>
 

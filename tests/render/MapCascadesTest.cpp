@@ -5,7 +5,6 @@
 #include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <random>

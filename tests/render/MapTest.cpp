@@ -9,7 +9,6 @@
 #include <osg/ContextData>
 #include <osg/GLExtensions>
 
-#include <cmath>
 #include <iostream>
 
 using gnomon::ShadowMapTechnique;

@@ -11,7 +11,6 @@
 #include <osg/DisplaySettings>
 #include <osg/Stats>
 
-#include <algorithm>
 #include <stdexcept>
 #include <sys/resource.h>
 

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <bitset>
-#include <cmath>
 #include <optional>
 
 namespace gnomon {

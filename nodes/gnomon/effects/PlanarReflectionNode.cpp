@@ -19,7 +19,6 @@
 #include <osg/Vec3f>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <vector>
 

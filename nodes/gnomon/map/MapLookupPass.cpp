@@ -8,7 +8,6 @@
 #include <gnomon_shaders.h>
 
 #include <OpenThreads/ScopedLock>
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>

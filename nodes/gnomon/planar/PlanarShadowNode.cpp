@@ -14,7 +14,6 @@
 #include <gnomon/planar/PlanarCasters.h>
 #include <gnomon/planar/PlanarMark.h>
 
-#include <glm/gtc/matrix_access.hpp>
 #include <glm/matrix.hpp>
 #include <osg/io_utils>
 #include <osgUtil/RenderLeaf>

@@ -8,7 +8,7 @@
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/traced/TracedMark.h>
 
-#include <stdexcept>
+#include <exception>
 
 namespace gnomon {
 

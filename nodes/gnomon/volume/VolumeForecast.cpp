@@ -6,7 +6,6 @@
 #include <gnomon/volume/VolumeForecast.h>
 #include <gnomon/volume/VolumeView.h>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tbb/task_arena.h>
 

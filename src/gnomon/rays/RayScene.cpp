@@ -7,7 +7,6 @@
 #else
 #include <embree3/rtcore.h>
 #endif
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>

@@ -10,7 +10,6 @@
 #include <osgUtil/SmoothingVisitor>
 
 #include <array>
-#include <cmath>
 
 namespace gnomon::examples {
 namespace {
