@@ -60,7 +60,8 @@ struct CasterView;
 /// - A ClipPlane that is no ClipNode's is taken as given in the frame of each drawable that it cuts.
 /// - A drawable that draws itself, or is made of patches, casts in ShadowMapTechnique alone. Others report it.
 /// - Quads that are not flat cast as NVIDIA's and Mesa's drivers cut them, by the driver's name; others may cut them otherwise.
-///   Mesa's llvmpipe cuts quads of glDrawArrays() outside display lists now so, now so. Draw those that are not flat by indices.
+///   Mesa's llvmpipe cuts quads of glDrawArrays() outside display lists now so, now so: draw those that are not flat by indices.
+///   Triangles are the same everywhere.
 /// - An LOD casts as its view shows it. A cull callback that chooses among children is not asked.
 /// - osgUtil::Optimizer leaves what is below the group as it is if the group, or a node below it, names nodes.
 /// - Its SPATIALIZE_GROUPS replaces a Geode that is named and stands elsewhere. Its COPY_SHARED_NODES copies such nodes.

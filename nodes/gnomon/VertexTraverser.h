@@ -27,7 +27,7 @@ class CasterExtraction;
 ///
 /// Reads
 /// - Every primitive mode, with and without indices, and ShapeDrawables.
-/// - Quads as the driver cuts them that shadows have been drawn by; before, from the second vertex to the fourth.
+/// - Quads as the driver that draws this process's shadows cuts them; before it has drawn any, from the second vertex to the fourth.
 /// - Float, double and integer vertex arrays of 2, 3 or 4 components; integers normalised if their array says so.
 /// - Nested and mirrored transforms, switches, sequences and node masks.
 /// - The most detailed loaded children of an LOD, for there is no view that chooses.
