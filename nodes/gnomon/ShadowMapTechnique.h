@@ -45,6 +45,7 @@ class ShadowMapCache;
 ///   coordinates in vertices.
 /// - Far from a very close near plane, depths are too coarse to place shadows. diagnose() names such a caster.
 /// - A lamp inside a closed box may light single pixels along the box's edges.
+/// - Where a lit face is one pixel wide between others, a pixel of it may be dark.
 /// - A penumbra is that of one straight edge at the blockers' mean distance. Overlapping edges at several distances are
 ///   only estimated.
 /// - Penumbras are streaky where a caster is nearer to the lamp than the lamp is wide.

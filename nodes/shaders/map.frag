@@ -27,10 +27,11 @@ const int reach = 2; // to the next pixel
 const int reach = 1;
 #endif
 
-// Change of e a pixel along both axes, to pixels so many away; where one of these is not in view, to that on the other side.
+// Change of e a pixel along both axes, to pixels so many away; where one of these is not in view, to one twice as far on the other
+// side: that of as many may be all that is known of this side's.
 vec2 changeOver(inout ivec2 way, float e, ivec2 here) {
     ivec2 low = ivec2(seenPixels.xy), high = ivec2(seenPixels.zw), to = here + way;
-    way = ivec2(to.x < low.x || to.x > high.x ? -way.x : way.x, to.y < low.y || to.y > high.y ? -way.y : way.y);
+    way = ivec2(to.x < low.x || to.x > high.x ? -2 * way.x : way.x, to.y < low.y || to.y > high.y ? -2 * way.y : way.y);
     to = clamp(here + way, low, high);
     return (1.0 - e - vec2(seenDepth(ivec2(to.x, here.y)), seenDepth(ivec2(here.x, to.y)))) / vec2(way);
 }
