@@ -160,6 +160,17 @@ TEST_P(AnyBin, ALitPaneIsNamed) {
     colors->resize(geometry.getVertexArray()->getNumElements(), {0.2f, 0.6f, 1.0f, 0.5f});
     geometry.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
     EXPECT_EQ(isNamed(), GetParam() != By::Hull) << "by a colour for each vertex";
+    const osg::ref_ptr<osg::Vec4ubArray> bytes = new osg::Vec4ubArray;
+    bytes->resize(colors->size(), {50, 150, 255, 128});
+    geometry.setColorArray(bytes, osg::Array::BIND_PER_VERTEX);
+    EXPECT_EQ(isNamed(), GetParam() != By::Hull) << "by bytes";
+    material->setColorMode(osg::Material::OFF);
+    material->setDiffuse(osg::Material::FRONT_AND_BACK, {1.0f, 1.0f, 1.0f, 1.0f});
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    image->setColor({1.0f, 1.0f, 1.0f, 0.5f}, 0, 0);
+    glass->getStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(image));
+    EXPECT_EQ(isNamed(), GetParam() != By::Hull) << "by a texture";
 }
 
 /// A receiver that is named keeps others from receiving, in the late bins too.

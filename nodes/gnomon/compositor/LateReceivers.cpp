@@ -80,10 +80,13 @@ Alphas alphasIn(const osg::Image& image) {
 }
 
 Alphas alphasIn(const osg::Array& array) {
-    const auto* colors = dynamic_cast<const osg::Vec4Array*>(&array);
-    if (!colors) return {};
     Alphas result{false};
-    for (const osg::Vec4& color : *colors) result.add(color.a());
+    if (const auto* floats = dynamic_cast<const osg::Vec4Array*>(&array))
+        for (const osg::Vec4& color : *floats) result.add(color.a());
+    else if (const auto* bytes = dynamic_cast<const osg::Vec4ubArray*>(&array))
+        for (const osg::Vec4ub& color : *bytes) result.add(float(color.a()) / 255.0f);
+    else
+        return {};
     return result;
 }
 
@@ -136,10 +139,18 @@ bool tracksDiffuse(const osg::Material& material) {
            material.getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE;
 }
 
-/// True if an alpha of 1 may be anywhere, by what is known without textures and programs.
+/// True if an alpha of 1 may be anywhere. Programs may do anything, textures but multiply.
 bool mayBeSolid(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
     const osgUtil::StateGraph* graph = leaf._parent;
-    if (textureUnits(graph) > 0 || resolvedAttribute(graph, A::PROGRAM)) return true;
+    if (resolvedAttribute(graph, A::PROGRAM)) return true;
+    for (unsigned unit = 0, end = textureUnits(graph); unit < end; ++unit) {
+        const auto* texture = textureAttribute<osg::Texture>(graph, unit, A::TEXTURE);
+        const auto* environment = textureAttribute<osg::StateAttribute>(graph, unit, A::TEXENV);
+        const auto* plain = dynamic_cast<const osg::TexEnv*>(environment); // the other combines
+        if (!texture) continue;
+        if (environment && !(plain && plain->getMode() == osg::TexEnv::MODULATE)) return true;
+        if (!known.of(*texture, texture->getImage(0)).one) return false;
+    }
     const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
     if (!isOn(graph, GL_LIGHTING)) return mayBeSolid(*leaf._drawable, known);
     if (!material) return true;
