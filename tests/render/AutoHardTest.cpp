@@ -247,6 +247,28 @@ TEST(AutoPlanes, AWallInTheGroundLeavesTheGroundLit) {
         << trial.chosen();
 }
 
+/// The same of one square that stands in both places.
+TEST(AutoPlanes, OneSquareIsTheGroundAndAWallInIt) {
+    const auto build = [](gnomon::ShadowTechnique* technique) {
+        Scene all = scene({2.8, -3.0, 12.4, 1.0});
+        const osg::ref_ptr<osg::Node> shared = node(square(1.0));
+        osg::ref_ptr<osg::MatrixTransform> ground = new osg::MatrixTransform(osg::Matrixd::scale(14.0, 14.0, 1.0)),
+                                           wall = new osg::MatrixTransform(
+                                               osg::Matrixd::scale(0.75, 0.28, 1.0) *
+                                               osg::Matrixd::rotate(osg::PI_2, osg::Vec3d(1.0, 0.0, 0.0)) *
+                                               osg::Matrixd::translate(6.0, 0.96, -0.3));
+        for (const auto& place : {ground, wall}) {
+            place->addChild(shared);
+            all.content->addChild(place);
+        }
+        if (technique) all.addShadow(technique);
+        return all;
+    };
+    const View view = perspective({-4.7, -15.9, 6.1}, {-1.2, 1.6, 0.5}, 160, 120);
+    EXPECT_LE(render(build(new AutoShadowTechnique).root, view).different(render(build(nullptr).root, view)), 5)
+        << "in single pixels where its plane meets the ground's";
+}
+
 TEST(AutoCasters, ThatAreGoneAreLetGo) {
     const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
     Trial trial({tall});

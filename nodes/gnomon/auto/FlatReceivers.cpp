@@ -262,6 +262,8 @@ private:
             const auto inGroup = flat ? transformedPlane(groupFromLeaf, *flat) : std::nullopt;
             return inGroup ? addPlane(rounded(*inGroup), roundingOf(box, groupFromLeaf), leaf) : addBox(leaf);
         }
+        if (flat && std::next(first) != end)
+            _result.whole = false; // it stands in several places, the leaf in one of them
         for (auto entry = first; entry != end; ++entry) {
             const glm::dmat4 groupFromLocal = toGlm(entry->second->groupFromLocal);
             const auto inGroup = flat ? transformedPlane(groupFromLocal, *flat) : std::nullopt;

@@ -49,9 +49,10 @@ void drawDepths(const CompositorStage& draw, const ScreenRect& bounds) {
 
 bool mayStencilHide(const DrawnLeaf& entry) {
     const osgUtil::StateGraph* graph = entry.leaf->_parent;
-    if (!isOn(graph, GL_STENCIL_TEST)) return false;
-    const auto* test = resolved<osg::Stencil>(graph, osg::StateAttribute::STENCIL);
-    return !test || test->getFunction() != osg::Stencil::ALWAYS;
+    if (!isOn(graph, GL_STENCIL_TEST) || !writesDepth(graph)) return false;
+    const osg::StateAttribute* test = resolvedAttribute(graph, osg::StateAttribute::STENCIL);
+    const auto* oneSided = dynamic_cast<const osg::Stencil*>(test); // the other has two tests
+    return oneSided ? oneSided->getFunction() != osg::Stencil::ALWAYS : test != nullptr;
 }
 
 /// OSG's statistics of a stage's camera and of its view, as long as the camera's collect. See addShadowStats().

@@ -59,12 +59,13 @@ constexpr double mostWaste = 2.0;      // area of a map to the smallest that wou
 constexpr double fewestSoft = 256.0;  // texels of soft edges: with fewer, what 128 of them reach would be most of a map
 constexpr double border = 3.0;        // texels: what a comparison reaches over, and one against rounding
 constexpr int largestTexture = 16384; // texels on a side: what OpenGL has in most places
-constexpr double sameLight = 1e-7;    // of the distance: what OSG's matrices and floats make of a light at rest
+constexpr double sameLight = 1e-7;    // of the distance: what floats make of a light at rest
+constexpr double sameAmong = 1e-10;   // of what is about a lamp: what doubles do
 
 /// @param widest  of the drawables, which a lamp may be within.
 bool isSame(const glm::dvec4& a, const glm::dvec4& b, double widest) {
-    const double size = glm::length(glm::dvec3(b)) + (b.w == 0.0 ? 0.0 : widest);
-    return a.w == b.w && glm::distance(a, b) <= sameLight * size;
+    const double off = sameLight * glm::length(glm::dvec3(b)) + (b.w == 0.0 ? 0.0 : sameAmong * widest);
+    return a.w == b.w && glm::distance(a, b) <= off;
 }
 
 bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) {
