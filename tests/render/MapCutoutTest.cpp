@@ -338,10 +338,10 @@ TEST(MapCutout, WhatBlendsCastsWhereItsAlphaIsAHalfOrMore) {
         fence.getStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
     };
     // By an alpha that is 1 in parts only it receives as a whole or not at all.
-    const auto castsOnly = [](const Causes& causes) {
-        return causes.size() == 1 && causes.front().find("so it receives no shadow") != std::string::npos;
+    const auto castsOnly = [](const Causes& causes, const char* why) {
+        return causes.size() == 1 && causes.front().find(why) != std::string::npos;
     };
-    EXPECT_TRUE(castsOnly(expectShadowOf({leaning, lamp, greater, blends})));
+    EXPECT_TRUE(castsOnly(expectShadowOf({leaning, lamp, greater, blends}), "so it receives no shadow"));
     const auto paler = [&](osg::Geometry& fence) {
         blends(fence);
         const osg::ref_ptr<osg::Material> material = new osg::Material;
@@ -351,7 +351,8 @@ TEST(MapCutout, WhatBlendsCastsWhereItsAlphaIsAHalfOrMore) {
     const auto from213 = [](double s, double t) {
         return alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows) > 212;
     };
-    EXPECT_TRUE(castsOnly(expectShadowOf({upright, afternoon, from213, paler})));
+    EXPECT_TRUE(castsOnly(expectShadowOf({upright, afternoon, from213, paler}), "as bright as without shadows"))
+        << "its alpha is 1 nowhere";
     const auto fading = [&](osg::Geometry& fence) { // in colours of the vertices, upwards
         blends(fence);
         const osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
