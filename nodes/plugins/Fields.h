@@ -114,6 +114,28 @@ void addCompositorOptions(osgDB::ObjectWrapper& wrapper) {
                           osgDB::BaseSerializer::RW_USER);
 }
 
+/// Keeps a class's selection, where it has one, and as `Other…` its other nodes.
+template <typename Class, Selection (Class::*get)() const, void (Class::*set)(const Selection&)>
+void addSelection(osgDB::ObjectWrapper& wrapper, const std::string& name) {
+    const auto check = [](const Class& node) { return (node.*get)() != Selection(); };
+    const auto read = [](osgDB::InputStream& in, Class& node) {
+        (node.*set)(readSelection(in));
+        return true;
+    };
+    const auto write = [](osgDB::OutputStream& out, const Class& node) { return writeSelection(out, (node.*get)()); };
+    const auto checkOthers = [](const Class& node) { return !(node.*get)().others.empty(); };
+    const auto readOthers = [](osgDB::InputStream& in, Class& node) {
+        (node.*set)(withOthers(in, (node.*get)()));
+        return true;
+    };
+    const auto writeOther = [](osgDB::OutputStream& out, const Class& node) { return writeOthers(out, (node.*get)()); };
+    wrapper.addSerializer(new osgDB::UserSerializer<Class>(name.c_str(), check, read, write),
+                          osgDB::BaseSerializer::RW_USER);
+    wrapper.addSerializer(
+        new osgDB::UserSerializer<Class>(("Other" + name).c_str(), checkOthers, readOthers, writeOther),
+        osgDB::BaseSerializer::RW_USER);
+}
+
 /// A property that keeps every bit in text as well.
 template <typename Class, typename Value, typename Base>
 class Exact : public Base {

@@ -114,17 +114,6 @@ REGISTER_CUSTOM_OBJECT_WRAPPER2(gnomon, gnomon_FileVersion, nullptr, osg::Object
 }
 } // namespace FileVersionFields
 
-static bool checkCasters(const ShadowCasterGroup& group) { return group.getCasters() != Selection(); }
-
-static bool readCasters(osgDB::InputStream& in, ShadowCasterGroup& group) {
-    group.setCasters(fields::readSelection(in));
-    return true;
-}
-
-static bool writeCasters(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
-    return fields::writeSelection(out, group.getCasters());
-}
-
 static bool checkLightSources(const ShadowCasterGroup& group) { return !group.getLightSources().empty(); }
 
 static bool readLightSources(osgDB::InputStream& in, ShadowCasterGroup& group) {
@@ -200,17 +189,6 @@ static bool writeLightUniforms(osgDB::OutputStream& out, const ShadowCasterGroup
     });
 }
 
-static bool checkOtherCasters(const ShadowCasterGroup& group) { return !group.getCasters().others.empty(); }
-
-static bool readOtherCasters(osgDB::InputStream& in, ShadowCasterGroup& group) {
-    group.setCasters(fields::withOthers(in, group.getCasters()));
-    return true;
-}
-
-static bool writeOtherCasters(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
-    return fields::writeOthers(out, group.getCasters());
-}
-
 /// Programs that know nothing of Gnomon, such as osgviewer, make their window after they have read the file.
 static ShadowCasterGroup* newGroup() {
     askForStencilBits();
@@ -219,8 +197,7 @@ static ShadowCasterGroup* newGroup() {
 
 GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group", "") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    ADD_USER_SERIALIZER(Casters);
-    ADD_USER_SERIALIZER(OtherCasters);
+    fields::addSelection<MyClass, &MyClass::getCasters, &MyClass::setCasters>(*wrapper, "Casters");
     fields::addEnum(*wrapper, "Composite", fresh->getComposite(), &MyClass::getComposite, &MyClass::setComposite,
                     {{"RELIGHT", MyClass::RELIGHT}, {"BLEND", MyClass::BLEND}});
     wrapper->addSerializer(
@@ -236,31 +213,8 @@ GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group"
     fields::addCompositorOptions<MyClass>(*wrapper);
 }
 
-static bool checkReceiver(const ShadowTechnique& technique) { return technique.hasReceiver(); }
-
-static bool readReceiver(osgDB::InputStream& in, ShadowTechnique& technique) {
-    technique.setReceiver(fields::readSelection(in));
-    return true;
-}
-
-static bool writeReceiver(osgDB::OutputStream& out, const ShadowTechnique& technique) {
-    return fields::writeSelection(out, technique.getReceiver());
-}
-
-static bool checkOtherReceiver(const ShadowTechnique& technique) { return !technique.getReceiver().others.empty(); }
-
-static bool readOtherReceiver(osgDB::InputStream& in, ShadowTechnique& technique) {
-    technique.setReceiver(fields::withOthers(in, technique.getReceiver()));
-    return true;
-}
-
-static bool writeOtherReceiver(osgDB::OutputStream& out, const ShadowTechnique& technique) {
-    return fields::writeOthers(out, technique.getReceiver());
-}
-
 GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "") {
-    ADD_USER_SERIALIZER(Receiver);
-    ADD_USER_SERIALIZER(OtherReceiver);
+    fields::addSelection<MyClass, &MyClass::getReceiver, &MyClass::setReceiver>(*wrapper, "Receiver");
 }
 
 static bool checkPlanes(const PlanarShadowNode& node) { return !node.getPlanes().empty(); }
@@ -367,35 +321,12 @@ GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group
     fields::addCompositorOptions<MyClass>(*wrapper);
 }
 
-static bool checkSurface(const PlanarReflectionNode& node) { return node.getSurface() != Selection(); }
-
-static bool readSurface(osgDB::InputStream& in, PlanarReflectionNode& node) {
-    node.setSurface(fields::readSelection(in));
-    return true;
-}
-
-static bool writeSurface(osgDB::OutputStream& out, const PlanarReflectionNode& node) {
-    return fields::writeSelection(out, node.getSurface());
-}
-
-static bool checkOtherSurface(const PlanarReflectionNode& node) { return !node.getSurface().others.empty(); }
-
-static bool readOtherSurface(osgDB::InputStream& in, PlanarReflectionNode& node) {
-    node.setSurface(fields::withOthers(in, node.getSurface()));
-    return true;
-}
-
-static bool writeOtherSurface(osgDB::OutputStream& out, const PlanarReflectionNode& node) {
-    return fields::writeOthers(out, node.getSurface());
-}
-
 GNOMON_WRAPPER(PlanarReflectionNode, new gnomon::PlanarReflectionNode, "osg::Object osg::Node osg::Group", "") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec4d>("Plane", fresh->getPlane(), &MyClass::getPlane,
                                                                         &MyClass::setPlane),
                            osgDB::BaseSerializer::RW_VEC4D);
-    ADD_USER_SERIALIZER(Surface);
-    ADD_USER_SERIALIZER(OtherSurface);
+    fields::addSelection<MyClass, &MyClass::getSurface, &MyClass::setSurface>(*wrapper, "Surface");
     wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec3f>("Reflectance", fresh->getReflectance(),
                                                                         &MyClass::getReflectance,
                                                                         &MyClass::setReflectance),
