@@ -27,12 +27,18 @@ const int reach = 2; // to the next pixel
 const int reach = 1;
 #endif
 
-// Change of e a pixel along both axes, to pixels so many away; where one of these is not in view, to one twice as far on the other
-// side: that of as many may be all that is known of this side's.
+// The way to a pixel so many on; where that is not in view, to one twice as many back, or else as many: as many back may be all that
+// is known of the other side.
+int wayInView(int at, int way, int low, int high) {
+    int on = at + way, back = at - 2 * way;
+    return on >= low && on <= high ? way : back >= low && back <= high ? -2 * way : -way;
+}
+
+// Change of e a pixel along both axes, to pixels so many away.
 vec2 changeOver(inout ivec2 way, float e, ivec2 here) {
-    ivec2 low = ivec2(seenPixels.xy), high = ivec2(seenPixels.zw), to = here + way;
-    way = ivec2(to.x < low.x || to.x > high.x ? -2 * way.x : way.x, to.y < low.y || to.y > high.y ? -2 * way.y : way.y);
-    to = clamp(here + way, low, high);
+    ivec2 low = ivec2(seenPixels.xy), high = ivec2(seenPixels.zw);
+    way = ivec2(wayInView(here.x, way.x, low.x, high.x), wayInView(here.y, way.y, low.y, high.y));
+    ivec2 to = clamp(here + way, low, high);
     return (1.0 - e - vec2(seenDepth(ivec2(to.x, here.y)), seenDepth(ivec2(here.x, to.y)))) / vec2(way);
 }
 
