@@ -126,17 +126,16 @@ private:
     std::map<const osg::Object*, Entry> _known;
 };
 
-/// True if an alpha of 1 may be among the colours that a geometry has.
-bool mayBeSolid(const osg::Drawable& drawable, KnownAlphas& known) {
-    const osg::Geometry* geometry = drawable.asGeometry();
-    const osg::Array* colors = geometry ? geometry->getColorArray() : nullptr;
-    return !colors || colors->getNumElements() == 0 || known.of(*colors, colors).one;
+/// Null if it has none, or is no geometry.
+const osg::Array* colorsOf(const osg::Drawable& drawable) {
+    return drawable.asGeometry() ? drawable.asGeometry()->getColorArray() : nullptr;
 }
 
 /// True if colours of vertices take the place of the diffuse one.
-bool tracksDiffuse(const osg::Material& material) {
-    return material.getColorMode() == osg::Material::DIFFUSE ||
-           material.getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE;
+bool showsColors(const osgUtil::StateGraph* graph) {
+    const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
+    return !isOn(graph, GL_LIGHTING) || (material && (material->getColorMode() == osg::Material::DIFFUSE ||
+                                                      material->getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE));
 }
 
 /// True if an alpha of 1 may be anywhere. Programs may do anything, textures but multiply.
@@ -151,11 +150,10 @@ bool mayBeSolid(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
         if (environment && !(plain && plain->getMode() == osg::TexEnv::MODULATE)) return true;
         if (!known.of(*texture, texture->getImage(0)).one) return false;
     }
+    const osg::Array* colors = colorsOf(*leaf._drawable);
+    if (colors && showsColors(graph)) return colors->getNumElements() == 0 || known.of(*colors, colors).one;
     const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
-    if (!isOn(graph, GL_LIGHTING)) return mayBeSolid(*leaf._drawable, known);
-    if (!material) return true;
-    if (tracksDiffuse(*material) && leaf._drawable->asGeometry() && leaf._drawable->asGeometry()->getColorArray())
-        return mayBeSolid(*leaf._drawable, known);
+    if (!isOn(graph, GL_LIGHTING) || !material) return true;
     return std::max(material->getDiffuse(osg::Material::FRONT).a(), material->getDiffuse(osg::Material::BACK).a()) >=
            opaqueAlpha;
 }
@@ -170,12 +168,8 @@ bool isTorn(const osgUtil::RenderLeaf& leaf, KnownAlphas& known) {
         const bool counts = texture && !(environment && environment->getMode() == osg::TexEnv::DECAL);
         if (counts && known.of(*texture, texture->getImage(0)).areTorn(isBlurred(*texture))) return true;
     }
-    const osg::Geometry* geometry = leaf._drawable->asGeometry();
-    const osg::Array* colors = geometry ? geometry->getColorArray() : nullptr;
-    if (!colors || colors->getNumElements() < 2) return false;
-    const auto* material = resolved<osg::Material>(graph, A::MATERIAL);
-    const bool drawn = !isOn(graph, GL_LIGHTING) || (material && tracksDiffuse(*material));
-    return drawn && known.of(*colors, colors).areTorn(true);
+    const osg::Array* colors = colorsOf(*leaf._drawable);
+    return colors && colors->getNumElements() > 1 && showsColors(graph) && known.of(*colors, colors).areTorn(true);
 }
 
 /// What has no bounds draws something else than surfaces: a user interface, for one, which must not be drawn twice.
