@@ -2,6 +2,7 @@
 # functions up by name in that order. Options stand ahead of all libraries, whatever the order in target_link_libraries().
 find_package(PkgConfig QUIET)
 if(PKG_CONFIG_FOUND)
+  unset(__pkg_config_checked_OSMESA CACHE) # or a build folder looks once, and never sees that OSMesa has come or gone
   pkg_check_modules(OSMESA QUIET osmesa)
 endif()
 if(OSMESA_FOUND AND NOT TARGET osmesa::osmesa)

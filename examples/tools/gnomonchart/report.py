@@ -207,10 +207,10 @@ def draw_panel(axes, points, scenes, light):
 
 def chart_figure(results, points, scenes, title):
     figure, panels = plt.subplots(2, 1, figsize=(5.6, 8.8))
-    figure.subplots_adjust(left=0.12, right=0.98, top=0.925, bottom=0.13, hspace=0.2)
+    figure.subplots_adjust(left=0.12, right=0.98, top=0.925, bottom=0.13, hspace=0.26)
     for axes, light in zip(panels, LIGHTS):
         draw_panel(axes, points, scenes, light)
-    panels[1].set_xlabel("time that shadows add to a frame (ms)")
+        axes.set_xlabel("time that shadows add to a frame (ms)")
     made = dict(results["made"])
     figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
     key = [Line2D([], [], color="#374151", marker="o", ls="", ms=6, label="as it comes"),
