@@ -404,7 +404,7 @@ CHART_PAGE = HEAD + """
 <p>Every technique of Gnomon and of osgShadow, measured on the same scenes in the same run. Left is faster, down is more
 accurate. The edge of a shadow is off by so many pixels that 95 % of it lie nearer to the edge by rays.</p>
 <figure><img src="figure.svg" alt="error against time, all scenes"><figcaption>Medians over {{ results.scenes|length }}
-scenes. Small dots are other settings.</figcaption></figure>
+scene{{ "s" if results.scenes|length != 1 }}. Small dots are other settings.</figcaption></figure>
 <p>{{ summary }} {{ kept }}</p>
 {% if rows %}<details><summary>The budgets of auto</summary><div class="wide"><table class="sortable"><thead><tr>
 <th class="text">scene</th><th class="text">auto</th><th class="text">light</th><th>px</th><th>ms</th><th>kept</th>
