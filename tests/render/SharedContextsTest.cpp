@@ -133,11 +133,7 @@ struct Viewer {
         osg::Camera& camera = *viewer.getCamera();
         camera.setGraphicsContext(window);
         camera.setViewport(0, 0, view.width, view.height);
-        camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-        camera.setCullingMode(camera.getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
-        camera.setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
-        camera.setViewMatrix(view.view);
-        camera.setProjectionMatrix(view.projection);
+        test::settle(camera, view);
         viewer.setSceneData(root);
         viewer.realize();
         window->makeCurrent();

@@ -15,8 +15,6 @@ namespace {
 
 GNOMON_BY_TECHNIQUE(AnyBin);
 
-using Change = std::function<void(Scene&)>;
-
 Trial houseTrial() { return {{house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0)}}; }
 
 void useBin(osg::Node& node, int number, const std::string& name = "RenderBin") {
@@ -35,18 +33,15 @@ void operateLate(osg::Node& node, osg::LogicOp::Opcode code) {
     node.getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
 }
 
-/// Frames with the change show what rays choose of the two pictures that OpenGL draws with it and without shadows.
+/// Relit, and blended to black if that shows the same.
 ::testing::AssertionResult isRightWith(const Change& change, bool blended = true) {
     const Trial trial = houseTrial();
-    Scene lit = trial.build(), dark = trial.build(), shadowed = trial.buildWithShadow();
-    dark.takeLightAway();
-    for (Scene* scene : {&lit, &dark, &shadowed}) change(*scene);
-    const Truth truth{render(lit.root, trial.view), render(dark.root, trial.view),
-                      castRays(square(trial.half), trial.casters, trial.light, trial.view), 2};
-    if (blended) return isRight(shadowed, trial.view, truth);
+    if (blended) return isRight(trial, change);
+    Scene shadowed = trial.buildWithShadow();
+    change(shadowed);
     Camera camera(shadowed.root, trial.view);
     camera.frame();
-    return shows(camera.frame(), truth);
+    return shows(camera.frame(), truthOf(trial, change));
 }
 
 /// A pane over house, ground and shadow.
@@ -217,7 +212,7 @@ TEST_P(AnyBin, WhatIsClearInPartsReceivesNothingAndIsNamed) {
 /// The half of the ground with the alpha of 1 receives, the other half lets the background shine through.
 TEST_P(AnyBin, ATextureWhosePixelsAreAllThereOrClearReceivesWhereTheyAreThere) {
     const Trial trial = houseTrial();
-    const auto build = [](Scene scene) {
+    const Change change = [](Scene& scene) {
         osg::Node& ground = *find(*scene.root, "ground");
         osg::Geometry& geometry = *ground.asGeode()->getDrawable(0)->asGeometry();
         osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
@@ -226,17 +221,14 @@ TEST_P(AnyBin, ATextureWhosePixelsAreAllThereOrClearReceivesWhereTheyAreThere) {
         geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
         ground.getOrCreateStateSet()->setTextureAttributeAndModes(0, halves(0, 255));
         blendLate(ground);
-        return scene;
     };
-    Scene lit = build(trial.build()), dark = build(trial.build()), shadowed = build(trial.buildWithShadow());
-    dark.takeLightAway();
-    const Picture litPicture = render(lit.root, trial.view);
-    Truth truth{litPicture, render(dark.root, trial.view),
-                castRays(square(trial.half), trial.casters, trial.light, trial.view), 2};
-    for (int y = 0; y < litPicture.height; ++y)
-        for (int x = 0; x < litPicture.width / 2; ++x) {
-            const auto at = static_cast<std::size_t>(y * litPicture.width + x);
-            truth.dark.pixels[at] = litPicture.pixels[at];
+    Scene shadowed = trial.buildWithShadow();
+    change(shadowed);
+    Truth truth = truthOf(trial, change);
+    for (int y = 0; y < truth.lit.height; ++y)
+        for (int x = 0; x < truth.lit.width / 2; ++x) {
+            const auto at = static_cast<std::size_t>(y * truth.lit.width + x);
+            truth.dark.pixels[at] = truth.lit.pixels[at];
         }
     EXPECT_TRUE(shows(render(shadowed.root, trial.view), truth));
 }

@@ -17,7 +17,7 @@ Trial casting(const Mesh& caster, const osg::Vec4d& light = {1.0, 0.0, 1.0, 0.0}
 View nearTheGround() { return perspective({-5.0, -6.0, 2.0}, {0.0, 0.0, 0.0}, 128, 96); }
 
 GNOMON_BY_TECHNIQUE(SunkenSphere);
-GNOMON_BY_EXACT_TECHNIQUE(CutSphere); // hull leaves out corners of round silhouettes, up to a hundredth of the shadow
+GNOMON_BY_TECHNIQUE(CutSphere);
 GNOMON_BY_TECHNIQUE(Pole);
 GNOMON_BY_TECHNIQUE(Rug);
 

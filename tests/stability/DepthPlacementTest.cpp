@@ -15,13 +15,9 @@ GNOMON_BY_TECHNIQUE(DepthPlacements);
 ::testing::AssertionResult isRightWith(const char* name, osg::StateAttribute* attribute) {
     Trial trial{{house({0.0, 0.0}, {2.0, 1.5, 1.0}, 30.0)}};
     trial.view = perspective({-6.0, -10.0, 6.0}, {0.0, 0.0, 0.0}, 200, 150);
-    Scene lit = trial.build(), dark = trial.build(), shadowed = trial.buildWithShadow();
-    dark.takeLightAway();
-    for (Scene* scene : {&lit, &dark, &shadowed})
-        (*name ? find(*scene->root, name) : scene->root.get())->getOrCreateStateSet()->setAttributeAndModes(attribute);
-    const Truth truth{render(lit.root, trial.view), render(dark.root, trial.view),
-                      castRays(square(trial.half), trial.casters, trial.light, trial.view), 2};
-    return isRight(shadowed, trial.view, truth);
+    return isRight(trial, [&](Scene& scene) {
+        (*name ? find(*scene.root, name) : scene.root.get())->getOrCreateStateSet()->setAttributeAndModes(attribute);
+    });
 }
 
 } // namespace

@@ -27,19 +27,6 @@ Trial boxOnGround(const osg::Vec4d& light = {1.0, 0.5, 1.0, 0.0}) {
 
 View slanting() { return perspective({-6.0, -7.0, 5.0}, {0.0, 0.0, 0.0}, size, size); }
 
-/// Part of a context's picture, from column `left` on.
-Picture part(const gnomon::HeadlessContext& context, int left, int width) {
-    const osg::ref_ptr<osg::Image> image = context.image();
-    Picture picture;
-    picture.width = width;
-    picture.height = image->t();
-    picture.pixels.resize(static_cast<std::size_t>(width * picture.height));
-    for (int y = 0; y < picture.height; ++y)
-        std::memcpy(&picture.pixels[static_cast<std::size_t>(y * width)], image->data(left, y),
-                    static_cast<std::size_t>(width) * 4);
-    return picture;
-}
-
 /// One cull and one draw without a viewer, an update traversal or a frame number.
 class BareView {
 public:
@@ -65,7 +52,7 @@ public:
         _context.graphicsContext()->makeCurrent(); // other viewers of a test let go of theirs
         _sceneView->cull();
         _sceneView->draw();
-        return part(_context, 0, size);
+        return pictureOf(_context);
     }
 
 private:
@@ -79,11 +66,7 @@ void addView(osgViewer::CompositeViewer& viewer, const gnomon::HeadlessContext& 
     added->setLightingMode(osg::View::NO_LIGHT);
     osg::Camera& camera = *added->getCamera();
     context.attach(camera, new osg::Viewport(left, 0, view.width, view.height));
-    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-    camera.setCullingMode(camera.getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
-    camera.setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
-    camera.setViewMatrix(view.view);
-    camera.setProjectionMatrix(view.projection);
+    settle(camera, view);
     added->setSceneData(root);
     viewer.addView(added);
 }
@@ -174,8 +157,8 @@ TEST_P(CompositeViewer, ShowsAnOrthographicAndAPerspectiveViewInItsFirstFrame) {
         addView(viewer, context, scene.root, slant.view, size);
         for (int frame = 0; frame < 2; ++frame) {
             viewer.frame();
-            EXPECT_TRUE(shows(part(context, 0, size), truthOf(above)));
-            EXPECT_TRUE(shows(part(context, size, size), truthOf(slant)));
+            EXPECT_TRUE(shows(pictureOf(context, 0, size), truthOf(above)));
+            EXPECT_TRUE(shows(pictureOf(context, size, size), truthOf(slant)));
         }
     }
 }
@@ -206,11 +189,7 @@ TEST_P(NestedCamera, OfItsOwnFrameShowsTheShadow) {
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
     camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
     camera->setViewport(0, 0, size, size);
-    camera->setViewMatrix(trial.view.view);
-    camera->setProjectionMatrix(trial.view.projection);
-    camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-    camera->setCullingMode(camera->getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
-    camera->setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
+    settle(*camera, trial.view);
     camera->setRenderOrder(osg::Camera::POST_RENDER);
     camera->addChild(scene.root);
     osg::ref_ptr<osg::Group> root = new osg::Group;

@@ -128,11 +128,7 @@ osg::ref_ptr<Recorder> addWindow(osgViewer::CompositeViewer& viewer, const gnomo
     osg::Camera& camera = *window->getCamera();
     window->setLightingMode(osg::View::NO_LIGHT);
     context.attach(camera);
-    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-    camera.setCullingMode(camera.getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
-    camera.setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
-    camera.setViewMatrix(view.view);
-    camera.setProjectionMatrix(view.projection);
+    settle(camera, view);
     camera.setFinalDrawCallback(recorder);
     window->setSceneData(root);
     viewer.addView(window);

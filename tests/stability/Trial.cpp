@@ -62,14 +62,23 @@ Scene Trial::buildWithShadow() const {
     return result;
 }
 
-Truth truthOf(const Trial& trial, const osg::Vec4d& lightOfRays) {
+namespace {
+
+Truth truthOf(const Trial& trial, const Change& change, const osg::Vec4d& lightOfRays) {
     Scene lit = trial.build(), dark = trial.build();
     dark.takeLightAway();
+    for (Scene* scene : {&lit, &dark}) change(*scene);
     return {render(lit.root, trial.view), render(dark.root, trial.view),
             castRays(square(trial.half), trial.casters, lightOfRays, trial.view), trial.mapEdge};
 }
 
-Truth truthOf(const Trial& trial) { return truthOf(trial, trial.light); }
+void leave(Scene&) {}
+
+} // namespace
+
+Truth truthOf(const Trial& trial, const osg::Vec4d& lightOfRays) { return truthOf(trial, leave, lightOfRays); }
+Truth truthOf(const Trial& trial, const Change& change) { return truthOf(trial, change, trial.light); }
+Truth truthOf(const Trial& trial) { return truthOf(trial, leave); }
 
 Picture black(const Picture& sizeOf) {
     Picture result = sizeOf;
@@ -101,10 +110,13 @@ Picture black(const Picture& sizeOf) {
     return ::testing::AssertionSuccess();
 }
 
-::testing::AssertionResult isRight(const Trial& trial) {
+::testing::AssertionResult isRight(const Trial& trial, const Change& change) {
     Scene scene = trial.buildWithShadow();
-    return isRight(scene, trial.view, truthOf(trial));
+    change(scene);
+    return isRight(scene, trial.view, truthOf(trial, change));
 }
+
+::testing::AssertionResult isRight(const Trial& trial) { return isRight(trial, leave); }
 
 ::testing::AssertionResult isUnshadowed(Scene& scene, const View& view, const Picture& lit, Ground turned) {
     Camera camera(scene.root, view);

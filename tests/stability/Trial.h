@@ -4,6 +4,7 @@
 #include <support/Oracle.h>
 #include <support/Scene.h>
 
+#include <functional>
 #include <vector>
 
 namespace test {
@@ -23,7 +24,6 @@ protected:
     class suite : public ByTechnique {};                                                                               \
     INSTANTIATE_TEST_SUITE_P(Shadows, suite, testing::Values(__VA_ARGS__), testing::PrintToStringParamName())
 #define GNOMON_BY_TECHNIQUE(suite) GNOMON_BY(suite, By::Planar, By::Hull, By::Traced, By::Map, By::Volume)
-#define GNOMON_BY_EXACT_TECHNIQUE(suite) GNOMON_BY(suite, By::Planar, By::Hull, By::Traced, By::Map, By::Volume)
 
 /// For z = 0: the technique of the case that is run, else planar.
 osg::ref_ptr<gnomon::ShadowTechnique> castingTechnique(osg::Node* receiver = nullptr);
@@ -50,6 +50,9 @@ struct Truth {
     int shadowPixels() const { return mask.count(Seen::ShadowedReceiver); }
 };
 Truth truthOf(const Trial& trial);
+/// The same with something done to the scene that changes no shadow's place.
+using Change = std::function<void(Scene& scene)>;
+Truth truthOf(const Trial& trial, const Change& change);
 /// The same, its shadow cast by another light than the one that shines: for lamps too far for a ray's parameter.
 Truth truthOf(const Trial& trial, const osg::Vec4d& lightOfRays);
 
@@ -67,6 +70,7 @@ Picture black(const Picture& sizeOf);
 /// Frames 1 to 3 (relit without and with what is known of solids, then blended to black) are what the rays say.
 ::testing::AssertionResult isRight(Scene& scene, const View& view, const Truth& truth);
 ::testing::AssertionResult isRight(const Trial& trial);
+::testing::AssertionResult isRight(const Trial& trial, const Change& change);
 /// Where the light stands. What faces away from it traced and map take to be in its own shadow: relit that shows nothing.
 enum class Ground { ToTheLight, Away };
 /// Neither relit nor, but for what those do to a ground that faces away, blended to black does the picture differ from

@@ -39,6 +39,26 @@ int Picture::different(const Picture& other) const {
     return result;
 }
 
+Picture pictureOf(const gnomon::HeadlessContext& context, int left, int width) {
+    const osg::ref_ptr<osg::Image> image = context.image();
+    Picture picture;
+    picture.width = width > 0 ? width : image->s();
+    picture.height = image->t();
+    picture.pixels.resize(static_cast<std::size_t>(picture.width * picture.height));
+    for (int y = 0; y < picture.height; ++y)
+        std::memcpy(&picture.pixels[static_cast<std::size_t>(y * picture.width)], image->data(left, y),
+                    static_cast<std::size_t>(picture.width) * 4);
+    return picture;
+}
+
+void settle(osg::Camera& camera, const View& view) {
+    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    camera.setCullingMode(camera.getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
+    camera.setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
+    camera.setViewMatrix(view.view);
+    camera.setProjectionMatrix(view.projection);
+}
+
 Camera::Camera(osg::Node* root, const View& view, const gnomon::HeadlessContext::Options& given) {
     gnomon::HeadlessContext::Options options = given;
     options.width = view.width;
@@ -47,12 +67,8 @@ Camera::Camera(osg::Node* root, const View& view, const gnomon::HeadlessContext:
     failBySeriousGlMessages(*_context->graphicsContext());
     _viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
     _viewer.setLightingMode(osg::View::NO_LIGHT);
-    osg::Camera& camera = *_viewer.getCamera();
-    _context->attach(camera);
-    camera.setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
-    camera.setCullingMode(camera.getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
-    camera.setClearColor({0.0f, 0.0f, 0.25f, 1.0f});
-    setView(view);
+    _context->attach(*_viewer.getCamera());
+    settle(*_viewer.getCamera(), view);
     _viewer.setSceneData(root);
 }
 
@@ -63,13 +79,7 @@ void Camera::setView(const View& view) {
 
 Picture Camera::frame() {
     _viewer.frame();
-    const osg::ref_ptr<osg::Image> image = _context->image();
-    Picture picture;
-    picture.width = image->s();
-    picture.height = image->t();
-    picture.pixels.resize(static_cast<std::size_t>(picture.width * picture.height));
-    std::memcpy(picture.pixels.data(), image->data(), picture.pixels.size() * 4);
-    return picture;
+    return pictureOf(*_context);
 }
 
 struct NoFramebufferCopies::Functions {

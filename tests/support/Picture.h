@@ -38,6 +38,12 @@ struct Picture {
 
 std::uint32_t grey(unsigned value);
 
+/// A context's picture, or so many of its columns from `left` on.
+Picture pictureOf(const gnomon::HeadlessContext& context, int left = 0, int width = 0);
+
+/// Lets a camera look from there, near and far as they are given, upon a dark blue; nothing is left out for being small.
+void settle(osg::Camera& camera, const View& view);
+
 /// A viewer without a window, single-threaded, that keeps running: for tests that change a scene between frames.
 class Camera {
 public:
