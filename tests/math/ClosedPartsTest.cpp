@@ -61,18 +61,13 @@ Soup tetrahedron(float size = 1.0f) {
 
 } // namespace
 
-TEST(ClosedParts, AreSolidsWhoseFacesLookOutwards) { EXPECT_EQ(tetrahedron().closedTriangles(), 4); }
-
-TEST(ClosedParts, AreNotWhatIsTurnedInsideOut) { EXPECT_EQ(tetrahedron().turned().closedTriangles(), 0); }
-
-TEST(ClosedParts, AreNotWhatLacksAFace) {
+TEST(ClosedParts, AreSolidsWhoseFacesLookOutwardsAndNoneOfWhichIsMissing) {
+    EXPECT_EQ(tetrahedron().closedTriangles(), 4);
+    EXPECT_EQ(tetrahedron().turned().closedTriangles(), 0) << "inside out";
     for (std::size_t face = 0; face < 4; ++face) EXPECT_EQ(tetrahedron().without(face).closedTriangles(), 0);
-}
-
-TEST(ClosedParts, AreNotWhatHasOneFaceTurnedRound) {
     Soup soup = tetrahedron();
     std::swap(soup.positions[0], soup.positions[1]);
-    EXPECT_EQ(soup.closedTriangles(), 0);
+    EXPECT_EQ(soup.closedTriangles(), 0) << "one face is turned round";
 }
 
 TEST(ClosedParts, AreToldApartWhereNothingConnectsThem) {
@@ -85,17 +80,13 @@ TEST(ClosedParts, AreToldApartWhereNothingConnectsThem) {
     EXPECT_EQ(soup.parts().closed, expected);
 }
 
-TEST(ClosedParts, ThatTouchInAVertexAreOneAndStillClosed) {
-    Soup soup = tetrahedron();
-    soup.add(tetrahedron().moved({1.0f, 0.0f, 0.0f}));
-    EXPECT_EQ(soup.closedTriangles(), 8);
-}
-
-TEST(ClosedParts, ThatShareAnEdgeAreClosed) { // four triangles meet in it: two go each way
-    Soup soup = tetrahedron(), opposite = tetrahedron();
+TEST(ClosedParts, ThatTouchInAVertexOrShareAnEdgeAreClosed) {
+    Soup touching = tetrahedron(), sharing = tetrahedron(), opposite = tetrahedron();
+    touching.add(tetrahedron().moved({1.0f, 0.0f, 0.0f}));
+    EXPECT_EQ(touching.closedTriangles(), 8);
     for (glm::vec3& position : opposite.positions) position = {-position.x, -position.y, position.z};
-    soup.add(opposite);
-    EXPECT_EQ(soup.closedTriangles(), 8);
+    sharing.add(opposite); // four triangles meet in the edge: two go each way
+    EXPECT_EQ(sharing.closedTriangles(), 8);
 }
 
 TEST(ClosedParts, WithAFinOnAnEdgeAreOpen) {
@@ -118,11 +109,9 @@ TEST(ClosedParts, MayHoldTrianglesOfNoArea) {
     EXPECT_EQ(soup.closedTriangles(), 6);
 }
 
-TEST(ClosedParts, AreFoundFarFromTheOrigin) { // 2²³ + 1 is a float, the cube of it keeps no ones
+TEST(ClosedParts, AreFoundFarFromTheOriginAndInAnyUnit) {
+    // 2²³ + 1 is a float, the cube of it keeps no ones
     EXPECT_EQ(tetrahedron().moved({8388608.0f, -8388608.0f, 4194304.0f}).closedTriangles(), 4);
-}
-
-TEST(ClosedParts, AreFoundInAnyUnit) {
     for (const float size : {1e-12f, 1e-3f, 1e3f, 1e12f}) EXPECT_EQ(tetrahedron(size).closedTriangles(), 4);
 }
 
@@ -209,12 +198,6 @@ TEST(HoledParts, ShowBacksThroughTheirHolesAlone) {
     EXPECT_EQ(looked.behindNoFront, 0);
 }
 
-TEST(HoledParts, AreNotWhatIsTurnedInsideOut) {
-    const ClosedParts found = globe(isNorth).turned().parts();
-    EXPECT_TRUE(isAll(found.holed, false));
-    EXPECT_TRUE(found.holes.empty());
-}
-
 // Seen from its tip all of a spike's volume is beneath what fills its foot, and from the foot none: by the order of its
 // triangles the one or the other is looked from.
 TEST(HoledParts, AreWhatHasAVolumeWithTheirHolesFilled) {
@@ -232,10 +215,14 @@ TEST(HoledParts, AreWhatHasAVolumeWithTheirHolesFilled) {
     }
 }
 
-TEST(HoledParts, HaveNoWideHole) { // a dome is half a globe
-    const ClosedParts found = globe([](int latitude, int) { return 4 * latitude >= around; }).parts();
-    EXPECT_TRUE(isAll(found.holed, false));
-    EXPECT_TRUE(found.holes.empty());
+// A dome is half a globe.
+TEST(HoledParts, AreNotInsideOutAndHaveNoWideHole) {
+    const Soup dome = globe([](int latitude, int) { return 4 * latitude >= around; });
+    for (const Soup& soup : {globe(isNorth).turned(), dome}) {
+        const ClosedParts found = soup.parts();
+        EXPECT_TRUE(isAll(found.holed, false));
+        EXPECT_TRUE(found.holes.empty());
+    }
 }
 
 // Of a bowl on a post the inside looks up, and its outside is not there: under a low sun its wall's back is before its inside.
@@ -300,20 +287,12 @@ TEST(ClosedParts, StayOpenWhereASeamIsWiderThanRounding) {
     EXPECT_EQ(gaping.closedTriangles(), 0);
 }
 
-TEST(ClosedParts, OfNothingAreNone) {
-    const ClosedParts found = closedParts(nullptr, 0, nullptr, 0);
-    EXPECT_TRUE(found.closed.empty());
-    EXPECT_TRUE(found.welded.empty());
-}
+TEST(ClosedParts, OfNothingAreNone) { EXPECT_TRUE(closedParts(nullptr, 0, nullptr, 0).closed.empty()); }
 
-TEST(WeldedVertices, AreTheFirstOfEachPosition) {
-    const std::vector<glm::vec3> positions{{1, 2, 3}, {0, 0, 0}, {1, 2, 3}, {1, 2, 4}, {0, 0, 0}, {1, 2, 3}};
-    EXPECT_EQ(closedParts(positions.data(), positions.size(), nullptr, 0).welded,
-              (std::vector<unsigned>{0, 1, 0, 3, 1, 0}));
-}
-
-TEST(WeldedVertices, TakeMinusZeroForZeroAndNothingElseForEqual) {
+TEST(WeldedVertices, AreTheFirstOfEachPositionAndMinusZeroIsZero) {
     const float next = std::nextafter(1.0f, 2.0f);
-    const std::vector<glm::vec3> positions{{0.0f, 1.0f, 0.0f}, {-0.0f, 1.0f, -0.0f}, {0.0f, next, 0.0f}};
-    EXPECT_EQ(closedParts(positions.data(), positions.size(), nullptr, 0).welded, (std::vector<unsigned>{0, 0, 2}));
+    const std::vector<glm::vec3> positions{{1, 2, 3}, {0, 0, 0}, {1, 2, 3},         {1, 2, 4},   {0, 0, 0},
+                                           {1, 2, 3}, {0, 1, 0}, {-0.0f, 1, -0.0f}, {0, next, 0}};
+    EXPECT_EQ(closedParts(positions.data(), positions.size(), nullptr, 0).welded,
+              (std::vector<unsigned>{0, 1, 0, 3, 1, 0, 6, 6, 8}));
 }

@@ -94,16 +94,6 @@ TEST(CutBox, UncutHasItsEightCorners) {
             for (const double z : {2.0, 7.0}) EXPECT_TRUE(contains(corners, {x, y, z}, 0.0));
 }
 
-TEST(CutBox, AHorizontalCutLowersTheLid) {
-    const Points corners = gnomon::cutBox({0, 0, 0}, {2, 2, 2}, {{0, 0, -2, 1}}); // z <= 1/2
-    for (const double x : {0.0, 2.0})
-        for (const double y : {0.0, 2.0}) {
-            EXPECT_TRUE(contains(corners, {x, y, 0.0}, 0.0));
-            EXPECT_TRUE(contains(corners, {x, y, 0.5}, ulps));
-        }
-    for (const dvec3& corner : corners) EXPECT_LE(corner.z, 0.5 + ulps);
-}
-
 TEST(CutBox, APointWhereThreeCutsMeetInsideTheBoxIsACorner) {
     // A pyramid that stands on its tip at (0, 0, 0.2): the tip is on no face of the box.
     const Points corners =
@@ -111,12 +101,6 @@ TEST(CutBox, APointWhereThreeCutsMeetInsideTheBoxIsACorner) {
     EXPECT_TRUE(contains(corners, {0, 0, 0.2}, 4.0 * ulps));
     EXPECT_TRUE(contains(corners, {0.4, 0.4, 1}, 4.0 * ulps)); // its upper rim: |x| <= 0.8 / 2
     for (const dvec3& corner : corners) EXPECT_GE(corner.z, 0.2 - 4.0 * ulps);
-}
-
-TEST(CutBox, TwoCutsMeetOnAnEdgeThroughTheBox) {
-    const Points corners = gnomon::cutBox(dvec3(-1), dvec3(1), {{1, 0, 1, 0}, {-1, 0, 1, 0}}); // z >= |x|
-    for (const double y : {-1.0, 1.0}) EXPECT_TRUE(contains(corners, {0, y, 0}, 4.0 * ulps));
-    for (const dvec3& corner : corners) EXPECT_GE(corner.z, std::abs(corner.x) - 4.0 * ulps);
 }
 
 TEST(CutBox, NothingLeftIsEmpty) {
@@ -130,19 +114,15 @@ TEST(CutBox, AHalfSpaceWithoutANormalKeepsAllOrNothing) {
     EXPECT_TRUE(gnomon::cutBox({0, 0, 0}, {1, 1, 1}, {{0, 0, 0, -3}}).empty());
 }
 
-TEST(CutBox, AFlatBoxIsAPolygon) {
-    const Points corners = gnomon::cutBox({0, 0, 1}, {2, 2, 1}, {{-1, 0, 0, 1}});
-    for (const double y : {0.0, 2.0}) {
-        EXPECT_TRUE(contains(corners, {0, y, 1}, 0.0));
-        EXPECT_TRUE(contains(corners, {1, y, 1}, ulps));
-    }
-    EXPECT_FALSE(contains(corners, {2, 0, 1}, 0.5));
-}
-
-TEST(CutBox, AFlatBoxThatLiesOnTheCutIsKept) {
-    const Points corners = gnomon::cutBox({0, 0, 1}, {2, 2, 1}, {{0, 0, 1, -1}}); // a mat, cut at the ground
-    for (const double x : {0.0, 2.0})
-        for (const double y : {0.0, 2.0}) EXPECT_TRUE(contains(corners, {x, y, 1}, 0.0));
+TEST(CutBox, AFlatBoxIsAPolygonThatIsKeptWhereItLiesOnTheCut) {
+    const Points half = gnomon::cutBox({0, 0, 1}, {2, 2, 1}, {{-1, 0, 0, 1}}),
+                 mat = gnomon::cutBox({0, 0, 1}, {2, 2, 1}, {{0, 0, 1, -1}}); // cut at the ground
+    for (const double y : {0.0, 2.0})
+        for (const double x : {0.0, 1.0}) {
+            EXPECT_TRUE(contains(half, {x, y, 1}, ulps));
+            EXPECT_TRUE(contains(mat, {2.0 * x, y, 1}, 0.0));
+        }
+    EXPECT_FALSE(contains(half, {2, 0, 1}, 0.5));
 }
 
 TEST(CutBox, ACornerInsideALongBoxIsFoundAtItsFarEnd) {
@@ -216,20 +196,6 @@ TEST(ScreenOutline, IsNotKnownWhereSomethingIsBehindTheEyeOrNotFinite) {
         EXPECT_TRUE(gnomon::screenOutline({before, other}, {0.1, 0.1}).empty());
 }
 
-TEST(ScreenBounds, DividesByW) {
-    const auto rect = gnomon::screenBounds({{-1, 0.5, 0, 2}, {1, 1, 5, 4}});
-    ASSERT_TRUE(rect);
-    EXPECT_EQ(rect->low, dvec2(-0.5, 0.25));
-    EXPECT_EQ(rect->high, dvec2(0.25, 0.25));
-}
-
-TEST(ScreenBounds, IsCutAtTheScreensEdges) {
-    const auto rect = gnomon::screenBounds({{-3, -0.5, 0, 1}, {0.5, 7, 0, 1}});
-    ASSERT_TRUE(rect);
-    EXPECT_EQ(rect->low, dvec2(-1, -0.5));
-    EXPECT_EQ(rect->high, dvec2(0.5, 1));
-}
-
 TEST(ScreenBounds, NothingToSeeGivesNone) {
     EXPECT_FALSE(gnomon::screenBounds({}));
     EXPECT_FALSE(gnomon::screenBounds({{1.1, 0, 0, 1}, {3, 0, 0, 2}}));     // to the right of the screen
@@ -239,28 +205,25 @@ TEST(ScreenBounds, NothingToSeeGivesNone) {
     EXPECT_FALSE(gnomon::screenBounds({{1, 1, 0, 0}, {-1, -1, 0, 0}})); // in the plane of the eye
 }
 
-TEST(ScreenBounds, AnEdgePastTheEyeRunsToTheInfinityOnItsOwnSide) {
-    // x at w = 0 is 0.75, so the visible half runs from 0.5 to the right edge. y is 0 all along.
-    const auto right = gnomon::screenBounds({{0.5, 0, 0, 1}, {1, 0, 0, -1}});
-    ASSERT_TRUE(right);
-    EXPECT_EQ(right->low, dvec2(0.5, 0));
-    EXPECT_EQ(right->high, dvec2(1, 0));
-    // Here it is -0.25, although the end in front is to the right: from 0.5 to the left edge.
-    const auto left = gnomon::screenBounds({{0.5, 0, 0, 1}, {-1, 0, 0, -1}});
-    ASSERT_TRUE(left);
-    EXPECT_EQ(left->low, dvec2(-1, 0));
-    EXPECT_EQ(left->high, dvec2(0.5, 0));
-}
-
-TEST(ScreenBounds, APointAtWZeroIsAnEndAtInfinity) {
-    const auto rect = gnomon::screenBounds({{0, 0.5, 0, 1}, {0, -1, 0, 0}});
-    ASSERT_TRUE(rect);
-    EXPECT_EQ(rect->low, dvec2(0, -1));
-    EXPECT_EQ(rect->high, dvec2(0, 0.5));
-    const auto other = gnomon::screenBounds({{0, 0.5, 0, 1}, {2, 0, 0, 0}});
-    ASSERT_TRUE(other);
-    EXPECT_EQ(other->low, dvec2(0, 0.5));
-    EXPECT_EQ(other->high, dvec2(1, 0.5));
+TEST(ScreenBounds, AreAsWorkedByHand) {
+    const struct {
+        std::vector<dvec4> points;
+        dvec2 low, high;
+    } cases[] = {
+        {{{-1, 0.5, 0, 2}, {1, 1, 5, 4}}, {-0.5, 0.25}, {0.25, 0.25}},
+        {{{-3, -0.5, 0, 1}, {0.5, 7, 0, 1}}, {-1, -0.5}, {0.5, 1}}, // cut at the screen's edges
+        // An edge past the eye runs to the infinity on its own side: x at w = 0 is 0.75, so to the right.
+        {{{0.5, 0, 0, 1}, {1, 0, 0, -1}}, {0.5, 0}, {1, 0}},
+        {{{0.5, 0, 0, 1}, {-1, 0, 0, -1}}, {-1, 0}, {0.5, 0}}, // here it is -0.25: from 0.5 to the left
+        {{{0, 0.5, 0, 1}, {0, -1, 0, 0}}, {0, -1}, {0, 0.5}},  // a point at w = 0 is an end at infinity
+        {{{0, 0.5, 0, 1}, {2, 0, 0, 0}}, {0, 0.5}, {1, 0.5}},
+    };
+    for (const auto& [points, low, high] : cases) {
+        const auto rect = gnomon::screenBounds(points);
+        ASSERT_TRUE(rect);
+        EXPECT_EQ(rect->low, low);
+        EXPECT_EQ(rect->high, high);
+    }
 }
 
 TEST(ScreenBounds, GroundUnderTheEyeReachesUpToItsFarEdgeOnly) {
@@ -362,22 +325,16 @@ ScreenArea areaOf(double left, double low, double right, double high, double w =
 
 } // namespace
 
-TEST(ScreenArea, OfAllOfTheScreenIsItsPixels) {
+TEST(ScreenArea, IsThatOfWhatIsInSight) {
     for (const ScreenArea& found : {areaOf(-1.0, -1.0, 1.0, 1.0), areaOf(-5.0, -3.0, 2.0, 4.0, 7.0)}) {
-        EXPECT_NEAR(found.area, 20000.0, 20000.0 * rounding);
+        EXPECT_NEAR(found.area, 20000.0, 20000.0 * rounding) << "all of the screen";
         EXPECT_NEAR(found.around, 600.0, 600.0 * rounding);
     }
-}
-
-TEST(ScreenArea, IsTheSameWhicheverWayTheCornersGo) {
     EXPECT_NEAR(areaOf(-0.5, -0.5, 0.5, 0.0).area, 100.0 * 25.0, rounding);
-    EXPECT_NEAR(areaOf(0.5, -0.5, -0.5, 0.0).area, 100.0 * 25.0, rounding);
-}
-
-TEST(ScreenArea, OfWhatIsPartlyInSightIsThatPart) {
-    const ScreenArea found = areaOf(0.5, -2.0, 3.0, 0.0);
-    EXPECT_NEAR(found.area, 50.0 * 50.0, rounding);
-    EXPECT_NEAR(found.around, 200.0, rounding);
+    EXPECT_NEAR(areaOf(0.5, -0.5, -0.5, 0.0).area, 100.0 * 25.0, rounding) << "whichever way the corners go";
+    const ScreenArea part = areaOf(0.5, -2.0, 3.0, 0.0);
+    EXPECT_NEAR(part.area, 50.0 * 50.0, rounding);
+    EXPECT_NEAR(part.around, 200.0, rounding);
     EXPECT_EQ(areaOf(1.5, -1.0, 3.0, 1.0).area, 0.0);
     EXPECT_EQ(areaOf(-0.5, -0.5, 0.5, 0.5, -1.0).area, 0.0) << "it is behind the eye";
 }

@@ -105,26 +105,34 @@ std::vector<SeenPlace> edgesOf(const glm::dvec4& light, const glm::dmat4& view, 
 const glm::dvec4 sunInTheEast(glm::normalize(glm::dvec3(1, 0, 1)), 0.0);
 const glm::dmat4 mapFromTheEast = mapFromAbove * glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1);
 
+/// A lamp two above the middle, and a map of x/w and y/w within 5.
+const glm::dvec4 lamp(0, 0, 2, 1);
+glm::dmat4 mapOfLamp() {
+    const glm::dmat4 toMap(0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1);
+    return toMap * lampFrame(glm::dvec3(lamp), {0, 0, -1}, 1.0).lightFromScene;
+}
+
 } // namespace
 
 // The shadow of a unit cube under a sun at 45 degrees: the cube's own square, which the cube hides, and the next one.
-TEST(SeenEdges, LieAlongTheShadowOfABoxUnderASun) {
-    const glm::dvec4 sun(glm::normalize(glm::dvec3(1, 0, 1)), 0.0);
-    const glm::dmat4 map = mapFromAbove * glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1); // x - z
-    const std::vector<SeenPlace> edges = edgesOf(sun, plan(), map, {ground, house});
-    ASSERT_GT(edges.size(), 20u);
-    for (const SeenPlace& edge : edges) {
-        EXPECT_NEAR(edge.place.z, 0.0, 1e-9) << "a cube shadows nothing of itself";
-        EXPECT_LT(offSquare(edge.place, {-1.0, 0.0}, 0.5), 1.5 * cell) << edge.place.x << " " << edge.place.y;
+TEST(SeenEdges, LieAlongTheShadowOfABoxOrOfItsTrianglesUnderASun) {
+    const Objects objects = onAGround([](Objects& all) { all.addBox(house.low, house.high); });
+    for (const std::vector<SeenPlace>& edges : {edgesOf(sunInTheEast, plan(), mapFromTheEast, {ground, house}),
+                                                edgesOf(sunInTheEast, plan(), mapFromTheEast, objects)}) {
+        ASSERT_GT(edges.size(), 20u);
+        for (const SeenPlace& edge : edges) {
+            EXPECT_NEAR(edge.place.z, 0.0, 1e-9) << "a cube shadows nothing of itself";
+            EXPECT_LT(offSquare(edge.place, {-1.0, 0.0}, 0.5), 1.5 * cell) << edge.place.x << " " << edge.place.y;
+            EXPECT_FALSE(edge.across < 1.0) << "twenty pixels";
+            EXPECT_FALSE(edge.folded);
+        }
     }
 }
 
 TEST(SeenEdges, KnowWhichWayTheyGo) {
-    const glm::dmat4 map = mapFromAbove * glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1); // x - z
     const PlacedBox tower{{-0.5, -1.5, 0}, {0.5, 1.5, 3}};
-    const glm::dvec4 sun(glm::normalize(glm::dvec3(1, 0, 1)), 0.0);
     int along = 0, across = 0;
-    for (const SeenPlace& edge : edgesOf(sun, plan(), map, {ground, tower})) {
+    for (const SeenPlace& edge : edgesOf(sunInTheEast, plan(), mapFromTheEast, {ground, tower})) {
         const bool inMiddle = std::abs(edge.place.y) < 1.0;              // of the side that the roof's edge throws
         const bool onFlank = edge.place.x > -2.8 && edge.place.x < -1.0; // where the shadow follows the sun's way
         across += inMiddle && edge.edge.x == 0.0 && edge.edge.y != 0.0 ? 1 : 0;
@@ -137,24 +145,19 @@ TEST(SeenEdges, KnowWhichWayTheyGo) {
 }
 
 TEST(SeenEdges, LieAlongTheShadowOfABoxUnderALamp) {
-    const glm::dvec4 lamp(0, 0, 2, 1);
-    const LightFrame frame = lampFrame(glm::dvec3(lamp), {0, 0, -1}, 1.0);
-    const glm::dmat4 toMap(0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1); // of x/w and y/w within 5
-    const std::vector<SeenPlace> edges = edgesOf(lamp, plan(), toMap * frame.lightFromScene, {ground, house});
+    const std::vector<SeenPlace> edges = edgesOf(lamp, plan(), mapOfLamp(), {ground, house});
     ASSERT_GT(edges.size(), 20u);
     for (const SeenPlace& edge : edges) EXPECT_LT(offSquare(edge.place, {0.0, 0.0}, 1.0), 1.5 * cell);
 }
 
 // Whatever hills a ground has, most of it lies about half-way up.
 TEST(SeenEdges, OfHillsLieHalfWayUp) {
-    const glm::dvec4 sun(glm::normalize(glm::dvec3(1, 0, 1)), 0.0);
-    const glm::dmat4 map = mapFromAbove * glm::dmat4(1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1, 0, 0, 0, 0, 1); // x - z
     const PlacedBox hills{{-5, -5, -0.5}, {5, 5, 0.5}};
-    const std::vector<SeenPlace> edges = edgesOf(sun, plan(), map, {hills, house});
+    const std::vector<SeenPlace> edges = edgesOf(sunInTheEast, plan(), mapFromTheEast, {hills, house});
     ASSERT_GT(edges.size(), 20u);
     for (const SeenPlace& edge : edges) EXPECT_NEAR(edge.place.z, 0.0, 1e-9);
 
-    SeenEdges whole(plan(), pixels, wholeScreen, sun);
+    SeenEdges whole(plan(), pixels, wholeScreen, sunInTheEast);
     whole.addReceiver(hills, SeenEdges::Relief::Whole);
     ASSERT_FALSE(whole.facing().empty());
     for (const SeenPlace& place : whole.facing()) EXPECT_NEAR(place.place.z, 0.5, 1e-9);
@@ -177,29 +180,13 @@ TEST(SeenEdges, AreOnlyWhereTheLightShinesAndTheEyeSees) {
 // The room's box holds the lamp and the eye. It is seen from inside, and does not darken itself.
 TEST(SeenEdges, AreSeenInARoomFromInside) {
     const PlacedBox room{{-3, -3, 0}, {3, 3, 3}}, table{{-0.5, -0.5, 0.9}, {0.5, 0.5, 1.0}};
-    const glm::dvec4 lamp(0, 0, 2, 1);
-    const LightFrame frame = lampFrame(glm::dvec3(lamp), {0, 0, -1}, 1.0);
-    const glm::dmat4 toMap(0.1, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 1, 0, 0.5, 0.5, 0, 1);
     const glm::dmat4 view = glm::perspective(1.2, 1.0, 0.1, 100.0) *
                             glm::lookAt(glm::dvec3(-2.8, -2.8, 2.8), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
-    const std::vector<SeenPlace> edges = edgesOf(lamp, view, toMap * frame.lightFromScene, {room, table});
+    const std::vector<SeenPlace> edges = edgesOf(lamp, view, mapOfLamp(), {room, table});
     ASSERT_GT(edges.size(), 20u);
     for (const SeenPlace& edge : edges) {
         EXPECT_NEAR(edge.place.z, 0.0, 1e-9);
         EXPECT_LT(offSquare(edge.place, {0.0, 0.0}, 1.0), 0.4) << "a table at half the lamp's height: twice its side";
-    }
-}
-
-// The same cube as triangles gives the same edges.
-TEST(SeenEdges, OfTrianglesLieAlongTheShadowOfACube) {
-    const Objects objects = onAGround([](Objects& all) { all.addBox({-0.5, -0.5, 0}, {0.5, 0.5, 1}); });
-    const std::vector<SeenPlace> edges = edgesOf(sunInTheEast, plan(), mapFromTheEast, objects);
-    ASSERT_GT(edges.size(), 20u);
-    for (const SeenPlace& edge : edges) {
-        EXPECT_NEAR(edge.place.z, 0.0, 1e-9) << "a cube shadows nothing of itself";
-        EXPECT_LT(offSquare(edge.place, {-1.0, 0.0}, 0.5), 1.5 * cell) << edge.place.x << " " << edge.place.y;
-        EXPECT_FALSE(edge.across < 1.0) << "twenty pixels";
-        EXPECT_FALSE(edge.folded);
     }
 }
 

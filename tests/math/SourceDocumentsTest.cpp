@@ -17,7 +17,6 @@ using gnomon::test::Random;
 namespace {
 
 constexpr double ulps = 1e-15; // a few roundings of numbers near 1
-constexpr double pi = 3.14159265358979323846;
 
 /// Sixteen numbers in the order glMultMatrix reads them: column after column.
 dmat4 fromMemory(const std::array<double, 16>& data) {
@@ -109,25 +108,15 @@ dmat4 matrixFor(const dvec4& plane, const dvec4& light) { return gnomon::planarS
 
 } // namespace
 
-TEST(Cs4470FakeShadows, ItsRowVectorMatrixIsTheOneMatrixTransposed) {
+TEST(Cs4470FakeShadows, ItsMatrixAndItsFormulaAreTheOneMatrix) {
     const dvec3 light(3, 4, -12);
-    const dmat4 m = matrixFor({0, 1, 0, 0}, dvec4(light, 0.0));
-    EXPECT_TRUE(near(glm::transpose(m / m[3][3]), cs4470RowMatrix(light), 4.0 * ulps));
-}
-
-TEST(Cs4470FakeShadows, ItsFormulaPutsTheCubesShadowsWhereTheOneMatrixDoes) {
-    const dvec3 light(1, 2, -0.5);
+    const dmat4 transposed = glm::transpose(matrixFor({0, 1, 0, 0}, dvec4(light, 0.0)));
+    EXPECT_TRUE(near(transposed / transposed[3][3], cs4470RowMatrix(light), 4.0 * ulps));
     const dmat4 m = matrixFor(cs4470Floor, dvec4(light, 0.0));
     for (const dvec3& p : cubeCorners({0, 0, -511}, 100.0)) {
         const dvec3 printed = p - (p.y + 200.0) / light.y * light; // its y counts from the floor
-        EXPECT_TRUE(near(flattened(m, p), printed, 1e-12));        // coordinates up to 700
+        EXPECT_TRUE(near(flattened(m, p), printed, 4e-12));        // coordinates up to 1400
     }
-}
-
-TEST(Cs4470FakeShadows, OneCornerOfTheCubeWorkedByHand) {
-    // (50, 50, -461) is 250 above the floor; the sun (1, 2, 0) takes 1 across for 2 down: 125.
-    const dmat4 m = matrixFor(cs4470Floor, {1, 2, 0, 0});
-    EXPECT_TRUE(near(flattened(m, {50, 50, -461}), dvec3(-75, -200, -461), 1e-12)); // coordinates up to 700
 }
 
 // Its code sketch scales y by zero whatever the light: right for a sun overhead, and for no other.
@@ -140,19 +129,13 @@ TEST(Cs4470FakeShadows, ScalingYByZeroIsTheOverheadSunAndNoOther) {
     }
 }
 
-TEST(GusOnGames, ItsThreePointPlaneIsOurs) {
+TEST(GusOnGames, ItsPlaneAndItsSixteenEntriesWithTheMissingBAreOurs) {
     Random random(21);
     for (int i = 0; i < 500; ++i) {
         const dvec3 p1 = random.inCube(5.0), p2 = random.inCube(5.0), p3 = random.inCube(5.0);
         const double thin = glm::length(glm::cross(p2 - p1, p3 - p2));
         EXPECT_TRUE(near(gnomon::planeFromPoints(p1, p2, p3).value(), gusPlane(p1, p2, p3),
                          1e-13 / std::min(1.0, thin))); // a thin triangle magnifies rounding by 1 / thin
-    }
-}
-
-TEST(GusOnGames, ItsSixteenEntriesWithTheMissingBAreTheOneMatrixOfASun) {
-    Random random(22);
-    for (int i = 0; i < 500; ++i) {
         const dvec3 normal = random.direction();
         const dvec3 light = random.between(0.5, 9.0) * glm::normalize(normal + 0.8 * random.direction());
         const dvec4 plane(normal, random.between(-3.0, 3.0));
@@ -184,30 +167,17 @@ TEST(GusOnGames, PointsOnALineGiveNoPlaneAndNotItsNaN) {
     EXPECT_FALSE(gnomon::planeFromPoints(p1, p2, p3));
 }
 
-TEST(HalomagicC, ItsFloorPlaneIsOursTimesSixteenHundred) {
+TEST(HalomagicC, ItsPlaneTimesSixteenHundredAndItsMatrixAreOurs) {
     const dvec4 printed = halomagicPlane(halomagicFloor[1], halomagicFloor[2], halomagicFloor[3]);
     EXPECT_EQ(printed, dvec4(0, 1600, 0, 0)); // 40 × 40
     EXPECT_EQ(gnomon::planeFromPoints(halomagicFloor[1], halomagicFloor[2], halomagicFloor[3]).value(),
               gnomon::normalizedPlane(printed).value());
-}
-
-TEST(HalomagicC, ItsMatrixIsTheOneMatrixRoundTheCircleOfItsLight) {
-    const dvec4 printed = halomagicPlane(halomagicFloor[1], halomagicFloor[2], halomagicFloor[3]);
-    const dvec4 floor = gnomon::normalizedPlane(printed).value();
-    for (const double w : {0.0, 1.0})                               // its two modes: directional, positional
-        for (double angle = 0.0; angle < 2.0 * pi; angle += 0.03) { // its step a frame
-            const dvec4 light = halomagicLight(angle, 20.0, w);
-            EXPECT_TRUE(sameUpToScale(matrixFor(floor, light), halomagicMatrix(printed, light))) << angle << ' ' << w;
-        }
-}
-
-TEST(HalomagicC, ItsMatrixIsTheOneMatrixForAnyPlaneAndLight) {
     Random random(23);
     for (int i = 0; i < 500; ++i) {
         const dvec4 plane(random.direction(), random.between(-3.0, 3.0));
         const dvec3 foot = -dvec3(plane) * plane.w, up = glm::normalize(dvec3(plane) + 0.8 * random.direction());
         const dvec4 light = i % 2 == 0 ? dvec4(foot + random.between(1.0, 9.0) * up, 1.0) : dvec4(up, 0.0);
-        EXPECT_TRUE(sameUpToScale(matrixFor(plane, light), halomagicMatrix(plane, light)));
+        EXPECT_TRUE(sameUpToScale(matrixFor(plane, light), halomagicMatrix(plane * 1600.0, light)));
     }
 }
 
@@ -233,12 +203,6 @@ TEST(Lab8, ItsQuotientPutsTheShadowsWhereTheOneMatrixDoes) {
                 near(flattened(m, p), lab8(light, p), 64.0 * ulps)); // and the lowest light 0.35 over the sphere
         }
     }
-}
-
-TEST(Lab8, OneCornerOfTheCubeWorkedByHand) {
-    // (0.75, 0.5, 0.25) under the lamp (0, 5, 0): stretched by 5 / 4.5.
-    EXPECT_TRUE(
-        near(flattened(matrixFor(lab8Ground, lab8Light), {0.75, 0.5, 0.25}), dvec3(7.5, 0, 2.5) / 9.0, 4.0 * ulps));
 }
 
 TEST(Lab8, AtTheLightsHeightItDividesByZeroAndWeCut) {
