@@ -71,24 +71,15 @@ TEST(CasterVisitorChoice, ASequenceCastsWithItsCurrentFrame) {
     EXPECT_EQ(startsOf(*sequence), (Starts{3}));
 }
 
-TEST(CasterVisitorChoice, AnLodCastsWithTheChildShownNearest) {
-    EXPECT_EQ(startsOf(*lodOf(osg::LOD::DISTANCE_FROM_EYE_POINT, {{100, 1e6f}, {10, 100}, {0, 10}})), (Starts{3}));
-    EXPECT_EQ(startsOf(*lodOf(osg::LOD::DISTANCE_FROM_EYE_POINT, {{5, 10}, {10, 100}, {100, 1e6f}})), (Starts{1}))
-        << "shown from 5 on only";
-}
-
-TEST(CasterVisitorChoice, AnLodByPixelsCastsWithTheChildShownLargest) {
-    EXPECT_EQ(startsOf(*lodOf(osg::LOD::PIXEL_SIZE_ON_SCREEN, {{0, 20}, {20, 200}, {200, 1e6f}})), (Starts{3}));
-    EXPECT_EQ(startsOf(*lodOf(osg::LOD::PIXEL_SIZE_ON_SCREEN, {{200, 1e6f}, {20, 200}, {0, 20}})), (Starts{1}));
-}
-
-TEST(CasterVisitorChoice, LodChildrenThatAreShownTogetherCastTogether) {
-    EXPECT_EQ(startsOf(*lodOf(osg::LOD::DISTANCE_FROM_EYE_POINT, {{0, 1000}, {0, 10}, {10, 1000}})), (Starts{1, 2}));
-}
-
-TEST(CasterVisitorChoice, LodChildrenWithoutARangeOrWithAnEmptyOneDoNotCast) {
-    EXPECT_EQ(startsOf(*lodOf(osg::LOD::DISTANCE_FROM_EYE_POINT, {{0, 0}, {5, 10}})), (Starts{2}));
-    EXPECT_EQ(startsOf(*lodOf(osg::LOD::DISTANCE_FROM_EYE_POINT, {})), (Starts{}));
+TEST(CasterVisitorChoice, AnLodCastsWithTheChildrenShownNearestOrLargest) {
+    constexpr auto distance = osg::LOD::DISTANCE_FROM_EYE_POINT, pixels = osg::LOD::PIXEL_SIZE_ON_SCREEN;
+    EXPECT_EQ(startsOf(*lodOf(distance, {{100, 1e6f}, {10, 100}, {0, 10}})), (Starts{3}));
+    EXPECT_EQ(startsOf(*lodOf(distance, {{5, 10}, {10, 100}, {100, 1e6f}})), (Starts{1})) << "shown from 5 on only";
+    EXPECT_EQ(startsOf(*lodOf(pixels, {{0, 20}, {20, 200}, {200, 1e6f}})), (Starts{3}));
+    EXPECT_EQ(startsOf(*lodOf(pixels, {{200, 1e6f}, {20, 200}, {0, 20}})), (Starts{1}));
+    EXPECT_EQ(startsOf(*lodOf(distance, {{0, 1000}, {0, 10}, {10, 1000}})), (Starts{1, 2})) << "shown together";
+    EXPECT_EQ(startsOf(*lodOf(distance, {{0, 0}, {5, 10}})), (Starts{2})) << "an empty range, and none";
+    EXPECT_EQ(startsOf(*lodOf(distance, {})), (Starts{}));
 }
 
 TEST(CasterVisitorChoice, APagedLodCastsWithTheFinestThatIsLoaded) {
@@ -120,21 +111,14 @@ TEST(CasterVisitorSelection, AMaskMustLetThroughTheWholeWayDown) {
     EXPECT_EQ(startsOf(*group, selection), (Starts{}));
 }
 
-TEST(CasterVisitorSelection, ANodeCastsInTheRootsFrame) {
+TEST(CasterVisitorSelection, ANodeCastsInTheRootsFrameInEachOfItsPlaces) {
     const osg::ref_ptr<osg::Group> group = threeTriangles<osg::Group>();
     osg::Node* geode = group->getChild(1)->asGroup()->getChild(0);
     EXPECT_EQ(startsOf(*group, {group->getChild(1)}), (Starts{2}));
     EXPECT_EQ(startsOf(*group, {geode}), (Starts{2}));
     EXPECT_EQ(startsOf(*group, {geode->asGeode()->getDrawable(0)}), (Starts{2}));
-}
-
-TEST(CasterVisitorSelection, TheRootMayBeSelected) {
-    const osg::ref_ptr<osg::Group> group = threeTriangles<osg::Group>();
-    EXPECT_EQ(startsOf(*group, {group}), (Starts{1, 2, 3}));
-}
-
-TEST(CasterVisitorSelection, ANodeCastsInEachOfItsPlaces) {
-    osg::ref_ptr<osg::Group> group = threeTriangles<osg::Group>();
+    EXPECT_EQ(startsOf(*group, {group}), (Starts{1, 2, 3})) << "the root";
+    EXPECT_EQ(startsOf(*group, {new osg::Group}), (Starts{})) << "one that is not there";
     osg::ref_ptr<osg::MatrixTransform> again = new osg::MatrixTransform(osg::Matrix::translate(10, 0, 0));
     again->addChild(group->getChild(0));
     group->addChild(again);
@@ -149,36 +133,22 @@ TEST(CasterVisitorSelection, ASelectedLodCasts) {
     EXPECT_EQ(startsOf(*root, {lod}), (Starts{1}));
 }
 
-TEST(CasterVisitorSelection, ANodeThatIsNotThereCastsNothing) {
-    EXPECT_EQ(startsOf(*threeTriangles<osg::Group>(), {new osg::Group}), (Starts{}));
-}
-
-TEST(CasterVisitorLeavesOut, WhatDoesNotMoveWithItsParents) {
+TEST(CasterVisitorLeavesOut, WhatHasAnotherFrameOrTurnsOrScalesWithTheViewAndTechniques) {
     for (auto frame : {osg::Transform::ABSOLUTE_RF, osg::Transform::ABSOLUTE_RF_INHERIT_VIEWPOINT}) {
         osg::ref_ptr<osg::MatrixTransform> absolute = new osg::MatrixTransform;
         absolute->setReferenceFrame(frame);
         EXPECT_EQ(startsOfOneUnder(absolute.get()), (Starts{1}));
     }
-}
-
-TEST(CasterVisitorLeavesOut, CamerasAndProjections) {
-    EXPECT_EQ(startsOfOneUnder(new osg::Camera), (Starts{1}));
-    EXPECT_EQ(startsOfOneUnder(new osg::Projection), (Starts{1}));
-}
-
-TEST(CasterVisitorLeavesOut, WhatTurnsOrScalesWithTheView) {
     osg::ref_ptr<osg::AutoTransform> fixed = new osg::AutoTransform, turning = new osg::AutoTransform,
                                      scaling = new osg::AutoTransform;
     fixed->setPosition({5, 0, 0});
     turning->setAutoRotateMode(osg::AutoTransform::ROTATE_TO_CAMERA);
     scaling->setAutoScaleToScreen(true);
     EXPECT_EQ(startsOfOneUnder(fixed.get()), (Starts{5, 1}));
-    EXPECT_EQ(startsOfOneUnder(turning.get()), (Starts{1}));
-    EXPECT_EQ(startsOfOneUnder(scaling.get()), (Starts{1}));
-    EXPECT_EQ(startsOfOneUnder(new osg::Billboard), (Starts{1}));
+    for (osg::Group* other : std::initializer_list<osg::Group*>{turning, scaling, new osg::Billboard, new osg::Camera,
+                                                                new osg::Projection, new gnomon::PlanarShadowNode})
+        EXPECT_EQ(startsOfOneUnder(other), (Starts{1})) << other->className();
 }
-
-TEST(CasterVisitorLeavesOut, Techniques) { EXPECT_EQ(startsOfOneUnder(new gnomon::PlanarShadowNode), (Starts{1})); }
 
 TEST(CasterVisitorLeavesOut, Text) {
     osg::ref_ptr<::Text> text = new ::Text;

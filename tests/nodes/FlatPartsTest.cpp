@@ -41,17 +41,13 @@ osg::Vec3d normalOf(const FlatPart& part) { return {part.plane.x(), part.plane.y
 
 } // namespace
 
-TEST(FlatParts, AGroundQuadIsOnePlaneThatLooksUp) {
-    const auto parts = flatParts(*grid(1, {-5, -5, 2}, {10, 0, 0}, {0, 10, 0}));
-    ASSERT_EQ(parts.size(), 1u);
-    EXPECT_EQ(parts[0].plane, osg::Vec4d(0, 0, 1, -2));
-    EXPECT_DOUBLE_EQ(parts[0].area, 100.0);
-}
-
-TEST(FlatParts, AGroundOfManyQuadsIsOnePlane) {
-    const auto parts = flatParts(*grid(50, {-5, -5, 2}, {0.2, 0, 0}, {0, 0.2, 0}));
-    ASSERT_EQ(parts.size(), 1u);
-    EXPECT_NEAR(parts[0].area, 100.0, 1e-4); // 0.2 is not a float: the corners are off by 5e-7 of ten at most
+TEST(FlatParts, AGroundOfOneQuadOrOfManyIsOnePlaneThatLooksUp) {
+    for (const auto& [quads, side] : {std::pair(1, 10.0), {50, 0.2}}) {
+        const auto parts = flatParts(*grid(unsigned(quads), {-5, -5, 2}, {side, 0, 0}, {0, side, 0}));
+        ASSERT_EQ(parts.size(), 1u);
+        EXPECT_EQ(parts[0].plane, osg::Vec4d(0, 0, 1, -2));
+        EXPECT_NEAR(parts[0].area, 100.0, 1e-4); // 0.2 is not a float: the corners are off by 5e-7 of ten at most
+    }
 }
 
 TEST(FlatParts, ASlopeWhoseCornersAreRoundedIsOnePlane) {

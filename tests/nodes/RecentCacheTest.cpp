@@ -34,54 +34,29 @@ Cache cacheOf(const std::string& keys) {
 
 } // namespace
 
-TEST(RecentCache, FindsNothingInAnEmptyOne) {
+TEST(RecentCache, PutsAFoundEntryLastAndElseKeepsTheOrder) {
     Cache cache;
     EXPECT_EQ(find(cache, 'a'), nullptr);
-    EXPECT_EQ(keysOf(cache), "");
-}
-
-TEST(RecentCache, KeepsTheOrderInWhichEntriesCome) {
-    Cache cache;
     EXPECT_EQ(cache.add({'a'}).key, 'a');
-    EXPECT_EQ(cache.add({'b'}).key, 'b');
-    EXPECT_EQ(keysOf(cache), "ab");
-}
-
-TEST(RecentCache, PutsAFoundEntryLast) {
-    Cache cache = cacheOf("abcd");
+    cache = cacheOf("abcd");
+    EXPECT_EQ(keysOf(cache), "abcd");
     ASSERT_NE(find(cache, 'b'), nullptr);
     EXPECT_EQ(find(cache, 'b')->key, 'b');
     EXPECT_EQ(keysOf(cache), "acdb");
-    find(cache, 'a');
-    EXPECT_EQ(keysOf(cache), "cdba");
-}
-
-TEST(RecentCache, KeepsTheOrderWhereNothingIsFound) {
-    Cache cache = cacheOf("abc");
     EXPECT_EQ(find(cache, 'x'), nullptr);
-    EXPECT_EQ(keysOf(cache), "abc");
-}
-
-TEST(RecentCache, GivesEntriesThatMayBeReplaced) {
-    Cache cache = cacheOf("abc");
+    EXPECT_EQ(keysOf(cache), "acdb");
     *find(cache, 'a') = {'z'};
-    EXPECT_EQ(keysOf(cache), "bcz");
+    EXPECT_EQ(keysOf(cache), "cdbz");
 }
 
+/// One at a time: where the owner lowers the bound by many, what is freed is spread over as many calls.
 TEST(RecentCache, DropsTheOldestAboveABound) {
-    Cache cache = cacheOf("abc");
-    cache.dropOldestBeyond(3);
-    EXPECT_EQ(keysOf(cache), "abc");
-    find(cache, 'a');
-    cache.dropOldestBeyond(2);
-    EXPECT_EQ(keysOf(cache), "ca") << "b was used least recently";
-}
-
-/// The owner lowers the bound by many: what is freed is spread over as many calls.
-TEST(RecentCache, DropsOneAtATime) {
     Cache cache = cacheOf("abcd");
+    cache.dropOldestBeyond(4);
+    EXPECT_EQ(keysOf(cache), "abcd");
+    find(cache, 'a');
     cache.dropOldestBeyond(1);
-    EXPECT_EQ(keysOf(cache), "bcd");
+    EXPECT_EQ(keysOf(cache), "cda") << "b was used least recently";
 }
 
 TEST(RecentCache, NeverHoldsMoreThanABoundThatIsHeldBeforeAdding) {
