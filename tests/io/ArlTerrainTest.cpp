@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-// arl_terrain as users run it: pictures of the town by each technique and time of day, the window's keys, bad input.
-#include "Desktop.h"
-#include "Program.h"
+// arl_terrain as users run it: pictures of the town by each technique and time of day, the window's keys.
+#include "ExampleProgram.h"
 
 #include <TownSite.h>
 
-#include <gtest/gtest.h>
-
-#include <osg/Image>
 #include <osg/Vec2d>
 #include <osgDB/ReadFile>
 
@@ -17,23 +13,15 @@
 namespace {
 
 using namespace gnomon::testing;
-using Arguments = std::vector<std::string>;
 
 constexpr int width = 480, height = 360;
 
-class ArlTerrain : public testing::Test {
+class ArlTerrain : public ExampleProgram {
 protected:
-    Ending run(const Arguments& arguments) { return runProgram(ARL_TERRAIN, arguments, folder.path()); }
-
-    osg::ref_ptr<osg::Image> picture(const std::string& shadow, const std::string& hour) {
-        const Ending ending = run({"--shadow", shadow, "--hour", hour, "--size", "480x360", "--out", "o.png"});
-        EXPECT_EQ(ending.status, 0) << ending.err;
-        osg::ref_ptr<osg::Image> image = osgDB::readRefImageFile((folder.path() / "o.png").string());
-        if (!image || image->s() != width || image->t() != height) throw std::runtime_error("no picture");
-        return image;
+    ArlTerrain() : ExampleProgram(ARL_TERRAIN) {}
+    osg::ref_ptr<osg::Image> town(const std::string& shadow, const std::string& hour) {
+        return picture({"--shadow", shadow, "--hour", hour, "--size", "480x360"});
     }
-
-    TemporaryFolder folder;
 };
 
 /// Pixels of `with` that differ from `without`: how many, and the middle of them, pixels from the lower left.
@@ -83,26 +71,24 @@ TEST(TownSite, IsGentleAndRisesToTheNorthAndHasNoHole) {
 }
 
 TEST_F(ArlTerrain, HullDarkensGroundAndNothingElse) {
-    const auto none = picture("none", "8");
-    const Difference shadow = difference(*picture("hull", "8"), *none);
+    const auto none = town("none", "8");
+    const Difference shadow = difference(*town("hull", "8"), *none);
     EXPECT_GT(shadow.count, width * height / 20);
     EXPECT_LT(shadow.count, width * height / 2);
     EXPECT_EQ(shadow.lighter, 0);
     EXPECT_EQ(shadow.offGround, 0);
-    EXPECT_EQ(difference(*picture("none", "8"), *none).count, 0) << "the same town every time";
+    EXPECT_EQ(difference(*town("none", "8"), *none).count, 0) << "the same town every time";
 }
 
 TEST_F(ArlTerrain, BoxIsNotCloseToHull) {
-    const auto none = picture("none", "8"), hull = picture("hull", "8");
+    const auto none = town("none", "8"), hull = town("hull", "8");
     const int shadow = difference(*hull, *none).count;
-    EXPECT_GT(difference(*picture("box", "8"), *hull).count, shadow / 20) << "box is elsewhere 3 % off, 23 % at worst";
+    EXPECT_GT(difference(*town("box", "8"), *hull).count, shadow / 20) << "box is elsewhere 3 % off, 23 % at worst";
 }
 
 /// The camera looks to azimuth 60: what lies west is nearer, lower in the picture, than what lies east.
 TEST_F(ArlTerrain, ShadowsLieWestInTheMorningAndEastInTheEveningAndAreShortAtNoon) {
-    const auto shadowAt = [this](const char* hour) {
-        return difference(*picture("hull", hour), *picture("none", hour));
-    };
+    const auto shadowAt = [this](const char* hour) { return difference(*town("hull", hour), *town("none", hour)); };
     const Difference morning = shadowAt("8"), noon = shadowAt("12"), evening = shadowAt("16");
     EXPECT_LT(morning.middle.y(), noon.middle.y());
     EXPECT_LT(morning.middle.y(), evening.middle.y());
@@ -111,7 +97,7 @@ TEST_F(ArlTerrain, ShadowsLieWestInTheMorningAndEastInTheEveningAndAreShortAtNoo
 }
 
 TEST_F(ArlTerrain, BlendDarkensByItsFactor) {
-    const auto none = picture("none", "8"), half = picture("hull:composite=blend,dark=0.5", "8");
+    const auto none = town("none", "8"), half = town("hull:composite=blend,dark=0.5", "8");
     EXPECT_GT(difference(*half, *none).count, width * height / 20);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -133,86 +119,30 @@ TEST_F(ArlTerrain, ReportsMorningNoonAndEveningWithEachTechnique) {
         }
 }
 
-TEST_F(ArlTerrain, HelpNamesOptionsUnitsAndKeys) {
-    const Ending ending = run({"--help"});
-    EXPECT_EQ(ending.status, 0);
-    for (const char* text :
-         {"--shadow none|box|hull", "--objects N", "1 to 1000000", "--hour H", "6.5 to 17.5 hours", "--size WxH",
-          "--out IMAGE", "--report FOLDER", "(default hull)", "(default 9)", "Half an hour later"})
-        EXPECT_NE(ending.out.find(text), std::string::npos) << text;
-    EXPECT_EQ(ending.out.find("planar"), std::string::npos) << "what is not allowed";
-}
-
-TEST_F(ArlTerrain, BadInputIsRefusedInOneSentenceAndLeavesNothing) {
-    folder.write("small.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 10\n7 8 9\n4 5 6\n1 2 3\n");
-    const auto refused = [this](Arguments arguments, const std::string& says) {
-        const Ending ending = run(arguments);
-        EXPECT_EQ(ending.status, 1) << says;
-        EXPECT_EQ(ending.lastLine().find("arl_terrain: "), 0u) << ending.err; // before it GDAL may speak for itself
-        EXPECT_NE(ending.lastLine().find(says), std::string::npos) << ending.err;
-        EXPECT_EQ(folder.list(), Arguments{"small.asc"});
-    };
-    refused({"--shadow", "planar", "--out", "o.png"}, "Allowed: none, box, hull.");
-    refused({"--shadow", "drape", "--out", "o.png"}, "Use hull on terrain");
-    refused({"--hour", "3", "--out", "o.png"}, "Allowed: a number from 6.5 to 17.5.");
-    refused({"--hour", "noon", "--out", "o.png"}, "Allowed: a number from 6.5 to 17.5.");
-    refused({"--size", "0x10", "--out", "o.png"}, "--size 0x10 cannot be used");
-    refused({"--nothing"}, "there is no option --nothing");
-    refused({"--out"}, "--out needs a value");
-    refused({"--out", "o.png", "--report", "r"}, "--out and --report exclude each other. Give one of them.");
-    refused({"a.gdal", "b.gdal", "--out", "o.png"}, "\"b.gdal\" is a second elevation model");
-    refused({"missing.tif.gdal", "--out", "o.png"}, "there is no file \"missing.tif.gdal\"");
-    refused({"small.asc.gdal", "--out", "o.png"}, "no place for the town: 900 m");
-    refused({"--out", "nowhere/o.png"}, "nowhere");
-    refused({"--out", "o.nothing"}, "o.nothing");
-    refused({"--report", "small.asc"}, "small.asc");
-}
-
 /// In the evening it stands; k, half an hour a stroke, leads there as well. Without text, which is longer now and then.
 TEST_F(ArlTerrain, ASunThatRunsEndsInTheEvening) {
-    Desktop desktop(folder.path());
-    const auto isDrawn = [](const Screenshot& p) { return p.width == width && p.at(width / 2, height / 2) != 0u; };
+    open({"--size", "480x360"});
     Screenshot evening;
-    {
-        ChildProcess program({ARL_TERRAIN, "--size", "480x360"}, folder.path(), {"DISPLAY=" + desktop.name()});
-        desktop.useWindow("arl_terrain");
-        const Screenshot withText = desktop.pictureWhere("the town is drawn", isDrawn);
-        desktop.press("g");
-        evening = desktop.pictureWhere("no text", [&](const Screenshot& p) { return p != withText; });
-        for (int i = 0; i < 17; ++i) {
-            const Screenshot before = evening;
-            desktop.press("k");
-            evening = desktop.pictureWhere("half an hour later", [&](const Screenshot& p) { return p != before; });
-        }
-    }
-    ChildProcess program({ARL_TERRAIN, "--size", "480x360", "--sun-speed", "20000"}, folder.path(),
-                         {"DISPLAY=" + desktop.name()});
-    desktop.useWindow("arl_terrain");
-    desktop.pictureWhere("the town is drawn", isDrawn, false);
-    desktop.press("g");
-    EXPECT_NO_THROW(desktop.pictureWhere("it is evening", [&](const Screenshot& p) { return p == evening; }));
+    for (int i = 0; i < 17; ++i) evening = pressed("k");
+    window.reset();
+    window = std::make_unique<ChildProcess>(Arguments{ARL_TERRAIN, "--size", "480x360", "--sun-speed", "20000"},
+                                            folder.path(), Arguments{"DISPLAY=" + desktop->name()});
+    desktop->useWindow("arl_terrain");
+    desktop->pictureWhere(
+        "the town is drawn", [](const Screenshot& p) { return p.width == width && p.at(width / 2, height / 2) != 0u; },
+        false);
+    desktop->press("g");
+    EXPECT_NO_THROW(desktop->pictureWhere("it is evening", [&](const Screenshot& p) { return p == evening; }));
 }
 
 TEST_F(ArlTerrain, KeysChangeTechniqueTimeAndComposite) {
-    Desktop desktop(folder.path());
-    ChildProcess program({ARL_TERRAIN, "--shadow", "none", "--size", "480x360"}, folder.path(),
-                         {"DISPLAY=" + desktop.name()});
-    desktop.useWindow("arl_terrain");
-    const Screenshot withText = desktop.pictureWhere(
-        "the town is drawn", [](const Screenshot& p) { return p.width == width && p.at(width / 2, height / 2) != 0u; });
-    const auto pressed = [&](const char* key) {
-        const Screenshot before = desktop.picture();
-        desktop.press(key);
-        return desktop.pictureWhere(std::string(key) + " changes it", [&](const Screenshot& p) { return p != before; });
-    };
-    const Screenshot none = pressed("g"), box = pressed("n"), hull = pressed("n"), later = pressed("k");
-    EXPECT_NE(box, none);
-    EXPECT_NE(hull, none);
+    open({"--shadow", "none", "--size", "480x360"});
+    const Screenshot box = pressed("n"), hull = pressed("n"), later = pressed("k");
+    EXPECT_NE(box, first);
+    EXPECT_NE(hull, first);
     EXPECT_NE(later, hull);
     EXPECT_EQ(pressed("j"), hull);
     EXPECT_NE(pressed("r"), hull);
     EXPECT_EQ(pressed("r"), hull);
-    desktop.press("n");
-    EXPECT_NO_THROW(desktop.pictureWhere("n leads back", [&](const Screenshot& p) { return p == none; }));
-    EXPECT_EQ(pressed("g"), withText);
+    EXPECT_EQ(pressed("n"), first) << "n leads back";
 }

@@ -82,12 +82,6 @@ TEST_F(FakeShadow, TurnsTheCubeAFrameAtATime) {
     EXPECT_GT(count(differing(*turned, *still)), 500);
 }
 
-TEST_F(FakeShadow, SaysWhatItCannotDoAndHelps) {
-    expectRefused({"--keys", "w", "--offscreen"}, "there is no key w");
-    expectRefused({"--size", "0x4", "--offscreen"}, "--size 0x4 cannot be used");
-    expectHelp({"  k        ", "  x        ", "(default 640x512)"});
-}
-
 TEST_F(FakeShadow, KeysAndMouseChangeTheShadow) {
     open();
     const auto darkIn = [](const Screenshot& p, std::uint32_t pixel) {

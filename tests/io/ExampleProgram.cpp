@@ -18,24 +18,6 @@ osg::ref_ptr<osg::Image> ExampleProgram::picture(Arguments arguments) {
     return image;
 }
 
-void ExampleProgram::expectRefused(const Arguments& arguments, const std::string& says) {
-    const Ending ending = run(arguments);
-    EXPECT_EQ(ending.status, 1) << says;
-    EXPECT_EQ(std::count(ending.err.begin(), ending.err.end(), '\n'), 1) << ending.err;
-    EXPECT_NE(ending.err.find(says), std::string::npos) << ending.err;
-    EXPECT_EQ(folder.list(), Arguments());
-}
-
-void ExampleProgram::expectHelp(const Arguments& texts) {
-    const Ending ending = run({"--help"});
-    EXPECT_EQ(ending.status, 0);
-    EXPECT_EQ(ending.err, "");
-    for (const char* text : {"--size WxH", "--out IMAGE", "--offscreen", "--keys LETTERS", "--frames N", "(default 8)",
-                             "KEYS", "  g        ", "  m        ", "  Esc      ", "Example: "})
-        EXPECT_NE(ending.out.find(text), std::string::npos) << text;
-    for (const std::string& text : texts) EXPECT_NE(ending.out.find(text), std::string::npos) << text;
-}
-
 void ExampleProgram::open(const Arguments& arguments) {
     desktop = std::make_unique<Desktop>(folder.path());
     Arguments command = {_program};

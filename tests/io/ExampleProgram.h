@@ -36,10 +36,6 @@ protected:
     Ending run(const Arguments& arguments) { return runProgram(_program, arguments, folder.path()); }
     /// Its picture. @throws std::runtime_error if there is none.
     osg::ref_ptr<osg::Image> picture(Arguments arguments);
-    /// It says in one sentence what is wrong, ends with status 1 and leaves no file.
-    void expectRefused(const Arguments& arguments, const std::string& says);
-    /// --help names these, its keys and the options of all examples.
-    void expectHelp(const Arguments& texts);
 
     /// Opens its window and hides the text.
     void open(const Arguments& arguments = {});

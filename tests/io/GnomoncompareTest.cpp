@@ -63,10 +63,17 @@ protected:
         save(*truthImage(truth), "t.osgb");
     }
 
-    Ending run(Arguments more, const std::string& a = "a.tif", const std::string& b = "b.tif",
-               const std::string& t = "t.osgb") {
+    static Arguments given(Arguments more, const std::string& a, const std::string& b, const std::string& t) {
         more.insert(more.begin(), {"--casting", a, "--not-casting", b, "--truth", t});
-        return runProgram(GNOMONCOMPARE, more, folder.path());
+        return more;
+    }
+    Ending run(const Arguments& more, const std::string& a = "a.tif", const std::string& b = "b.tif") {
+        return runProgram(GNOMONCOMPARE, given(more, a, b, "t.osgb"), folder.path());
+    }
+    /// The one sentence of a run that must be refused.
+    std::string refused(const Arguments& more, const std::string& a = "a.tif", const std::string& b = "b.tif",
+                        const std::string& t = "t.osgb") {
+        return refusal(GNOMONCOMPARE, given(more, a, b, t), folder, false);
     }
 
     json numbers(const Arguments& more = {}) {
@@ -75,16 +82,6 @@ protected:
         const Ending ending = run(all);
         EXPECT_EQ(ending.status, 0) << ending.err;
         return json::parse(readFile(folder.path() / "n.json"));
-    }
-
-    /// The one sentence of a run that must be refused and leave no file.
-    std::string refusal(const Ending& ending) {
-        EXPECT_EQ(ending.status, 1);
-        EXPECT_EQ(ending.out.find("boundary"), std::string::npos) << ending.out;
-        EXPECT_FALSE(std::filesystem::exists(folder.path() / "n.json"));
-        const std::string prefix = "gnomoncompare: ", line = ending.lastLine();
-        EXPECT_EQ(line.substr(0, prefix.size()), prefix) << ending.err;
-        return line.substr(std::min(line.size(), prefix.size()));
     }
 
     TemporaryFolder folder;
@@ -219,79 +216,49 @@ TEST_F(Gnomoncompare, JudgesPicturesOfGnomonshotByTheTruthThatGnomonshotWrites) 
     EXPECT_GT(numbers()["boundaryPixels"]["p95"].get<double>(), 2.0) << "under another light";
 }
 
-TEST_F(Gnomoncompare, RefusesFilesThatAreMissingOrDamaged) {
-    saveAll(perfect());
-    EXPECT_EQ(refusal(run({"--json", "n.json"}, "gone.tif")),
-              "there is no file \"gone.tif\", or no reader for its type.");
-    EXPECT_EQ(refusal(run({"--shadowed", "gone.tif"})), "there is no file \"gone.tif\", or no reader for its type.");
-    EXPECT_EQ(refusal(run({}, "a.tif", "b.tif", "gone.osgb")),
-              "there is no file \"gone.osgb\", or no reader for its type.");
-    const std::string whole = readFile(folder.path() / "t.osgb");
-    folder.write("cut.osgb", whole.substr(0, whole.size() / 2));
-    EXPECT_NE(refusal(run({}, "a.tif", "b.tif", "cut.osgb")).find("\"cut.osgb\""), std::string::npos);
-    folder.write("empty.tif", "");
-    EXPECT_NE(refusal(run({}, "empty.tif")).find("\"empty.tif\""), std::string::npos);
-}
-
-TEST_F(Gnomoncompare, RefusesSizesThatDiffer) {
+TEST_F(Gnomoncompare, RefusesFilesThatAreMissingOrDamagedOrOfOtherSizes) {
     saveAll(perfect());
     save(*floats(Picture(64, 96, 1.0)), "small.tif");
-    EXPECT_EQ(refusal(run({}, "a.tif", "small.tif")),
-              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px. Give files of one size.");
-    EXPECT_EQ(refusal(run({"--shadowed", "small.tif"})),
-              "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px. Give files of one size.");
-    EXPECT_EQ(refusal(run({"--json", "n.json"}, "small.tif", "small.tif")),
+    const std::string whole = readFile(folder.path() / "t.osgb");
+    folder.write("cut.osgb", whole.substr(0, whole.size() / 2));
+    folder.write("empty.tif", "");
+    const std::string gone = "there is no file \"gone.tif\", or no reader for its type.",
+                      small = "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px. Give files of one size.";
+    EXPECT_EQ(refused({"--json", "n.json"}, "gone.tif"), gone);
+    EXPECT_EQ(refused({"--shadowed", "gone.tif"}), gone);
+    EXPECT_EQ(refused({}, "a.tif", "b.tif", "gone.osgb"), "there is no file \"gone.osgb\", or no reader for its type.");
+    EXPECT_NE(refused({}, "a.tif", "b.tif", "cut.osgb").find("\"cut.osgb\""), std::string::npos);
+    EXPECT_NE(refused({}, "empty.tif").find("\"empty.tif\""), std::string::npos);
+    EXPECT_EQ(refused({}, "a.tif", "small.tif"), small);
+    EXPECT_EQ(refused({"--shadowed", "small.tif"}), small);
+    EXPECT_EQ(refused({"--json", "n.json"}, "small.tif", "small.tif"),
               "\"t.osgb\" is 128 x 96 px and \"small.tif\" 64 x 96 px. Give files of one size.");
+    EXPECT_EQ(refused({"--shadowed", "s.tif", "--ambient", "0"}),
+              "--shadowed and --ambient exclude each other. Give one of them.");
+    EXPECT_NE(refused({"--overlay", "o.txt"}).find("\"o.txt\" cannot be written"), std::string::npos);
+    EXPECT_NE(refused({"--json", "gone/n.json"}).find("there is no directory"), std::string::npos);
 }
 
 TEST_F(Gnomoncompare, RefusesATruthThatIsNone) {
     saveAll(perfect());
-    EXPECT_EQ(refusal(run({}, "a.tif", "b.tif", "b.tif")),
+    EXPECT_EQ(refused({}, "a.tif", "b.tif", "b.tif"),
               "\"b.tif\" is not a truth file: it is not an image of floats with one named layer for each map.");
-    const auto spoilt = [&](const std::function<void(TruthMaps&)>& spoil) {
+    const std::string isNone = "\"spoilt.osgb\" is not a truth file: ",
+                      noNumber = isNone + "a pixel of its surface holds NaN, or a share outside 0 to 1.";
+    const std::pair<std::function<void(TruthMaps&)>, std::string> spoilt[] = {
+        {[](TruthMaps& t) { t.facing = {}; }, isNone + "it has no layer \"facing\"."},
+        {[](TruthMaps& t) { t.lit.at(5, 5) = std::nan(""); }, noNumber},
+        {[](TruthMaps& t) { t.lit.at(5, 5) = 16.0; }, noNumber},
+        {[](TruthMaps& t) { t.facing.at(5, 5) = std::nan(""); }, noNumber},
+        {[](TruthMaps& t) { t.receiver.at(5, 5) = -1; },
+         isNone + "its layer \"receiver\" holds a value that is not an id."},
+        {[](TruthMaps& t) { t.receiver = gnomon::metrics::Grid<int>(128, 96, 0); }, "no pixel can be judged"}};
+    for (const auto& [spoil, says] : spoilt) {
         TruthMaps truth = BoxOnGround().truth();
         spoil(truth);
         save(*truthImage(truth), "spoilt.osgb");
-        return refusal(run({}, "a.tif", "b.tif", "spoilt.osgb"));
-    };
-    EXPECT_EQ(spoilt([](TruthMaps& t) { t.facing = {}; }),
-              "\"spoilt.osgb\" is not a truth file: it has no layer \"facing\".");
-    const std::string noNumber =
-        "\"spoilt.osgb\" is not a truth file: a pixel of its surface holds NaN, or a share outside 0 to 1.";
-    EXPECT_EQ(spoilt([](TruthMaps& t) { t.lit.at(5, 5) = std::nan(""); }), noNumber);
-    EXPECT_EQ(spoilt([](TruthMaps& t) { t.lit.at(5, 5) = 16.0; }), noNumber);
-    EXPECT_EQ(spoilt([](TruthMaps& t) { t.facing.at(5, 5) = std::nan(""); }), noNumber);
-    EXPECT_EQ(spoilt([](TruthMaps& t) { t.receiver.at(5, 5) = -1; }),
-              "\"spoilt.osgb\" is not a truth file: its layer \"receiver\" holds a value that is not an id.");
-}
-
-TEST_F(Gnomoncompare, RefusesWhatCannotBeJudged) {
-    TruthMaps truth = BoxOnGround().truth();
-    truth.receiver = gnomon::metrics::Grid<int>(128, 96, 0);
-    saveAll(perfect(), truth);
-    EXPECT_NE(refusal(run({})).find("no pixel can be judged"), std::string::npos);
-}
-
-TEST_F(Gnomoncompare, RefusesOptionsItCannotUse) {
-    saveAll(perfect());
-    const auto refused = [&](const Arguments& all) { return refusal(runProgram(GNOMONCOMPARE, all, folder.path())); };
-    EXPECT_EQ(refused({}), "--casting is missing. See --help.");
-    EXPECT_EQ(refused({"--casting", "a.tif", "--not-casting", "b.tif"}), "--truth is missing. See --help.");
-    EXPECT_NE(refusal(run({"a.tif"})).find("no option takes \"a.tif\""), std::string::npos);
-    EXPECT_NE(refusal(run({"--tolerance", "3"})).find("--tolerance"), std::string::npos);
-    EXPECT_NE(refusal(run({"--contact", "near"})).find("--contact near cannot be used"), std::string::npos);
-    EXPECT_EQ(refusal(run({"--shadowed", "s.tif", "--ambient", "0"})),
-              "--shadowed and --ambient exclude each other. Give one of them.");
-    EXPECT_NE(refusal(run({"--overlay", "o.txt"})).find("\"o.txt\" cannot be written"), std::string::npos);
-    EXPECT_NE(refusal(run({"--json", "gone/n.json"})).find("there is no directory"), std::string::npos);
-}
-
-TEST_F(Gnomoncompare, HelpNamesEveryOptionAndEveryLayer) {
-    const Ending ending = runProgram(GNOMONCOMPARE, {"--help"}, folder.path());
-    EXPECT_EQ(ending.status, 0);
-    for (const char* word : {"--casting", "--not-casting", "--shadowed", "--ambient", "--truth", "--overlay", "--json",
-                             "--contact", "--attached", "litCentre", "blockerDistance", "litByDisc", "towardsLight"})
-        EXPECT_NE(ending.out.find(word), std::string::npos) << word;
+        EXPECT_NE(refused({}, "a.tif", "b.tif", "spoilt.osgb").find(says), std::string::npos) << says;
+    }
 }
 
 TEST(TruthFile, KeepsEveryMap) {

@@ -294,33 +294,4 @@ TEST_F(Gnomonshot, SaysWhyThereIsNoShadow) {
     EXPECT_NE(ending.err.find("gnomonshot: note: "), std::string::npos) << ending.err;
 }
 
-TEST_F(Gnomonshot, HelpListsEveryOption) {
-    const std::string help = run({"--help"}).out;
-    for (const char* option : {"--shadow SPEC",
-                               "--light x,y,z,w",
-                               "--eye x,y,z",
-                               "--center x,y,z",
-                               "--viewup x,y,z",
-                               "--fovy DEG",
-                               "--near N",
-                               "--far F",
-                               "--size WxH",
-                               "--receiver NODENAME",
-                               "--casters all|none|NODENAME",
-                               "--ambient A",
-                               "--diffuse D",
-                               "--background r,g,b",
-                               "--frames N",
-                               "--out IMAGE",
-                               "--stats FILE.json",
-                               "--recommend",
-                               "--ground auto|none|SIZE",
-                               "--up y|z",
-                               "--help",
-                               "planar",
-                               "composite=",
-                               "azimuth 135"})
-        EXPECT_NE(help.find(option), std::string::npos) << option;
-}
-
 } // namespace

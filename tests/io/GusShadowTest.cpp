@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// gus_shadow: the shadow on a plane from three points against rays; three points on a line.
+// gus_shadow: the shadow on a plane from three points against rays.
 #include "ExampleProgram.h"
 #include "Rays.h"
 
@@ -109,16 +109,6 @@ TEST_F(GusShadow, BlendHalvesWhatRelightTakesTheLightFrom) {
     EXPECT_LE(beyond(differing(*relit, *blended), rays), 60) << "edges";
     EXPECT_EQ(count(unlitFloor(*blended)), 0);
 }
-
-TEST_F(GusShadow, ThreePointsOnALineAreNoPlane) {
-    expectRefused({"--points", "0,0,0,1,1,1,2,2,2", "--offscreen"}, "--points lie on one line");
-    expectRefused({"--points", "1,2,3,1,2,3,4,5,6", "--offscreen"}, "--points lie on one line");
-    expectRefused({"--points", "1,2,3", "--offscreen"}, "Allowed: 9 numbers");
-    expectRefused({"--points", "nan,0,0,1,0,0,0,1,0", "--offscreen"}, "Allowed: 9 numbers");
-    expectRefused({"--light", "1,2,3", "--offscreen"}, "Allowed: 4 numbers");
-}
-
-TEST_F(GusShadow, HelpNamesItsOptionsAndKeys) { expectHelp({"--points x,y,z", "--light x,y,z,w", "  k        "}); }
 
 TEST_F(GusShadow, KeysAndMouseChangeTheShadow) {
     open();

@@ -180,11 +180,6 @@ TEST_F(Halomagic, ThePulseGrowsAndEndsAndMotionJumps) {
     EXPECT_GT(count(differing(*keys("j", 10), *base)), 2000);
 }
 
-TEST_F(Halomagic, SaysWhatItCannotDoAndHelps) {
-    expectRefused({"--keys", "W", "--offscreen"}, "there is no key W");
-    expectHelp({"  p        ", "  q        ", "  y        ", "  9        ", "halo"});
-}
-
 TEST_F(Halomagic, KeysAndMouseAreSeenInItsWindow) {
     open();
     for (const char* key : {"k", "a", "d", "o", "r", "u", "9"}) {

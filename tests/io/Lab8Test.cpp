@@ -116,20 +116,6 @@ TEST_F(Lab8, EndOfInputEndsItCleanly) {
     }
 }
 
-TEST_F(Lab8, SaysInOneSentenceWhatItCannotDo) {
-    expectRefused({"--eye", "1,2", "--offscreen"}, "--eye 1,2 cannot be used. Allowed: 3 numbers");
-    expectRefused({"--eye", "0,0,0", "--at", "0,0,0", "--offscreen"}, "--eye");
-    expectRefused({"--keys", "?", "--offscreen"}, "there is no key ?");
-    expectRefused({"--frames", "0", "--offscreen"}, "Allowed: a whole number");
-    expectRefused({"thing"}, "\"thing\" is not an option");
-    expectRefused({"--thing"}, "there is no option --thing");
-    expectRefused({"--out", "o.nothing"}, "o.nothing");
-}
-
-TEST_F(Lab8, HelpNamesItsOptionsAndKeys) {
-    expectHelp({"--eye (x,y,z)", "--at (x,y,z)", "--light (x,y,z)", "0,5,0", "  n        ", "  u        "});
-}
-
 TEST_F(Lab8, OffscreenWritesAPictureOfItsName) {
     EXPECT_EQ(run({"--offscreen"}).status, 0);
     EXPECT_EQ(folder.list(), Arguments{"lab8.png"});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Program.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -78,6 +80,21 @@ void TemporaryFolder::write(const std::string& name, const std::string& bytes) c
 std::string readFile(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string refusal(const std::string& program, const std::vector<std::string>& arguments,
+                    const TemporaryFolder& folder, bool alone) {
+    const std::vector<std::string> before = folder.list();
+    std::vector<std::string> all = {"DISPLAY=", program};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Ending ending = runProgram("env", all, folder.path());
+    const std::string line = ending.lastLine(), prefix = fs::path(program).filename().string() + ": ";
+    EXPECT_EQ(ending.status, 1) << ending.err;
+    if (alone) EXPECT_EQ(ending.out + ending.err, line + "\n");
+    EXPECT_EQ(folder.list(), before) << "nothing is left behind";
+    EXPECT_EQ(line.substr(0, prefix.size()), prefix) << ending.err;
+    EXPECT_EQ(line.substr(line.size() - std::min<std::size_t>(line.size(), 1)), ".") << line;
+    return line.substr(std::min(line.size(), prefix.size()));
 }
 
 using std::chrono::milliseconds;

@@ -44,6 +44,11 @@ private:
 
 std::string readFile(const std::filesystem::path& path);
 
+/// Runs a program that refuses what it is asked, where it can have no window: its last line is one sentence after its name, it
+/// ends with status 1 and leaves no file. @return the sentence. @param alone  nothing else is said.
+std::string refusal(const std::string& program, const std::vector<std::string>& arguments,
+                    const TemporaryFolder& folder, bool alone = true);
+
 /// Until `done` holds, at most `time`. @return whether it does.
 bool waitFor(std::chrono::milliseconds time, const std::function<bool()>& done);
 

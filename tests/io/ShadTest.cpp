@@ -147,14 +147,6 @@ TEST_F(Shad, LooksFromEachLight) {
     EXPECT_EQ(count(differing(*one, *keys("vn"))), 0);
 }
 
-TEST_F(Shad, SaysWhatItCannotDoAndHelps) {
-    expectRefused({}, "no scene file is given. Usage: shad [OPTION...] FILE...");
-    expectRefused({"nowhere.osgt", "--offscreen"}, "nowhere.osgt");
-    expectRefused({SHAD_SCENE, "--lights", "5", "--offscreen"}, "--lights 5 cannot be used");
-    expectRefused({SHAD_SCENE, "--keys", "W", "--offscreen"}, "there is no key W");
-    expectHelp({"shad [OPTION...] FILE...", "  q        ", "  v        ", "--lights N", "(default 640x512)"});
-}
-
 TEST_F(Shad, TakesAnyNumberOfFiles) {
     folder.write("plate.obj", "v -3 0 -3\nv 3 0 -3\nv 3 0 3\nv -3 0 3\nf 4 3 2 1\n");
     const auto one = keys(""), two = keys("", 1, {"plate.obj"});
