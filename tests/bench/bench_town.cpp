@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Shadows of a town's houses on hills with posts every 10 m: houses a second, a step of the sun, memory. Each run's result is
 // checked before it is timed.
-#include <support/Drawn.h>
 #include <support/TerrainTrial.h>
 
-#include <gnomon/ground/HeightPyramid.h>
 #include <gnomon/ground/HullSolids.h>
 
 #include <benchmark/benchmark.h>
@@ -13,23 +11,15 @@
 
 #include <cmath>
 #include <map>
-#include <memory>
 #include <random>
 
 namespace {
 
 constexpr int posts = 513, tileSize = 256;
-constexpr double pitch = 10.0;
 
 const gnomon::HeightPyramid& ground() {
-    static const auto pyramid = [] {
-        std::vector<float> heights;
-        for (int j = 0; j < posts; ++j)
-            for (int i = 0; i < posts; ++i) heights.push_back(float(test::hills(i * pitch, j * pitch)));
-        return std::make_unique<gnomon::HeightPyramid>(
-            gnomon::HeightField(posts, posts, glm::dvec2(0.0), glm::dvec2(pitch), heights));
-    }();
-    return *pyramid;
+    static const gnomon::HeightPyramid pyramid = test::groundOf(test::hills, posts);
+    return pyramid;
 }
 
 struct Tile {
@@ -59,7 +49,7 @@ Town townOf(std::size_t count) {
     std::mt19937 random(5);
     const std::size_t tiles = (count + tileSize - 1) / tileSize,
                       side = std::size_t(std::ceil(std::sqrt(double(tiles))));
-    const double width = ((posts - 1) * pitch - 600.0) / double(side);
+    const double width = ((posts - 1) * test::pitch - 600.0) / double(side);
     std::uniform_real_distribution<double> within(0.0, width);
     for (std::size_t t = 0; t < tiles; ++t) {
         const glm::dvec2 corner(300.0 + width * double(t % side), 300.0 + width * double(t / side));

@@ -64,18 +64,20 @@ double apart(const osg::Vec3d& a, const osg::Vec3d& b) {
     return std::max({std::abs(a.x() - b.x()), std::abs(a.y() - b.y()), std::abs(a.z() - b.z())});
 }
 
-Mask differing(const osg::Image& a, const osg::Image& b) {
+Mask maskOf(const osg::Image& a, const osg::Image& b,
+            const std::function<bool(const osg::Vec3d&, const osg::Vec3d&)>& holds) {
     Mask mask;
     for (int y = 0; y < a.t(); ++y)
-        for (int x = 0; x < a.s(); ++x) mask.push_back(apart(colorAt(a, x, y), colorAt(b, x, y)) > 0.5);
+        for (int x = 0; x < a.s(); ++x) mask.push_back(holds(colorAt(a, x, y), colorAt(b, x, y)));
     return mask;
 }
 
+Mask differing(const osg::Image& a, const osg::Image& b) {
+    return maskOf(a, b, [](const osg::Vec3d& one, const osg::Vec3d& other) { return apart(one, other) > 0.5; });
+}
+
 Mask maskOf(const osg::Image& image, const std::function<bool(const osg::Vec3d&)>& holds) {
-    Mask mask;
-    for (int y = 0; y < image.t(); ++y)
-        for (int x = 0; x < image.s(); ++x) mask.push_back(holds(colorAt(image, x, y)));
-    return mask;
+    return maskOf(image, image, [&](const osg::Vec3d& color, const osg::Vec3d&) { return holds(color); });
 }
 
 int misplaced(const Mask& a, const Mask& b, int width, int margin) {

@@ -61,6 +61,8 @@ double apart(const osg::Vec3d& a, const osg::Vec3d& b);
 
 /// Masks are from the lower left.
 Mask differing(const osg::Image& a, const osg::Image& b);
+Mask maskOf(const osg::Image& a, const osg::Image& b,
+            const std::function<bool(const osg::Vec3d& a, const osg::Vec3d& b)>& holds);
 Mask maskOf(const osg::Image& image, const std::function<bool(const osg::Vec3d& color)>& holds);
 /// Pixels where the masks differ, but for those that have a neighbour at most `margin` pixels away where `b` is another.
 int misplaced(const Mask& a, const Mask& b, int width, int margin = 1);

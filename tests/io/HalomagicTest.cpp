@@ -33,21 +33,18 @@ Mask floorPixels() {
     });
 }
 
+using Color = osg::Vec3d;
+
 /// Changed pixels must be what the function says of the colour before, to one step a channel. @return how many there are.
-int expectEach(const osg::Image& before, const osg::Image& after,
-               const std::function<osg::Vec3d(const osg::Vec3d&)>& expected, double tolerance = 1.6) {
-    int changed = 0, wrong = 0;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            const osg::Vec3d a = colorAt(before, x, y), b = colorAt(after, x, y);
-            if (apart(a, b) < 0.5) continue;
-            ++changed;
-            wrong += apart(b, expected(a)) > tolerance;
-        }
-    EXPECT_EQ(wrong, 0) << "of " << changed;
-    return changed;
+int expectEach(const osg::Image& before, const osg::Image& after, const std::function<Color(const Color&)>& expected) {
+    const Mask changed = differing(before, after),
+               right =
+                   maskOf(before, after, [&](const Color&a, const Color&b) { return apart(b, expected(a)) <= 1.6; });
+    EXPECT_EQ(beyond(changed, right), 0) << "of " << count(changed);
+    return count(changed);
 }
 
+Color half(const Color& c) { return c * 0.5; }
 osg::Vec3d haloOver(const osg::Vec3d& under) { return osg::Vec3d(204.0, 204.0, 0.0) * 0.3 + under * 0.7; }
 
 bool isBlue(const osg::Vec3d& c) {
@@ -66,18 +63,14 @@ TEST_F(Halomagic, MirrorsInTheFloorAndNowhereElse) {
     const auto with = keys(""), without = keys("d");
     EXPECT_EQ(beyond(differing(*with, *without), floorPixels()), 0);
     // The source's floor is 30 % over what is behind it: 70 % of the image come on top, of a black background none.
-    const Mask floor = floorPixels();
-    int image = 0, own = 0, darker = 0;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            if (!floor[static_cast<std::size_t>(y * size + x)]) continue;
-            const osg::Vec3d a = colorAt(*without, x, y), b = colorAt(*with, x, y);
-            (apart(a, b) < 1.6 ? own : image) += 1;
-            darker += std::min({b.x() - a.x(), b.y() - a.y(), b.z() - a.z()}) < -1.6;
-        }
-    EXPECT_GT(own, image);
+    const Mask same = maskOf(*without, *with, [](const Color& a, const Color& b) { return apart(a, b) < 1.6; });
+    const Mask darker = maskOf(*without, *with, [](const Color& a, const Color& b) {
+        return std::min({b.x() - a.x(), b.y() - a.y(), b.z() - a.z()}) < -1.6;
+    });
+    const int image = beyond(floorPixels(), same), lit = beyond(floorPixels(), darker), all = count(floorPixels());
+    EXPECT_GT(all - image, image);
     EXPECT_GT(image, 3000) << "dinosaur and pillar";
-    EXPECT_EQ(darker, 0);
+    EXPECT_EQ(lit, all);
 }
 
 // Light grey of the rings' ground, 204, at 30 % over black; with a reflection and without.
@@ -94,31 +87,23 @@ TEST_F(Halomagic, ItsFloorIsThirtyPercentOverBlack) {
 // Blending as the source does: half of floor and reflection alike.
 TEST_F(Halomagic, ItsShadowHalvesFloorAndReflectionOnce) {
     const auto without = keys("a"), with = keys("");
-    EXPECT_GT(expectEach(*without, *with, [](const osg::Vec3d& c) { return c * 0.5; }), 1500);
+    EXPECT_GT(expectEach(*without, *with, half), 1500);
     EXPECT_EQ(beyond(differing(*without, *with), floorPixels()), 0);
 }
 
 TEST_F(Halomagic, EachHaloPixelIsBlendedOnceAndTheModelNeverCovered) {
     for (const std::string model : {"", "n", "nn", "nnn"})
-        for (const std::string shape : {"", "v", "vv"}) {
-            const auto without = keys(model + shape), with = keys(model + shape + "k");
-            EXPECT_GT(expectEach(*without, *with, haloOver), 500) << model << " " << shape;
-        }
+        for (const std::string shape : {"", "v", "vv"})
+            EXPECT_GT(expectEach(*keys(model + shape), *keys(model + shape + "k"), haloOver), 500) << model << shape;
     const auto bare = keys("adn"), sphere = keys("adnk");
-    int onSphere = 0;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            const osg::Vec3d was = colorAt(*bare, x, y);
-            if (!isBlue(was) || was.x() > 0.0) continue; // the sphere alone has no red
-            ++onSphere;
-            ASSERT_EQ(was, colorAt(*sphere, x, y)) << x << " " << y;
-        }
-    EXPECT_GT(onSphere, 5000);
+    const Mask onSphere =
+        maskOf(*bare, [](const Color& c) { return isBlue(c) && c.x() == 0.0; }); // it alone has no red
+    EXPECT_GT(count(onSphere), 5000);
+    EXPECT_EQ(beyond(onSphere, differing(*bare, *sphere)), count(onSphere));
 }
 
 TEST_F(Halomagic, AnOpaqueHaloHidesWhatIsBehindIt) {
-    const auto without = keys("n"), with = keys("nke");
-    EXPECT_GT(expectEach(*without, *with, [](const osg::Vec3d&) { return osg::Vec3d(128.0, 128.0, 0.0); }), 5000);
+    EXPECT_GT(expectEach(*keys("n"), *keys("nke"), [](const Color&) { return Color(128.0, 128.0, 0.0); }), 5000);
 }
 
 TEST_F(Halomagic, WithoutHaloStencilTheModelIsCovered) {
@@ -126,22 +111,16 @@ TEST_F(Halomagic, WithoutHaloStencilTheModelIsCovered) {
     const osg::Vec3d was = colorAt(*without, 290, 310), now = colorAt(*with, 290, 310); // on the sphere
     ASSERT_TRUE(isBlue(was));
     EXPECT_LE(apart(now, haloOver(was)), 1.6) << "its front alone is before the sphere";
-    int twice = 0;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x)
-            twice += apart(colorAt(*with, x, y), haloOver(haloOver(colorAt(*without, x, y)))) < 1.6;
-    EXPECT_GT(twice, 3000) << "the rim has a front and a back";
+    const Mask twice = maskOf(
+        *without, *with, [](const Color& under, const Color& c) { return apart(c, haloOver(haloOver(under))) < 1.6; });
+    EXPECT_GT(count(twice), 3000) << "the rim has a front and a back";
 }
 
 TEST_F(Halomagic, WithoutShadowStencilPixelsDarkenTwice) {
-    const auto none = keys("a"), off = keys("z");
-    int twice = 0;
-    for (int y = 0; y < size; ++y)
-        for (int x = 0; x < size; ++x) {
-            const osg::Vec3d lit = colorAt(*none, x, y), now = colorAt(*off, x, y);
-            twice += apart(lit, now) > 2.0 && apart(now, lit * 0.25) < 2.1;
-        }
-    EXPECT_GT(twice, 500);
+    const Mask twice = maskOf(*keys("a"), *keys("z"), [](const Color& lit, const Color& now) {
+        return apart(lit, now) > 2.0 && apart(now, lit * 0.25) < 2.1;
+    });
+    EXPECT_GT(count(twice), 500);
 }
 
 TEST_F(Halomagic, WithoutOffsetTheShadowFightsTheFloor) {

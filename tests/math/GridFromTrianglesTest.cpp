@@ -2,9 +2,9 @@
 // Grids found in loose triangles, cells cut either way, against the triangles themselves.
 #include "Compare.h"
 #include "GroundTriangles.h"
-#include "Houses.h"
 
 #include <gnomon/ground/GridFromTriangles.h>
+#include <gnomon/ground/HeightPyramid.h>
 
 #include <algorithm>
 #include <ostream>

@@ -6,9 +6,15 @@
 
 #include <glm/geometric.hpp>
 
+#include <cmath>
 #include <numeric>
 
 namespace test {
+
+/// Up to 25 degrees steep.
+inline double steepHills(double x, double y) {
+    return 25.0 * std::sin(x * 0.011) * std::cos(y * 0.013) + 4.0 * std::sin(x * 0.05);
+}
 
 /// As a mesh file has them: no vertex shared.
 struct LooseTriangles {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Heights and rays on a regular grid.
-#include "Houses.h"
+#include <support/TerrainTrial.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Shadows of boxes, L-shapes and tanks on terrain, as the solids that are drawn, against rays in double that share nothing
 // with them; and whatever can go wrong.
 #include "GroundTriangles.h"
-#include "Houses.h"
+#include <support/TerrainTrial.h>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +70,7 @@ TEST(HullSolids, OfFourHundredObjectsOnHillsKeepToTheTruth) {
             figures(ground, prisms, elevation, {{"box", test::boxMethod()}, {"hull", hullMethod()}}, 1600, places);
         test::printRow(std::cout, elevation, "box", found[0]);
         test::printRow(std::cout, elevation, "hull", found[1]);
+        EXPECT_NEAR(found[0].pooled, 0.88, 0.03) << "else what the published method cannot do is gone";
         EXPECT_GE(found[1].pooled, exact) << elevation;
         EXPECT_GE(found[1].fifth, exact) << elevation;
         EXPECT_LE(found[1].triangles, 40.0) << elevation;
@@ -108,9 +109,8 @@ TEST(HullSolids, AreRightDownToALowSun) {
 
 /// Where one polygon on the ground would not be right.
 TEST(HullSolids, AreRightOverBordersHolesAndCliffs) {
-    std::vector<float> heights(posts * posts, 0.0f);
-    for (int j = 70; j < 90; ++j) heights[std::size_t(j * posts + 84)] = std::numeric_limits<float>::quiet_NaN();
-    const HeightPyramid holes({posts, posts, {0.0, 0.0}, {10.0, 10.0}, heights}), step = groundOf(cliff, posts);
+    const auto strip = [](double x, double y) { return x == 840.0 && y >= 700.0 && y < 900.0 ? NAN : 0.0; };
+    const HeightPyramid holes = groundOf(strip, posts), step = groundOf(cliff, posts);
     const struct {
         const char* name;
         const Ground& ground;
@@ -283,11 +283,7 @@ TEST(HullSolids, FollowASunThatTurnsALittle) {
 
 TEST(HullSolids, MovedToWorldCoordinatesAreTheSame) {
     const glm::dvec2 far(433000.0, 5410000.0);
-    std::vector<float> heights;
-    for (int j = 0; j < posts; ++j)
-        for (int i = 0; i < posts; ++i) heights.push_back(float(hills(10.0 * i, 10.0 * j)));
-    const HeightPyramid near({posts, posts, {0.0, 0.0}, {10.0, 10.0}, heights}),
-        moved({posts, posts, far, {10.0, 10.0}, heights});
+    const HeightPyramid near = groundOf(hills, posts), moved = groundOf(hills, posts, 0.0, far);
     for (Prism prism : prismsOn(near, glm::dvec2(400.0), glm::dvec2(1200.0), 40, 3)) {
         const HullSolids expected = solidsOf(near, prism.parts(), sun(77.0, 25.0));
         for (glm::dvec2& corner : prism.outline) corner += far;

@@ -2,7 +2,7 @@
 // Ground from loose triangles: against height fields cut into the same triangles, and shapes worked by hand.
 #include "Compare.h"
 #include "GroundTriangles.h"
-#include "Houses.h"
+#include <support/TerrainTrial.h>
 
 #include <algorithm>
 #include <ctime>
@@ -18,8 +18,6 @@ namespace {
 
 constexpr int posts = 70;
 
-double hills(double x, double y) { return 25.0 * std::sin(x * 0.011) * std::cos(y * 0.013) + 4.0 * std::sin(x * 0.05); }
-
 TriangleGround groundOf(const std::vector<GroundTriangle>& triangles) {
     return test::LooseTriangles(triangles).ground();
 }
@@ -30,11 +28,9 @@ TriangleGround cellsOf(const gnomon::HeightField& field, const glm::dvec3& offse
 
 /// A hilly field with a hole of 3 × 2 cells.
 HeightPyramid holed() {
-    std::vector<float> heights;
-    for (int j = 0; j < posts; ++j)
-        for (int i = 0; i < posts; ++i) heights.push_back(float(hills(i * test::pitch, j * test::pitch)));
-    heights[std::size_t(30 * posts + 40)] = heights[std::size_t(30 * posts + 41)] = std::nanf("");
-    return HeightPyramid({posts, posts, {0.0, 0.0}, {test::pitch, test::pitch}, heights});
+    return test::groundOf(
+        [](double x, double y) { return y == 300.0 && (x == 400.0 || x == 410.0) ? NAN : test::steepHills(x, y); },
+        posts);
 }
 
 /// Two terraces, 0 and 8 high, and the vertical cliff between them at x = 10.
@@ -85,7 +81,7 @@ TEST(TriangleGround, IsMetByRaysWhereTheHeightFieldIs) {
 
 /// From posts, edges and diagonals, and from beside the grid; along borders of cells, across posts, straight up and down.
 TEST(TriangleGround, IsMetByRaysAlongTheBordersOfCellsWhereTheHeightFieldIs) {
-    const HeightPyramid field = test::groundOf(hills, posts);
+    const HeightPyramid field = test::groundOf(test::steepHills, posts);
     const TriangleGround ground = cellsOf(field.field());
     Random random(5);
     int hits = 0;
@@ -103,7 +99,7 @@ TEST(TriangleGround, IsMetByRaysAlongTheBordersOfCellsWhereTheHeightFieldIs) {
 }
 
 TEST(TriangleGround, LetsNoRaySlipBetweenTrianglesThatShareAnEdgeOrAPost) {
-    const HeightPyramid field = test::groundOf(hills, posts);
+    const HeightPyramid field = test::groundOf(test::steepHills, posts);
     const TriangleGround ground = cellsOf(field.field());
     Random random(3);
     for (int i = 0; i < 5000; ++i) {
@@ -284,30 +280,6 @@ TEST(TriangleGround, HasHolesWhereAnEdgeIsOfOneTriangleButAtItsEnds) {
     EXPECT_GT(whole, 100);
 }
 
-/// A roof with its ridge along x at y = 100, 50 high, and walls that fall to either side at 30 degrees.
-double roof(double, double y) { return 50.0 - std::abs(y - 100.0) * std::tan(glm::radians(30.0)); }
-
-TEST(TriangleGround, IsTurnedAwayFromLightsThatAreBelowTheFartherSideOfARoof) {
-    const HeightPyramid field = test::groundOf(roof, 21, 1000.0);
-    const TriangleGround triangles = cellsOf(field.field());
-    const auto sun = [](double x, double y, double degrees) {
-        const double elevation = glm::radians(degrees);
-        return glm::dvec4(3.0 * x * std::cos(elevation), 3.0 * y * std::cos(elevation), 3.0 * std::sin(elevation), 0.0);
-    };
-    const auto lamp = [](double y, double over) { return glm::dvec4(90.0, y, 1000.0 + roof(0.0, y) + over, 1.0); };
-    const double farther =
-        2.0 * 60.0 * std::tan(glm::radians(30.0)); // plane of one side over the other 60 m from the ridge
-    for (const Ground* ground : {static_cast<const Ground*>(&field), static_cast<const Ground*>(&triangles)}) {
-        EXPECT_TRUE(ground->turnedAway(sun(0.0, 1.0, 29.0)).is);
-        EXPECT_FALSE(ground->turnedAway(sun(0.0, 1.0, 31.0)).is);
-        EXPECT_FALSE(ground->turnedAway(sun(1.0, 0.0, 1.0)).is) << "along the ridge";
-        EXPECT_TRUE(ground->turnedAway(lamp(40.0, farther - 1.0)).is);
-        EXPECT_FALSE(ground->turnedAway(lamp(40.0, farther + 1.0)).is);
-        EXPECT_TRUE(ground->turnedAway(lamp(160.0, farther - 1.0)).is);
-        EXPECT_FALSE(ground->turnedAway(lamp(100.0, 1.0)).is) << "over the ridge";
-    }
-}
-
 TEST(TriangleGround, HasACliffThatIsTurnedAwayUnlessTheLightIsInItsPlane) {
     const TriangleGround cliff = groundOf(terraces());
     EXPECT_TRUE(cliff.turnedAway({-1.0, 0.0, 5.0, 0.0}).is);
@@ -317,7 +289,7 @@ TEST(TriangleGround, HasACliffThatIsTurnedAwayUnlessTheLightIsInItsPlane) {
 
 /// Seconds of processor time for 20 000 heights and rays on a field of posts².
 double seconds(int side) {
-    const HeightPyramid field = test::groundOf(hills, side);
+    const HeightPyramid field = test::groundOf(test::steepHills, side);
     const TriangleGround ground = cellsOf(field.field());
     const double size = (side - 1) * test::pitch;
     Random random(5);

@@ -2,7 +2,7 @@
 // Whether ground is turned away from a light, and for how long: against the plane of each triangle.
 #include "Compare.h"
 #include "GroundTriangles.h"
-#include "Houses.h"
+#include <support/TerrainTrial.h>
 
 #include <gnomon/ground/TurnedAwaySearch.h>
 
@@ -18,9 +18,6 @@ using test::sunAt;
 namespace {
 
 constexpr int posts = 70;
-
-/// Up to 25 degrees steep.
-double hills(double x, double y) { return 25.0 * std::sin(x * 0.011) * std::cos(y * 0.013) + 4.0 * std::sin(x * 0.05); }
 
 /// How far a light is above the plane of the triangle that it is least above.
 double leastAbove(const std::vector<GroundTriangle>& triangles, const glm::dvec4& light) {
@@ -48,7 +45,7 @@ glm::dvec4 moved(const glm::dvec4& light, double by, Random& random) {
 }
 
 TEST(TurnedAwaySearch, KnowsHowFarALightMayMove) {
-    const HeightPyramid field = test::groundOf(hills, posts, 300.0);
+    const HeightPyramid field = test::groundOf(test::steepHills, posts, 300.0);
     const std::vector<GroundTriangle> triangles = test::trianglesOf(field.field());
     const TriangleGround loose = test::LooseTriangles(triangles).ground();
     Random random(7);
@@ -74,7 +71,7 @@ TEST(TurnedAwaySearch, KnowsHowFarALightMayMove) {
 }
 
 TEST(TurnedAwaySearch, IsDoneAFewTimesADay) {
-    const HeightPyramid field = test::groundOf(hills, posts, 300.0);
+    const HeightPyramid field = test::groundOf(test::steepHills, posts, 300.0);
     const std::vector<GroundTriangle> triangles = test::trianglesOf(field.field());
     gnomon::FollowedTurn followed;
     int away = 0;
@@ -92,7 +89,7 @@ TEST(TurnedAwaySearch, IsDoneAFewTimesADay) {
 }
 
 TEST(TurnedAwaySearch, IsDoneAnewForAnotherGroundAndAnotherKindOfLight) {
-    const HeightPyramid field = test::groundOf(hills, posts),
+    const HeightPyramid field = test::groundOf(test::steepHills, posts),
                         level = test::groundOf([](double, double) { return 0.0; }, 9);
     gnomon::FollowedTurn followed;
     const glm::dvec4 low(sunAt(90.0, 5.0), 0.0);

@@ -19,15 +19,7 @@ using gnomon::CasterTiles;
 
 namespace {
 
-constexpr int posts = 100, houses = 600; // more than two tiles hold
-constexpr double pitch = 10.0;
-
-gnomon::HeightPyramid hillyGround() {
-    std::vector<float> heights;
-    for (int j = 0; j < posts; ++j)
-        for (int i = 0; i < posts; ++i) heights.push_back(float(test::hills(pitch * i, pitch * j)));
-    return gnomon::HeightPyramid({posts, posts, {0.0, 0.0}, {pitch, pitch}, heights});
-}
+constexpr int houses = 600; // more than two tiles hold
 
 /// Boxes of all sizes and headings that reach 6 m into the ground, apart from one another. Every fifth drawable is two.
 osg::ref_ptr<osg::Group> townOnHills() {
@@ -77,7 +69,7 @@ struct Hills {
     double rightOf(const gnomon::TileShadows& tile) const { return town.origin().x + tile.solids.high.x; }
     double leftOf(const gnomon::TileShadows& tile) const { return town.origin().x + tile.solids.low.x; }
 
-    const gnomon::HeightPyramid ground = hillyGround();
+    const gnomon::HeightPyramid ground = test::groundOf(test::hills, 100);
     const gnomon::HullGround on{ground};
     const osg::ref_ptr<osg::Group> root = townOnHills();
     CasterTiles town{false};

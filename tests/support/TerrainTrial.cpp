@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "support/TerrainTrial.h"
-#include "support/Drawn.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -117,6 +116,14 @@ double hills(double x, double y) {
            2.0 * std::sin(x * 0.04 + y * 0.03);
 }
 
+gnomon::HeightPyramid groundOf(const std::function<double(double, double)>& height, int posts, double base,
+                               const glm::dvec2& corner) {
+    std::vector<float> heights;
+    for (int j = 0; j < posts; ++j)
+        for (int i = 0; i < posts; ++i) heights.push_back(static_cast<float>(height(i * pitch, j * pitch)));
+    return gnomon::HeightPyramid({posts, posts, corner, {pitch, pitch}, heights, base});
+}
+
 int over(const gnomon::BoxTriangles& drape, const glm::dvec2& place) {
     int count = 0;
     for (std::size_t i = 0; i + 2 < drape.size(); i += 3)
@@ -155,14 +162,20 @@ glm::dvec2 Prism::middle() const {
     return sum / double(outline.size());
 }
 
+std::vector<glm::dvec3> Prism::corners() const {
+    std::vector<glm::dvec3> result;
+    for (const glm::dvec2& corner : outline)
+        for (const double z : {base, roof}) result.emplace_back(corner, z);
+    return result;
+}
+
 std::vector<gnomon::ConvexPart> Prism::parts() const {
     // Floats about a local origin, as casters come; the parts are moved back.
     const glm::dvec2 origin = outline.front();
     std::vector<glm::vec3> vertices;
     std::vector<unsigned> indices;
     const auto n = static_cast<unsigned>(outline.size());
-    for (const glm::dvec2& corner : outline)
-        for (const double z : {base, roof}) vertices.emplace_back(glm::dvec3(corner - origin, z - roof));
+    for (const glm::dvec3& corner : corners()) vertices.emplace_back(corner - glm::dvec3(origin, roof));
     for (unsigned i = 0; i < n; ++i) {
         const unsigned a = 2 * i, b = 2 * ((i + 1) % n);
         indices.insert(indices.end(), {a, b, b + 1, a, b + 1, a + 1});
@@ -205,11 +218,8 @@ std::vector<Prism> prismsOn(const gnomon::Ground& ground, const glm::dvec2& low,
 
 Method boxMethod() {
     return [](const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light) {
-        std::vector<glm::dvec3> points;
-        for (const glm::dvec2& corner : prism.outline)
-            for (const double z : {prism.base, prism.roof}) points.emplace_back(corner, z);
         const auto shadow =
-            gnomon::boxShadow(ground, gnomon::boxCaster(points), light).value_or(gnomon::BoxTriangles());
+            gnomon::boxShadow(ground, gnomon::boxCaster(prism.corners()), light).value_or(gnomon::BoxTriangles());
         return Found{[shadow](const glm::dvec3& place) { return over(shadow, glm::dvec2(place)) > 0; }, 12};
     };
 }

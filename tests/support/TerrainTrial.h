@@ -3,6 +3,7 @@
 #include <gnomon/Ground.h>
 #include <gnomon/geometry/ConvexParts.h>
 #include <gnomon/ground/BoxMethod.h>
+#include <gnomon/ground/HeightPyramid.h>
 #include <gnomon/ground/HullSolids.h>
 
 #include <glm/vec2.hpp>
@@ -21,6 +22,18 @@ glm::dvec3 sunAt(double azimuth, double elevation);
 /// Height of hills with slopes of 8.5 degrees, root mean square, as the Appalachians have them; metres.
 double hills(double x, double y);
 
+/// Ground over a square of posts × posts, `pitch` apart, by its height at places from the corner on.
+gnomon::HeightPyramid groundOf(const std::function<double(double, double)>& height, int posts, double base = 0.0,
+                               const glm::dvec2& corner = glm::dvec2(0.0));
+constexpr double pitch = 10.0;
+
+/// Two numbers of a distribution, y drawn first: the order in which a call's arguments are evaluated is each compiler's own.
+template <class Distribution, class Engine>
+glm::dvec2 drawn(Distribution& distribution, Engine& engine) {
+    const double y = distribution(engine);
+    return {distribution(engine), y};
+}
+
 /// Triangles over a place in plan, those whose edge it lies on too.
 int over(const gnomon::BoxTriangles& triangles, const glm::dvec2& place);
 
@@ -35,6 +48,7 @@ struct Prism {
     bool blocks(const glm::dvec3& point, const glm::dvec4& light) const;
     bool isUnder(const glm::dvec2& place) const; ///< the outline.
     glm::dvec2 middle() const;
+    std::vector<glm::dvec3> corners() const;
     /// Of its triangles, in the frame of `outline`.
     std::vector<gnomon::ConvexPart> parts() const;
 };
