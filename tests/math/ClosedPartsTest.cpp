@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Compare.h"
+#include "Soup.h"
 
 #include <gnomon/geometry/ClosedParts.h>
 
@@ -7,67 +8,40 @@
 #include <utility>
 
 using namespace gnomon;
+using ::test::Soup;
 
 namespace {
 
-/// Triangles without shared vertices, as most scenes have them.
-struct Soup {
-    std::vector<glm::vec3> positions;
+ClosedParts partsOf(const Soup& soup) {
+    return closedParts(soup.vertices.data(), soup.vertices.size(), soup.indices.data(), soup.indices.size(), true);
+}
 
-    ClosedParts parts() const {
-        std::vector<unsigned> indices(positions.size());
-        for (unsigned i = 0; i < indices.size(); ++i) indices[i] = i;
-        return closedParts(positions.data(), positions.size(), indices.data(), indices.size(), true);
-    }
-    /// How many of the triangles bound a solid.
-    long closedTriangles() const {
-        const std::vector<bool> closed = parts().closed;
-        return std::count(closed.begin(), closed.end(), true);
-    }
-    void add(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-        for (const glm::vec3& corner : {a, b, c}) positions.push_back(corner);
-    }
-    void add(const Soup& other) { positions.insert(positions.end(), other.positions.begin(), other.positions.end()); }
-    Soup moved(const glm::vec3& by) const {
-        Soup result = *this;
-        for (glm::vec3& position : result.positions) position += by;
-        return result;
-    }
-    /// Every triangle looks the other way.
-    Soup turned() const {
-        Soup result = *this;
-        for (std::size_t i = 0; i + 2 < result.positions.size(); i += 3)
-            std::swap(result.positions[i + 1], result.positions[i + 2]);
-        return result;
-    }
-    Soup without(std::size_t triangle) const {
-        Soup result = *this;
-        const auto first = result.positions.begin() + static_cast<std::ptrdiff_t>(3 * triangle);
-        result.positions.erase(first, first + 3);
-        return result;
-    }
-};
+/// How many of the triangles bound a solid.
+long closedTriangles(const Soup& soup) {
+    const std::vector<bool> closed = partsOf(soup).closed;
+    return std::count(closed.begin(), closed.end(), true);
+}
 
 /// Corner of a tetrahedron at the origin, its other corners on the axes; faces look outwards.
 Soup tetrahedron(float size = 1.0f) {
     const glm::vec3 o(0.0f), x(size, 0.0f, 0.0f), y(0.0f, size, 0.0f), z(0.0f, 0.0f, size);
     Soup soup;
-    soup.add(o, y, x);
-    soup.add(o, z, y);
-    soup.add(o, x, z);
-    soup.add(x, y, z);
+    soup.triangle(o, y, x);
+    soup.triangle(o, z, y);
+    soup.triangle(o, x, z);
+    soup.triangle(x, y, z);
     return soup;
 }
 
 } // namespace
 
 TEST(ClosedParts, AreSolidsWhoseFacesLookOutwardsAndNoneOfWhichIsMissing) {
-    EXPECT_EQ(tetrahedron().closedTriangles(), 4);
-    EXPECT_EQ(tetrahedron().turned().closedTriangles(), 0) << "inside out";
-    for (std::size_t face = 0; face < 4; ++face) EXPECT_EQ(tetrahedron().without(face).closedTriangles(), 0);
+    EXPECT_EQ(closedTriangles(tetrahedron()), 4);
+    EXPECT_EQ(closedTriangles(tetrahedron().turned()), 0) << "inside out";
+    for (std::size_t face = 0; face < 4; ++face) EXPECT_EQ(closedTriangles(tetrahedron().without(face)), 0);
     Soup soup = tetrahedron();
-    std::swap(soup.positions[0], soup.positions[1]);
-    EXPECT_EQ(soup.closedTriangles(), 0) << "one face is turned round";
+    std::swap(soup.vertices[0], soup.vertices[1]);
+    EXPECT_EQ(closedTriangles(soup), 0) << "one face is turned round";
 }
 
 TEST(ClosedParts, AreToldApartWhereNothingConnectsThem) {
@@ -77,42 +51,42 @@ TEST(ClosedParts, AreToldApartWhereNothingConnectsThem) {
     soup.add(tetrahedron().moved({9.0f, 0.0f, 0.0f}));
     const std::vector<bool> expected{true,  true,  true,  true, false, false, false, false,
                                      false, false, false, true, true,  true,  true};
-    EXPECT_EQ(soup.parts().closed, expected);
+    EXPECT_EQ(partsOf(soup).closed, expected);
 }
 
 TEST(ClosedParts, ThatTouchInAVertexOrShareAnEdgeAreClosed) {
     Soup touching = tetrahedron(), sharing = tetrahedron(), opposite = tetrahedron();
     touching.add(tetrahedron().moved({1.0f, 0.0f, 0.0f}));
-    EXPECT_EQ(touching.closedTriangles(), 8);
-    for (glm::vec3& position : opposite.positions) position = {-position.x, -position.y, position.z};
+    EXPECT_EQ(closedTriangles(touching), 8);
+    for (glm::vec3& position : opposite.vertices) position = {-position.x, -position.y, position.z};
     sharing.add(opposite); // four triangles meet in the edge: two go each way
-    EXPECT_EQ(sharing.closedTriangles(), 8);
+    EXPECT_EQ(closedTriangles(sharing), 8);
 }
 
 TEST(ClosedParts, WithAFinOnAnEdgeAreOpen) {
     Soup soup = tetrahedron();
-    soup.add({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, -1.0f, 0.0f});
-    EXPECT_EQ(soup.closedTriangles(), 0);
+    soup.triangle({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, -1.0f, 0.0f});
+    EXPECT_EQ(closedTriangles(soup), 0);
 }
 
 TEST(ClosedParts, AreNotADoubleSidedSheet) { // closed, but it encloses nothing
     Soup soup;
-    soup.add({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f});
+    soup.triangle({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f});
     soup.add(soup.turned());
-    EXPECT_EQ(soup.closedTriangles(), 0);
+    EXPECT_EQ(closedTriangles(soup), 0);
 }
 
 TEST(ClosedParts, MayHoldTrianglesOfNoArea) {
     Soup soup = tetrahedron();
-    soup.add({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f});
-    soup.add({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}); // an edge, there and back
-    EXPECT_EQ(soup.closedTriangles(), 6);
+    soup.triangle({0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f});
+    soup.triangle({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}); // an edge, there and back
+    EXPECT_EQ(closedTriangles(soup), 6);
 }
 
 TEST(ClosedParts, AreFoundFarFromTheOriginAndInAnyUnit) {
     // 2²³ + 1 is a float, the cube of it keeps no ones
-    EXPECT_EQ(tetrahedron().moved({8388608.0f, -8388608.0f, 4194304.0f}).closedTriangles(), 4);
-    for (const float size : {1e-12f, 1e-3f, 1e3f, 1e12f}) EXPECT_EQ(tetrahedron(size).closedTriangles(), 4);
+    EXPECT_EQ(closedTriangles(tetrahedron().moved({8388608.0f, -8388608.0f, 4194304.0f})), 4);
+    for (const float size : {1e-12f, 1e-3f, 1e3f, 1e12f}) EXPECT_EQ(closedTriangles(tetrahedron(size)), 4);
 }
 
 namespace {
@@ -132,8 +106,8 @@ Soup globe(const std::function<bool(int latitude, int longitude)>& isLeftOut) {
         for (int j = 0; j < around; ++j) {
             if (isLeftOut(i, j)) continue;
             const glm::vec3 a = place(i, j), b = place(i + 1, j), c = place(i + 1, j + 1), d = place(i, j + 1);
-            if (i > 0) soup.add(a, b, d);
-            if (2 * i + 2 < around) soup.add(b, c, d);
+            if (i > 0) soup.triangle(a, b, d);
+            if (2 * i + 2 < around) soup.triangle(b, c, d);
         }
     return soup;
 }
@@ -158,17 +132,17 @@ struct Looked {
 };
 
 Looked look(const Soup& soup) {
-    const ClosedParts found = soup.parts();
+    const ClosedParts found = partsOf(soup);
     Looked result;
     for (int i = 0; i < 97; ++i)
         for (int j = 0; j < 97; ++j) {
             const glm::dvec2 at(-1.05 + 0.0217 * i, -1.05 + 0.0219 * j); // on no edge
             Crossings own, filling;
-            for (std::size_t t = 0; t + 2 < soup.positions.size(); t += 3)
-                own.add(at, soup.positions[t], soup.positions[t + 1], soup.positions[t + 2]);
+            for (std::size_t t = 0; t + 2 < soup.vertices.size(); t += 3)
+                own.add(at, soup.vertices[t], soup.vertices[t + 1], soup.vertices[t + 2]);
             for (const auto& hole : found.holes)
                 for (std::size_t t = 0; t + 2 < hole.size(); t += 3)
-                    filling.add(at, soup.positions[hole[t]], soup.positions[hole[t + 1]], soup.positions[hole[t + 2]]);
+                    filling.add(at, soup.vertices[hole[t]], soup.vertices[hole[t + 1]], soup.vertices[hole[t + 2]]);
             EXPECT_EQ(own.front + filling.front, own.back + filling.back);
             result.frontless += own.back > own.front;
             result.behindNoFront += own.back > own.front && filling.front == 0;
@@ -189,7 +163,7 @@ TEST(HoledParts, ShowBacksThroughTheirHolesAlone) {
     const Soup soup = globe([](int latitude, int longitude) {
         return isNorth(latitude, longitude) || (latitude >= 4 && latitude < 6 && longitude >= 3 && longitude < 6);
     });
-    const ClosedParts found = soup.parts();
+    const ClosedParts found = partsOf(soup);
     EXPECT_TRUE(isAll(found.closed, false));
     EXPECT_TRUE(isAll(found.holed, true));
     EXPECT_EQ(found.holes.size(), 2u);
@@ -208,10 +182,10 @@ TEST(HoledParts, AreWhatHasAVolumeWithTheirHolesFilled) {
         Soup spike;
         for (unsigned i = 0; i < 4; ++i) {
             const glm::vec3 corners[]{foot[i], foot[(i + 1) % 4], tip};
-            spike.add(corners[turn], corners[(turn + 1) % 3], corners[(turn + 2) % 3]);
+            spike.triangle(corners[turn], corners[(turn + 1) % 3], corners[(turn + 2) % 3]);
         }
-        EXPECT_TRUE(isAll(spike.parts().holed, true)) << turn;
-        EXPECT_TRUE(isAll(spike.turned().parts().holed, false)) << turn;
+        EXPECT_TRUE(isAll(partsOf(spike).holed, true)) << turn;
+        EXPECT_TRUE(isAll(partsOf(spike.turned()).holed, false)) << turn;
     }
 }
 
@@ -219,7 +193,7 @@ TEST(HoledParts, AreWhatHasAVolumeWithTheirHolesFilled) {
 TEST(HoledParts, AreNotInsideOutAndHaveNoWideHole) {
     const Soup dome = globe([](int latitude, int) { return 4 * latitude >= around; });
     for (const Soup& soup : {globe(isNorth).turned(), dome}) {
-        const ClosedParts found = soup.parts();
+        const ClosedParts found = partsOf(soup);
         EXPECT_TRUE(isAll(found.holed, false));
         EXPECT_TRUE(found.holes.empty());
     }
@@ -228,25 +202,25 @@ TEST(HoledParts, AreNotInsideOutAndHaveNoWideHole) {
 // Of a bowl on a post the inside looks up, and its outside is not there: under a low sun its wall's back is before its inside.
 TEST(HoledParts, AreNotWhatIsJoinedInACornerAlone) {
     Soup soup = globe([](int latitude, int) { return 4 * latitude < around; }).turned();
-    const glm::vec3 lowest = *std::min_element(soup.positions.begin(), soup.positions.end(),
+    const glm::vec3 lowest = *std::min_element(soup.vertices.begin(), soup.vertices.end(),
                                                [](const auto& a, const auto& b) { return a.z < b.z; });
     soup.add(tetrahedron(6.0f).moved(lowest - glm::vec3(0.0f, 0.0f, 6.0f))); // its tip is there
-    EXPECT_TRUE(isAll(soup.parts().holed, false));
+    EXPECT_TRUE(isAll(partsOf(soup).holed, false));
 }
 
 // Were it joined to the rest over two edges of three triangles, a fin would be.
 TEST(HoledParts, AreNotWhatHasAFin) {
     Soup soup = globe([](int, int) { return false; });
-    const glm::vec3 a = soup.positions[0], b = soup.positions[1];
-    soup.add(a, b, 1.1f * (a + b) / glm::length(a + b));
-    EXPECT_TRUE(isAll(soup.parts().holed, false));
+    const glm::vec3 a = soup.vertices[0], b = soup.vertices[1];
+    soup.triangle(a, b, 1.1f * (a + b) / glm::length(a + b));
+    EXPECT_TRUE(isAll(partsOf(soup).holed, false));
 }
 
 TEST(HoledParts, AreToldFromWhatIsClosed) {
     Soup soup = globe(isNorth);
-    const std::size_t holed = soup.positions.size() / 3;
+    const std::size_t holed = soup.vertices.size() / 3;
     soup.add(tetrahedron().moved({3.0f, 0.0f, 0.0f}));
-    const ClosedParts found = soup.parts();
+    const ClosedParts found = partsOf(soup);
     EXPECT_EQ(std::count(found.holed.begin(), found.holed.end(), true), std::ptrdiff_t(holed));
     EXPECT_EQ(std::count(found.closed.begin(), found.closed.end(), true), 4);
 }
@@ -268,23 +242,23 @@ Soup ball(int slices) {
     Soup soup;
     for (int stack = 0; stack < slices / 2; ++stack)
         for (int slice = 0; slice < slices; ++slice) {
-            soup.add(at(stack, slice), at(stack + 1, slice), at(stack + 1, slice + 1));
-            soup.add(at(stack, slice), at(stack + 1, slice + 1), at(stack, slice + 1));
+            soup.triangle(at(stack, slice), at(stack + 1, slice), at(stack + 1, slice + 1));
+            soup.triangle(at(stack, slice), at(stack + 1, slice + 1), at(stack, slice + 1));
         }
     return soup;
 }
 
 TEST(ClosedParts, OfABallWhoseSeamRoundingLeavesOpenAreClosed) {
     const Soup round = ball(16);
-    ASSERT_NE(round.positions[1], ball(16).positions[3 * 2 * 15 + 2]); // the seam: one angle, two values
-    EXPECT_EQ(round.closedTriangles(), long(round.positions.size() / 3));
-    EXPECT_EQ(round.turned().closedTriangles(), 0);
+    ASSERT_NE(round.vertices[1], ball(16).vertices[3 * 2 * 15 + 2]); // the seam: one angle, two values
+    EXPECT_EQ(closedTriangles(round), long(round.vertices.size() / 3));
+    EXPECT_EQ(closedTriangles(round.turned()), 0);
 }
 
 TEST(ClosedParts, StayOpenWhereASeamIsWiderThanRounding) {
     Soup gaping = tetrahedron();
-    for (std::size_t i = 9; i < 12; ++i) gaping.positions[i] += 4e-6f; // the slanted face, off by 33 steps of float
-    EXPECT_EQ(gaping.closedTriangles(), 0);
+    for (std::size_t i = 9; i < 12; ++i) gaping.vertices[i] += 4e-6f; // the slanted face, off by 33 steps of float
+    EXPECT_EQ(closedTriangles(gaping), 0);
 }
 
 TEST(ClosedParts, OfNothingAreNone) { EXPECT_TRUE(closedParts(nullptr, 0, nullptr, 0).closed.empty()); }

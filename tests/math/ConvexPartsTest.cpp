@@ -32,12 +32,6 @@ Soup box() {
     return soup;
 }
 
-Soup without(Soup soup, std::size_t firstTriangle, std::size_t count) {
-    const auto at = soup.indices.begin() + static_cast<std::ptrdiff_t>(3 * firstTriangle);
-    soup.indices.erase(at, at + static_cast<std::ptrdiff_t>(3 * count));
-    return soup;
-}
-
 /// Upright over the filled squares of a plan, pitch 2, 4 high: "XX", "X." is an L.
 Soup onPlan(const std::vector<std::string>& plan, bool floor = true) {
     Soup soup;
@@ -76,7 +70,7 @@ Soup lShape() {
 Soup gable(double eaves) {
     Soup soup;
     soup.box({-3, -2, 0}, {3, 2, 4});
-    soup = without(soup, 2, 2); // its lid
+    soup = soup.without(2, 2); // its lid
     for (const double side : {-1.0, 1.0})
         soup.triangle({side * 3, -2 * side, 4}, {side * 3, 2 * side, 4}, {side * 3, 0, 6});
     const glm::dvec3 along(6, 0, 0), low(-3, -2 - eaves, 4 - eaves);
@@ -102,7 +96,7 @@ Soup tank(int sides, double radius, double low, double high, bool cone = false) 
 }
 
 Soup both(Soup a, const Soup& b) {
-    for (std::size_t t = 0; t < b.size(); ++t) a.triangle(b.corner(t, 0), b.corner(t, 1), b.corner(t, 2));
+    a.add(b);
     return a;
 }
 
@@ -206,13 +200,13 @@ struct Case {
 
 std::vector<Case> cases() {
     return {{"box", box(), 1},
-            {"box without floor", without(box(), 0, 2), 1},
-            {"box without lid", without(box(), 2, 2), 5},
+            {"box without floor", box().without(0, 2), 1},
+            {"box without lid", box().without(2, 2), 5},
             {"L", lShape(), 2},
             {"L of squares", onPlan({"XX", "X."}), 2},
             {"U without floor", onPlan({"X.X", "XXX"}, false), 3},
             {"courtyard", onPlan({"XXX", "X.X", "XXX"}), 4},
-            {"L without a wall", without(lShape(), 2, 2), 7},
+            {"L without a wall", lShape().without(2, 2), 7},
             {"L with a wall of two sides that stands out", both(onPlan({"XX", "X."}), fin()), 12},
             {"gabled house", gable(0.0), 1},
             {"gabled house with eaves", gable(0.5), 9},
@@ -260,21 +254,18 @@ TEST(ConvexParts, OfAClosedPartHaveFrontsAndSomeAreTurnedAway) {
         away += !(glm::dot(*part.front, sun) > 0.0);
     }
     EXPECT_GE(away, 3u);
-    for (const ConvexPart& part : partsOf(without(box(), 2, 2))) EXPECT_FALSE(part.front) << "open";
+    for (const ConvexPart& part : partsOf(box().without(2, 2))) EXPECT_FALSE(part.front) << "open";
 }
 
 TEST(ConvexParts, DoubledTrianglesCountOnce) {
-    for (const Soup& soup : {box(), lShape(), without(box(), 2, 2)}) {
-        Soup doubled = soup;
-        for (std::size_t i = 0; i < soup.indices.size(); i += 3)
-            doubled.indices.insert(doubled.indices.end(), {soup.indices[i], soup.indices[i + 2], soup.indices[i + 1]});
-        EXPECT_EQ(partsOf(doubled).size(), partsOf(soup).size());
+    for (const Soup& soup : {box(), lShape(), box().without(2, 2)}) {
+        EXPECT_EQ(partsOf(both(soup, soup.turned())).size(), partsOf(soup).size());
     }
 }
 
 TEST(ConvexParts, OfAWallWithAHoleAreNotItsHull) {
     Soup soup = box();
-    soup = without(soup, 4, 1); // half of a wall
+    soup = soup.without(4); // half of a wall
     EXPECT_GT(partsOf(soup).size(), 1u);
     soup.triangle({-3, -2, 0}, {3, -2, 0}, {-3, -2, 5}); // as much area again, but over what is there
     EXPECT_GT(partsOf(soup).size(), 1u);

@@ -7,8 +7,6 @@
 #include <gnomon/ground/HeightPyramid.h>
 
 #include <algorithm>
-#include <ostream>
-#include <string>
 
 using gnomon::CellCut;
 using gnomon::gridOf;
@@ -90,17 +88,7 @@ TEST(TriangleGrid, LeavesSkirtsOut) {
     EXPECT_EQ(grid->height(0.5, 0.0), 0.0);
 }
 
-TEST(TriangleGrid, IsFoundInTheTrianglesThatNoGridSpoils) { EXPECT_TRUE(gridIn(small())); }
-
 namespace {
-
-/// Triangles in which no grid is to be found, by what is wrong with them.
-struct Spoilt {
-    std::string name;
-    std::vector<GroundTriangle> triangles;
-    double tolerance = 1e-6;
-};
-void PrintTo(const Spoilt& spoilt, std::ostream* out) { *out << spoilt.name; }
 
 std::vector<GroundTriangle> smallWith(const std::vector<GroundTriangle>& more) {
     std::vector<GroundTriangle> all = small();
@@ -128,29 +116,33 @@ std::vector<GroundTriangle> smallTurned() {
     return turned;
 }
 
-class NoGrid : public testing::TestWithParam<Spoilt> {};
-INSTANTIATE_TEST_SUITE_P(
-    TriangleGrid, NoGrid,
-    testing::Values(
-        Spoilt{"NoTriangles", {}}, Spoilt{"OneHalfOfACellTwice", smallWith({small().front()})},
-        Spoilt{"OneOverAnother", smallWith({{glm::dvec3(0, 0, 5), glm::dvec3(1, 0, 5), glm::dvec3(0, 1, 5)}})},
-        Spoilt{"AWallThatStandsUp", smallWith({{glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 0, 5)}})},
-        Spoilt{"AWallBetweenPosts",
-               smallWith({{glm::dvec3(0.5, 0, 0), glm::dvec3(0.5, 1, 0), glm::dvec3(0.5, 0, -5)}})},
-        Spoilt{"AWideCell", smallWith({{glm::dvec3(2, 0, 0), glm::dvec3(4, 0, 0), glm::dvec3(4, 1, 0)},
-                                       {glm::dvec3(2, 0, 0), glm::dvec3(4, 1, 0), glm::dvec3(2, 1, 0)}})},
-        Spoilt{"AStep", smallWith({{glm::dvec3(2, 0, 1), glm::dvec3(3, 0, 1), glm::dvec3(3, 1, 1)},
-                                   {glm::dvec3(2, 0, 1), glm::dvec3(3, 1, 1), glm::dvec3(2, 1, 1)}})},
-        Spoilt{"HalfACellMore", smallWith({{glm::dvec3(2, 0, 0), glm::dvec3(3, 0, 0), glm::dvec3(2, 1, 0)}})},
-        Spoilt{"MostlyHoles", smallWith({{glm::dvec3(1e7, 0, 0), glm::dvec3(1e7 + 1, 0, 0), glm::dvec3(1e7, 1, 0)}})},
-        Spoilt{"HalfACellLess", smallWithoutItsLast()},
-        // 1/1000 of a step is allowed at most, whatever the tolerance.
-        Spoilt{"ACornerBesideItsPost", smallWithACornerOffBy(0.01), 1.0}, Spoilt{"ATurnedGrid", smallTurned()}),
-    [](const auto& one) { return one.param.name; });
-
 } // namespace
 
-TEST_P(NoGrid, IsFound) { EXPECT_FALSE(gridIn(GetParam().triangles, GetParam().tolerance)); }
+TEST(TriangleGrid, IsNoneInTrianglesThatAreSpoilt) {
+    const struct {
+        const char* name;
+        std::vector<GroundTriangle> triangles;
+        double tolerance = 1e-6;
+    } cases[] = {
+        {"no triangles", {}},
+        {"one half of a cell twice", smallWith({small().front()})},
+        {"one over another", smallWith({{glm::dvec3(0, 0, 5), glm::dvec3(1, 0, 5), glm::dvec3(0, 1, 5)}})},
+        {"a wall that stands up", smallWith({{glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, 0, 5)}})},
+        {"a wall between posts", smallWith({{glm::dvec3(0.5, 0, 0), glm::dvec3(0.5, 1, 0), glm::dvec3(0.5, 0, -5)}})},
+        {"a wide cell", smallWith({{glm::dvec3(2, 0, 0), glm::dvec3(4, 0, 0), glm::dvec3(4, 1, 0)},
+                                   {glm::dvec3(2, 0, 0), glm::dvec3(4, 1, 0), glm::dvec3(2, 1, 0)}})},
+        {"a step", smallWith({{glm::dvec3(2, 0, 1), glm::dvec3(3, 0, 1), glm::dvec3(3, 1, 1)},
+                              {glm::dvec3(2, 0, 1), glm::dvec3(3, 1, 1), glm::dvec3(2, 1, 1)}})},
+        {"half a cell more", smallWith({{glm::dvec3(2, 0, 0), glm::dvec3(3, 0, 0), glm::dvec3(2, 1, 0)}})},
+        {"mostly holes", smallWith({{glm::dvec3(1e7, 0, 0), glm::dvec3(1e7 + 1, 0, 0), glm::dvec3(1e7, 1, 0)}})},
+        {"half a cell less", smallWithoutItsLast()},
+        // 1/1000 of a step is allowed at most, whatever the tolerance.
+        {"a corner beside its post", smallWithACornerOffBy(0.01), 1.0},
+        {"a turned grid", smallTurned()},
+    };
+    EXPECT_TRUE(gridIn(small()));
+    for (const auto& [name, triangles, tolerance] : cases) EXPECT_FALSE(gridIn(triangles, tolerance)) << name;
+}
 
 TEST(TriangleGrid, IsNoneWithAnIndexOutOfTheVertices) {
     const LooseTriangles loose(small());

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "Soup.h"
+
 #include <gnomon/mapfit/EdgeWidths.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/mapfit/SeenEdges.h>
@@ -57,37 +59,17 @@ double usual(const std::vector<SeenPlace>& places, const glm::dmat4& view, const
 
 const SeenPlace onGround{{1, 2, 0}, {0, 0, 1}, {}};
 
-/// Objects as one mesh, each with its own corners.
-class Objects {
-public:
-    /// A quadrangle, of two triangles.
-    void addQuad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
-        const unsigned first = unsigned(_corners.size());
-        for (const glm::dvec3& each : {corner, corner + u, corner + u + v, corner + v}) _corners.emplace_back(each);
-        for (const unsigned i : {0u, 1u, 2u, 0u, 2u, 3u}) _indices.push_back(first + i);
-    }
-    void addBox(const glm::dvec3& low, const glm::dvec3& high) {
-        const glm::dvec3 size = high - low, x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
-        for (const auto& [corner, u, v] : {std::tuple(low, x, y), std::tuple(low, y, z), std::tuple(low, z, x)}) {
-            addQuad(corner, u, v);
-            addQuad(corner + size - u - v, u, v);
-        }
-    }
-    void beginObject() { _parts.push_back(_indices.size() / 3); }
-    PlacedTriangles placed() const {
-        return {_corners.data(), _corners.size(), _indices.data(), _indices.size() / 3, here, _parts};
-    }
-
-private:
-    std::vector<glm::vec3> _corners;
-    std::vector<unsigned> _indices;
-    std::vector<std::size_t> _parts;
+/// Objects as one mesh.
+struct Objects : test::Soup {
+    void beginObject() { parts.push_back(size()); }
+    PlacedTriangles placed() const { return {vertices.data(), vertices.size(), indices.data(), size(), here, parts}; }
+    std::vector<std::size_t> parts;
 };
 
 Objects onAGround(const std::function<void(Objects&)>& add) {
     Objects objects;
     objects.beginObject();
-    objects.addQuad({-5, -5, 0}, {10, 0, 0}, {0, 10, 0});
+    objects.quad({-5, -5, 0}, {10, 0, 0}, {0, 10, 0});
     objects.beginObject();
     add(objects);
     return objects;
@@ -116,7 +98,7 @@ glm::dmat4 mapOfLamp() {
 
 // The shadow of a unit cube under a sun at 45 degrees: the cube's own square, which the cube hides, and the next one.
 TEST(SeenEdges, LieAlongTheShadowOfABoxOrOfItsTrianglesUnderASun) {
-    const Objects objects = onAGround([](Objects& all) { all.addBox(house.low, house.high); });
+    const Objects objects = onAGround([](Objects& all) { all.box(house.low, house.high); });
     for (const std::vector<SeenPlace>& edges : {edgesOf(sunInTheEast, plan(), mapFromTheEast, {ground, house}),
                                                 edgesOf(sunInTheEast, plan(), mapFromTheEast, objects)}) {
         ASSERT_GT(edges.size(), 20u);
@@ -193,9 +175,9 @@ TEST(SeenEdges, AreSeenInARoomFromInside) {
 // A step: the upper part shadows the lower one of the same object, which a box would not.
 TEST(SeenEdges, OfTrianglesAreSeenOnAnObjectThatShadowsItself) {
     const Objects objects = onAGround([](Objects& all) {
-        all.addQuad({-3, -2, 1}, {4, 0, 0}, {0, 4, 0}); // the lower level, from x = -3 to 1
-        all.addQuad({1, -2, 1}, {0, 4, 0}, {0, 0, 1});
-        all.addQuad({1, -2, 2}, {2, 0, 0}, {0, 4, 0}); // the upper one
+        all.quad({-3, -2, 1}, {4, 0, 0}, {0, 4, 0}); // the lower level, from x = -3 to 1
+        all.quad({1, -2, 1}, {0, 4, 0}, {0, 0, 1});
+        all.quad({1, -2, 2}, {2, 0, 0}, {0, 4, 0}); // the upper one
     });
     int onStep = 0;
     for (const SeenPlace& edge : edgesOf(sunInTheEast, plan(), mapFromTheEast, objects))
@@ -218,7 +200,7 @@ TEST(SeenEdges, CountNarrowShadowsByTheirLengthAndTellTheirWidth) {
         for (int i = -9; i <= 9; ++i) boxes.push_back({{-6, 0.2 * i - width / 2.0, 8}, {6, 0.2 * i + width / 2.0, 8}});
         if (asBoxes) return edgesOf({0, 0, 1, 0}, below, mapFromAbove, boxes);
         const Objects objects = onAGround([&](Objects& all) {
-            for (std::size_t i = 1; i < boxes.size(); ++i) all.addQuad(boxes[i].low, {12, 0, 0}, {0, width, 0});
+            for (std::size_t i = 1; i < boxes.size(); ++i) all.quad(boxes[i].low, {12, 0, 0}, {0, width, 0});
         });
         return edgesOf({0, 0, 1, 0}, below, mapFromAbove, objects);
     };
@@ -245,10 +227,10 @@ TEST(SeenEdges, CountNarrowShadowsByTheirLengthAndTellTheirWidth) {
 // A level and a slope of 60 degrees. A plate above the slope throws its edge on the fold, and two more on either part.
 TEST(SeenEdges, KnowWhereASurfaceIsFolded) {
     const Objects objects = onAGround([](Objects& all) {
-        all.addQuad({-3, -3, 0.5}, {6, 0, 0}, {0, 3, 0});
-        all.addQuad({-3, 0, 0.5}, {6, 0, 0}, {0, 1.5, 1.5 * std::sqrt(3.0)});
-        all.addBox({2, 0, 4.5}, {5, 3, 4.6});
-        all.addBox({4, -2, 4.5}, {5, -1, 4.6});
+        all.quad({-3, -3, 0.5}, {6, 0, 0}, {0, 3, 0});
+        all.quad({-3, 0, 0.5}, {6, 0, 0}, {0, 1.5, 1.5 * std::sqrt(3.0)});
+        all.box({2, 0, 4.5}, {5, 3, 4.6});
+        all.box({4, -2, 4.5}, {5, -1, 4.6});
     });
     const glm::dmat4 slanted = glm::ortho(-5.0, 5.0, -5.0, 5.0, 0.0, 100.0) *
                                glm::lookAt(glm::dvec3(0, -20, 20), glm::dvec3(0.0), glm::dvec3(0, 0, 1));

@@ -5,6 +5,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace test {
 
@@ -54,6 +55,29 @@ void Soup::town(int side) {
         const int variety = (i * 7919) % 97; // sizes that do not repeat along rows
         box(low, low + glm::dvec3(1.5 + variety % 5 * 0.3, 1.5 + variety % 7 * 0.2, 1.0 + variety % 11 * 0.3));
     }
+}
+
+void Soup::add(const Soup& other) {
+    for (std::size_t i = 0; i < other.size(); ++i) triangle(other.corner(i, 0), other.corner(i, 1), other.corner(i, 2));
+}
+
+Soup Soup::moved(const glm::dvec3& by) const {
+    Soup result = *this;
+    for (glm::vec3& vertex : result.vertices) vertex += glm::vec3(by);
+    return result;
+}
+
+Soup Soup::turned() const {
+    Soup result = *this;
+    for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(result.indices[i + 1], result.indices[i + 2]);
+    return result;
+}
+
+Soup Soup::without(std::size_t firstTriangle, std::size_t count) const {
+    Soup result = *this;
+    const auto at = result.indices.begin() + static_cast<std::ptrdiff_t>(3 * firstTriangle);
+    result.indices.erase(at, at + static_cast<std::ptrdiff_t>(3 * count));
+    return result;
 }
 
 gnomon::RayHit bruteForce(const Soup& soup, const gnomon::Ray& ray) {

@@ -20,6 +20,11 @@ struct Soup {
     void sphere(const glm::dvec3& centre, double radius, int slices);
     /// `side` × `side` boxes of various sizes on z = 0, pitch 5, about the origin.
     void town(int side);
+    void add(const Soup& other);
+
+    Soup moved(const glm::dvec3& by) const;
+    Soup turned() const; ///< every triangle looks the other way.
+    Soup without(std::size_t firstTriangle, std::size_t count = 1) const;
 
     std::size_t size() const { return indices.size() / 3; }
     glm::dvec3 corner(std::size_t triangle, int i) const { return glm::dvec3(vertices[indices[3 * triangle + i]]); }
