@@ -43,7 +43,8 @@ test::Scene Setting::scene() const {
     return scene;
 }
 
-Contender contender(const std::string& name, osg::Group* root, const test::View& view, bool shadowMap) {
+Contender contender(const std::string& name, osg::Group* root, const test::View& view, bool shadowMap,
+                    int stencilBits) {
     Contender result;
     result.name = name;
     result.root = root;
@@ -51,7 +52,9 @@ Contender contender(const std::string& name, osg::Group* root, const test::View&
         result.root = new osgShadow::ShadowedScene(new osgShadow::ShadowMap);
         result.root->addChild(root);
     }
-    result.camera = std::make_unique<test::Camera>(result.root, view);
+    gnomon::HeadlessContext::Options options;
+    options.stencilBits = stencilBits;
+    result.camera = std::make_unique<test::Camera>(result.root, view, options);
     return result;
 }
 

@@ -36,7 +36,8 @@ struct Contender {
 };
 
 /// A scene as it is, with osgShadow::ShadowMap at its defaults if asked.
-Contender contender(const std::string& name, osg::Group* root, const test::View& view, bool shadowMap = false);
+Contender contender(const std::string& name, osg::Group* root, const test::View& view, bool shadowMap = false,
+                    int stencilBits = 8);
 
 /// Draws all contenders in turn, frame by frame, after ten to warm up: shaders are compiled then, buffers filled. Prints
 /// medians, quartiles and what each adds to the first, as a share of what the last adds.
