@@ -96,17 +96,6 @@ TEST_F(ArlTerrain, ShadowsLieWestInTheMorningAndEastInTheEveningAndAreShortAtNoo
     EXPECT_LT(noon.count, evening.count);
 }
 
-TEST_F(ArlTerrain, BlendDarkensByItsFactor) {
-    const auto none = town("none", "8"), half = town("hull:composite=blend,dark=0.5", "8");
-    EXPECT_GT(difference(*half, *none).count, width * height / 20);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const float now = half->getColor(x, y).g(), before = none->getColor(x, y).g();
-            if (now == before) continue;
-            ASSERT_NEAR(now, before / 2.0f, 1.0 / 255.0) << x << " " << y;
-        }
-}
-
 TEST_F(ArlTerrain, ReportsMorningNoonAndEveningWithEachTechnique) {
     const Ending ending = run({"--size", "40x30", "--report", "new/pictures"});
     ASSERT_EQ(ending.status, 0) << ending.err;
@@ -124,10 +113,7 @@ TEST_F(ArlTerrain, ASunThatRunsEndsInTheEvening) {
     open({"--size", "480x360"});
     Screenshot evening;
     for (int i = 0; i < 17; ++i) evening = pressed("k");
-    window.reset();
-    window = std::make_unique<ChildProcess>(Arguments{ARL_TERRAIN, "--size", "480x360", "--sun-speed", "20000"},
-                                            folder.path(), Arguments{"DISPLAY=" + desktop->name()});
-    desktop->useWindow("arl_terrain");
+    start({"--size", "480x360", "--sun-speed", "20000"});
     desktop->pictureWhere(
         "the town is drawn", [](const Screenshot& p) { return p.width == width && p.at(width / 2, height / 2) != 0u; },
         false);

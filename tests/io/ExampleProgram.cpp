@@ -18,15 +18,20 @@ osg::ref_ptr<osg::Image> ExampleProgram::picture(Arguments arguments) {
     return image;
 }
 
-void ExampleProgram::open(const Arguments& arguments) {
-    desktop = std::make_unique<Desktop>(folder.path());
+void ExampleProgram::start(const Arguments& arguments) {
+    window.reset();
+    if (!desktop) desktop = std::make_unique<Desktop>(folder.path());
     Arguments command = {_program};
     command.insert(command.end(), arguments.begin(), arguments.end());
     window = std::make_unique<ChildProcess>(command, folder.path(), Arguments{"DISPLAY=" + desktop->name()});
     desktop->useWindow(std::filesystem::path(_program).filename());
+}
+
+void ExampleProgram::open(const Arguments& arguments) {
+    start(arguments);
     int same = 0; // a picture that changes by itself is none of g's
     Screenshot before;
-    desktop->pictureWhere("something is drawn and stands still", [&](const Screenshot& p) {
+    withText = desktop->pictureWhere("something is drawn and stands still", [&](const Screenshot& p) {
         const bool drawn =
             std::any_of(p.pixels.begin(), p.pixels.end(), [&](auto pixel) { return pixel != p.pixels[0]; });
         same = drawn && p == before ? same + 1 : 0;

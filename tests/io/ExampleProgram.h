@@ -37,7 +37,9 @@ protected:
     /// Its picture. @throws std::runtime_error if there is none.
     osg::ref_ptr<osg::Image> picture(Arguments arguments);
 
-    /// Opens its window and hides the text.
+    /// Starts it on a desktop, in the place of one that runs there.
+    void start(const Arguments& arguments);
+    /// The same, and hides the text once the picture stands still.
     void open(const Arguments& arguments = {});
     /// The window after something that changes it.
     Screenshot changed(const std::string& what, const std::function<void()>& act);
@@ -48,7 +50,7 @@ protected:
     TemporaryFolder folder;
     std::unique_ptr<Desktop> desktop;
     std::unique_ptr<ChildProcess> window;
-    Screenshot first; ///< of the window, without text.
+    Screenshot withText, first; ///< of the window; first: without text.
 
 private:
     const std::string _program;

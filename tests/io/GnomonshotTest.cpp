@@ -42,11 +42,16 @@ protected:
     TemporaryFolder folder;
 };
 
-long countDifferent(const osg::Image& a, const osg::Image& b) {
+/// Pixels in which a channel differs by more than `steps` of 255.
+long countDifferent(const osg::Image& a, const osg::Image& b, float steps = 0.0f) {
     EXPECT_TRUE(a.s() == b.s() && a.t() == b.t());
     long count = 0;
     for (int y = 0; y < a.t(); ++y)
-        for (int x = 0; x < a.s(); ++x) count += a.getColor(x, y) != b.getColor(x, y);
+        for (int x = 0; x < a.s(); ++x) {
+            const osg::Vec4 off = a.getColor(x, y) - b.getColor(x, y);
+            const float most = std::max({std::abs(off.r()), std::abs(off.g()), std::abs(off.b())});
+            count += 255.0f * most > steps + 0.5f;
+        }
     return count;
 }
 
@@ -110,17 +115,8 @@ TEST_F(Gnomonshot, DrawsTheSamePictureEveryTime) {
         << "the light is back where it was given";
 }
 
-/// Ground lit 0.1 + 0.7 cos 45° = 0.595 of white, shadowed 0.1: 151.7 and 25.5 of 255.
+/// Ground lit 0.1 + 0.7 cos 45° = 0.595 of white, shadowed 0.1: 151.7 and 25.5 of 255. A sun at 45° moves the shadow by the height.
 TEST_F(Gnomonshot, TakesAwayExactlyTheLight) {
-    folder.write("plate.obj", plate(false));
-    const osg::ref_ptr<osg::Image> image =
-        shoot(Arguments{"plate.obj", "-O", "noRotation", "--shadow", "planar", "--light", "1,0,1,0", "--ambient", "0.1",
-                        "--diffuse", "0.7", "--ground", "8"} +
-              fromAbove); // the ground is at the plate's own height
-    EXPECT_EQ(red(*image, 20, 50), 152);
-}
-
-TEST_F(Gnomonshot, ASunAt45DegreesMovesTheShadowByTheHeight) {
     folder.write("both.obj", plate(false) + "v -.01 -.01 0\nv .01 -.01 0\nv .01 .01 0\nf 5 6 7\n");
     const osg::ref_ptr<osg::Image> image =
         shoot(Arguments{"both.obj", "-O", "noRotation", "--shadow", "planar", "--light", "1,0,1,0", "--ambient", "0.1",
@@ -132,19 +128,6 @@ TEST_F(Gnomonshot, ASunAt45DegreesMovesTheShadowByTheHeight) {
     EXPECT_EQ(at(-1.6, 0.0), 152);
     EXPECT_EQ(at(1.1, 0.0), 152);
     EXPECT_EQ(at(-1.1, 0.6), 152);
-}
-
-TEST_F(Gnomonshot, BlendMultipliesByTheFactor) {
-    const osg::ref_ptr<osg::Image> lit = shoot({scene, "--shadow", "none"});
-    const osg::ref_ptr<osg::Image> half = shoot({scene, "--shadow", "planar:composite=blend,dark=0.5"});
-    const osg::ref_ptr<osg::Image> black = shoot({scene, "--shadow", "planar:composite=blend,dark=0"});
-    ASSERT_GT(countDifferent(*lit, *half), 40);
-    for (int y = 0; y < lit->t(); ++y)
-        for (int x = 0; x < lit->s(); ++x)
-            if (red(*black, x, y) != red(*lit, x, y)) {
-                EXPECT_EQ(red(*black, x, y), 0);
-                EXPECT_NEAR(red(*half, x, y), red(*lit, x, y) / 2.0, 1.0);
-            }
 }
 
 TEST_F(Gnomonshot, TurnsScenesThatAreYUp) {
@@ -203,29 +186,13 @@ TEST_F(Gnomonshot, UsesNearAndFarExactly) {
 
 TEST_F(Gnomonshot, DrawsLampsFarFromTheOriginAsNearIt) {
     folder.write("plate.obj", plate(false));
-    const Arguments near = {"plate.obj", "-O", "noRotation", "--shadow",  "planar",
-                            "--ground",  "8",  "--light",    "1.25,0,3,1"};
-    const osg::ref_ptr<osg::Image> at = shoot(near + fromAbove);
-    const Arguments far = {"plate.obj.6400000,0,0.trans",
-                           "-O",
-                           "noRotation",
-                           "--shadow",
-                           "planar",
-                           "--ground",
-                           "8",
-                           "--light",
-                           "6400001.25,0,3,1",
-                           "--eye",
-                           "6400000,0,10",
-                           "--center",
-                           "6400000,0,0",
-                           "--viewup",
-                           "0,1,0",
-                           "--fovy",
-                           "45",
-                           "--size",
-                           "100x100"};
-    EXPECT_EQ(countDifferent(*at, *shoot(far)), 0);
+    const auto from = [&](const std::string& file, const std::string& x, const std::string& lamp) {
+        return shoot({file, "-O", "noRotation", "--shadow", "planar", "--ground", "8", "--light", lamp + ",0,3,1",
+                      "--eye", x + ",0,10", "--center", x + ",0,0", "--viewup", "0,1,0", "--size", "100x100"});
+    };
+    EXPECT_EQ(
+        countDifferent(*from("plate.obj", "0", "1.25"), *from("plate.obj.6400000,0,0.trans", "6400000", "6400001.25")),
+        0);
 }
 
 TEST_F(Gnomonshot, LooksStraightDownWithoutAViewUp) {
@@ -292,6 +259,30 @@ TEST_F(Gnomonshot, RecommendsTheTechniqueThatAutoDraws) {
 TEST_F(Gnomonshot, SaysWhyThereIsNoShadow) {
     const Ending ending = run({scene, "--shadow", "planar", "--light", "0,0,-1,0", "--out", "o.png"});
     EXPECT_NE(ending.err.find("gnomonshot: note: "), std::string::npos) << ending.err;
+}
+
+/// Mesa draws both with the same rasteriser: no pixel may differ. Another renderer rounds colours and places edges by
+/// its own rules, which OpenGL allows: a step or two of 255, and single pixels along the edges.
+TEST_F(Gnomonshot, OnEglDrawsThePictureThatItDrawsInMemory) {
+    osg::ref_ptr<osg::Image> lit;
+    for (const std::string shadow :
+         {"none", "planar", "traced", "traced:composite=blend", "planar:composite=blend,dark=0.4"}) {
+        osg::ref_ptr<osg::Image> pictures[2];
+        std::string renderers[2];
+        for (const int egl : {0, 1}) {
+            const Ending ending = runProgram(egl ? GNOMONSHOT_EGL : GNOMONSHOT,
+                                             {scene, "--size", "320x240", "--out", "o.png", "--frames", "1", "--stats",
+                                              "s.json", "--shadow", shadow},
+                                             folder.path());
+            ASSERT_EQ(ending.status, 0) << ending.err;
+            pictures[egl] = load("o.png");
+            renderers[egl] = nlohmann::json::parse(readFile(folder.path() / "s.json")).at("renderer");
+        }
+        const bool same = renderers[0] == renderers[1];
+        EXPECT_LE(countDifferent(*pictures[0], *pictures[1], same ? 0.0f : 2.0f), same ? 0 : 320 * 240 / 100) << shadow;
+        if (!lit) lit = pictures[1];
+        EXPECT_EQ(countDifferent(*lit, *pictures[1], 2.0f) > 100, shadow != "none") << shadow;
+    }
 }
 
 } // namespace

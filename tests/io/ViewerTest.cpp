@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 // gnomonviewer as a user has it before him: a window on an X server, keys, and what is then to be seen.
-#include "Desktop.h"
 #include "ExampleProgram.h"
-#include "Program.h"
 #include "Rays.h"
 
-#include <gtest/gtest.h>
-
-#include <osg/Matrixd>
-#include <osg/Vec4d>
 #include <osgDB/ReadFile>
 
 #include <algorithm>
@@ -21,7 +15,7 @@ using namespace gnomon::testing;
 const osg::Vec3d eye(-1.0, -3.6, 2.2), center(-0.15, 0.1, 0.1), lamp(2.0, -1.5, 2.5);
 constexpr int width = 480, height = 360;
 
-Mask changed(const Screenshot& a, const Screenshot& b) {
+Mask differing(const Screenshot& a, const Screenshot& b) {
     Mask result(a.pixels.size(), true);
     for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i) result[i] = a.pixels[i] != b.pixels[i];
     return result;
@@ -71,51 +65,31 @@ int misplaced(const Mask& shadow, const osg::Vec3d& light) {
     return result;
 }
 
-class Viewer : public testing::Test {
+class Viewer : public ExampleProgram {
 protected:
-    /// Starts the viewer and hides its text.
-    void start(const std::vector<std::string>& options = {"--shadow", "planar"}) {
-        std::vector<std::string> command = {GNOMONVIEWER, GNOMON_DATA "/lab8.osgt", "--eye",  "-1,-3.6,2.2",
-                                            "--center",   "-0.15,0.1,0.1",          "--size", "480x360"};
-        command.insert(command.end(), light.begin(), light.end());
-        command.insert(command.end(), options.begin(), options.end());
-        program = std::make_unique<ChildProcess>(command, folder.path(),
-                                                 std::vector<std::string>{"DISPLAY=" + desktop.name()});
-        desktop.useWindow("gnomonviewer");
-        withText = desktop.pictureWhere(
-            "the scene and the text are drawn",
-            [](const Screenshot& p) { return p.width == width && p.at(0, 0) == background && hasText(p); }, still);
-        desktop.press("g");
-        first = desktop.pictureWhere(
-            "g hides the text", [](const Screenshot& p) { return !hasText(p); }, still);
+    Viewer() : ExampleProgram(GNOMONVIEWER) {}
+    static Arguments onLab8(const Arguments& more) {
+        Arguments all = {GNOMON_DATA "/lab8.osgt", "--eye",  "-1,-3.6,2.2", "--center",
+                         "-0.15,0.1,0.1",          "--size", "480x360"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
     }
-
-    /// The picture after a key that changes it.
-    Screenshot pressed(const std::string& key, int times = 1) {
-        Screenshot now = desktop.picture();
-        for (int i = 0; i < times; ++i) {
-            const Screenshot before = now;
-            desktop.press(key);
-            now = desktop.pictureWhere(
-                key + " has changed it", [&](const Screenshot& p) { return p != before; }, still);
-        }
-        return now;
-    }
+    void openUnderLamp() { open(onLab8({"--light", "2,-1.5,2.5,1", "--shadow", "planar"})); }
 
     /// Presses a key after which the picture must be that, to the bit.
     void expectAfter(const std::string& key, const Screenshot& expected) {
-        desktop.press(key);
+        desktop->press(key);
         EXPECT_NO_THROW(
-            desktop.pictureWhere(key + " has brought it back", [&](const Screenshot& p) { return p == expected; }));
+            desktop->pictureWhere(key + " has brought it back", [&](const Screenshot& p) { return p == expected; }));
     }
 
     /// The picture after keys that may change nothing: where text was shown and hidden after them, they have been seen to.
     Screenshot after(const std::string& key, int times) {
-        for (int i = 0; i < times; ++i) desktop.press(key);
-        desktop.press("g");
-        desktop.pictureWhere(key + " and g show the text", hasText);
-        desktop.press("g");
-        return desktop.pictureWhere("g hides the text", [](const Screenshot& p) { return !hasText(p); });
+        for (int i = 0; i < times; ++i) desktop->press(key);
+        desktop->press("g");
+        desktop->pictureWhere(key + " and g show the text", hasText);
+        desktop->press("g");
+        return desktop->pictureWhere("g hides the text", [](const Screenshot& p) { return !hasText(p); });
     }
 
     /// From planar shadows on through box, hull, map, volume, traced and auto to none; from there n leads back.
@@ -126,30 +100,23 @@ protected:
         expectAfter("n", first);
         return none;
     }
-
-    TemporaryFolder folder;
-    std::vector<std::string> light = {"--light", "2,-1.5,2.5,1"};
-    bool still = true; ///< whether pictures are when no key is pressed.
-    Desktop desktop{folder.path()};
-    std::unique_ptr<ChildProcess> program;
-    Screenshot withText, first; ///< first: with shadow, without text.
 };
 
 } // namespace
 
 TEST_F(Viewer, ShowsTheShadowWhereRaysFindItAndNTakesItAway) {
-    start();
+    openUnderLamp();
     const Screenshot none = withoutShadow();
-    const Mask shadow = changed(first, none);
+    const Mask shadow = differing(first, none);
     EXPECT_GT(count(shadow), 5000);
     EXPECT_LE(misplaced(shadow, lamp), atFeet);
     expectAfter("n", first);
 }
 
 TEST_F(Viewer, StartsWithTheShadowsOfAutoUnlessAskedForOthers) {
-    start({});
+    open(onLab8({"--light", "2,-1.5,2.5,1"}));
     const Screenshot none = after("n", 1); // which follows auto
-    Mask shadow = changed(first, none);
+    Mask shadow = differing(first, none);
     for (std::size_t i = 0; i < shadow.size(); ++i) shadow[i] = shadow[i] && isGrey(none.pixels[i]); // on the ground
     EXPECT_GT(count(shadow), 5000);
     EXPECT_LE(misplaced(shadow, lamp), atFeet);
@@ -158,27 +125,27 @@ TEST_F(Viewer, StartsWithTheShadowsOfAutoUnlessAskedForOthers) {
 }
 
 TEST_F(Viewer, RelightAndBlendDifferInShadowOnly) {
-    start();
-    const Mask shadow = changed(first, glimpseWithoutShadow());
-    const Mask differ = changed(first, pressed("r"));
+    openUnderLamp();
+    const Mask shadow = differing(first, glimpseWithoutShadow());
+    const Mask differ = differing(first, pressed("r"));
     EXPECT_GT(count(differ), count(shadow) / 2);
     EXPECT_EQ(beyond(differ, shadow), 0);
     withoutShadow(); // the composite stays when the technique changes
-    EXPECT_EQ(changed(first, pressed("n")), differ);
+    EXPECT_EQ(differing(first, pressed("n")), differ);
     expectAfter("r", first);
 }
 
 TEST_F(Viewer, JKUDMoveTheLightAndItsShadow) {
-    start();
+    openUnderLamp();
     const double a = osg::DegreesToRadians(-15.0);
     const osg::Vec3d turned(lamp.x() * std::cos(a) - lamp.y() * std::sin(a),
                             lamp.x() * std::sin(a) + lamp.y() * std::cos(a), lamp.z());
     const auto shadow = [this] {
-        const Screenshot with = desktop.picture(), without = withoutShadow();
+        const Screenshot with = desktop->picture(), without = withoutShadow();
         pressed("n");
-        return changed(with, without);
+        return differing(with, without);
     };
-    pressed("k", 3);
+    for (int i = 0; i < 3; ++i) pressed("k");
     EXPECT_LE(misplaced(shadow(), turned), atFeet);
     const osg::Vec3d pivot(0.0, 0.0, 0.25), way = turned - pivot; // the scene's centre
     const double level = std::hypot(way.x(), way.y()),
@@ -186,10 +153,9 @@ TEST_F(Viewer, JKUDMoveTheLightAndItsShadow) {
     const osg::Vec3d raised = pivot + osg::Vec3d(way.x() / level * std::cos(elevation),
                                                  way.y() / level * std::cos(elevation), std::sin(elevation)) *
                                           way.length();
-    pressed("u", 2);
+    for (int i = 0; i < 2; ++i) pressed("u");
     EXPECT_LE(misplaced(shadow(), raised), atFeet);
-    pressed("d", 2);
-    pressed("j", 2);
+    for (const char* key : {"d", "d", "j", "j"}) pressed(key);
     expectAfter("j", first);
 }
 
@@ -197,9 +163,8 @@ TEST_F(Viewer, JKUDMoveTheLightAndItsShadow) {
 /// 8 h, right of the cube's left side at 16 h. In them there is the scene's ambient light alone, a fifth of the ground's
 /// three quarters.
 TEST_F(Viewer, ASunThatRunsCastsToTheWestThenToTheEastAndOnTheNextMorningToTheWest) {
-    light = {"--sun", "2026-03-20T08:00:00Z,0,0"};
-    still = false;
-    start({"--shadow", "planar", "--sun-speed", "8000"});
+    start(onLab8({"--sun", "2026-03-20T08:00:00Z,0,0", "--shadow", "planar", "--sun-speed", "8000"}));
+    desktop->press("g");
     const auto middle = [](const Screenshot& p) {
         double sum = 0.0, count = 0.0;
         for (int y = 0; y < p.height; ++y)
@@ -208,31 +173,32 @@ TEST_F(Viewer, ASunThatRunsCastsToTheWestThenToTheEastAndOnTheNextMorningToTheWe
         return count > 0.0 ? sum / count : width / 2.0;
     };
     const auto isWest = [&](const Screenshot& p) { return middle(p) < 203.0; };
-    EXPECT_NO_THROW(desktop.pictureWhere("a first morning", isWest, still)); // a busy machine may have missed the first
-    EXPECT_NO_THROW(desktop.pictureWhere(
-        "evening", [&](const Screenshot& p) { return middle(p) > 280.0; }, still));
-    EXPECT_NO_THROW(desktop.pictureWhere("morning", isWest, still));
+    EXPECT_NO_THROW(
+        desktop->pictureWhere("a first morning", isWest, false)); // a busy machine may have missed the first
+    EXPECT_NO_THROW(desktop->pictureWhere(
+        "evening", [&](const Screenshot& p) { return middle(p) > 280.0; }, false));
+    EXPECT_NO_THROW(desktop->pictureWhere("morning", isWest, false));
 }
 
 TEST_F(Viewer, XShowsDoubleDarkeningOfTheGround) {
-    start();
+    openUnderLamp();
     const Screenshot none = glimpseWithoutShadow();
-    const Mask shadow = changed(first, none);
+    const Mask shadow = differing(first, none);
     const Screenshot off = pressed("x");
     int twice = 0;
     for (std::size_t i = 0; i < off.pixels.size(); ++i) {
         const int grey = int(none.pixels[i] & 0xffu), now = int(off.pixels[i] & 0xffu);
         twice += isGrey(none.pixels[i]) && std::abs(now - grey / 4) <= 1;
     }
-    EXPECT_LE(beyond(changed(off, none), shadow), 20) << "more than the feet of sphere and cube";
+    EXPECT_LE(beyond(differing(off, none), shadow), 20) << "more than the feet of sphere and cube";
     EXPECT_GT(twice, count(shadow) / 2); // a ray through a solid goes in and out
     expectAfter("x", first);
 }
 
 TEST_F(Viewer, OShowsTheFightWithTheGround) {
-    start();
-    const Mask shadow = changed(first, glimpseWithoutShadow());
-    const Mask lit = changed(first, pressed("o"));
+    openUnderLamp();
+    const Mask shadow = differing(first, glimpseWithoutShadow());
+    const Mask lit = differing(first, pressed("o"));
     EXPECT_GT(count(lit), count(shadow) / 20);
     EXPECT_LT(count(lit), count(shadow) * 19 / 20);
     EXPECT_EQ(beyond(lit, shadow), 0);
@@ -240,25 +206,25 @@ TEST_F(Viewer, OShowsTheFightWithTheGround) {
 }
 
 TEST_F(Viewer, PShowsTheAntiShadowOfWhatIsUnderground) {
-    start();
+    openUnderLamp();
     const Screenshot none = glimpseWithoutShadow();
-    const Mask anti = changed(first, pressed("p"));
+    const Mask anti = differing(first, pressed("p"));
     EXPECT_GT(count(anti), 30); // the sphere's lowest quarter is under the ground, and the sphere hides most of it
-    EXPECT_EQ(beyond(changed(first, none), anti), count(changed(first, none))) << "lit before";
+    EXPECT_EQ(beyond(differing(first, none), anti), count(differing(first, none))) << "lit before";
     for (std::size_t i = 0; i < anti.size(); ++i) EXPECT_TRUE(!anti[i] || isGrey(none.pixels[i])) << "on the ground";
     expectAfter("p", first);
 }
 
 TEST_F(Viewer, CuresStayOffWhenTheTechniqueChanges) {
-    start();
+    openUnderLamp();
     const Screenshot off = pressed("x");
     withoutShadow();
     expectAfter("n", off);
 }
 
 TEST_F(Viewer, GHidesTheTextAndNothingElse) {
-    start();
-    const Mask text = changed(withText, first);
+    openUnderLamp();
+    const Mask text = differing(withText, first);
     EXPECT_GT(count(text), 1000);
     for (int y = 0; y < height / 2; ++y)
         for (int x = 0; x < width; ++x) EXPECT_FALSE(text[std::size_t(y * width + x)]) << x << " " << y;
@@ -266,32 +232,32 @@ TEST_F(Viewer, GHidesTheTextAndNothingElse) {
 }
 
 TEST_F(Viewer, TheTextSaysWhatIsSwitched) {
-    start();
+    openUnderLamp();
     expectAfter("g", withText);
     const auto textOf = [](const Screenshot& p) {
         return std::vector<std::uint32_t>(p.pixels.end() - width * 120, p.pixels.end());
     };
     for (const char* key : {"n", "r", "k", "u", "x", "o", "p"}) {
-        const auto before = textOf(desktop.picture());
-        desktop.press(key);
-        EXPECT_NO_THROW(desktop.pictureWhere(std::string(key) + " shows in the text",
-                                             [&](const Screenshot& p) { return textOf(p) != before; }));
+        const auto before = textOf(desktop->picture());
+        desktop->press(key);
+        EXPECT_NO_THROW(desktop->pictureWhere(std::string(key) + " shows in the text",
+                                              [&](const Screenshot& p) { return textOf(p) != before; }));
     }
 }
 
 TEST_F(Viewer, SShowsStatisticsAndHHelp) {
-    start();
-    desktop.press("s");
-    desktop.pictureWhere(
+    openUnderLamp();
+    desktop->press("s");
+    desktop->pictureWhere(
         "the frame rate is shown", [this](const Screenshot& p) { return p != first; }, false);
-    for (int i = 0; i < 3; ++i) desktop.press("s");
+    for (int i = 0; i < 3; ++i) desktop->press("s");
     expectAfter("s", first); // five kinds, the last is none
-    EXPECT_GT(count(changed(first, pressed("h"))), 5000);
+    EXPECT_GT(count(differing(first, pressed("h"))), 5000);
     expectAfter("h", first);
 }
 
 TEST_F(Viewer, WShowsTheWireFrameThroughWhichTheBackgroundIsSeen) {
-    start();
+    openUnderLamp();
     const auto seen = [](const Screenshot& p) { return std::count(p.pixels.begin(), p.pixels.end(), background); };
     const Screenshot wire = pressed("w");
     EXPECT_GT(seen(wire), 2 * seen(first));
@@ -300,11 +266,11 @@ TEST_F(Viewer, WShowsTheWireFrameThroughWhichTheBackgroundIsSeen) {
 }
 
 TEST_F(Viewer, CWritesTheWindowsPicture) {
-    start();
-    desktop.press("c");
+    openUnderLamp();
+    desktop->press("c");
     osg::ref_ptr<osg::Image> file;
     const std::string path = folder.path() / "gnomonviewer_0_0.png";
-    desktop.pictureWhere("the file is whole", [&](const Screenshot&) {
+    desktop->pictureWhere("the file is whole", [&](const Screenshot&) {
         return std::filesystem::exists(path) && (file = osgDB::readRefImageFile(path)) && file->data();
     });
     ASSERT_EQ(file->s(), width);
@@ -319,39 +285,39 @@ TEST_F(Viewer, CWritesTheWindowsPicture) {
 }
 
 TEST_F(Viewer, FFillsTheScreenAndGivesItBack) {
-    start();
-    desktop.press("f");
-    desktop.pictureWhere("it fills the screen", [](const Screenshot& p) {
+    openUnderLamp();
+    desktop->press("f");
+    desktop->pictureWhere("it fills the screen", [](const Screenshot& p) {
         return p.width == 1024 && p.height == 768 && isGrey(p.at(512, 600)) && p.at(512, 600) > 0x808080u;
     });
-    desktop.press("f"); // back to a window, of 640 × 480 as osgviewer chooses it on this screen
-    const Screenshot window = desktop.pictureWhere("it is a window again", [](const Screenshot& p) {
+    desktop->press("f"); // back to a window, of 640 × 480 as osgviewer chooses it on this screen
+    const Screenshot small = desktop->pictureWhere("it is a window again", [](const Screenshot& p) {
         return p.width == 640 && p.at(0, 0) == background && isGrey(p.at(320, 440)) && p.at(320, 440) > 0x808080u;
     });
-    EXPECT_EQ(window.height, 480);
+    EXPECT_EQ(small.height, 480);
 }
 
 TEST_F(Viewer, NumberKeysChangeTheWayToMoveAndSpaceBringsTheCameraBack) {
-    start();
+    openUnderLamp();
     for (const std::string key : {"2", "3", "4", "5", "6", "7", "1"}) {
-        desktop.press(key);
-        desktop.press("g"); // when the text is there the key before has been seen to
-        const Screenshot now = desktop.pictureWhere("the text is shown after " + key, hasText, false);
+        desktop->press(key);
+        desktop->press("g"); // when the text is there the key before has been seen to
+        const Screenshot now = desktop->pictureWhere("the text is shown after " + key, hasText, false);
         EXPECT_GT(std::count_if(now.pixels.begin(), now.pixels.end(), isGrey), width * height / 10) << key;
-        desktop.press("space");
-        desktop.press("g");
-        desktop.pictureWhere(
+        desktop->press("space");
+        desktop->press("g");
+        desktop->pictureWhere(
             "space has brought the camera back after " + key,
             [&](const Screenshot&
                     p) { // not to the bit: each way rounds in its own way, and flight drifts with the pointer
-                return !hasText(p) && count(changed(p, first)) < width * height / 100;
+                return !hasText(p) && count(differing(p, first)) < width * height / 100;
             },
             false);
     }
 }
 
 TEST_F(Viewer, EscapeEndsItWithStatus0) {
-    start();
-    desktop.press("Escape");
-    EXPECT_EQ(program->ended(std::chrono::seconds(10)), 0) << readFile(folder.path() / "gnomonviewer.err");
+    openUnderLamp();
+    desktop->press("Escape");
+    EXPECT_EQ(window->ended(std::chrono::seconds(10)), 0) << readFile(folder.path() / "gnomonviewer.err");
 }
