@@ -101,12 +101,6 @@ TEST(RayParts, AreMeasuredWhereTheyAre) {
     EXPECT_LE(scene.reach(), 3.0 * 3.0 * std::sqrt(3.0) / 2.0 * 1.01) << "but for the box of a turned box";
 }
 
-TEST(RayParts, MayBeNone) {
-    const RayScene none(std::vector<PlacedRayScene>{});
-    EXPECT_FALSE(none.closest({{0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}}));
-    EXPECT_EQ(none.longestSide(), 0.0);
-}
-
 TEST(RayParts, OfBadMatricesAreLeftOut) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     glm::dmat4 flat = turned(0.0, {}, {1.0, 1.0, 0.0}), projective(1.0), missing(1.0);
@@ -118,7 +112,10 @@ TEST(RayParts, OfBadMatricesAreLeftOut) {
     EXPECT_EQ(hit.part, 3u);
 }
 
-TEST(RayParts, OfPartsAndOfNothingAreRefused) {
+TEST(RayParts, MayBeNoneButNotOfPartsOrOfNothing) {
+    const RayScene none(std::vector<PlacedRayScene>{});
+    EXPECT_FALSE(none.closest({{0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}}));
+    EXPECT_EQ(none.longestSide(), 0.0);
     const Soup one = body();
     const auto nested = std::make_shared<const RayScene>(one.view());
     const auto parts = std::make_shared<const RayScene>(std::vector<PlacedRayScene>{{nested, glm::dmat4(1.0)}});

@@ -216,10 +216,4 @@ TEST(ShadowVolumes, EndAtThePlaneThatIsNearest) {
         << "a lamp among it";
 }
 
-TEST(ShadowVolumes, SeamsThatDifferByRoundingAreClosed) {
-    const SilhouetteMesh mesh = edgesOf(sphere({-2.0, 0.0, 2.5}, 1.0, 64)); // sin(2 pi) is not sin(0)
-    ASSERT_EQ(mesh.parts.size(), 1u);
-    EXPECT_TRUE(mesh.parts[0].closed);
-}
-
 } // namespace

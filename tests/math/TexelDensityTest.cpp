@@ -105,21 +105,16 @@ TEST(TexelDensity, AreAsSmallAsTheirShorterSide) {
     }
 }
 
-TEST(TexelsFor, AreAsManyAsWantedInSteps) {
-    EXPECT_EQ(texelsFor(512.0, 1024, 0), 512);
-    EXPECT_EQ(texelsFor(513.0, 1024, 0), 544);
-    EXPECT_EQ(texelsFor(0.0, 1024, 0), 64);
-    EXPECT_EQ(texelsFor(2000.0, 1024, 0), 1024);
-    EXPECT_EQ(texelsFor(infinity, 1024, 0), 1024);
-    EXPECT_EQ(texelsFor(1000.0, 1000, 0), 1000);
-    EXPECT_EQ(texelsFor(0.0, 16, 0), 16);
-}
-
-TEST(TexelsFor, StayUntilThereAreTooFewOrTwiceTooMany) {
-    for (const int before : {450, 512, 1000}) EXPECT_EQ(texelsFor(512.0, 1024, before), before);
-    EXPECT_EQ(texelsFor(512.0, 1024, 440), 512);
-    EXPECT_EQ(texelsFor(512.0, 2048, 1056), 512);
-    EXPECT_EQ(texelsFor(512.0, 600, 1000), 512); // fewer are allowed than before
-    EXPECT_EQ(texelsFor(0.0, 1024, 64), 64);
-    EXPECT_EQ(texelsFor(infinity, 1024, 1024), 1024);
+TEST(TexelsFor, AreAsManyAsWantedInStepsAndStayUntilThereAreTooFewOrTwiceTooMany) {
+    const struct {
+        double wanted;
+        int most, before, expected;
+    } cases[] = {{512.0, 1024, 0, 512},     {513.0, 1024, 0, 544},       {0.0, 1024, 0, 64},
+                 {2000.0, 1024, 0, 1024},   {infinity, 1024, 0, 1024},   {1000.0, 1000, 0, 1000},
+                 {0.0, 16, 0, 16},          {512.0, 1024, 450, 450},     {512.0, 1024, 512, 512},
+                 {512.0, 1024, 1000, 1000}, {512.0, 1024, 440, 512},     {512.0, 2048, 1056, 512},
+                 {512.0, 600, 1000, 512}, // fewer are allowed than before
+                 {0.0, 1024, 64, 64},       {infinity, 1024, 1024, 1024}};
+    for (const auto& [wanted, most, before, expected] : cases)
+        EXPECT_EQ(texelsFor(wanted, most, before), expected) << wanted << " " << most << " " << before;
 }

@@ -30,8 +30,7 @@ osg::ref_ptr<osg::Geometry> strip(unsigned triangles) {
 
 struct Bodies {
     osg::MatrixTransform& add(osg::Node* node, const osg::Matrixd& matrix) {
-        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(matrix);
-        place->addChild(node);
+        const auto place = scene::under(matrix, node);
         group->addChild(place);
         return *place;
     }
@@ -92,14 +91,6 @@ TEST(CasterBodies, AreWhereTheirTransformsPutThem) {
             const osg::Vec3d& meant = expected.getVertices()[expected.getTriangles()[other]];
             ASSERT_LE(glm::distance(found, gnomon::toGlm(meant - casters->origin)), 2e-6) << i;
         }
-    }
-}
-
-TEST(CasterBodies, TellWhenTheyAreMirrored) {
-    for (const double x : {1.0, -1.0}) {
-        Bodies bodies;
-        bodies.add(strip(300), osg::Matrixd::scale(x, 1, 1) * turned);
-        EXPECT_EQ(bodies.casters()->still->meshes.at(0).mirrored, x < 0.0);
     }
 }
 

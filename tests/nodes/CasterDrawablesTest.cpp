@@ -33,12 +33,8 @@ osg::ref_ptr<osg::Geometry> triangle(float x) {
 
 struct Row {
     Row() {
-        for (int i = 0; i < 6; ++i) {
-            osg::ref_ptr<osg::MatrixTransform> place =
-                new osg::MatrixTransform(osg::Matrixd::translate(10.0 * i, 0, 0));
-            place->addChild(triangle(0.0f));
-            root->addChild(place);
-        }
+        for (int i = 0; i < 6; ++i)
+            root->addChild(scene::under(osg::Matrixd::translate(10.0 * i, 0, 0), triangle(0.0f)));
     }
     osg::MatrixTransform& place(unsigned i) { return static_cast<osg::MatrixTransform&>(*root->getChild(i)); }
     osg::ref_ptr<const CasterDrawables> now(const osg::ref_ptr<const CasterDrawables>& known) {
@@ -124,11 +120,7 @@ TEST(CasterDrawables, AreTestedAsTheWayDownToThemSays) {
     const osg::ref_ptr<osg::Geometry> pane = triangle(0.0f);
     pane->setTexCoordArray(0, scene::vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    for (int i = 0; i < 2; ++i) {
-        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(5.0 * i, 0, 0));
-        place->addChild(pane);
-        root->addChild(place);
-    }
+    for (int i = 0; i < 2; ++i) root->addChild(scene::under(osg::Matrixd::translate(5.0 * i, 0, 0), pane));
     osg::StateSet& set = *root->getChild(1)->getOrCreateStateSet();
     set.setTextureAttributeAndModes(0, new osg::Texture2D);
     set.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));

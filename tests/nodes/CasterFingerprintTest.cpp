@@ -101,11 +101,7 @@ osg::ref_ptr<osg::Geometry> indexed() {
 osg::ref_ptr<osg::Group> boxes(int count) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     const osg::ref_ptr<osg::ShapeDrawable> box = new osg::ShapeDrawable(new osg::Box);
-    for (int i = 0; i < count; ++i) {
-        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrix::translate(2.0 * i, 0, 0));
-        place->addChild(geodeOf(box.get()));
-        root->addChild(place);
-    }
+    for (int i = 0; i < count; ++i) root->addChild(under(osg::Matrix::translate(2.0 * i, 0, 0), geodeOf(box.get())));
     return root;
 }
 

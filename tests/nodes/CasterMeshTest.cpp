@@ -26,11 +26,7 @@ osg::ref_ptr<CasterMesh> meshOf(osg::Node& root) {
     return new CasterMesh(casters);
 }
 
-osg::ref_ptr<CasterMesh> meshUnder(const osg::Matrixd& matrix, osg::Node* node) {
-    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
-    transform->addChild(node);
-    return meshOf(*transform);
-}
+osg::ref_ptr<CasterMesh> meshUnder(const osg::Matrixd& matrix, osg::Node* node) { return meshOf(*under(matrix, node)); }
 
 /// 300 vertices anywhere in a cube of side 20.
 osg::ref_ptr<osg::Geometry> scattered() {
@@ -66,21 +62,15 @@ TEST(CasterMesh, VerticesAreAboutThoseThatAreMostWhereOneIsFarAway) {
     EXPECT_LE((mesh->origin - osg::Vec3d(0.5, 0.5, 0)).length(), 1.0);
 }
 
-TEST(CasterMesh, PointsAndLinesAreNeitherInTheMeshNorInItsBounds) {
+TEST(CasterMesh, PointsAndLinesAreNeitherInTheMeshNorInItsBoundsAndVerticesStayShared) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(geometryOf(vec3s({{900, 900, 900}}), new osg::DrawArrays(Mode::POINTS, 0, 1)));
-    root->addChild(triangle());
+    root->addChild(new osg::ShapeDrawable(new osg::Box(osg::Vec3(), 2.0f)));
     const osg::ref_ptr<CasterMesh> mesh = meshOf(*root);
-    EXPECT_EQ(mesh->vertices->size(), 3u);
-    EXPECT_EQ(mesh->bounds._max, osg::Vec3d(1, 1, 0));
-    EXPECT_EQ(*std::max_element(mesh->triangles->begin(), mesh->triangles->end()), 2u);
-}
-
-TEST(CasterMesh, VerticesStayShared) {
-    const osg::ref_ptr<osg::ShapeDrawable> box = new osg::ShapeDrawable(new osg::Box);
-    const osg::ref_ptr<CasterMesh> mesh = meshOf(*box);
     EXPECT_EQ(mesh->vertices->size(), 24u); // four a side
     EXPECT_EQ(mesh->triangles->size(), 36u);
+    EXPECT_EQ(mesh->bounds._max, osg::Vec3d(1, 1, 1));
+    EXPECT_EQ(*std::max_element(mesh->triangles->begin(), mesh->triangles->end()), 23u);
 }
 
 TEST(CasterMesh, ASceneMovedByAnEarthRadiusGivesTheSameFloats) {

@@ -31,12 +31,6 @@ osg::ref_ptr<osg::Geometry> grid(unsigned n, const osg::Vec3d& corner, const osg
     return geometryOf(vertices, quads.get());
 }
 
-osg::ref_ptr<osg::MatrixTransform> under(const osg::Matrixd& matrix, osg::Node* node) {
-    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
-    transform->addChild(node);
-    return transform;
-}
-
 osg::Vec3d normalOf(const FlatPart& part) { return {part.plane.x(), part.plane.y(), part.plane.z()}; }
 
 } // namespace

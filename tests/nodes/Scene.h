@@ -46,11 +46,15 @@ inline osg::ref_ptr<osg::Geode> geodeOf(osg::Drawable* drawable) {
     return geode;
 }
 
+inline osg::ref_ptr<osg::MatrixTransform> under(const osg::Matrixd& matrix, osg::Node* node) {
+    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
+    transform->addChild(node);
+    return transform;
+}
+
 /// The triangle, moved to begin at (x, 0, 0): tests recognise it by that.
 inline osg::ref_ptr<osg::MatrixTransform> triangleAt(double x) {
-    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(osg::Matrix::translate(x, 0, 0));
-    transform->addChild(geodeOf(triangle().get()));
-    return transform;
+    return under(osg::Matrix::translate(x, 0, 0), geodeOf(triangle().get()));
 }
 
 inline std::vector<Corners> trianglesOf(const gnomon::VertexTraverser& casters) {

@@ -65,12 +65,6 @@ osg::ref_ptr<osg::Geode> triangles() {
     return geodeOf(geometryOf(vertices, list.get()).get());
 }
 
-osg::ref_ptr<osg::MatrixTransform> under(const osg::Matrixd& matrix, osg::Node* node) {
-    osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(matrix);
-    transform->addChild(node);
-    return transform;
-}
-
 /// What is the case at a place of the field's frame: (column, row) with fractions.
 osg::Vec3d surface(double column, double row) {
     const auto i = std::min(unsigned(column), columns - 2), j = std::min(unsigned(row), rows - 2);
