@@ -181,27 +181,27 @@ TEST(HullSolids, OfAWallThatBridgesAValleyAreNotTakenForBuried) {
     EXPECT_GE(overlap(ground, bridge, sun(180.0, 60.0)), exact);
 }
 
-TEST(HullSolids, WithoutGroundThereIsNone) {
-    const HeightPyramid holes({2, 2, {0.0, 0.0}, {9.0, 9.0}, std::vector<float>(4, std::nanf(""))});
+TEST(HullSolids, WithoutGroundOrOfALightThatIsBelowOrNowhereThereIsNone) {
+    const HeightPyramid holes({2, 2, {0.0, 0.0}, {9.0, 9.0}, std::vector<float>(4, std::nanf(""))}), ground = level();
     const gnomon::TriangleGround nothing({}, {}), one({{0.0, 0.0, 1.0}, {60.0, 0.0, 4.0}, {0.0, 60.0, 2.0}}, {0, 1, 2});
-    const auto house = [](double at) { return boxAt({at, at}, {2.0, 2.0}, 0.0, 0.0, 8.0).parts(); };
-    for (const Ground* ground : {static_cast<const Ground*>(&holes), static_cast<const Ground*>(&nothing)})
-        EXPECT_EQ(outcomeOf(solidsOf(*ground, house(4.0), sun(20.0, 30.0))), HullOutcome::noGround);
-    EXPECT_EQ(outcomeOf(solidsOf(one, house(80.0), sun(240.0, 50.0))), HullOutcome::noGround) << "beside it";
-}
-
-TEST(HullSolids, OfALightThatIsBelowOrNowhereThereIsNone) {
-    const HeightPyramid ground = level();
-    const Prism house = boxAt({800.0, 800.0}, {8.0, 5.0}, 0.3, -20.0, 23.0);
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    const std::pair<glm::dvec4, HullOutcome> cases[] = {
-        {sun(30.0, 0.0), HullOutcome::lightBelow},           {sun(30.0, -20.0), HullOutcome::lightBelow},
-        {{800.0, 830.0, 2.0, 1.0}, HullOutcome::lightBelow}, // a lamp under the ground
-        {{0.0, 0.0, 0.0, 0.0}, HullOutcome::lightBelow},     {{nan, 0.0, 1.0, 0.0}, HullOutcome::unseen},
-        {{800.0, 830.0, 50.0, nan}, HullOutcome::unseen}};
-    for (const auto& [light, expected] : cases) {
-        const HullSolids solids = solidsOf(ground, house.parts(), light);
-        EXPECT_EQ(outcomeOf(solids), expected) << light.z << " " << light.w;
+    const struct {
+        const Ground& ground;
+        double at;
+        glm::dvec4 light;
+        HullOutcome expected;
+    } cases[] = {{holes, 4.0, sun(20.0, 30.0), HullOutcome::noGround},
+                 {nothing, 4.0, sun(20.0, 30.0), HullOutcome::noGround},
+                 {one, 80.0, sun(240.0, 50.0), HullOutcome::noGround}, // beside it
+                 {ground, 800.0, sun(30.0, 0.0), HullOutcome::lightBelow},
+                 {ground, 800.0, sun(30.0, -20.0), HullOutcome::lightBelow},
+                 {ground, 800.0, {800.0, 830.0, 2.0, 1.0}, HullOutcome::lightBelow}, // a lamp under the ground
+                 {ground, 800.0, {0.0, 0.0, 0.0, 0.0}, HullOutcome::lightBelow},
+                 {ground, 800.0, {nan, 0.0, 1.0, 0.0}, HullOutcome::unseen},
+                 {ground, 800.0, {800.0, 830.0, 50.0, nan}, HullOutcome::unseen}};
+    for (const auto& [under, at, light, expected] : cases) {
+        const HullSolids solids = solidsOf(under, boxAt({at, at}, {2.0, 2.0}, 0.3, 0.0, 23.0).parts(), light);
+        EXPECT_EQ(outcomeOf(solids), expected) << at << " " << light.z << " " << light.w;
         EXPECT_TRUE(solids.corners.empty());
     }
 }

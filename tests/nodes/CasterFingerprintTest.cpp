@@ -20,6 +20,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <new>
 
 using namespace scene;
@@ -90,6 +91,15 @@ private:
     osg::ref_ptr<gnomon::CasterMesh> _mesh;
 };
 
+/// It changes with each of these, and stands still in between.
+void expectChangeWithEach(Watched& watched, const std::vector<std::function<void()>>& acts) {
+    for (std::size_t i = 0; i < acts.size(); ++i) {
+        acts[i]();
+        EXPECT_TRUE(watched.changed()) << "act " << i;
+        EXPECT_FALSE(watched.changed()) << "act " << i;
+    }
+}
+
 osg::Vec3Array& verticesOf(osg::Geometry& geometry) { return *static_cast<osg::Vec3Array*>(geometry.getVertexArray()); }
 
 osg::ref_ptr<osg::Geometry> indexed() {
@@ -110,15 +120,13 @@ osg::ref_ptr<osg::Group> boxes(int count) {
 TEST(CasterRevisionChanges, WithEachDrawableAddedRemovedOrReordered) {
     const osg::ref_ptr<osg::Geode> geode = geodeOf(triangle().get());
     Watched watched(geode.get());
-    geode->addDrawable(indexed());
-    EXPECT_TRUE(watched.changed());
     const osg::ref_ptr<osg::Drawable> first = geode->getDrawable(0);
-    geode->setDrawable(0, geode->getDrawable(1));
-    geode->setDrawable(1, first);
-    EXPECT_TRUE(watched.changed());
-    geode->removeDrawable(first);
-    EXPECT_TRUE(watched.changed());
-    EXPECT_FALSE(watched.changed());
+    expectChangeWithEach(watched, {[&] { geode->addDrawable(indexed()); },
+                                   [&] {
+                                       geode->setDrawable(0, geode->getDrawable(1));
+                                       geode->setDrawable(1, first);
+                                   },
+                                   [&] { geode->removeDrawable(first); }});
 }
 
 TEST(CasterRevisionChanges, WithATransformsMatrixAndWhenTwoObjectsChangePlaces) {
@@ -126,12 +134,12 @@ TEST(CasterRevisionChanges, WithATransformsMatrixAndWhenTwoObjectsChangePlaces) 
     Watched watched(root.get());
     auto& a = static_cast<osg::MatrixTransform&>(*root->getChild(0));
     auto& b = static_cast<osg::MatrixTransform&>(*root->getChild(1));
-    a.setMatrix(osg::Matrix::translate(std::nextafter(1.0, 2.0), 0, 0));
-    EXPECT_TRUE(watched.changed());
-    const osg::Matrixd before = a.getMatrix();
-    a.setMatrix(b.getMatrix());
-    b.setMatrix(before);
-    EXPECT_TRUE(watched.changed());
+    expectChangeWithEach(watched, {[&] { a.setMatrix(osg::Matrix::translate(std::nextafter(1.0, 2.0), 0, 0)); },
+                                   [&] {
+                                       const osg::Matrixd before = a.getMatrix();
+                                       a.setMatrix(b.getMatrix());
+                                       b.setMatrix(before);
+                                   }});
 }
 
 TEST(CasterRevisionChanges, WithASwitchAMaskAndTheRangesOfAnLod) {
@@ -142,48 +150,41 @@ TEST(CasterRevisionChanges, WithASwitchAMaskAndTheRangesOfAnLod) {
     lod->addChild(triangleAt(2), 0, 10);
     lod->addChild(triangleAt(3), 10, 100);
     Watched watched(choice.get());
-    choice->setValue(0, false);
-    EXPECT_TRUE(watched.changed());
-    lod->setRange(0, 100, 1000);
-    EXPECT_TRUE(watched.changed());
-    lod->addChild(triangleAt(4), 0, 10);
-    EXPECT_TRUE(watched.changed());
-    lod->setNodeMask(0);
-    EXPECT_TRUE(watched.changed());
+    expectChangeWithEach(watched, {[&] { choice->setValue(0, false); }, [&] { lod->setRange(0, 100, 1000); },
+                                   [&] { lod->addChild(triangleAt(4), 0, 10); }, [&] { lod->setNodeMask(0); }});
 }
 
 TEST(CasterRevisionChanges, WithAVertexArrayDirtiedResizedOrReplaced) {
     const osg::ref_ptr<osg::Geometry> geometry = triangle();
     Watched watched(geometry.get());
-    verticesOf(*geometry)[0].x() = 0.5f;
-    verticesOf(*geometry).dirty();
-    EXPECT_TRUE(watched.changed());
-    verticesOf(*geometry).push_back({1, 1, 1});
-    EXPECT_TRUE(watched.changed());
-    geometry->setVertexArray(vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}));
-    EXPECT_TRUE(watched.changed());
-    geometry->setVertexArray(nullptr);
-    EXPECT_TRUE(watched.changed());
+    expectChangeWithEach(watched, {[&] {
+                                       verticesOf(*geometry)[0].x() = 0.5f;
+                                       verticesOf(*geometry).dirty();
+                                   },
+                                   [&] {
+                                       verticesOf(*geometry).push_back({1, 1, 1});
+                                   },
+                                   [&] {
+                                       geometry->setVertexArray(vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}));
+                                   },
+                                   [&] { geometry->setVertexArray(nullptr); }});
 }
 
 TEST(CasterRevisionChanges, WithPrimitivesDirtiedResizedMovedReplacedOrOfAnotherMode) {
     const osg::ref_ptr<osg::Geometry> geometry = indexed();
     Watched watched(geometry.get());
     auto& elements = static_cast<osg::DrawElementsUInt&>(*geometry->getPrimitiveSet(0));
-    elements[2] = 3;
-    elements.dirty();
-    EXPECT_TRUE(watched.changed());
-    for (GLuint index : {1u, 2u, 0u}) elements.push_back(index);
-    EXPECT_TRUE(watched.changed());
-    elements.setMode(Mode::TRIANGLE_STRIP);
-    EXPECT_TRUE(watched.changed());
     osg::ref_ptr<osg::DrawArrays> arrays = new osg::DrawArrays(Mode::TRIANGLES, 0, 3);
-    geometry->setPrimitiveSet(0, arrays);
-    EXPECT_TRUE(watched.changed());
-    arrays->setFirst(1);
-    EXPECT_TRUE(watched.changed());
-    geometry->removePrimitiveSet(0);
-    EXPECT_TRUE(watched.changed());
+    expectChangeWithEach(watched, {[&] {
+                                       elements[2] = 3;
+                                       elements.dirty();
+                                   },
+                                   [&] {
+                                       elements.asVector().insert(elements.asVector().end(), {1u, 2u, 0u});
+                                   },
+                                   [&] { elements.setMode(Mode::TRIANGLE_STRIP); },
+                                   [&] { geometry->setPrimitiveSet(0, arrays); }, [&] { arrays->setFirst(1); },
+                                   [&] { geometry->removePrimitiveSet(0); }});
 }
 
 TEST(CasterRevisionChanges, WithTheShapeOfAShapeDrawable) {
@@ -228,23 +229,13 @@ TEST(CasterRevisionChanges, WithWhatAnAlphaTestGoesBy) {
     const osg::ref_ptr<osg::AlphaFunc> test = new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f);
     set.setAttribute(test);
     EXPECT_FALSE(watched.changed()) << "no test is on";
-    above->getOrCreateStateSet()->setMode(GL_ALPHA_TEST, osg::StateAttribute::ON);
-    EXPECT_TRUE(watched.changed());
-    test->setReferenceValue(0.4f);
-    EXPECT_TRUE(watched.changed());
-    test->setFunction(osg::AlphaFunc::LESS);
-    EXPECT_TRUE(watched.changed());
-    image->dirty();
-    EXPECT_TRUE(watched.changed());
-    coordinates->dirty();
-    EXPECT_TRUE(watched.changed());
-    set.setTextureAttribute(0, new osg::TexMat(osg::Matrixd::scale(2.0, 1.0, 1.0)));
-    EXPECT_TRUE(watched.changed());
-    set.setTextureAttribute(0, new osg::Texture2D(image));
-    EXPECT_TRUE(watched.changed());
-    EXPECT_FALSE(watched.changed());
-    test->setFunction(osg::AlphaFunc::ALWAYS);
-    EXPECT_TRUE(watched.changed());
+    expectChangeWithEach(watched,
+                         {[&] { above->getOrCreateStateSet()->setMode(GL_ALPHA_TEST, osg::StateAttribute::ON); },
+                          [&] { test->setReferenceValue(0.4f); }, [&] { test->setFunction(osg::AlphaFunc::LESS); },
+                          [&] { image->dirty(); }, [&] { coordinates->dirty(); },
+                          [&] { set.setTextureAttribute(0, new osg::TexMat(osg::Matrixd::scale(2.0, 1.0, 1.0))); },
+                          [&] { set.setTextureAttribute(0, new osg::Texture2D(image)); },
+                          [&] { test->setFunction(osg::AlphaFunc::ALWAYS); }});
 }
 
 TEST(CasterRevisionChanges, WithWhatElseAStateLeavesOfIt) {
@@ -257,36 +248,23 @@ TEST(CasterRevisionChanges, WithWhatElseAStateLeavesOfIt) {
     clip->addChild(place);
     Watched watched(clip.get());
     const osg::ref_ptr<osg::ClipPlane> plane = new osg::ClipPlane(2, osg::Vec4d(1.0, 0.0, 0.0, -0.5));
-    clip->addClipPlane(plane);
-    EXPECT_TRUE(watched.changed());
-    plane->setClipPlane(1.0, 0.0, 0.0, -0.25);
-    EXPECT_TRUE(watched.changed());
-    clip->getStateSet()->setMode(GL_CLIP_PLANE0 + 2, osg::StateAttribute::OFF);
-    EXPECT_TRUE(watched.changed());
     osg::StateSet& set = *geometry->getOrCreateStateSet();
-    set.setMode(GL_BLEND, osg::StateAttribute::ON);
-    EXPECT_TRUE(watched.changed());
-    colors->dirty();
-    EXPECT_TRUE(watched.changed());
-    set.setMode(GL_BLEND, osg::StateAttribute::OFF);
-    EXPECT_TRUE(watched.changed());
     const osg::ref_ptr<osg::PrimitiveRestartIndex> restart = new osg::PrimitiveRestartIndex(1);
-    set.setAttributeAndModes(restart);
-    set.setMode(GL_PRIMITIVE_RESTART, osg::StateAttribute::ON);
-    EXPECT_TRUE(watched.changed());
-    restart->setRestartIndex(2);
-    EXPECT_TRUE(watched.changed());
     const osg::ref_ptr<osg::DrawElementsIndirectUInt> indirect =
         new osg::DrawElementsIndirectUInt(Mode::TRIANGLES, 3, std::array<GLuint, 3>{0, 1, 2}.data());
-    geometry->setPrimitiveSet(0, indirect);
-    EXPECT_TRUE(watched.changed());
-    indirect->getIndirectCommandArray()->resizeElements(1);
-    EXPECT_TRUE(watched.changed());
-    indirect->getIndirectCommandArray()->dirty();
-    EXPECT_TRUE(watched.changed());
-    EXPECT_FALSE(watched.changed());
-    set.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT_AND_BACK));
-    EXPECT_TRUE(watched.changed());
+    expectChangeWithEach(watched,
+                         {[&] { clip->addClipPlane(plane); }, [&] { plane->setClipPlane(1.0, 0.0, 0.0, -0.25); },
+                          [&] { clip->getStateSet()->setMode(GL_CLIP_PLANE0 + 2, osg::StateAttribute::OFF); },
+                          [&] { set.setMode(GL_BLEND, osg::StateAttribute::ON); }, [&] { colors->dirty(); },
+                          [&] { set.setMode(GL_BLEND, osg::StateAttribute::OFF); },
+                          [&] {
+                              set.setAttributeAndModes(restart);
+                              set.setMode(GL_PRIMITIVE_RESTART, osg::StateAttribute::ON);
+                          },
+                          [&] { restart->setRestartIndex(2); }, [&] { geometry->setPrimitiveSet(0, indirect); },
+                          [&] { indirect->getIndirectCommandArray()->resizeElements(1); },
+                          [&] { indirect->getIndirectCommandArray()->dirty(); },
+                          [&] { set.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT_AND_BACK)); }});
 }
 
 TEST(CasterRevisionStays, WhenAClipPlaneMovesThatCutsNothing) {
