@@ -91,13 +91,11 @@ TEST_F(FakeShadow, KeysAndMouseChangeTheShadow) {
     const Screenshot twice = pressed("x");
     EXPECT_GT(darkIn(twice, 0x5c5c5cu), 200) << "0.36 of white";
     EXPECT_EQ(pressed("x"), first);
-    pressed("k");
-    EXPECT_EQ(pressed("k"), first);
+    expectSwitches({"k"});
     const Screenshot moved = changed("the middle button", [&] { desktop->drag(2, 40, -20); });
     EXPECT_GT(darkIn(moved, 0x999999u), 200);
     const Screenshot turned = changed("the left button", [&] { desktop->drag(1, 30, 20); });
     EXPECT_GT(darkIn(turned, 0x00ffffu), 1000) << "the background";
     expectMotionAfter("j");
-    desktop->press("Escape");
-    EXPECT_EQ(window->ended(std::chrono::seconds(10)), 0);
+    expectEscapeEndsIt();
 }

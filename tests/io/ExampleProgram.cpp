@@ -24,7 +24,7 @@ void ExampleProgram::start(const Arguments& arguments) {
     Arguments command = {_program};
     command.insert(command.end(), arguments.begin(), arguments.end());
     window = std::make_unique<ChildProcess>(command, folder.path(), Arguments{"DISPLAY=" + desktop->name()});
-    desktop->useWindow(std::filesystem::path(_program).filename());
+    desktop->useWindow(name());
 }
 
 void ExampleProgram::open(const Arguments& arguments) {
@@ -49,6 +49,19 @@ Screenshot ExampleProgram::changed(const std::string& what, const std::function<
 
 Screenshot ExampleProgram::pressed(const std::string& key) {
     return changed(key, [&] { desktop->press(key); });
+}
+
+void ExampleProgram::expectSwitches(const Arguments& keys) {
+    const Screenshot before = desktop->picture();
+    for (const std::string& key : keys) {
+        pressed(key);
+        EXPECT_EQ(pressed(key), before) << key;
+    }
+}
+
+void ExampleProgram::expectEscapeEndsIt() {
+    desktop->press("Escape");
+    EXPECT_EQ(window->ended(std::chrono::seconds(10)), 0) << readFile(folder.path() / (name() + ".err"));
 }
 
 void ExampleProgram::expectMotionAfter(const std::string& key) {

@@ -44,6 +44,9 @@ protected:
     /// The window after something that changes it.
     Screenshot changed(const std::string& what, const std::function<void()>& act);
     Screenshot pressed(const std::string& key);
+    /// Each of these keys changes the picture, and then brings it back.
+    void expectSwitches(const Arguments& keys);
+    void expectEscapeEndsIt();
     /// After this key the picture does not stand still.
     void expectMotionAfter(const std::string& key);
 
@@ -53,6 +56,8 @@ protected:
     Screenshot withText, first; ///< of the window; first: without text.
 
 private:
+    std::string name() const { return std::filesystem::path(_program).filename(); }
+
     const std::string _program;
 };
 

@@ -82,24 +82,33 @@ protected:
     }
     osg::ref_ptr<osg::Image> picture(const std::string& name) { return osgDB::readRefImageFile(folder.path() / name); }
 
+    /// The plain program's picture with shadows beside that without. @param says  each run. @param box  where it is in x.
+    void expectShadowOfRays(const std::vector<std::string>& techniques, const std::string& option,
+                            const std::string& says = "", double box = 0.0) {
+        const auto frame = [&](const std::string& technique) {
+            const Ending ending =
+                run("--shadow " + technique + " --frames 5 --out o.png -- " + built("scene") + " " + option);
+            EXPECT_EQ(ending.status, 0) << ending.err;
+            EXPECT_NE(ending.out.find(says), std::string::npos) << ending.out;
+            return picture("o.png");
+        };
+        const osg::ref_ptr<osg::Image> without = frame("none");
+        for (const std::string& technique : techniques) {
+            const osg::ref_ptr<osg::Image> with = frame(technique);
+            ASSERT_TRUE(without && with);
+            ASSERT_TRUE(with->s() == width && with->t() == height);
+            EXPECT_EQ(judged(*without, *with, box).wrong, 0) << technique;
+            EXPECT_GT(judged(*without, *with, box).dark, 1000) << technique;
+        }
+    }
+
     inline static std::unique_ptr<TemporaryFolder> made;
     TemporaryFolder folder;
     Desktop desktop{folder.path()};
 };
 
 TEST_F(Gnomonrun, AProgramOfAnotherBuildSystemHasTheShadowThatRaysHave) {
-    const Ending plain = run("--shadow none --frames 5 --out none.png -- " + built("scene"));
-    ASSERT_EQ(plain.status, 0) << plain.err;
-    for (const std::string technique : {"traced", "map", "map:composite=blend"}) {
-        const Ending ending = run("--shadow " + technique + " --frames 5 --out shadow.png -- " + built("scene"));
-        ASSERT_EQ(ending.status, 0) << ending.err;
-        const osg::ref_ptr<osg::Image> without = picture("none.png"), with = picture("shadow.png");
-        ASSERT_TRUE(without && with);
-        ASSERT_EQ(with->s(), width);
-        ASSERT_EQ(with->t(), height);
-        EXPECT_EQ(judged(*without, *with).wrong, 0) << technique;
-        EXPECT_GT(judged(*without, *with).dark, 1000) << technique;
-    }
+    expectShadowOfRays({"traced", "map", "map:composite=blend"}, "");
 }
 
 TEST_F(Gnomonrun, OsgviewerHasTheShadowsOfEveryTechniqueOrTheirCauses) {
@@ -142,31 +151,11 @@ TEST_F(Gnomonrun, OneFrameIsComparedInEveryWay) {
 TEST_F(Gnomonrun, AWindowOfFourSamplesWithoutStencilHasTheSameShadow) {
     if (runAlone(built("scene") + " samples").status == 1)
         GTEST_SKIP() << "The X server has no window of four samples, as with Mesa 25's llvmpipe.";
-    for (const std::string technique : {"none", "traced", "map", "volume"}) {
-        const Ending ending = run("--shadow " + technique + " --frames 5 --out " + technique + ".png -- " +
-                                  built("scene") + " multisampled");
-        ASSERT_EQ(ending.status, 0) << ending.err;
-        ASSERT_NE(ending.out.find("4 samples, 0 stencil bits"), std::string::npos) << ending.out;
-        if (technique == "none") continue;
-        const osg::ref_ptr<osg::Image> without = picture("none.png"), with = picture(technique + ".png");
-        ASSERT_TRUE(without && with);
-        const Judged pixels = judged(*without, *with);
-        EXPECT_EQ(pixels.wrong, 0) << technique;
-        EXPECT_GT(pixels.dark, 1000) << technique;
-    }
+    expectShadowOfRays({"traced", "map", "volume"}, "multisampled", "4 samples, 0 stencil bits");
 }
 
 TEST_F(Gnomonrun, WithFramesTheProgramsTimeIsThatOfSixtyFramesASecond) {
-    for (const std::string technique : {"none", "traced"}) {
-        const Ending ending =
-            run("--shadow " + technique + " --frames 5 --out " + technique + ".png -- " + built("scene") + " moving");
-        ASSERT_EQ(ending.status, 0) << ending.err;
-    }
-    const osg::ref_ptr<osg::Image> without = picture("none.png"), with = picture("traced.png");
-    ASSERT_TRUE(without && with);
-    const Judged pixels = judged(*without, *with, 15.0 * 4 / 60); // the fifth frame's
-    EXPECT_EQ(pixels.wrong, 0);
-    EXPECT_GT(pixels.dark, 1000);
+    expectShadowOfRays({"traced"}, "moving", "", 15.0 * 4 / 60); // the fifth frame's
 }
 
 TEST_F(Gnomonrun, KeysSwitchTechniquesAndAtTheEndEachCostIsTold) {

@@ -84,9 +84,7 @@ TEST_F(GusShadow, LiesWhereRaysToTheLightAreBlocked) {
     EXPECT_EQ(misplaced(unlitFloor(*picture({})), rays, width), 0);
 }
 
-TEST_F(GusShadow, HasNothingToSay) {
-    EXPECT_EQ(run({"--out", "gus.png"}).err, "");
-}
+TEST_F(GusShadow, HasNothingToSay) { EXPECT_EQ(run({"--out", "gus.png"}).err, ""); }
 
 TEST_F(GusShadow, LiesOnOtherPlanesToo) {
     const Place level = {{0.0, 0.0, 5.0}, {0.0, -6.0, 5.0}, {9.0, -6.0, 5.0}};
@@ -112,13 +110,9 @@ TEST_F(GusShadow, BlendHalvesWhatRelightTakesTheLightFrom) {
 
 TEST_F(GusShadow, KeysAndMouseChangeTheShadow) {
     open();
-    pressed("r");
-    EXPECT_EQ(pressed("r"), first);
-    pressed("k");
-    EXPECT_EQ(pressed("k"), first);
+    expectSwitches({"r", "k"});
     EXPECT_NE(changed("the middle button", [&] { desktop->drag(2, 40, 10); }), first);
     EXPECT_NE(changed("the left button", [&] { desktop->drag(1, 30, 20); }), first);
     expectMotionAfter("j");
-    desktop->press("Escape");
-    EXPECT_EQ(window->ended(std::chrono::seconds(10)), 0);
+    expectEscapeEndsIt();
 }

@@ -135,6 +135,5 @@ TEST_F(Lab8, KeysAndMouseChangeTheShadow) {
     EXPECT_GT(blackIn(moved), 1000);
     const Screenshot turned = changed("the left button", [&] { desktop->drag(1, 60, 30); });
     EXPECT_GT(blackIn(turned), 1000);
-    desktop->press("Escape");
-    EXPECT_EQ(window->ended(std::chrono::seconds(10)), 0);
+    expectEscapeEndsIt();
 }

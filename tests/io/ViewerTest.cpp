@@ -318,6 +318,5 @@ TEST_F(Viewer, NumberKeysChangeTheWayToMoveAndSpaceBringsTheCameraBack) {
 
 TEST_F(Viewer, EscapeEndsItWithStatus0) {
     openUnderLamp();
-    desktop->press("Escape");
-    EXPECT_EQ(window->ended(std::chrono::seconds(10)), 0) << readFile(folder.path() / "gnomonviewer.err");
+    expectEscapeEndsIt();
 }

@@ -34,20 +34,15 @@ TEST(SunClock, SeesTheSunWhereTheSolarPositionAlgorithmDoes) {
     EXPECT_NEAR(90.0 - sun.elevation, 50.11162, degree);
 }
 
-/// J. Meeus, "Astronomical Algorithms", example 25.b: declination -7°47'01.74", 13 October 1992 at 0 h. Refraction at
-/// that elevation is 6.7 minutes of arc by any almanac's table (Bennett 1982).
-TEST(SunClock, HasTheDeclinationOfTheWorkedExample) {
+TEST(SunClock, HasTheDeclinationOfTheAlmanac) {
+    // J. Meeus, "Astronomical Algorithms", example 25.b: declination -7°47'01.74", 13 October 1992 at 0 h. Refraction at
+    // that elevation is 6.7 minutes of arc by any almanac's table (Bennett 1982).
     expectDeclination("1992-10-13T00:00:00Z", -(7.0 + 47.0 / 60.0 + 1.74 / 3600.0), 6.7 / 60.0);
-}
-
-/// The Astronomical Almanac: solstice of 21 June 2026 at 08:24 UTC, obliquity 23.4362; refraction there 2.2 minutes.
-TEST(SunClock, StandsOverTheTropicAtTheSolstice) { expectDeclination("2026-06-21T08:24:00Z", 23.4362, 2.2 / 60.0); }
-
-/// Equinox of 20 March 2026 at 14:46 UTC: overhead is a place on the equator, 90 degrees from both poles. There the air raises
-/// it by 29 minutes of arc (T. Saemundsson, 1986); a quarter of an hour's motion is 0.004 degrees.
-TEST(SunClock, IsOnTheHorizonOfThePolesAtTheEquinox) {
-    EXPECT_NEAR(SunClock(90.0, 0.0).at(dayOf("2026-03-20T14:46:00Z")).elevation, 29.0 / 60.0, degree);
-    EXPECT_NEAR(SunClock(-90.0, 0.0).at(dayOf("2026-03-20T14:46:00Z")).elevation, 29.0 / 60.0, degree);
+    // The Astronomical Almanac: solstice of 21 June 2026 at 08:24 UTC, obliquity 23.4362; refraction there 2.2 minutes.
+    expectDeclination("2026-06-21T08:24:00Z", 23.4362, 2.2 / 60.0);
+    // Equinox of 20 March 2026 at 14:46 UTC: overhead is a place on the equator, 90 degrees from both poles. There the air
+    // raises it by 29 minutes of arc (T. Saemundsson, 1986); a quarter of an hour's motion is 0.004 degrees.
+    for (const double nothing : {0.0, -0.001}) expectDeclination("2026-03-20T14:46:00Z", nothing, 29.0 / 60.0);
 }
 
 /// Noon in the north is due south, in the south due north; mornings are in the east; x is east, y north, z up.
