@@ -11,13 +11,8 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
-#include <gnomon/group/ShadowBin.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <ctime>
-#include <stdexcept>
 
 namespace {
 
@@ -27,46 +22,6 @@ using gnomon::examples::TownScene;
 
 constexpr int width = 640, height = 480;
 constexpr double pace = 60.0, framesASecond = 60.0; // of the sun, and of a display
-
-/// Times what is done for a frame before anything is drawn: what has changed, what is found anew, what is seen.
-class TimedTerrain : public gnomon::TerrainShadowGeode {
-public:
-    explicit TimedTerrain(const gnomon::TerrainShadowGeode& other) : TerrainShadowGeode(other) {}
-    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                       const gnomon::FrameCasters& casters) const override {
-        const auto start = std::chrono::steady_clock::now();
-        const std::clock_t processor = std::clock();
-        auto jobs = TerrainShadowGeode::prepare(view, light, casters);
-        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-        wall.push_back(taken.count());
-        cpu.push_back(1e3 * double(std::clock() - processor) / CLOCKS_PER_SEC);
-        return jobs;
-    }
-    mutable std::vector<double> wall, cpu; ///< milliseconds a frame; cpu over all threads of the process
-};
-
-/// In the place of the scene's own.
-TimedTerrain& timed(SceneSetup& setup) {
-    for (unsigned i = 0; i < setup.group->getNumChildren(); ++i)
-        if (const auto* terrain = dynamic_cast<const gnomon::TerrainShadowGeode*>(setup.group->getChild(i))) {
-            osg::ref_ptr<TimedTerrain> copy = new TimedTerrain(*terrain);
-            setup.group->setChild(i, copy);
-            return *copy;
-        }
-    throw std::logic_error("no shadow on terrain in the scene");
-}
-
-/// Of the last frames, without those that warmed up.
-void printUpdate(const char* name, const TimedTerrain& terrain, int frames) {
-    std::printf("  update, %-16s", name);
-    for (const auto* all : {&terrain.wall, &terrain.cpu}) {
-        const std::vector<double> taken(all->end() - std::min<std::ptrdiff_t>(frames, std::ptrdiff_t(all->size())),
-                                        all->end());
-        std::printf("%s median %.2f ms, worst %.2f ms", all == &terrain.wall ? "wall" : "; cpu",
-                    quartiles(taken).median, *std::max_element(taken.begin(), taken.end()));
-    }
-    std::printf("\n");
-}
 
 SceneSetup setUp(const TownScene& town, const std::string& shadow) {
     gnomon::examples::ViewOptions view = town.view();
@@ -176,7 +131,6 @@ bool run(int buildings, int frames) {
                                "hull:composite=blend"})
         setups.push_back(setUp(town, shadow));
     const char* const names[] = {"none", "blend", "relight", "60 x real time", "an hour a frame", "near: volume"};
-    const TimedTerrain &still = timed(setups[1]), &moving = timed(setups[3]), &jumping = timed(setups[4]);
     std::vector<bench::Contender> contenders;
     for (std::size_t i = 0; i < setups.size(); ++i)
         contenders.push_back(bench::contender(names[i], setups[i].root, view));
@@ -191,9 +145,6 @@ bool run(int buildings, int frames) {
     std::printf("  sun still: blend adds %.0f %% of the frame, relight %.0f %%\n", more(1), more(2));
     std::printf("  with volumes of %zu groups of buildings within %.0f m of the eye: %.0f %%\n", near, nearEye,
                 more(5));
-    printUpdate("sun still", still, frames);
-    printUpdate("60 x real time", moving, frames);
-    printUpdate("an hour a frame", jumping, frames);
     std::printf("  %u tiles may be seen, of which the moving sun has %.1f found a frame\n", foundIn(setups[1]),
                 (foundIn(setups[3]) - foundIn(setups[1])) / double(sun.frames()));
     return rightPicture(town, view);
