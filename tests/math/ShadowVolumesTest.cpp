@@ -185,10 +185,10 @@ TEST(ShadowVolumes, OfABoxHaveTheSixSidesOfItsOutline) {
 TEST(ShadowVolumes, AnEdgeOnWallFacesTheLight) {
     const SilhouetteMesh mesh = edgesOf(box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0}));
     for (const double tilt : {-1e-6, 0.0, 1e-6}) {
-        gnomon::FacingWeights weights;
-        gnomon::faceLight(mesh, {glm::normalize(glm::dvec3(1.0, tilt, 1.0)), 0.0}, weights);
+        ShadowVolumes volumes;
+        gnomon::findShadowVolumes(mesh, {glm::normalize(glm::dvec3(1.0, tilt, 1.0)), 0.0}, {}, volumes);
         for (std::size_t i = 0; i < mesh.triangles(); ++i)
-            if (std::abs(mesh.planeY[i]) > 0.5) EXPECT_EQ(int(weights[i]), 1) << tilt;
+            if (std::abs(mesh.planeY[i]) > 0.5) EXPECT_EQ(int(volumes.weights[i]), 1) << tilt;
     }
 }
 

@@ -4,7 +4,7 @@
 #include <gnomon/auto/AutoView.h>
 #include <gnomon/auto/CandidateFacts.h>
 #include <gnomon/auto/FlatReceivers.h>
-#include <gnomon/volume/OpenCasters.h>
+#include <gnomon/volume/VolumeForecast.h>
 
 #include <optional>
 #include <string>

@@ -6,7 +6,6 @@
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
-#include <gnomon/silhouette/SightStart.h>
 #include <gnomon/silhouette/SilhouetteMesh.h>
 
 #include <glm/mat4x4.hpp>
@@ -17,8 +16,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -36,8 +33,6 @@ struct ReceiverBox {
 
 ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene);
 
-struct CasterLayers;
-
 /// A mesh that casts, with its edges, where it stands in the scene.
 struct VolumeCaster {
     std::shared_ptr<const SilhouetteMesh> mesh; ///< in its own frame.
@@ -46,24 +41,6 @@ struct VolumeCaster {
 
     /// True if nothing that is behind a part, as seen from the eye, is seen through it.
     bool hides(const SilhouetteMesh::Part& part, const glm::dvec3& eye) const;
-};
-
-/// The edges of casters, found once a mesh, wherever it stands.
-class VolumeCasters {
-public:
-    /// All that cast. Those of casters that were last asked for 64 rounds ago are let go.
-    /// @param round  a frame, as views count them; never fewer than before.
-    std::vector<VolumeCaster> of(const CasterLayers& casters, unsigned round);
-
-private:
-    struct Entry {
-        osg::ref_ptr<const CasterMesh> mesh; // held, so that its address cannot be taken by another
-        std::shared_ptr<const SilhouetteMesh> edges;
-        unsigned used = 0; ///< in which round.
-    };
-    static constexpr unsigned longUnused = 64; ///< rounds.
-
-    std::unordered_map<const CasterMesh*, Entry> _entries;
 };
 
 /// Caps of a part of the mesh.
@@ -90,8 +67,6 @@ public:
     const VolumeCaster& caster() const { return _caster; }
     const ShadowVolumes& volumes() const { return _volumes; }
     const VolumeGeometry& sides() const { return *_sides; }
-    /// See mayShowBack(); asked once for the same eye.
-    bool showsBack(const SightStart& start, unsigned part, bool mayBeCut);
     /// What closes the volumes of some parts; made once for the same ones.
     /// @param ranges  for each of `wanted`.
     osg::ref_ptr<const VolumeGeometry> capsOf(const std::vector<CapsWanted>& wanted, std::vector<CapRanges>& ranges);
@@ -108,15 +83,10 @@ private:
     ReceiverBox _receivers{};
     ShadowVolumes _volumes;
     const osg::ref_ptr<VolumeGeometry> _sides;
-    glm::dvec4 _towardsEye{0.0};
-    std::map<std::pair<unsigned, bool>, bool> _showBacks; ///< by part and mayBeCut, seen from there.
-    std::vector<CapsWanted> _capped;                      ///< those that have caps,
-    std::vector<CapRanges> _ranges;                       ///< and where.
+    std::vector<CapsWanted> _capped; ///< those that have caps,
+    std::vector<CapRanges> _ranges;  ///< and where.
     osg::ref_ptr<VolumeGeometry> _caps;
 };
-
-/// A light in the frame of a mesh.
-glm::dvec4 lightIn(const VolumeCaster& caster, const glm::dvec4& lightInScene);
 
 /// In clip space the eight corners of a box, and where the volume behind it ends after each of them.
 using VolumeHull = std::array<glm::dvec4, 16>;
@@ -125,10 +95,59 @@ using VolumeHull = std::array<glm::dvec4, 16>;
 VolumeHull volumeHull(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec4& end, const glm::dvec4& light,
                       const glm::dmat4& clipFromBox);
 
-/// True if the box itself may be seen.
-bool isInSight(const VolumeHull& hull);
-
 /// As screenBounds(), which is slower.
 std::optional<ScreenRect> boundsOf(const VolumeHull& hull);
+
+/// The volumes of one mesh in one view.
+struct MeshInView {
+    osg::ref_ptr<const LightVolumes> volumes;
+    glm::dmat4 clipFromMesh{1.0};
+    osg::ref_ptr<const VolumeGeometry> caps; ///< null: none are needed.
+};
+
+/// A part whose volume can be seen.
+struct SeenPart {
+    std::size_t mesh; ///< among those in view.
+    unsigned part;
+    std::optional<int> holding; ///< see volumesHolding().
+    bool showsBack;             ///< see mayShowBack().
+    CapRanges caps;             ///< without `holding`; of what shows its back, the surface that casts in any case.
+};
+
+/// Volumes that are counted together: not more of them hold any one point than a counter can count.
+struct VolumeRound {
+    /// Sides, those of parts apart that have one in the plane of a face that the light grazes.
+    struct Sides {
+        std::vector<VolumeGeometry::Range> usual, grazed;
+    };
+    /// Of one mesh: sides to count from the eye, and from behind; for those light caps, others that may be seen from either
+    /// side, and dark caps; and of what is counted from the eye surfaces that cast, which do not count where they are seen
+    /// from behind.
+    struct Share {
+        Sides entered, left;
+        std::vector<VolumeGeometry::Range> lightCaps, bothCaps, darkCaps, backs;
+    };
+    std::map<std::size_t, Share> shares; ///< by mesh.
+    int holding = 0;                     ///< those counted from the eye that the eye is in.
+};
+
+/// What a view needs of the volumes of one light.
+struct SeenVolumes {
+    std::vector<MeshInView> meshes;
+    std::vector<SeenPart> parts;
+    ScreenRect bounds{}; ///< where they can be seen.
+
+    /// @param capacity  what a counter can count to, 1 or more.
+    std::vector<VolumeRound> rounds(unsigned capacity) const;
+    /// How long the longest step of a vertex's floats is where it is seen at its nearest, in pixels.
+    /// @param width  of the viewport, pixels. @param near  least w of what is seen.
+    double vertexStep(double width, double near) const;
+    /// True if a counter may pass its range.
+    bool overflow(unsigned capacity) const;
+};
+
+/// @return nullopt if none can be seen.
+std::optional<SeenVolumes> seenVolumes(const std::vector<osg::ref_ptr<LightVolumes>>& all,
+                                       const glm::dmat4& clipFromScene);
 
 } // namespace gnomon

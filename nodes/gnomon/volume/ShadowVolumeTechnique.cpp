@@ -1,13 +1,161 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowVolumeTechnique.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/gl/GlState.h>
+#include <gnomon/gl/SavedFramebuffers.h>
+#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/volume/VolumeCache.h>
-#include <gnomon/volume/VolumeMark.h>
+
+#include <glm/common.hpp>
 
 namespace gnomon {
-
 namespace {
+
+/// Marks of one light in one view: what is in a volume.
+class VolumeMark : public MarkJob {
+public:
+    SeenVolumes seen;
+    osg::ref_ptr<const osg::StateSet> program;
+    glm::dvec2 pushedBack{0.0}; ///< see ViewFrame.
+    bool showsVolumes = false;
+
+    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    bool counts() const override { return true; }
+    bool hasView() const override { return showsVolumes; }
+    void drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int before) const override;
+
+protected:
+    ~VolumeMark() override = default;
+
+private:
+    void count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+               const VolumeRound::Share& share) const;
+    void uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+                      const VolumeRound::Share& share) const;
+};
+
+void place(const osg::State& state, const MeshInView& mesh) {
+    placeVolumes(state, mesh.clipFromMesh, mesh.volumes->volumes().light);
+}
+
+/// Of a light cap from its surface, which OpenGL draws by other numbers: pixels of the slope, and steps of the depth buffer.
+/// Drivers snap vertices to a 256th of a pixel. A larger part of it would reach what is close on either side of a surface: the
+/// ground behind a culled face, the outer face of a wall, or the lit side of a ridge.
+constexpr glm::dvec2 apart(1.0 / 64.0, 8.0);
+
+/// A side in the plane of a face that the light grazes may lie in another body's wall, too. It is behind that as a whole, for rays
+/// that begin before the wall do not meet it; and so are the sides that end in the wall. No other sides are: where a wall is turned
+/// away by a degree, they are close before it. By no more than rounding, for shadows' edges move with them.
+constexpr glm::dvec2 grazed(1.0 / 64.0, 2.0);
+
+/// @param by  pixels of the slope, and steps of the depth buffer.
+void drawOffset(osg::RenderInfo& renderInfo, const VolumeGeometry& geometry,
+                const std::vector<VolumeGeometry::Range>& ranges, const glm::dvec2& by) {
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(static_cast<GLfloat>(by.x), static_cast<GLfloat>(by.y));
+    geometry.draw(renderInfo, ranges);
+    glPolygonOffset(0.0f, 0.0f);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void drawSides(osg::RenderInfo& renderInfo, const VolumeGeometry& sides, const VolumeRound::Sides& ranges) {
+    sides.draw(renderInfo, ranges.usual);
+    if (!ranges.grazed.empty()) drawOffset(renderInfo, sides, ranges.grazed, grazed);
+}
+
+/// Where nothing stands.
+void unmarkFar(ScreenPass& pass, unsigned bit) {
+    pass.stencilEqual(0, 0, bit);
+    pass.testDepth(GL_LEQUAL);
+    pass.drawQuad(1.0);
+}
+
+constexpr const char* overflow =
+    "a connected caster may lie over itself more often than the stencil bits can count, so its shadow may have holes. "
+    "Leave more bits out of CompositorOptions::reservedStencilBits, or use map for that caster.";
+
+/// A light cap lies in the surface that casts, which is as lit as its light's side: so it is behind that from there, and
+/// before it from the other side. A dark cap is where it is, close before the lowest surface for an eye below all.
+void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+                       const VolumeRound::Share& share) const {
+    place(*renderInfo.getState(), mesh);
+    pass.countEntered(counters);
+    drawSides(renderInfo, mesh.volumes->sides(), share.entered);
+    if (share.lightCaps.empty() && share.bothCaps.empty()) return;
+    const glm::dvec2 back = glm::max(pushedBack, 0.0) + apart, forward = glm::min(pushedBack, 0.0) - apart;
+    pass.countHolding(counters);
+    drawSides(renderInfo, mesh.volumes->sides(), share.left);
+    mesh.caps->draw(renderInfo, share.darkCaps);
+    if (!share.lightCaps.empty()) drawOffset(renderInfo, *mesh.caps, share.lightCaps, back);
+    if (share.bothCaps.empty()) return;
+    glEnable(GL_CULL_FACE);
+    drawOffset(renderInfo, *mesh.caps, share.bothCaps, back);
+    glCullFace(GL_FRONT);
+    drawOffset(renderInfo, *mesh.caps, share.bothCaps, forward);
+    glCullFace(GL_BACK);
+    glDisable(GL_CULL_FACE);
+}
+
+/// A sheet does not shadow its own back, which OpenGL lights as its front: where that is seen, its volume does not count.
+void VolumeMark::uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+                              const VolumeRound::Share& share) const {
+    if (share.backs.empty()) return;
+    place(*renderInfo.getState(), mesh);
+    pass.uncount(counters);
+    glDisable(depthClamp); // what is cut away before the near plane is not seen
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+    drawOffset(renderInfo, *mesh.caps, share.backs, glm::min(pushedBack, 0.0) - apart);
+    glCullFace(GL_BACK);
+    glDisable(GL_CULL_FACE);
+    glEnable(depthClamp);
+}
+
+std::string VolumeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+    osg::State& state = *renderInfo.getState();
+    const unsigned counters = pass.counters() ? pass.counters() : bit;
+    const unsigned capacity = counters & 1u ? counters : 1u; // one bit tells odd from even
+    const std::vector<VolumeRound> rounds = seen.rounds(capacity);
+    if (!pass.counters() && rounds.size() > 1) return noCounter;
+    for (const VolumeRound& round : rounds) {
+        if (round.holding) pass.setCount(counters, static_cast<unsigned>(round.holding));
+        state.apply(program.get());
+        if (!hasProgram(state)) return noProgram;
+        for (const auto& [mesh, share] : round.shares) count(renderInfo, pass, counters, seen.meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares)
+            uncountBacks(renderInfo, pass, counters, seen.meshes[mesh], share);
+        glFrontFace(GL_CCW);
+        state.apply();
+        if (pass.counters())
+            pass.takeCount(counters, bit);
+        else
+            unmarkFar(pass, bit);
+    }
+    return seen.overflow(capacity) ? overflow : "";
+}
+
+void VolumeMark::drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int) const {
+    osg::State& state = *renderInfo.getState();
+    state.apply(program.get());
+    if (!hasProgram(state)) return;
+    pass.beginReplace();
+    pass.testDepth(GL_LEQUAL, false);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    for (const VolumeRound& round : seen.rounds(~0u))
+        for (const auto& [mesh, share] : round.shares) {
+            place(state, seen.meshes[mesh]);
+            setUniform(state, "wire", glm::dvec4(1.0, 0.85, 0.0, 1.0));
+            drawSides(renderInfo, seen.meshes[mesh].volumes->sides(), share.entered);
+            setUniform(state, "wire", glm::dvec4(1.0, 0.2, 0.1, 1.0));
+            drawSides(renderInfo, seen.meshes[mesh].volumes->sides(), share.left);
+        }
+    glFrontFace(GL_CCW);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    state.apply();
+}
 
 constexpr double mostOff = 1.0; // pixels
 constexpr const char* coarse = "casters are so far from one another, or so far from the origin of their vertices, that "

@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/volume/VolumeCache.h>
 
 #include <OpenThreads/ScopedLock>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <iterator>
 
 namespace gnomon {
 namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+/// What its drawables hide, a bit each, for each triangle; empty if that is all the same.
+std::vector<std::uint8_t> kindsOf(const CasterMesh& mesh) {
+    const auto hidesAll = [](const auto& drawn) { return drawn.hiding == Hiding::Both; };
+    std::vector<std::uint8_t> kinds;
+    if (std::all_of(mesh.drawn.begin(), mesh.drawn.end(), hidesAll)) return kinds;
+    kinds.resize(mesh.triangles->size() / 3);
+    for (std::size_t i = 0; i < mesh.drawn.size(); ++i) {
+        const std::size_t end = i + 1 < mesh.drawn.size() ? mesh.drawn[i + 1].first : mesh.triangles->size();
+        std::fill(kinds.begin() + std::ptrdiff_t(mesh.drawn[i].first / 3), kinds.begin() + std::ptrdiff_t(end / 3),
+                  static_cast<std::uint8_t>(mesh.drawn[i].hiding));
+    }
+    return kinds;
+}
+
+std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
+    if (mesh.empty()) return std::make_shared<const SilhouetteMesh>();
+    const std::vector<std::uint8_t> kinds = kindsOf(mesh);
+    return std::make_shared<const SilhouetteMesh>(positionsOf(mesh), mesh.vertices->size(), &mesh.triangles->front(),
+                                                  mesh.triangles->size(), kinds.empty() ? nullptr : kinds.data());
+}
 
 } // namespace
 
@@ -26,10 +50,22 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
     _frame = view.frameNumber;
     const ReceiverBox& box = boxOf(view.stage, receivers);
     std::vector<osg::ref_ptr<LightVolumes>> all;
-    for (const VolumeCaster& caster : _casters.of(casters, _round))
+    for (const VolumeCaster& caster : castersOf(casters))
         all.push_back(find(caster, _entries[{view.stage, lightNumber, all.size()}], light, box));
     dropUnused();
     return seenVolumes(all, scene.clipFromScene(view));
+}
+
+std::vector<VolumeCaster> VolumeCache::castersOf(const CasterLayers& casters) {
+    std::vector<VolumeCaster> all;
+    for (const auto& layer : {casters.still, casters.moving})
+        for (const PlacedMesh& placed : layer->meshes) {
+            Edges& edges = _edges[placed.mesh.get()];
+            if (!edges.of) edges = {placed.mesh, edgesOf(*placed.mesh), 0};
+            edges.used = _round;
+            all.push_back({edges.mesh, placed.sceneFromMesh, placed.hiding});
+        }
+    return all;
 }
 
 const ReceiverBox& VolumeCache::boxOf(const void* stage, const ReceiverBox& receivers) {
@@ -57,6 +93,7 @@ void VolumeCache::dropUnused() {
         for (auto owner = owners.begin(); owner != owners.end();)
             owner = _round - owner->second.used > longUnused ? owners.erase(owner) : std::next(owner);
     };
+    drop(_edges);
     drop(_entries);
     drop(_boxes);
 }

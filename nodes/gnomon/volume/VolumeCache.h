@@ -2,13 +2,16 @@
 #pragma once
 #include <gnomon/ShadowLight.h>
 #include <gnomon/group/ViewFrame.h>
-#include <gnomon/volume/VolumeView.h>
+#include <gnomon/volume/LightVolumes.h>
 
 #include <OpenThreads/Mutex>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <tuple>
+#include <unordered_map>
+#include <vector>
 
 namespace gnomon {
 
@@ -42,12 +45,19 @@ private:
         osg::ref_ptr<LightVolumes> volumes;
         unsigned used = 0; ///< in which round.
     };
+    /// The edges of a mesh, found once, wherever it stands.
+    struct Edges {
+        osg::ref_ptr<const CasterMesh> of; // held, so that its address cannot be taken by another
+        std::shared_ptr<const SilhouetteMesh> mesh;
+        unsigned used = 0; ///< the same.
+    };
     struct Box {
         ReceiverBox receivers;
         unsigned used = 0; ///< the same.
     };
     static constexpr unsigned longUnused = 64; ///< rounds.
 
+    std::vector<VolumeCaster> castersOf(const CasterLayers& casters);
     /// The same as before while it fits.
     const ReceiverBox& boxOf(const void* stage, const ReceiverBox& receivers);
     osg::ref_ptr<LightVolumes> find(const VolumeCaster& caster, Entry& own, const glm::dvec4& light,
@@ -55,7 +65,7 @@ private:
     void dropUnused();
 
     mutable OpenThreads::Mutex _mutex;
-    VolumeCasters _casters;
+    std::unordered_map<const CasterMesh*, Edges> _edges;
     std::map<const void*, Box> _boxes; ///< by stage.
     std::map<Owner, Entry> _entries;
     unsigned _builds = 0;
