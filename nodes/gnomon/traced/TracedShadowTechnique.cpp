@@ -1,16 +1,281 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/OptionalParts.h>
+#include <gnomon/RayScene.h>
 #include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/base/RecentCache.h>
+#include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/RaySceneCache.h>
+#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/geometry/DrawnError.h>
+#include <gnomon/gl/FrameCopies.h>
+#include <gnomon/gl/SavedFramebuffers.h>
+#include <gnomon/gl/ScreenPass.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ViewFrame.h>
-#include <gnomon/traced/TracedMark.h>
+#include <gnomon/rays/DepthBufferShadow.h>
 
+#include <OpenThreads/Mutex>
+#include <OpenThreads/ScopedLock>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <osg/State>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <exception>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+#include <vector>
 
 namespace gnomon {
+/// What rays are cast for in one view and of one light.
+struct TracedFrame {
+    const void* stage = nullptr; ///< tells views apart.
+    int light = 0;               ///< number.
+    std::shared_ptr<const RayScene> scene;
+    osg::ref_ptr<const CasterDrawables> pieces; ///< of the scene; null if they are not known.
+    osg::Vec3d origin;                          ///< of the scene, group frame.
+    glm::dmat4 clipFromScene{1.0};
+    glm::dvec4 lightInScene{0.0};
+    DepthPicture picture; ///< the depths of it.
+};
+
+/// The answers of a technique's last frames, so that rays are cast only where depth, light or casters have changed.
+///
+/// Cost
+/// - Four bytes a pixel, of each light in each of the last eight views.
+/// Threads
+/// - Any number.
+class TracedFrames {
+public:
+    /// Bits of a frame, as depthBufferShadow() has them. Casts rays only where they may differ from the last ones of the same
+    /// view and light.
+    std::vector<std::uint8_t> bitsOf(TracedFrame frame);
+    /// How many pixels rays were cast for so far.
+    std::size_t traced() const { return _traced; }
+
+private:
+    /// A caster, for comparisons.
+    struct Piece {
+        std::uint64_t fingerprint;
+        osg::BoundingBoxd bounds; ///< group frame.
+    };
+    using Pieces = std::vector<Piece>;
+    struct Known {
+        TracedFrame frame;                    ///< without scene and pieces, which may be large.
+        std::weak_ptr<const RayScene> scene;  ///< of it.
+        std::shared_ptr<const Pieces> pieces; ///< of it; null if they are not known.
+        std::vector<std::uint8_t> bits;
+    };
+    static constexpr std::size_t most = 8;
+
+    static std::shared_ptr<const Pieces> piecesOf(const CasterDrawables* casters);
+    static bool addMissing(const Pieces& pieces, const Pieces& others, const osg::Vec3d& origin,
+                           std::vector<RayBox>& boxes);
+    static std::optional<std::vector<RayBox>> changesBetween(const Known& before, const Pieces* now,
+                                                             const osg::Vec3d& origin);
+    std::shared_ptr<const Known> find(const TracedFrame& frame);
+    void keep(std::shared_ptr<const Known> known);
+
+    OpenThreads::Mutex _mutex;
+    RecentCache<std::shared_ptr<const Known>> _known;
+    std::atomic<std::size_t> _traced{0};
+};
+
+namespace {
+
+/// Marks of one light in one view: a ray to the light from where the depth buffer says a surface is.
+class TracedMark : public MarkJob {
+public:
+    TracedFrame frame;                       ///< without the picture.
+    std::shared_ptr<TracedFrames> frames;    ///< the technique's.
+    std::shared_ptr<ResolvedDepth> resolved; ///< the technique's, for framebuffers with several samples.
+    double rounding = 0.0;                   ///< of the casters' vertices.
+    glm::dvec2 pushedBack{0.0};              ///< see ViewFrame.
+
+    /// Rays find the surface within what a depth may mean.
+    double depthSteps() const override { return 0.0; }
+    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+
+protected:
+    ~TracedMark() override = default;
+};
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+
+constexpr std::size_t mostBoxes = 16; // of what has changed: a look at more costs as much as a ray
+
+/// True if depths of both mean the same places, of the same pixels.
+bool isSamePart(const DepthPicture& a, const DepthPicture& b) {
+    const auto key = [](const DepthPicture& p) {
+        return std::make_tuple(p.viewportWidth, p.viewportHeight, p.x, p.y, p.width, p.height, p.step, p.subpixel,
+                               p.place.x, p.place.y, p.offPlace, p.neighbour, p.drawnPixels, p.drawnDepth);
+    };
+    return key(a) == key(b);
+}
+
+/// What the marks' bounds leave, at which the scissor stands.
+DepthPicture partInScissor(const osg::Viewport& viewport) {
+    const PixelRect pixels = pixelsInScissor(viewport);
+    DepthPicture part;
+    part.viewportWidth = static_cast<int>(viewport.width());
+    part.viewportHeight = static_cast<int>(viewport.height());
+    part.x = pixels.x - static_cast<int>(viewport.x());
+    part.y = pixels.y - static_cast<int>(viewport.y());
+    part.width = pixels.width;
+    part.height = pixels.height;
+    return part;
+}
+
+/// @return false if this framebuffer's depth cannot be read.
+bool readDepth(osg::State& state, ResolvedDepth& resolved, DepthPicture& part) {
+    const osg::Viewport& viewport = *state.getCurrentViewport();
+    const GLint x = part.x + static_cast<GLint>(viewport.x()), y = part.y + static_cast<GLint>(viewport.y());
+    part.depths.resize(std::size_t(part.width) * std::size_t(part.height));
+    part.step = std::ldexp(1.0, -std::min(glInteger(GL_DEPTH_BITS), 24));
+    part.subpixel = std::ldexp(1.0, -std::clamp(glInteger(GL_SUBPIXEL_BITS), 4, 16));
+    const auto read = [&] {
+        glReadPixels(x, y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, part.depths.data());
+    };
+    if (ResolvedDepth::isNeeded(state)) {
+        const auto place = resolved.read(state, x, y, part.width, part.height, read);
+        part.place = place.value_or(part.place);
+        return place.has_value();
+    }
+    part.offPlace = glInteger(GL_SAMPLES) > 0 ? 0.5 : 0.0; // whichever sample a window's depth is
+    read();
+    return true;
+}
+
+/// A fragment where a bit is set. The empty bitmap moves the raster position, which no place off the screen may set.
+void drawBits(osg::State& state, const DepthPicture& part, const std::vector<std::uint8_t>& bits) {
+    state.applyProjectionMatrix(nullptr);
+    state.applyModelViewMatrix(nullptr);
+    glRasterPos2d(-1.0, -1.0);
+    glBitmap(0, 0, 0.0f, 0.0f, static_cast<GLfloat>(part.x), static_cast<GLfloat>(part.y), nullptr);
+    glBitmap(part.width, part.height, 0.0f, 0.0f, 0.0f, 0.0f, bits.data());
+}
+
+/// The same as rectangles, one for each run of bits in a row: of glBitmap Mesa's llvmpipe (22.3) takes one sample only.
+void drawRuns(osg::State& state, const DepthPicture& part, const std::vector<std::uint8_t>& bits) {
+    const osg::ref_ptr<osg::RefMatrix> pixels =
+        new osg::RefMatrix(osg::Matrixd::ortho2D(0.0, part.viewportWidth, 0.0, part.viewportHeight));
+    state.applyProjectionMatrix(pixels);
+    state.applyModelViewMatrix(nullptr);
+    const std::size_t stride = bits.size() / std::size_t(part.height);
+    for (int y = 0; y < part.height; ++y) {
+        const std::uint8_t* row = bits.data() + stride * std::size_t(y);
+        const auto isSet = [row](int x) { return (row[x / 8] & (0x80 >> (x % 8))) != 0; };
+        for (int x = 0, first = 0; x < part.width; first = x) {
+            const bool set = isSet(first);
+            while (x < part.width && isSet(x) == set) ++x;
+            if (set) glRecti(part.x + first, part.y + y, part.x + x, part.y + y + 1);
+        }
+    }
+}
+
+} // namespace
+
+std::shared_ptr<const TracedFrames::Pieces> TracedFrames::piecesOf(const CasterDrawables* casters) {
+    if (!casters) return nullptr;
+    auto pieces = std::make_shared<Pieces>();
+    pieces->reserve(casters->list.size());
+    for (const auto& piece : casters->list) pieces->push_back({piece->fingerprint, piece->bounds});
+    return pieces;
+}
+
+/// Adds the boxes of those that others lack. @return false if there are too many.
+bool TracedFrames::addMissing(const Pieces& pieces, const Pieces& others, const osg::Vec3d& origin,
+                              std::vector<RayBox>& boxes) {
+    std::unordered_set<std::uint64_t> known;
+    for (const Piece& piece : others) known.insert(piece.fingerprint);
+    for (const Piece& piece : pieces) {
+        if (known.count(piece.fingerprint) > 0 || !piece.bounds.valid()) continue;
+        if (boxes.size() == mostBoxes) return false;
+        boxes.push_back({toGlm(piece.bounds._min - origin), toGlm(piece.bounds._max - origin)});
+    }
+    return true;
+}
+
+/// Where what casts differs; nullopt if that may be anywhere.
+std::optional<std::vector<RayBox>> TracedFrames::changesBetween(const Known& before, const Pieces* now,
+                                                                const osg::Vec3d& origin) {
+    std::vector<RayBox> boxes;
+    const bool comparable = before.pieces && now && before.frame.origin == origin;
+    if (!comparable || !addMissing(*before.pieces, *now, origin, boxes) ||
+        !addMissing(*now, *before.pieces, origin, boxes))
+        return std::nullopt;
+    return boxes;
+}
+
+std::shared_ptr<const TracedFrames::Known> TracedFrames::find(const TracedFrame& frame) {
+    Lock lock(_mutex);
+    const auto* found = _known.find(
+        [&](const auto& known) { return known->frame.stage == frame.stage && known->frame.light == frame.light; });
+    return found ? *found : nullptr;
+}
+
+void TracedFrames::keep(std::shared_ptr<const Known> known) {
+    Lock lock(_mutex);
+    _known.dropIf([&](const auto& old) {
+        return old->frame.stage == known->frame.stage && old->frame.light == known->frame.light;
+    });
+    _known.dropOldestBeyond(most - 1);
+    _known.add(std::move(known));
+}
+
+std::vector<std::uint8_t> TracedFrames::bitsOf(TracedFrame frame) {
+    const std::shared_ptr<const Known> before = find(frame);
+    const bool sameScene = before && before->scene.lock() == frame.scene;
+    const auto pieces = sameScene ? before->pieces : piecesOf(frame.pieces.get());
+    frame.pieces = nullptr;
+    std::optional<std::vector<RayBox>> changed;
+    if (before && before->frame.clipFromScene == frame.clipFromScene &&
+        before->frame.lightInScene == frame.lightInScene && isSamePart(before->frame.picture, frame.picture))
+        changed = sameScene ? std::vector<RayBox>() : changesBetween(*before, pieces.get(), frame.origin);
+    std::optional<FormerShadow> former;
+    if (changed) former.emplace(FormerShadow{before->frame.picture, before->bits, std::move(*changed)});
+    const std::shared_ptr<const RayScene> scene = std::move(frame.scene);
+    TracedBits found =
+        depthBufferShadow(*scene, frame.picture, frame.clipFromScene, frame.lightInScene, former ? &*former : nullptr);
+    _traced += found.traced;
+    keep(std::make_shared<const Known>(Known{std::move(frame), scene, pieces, found.bits}));
+    return std::move(found.bits);
+}
+
+std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
+    osg::State& state = *renderInfo.getState();
+    if (glInteger(GL_DEPTH_BITS) == 0) return noDepth;
+    const PlainPixels plain(state);
+    DepthPicture part = partInScissor(*state.getCurrentViewport());
+    if (part.width <= 0 || part.height <= 0) return "";
+    if (!readDepth(state, *resolved, part)) return unresolvedDepth;
+    if (pass.isInterlaced()) part.neighbour = 2;
+    part.offPlace += pushedBack.x;
+    part.step *= 1.0 + pushedBack.y; // of which depthBufferShadow() allows for a few
+    const DrawnError drawn = drawnError(frame.clipFromScene, toGlm(state.getProjectionMatrix()), part.viewportWidth,
+                                        rounding, frame.scene->longestSide());
+    part.drawnDepth = drawn.depth;
+    part.drawnPixels = drawn.pixels;
+    pass.stencilEqual(bit, 0, bit);
+    TracedFrame seen = frame;
+    std::vector<float> depths;
+    depths.swap(part.depths);
+    seen.picture = part;
+    seen.picture.depths.swap(depths);
+    const std::vector<std::uint8_t> bits = frames->bitsOf(std::move(seen));
+    (glInteger(GL_SAMPLES) > 0 ? drawRuns : drawBits)(state, part, bits);
+    return "";
+}
 
 TracedShadowTechnique::TracedShadowTechnique()
     : _casters(new RaySceneCache), _resolved(new ResolvedDepth), _frames(new TracedFrames) {}
