@@ -21,7 +21,7 @@ constexpr int tankSides = 20;
 /// Counter-clockwise from above; every corner is seen from the first.
 using Outline = std::vector<glm::dvec2>;
 
-/// KeyNumbers as the standard has them for every library: its distributions differ.
+/// Numbers as the standard has them for every library: its distributions differ.
 class Dice {
 public:
     double between(double low, double high) { return low + (high - low) * (double(_twister()) / 4294967296.0); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// KeyNumbers that are none, planes without a normal, groups without casters: no shadow, and nothing else changes.
+// Numbers that are none, planes without a normal, groups without casters: no shadow, and nothing else changes.
 #include "Trial.h"
 
 #include <osg/Geometry>
