@@ -5,7 +5,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace gnomon;
@@ -22,8 +24,56 @@ glm::dvec3 seenBy(const glm::dmat4& matrix, const glm::dvec3& point) {
 MapOutline outlineOf(const LightFrame& frame, const glm::dvec3& low, const glm::dvec3& high,
                      const glm::dmat4& sceneFromBox = here) {
     MapOutline outline(frame);
-    outline.addBox(low, high, sceneFromBox);
+    outline.addBox({low, high, sceneFromBox});
     return outline;
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+const glm::dvec3 down(0.0, 0.0, -1.0), north(0.0, 1.0, 0.0);
+
+/// A pixel is a 100th wide wherever it is.
+glm::dmat4 map() {
+    return glm::ortho(-1.0, 1.0, -1.0, 1.0, 0.0, 100.0) * glm::lookAt(glm::dvec3(0, 0, 50), glm::dvec3(0.0), north);
+}
+
+/// From above; a pixel is a 100th as wide as it is far away.
+glm::dmat4 flying(double height) {
+    return glm::perspective(std::acos(0.0), 1.0, 0.01, 1000.0) *
+           glm::lookAt(glm::dvec3(0, 0, height), glm::dvec3(0.0), north);
+}
+const glm::dvec2 size200(200.0);
+
+glm::dvec3 sunAt(double degrees) { return {std::cos(glm::radians(degrees)), 0.0, std::sin(glm::radians(degrees))}; }
+
+double sideOn(const glm::dvec3& low, const glm::dvec3& high, const LightFrame& light, const glm::dmat4& view,
+              const glm::dmat4& sceneFromBox = here, const HalfSpaces& halfSpaces = {}) {
+    TexelDensity seen(light, view, size200);
+    seen.addBox({low, high, sceneFromBox}, halfSpaces);
+    return seen.side;
+}
+
+double onGround(double elevation) { return sideOn({-5, -5, 0}, {5, 5, 0}, sunFrame(sunAt(elevation)), map()); }
+
+/// The eye 2 above the ground z = 0, looking along +x, half a right angle to all sides.
+glm::dmat4 standing() {
+    return glm::perspective(std::acos(0.0), 1.0, 0.25, 4000.0) *
+           glm::lookAt(glm::dvec3(0.0, 0.0, 2.0), glm::dvec3(1.0, 0.0, 2.0), glm::dvec3(0.0, 0.0, 1.0));
+}
+
+SeenRange rangeOf(double nearest, double farthest) {
+    SeenRange range(here);
+    range.nearest = nearest;
+    range.farthest = farthest;
+    return range;
+}
+
+bool isIn(const HalfSpaces& part, const glm::dvec4& point) {
+    return std::all_of(part.begin(), part.end(), [&](const auto& half) { return glm::dot(half, point) >= 0.0; });
+}
+
+bool isWithin(const glm::dmat4& coneFromScene, const glm::dvec3& point, double w = 1.0) {
+    const glm::dvec4 at = coneFromScene * glm::dvec4(point * w, w);
+    return at.z >= 0.0 && at.x * at.x + at.y * at.y <= at.z * at.z;
 }
 
 } // namespace
@@ -75,7 +125,7 @@ TEST(MapOutline, HasSidesAndABodyAboutWhatIsInIt) {
             EXPECT_GT(glm::dot(side, glm::dvec4(-1.0, 2.0, 0.0, 1.0)), 0.0);
         }
         MapOutline again(frame); // from the scene's places back to the light's
-        for (const glm::dvec4& p : outline.body()) again.addBox(glm::dvec3(p) / p.w, glm::dvec3(p) / p.w, here);
+        for (const glm::dvec4& p : outline.body()) again.addBox({glm::dvec3(p) / p.w, glm::dvec3(p) / p.w});
         EXPECT_NEAR(again.nearest, outline.nearest, 1e-12);
         EXPECT_NEAR(again.farthest, outline.farthest, 1e-12);
         EXPECT_NEAR(fitMap(frame, again, again, 0.0, 0.0, 1.0).area(),
@@ -191,7 +241,7 @@ TEST(MapFit, HoldsEveryPointOfABoxThatIsInView) {
             trial % 2 ? sunFrame(glm::normalize(point())) : lampFrame(5.0 * point(), {0.0, 1.0, 0.0}, 1.5);
         const glm::dvec4 view(point(), 0.25);
         MapOutline outline(frame);
-        outline.addBox(glm::dvec3(-1.0), glm::dvec3(1.0), here, {view});
+        outline.addBox({glm::dvec3(-1.0), glm::dvec3(1.0)}, {view});
         if (outline.empty()) continue;
         const MapFit fit = fitMap(frame, outline, outline, 0.0, 0.001, 1e-3);
         for (int i = 0; i < 100; ++i) {
@@ -218,4 +268,199 @@ TEST(MapErrors, GrowWithTheTexelAndOfALampTowardsIt) {
     EXPECT_GT(errors(lamp, 512).nearest.steepest, errors(lamp, 512).farthest.steepest);
     EXPECT_LT(errors(sun, 1024).nearest.depth, 1e-5);
     EXPECT_LT(errors(sun, 1024).nearest.texels, 0.01);
+}
+
+TEST(TexelDensity, AreStretchedByTheSlopeOfFlatGroundsUpToEightTimes) {
+    EXPECT_NEAR(onGround(90.0), 0.01, 1e-12);
+    EXPECT_NEAR(onGround(30.0), 0.01 * 0.5, 1e-12);
+    EXPECT_NEAR(onGround(1.0), 0.01 / 8.0, 1e-12);
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 1}, sunFrame(sunAt(30.0)), map()), 0.01 * 0.5, 1e-12); // a landscape
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 5}, sunFrame(sunAt(90.0)), map()), 0.01 * 0.5, 1e-12); // a body
+    // A wall that was built lying, ten times as large, is as steep to a sun at 60 degrees as a ground to one at 30.
+    const glm::dmat4 standing = glm::scale(glm::rotate(here, glm::radians(90.0), north), glm::dvec3(10.0));
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, sunFrame(sunAt(60.0)), map(), standing), 0.01 * 0.5, 1e-12);
+}
+
+TEST(TexelDensity, AreSmallestWhereWhatIsSeenIsNearest) {
+    const LightFrame sun = sunFrame(sunAt(90.0));
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 0}, sun, flying(20.0)), 0.2, 1e-12);
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 10}, sun, flying(20.0)), 0.1 / 2.0, 1e-12);
+    EXPECT_NEAR(sideOn({-5, -5, 0}, {5, 5, 10}, sun, flying(20.0), here, {{0, 0, -1, 4}}), 0.16 / 2.0, 1e-12);
+    EXPECT_EQ(sideOn({-5, -5, 0}, {5, 5, 30}, sun, flying(20.0)), 0.0); // around the eye
+    EXPECT_EQ(sideOn({-5, -5, 0}, {5, 5, 0}, sun, flying(20.0), here, {{0, 0, 1, -1}}), infinity);
+
+    TexelDensity three(sun, flying(20.0), size200);
+    three.addBox({{-5, -5, 0}, {5, 5, 0}}, {});
+    three.addBox({{-5, -5, 12}, {5, 5, 12}}, {});
+    three.addBox({{-5, -5, 4}, {5, 5, 4}}, {});
+    EXPECT_NEAR(three.side, 0.08, 1e-12);
+}
+
+// As a share of the distance from the lamp: in its map that is what a texel is. The farther from below it, the more slanted.
+TEST(TexelDensity, AreSeenFromWhereALampIs) {
+    const LightFrame lamp = lampFrame({0, 0, 4}, down, 1.0);
+    const auto cosine = [](double beside, double above) { return above / std::hypot(beside, above); };
+    const double corner = std::sqrt(2.0);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lamp, map()), 0.01 / 4.0 * cosine(corner, 4.0), 1e-12);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lampFrame({0, 0, 8}, down, 1.0), map()),
+                0.01 / 8.0 * cosine(corner, 8.0), 1e-12);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 0}, lamp, flying(20.0)), 0.2 / 4.0 * cosine(corner, 4.0), 1e-12);
+    EXPECT_NEAR(sideOn({-3, -3, 0}, {3, 3, 0}, lamp, map()), 0.01 / 4.0 * cosine(3.0 * corner, 4.0), 1e-12);
+    EXPECT_NEAR(sideOn({-1, -1, 0}, {1, 1, 2}, lamp, map()), 0.01 / 4.0 / 2.0, 1e-12); // a body's farthest
+}
+
+// A lamp a metre behind the eye, over a landscape that reaches behind both.
+TEST(TexelDensity, AreAsSmallWhicheverBoxComesFirst) {
+    const glm::dmat4 view = glm::perspective(std::acos(0.0), 1.0, 0.1, 1000.0) *
+                            glm::lookAt(glm::dvec3(0, 0, 2), glm::dvec3(1, 0, 2), glm::dvec3(0, 0, 1));
+    const LightFrame lamp = lampFrame({-1, 0, 2}, {1, 0, 0}, 1.0);
+    const HalfSpaces ahead{{1, 0, 0, -0.1}};
+    const auto side = [&](bool mountainFirst) {
+        TexelDensity seen(lamp, view, size200);
+        for (const bool mountain : {mountainFirst, !mountainFirst})
+            mountain ? seen.addBox({{60, -10, 0}, {80, 10, 20}}, ahead)
+                     : seen.addBox({{-100, -100, -1}, {100, 100, 3}}, ahead);
+        return seen.side;
+    };
+    EXPECT_EQ(side(true), side(false));
+    EXPECT_LT(side(true), 0.001 / 1.1); // at the near plane
+}
+
+TEST(TexelDensity, AreAsSmallAsTheirShorterSide) {
+    for (const glm::dvec2& given : {glm::dvec2(200, 100), glm::dvec2(100, 200)}) {
+        TexelDensity seen(sunFrame(sunAt(90.0)), map(), given);
+        seen.addBox({{-5, -5, 0}, {5, 5, 0}}, {});
+        EXPECT_NEAR(seen.side, 0.01, 1e-12);
+    }
+}
+
+TEST(TexelsFor, AreAsManyAsWantedInSteps) {
+    EXPECT_EQ(texelsFor(512.0, 1024, 0), 512);
+    EXPECT_EQ(texelsFor(513.0, 1024, 0), 544);
+    EXPECT_EQ(texelsFor(0.0, 1024, 0), 64);
+    EXPECT_EQ(texelsFor(2000.0, 1024, 0), 1024);
+    EXPECT_EQ(texelsFor(infinity, 1024, 0), 1024);
+    EXPECT_EQ(texelsFor(1000.0, 1000, 0), 1000);
+    EXPECT_EQ(texelsFor(0.0, 16, 0), 16);
+}
+
+TEST(TexelsFor, StayUntilThereAreTooFewOrTwiceTooMany) {
+    for (const int before : {450, 512, 1000}) EXPECT_EQ(texelsFor(512.0, 1024, before), before);
+    EXPECT_EQ(texelsFor(512.0, 1024, 440), 512);
+    EXPECT_EQ(texelsFor(512.0, 2048, 1056), 512);
+    EXPECT_EQ(texelsFor(512.0, 600, 1000), 512); // fewer are allowed than before
+    EXPECT_EQ(texelsFor(0.0, 1024, 64), 64);
+    EXPECT_EQ(texelsFor(infinity, 1024, 1024), 1024);
+}
+
+TEST(CascadeSplits, AreEachAsManyTimesAsFarAsTheOneBefore) {
+    const std::vector<double> splits = cascadeSplits(rangeOf(1.0, 1000.0), 3);
+    ASSERT_EQ(splits.size(), 2u);
+    EXPECT_NEAR(splits[0], 10.0, 1e-9);
+    EXPECT_NEAR(splits[1], 100.0, 1e-9);
+}
+
+TEST(CascadeSplits, AreNoMoreThanAreOfUse) {
+    EXPECT_EQ(cascadeSplits(rangeOf(10.0, 1000.0), 1).size(), 0u);
+    EXPECT_EQ(cascadeSplits(rangeOf(10.0, 39.0), 4).size(), 0u); // two parts would be less than twice as far each
+    EXPECT_EQ(cascadeSplits(rangeOf(10.0, 41.0), 4).size(), 1u);
+    EXPECT_EQ(cascadeSplits(rangeOf(1.0, 1.0), 4).size(), 0u); // as orthographic views are
+    EXPECT_EQ(cascadeSplits(SeenRange(here), 4).size(), 0u);
+}
+
+TEST(CascadeSplits, HoldForWhatIsAtTheEyeItself) {
+    const std::vector<double> splits = cascadeSplits(rangeOf(0.0, 1000.0), 4);
+    EXPECT_EQ(splits.size(), 3u);
+    for (const double split : splits) EXPECT_GT(split, 0.0);
+}
+
+// From 1 to 1000: one part if it may be 1000 times as far at its end, two if 31.6 times, three if 10 times.
+TEST(Cascades, AreAsManyAsKeepTexelsToThreePixels) {
+    const SeenRange seen = rangeOf(1.0, 1000.0);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 1001.0, 0), 1);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 999.0, 0), 2);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 31.0, 0), 3); // 31² is less than 1000
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 32.0, 0), 2);
+    EXPECT_EQ(cascadesFor(seen, 100.0, 0), 4);
+    EXPECT_EQ(cascadesFor(rangeOf(1.0, 1.0), 1.0, 0), 1);
+}
+
+TEST(Cascades, StayAsManyAsTheyWereWhereAnotherCountHardlyMatters) {
+    const SeenRange seen = rangeOf(1.0, 1000.0);
+    for (const double pixels : {3.0 / 31.0, 3.0 / 32.0})
+        for (const int before : {2, 3}) EXPECT_EQ(cascadesFor(seen, pixels, before), before);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 31.0, 1), 3);
+    EXPECT_EQ(cascadesFor(seen, 3.0 / 32.0, 4), 2);
+}
+
+// A ray to the lower edge of such a picture falls as far as it goes: it meets the ground 2 ahead.
+TEST(SeenRange, OfAGroundIsFromWhereThePictureBeginsToWhereTheGroundEnds) {
+    SeenRange range(standing());
+    range.addBox({{-50.0, -50.0, 0.0}, {300.0, 50.0, 0.0}}, viewPart(standing(), {}, 0));
+    EXPECT_NEAR(range.nearest, 2.0, 1e-9);
+    EXPECT_NEAR(range.farthest, 300.0, 1e-9);
+}
+
+TEST(SeenRange, IsEmptyWhereNothingIsInView) {
+    SeenRange range(standing());
+    range.addBox({{-50.0, -50.0, 0.0}, {-1.0, 50.0, 9.0}}, viewPart(standing(), {}, 0));
+    EXPECT_TRUE(range.empty());
+}
+
+TEST(ViewPart, EachPointOfAViewIsInThePartThatItsDistanceSays) {
+    const glm::dmat4 clipFromScene = standing();
+    const std::vector<double> splits{10.0, 100.0};
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(-1.2, 1.2), distance(-2.0, 9.0);
+    for (int i = 0; i < 2000; ++i) {
+        const double w = std::exp(distance(random)), x = unit(random), y = unit(random);
+        const glm::dvec4 point(w, x * w, 2.0 + y * w, 1.0);
+        const bool inView = std::max(std::abs(x), std::abs(y)) <= 1.0 && w >= 0.25 && w <= 4000.0;
+        const std::size_t right = w < 10.0 ? 0 : w < 100.0 ? 1 : 2;
+        for (std::size_t part = 0; part < 3; ++part)
+            EXPECT_EQ(isIn(viewPart(clipFromScene, splits, part), point), inView && part == right) << w << " " << part;
+    }
+}
+
+TEST(CornersWithin, AreABoxsOwnWhereAllOfItIsInside) {
+    const auto corners = cornersWithin({{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}, {{1.0, 0.0, 0.0, 0.0}});
+    EXPECT_EQ(corners.size(), 8u);
+}
+
+TEST(CornersWithin, AreNoneOfABoxThatIsOutsideOneHalfSpace) {
+    EXPECT_TRUE(cornersWithin({{1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}}, {{-1.0, 0.0, 0.0, 0.5}}).empty());
+}
+
+TEST(CornersWithin, EndAtTheHalfSpacesBoundary) {
+    double most = 0.0;
+    for (const glm::dvec4& corner :
+         cornersWithin({{0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}, glm::scale(here, glm::dvec3(3.0))}, {{-1.0, 0.0, 0.0, 4.5}}))
+        most = std::max(most, corner.x);
+    EXPECT_NEAR(most, 4.5, 1e-12);
+}
+
+TEST(SpotCone, OfThirtyDegreesDownHoldsADiscOfTheTangentOnTheFloor) {
+    const glm::dmat4 cone = gnomon::coneFromScene({1.0, 2.0, 5.0}, {{0.0, 0.0, -1.0}, std::asin(0.5)});
+    const double radius = 5.0 / std::sqrt(3.0);
+    EXPECT_TRUE(isWithin(cone, {1.0, 2.0, 0.0}));
+    EXPECT_TRUE(isWithin(cone, {1.0 + 0.999 * radius, 2.0, 0.0}));
+    EXPECT_FALSE(isWithin(cone, {1.0, 2.0 - 1.001 * radius, 0.0}));
+    EXPECT_FALSE(isWithin(cone, {1.0, 2.0, 6.0})) << "behind it";
+}
+
+/// By the angle between the axis and the way to a point, as OpenGL has it.
+TEST(SpotCone, HoldsWhatIsAtNoLargerAngleFromItsAxisWhereverItStands) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> side(-10.0, 10.0);
+    const auto place = [&] { return glm::dvec3(side(random), side(random), side(random)); };
+    int within = 0;
+    for (int i = 0; i < 10000; ++i) {
+        const glm::dvec3 apex = place(), axis = glm::normalize(place()), point = place();
+        const double cutoff = std::abs(side(random)) / 10.0 * std::acos(0.0);
+        const double angle = std::acos(glm::dot(axis, glm::normalize(point - apex)));
+        if (std::abs(angle - cutoff) < 1e-9) continue;
+        within += angle < cutoff;
+        EXPECT_EQ(isWithin(gnomon::coneFromScene(apex, {axis, cutoff}), point, 0.25), angle < cutoff);
+    }
+    EXPECT_GT(within, 1000);
 }

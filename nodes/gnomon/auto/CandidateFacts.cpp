@@ -123,8 +123,7 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
         receiversOf(byTriangles ? without(*boxes.layers->pieces, view) : view.frame, scene.eyeFromScene(view.frame));
     const auto seenOf = [&](SeenEdges::Relief relief) {
         SeenEdges seen(_clipFromScene, _pixels, *forecast.bounds, light);
-        for (const MapReceiver& receiver : receivers)
-            seen.addReceiver({receiver.low, receiver.high, receiver.sceneFromBox}, relief);
+        for (const MapReceiver& receiver : receivers) seen.addReceiver(receiver, relief);
         for (const MapForecast::Map& map : forecast.each) seen.addMap(map.mapFromScene);
         return seen;
     };

@@ -6,10 +6,8 @@
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/base/NumberText.h>
 #include <gnomon/compositor/StencilMarks.h>
-#include <gnomon/map/MapCasters.h>
-#include <gnomon/map/MapSettings.h>
-#include <gnomon/map/ShadowMapCache.h>
-#include <gnomon/mapfit/TexelDensity.h>
+#include <gnomon/map/LightShadowMaps.h>
+#include <gnomon/mapfit/MapFit.h>
 #include <gnomon/volume/VolumeForecast.h>
 
 #include <algorithm>
@@ -177,7 +175,7 @@ private:
         ShadowMapOptions options;
         options.cascades = cascades;
         options.size = size;
-        return ShadowMapCache::forecast(_view.frame, _view.light, boxes, options);
+        return forecastMaps(_view.frame, _view.light, boxes, options);
     }
 
     /// One map, and as many as the size asks for, where those are more.
@@ -210,7 +208,7 @@ private:
         map.map.filter = quality.filter;
         map.map.edges = quality.edges;
         map.map.cascades = cascades;
-        const double wish = MapSettings(map.map).pixels;
+        const double wish = widestTexel(map.map);
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
         const EdgeWidths& edges = mapped.edges;
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)

@@ -6,7 +6,7 @@
 #include <gnomon/casters/CasterLayers.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/ViewFrame.h>
-#include <gnomon/mapfit/SpotCone.h>
+#include <gnomon/mapfit/MapFit.h>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

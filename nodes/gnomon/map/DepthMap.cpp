@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ShaderProgram.h>
@@ -6,8 +7,11 @@
 #include <gnomon/map/DepthMap.h>
 
 #include <OpenThreads/ScopedLock>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace gnomon {
 namespace {
@@ -77,13 +81,6 @@ osg::ref_ptr<osg::Texture2D> mapTexture(const glm::ivec2& size, osg::Texture::Fi
 constexpr const char* noSamplers =
     "the penumbras are no wider than the filter, because this context has no sampler objects. Use OpenGL 3.3 or later.";
 
-/// Parts that no tile is in, too.
-void clearAll() {
-    glDisable(GL_SCISSOR_TEST);
-    glClear(GL_DEPTH_BUFFER_BIT);
-    glEnable(GL_SCISSOR_TEST);
-}
-
 PixelRect wholeOf(const MapPicture::Tile& tile, int size) { return {tile.corner.x, tile.corner.y, size, size}; }
 
 /// What is drawn next goes there.
@@ -96,7 +93,7 @@ void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size, c
 }
 
 void drawMeshes(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromScene,
-                const std::vector<MapPicture::Layer::Mesh>& meshes) {
+                const std::vector<MapLayer::Drawn>& meshes) {
     for (const auto& mesh : meshes) {
         if (!isInMap(mesh.box, clipFromScene)) continue;
         const glm::dmat4 clipFromMesh = clipFromScene * mesh.sceneFromMesh;
@@ -115,6 +112,165 @@ void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::
         gl.glBlitFramebuffer(part.x, part.y, endX, endY, part.x, part.y, endX, endY, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
     }
     glEnable(GL_SCISSOR_TEST);
+}
+
+/// OpenGL as a map is drawn under, each surface half a texel of its own slope deeper; put back at its end. As much of the
+/// slope that is seen counts in map.frag.
+class MapState {
+public:
+    MapState() {
+        glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
+                     GL_STENCIL_BUFFER_BIT);
+        for (const GLenum mode : {GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
+        for (GLenum plane = GL_CLIP_PLANE0; plane <= GL_CLIP_PLANE5; ++plane) glDisable(plane);
+        for (const GLenum mode :
+             {GLenum(GL_SCISSOR_TEST), GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)})
+            glEnable(mode);
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_TRUE);
+        glDepthRange(0.0, 1.0);
+        glClearDepth(1.0);
+        glPolygonOffset(0.5f, 0.0f);
+    }
+    ~MapState() { glPopAttrib(); }
+    MapState(const MapState&) = delete;
+    MapState& operator=(const MapState&) = delete;
+};
+
+/// While a caster's own state is applied. OpenGL and osg::State are as before at its end.
+class OwnState {
+public:
+    OwnState(osg::State& state, const OwnCasters& own, const OwnDrawing& drawing)
+        : _state(state),
+          _size(static_cast<unsigned>(state.getStateSetStackSize())),
+          _projection(new osg::RefMatrix(state.getProjectionMatrix())),
+          _modelview(new osg::RefMatrix(state.getModelViewMatrix())) {
+        _state.apply(); // so that osg::State knows now what it will be told at the end
+        _unit = _state.getActiveTextureUnit();
+        glPushAttrib(GL_ALL_ATTRIB_BITS);
+        for (const auto& set : own.view.states) _state.pushStateSet(set);
+        for (const auto& set : drawing.states) _state.pushStateSet(set);
+        _state.apply();
+        _state.setActiveTextureUnit(0); // evaluators know no other
+    }
+    ~OwnState() {
+        _state.popStateSetStackToSize(_size);
+        _state.apply();
+        _state.setActiveTextureUnit(_unit);
+        glPopAttrib();
+        _state.applyProjectionMatrix(_projection);
+        _state.applyModelViewMatrix(_modelview);
+    }
+    OwnState(const OwnState&) = delete;
+    OwnState& operator=(const OwnState&) = delete;
+
+private:
+    osg::State& _state;
+    const unsigned _size;
+    unsigned _unit = 0;
+    const osg::ref_ptr<osg::RefMatrix> _projection, _modelview;
+};
+
+osg::ref_ptr<osg::RefMatrix> refMatrix(const glm::dmat4& matrix) { return new osg::RefMatrix(toOsg(matrix)); }
+
+/// Nothing that a lamp has nearer than this casts. The plane is one that does not cut the caster already, if there is one.
+void clipOwn(osg::State& state, const OwnCaster& caster, const glm::dmat4& clipFromEye, double nearest) {
+    if (!(nearest > 0.0)) return;
+    const auto isUsed = [&caster](GLenum plane) {
+        const auto& clips = caster.drawing->casting.clips;
+        return std::any_of(clips.begin(), clips.end(),
+                           [plane](const NumberedPlane& used) { return GL_CLIP_PLANE0 + used.first == plane; });
+    };
+    GLenum free = GL_CLIP_PLANE0;
+    while (isUsed(free) && free < GL_CLIP_PLANE5) ++free;
+    const glm::dvec4 distance = glm::row(clipFromEye, 3), plane = distance - glm::dvec4(0.0, 0.0, 0.0, nearest);
+    state.applyModelViewMatrix(nullptr);
+    glClipPlane(free, &plane[0]);
+    glEnable(free);
+}
+
+/// By its own code, at what that costs in the view. The modelview is the view's, so that what goes by the eye, as
+/// tessellation may, looks as it does there.
+void drawOwn(osg::RenderInfo& renderInfo, const MapPicture& picture, const OwnCaster& caster,
+             const MapPicture::Tile& tile, const PixelRect& texels) {
+    osg::State& state = *renderInfo.getState();
+    const glm::dmat4 clipFromEye = tile.clipFromScene * glm::inverse(picture.own.view.eyeFromScene);
+    glViewport(tile.corner.x, tile.corner.y, picture.size, picture.size);
+    glScissor(texels.x, texels.y, texels.width, texels.height);
+    glMatrixMode(GL_PROJECTION);
+    glLoadIdentity(); // else Mesa keeps a part of a perspective's inverse, and cuts elsewhere
+    state.applyProjectionMatrix(refMatrix(clipFromEye));
+    if (!state.getLastAppliedProgramObject()) clipOwn(state, caster, clipFromEye, tile.nearest);
+    state.applyModelViewMatrix(refMatrix(picture.own.view.eyeFromScene * caster.sceneFromLocal));
+    for (const auto& [number, plane] : caster.drawing->casting.clips) {
+        const osg::Vec4d inLocal = caster.drawing->groupFromLocal * plane;
+        glClipPlane(GL_CLIP_PLANE0 + number, inLocal.ptr());
+        glEnable(GL_CLIP_PLANE0 + number);
+    }
+    if (state.getUseModelViewAndProjectionUniforms()) state.applyModelViewAndProjectionUniformsIfRequired();
+    caster.drawing->drawable->draw(renderInfo);
+}
+
+using Parts = std::vector<MapPicture::Part>;
+
+std::string drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
+                      const Parts& parts) {
+    if (parts.empty()) return "";
+    osg::State& state = *renderInfo.getState();
+    if (!layer.meshes.empty()) {
+        state.apply(picture.program.get());
+        if (!hasProgram(state)) return noProgram;
+        for (const auto& [tile, texels] : parts) {
+            drawInto(state, *tile, picture.size, texels);
+            drawMeshes(renderInfo, tile->clipFromScene, layer.meshes);
+        }
+    }
+    if (layer.cutouts.empty()) return "";
+    state.apply(picture.cutoutProgram.get());
+    if (!hasProgram(state)) return noProgram;
+    setUniform(state, "cutout", 0);
+    for (const MapLayer::Cutout& cutout : layer.cutouts) {
+        state.applyTextureAttribute(0, cutout.texture);
+        setUniform(state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
+        for (const auto& [tile, texels] : parts) {
+            drawInto(state, *tile, picture.size, texels);
+            cutout.geometry->draw(renderInfo);
+        }
+    }
+    return "";
+}
+
+/// @param all  of the texture is to be cleared, parts that no tile is in, too.
+std::string drawStill(osg::RenderInfo& renderInfo, const MapPicture& picture, const Parts& parts, bool all) {
+    if (all) {
+        glDisable(GL_SCISSOR_TEST);
+        glClear(GL_DEPTH_BUFFER_BIT);
+        glEnable(GL_SCISSOR_TEST);
+    }
+    for (const auto& [tile, texels] : all ? Parts() : parts) {
+        glScissor(texels.x, texels.y, texels.width, texels.height);
+        glClear(GL_DEPTH_BUFFER_BIT);
+    }
+    return drawLayer(renderInfo, picture, picture.still, parts);
+}
+
+std::string drawMovers(osg::RenderInfo& renderInfo, const MapPicture& picture, const Parts& parts) {
+    const std::string cause = drawLayer(renderInfo, picture, picture.moving, parts);
+    if (!cause.empty()) return cause;
+    for (const OwnCaster& caster : picture.own.casters) {
+        const auto isIn = [&](const MapPicture::Part& part) { return isInMap(caster.box, part.tile->clipFromScene); };
+        if (std::none_of(parts.begin(), parts.end(), isIn)) continue;
+        const OwnState own(*renderInfo.getState(), picture.own, *caster.drawing);
+        const MapState map;
+        glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+        if (const float alpha = caster.drawing->casting.ownFrom; alpha > 0.0f) {
+            glEnable(GL_ALPHA_TEST);
+            glAlphaFunc(GL_GEQUAL, alpha);
+        }
+        for (const MapPicture::Part& part : parts)
+            if (isIn(part)) drawOwn(renderInfo, picture, caster, *part.tile, part.texels);
+    }
+    return "";
 }
 
 constexpr const char* noTarget = "this context cannot render into a depth texture, so there is no map. Use OpenGL 3.0 "
@@ -168,7 +324,7 @@ bool MapPicture::Layer::operator==(const Layer& other) const {
 }
 
 const MapPicture::Tile* MapPicture::findStill(const Tile& tile, const MapPicture& other) const {
-    if (!(still == other.still && size == other.size && slopeOffset == other.slopeOffset)) return nullptr;
+    if (!(still == other.still && size == other.size)) return nullptr;
     const auto found = std::find_if(tiles.begin(), tiles.end(), [&tile](const Tile& each) {
         return each.corner == tile.corner && each.clipFromScene == tile.clipFromScene;
     });
@@ -225,46 +381,31 @@ std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const Ma
     if (!gl.isFrameBufferObjectSupported) return noTarget;
     const ScratchFramebuffer framebuffer(gl);
     if (!attach(state, target, framebuffer)) return noTarget;
-    const MapState mapState(picture.slopeOffset);
+    const MapState mapState;
     const bool sameMoving = target.shown && target.shown->hasSameMoving(picture);
-    std::vector<Due> due;
+    Parts still, moving;
+    std::vector<PixelRect> hidden; // by what moved
+    unsigned due = 0;
     for (const MapPicture::Tile& tile : picture.tiles) {
         const MapPicture::Tile* shown =
             target.shown && gl.glBlitFramebuffer ? target.shown->findStill(tile, picture) : nullptr;
-        const bool same = shown && (sameMoving || (shown->movers.empty() && tile.movers.empty()));
-        if (!same) due.push_back({&tile, shown});
+        if (shown && (sameMoving || (shown->movers.empty() && tile.movers.empty()))) continue;
+        ++due;
+        if (!shown) still.push_back({&tile, wholeOf(tile, picture.size)});
+        if (shown && !shown->movers.empty()) hidden.push_back(shown->movers);
+        if (!tile.movers.empty()) moving.push_back({&tile, tile.movers});
     }
-    std::string cause = drawStill(renderInfo, target, picture, due);
-    if (cause.empty()) cause = drawMoving(renderInfo, framebuffer, picture, due);
-    if (cause.empty()) drawn += static_cast<unsigned>(due.size());
+    std::string cause = drawStill(renderInfo, picture, still, !target.shown);
+    if (cause.empty()) cause = drawMoving(renderInfo, framebuffer, picture, hidden, moving);
+    if (cause.empty()) drawn += due;
     target.shown = cause.empty() ? &picture : nullptr;
-    if (!due.empty()) target.inBlocks = false;
+    if (due > 0) target.inBlocks = false;
     return cause;
 }
 
-std::string DepthMap::drawStill(osg::RenderInfo& renderInfo, const Target& target, const MapPicture& picture,
-                                const std::vector<Due>& due) const {
-    std::vector<Part> parts;
-    for (const Due& each : due)
-        if (!each.shown) parts.push_back({each.tile, wholeOf(*each.tile, picture.size)});
-    if (target.shown)
-        for (const Part& part : parts) {
-            glScissor(part.texels.x, part.texels.y, part.texels.width, part.texels.height);
-            glClear(GL_DEPTH_BUFFER_BIT);
-        }
-    else
-        clearAll();
-    return drawLayer(renderInfo, picture, picture.still, parts);
-}
-
 std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, const ScratchFramebuffer& framebuffer,
-                                 const MapPicture& picture, const std::vector<Due>& due) {
-    std::vector<PixelRect> hidden;
-    std::vector<Part> parts;
-    for (const Due& each : due) {
-        if (each.shown && !each.shown->movers.empty()) hidden.push_back(each.shown->movers);
-        if (!each.tile->movers.empty()) parts.push_back({each.tile, each.tile->movers});
-    }
+                                 const MapPicture& picture, const std::vector<PixelRect>& hidden,
+                                 const std::vector<MapPicture::Part>& parts) {
     if (hidden.empty() && parts.empty()) return "";
     osg::State& state = *renderInfo.getState();
     const auto& gl = *state.get<osg::GLExtensions>();
@@ -276,48 +417,10 @@ std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, const ScratchFrame
     if (!saved.isComplete()) return noTarget;
     copyDepths(gl, saved.name, framebuffer.name, hidden);
     std::vector<PixelRect> toHide;
-    for (const Part& part : parts) toHide.push_back(part.texels);
+    for (const auto& part : parts) toHide.push_back(part.texels);
     copyDepths(gl, framebuffer.name, saved.name, toHide);
     framebuffer.bind();
     return drawMovers(renderInfo, picture, parts);
-}
-
-std::string DepthMap::drawMovers(osg::RenderInfo& renderInfo, const MapPicture& picture,
-                                 const std::vector<Part>& parts) const {
-    const std::string cause = drawLayer(renderInfo, picture, picture.moving, parts);
-    if (!cause.empty() || picture.own.casters.empty()) return cause;
-    std::vector<OwnCasterPass::Target> targets;
-    for (const auto& [tile, texels] : parts)
-        targets.push_back({tile->corner, picture.size, texels, tile->clipFromScene, tile->nearest});
-    OwnCasterPass(renderInfo, picture.own, picture.slopeOffset).draw(targets);
-    return "";
-}
-
-std::string DepthMap::drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
-                                const std::vector<Part>& parts) const {
-    if (parts.empty()) return "";
-    osg::State& state = *renderInfo.getState();
-    if (!layer.meshes.empty()) {
-        state.apply(picture.program.get());
-        if (!hasProgram(state)) return noProgram;
-        for (const Part& part : parts) {
-            drawInto(state, *part.tile, picture.size, part.texels);
-            drawMeshes(renderInfo, part.tile->clipFromScene, layer.meshes);
-        }
-    }
-    if (layer.cutouts.empty()) return "";
-    state.apply(picture.cutoutProgram.get());
-    if (!hasProgram(state)) return noProgram;
-    setUniform(state, "cutout", 0);
-    for (const MapLayer::Cutout& cutout : layer.cutouts) {
-        state.applyTextureAttribute(0, cutout.texture);
-        setUniform(state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
-        for (const Part& part : parts) {
-            drawInto(state, *part.tile, picture.size, part.texels);
-            cutout.geometry->draw(renderInfo);
-        }
-    }
-    return "";
 }
 
 osg::ref_ptr<osg::Texture2D> DepthMap::savedTexture() {

@@ -2,7 +2,6 @@
 #pragma once
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/map/MapCasters.h>
-#include <gnomon/map/MapLayer.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
@@ -60,16 +59,15 @@ struct MapPicture : public osg::Referenced {
         double nearest = 0.0;          ///< w of clip space before which nothing is drawn; 0 for a sun.
         PixelRect movers;              ///< texels outside which nothing moves.
     };
-    /// What is drawn of a layer of the casters.
+    /// A tile, and what of it is drawn.
+    struct Part {
+        const Tile* tile;
+        PixelRect texels;
+    };
+    /// What is drawn of a layer of the casters. Two are equal if they look alike.
     struct Layer {
-        struct Mesh : public MapLayer::Drawn {
-            CullableFaces::Outside outside; ///< where the light is.
-
-            bool operator==(const Mesh& other) const {
-                return faces == other.faces && sceneFromMesh == other.sceneFromMesh && outside == other.outside;
-            }
-        };
-        std::vector<Mesh> meshes;              ///< whole ones.
+        osg::ref_ptr<const MapLayer> of;
+        std::vector<MapLayer::Drawn> meshes;   ///< whole ones.
         std::vector<MapLayer::Cutout> cutouts; ///< those that textures cut out.
 
         bool operator==(const Layer& other) const;
@@ -79,7 +77,6 @@ struct MapPicture : public osg::Referenced {
     osg::ref_ptr<const osg::StateSet> program;       ///< see shaderProgram().
     osg::ref_ptr<const osg::StateSet> cutoutProgram; ///< the same with CUTOUT.
     int size = 0;                                    ///< of a tile's side, texels.
-    double slopeOffset = 0.0; ///< how many texels of each surface's own slope it is drawn deeper.
     std::vector<Tile> tiles;
 
     /// True if what moves looks as in another picture.
@@ -128,27 +125,13 @@ private:
         osg::ref_ptr<const MapPicture> shown;
         bool inBlocks = false; ///< its blocks are those of what it shows.
     };
-    /// A tile that is to be drawn, and the one that is shown there; null if that has something else that stands still.
-    struct Due {
-        const MapPicture::Tile *tile, *shown;
-    };
-    /// A tile, and what of it is drawn.
-    struct Part {
-        const MapPicture::Tile* tile;
-        PixelRect texels;
-    };
     Target& targetOf(unsigned context);
     osg::ref_ptr<osg::Texture2D> savedTexture();
     bool attach(osg::State& state, Target& target, const ScratchFramebuffer& framebuffer) const;
     std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn);
-    std::string drawStill(osg::RenderInfo& renderInfo, const Target& target, const MapPicture& picture,
-                          const std::vector<Due>& due) const;
     std::string drawMoving(osg::RenderInfo& renderInfo, const ScratchFramebuffer& framebuffer,
-                           const MapPicture& picture, const std::vector<Due>& due);
-    std::string drawMovers(osg::RenderInfo& renderInfo, const MapPicture& picture,
-                           const std::vector<Part>& parts) const;
-    std::string drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
-                          const std::vector<Part>& parts) const;
+                           const MapPicture& picture, const std::vector<PixelRect>& hidden,
+                           const std::vector<MapPicture::Part>& parts);
 
     osg::ref_ptr<osg::Texture2D> _texture;
     osg::ref_ptr<osg::Texture2D> _saved;   ///< null until something moves.

@@ -1,57 +1,329 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/map/MapCasters.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/matrix.hpp>
 #include <osgUtil/StateGraph>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
 
 namespace gnomon {
 namespace {
 
-/// While a caster's own state is applied. OpenGL and osg::State are as before at its end.
-class OwnState {
-public:
-    OwnState(osg::State& state, const OwnCasters& own, const OwnDrawing& drawing)
-        : _state(state),
-          _size(static_cast<unsigned>(state.getStateSetStackSize())),
-          _projection(new osg::RefMatrix(state.getProjectionMatrix())),
-          _modelview(new osg::RefMatrix(state.getModelViewMatrix())) {
-        _state.apply(); // so that osg::State knows now what it will be told at the end
-        _unit = _state.getActiveTextureUnit();
-        glPushAttrib(GL_ALL_ATTRIB_BITS);
-        for (const auto& set : own.view.states) _state.pushStateSet(set);
-        for (const auto& set : drawing.states) _state.pushStateSet(set);
-        _state.apply();
-        _state.setActiveTextureUnit(0); // evaluators know no other
-    }
-    ~OwnState() {
-        _state.popStateSetStackToSize(_size);
-        _state.apply();
-        _state.setActiveTextureUnit(_unit);
-        glPopAttrib();
-        _state.applyProjectionMatrix(_projection);
-        _state.applyModelViewMatrix(_modelview);
-    }
-    OwnState(const OwnState&) = delete;
-    OwnState& operator=(const OwnState&) = delete;
+constexpr std::size_t mostSearched = 30000; // triangles a picture: ten milliseconds
 
-private:
-    osg::State& _state;
-    const unsigned _size;
-    unsigned _unit = 0;
-    const osg::ref_ptr<osg::RefMatrix> _projection, _modelview;
+/// From the origin to the segment between two points.
+inline double segmentDistance(const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 way = b - a;
+    const double square = glm::dot(way, way);
+    const double at = square > 0.0 ? glm::clamp(-glm::dot(a, way) / square, 0.0, 1.0) : 0.0;
+    return glm::length(a + at * way);
+}
+
+/// From the origin to a triangle.
+inline double triangleDistance(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const auto within = [&normal](const glm::dvec3& from, const glm::dvec3& to) {
+        return glm::dot(glm::cross(to - from, -from), normal) >= 0.0;
+    };
+    const double area = glm::length(normal);
+    if (area > 0.0 && within(a, b) && within(b, c) && within(c, a)) return std::abs(glm::dot(a, normal)) / area;
+    return std::min({segmentDistance(a, b), segmentDistance(b, c), segmentDistance(c, a)});
+}
+
+/// As it is drawn.
+MapLayer::Box boxOf(const CasterMesh& mesh, std::size_t first, std::size_t end) {
+    MapLayer::Box box{glm::dvec3(std::numeric_limits<double>::infinity()), {}};
+    box.high = -box.low;
+    for (std::size_t i = first; i < end; ++i) {
+        const glm::dvec3 vertex = toGlm(osg::Vec3d((*mesh.vertices)[(*mesh.triangles)[i]]));
+        box.low = glm::min(box.low, vertex);
+        box.high = glm::max(box.high, vertex);
+    }
+    return box;
+}
+
+/// In floats, as what is drawn: what is flat is so whatever its transform makes of the last bits.
+MapLayer::Box boxOf(const PlacedMesh& placed, const osg::Vec3d& origin) {
+    const auto rounded = [](const osg::Vec3d& v) { return toGlm(osg::Vec3d(osg::Vec3(v))); };
+    return {rounded(placed.bounds._min - origin), rounded(placed.bounds._max - origin)};
+}
+
+bool isFlat(const MapLayer::Box& box) {
+    const glm::dvec3 size = box.high - box.low;
+    return std::min({size.x, size.y, size.z}) == 0.0;
+}
+
+void sortBySize(std::vector<MapLayer::Box>& boxes) {
+    std::sort(boxes.begin(), boxes.end(),
+              [](const auto& a, const auto& b) { return glm::distance(a.low, a.high) > glm::distance(b.low, b.high); });
+}
+
+constexpr double inPlane = 1.0 / (1 << 20); // of the coordinates, as RayScene has it
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+double distance(const MapLayer::Box& box, const glm::dvec3& place) {
+    return glm::distance(place, glm::clamp(place, box.low, box.high));
+}
+
+/// A drawable's part of the mesh's triangles.
+struct Span {
+    const GLuint* corners;
+    std::size_t count;
 };
 
-osg::ref_ptr<osg::RefMatrix> refMatrix(const glm::dmat4& matrix) { return new osg::RefMatrix(toOsg(matrix)); }
+void append(osg::DrawElementsUInt& to, const Span& span) {
+    to.insert(to.end(), span.corners, span.corners + span.count);
+}
+
+/// Drawables that share a texture and a test, one after another.
+class CutoutBuilder {
+public:
+    void add(const CasterMesh& mesh, const CasterExtraction::Cutout& cutout, const Span& span) {
+        const auto own = mesh.vertices->begin() + static_cast<std::ptrdiff_t>(cutout.firstVertex);
+        const auto places = static_cast<GLuint>(_vertices->size());
+        for (std::size_t i = 0; i < span.count; ++i)
+            _triangles->push_back(span.corners[i] - cutout.firstVertex + places);
+        _vertices->insert(_vertices->end(), own, own + static_cast<std::ptrdiff_t>(cutout.coordinates.size()));
+        _coordinates->insert(_coordinates->end(), cutout.coordinates.begin(), cutout.coordinates.end());
+    }
+
+    osg::ref_ptr<osg::Geometry> geometry() const {
+        osg::ref_ptr<osg::Geometry> result = new osg::Geometry;
+        result->setUseDisplayList(false);
+        result->setUseVertexBufferObjects(true);
+        result->setVertexArray(_vertices);
+        result->setTexCoordArray(0, _coordinates, osg::Array::BIND_PER_VERTEX);
+        result->addPrimitiveSet(_triangles);
+        return result;
+    }
+
+private:
+    osg::ref_ptr<osg::Vec3Array> _vertices = new osg::Vec3Array, _coordinates = new osg::Vec3Array;
+    osg::ref_ptr<osg::DrawElementsUInt> _triangles = noTriangles();
+};
+
+/// A drawable's part of a mesh's triangles, as a lamp sees it.
+struct Part {
+    Part(const PlacedMesh& of, const MapLayer::Box& itsBox, std::size_t itsFirst, std::size_t itsEnd,
+         const glm::dvec3& lamp)
+        : placed(&of), box(itsBox), first(itsFirst), end(itsEnd), atLeast(distance(box, lamp)) {}
+
+    double clearanceOf(const glm::dvec3& lamp) const {
+        const double size = std::max({largest(lamp), largest(box.low), largest(box.high)});
+        const auto from = [&](std::size_t i) {
+            const osg::Vec3& vertex = (*placed->mesh->vertices)[(*placed->mesh->triangles)[i]];
+            return glm::dvec3(placed->sceneFromMesh * glm::dvec4(vertex.x(), vertex.y(), vertex.z(), 1.0)) - lamp;
+        };
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = first; i + 2 < end; i += 3) {
+            const glm::dvec3 a = from(i), b = from(i + 1), c = from(i + 2), normal = glm::cross(b - a, c - a);
+            if (std::abs(glm::dot(a, normal)) > inPlane * size * glm::length(normal))
+                nearest = std::min(nearest, triangleDistance(a, b, c));
+        }
+        return nearest;
+    }
+
+    const PlacedMesh* placed;
+    MapLayer::Box box;
+    std::size_t first, end; ///< corners.
+    double atLeast;         ///< distance of the box from the lamp.
+};
 
 } // namespace
+
+const osg::ref_ptr<const CullableFaces>& DrawnFaces::get(bool solids) {
+    if (!faces || (solids && !knowsSolids)) {
+        faces = new CullableFaces(*mesh, triangles, solids);
+        knowsSolids = solids;
+    }
+    return faces;
+}
+
+osg::ref_ptr<const CullableFaces> MapBodies::of(const CasterMesh& mesh, bool again, bool moving) {
+    DrawnFaces& known = _known[&mesh];
+    if (!known.mesh) known = {&mesh, mesh.triangles, nullptr};
+    const bool solids = again || (moving && known.faces && _searched < mostSearched);
+    if (solids && !known.knowsSolids) _searched += mesh.triangles->size() / 3;
+    return known.get(solids);
+}
+
+/// Pictures hold what is drawn.
+void MapBodies::prune() {
+    for (auto entry = _known.begin(); entry != _known.end();)
+        entry = entry->second.faces->referenceCount() > 1 ? std::next(entry) : _known.erase(entry);
+}
+
+void MapBodies::resizeGLObjectBuffers(unsigned maxSize) const {
+    for (const auto& [mesh, known] : _known) known.faces->resizeGLObjectBuffers(maxSize);
+}
+
+void MapBodies::releaseGLObjects(osg::State* state) const {
+    for (const auto& [mesh, known] : _known) known.faces->releaseGLObjects(state);
+}
+
+/// What is drawn of a joined mesh.
+struct MapLayer::Joined {
+    explicit Joined(const CasterMesh& of);
+    osg::ref_ptr<const CullableFaces> faces(bool flats, bool again);
+
+    /// Its part of the mesh's triangles.
+    struct Drawable {
+        Box box;
+        std::size_t first, end; ///< corners.
+    };
+
+    const osg::ref_ptr<const CasterMesh> mesh;
+    std::vector<Drawable> drawables;
+    DrawnFaces all, bodies; ///< triangles may be empty.
+    std::vector<Cutout> cutouts;
+    std::vector<Box> bodyBoxes, flatBoxes;
+
+private:
+    using Builders = std::map<std::tuple<osg::Texture2D*, int, float, bool>, CutoutBuilder>;
+    void sort(Builders& builders);
+};
+
+MapLayer::Joined::Joined(const CasterMesh& of) : mesh(&of) {
+    all = {&of, noTriangles(), nullptr};
+    bodies = {&of, noTriangles(), nullptr};
+    Builders builders;
+    sort(builders);
+    for (const auto& [key, builder] : builders) {
+        const auto& [texture, passing, reference, flat] = key;
+        cutouts.push_back({builder.geometry(), texture, passing, reference, flat});
+    }
+    if (mesh->cutouts.empty()) all.triangles = mesh->triangles;
+    if (flatBoxes.empty()) bodies.triangles = all.triangles;
+}
+
+/// The triangles by how they are drawn.
+void MapLayer::Joined::sort(Builders& builders) {
+    auto cutout = mesh->cutouts.begin();
+    for (std::size_t i = 0; i < mesh->drawn.size(); ++i) {
+        const std::size_t first = mesh->drawn[i].first,
+                          end = i + 1 < mesh->drawn.size() ? mesh->drawn[i + 1].first : mesh->triangles->size();
+        if (first == end) continue;
+        const Box box = boxOf(*mesh, first, end);
+        const bool flat = isFlat(box);
+        (flat ? flatBoxes : bodyBoxes).push_back(box);
+        drawables.push_back({box, first, end});
+        const Span span{&(*mesh->triangles)[first], end - first};
+        if (cutout != mesh->cutouts.end() && cutout->drawn == i) {
+            const AlphaTest& test = cutout->test;
+            if (!cutout->ownDrawn)
+                builders[{test.texture.get(), test.passing, test.sampledReference(), flat}].add(*mesh, *cutout, span);
+            ++cutout;
+        } else {
+            append(*all.triangles, span);
+            if (!flat) append(*bodies.triangles, span);
+        }
+    }
+}
+
+osg::ref_ptr<const CullableFaces> MapLayer::Joined::faces(bool flats, bool again) {
+    DrawnFaces& drawn = flats && !flatBoxes.empty() ? all : bodies;
+    return drawn.triangles->empty() ? nullptr : drawn.get(again);
+}
+
+MapLayer::MapLayer(const CasterLayer& given, const std::vector<osg::ref_ptr<const MapLayer>>& before)
+    : casters(&given) {
+    for (const auto& layer : before)
+        if (layer->_joined && layer->_joined->mesh == casters->loose) _joined = layer->_joined;
+    if (!_joined && casters->loose) _joined = std::make_shared<Joined>(*casters->loose);
+    if (_joined) {
+        cutouts = _joined->cutouts;
+        bodyBoxes = _joined->bodyBoxes;
+        flatBoxes = _joined->flatBoxes;
+    }
+    for (const PlacedMesh& placed : casters->meshes)
+        if (placed.isBody) {
+            const Box box = boxOf(placed, casters->origin);
+            (isFlat(box) ? flatBoxes : bodyBoxes).push_back(box);
+        }
+    sortBySize(bodyBoxes);
+    sortBySize(flatBoxes);
+}
+
+osg::ref_ptr<const MapLayer> MapLayer::boxesOf(const CasterLayer& casters) {
+    osg::ref_ptr<MapLayer> layer = new MapLayer(casters);
+    for (const auto& piece : casters.pieces) {
+        if (!piece->bounds.valid()) continue;
+        const Box box{toGlm(piece->bounds._min - casters.origin), toGlm(piece->bounds._max - casters.origin)};
+        (isFlat(box) ? layer->flatBoxes : layer->bodyBoxes).push_back(box);
+    }
+    sortBySize(layer->bodyBoxes);
+    sortBySize(layer->flatBoxes);
+    return layer;
+}
+
+std::vector<MapLayer::Drawn> MapLayer::faces(bool flats, bool again, bool moving, MapBodies& bodies) const {
+    std::vector<Drawn> result;
+    for (const PlacedMesh& placed : casters->meshes) {
+        const Box box = boxOf(placed, casters->origin);
+        if (placed.ownDrawn || (placed.isBody && isFlat(box) && !flats)) continue;
+        const auto faces = placed.isBody ? bodies.of(*placed.mesh, again, moving) : _joined->faces(flats, again);
+        if (faces) result.push_back({faces, placed.sceneFromMesh, box});
+    }
+    return result;
+}
+
+double MapLayer::clearanceOf(const glm::dvec3& lamp) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    if (_boxesOnly) {
+        for (const std::vector<Box>* boxes : {&bodyBoxes, &flatBoxes})
+            for (const Box& box : *boxes) nearest = std::min(nearest, distance(box, lamp));
+        return nearest;
+    }
+    std::vector<Part> nearestFirst;
+    for (const PlacedMesh& placed : casters->meshes)
+        if (placed.isBody)
+            nearestFirst.emplace_back(placed, boxOf(placed, casters->origin), 0, placed.mesh->triangles->size(), lamp);
+        else
+            for (const Joined::Drawable& part : _joined->drawables)
+                nearestFirst.emplace_back(placed, part.box, part.first, part.end, lamp);
+    std::sort(nearestFirst.begin(), nearestFirst.end(),
+              [](const Part& a, const Part& b) { return a.atLeast < b.atLeast; });
+    for (const Part& part : nearestFirst) {
+        if (!(part.atLeast < nearest)) break;
+        nearest = std::min(nearest, part.clearanceOf(lamp));
+    }
+    return nearest;
+}
+
+bool isInMap(const MapLayer::Box& box, const glm::dmat4& clipFromScene) {
+    const auto corners = boxCorners(box.low, box.high, clipFromScene);
+    const auto allBeyond = [&](int axis, double sign) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](const glm::dvec4& corner) { return sign * corner[axis] > 1.01 * corner.w; });
+    };
+    return !(allBeyond(0, 1.0) || allBeyond(0, -1.0) || allBeyond(1, 1.0) || allBeyond(1, -1.0));
+}
+
+void MapLayer::resizeGLObjectBuffers(unsigned maxSize) const {
+    if (!_joined) return;
+    for (const auto& part : {_joined->all, _joined->bodies})
+        if (part.faces) part.faces->resizeGLObjectBuffers(maxSize);
+    for (const Cutout& cutout : cutouts) cutout.geometry->resizeGLObjectBuffers(maxSize);
+}
+
+void MapLayer::releaseGLObjects(osg::State* state) const {
+    if (!_joined) return;
+    for (const auto& part : {_joined->all, _joined->bodies})
+        if (part.faces) part.faces->releaseGLObjects(state);
+    for (const Cutout& cutout : cutouts) cutout.geometry->releaseGLObjects(state);
+}
 
 std::vector<OwnCaster> ownCastersOf(const CasterLayers& layers) {
     std::vector<OwnCaster> result;
@@ -89,60 +361,6 @@ bool OwnCasters::areSame(const OwnCasters& other) const {
                           return a.drawing == b.drawing && a.sceneFromLocal == b.sceneFromLocal &&
                                  !a.drawing->mayChange && (sameView || !a.drawing->byProgram);
                       });
-}
-
-void OwnCasterPass::draw(const std::vector<Target>& targets) const {
-    for (const OwnCaster& caster : _own.casters) draw(caster, targets);
-}
-
-void OwnCasterPass::draw(const OwnCaster& caster, const std::vector<Target>& targets) const {
-    const auto isIn = [&](const Target& target) { return isInMap(caster.box, target.clipFromScene); };
-    if (std::none_of(targets.begin(), targets.end(), isIn)) return;
-    const OwnState own(*_renderInfo.getState(), _own, *caster.drawing);
-    const MapState map(_slopeOffset);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    if (const float alpha = caster.drawing->casting.ownFrom; alpha > 0.0f) {
-        glEnable(GL_ALPHA_TEST);
-        glAlphaFunc(GL_GEQUAL, alpha);
-    }
-    for (const Target& target : targets)
-        if (isIn(target)) draw(caster, target);
-}
-
-/// The modelview is the view's, so that what goes by the eye, as tessellation may, looks as it does there.
-void OwnCasterPass::draw(const OwnCaster& caster, const Target& target) const {
-    osg::State& state = *_renderInfo.getState();
-    const glm::dmat4 clipFromEye = target.clipFromScene * glm::inverse(_own.view.eyeFromScene);
-    glViewport(target.corner.x, target.corner.y, target.size, target.size);
-    glScissor(target.texels.x, target.texels.y, target.texels.width, target.texels.height);
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity(); // else Mesa keeps a part of a perspective's inverse, and cuts elsewhere
-    state.applyProjectionMatrix(refMatrix(clipFromEye));
-    if (!state.getLastAppliedProgramObject()) clip(caster, clipFromEye, target.nearest);
-    state.applyModelViewMatrix(refMatrix(_own.view.eyeFromScene * caster.sceneFromLocal));
-    for (const auto& [number, plane] : caster.drawing->casting.clips) {
-        const osg::Vec4d inLocal = caster.drawing->groupFromLocal * plane;
-        glClipPlane(GL_CLIP_PLANE0 + number, inLocal.ptr());
-        glEnable(GL_CLIP_PLANE0 + number);
-    }
-    if (state.getUseModelViewAndProjectionUniforms()) state.applyModelViewAndProjectionUniformsIfRequired();
-    caster.drawing->drawable->draw(_renderInfo);
-}
-
-/// Nothing that a lamp has nearer than this casts. The plane is one that does not cut the caster already, if there is one.
-void OwnCasterPass::clip(const OwnCaster& caster, const glm::dmat4& clipFromEye, double nearest) const {
-    if (!(nearest > 0.0)) return;
-    const auto isUsed = [&caster](GLenum plane) {
-        const auto& clips = caster.drawing->casting.clips;
-        return std::any_of(clips.begin(), clips.end(),
-                           [plane](const NumberedPlane& used) { return GL_CLIP_PLANE0 + used.first == plane; });
-    };
-    GLenum free = GL_CLIP_PLANE0;
-    while (isUsed(free) && free < GL_CLIP_PLANE5) ++free;
-    const glm::dvec4 distance = glm::row(clipFromEye, 3), plane = distance - glm::dvec4(0.0, 0.0, 0.0, nearest);
-    _renderInfo.getState()->applyModelViewMatrix(nullptr);
-    glClipPlane(free, &plane[0]);
-    glEnable(free);
 }
 
 } // namespace gnomon

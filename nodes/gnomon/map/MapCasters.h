@@ -2,23 +2,122 @@
 #pragma once
 #include <gnomon/casters/CasterDrawable.h>
 #include <gnomon/casters/CasterLayers.h>
-#include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/gl/ScreenPass.h>
-#include <gnomon/map/MapLayer.h>
+#include <gnomon/casters/CullableFaces.h>
 
 #include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <osg/GL>
+#include <glm/vec3.hpp>
+#include <osg/Geometry>
 #include <osg/Referenced>
-#include <osg/RenderInfo>
 #include <osg/State>
 #include <osg/StateSet>
+#include <osg/Texture2D>
 #include <osg/ref_ptr>
 #include <osgUtil/RenderLeaf>
 
+#include <cstddef>
+#include <memory>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
+
+/// Triangles of a mesh as maps draw them.
+struct DrawnFaces {
+    osg::ref_ptr<const CasterMesh> mesh; ///< held, so that its address cannot be taken by another.
+    osg::ref_ptr<osg::DrawElementsUInt> triangles;
+    osg::ref_ptr<const CullableFaces> faces; ///< null until they are asked for.
+    bool knowsSolids = false;
+
+    /// @param solids  what bounds solids is told apart.
+    const osg::ref_ptr<const CullableFaces>& get(bool solids);
+};
+
+/// Bodies as maps draw them, wherever they are: one a geometry. See CasterBodies.
+///
+/// Threads
+/// - One at a time. The owner locks.
+class MapBodies {
+public:
+    /// A picture begins, in which solids are looked for in some of those that move.
+    void startPicture() { _searched = 0; }
+    /// @param again   its solids are told apart.
+    /// @param moving  so are those of one that has been drawn before, if too many were not searched already.
+    osg::ref_ptr<const CullableFaces> of(const CasterMesh& mesh, bool again, bool moving);
+    /// Lets go what nobody else draws.
+    void prune();
+    void resizeGLObjectBuffers(unsigned maxSize) const;
+    void releaseGLObjects(osg::State* state) const;
+
+private:
+    std::unordered_map<const CasterMesh*, DrawnFaces> _known;
+    std::size_t _searched = 0; ///< triangles, in this picture.
+};
+
+/// A layer of the casters as a light's map draws it. Never changed once made.
+struct MapLayer : public osg::Referenced {
+    struct Box {
+        glm::dvec3 low, high;
+    };
+
+    /// Those that one texture cuts out by one test, drawn in one call; see AlphaTest.
+    struct Cutout {
+        osg::ref_ptr<osg::Geometry> geometry; ///< positions, and coordinates of the texture: s, t and q.
+        osg::ref_ptr<osg::Texture2D> texture;
+        int passing = 0;
+        float reference = 0.0f;
+        bool flat = false;
+    };
+
+    /// A mesh, or some of its triangles, at a place.
+    struct Drawn {
+        osg::ref_ptr<const CullableFaces> faces;
+        glm::dmat4 sceneFromMesh{1.0};
+        Box box;                          ///< in the scene.
+        CullableFaces::Outside outside{}; ///< where the light is.
+
+        bool operator==(const Drawn& other) const {
+            return faces == other.faces && sceneFromMesh == other.sceneFromMesh && outside == other.outside;
+        }
+    };
+
+    /// @param before  layers, whatever of which is the same is taken.
+    MapLayer(const CasterLayer& casters, const std::vector<osg::ref_ptr<const MapLayer>>& before);
+
+    /// Where these are, and nothing to draw: for a MapForecast.
+    static osg::ref_ptr<const MapLayer> boxesOf(const CasterLayer& casters);
+
+    const osg::ref_ptr<const CasterLayer> casters;
+    std::vector<Cutout> cutouts; ///< what textures cut out.
+    std::vector<Box> bodyBoxes;  ///< of the drawables, about the origin, the largest first.
+    std::vector<Box> flatBoxes;  ///< of those that are flat along an axis of the group.
+
+    /// All that no texture cuts out, or of it all but what is flat, as grounds are. One thread at a time.
+    /// @param again   it has been drawn before, and so may be drawn often: its solids are told apart.
+    /// @param moving  its bodies move on: they will be drawn often though the layer is not.
+    std::vector<Drawn> faces(bool flats, bool again, bool moving, MapBodies& bodies) const;
+
+    /// From a lamp about the origin to the nearest triangle; infinite if there is none. Triangles whose plane holds the lamp,
+    /// to 10⁻⁶ of the coordinates, do not count: they cast nothing. Looks at the drawables that may be nearest.
+    /// Of boxes alone the nearest box counts.
+    double clearanceOf(const glm::dvec3& lamp) const;
+
+    void resizeGLObjectBuffers(unsigned maxSize) const;
+    void releaseGLObjects(osg::State* state) const;
+
+protected:
+    ~MapLayer() override = default;
+
+private:
+    explicit MapLayer(const CasterLayer& given) : casters(&given), _boxesOnly(true) {}
+    struct Joined;
+
+    const bool _boxesOnly = false;
+    std::shared_ptr<Joined> _joined; ///< of the joined mesh; null if there is none.
+};
+
+/// False if a box of the scene is beyond a side of a map.
+bool isInMap(const MapLayer::Box& box, const glm::dmat4& clipFromScene);
 
 /// A caster that draws itself, at its place in the scene.
 struct OwnCaster {
@@ -48,56 +147,6 @@ struct OwnCasters {
 
     /// True if they look as others do. What may change in each frame never does.
     bool areSame(const OwnCasters& other) const;
-};
-
-/// Draws casters by their own code into maps, under a MapState.
-///
-/// Cost  what they cost in the view, for each map that holds them.
-class OwnCasterPass {
-public:
-    OwnCasterPass(osg::RenderInfo& renderInfo, const OwnCasters& own, double slopeOffset)
-        : _renderInfo(renderInfo), _own(own), _slopeOffset(slopeOffset) {}
-
-    /// A part of a texture, and where the scene stands in it.
-    struct Target {
-        glm::ivec2 corner;
-        int size; ///< texels.
-        PixelRect texels;
-        glm::dmat4 clipFromScene;
-        double nearest; ///< see MapPicture::Tile.
-    };
-    void draw(const std::vector<Target>& targets) const;
-
-private:
-    void draw(const OwnCaster& caster, const std::vector<Target>& targets) const;
-    void draw(const OwnCaster& caster, const Target& target) const;
-    void clip(const OwnCaster& caster, const glm::dmat4& clipFromEye, double nearest) const;
-
-    osg::RenderInfo& _renderInfo;
-    const OwnCasters& _own;
-    const double _slopeOffset;
-};
-
-/// OpenGL as a map is drawn under; put back at its end.
-class MapState {
-public:
-    explicit MapState(double slopeOffset) {
-        glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
-                     GL_STENCIL_BUFFER_BIT);
-        for (const GLenum mode : {GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
-        for (GLenum plane = GL_CLIP_PLANE0; plane <= GL_CLIP_PLANE5; ++plane) glDisable(plane);
-        for (const GLenum mode :
-             {GLenum(GL_SCISSOR_TEST), GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)})
-            glEnable(mode);
-        glDepthFunc(GL_LESS);
-        glDepthMask(GL_TRUE);
-        glDepthRange(0.0, 1.0);
-        glClearDepth(1.0);
-        glPolygonOffset(static_cast<GLfloat>(slopeOffset), 0.0f);
-    }
-    ~MapState() { glPopAttrib(); }
-    MapState(const MapState&) = delete;
-    MapState& operator=(const MapState&) = delete;
 };
 
 /// What casts below a group in one revision as maps draw it. Never changed once made.

@@ -5,8 +5,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace gnomon {
@@ -25,7 +27,7 @@ bool isThin(const LightFrame& frame, const MapOutline& outline) {
 /// What a drawable of unknown bounds is taken for: it may be anywhere in the view.
 MapReceiver wholeView(const ViewFrame& view, const glm::dmat4& sceneFromEye) {
     const glm::dmat4 eyeFromClip = glm::inverse(toGlm(view.projection));
-    MapReceiver receiver{glm::dvec3(std::numeric_limits<double>::infinity()), {}, sceneFromEye, 0.0};
+    MapReceiver receiver{{glm::dvec3(std::numeric_limits<double>::infinity()), {}, sceneFromEye}, 0.0};
     receiver.high = -receiver.low;
     for (const glm::dvec4& corner : boxCorners(glm::dvec3(-1.0), glm::dvec3(1.0), eyeFromClip)) {
         receiver.low = glm::min(receiver.low, glm::dvec3(corner) / corner.w);
@@ -39,7 +41,7 @@ MapReceiver wholeView(const ViewFrame& view, const glm::dmat4& sceneFromEye) {
 bool areThin(const MapRequest& cause, const LightFrame& frame) {
     const auto isBoxThin = [&frame](const MapLayer::Box& box) {
         MapOutline outline(frame);
-        outline.addBox(box.low, box.high, glm::dmat4(1.0));
+        outline.addBox({box.low, box.high});
         return outline.empty() || isThin(frame, outline);
     };
     const auto areAll = [&](const MapLayer& layer) {
@@ -52,30 +54,37 @@ bool areThin(const MapRequest& cause, const LightFrame& frame) {
 
 LayerOutlines outlinesOf(const MapRequest& cause, const MapLayer& layer, const LightFrame& frame) {
     LayerOutlines outlines{MapOutline(frame), {}};
-    for (const MapLayer::Box& box : layer.bodyBoxes) outlines.bodies.addBox(box.low, box.high, glm::dmat4(1.0));
+    for (const MapLayer::Box& box : layer.bodyBoxes) outlines.bodies.addBox({box.low, box.high});
     if (!cause.flats) return outlines;
     for (const MapLayer::Box& box : layer.flatBoxes) {
         outlines.flats.emplace_back(frame);
-        outlines.flats.back().addBox(box.low, box.high, glm::dmat4(1.0));
+        outlines.flats.back().addBox({box.low, box.high});
     }
     return outlines;
 }
 
 } // namespace
 
+/// Soft: penumbras of a pixel or two are wider than the filter.
+double widestTexel(const ShadowMapOptions& options) {
+    constexpr double plain = 1.5, fine = 0.7, soft = 0.33;
+    if (options.edges == ShadowMapOptions::SOFT) return soft;
+    return options.edges == ShadowMapOptions::SMOOTH && options.filter == ShadowMapOptions::FINE ? fine : plain;
+}
+
 double MapRequest::lightRadius(const LightFrame& frame) const {
-    if (!settings.softness) return 0.0;
-    if (!frame.sun) return settings.softness->lamp;
-    return light.w == 0.0 ? settings.softness->sun : settings.softness->lamp / glm::length(glm::dvec3(light));
+    if (settings.edges != ShadowMapOptions::SOFT) return 0.0;
+    if (frame.sun && light.w == 0.0) return std::tan(glm::radians(settings.sunAngle / 2.0));
+    return settings.lampSize / 2.0 / (frame.sun ? glm::length(glm::dvec3(light)) : 1.0);
 }
 
 bool MapRequest::isWide(const LightFrame& frame) const {
-    return lightRadius(frame) > 0.0 || (settings.softness && settings.softness->radius > 0.0);
+    return settings.edges == ShadowMapOptions::SOFT && (lightRadius(frame) > 0.0 || settings.radius > 0.0);
 }
 
 double MapRequest::softness(const LightFrame& frame, MapOutline blocker, double farthest) const {
     blocker.limitNearest(widestRatio);
-    return softReach(frame, blocker.nearest, farthest, lightRadius(frame), settings.softness->radius);
+    return softReach(frame, blocker.nearest, farthest, lightRadius(frame), settings.radius);
 }
 
 std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
@@ -86,8 +95,8 @@ std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& ey
         const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
         anywhere = anywhere || !box.valid();
         if (!box.valid()) continue;
-        MapReceiver receiver{toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)),
-                             sceneFromEye * toGlm(modelviewOf(*leaf)), 0.0};
+        MapReceiver receiver{
+            {toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)), sceneFromEye * toGlm(modelviewOf(*leaf))}, 0.0};
         receiver.size = glm::length(glm::dvec3(receiver.sceneFromBox * glm::dvec4(receiver.high - receiver.low, 0.0)));
         result.push_back(receiver);
     }
@@ -119,7 +128,7 @@ void MapSlice::takeStill(const MapRequest& cause) { still = outlinesOf(cause, *c
 void MapSlice::takeBlockers(const MapRequest& cause) {
     blockers.clear();
     const bool wide = cause.isWide(frame);
-    const auto add = [&](const MapOutline& outline, const std::vector<glm::dvec4>& halfSpaces) {
+    const auto add = [&](const MapOutline& outline, const HalfSpaces& halfSpaces) {
         if (!outline.empty()) blockers.push_back({outline, halfSpaces});
     };
     const auto addFlats = [&](const LayerOutlines& outlines, const MapLayer& layer, const MapOutline& bodies) {
@@ -130,20 +139,17 @@ void MapSlice::takeBlockers(const MapRequest& cause) {
     const LayerOutlines moving = outlinesOf(cause, *cause.casters->moving, frame);
     MapOutline bodies = still.bodies;
     bodies.merge(moving.bodies);
-    for (const OwnCaster& caster : cause.casters->own) bodies.addBox(caster.box.low, caster.box.high, glm::dmat4(1.0));
+    for (const OwnCaster& caster : cause.casters->own) bodies.addBox({caster.box.low, caster.box.high});
     if (!bodies.empty() && (wide || !isThin(frame, bodies) || !areThin(cause, frame))) add(bodies, {});
     addFlats(still, *cause.casters->still, bodies);
     addFlats(moving, *cause.casters->moving, bodies);
 }
 
-void MapSlice::find(const MapRequest& cause, const std::vector<MapReceiver>& receivers,
-                    const std::vector<glm::dvec4>& halfSpaces, TexelDensity pixels, int texels) {
+void MapSlice::find(const MapRequest& cause, const std::vector<MapReceiver>& receivers, const HalfSpaces& halfSpaces,
+                    TexelDensity pixels, int texels) {
     clear();
-    for (const MapBlocker& blocker : blockers) {
-        std::vector<glm::dvec4> all = halfSpaces;
-        all.insert(all.end(), blocker.halfSpaces.begin(), blocker.halfSpaces.end());
-        addNeeded(cause, blocker, receivers, std::move(all), pixels);
-    }
+    for (const MapBlocker& blocker : blockers)
+        addNeeded(cause, blocker, receivers, both(halfSpaces, blocker.halfSpaces), pixels);
     texel = pixels.side;
     needed.limitNearest(mostRatio);
     findHeld(cause, texels);
@@ -170,10 +176,9 @@ void MapSlice::findHeld(const MapRequest& cause, int texels) {
 
 /// What of what one of them can darken is seen.
 void MapSlice::addNeeded(const MapRequest& cause, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
-                         std::vector<glm::dvec4> halfSpaces, TexelDensity& pixels) {
-    const auto add = [&](MapOutline& to) {
-        for (const MapReceiver& receiver : receivers)
-            to.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+                         HalfSpaces halfSpaces, TexelDensity& pixels) {
+    const auto add = [&](auto& to) {
+        for (const MapReceiver& receiver : receivers) to.addBox(receiver, halfSpaces);
     };
     MapOutline dark = blocker.outline, seen(frame);
     if (cause.isWide(frame)) {
@@ -182,13 +187,11 @@ void MapSlice::addNeeded(const MapRequest& cause, const MapBlocker& blocker, con
         if (all.empty()) return;
         dark.grow(cause.softness(frame, blocker.outline, all.farthest));
     }
-    if (frame.sun) // a lamp's have sides of their own
-        for (const glm::dvec4& side : dark.sides()) halfSpaces.push_back(side);
+    if (frame.sun) halfSpaces = both(std::move(halfSpaces), dark.sides()); // a lamp's have sides of their own
     add(seen);
     seen.cut(dark);
     if (seen.empty()) return;
-    for (const MapReceiver& receiver : receivers)
-        pixels.addBox(receiver.low, receiver.high, receiver.sceneFromBox, halfSpaces);
+    add(pixels);
     nearestBlocker = needed.empty() ? blocker.outline.nearest : std::min(nearestBlocker, blocker.outline.nearest);
     needed.merge(seen);
     reach.merge(dark);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ShadowMapOptions.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/map/MapCasters.h>
-#include <gnomon/map/MapSettings.h>
 #include <gnomon/mapfit/MapFit.h>
-#include <gnomon/mapfit/SpotCone.h>
-#include <gnomon/mapfit/TexelDensity.h>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -26,11 +24,14 @@ struct MapForecast {
     std::optional<ScreenRect> bounds;                       ///< where on the screen the shadow can be.
     /// One of the maps.
     struct Map {
-        glm::dmat4 mapFromScene;            ///< what it holds is within 0 and 1, homogeneous.
-        std::vector<glm::dvec4> halfSpaces; ///< of the scene: what is looked up in it.
+        glm::dmat4 mapFromScene; ///< what it holds is within 0 and 1, homogeneous.
+        HalfSpaces halfSpaces;   ///< what of the scene is looked up in it.
     };
     std::vector<Map> each{};
 };
+
+/// Pixels on a side of a texel, where it is widest; fewer only with more texels than `size`.
+double widestTexel(const ShadowMapOptions& options);
 
 /// What the maps of one light are of.
 struct MapRequest {
@@ -38,7 +39,7 @@ struct MapRequest {
     std::optional<SpotCone> cone;
     osg::ref_ptr<const MapCasters> casters;
     bool flats = false; ///< those that are flat cast, too.
-    MapSettings settings;
+    ShadowMapOptions settings;
 
     /// See softReach().
     double lightRadius(const LightFrame& frame) const;
@@ -49,22 +50,16 @@ struct MapRequest {
 };
 
 /// The box of something that is seen.
-struct MapReceiver {
-    glm::dvec3 low, high;
-    glm::dmat4 sceneFromBox;
+struct MapReceiver : PlacedBox {
     double size; ///< of its diagonal, scene.
-
-    bool operator==(const MapReceiver& other) const {
-        return low == other.low && high == other.high && sceneFromBox == other.sceneFromBox;
-    }
 };
 /// Those of a view, the largest first.
 std::vector<MapReceiver> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene);
 
 /// What darkens the same places: all bodies, or something flat, a ground for one.
 struct MapBlocker {
-    MapOutline outline;                 ///< of what it can darken, were all edges hard.
-    std::vector<glm::dvec4> halfSpaces; ///< that hold what it can darken: what is flat darkens what is beyond it.
+    MapOutline outline;    ///< of what it can darken, were all edges hard.
+    HalfSpaces halfSpaces; ///< that hold what it can darken: what is flat darkens what is beyond it.
 };
 
 /// Half-space of what something flat can darken: what is beyond it, seen from the light.
@@ -87,8 +82,8 @@ struct MapSlice {
     /// Nothing of it is needed.
     void clear();
     /// Finds what of its part is needed now. @param texels  on a side of its map.
-    void find(const MapRequest& cause, const std::vector<MapReceiver>& receivers,
-              const std::vector<glm::dvec4>& halfSpaces, TexelDensity pixels, int texels);
+    void find(const MapRequest& cause, const std::vector<MapReceiver>& receivers, const HalfSpaces& halfSpaces,
+              TexelDensity pixels, int texels);
     /// Finds `held` anew, for other texels.
     void findHeld(const MapRequest& cause, int texels);
 
@@ -105,7 +100,7 @@ struct MapSlice {
 
 private:
     void addNeeded(const MapRequest& cause, const MapBlocker& blocker, const std::vector<MapReceiver>& receivers,
-                   std::vector<glm::dvec4> halfSpaces, TexelDensity& pixels);
+                   HalfSpaces halfSpaces, TexelDensity& pixels);
 };
 
 } // namespace gnomon

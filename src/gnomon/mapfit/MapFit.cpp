@@ -106,30 +106,70 @@ glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double fart
     return glm::row(result, 3, glm::dvec4(0.0, 0.0, 0.0, 1.0));
 }
 
+/// Of a box. A look at them is faster than to cut it: what is known already adds nothing.
+template <class Test>
+bool allCorners(const PlacedBox& box, const Test& test) {
+    const auto corners = boxCorners(box.low, box.high, box.sceneFromBox);
+    return std::all_of(corners.begin(), corners.end(), test);
+}
+
+constexpr double mostStretch = 8.0; // light at 7 degrees; edges are blurred by less than that in sight
+constexpr double stretchOfBodies = 2.0;
+
+/// Of a box that is flat, of any length; 0 of others.
+glm::dvec3 flatNormal(const PlacedBox& box) {
+    const auto thin = flatAxis(box);
+    const glm::dmat3 way(box.sceneFromBox);
+    return thin ? glm::cross(way[(*thin + 1) % 3], way[(*thin + 2) % 3]) : glm::dvec3(0.0);
+}
+
+constexpr double leastRatio = 2.0; // of a part's end to its beginning
+
+/// Of the farthest to the nearest.
+double ratioOf(const SeenRange& seen) {
+    constexpr double most = 1e6; // what is nearer than that is a rounded zero
+    if (seen.empty() || !(seen.farthest > 0.0)) return 1.0;
+    return seen.farthest / std::max(seen.nearest, seen.farthest / most);
+}
+
 } // namespace
+
+HalfSpaces both(HalfSpaces some, const HalfSpaces& others) {
+    some.insert(some.end(), others.begin(), others.end());
+    return some;
+}
+
+std::vector<glm::dvec4> cornersWithin(const PlacedBox& box, const HalfSpaces& halfSpaces) {
+    const auto all = boxCorners(box.low, box.high, box.sceneFromBox);
+    std::vector<glm::dvec4> corners(all.begin(), all.end());
+    HalfSpaces cutting; // by the others the box is not changed
+    for (const glm::dvec4& half : halfSpaces) {
+        const auto outside = [&half](const glm::dvec4& corner) { return glm::dot(half, corner) < 0.0; };
+        const auto count = std::count_if(corners.begin(), corners.end(), outside);
+        if (count == 8) return {};
+        if (count > 0) cutting.push_back(half * box.sceneFromBox);
+    }
+    if (cutting.empty()) return corners;
+    corners.clear();
+    for (const glm::dvec3& corner : cutBox(box.low, box.high, cutting))
+        corners.push_back(box.sceneFromBox * glm::dvec4(corner, 1.0));
+    return corners;
+}
+
+std::optional<int> flatAxis(const PlacedBox& box) {
+    constexpr double flat = 1.0 / 8.0;
+    glm::dvec3 length;
+    for (int axis = 0; axis < 3; ++axis)
+        length[axis] = glm::length(glm::dvec3(box.sceneFromBox[axis])) * (box.high[axis] - box.low[axis]);
+    const int thin = length.x <= length.y && length.x <= length.z ? 0 : length.y <= length.z ? 1 : 2;
+    if (length[thin] > flat * std::min(length[(thin + 1) % 3], length[(thin + 2) % 3])) return std::nullopt;
+    return thin;
+}
 
 glm::dvec4 nearerThan(const LightFrame& frame, double distance) { return -fartherThan(frame, distance); }
 
 glm::dvec4 fartherThan(const LightFrame& frame, double distance) {
     return glm::row(frame.lightFromScene, 3) - glm::dvec4(0.0, 0.0, 0.0, distance);
-}
-
-std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
-                                      const std::vector<glm::dvec4>& halfSpaces) {
-    const auto all = boxCorners(low, high, sceneFromBox);
-    std::vector<glm::dvec4> corners(all.begin(), all.end());
-    std::vector<glm::dvec4> cutting; // by the others the box is not changed
-    for (const glm::dvec4& half : halfSpaces) {
-        const auto outside = [&half](const glm::dvec4& corner) { return glm::dot(half, corner) < 0.0; };
-        const auto count = std::count_if(corners.begin(), corners.end(), outside);
-        if (count == 8) return {};
-        if (count > 0) cutting.push_back(half * sceneFromBox);
-    }
-    if (cutting.empty()) return corners;
-    corners.clear();
-    for (const glm::dvec3& corner : cutBox(low, high, cutting))
-        corners.push_back(sceneFromBox * glm::dvec4(corner, 1.0));
-    return corners;
 }
 
 LightFrame sunFrame(const glm::dvec3& towardsSun) {
@@ -166,14 +206,9 @@ bool MapOutline::isBefore(const MapOutline& other) const {
            std::all_of(other.corners.begin(), other.corners.end(), [this](const auto& at) { return surrounds(at); });
 }
 
-void MapOutline::addBox(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
-                        const std::vector<glm::dvec4>& given) {
-    const std::vector<glm::dvec4> all = cornersWithin(low, high, sceneFromBox, {});
-    const auto known = [this](const glm::dvec4& corner) { return covers(_frame.lightFromScene * corner); };
-    if (std::all_of(all.begin(), all.end(), known)) return;
-    std::vector<glm::dvec4> halfSpaces = given;
-    halfSpaces.insert(halfSpaces.end(), _frame.halfSpaces.begin(), _frame.halfSpaces.end());
-    for (const glm::dvec4& corner : cornersWithin(low, high, sceneFromBox, halfSpaces)) {
+void MapOutline::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
+    if (allCorners(box, [this](const glm::dvec4& corner) { return covers(_frame.lightFromScene * corner); })) return;
+    for (const glm::dvec4& corner : cornersWithin(box, both(halfSpaces, _frame.halfSpaces))) {
         const glm::dvec4 p = _frame.lightFromScene * corner;
         if (!(p.w > 0.0)) continue; // the lamp's own place
         const double depth = p.z / p.w;
@@ -215,13 +250,13 @@ double MapOutline::length() const {
     return std::max(rectangle.high.x - rectangle.low.x, rectangle.high.y - rectangle.low.y);
 }
 
-std::vector<glm::dvec4> MapOutline::sides() const {
+HalfSpaces MapOutline::sides() const {
     Rectangle rectangle = smallestAbout(corners);
     widen(rectangle);
     const glm::dvec2 more = 1e-3 * (rectangle.high - rectangle.low); // cutBox() minds planes that are nearly one
     rectangle.low -= more;
     rectangle.high += more;
-    std::vector<glm::dvec4> result;
+    HalfSpaces result;
     for (int axis = 0; axis < 2; ++axis) {
         const glm::dvec2 way = axis ? rectangle.across() : rectangle.along;
         result.push_back(glm::dvec4(way, 0.0, -rectangle.low[axis]) * _frame.lightFromScene);
@@ -298,6 +333,95 @@ MapErrors mapErrors(const LightFrame& frame, const MapFit& fit, const glm::dvec3
                         texels * std::max(rounding(0), rounding(1)) * perW, edgeOn * texel / range * perW};
     };
     return {at(fit.nearest), at(fit.farthest)};
+}
+
+TexelDensity::TexelDensity(const LightFrame& frame, const glm::dmat4& clipFromScene, const glm::dvec2& pixels)
+    : _frame(frame), _pixel(glm::row(clipFromScene, 3)) {
+    const auto pixel = [&](int axis) {
+        return 2.0 / (pixels[axis] * glm::length(glm::dvec3(glm::row(clipFromScene, axis))));
+    };
+    _pixel *= std::min(pixel(0), pixel(1));
+}
+
+void TexelDensity::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
+    const glm::dvec3 normal = flatNormal(box);
+    const double least = side * (normal == glm::dvec3(0.0) ? stretchOfBodies : mostStretch);
+    if (allCorners(box, [&](const glm::dvec4& corner) { return unstretched(corner) >= least; })) return;
+    for (const glm::dvec4& corner : cornersWithin(box, both(halfSpaces, _frame.halfSpaces)))
+        if (inLight(corner).w > 0.0) side = std::min(side, unstretched(corner) / stretch(normal, corner));
+}
+
+glm::dvec4 TexelDensity::inLight(const glm::dvec4& place) const { return _frame.lightFromScene * place; }
+
+/// Side of a pixel on what faces the light there; 0 behind a lamp.
+double TexelDensity::unstretched(const glm::dvec4& place) const {
+    const double distance = inLight(place).w; // 1 of suns
+    return distance > 0.0 ? std::max(glm::dot(_pixel, place), 0.0) / distance : 0.0;
+}
+
+/// @param normal  see flatNormal().
+double TexelDensity::stretch(const glm::dvec3& normal, const glm::dvec4& place) const {
+    if (normal == glm::dvec3(0.0)) return stretchOfBodies;
+    const auto axis = [this](int row) { return glm::dvec3(glm::row(_frame.lightFromScene, row)); };
+    const glm::dvec4 at = inLight(place);
+    const glm::dvec3 light = _frame.sun ? axis(2) : at.x * axis(0) + at.y * axis(1) + at.w * axis(3);
+    const double across = glm::length(normal) * glm::length(light);
+    return across > 0.0 ? across / std::max(std::abs(glm::dot(normal, light)), across / mostStretch) : mostStretch;
+}
+
+int texelsFor(double wanted, int most, int before) {
+    constexpr double enough = 7.0 / 8.0, step = 32.0;
+    constexpr int fewest = 64;
+    const double least = std::min(enough * wanted, double(most)), tooMany = std::max(2.0 * wanted, double(fewest));
+    if (before > 0 && before >= least && before <= std::min(tooMany, double(most))) return before;
+    return static_cast<int>(std::min(std::max(std::ceil(wanted / step) * step, double(fewest)), double(most)));
+}
+
+SeenRange::SeenRange(const glm::dmat4& clipFromScene) : _w(glm::row(clipFromScene, 3)) {}
+
+void SeenRange::addBox(const PlacedBox& box, const HalfSpaces& halfSpaces) {
+    const auto known = [this](const glm::dvec4& corner) {
+        const double w = glm::dot(_w, corner);
+        return nearest <= w && w <= farthest;
+    };
+    if (allCorners(box, known)) return;
+    for (const glm::dvec4& corner : cornersWithin(box, halfSpaces)) {
+        nearest = std::min(nearest, glm::dot(_w, corner));
+        farthest = std::max(farthest, glm::dot(_w, corner));
+    }
+}
+
+int cascadesFor(const SeenRange& seen, double pixels, int before) {
+    constexpr double mostPixels = 3.0; // on a side of a texel where it is widest
+    const double partRatio = std::max(leastRatio, mostPixels / pixels);
+    const double asked = std::log(ratioOf(seen)) / std::log(partRatio);
+    if (before > 0 && asked <= before + 0.125 && asked > before - 1.25) return before;
+    return static_cast<int>(std::clamp(std::ceil(asked), 1.0, double(mostCascades)));
+}
+
+std::vector<double> cascadeSplits(const SeenRange& seen, int most) {
+    const double ratio = ratioOf(seen);
+    const int maps = std::clamp(static_cast<int>(std::log(ratio) / std::log(leastRatio)), 1, most);
+    std::vector<double> splits;
+    for (int i = 1; i < maps; ++i) splits.push_back(seen.farthest * std::pow(ratio, double(i) / maps - 1.0));
+    return splits;
+}
+
+HalfSpaces viewPart(const glm::dmat4& clipFromScene, const std::vector<double>& splits, std::size_t part) {
+    const glm::dvec4 w = glm::row(clipFromScene, 3), depth = glm::row(clipFromScene, 2), here(0.0, 0.0, 0.0, 1.0);
+    HalfSpaces result;
+    for (const int axis : {0, 1})
+        for (const double sign : {1.0, -1.0}) result.push_back(w + sign * glm::row(clipFromScene, axis));
+    result.push_back(part == 0 ? w + depth : w - splits[part - 1] * here);
+    result.push_back(part == splits.size() ? w - depth : splits[part] * here - w);
+    return result;
+}
+
+glm::dmat4 coneFromScene(const glm::dvec3& apex, const SpotCone& cone) {
+    const glm::dmat4 lamp = lampFrame(apex, cone.axis, 1.0).lightFromScene;
+    const double across = std::cos(cone.cutoff), along = std::sin(cone.cutoff);
+    return glm::transpose(glm::dmat4(across * glm::row(lamp, 0), across * glm::row(lamp, 1), along * glm::row(lamp, 3),
+                                     glm::dvec4(0.0, 0.0, 0.0, 1.0)));
 }
 
 } // namespace gnomon

@@ -4,10 +4,36 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace gnomon {
+
+/// A box at a place in the scene.
+struct PlacedBox {
+    glm::dvec3 low, high;
+    glm::dmat4 sceneFromBox{1.0};
+
+    bool operator==(const PlacedBox& other) const {
+        return low == other.low && high == other.high && sceneFromBox == other.sceneFromBox;
+    }
+};
+
+/// Half-spaces of the scene, each a row: what is within has 0 or more in all of them. See cutBox().
+using HalfSpaces = std::vector<glm::dvec4>;
+/// Those of both.
+HalfSpaces both(HalfSpaces some, const HalfSpaces& others);
+
+/// Corners, in the scene, of what of a box lies within all half-spaces, see cutBox(); empty if nothing does.
+std::vector<glm::dvec4> cornersWithin(const PlacedBox& box, const HalfSpaces& halfSpaces);
+
+/// The axis along which a box is flat, as grounds are: in the scene its shortest side is an eighth of the next, or less.
+/// Nullopt for other boxes.
+std::optional<int> flatAxis(const PlacedBox& box);
 
 /// How a light sees a scene: homogeneous (x, y, z, w), in which whatever lies on one ray has one place (x/w, y/w), and
 /// depth z/w grows away from the light, linear on planes.
@@ -16,7 +42,7 @@ namespace gnomon {
 struct LightFrame {
     glm::dmat4 lightFromScene{1.0};
     bool sun = true;
-    std::vector<glm::dvec4> halfSpaces{}; ///< of the scene: what of it the frame can hold; none of a sun.
+    HalfSpaces halfSpaces{}; ///< what of the scene the frame can hold; none of a sun.
 };
 
 /// @param towardsSun  unit.
@@ -28,18 +54,13 @@ LightFrame lampFrame(const glm::dvec3& lamp, const glm::dvec3& axis, double spre
 glm::dvec4 nearerThan(const LightFrame& frame, double distance);
 glm::dvec4 fartherThan(const LightFrame& frame, double distance);
 
-/// Corners, in the scene, of what of a box lies within all half-spaces of the scene, see cutBox(); empty if nothing does.
-std::vector<glm::dvec4> cornersWithin(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
-                                      const std::vector<glm::dvec4>& halfSpaces);
-
 /// Where boxes lie as a light sees them: a convex outline and the depths between the nearest and the farthest.
 class MapOutline {
 public:
     explicit MapOutline(LightFrame frame) : _frame(std::move(frame)) {}
 
-    /// Adds what of a box lies within all half-spaces (of the scene, see cutBox()) and within the light's own.
-    void addBox(const glm::dvec3& low, const glm::dvec3& high, const glm::dmat4& sceneFromBox,
-                const std::vector<glm::dvec4>& halfSpaces = {});
+    /// Adds what of a box lies within all half-spaces and within the light's own.
+    void addBox(const PlacedBox& box, const HalfSpaces& halfSpaces = {});
 
     bool empty() const { return corners.empty(); }
     /// True if whatever is behind the other outline, of the same frame, is behind this one.
@@ -47,7 +68,7 @@ public:
     /// The longer side of the smallest rectangle about it, in x/w and y/w.
     double length() const;
     /// Half-spaces of the scene, the sides of the smallest rectangle about it: what is outside them has no place in it.
-    std::vector<glm::dvec4> sides() const;
+    HalfSpaces sides() const;
     /// The corners of all between nearest and farthest, homogeneous, in the scene.
     std::vector<glm::dvec4> body() const;
     /// Becomes the convex outline of both, of the same frame.
@@ -129,5 +150,87 @@ struct MapErrors {
 /// @param reach  half sides of the casters' bounds about the origin of the scene.
 /// @param texels on a side.
 MapErrors mapErrors(const LightFrame& frame, const MapFit& fit, const glm::dvec3& reach, int texels);
+
+/// How small the smallest pixel is on what is seen, as a light sees it: a map with finer texels than that tells nothing
+/// more.
+class TexelDensity {
+public:
+    /// @param clipFromScene  of the view. @param pixels  of the view, across and up.
+    TexelDensity(const LightFrame& frame, const glm::dmat4& clipFromScene, const glm::dvec2& pixels);
+
+    /// Adds what of a box lies within all half-spaces and within the light's own. A texel is stretched on what is turned away from the light: on a box that is flat, as grounds are, by its slope, up to eight
+    /// times; on others twice, as on what is turned away by 60 degrees.
+    void addBox(const PlacedBox& box, const HalfSpaces& halfSpaces);
+
+    /// Side of the largest texel that is no larger than a pixel anywhere, in the light's x/w and y/w; infinite as long as
+    /// nothing is seen, 0 where it can be seen from next to it.
+    double side = std::numeric_limits<double>::infinity();
+
+private:
+    glm::dvec4 inLight(const glm::dvec4& place) const;
+    double unstretched(const glm::dvec4& place) const;
+    double stretch(const glm::dvec3& normal, const glm::dvec4& place) const;
+
+    LightFrame _frame;
+    glm::dvec4 _pixel; ///< row: side of a pixel at a place.
+};
+
+/// Texels on a map's side: hardly more than are of use, in steps, so that they seldom change.
+/// @param wanted  how many would be.
+/// @param most    at most.
+/// @param before  how many there were; they stay while they are enough and not twice too many. 0: none.
+int texelsFor(double wanted, int most, int before);
+
+/// How near and how far what is seen lies along the line of sight: clip space's w. Of an orthographic view all is 1.
+class SeenRange {
+public:
+    /// @param clipFromScene  of the view.
+    explicit SeenRange(const glm::dmat4& clipFromScene);
+
+    /// Adds what of a box lies within all half-spaces.
+    void addBox(const PlacedBox& box, const HalfSpaces& halfSpaces);
+
+    bool empty() const { return !(nearest <= farthest); }
+
+    double nearest = std::numeric_limits<double>::infinity(), farthest = -std::numeric_limits<double>::infinity();
+
+private:
+    glm::dvec4 _w; ///< row of the matrix.
+};
+
+constexpr int mostCascades = 4;
+
+/// How many maps are worth while, 1 … mostCascades: so that where each part begins a texel of its map is at most three pixels
+/// wide. That is where it is widest; of all edges 95 % are then within about a pixel, in a street of 2 km as on mountains, and
+/// walls that the light grazes are dark beside what stands before them, within ten texels of it.
+/// @param pixels  on a side of a texel, at the farthest that is seen, if there is one map.
+/// @param before  how many there were, 0 … mostCascades; they stay where another count would hardly be better.
+int cascadesFor(const SeenRange& seen, double pixels, int before);
+
+/// Distances at which what is seen is divided among maps, nearest first: each part is as many times as far at its end as
+/// at its beginning. A map's texels grow with the end of its part, and pixels are smallest at its beginning, so that the
+/// most texels a pixel are then the least. A part whose end is less than twice as far as its beginning is not worth a map.
+/// @param most  maps, at least 1.
+/// @return one less than the maps that are of use; none where nothing is seen.
+/// Source: F. Zhang et al., "Parallel-Split Shadow Maps for Large-Scale Virtual Environments", VRCIA 2006: its
+///         logarithmic scheme, between what is seen nearest and farthest instead of the near and far planes.
+std::vector<double> cascadeSplits(const SeenRange& seen, int most);
+
+/// Half-spaces of the scene that hold a part of the view: its sides, and the splits before and behind it; near and far
+/// planes of the view at the ends.
+/// @param part  0 … splits.size().
+HalfSpaces viewPart(const glm::dmat4& clipFromScene, const std::vector<double>& splits, std::size_t part);
+
+/// What a spot lights: all about a way from where it stands.
+struct SpotCone {
+    glm::dvec3 axis{0.0, 0.0, -1.0}; ///< unit.
+    double cutoff = 0.0;             ///< from the axis to the cone's side, radians, 0 … π/2.
+
+    bool operator==(const SpotCone& other) const { return axis == other.axis && cutoff == other.cutoff; }
+};
+
+/// Takes points of the scene (w of 1, or more than 0) to where the cone stands at the origin: within it is what has a z of
+/// 0 or more, and x² + y² of z² or less.
+glm::dmat4 coneFromScene(const glm::dvec3& apex, const SpotCone& cone);
 
 } // namespace gnomon

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/mapfit/SeenEdges.h>
-#include <gnomon/mapfit/TexelDensity.h>
 
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -142,7 +141,7 @@ SeenEdges::SeenEdges(const glm::dmat4& clipFromScene, const glm::dvec2& pixels, 
 
 void SeenEdges::addReceiver(const PlacedBox& given, Relief relief) {
     PlacedBox box = given;
-    const auto flat = flatAxis(box.low, box.high, box.sceneFromBox);
+    const auto flat = flatAxis(box);
     if (flat && relief == Relief::HalfWay) box.low[*flat] = box.high[*flat] = (box.low[*flat] + box.high[*flat]) / 2.0;
     _receivers.push_back(box);
 }

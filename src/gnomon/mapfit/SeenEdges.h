@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/mapfit/MapFit.h>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -23,12 +24,6 @@ struct PlacedTriangles {
     std::size_t count;       ///< of the triangles.
     glm::dmat4 sceneFromMesh;
     std::vector<std::size_t> parts; ///< the first triangle of each object, ascending.
-};
-
-/// A box at a place in the scene.
-struct PlacedBox {
-    glm::dvec3 low, high;
-    glm::dmat4 sceneFromBox{1.0};
 };
 
 /// Some thousand rays that are points in a picture, so that a triangle is tested only with those that may meet it. It is for
