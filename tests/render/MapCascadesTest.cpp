@@ -30,29 +30,13 @@ Picture pictureOf(const TracedCase& given, ShadowMapTechnique* technique) {
     return test::render(scene.root, given.view);
 }
 
-/// A case's pictures without shadows and its truth, which maps of several kinds are held against.
-struct Judge {
-    explicit Judge(const TracedCase& asked) : given(asked), lit(pictureOf(asked, nullptr)) {
-        Scene without = given.build();
-        without.takeLightAway();
-        dark = test::render(without.root, given.view);
-    }
-    /// Pixels: of the edges, 95 % are less off.
-    double edgesOff(int cascades, int size) const {
-        return test::edgesOff(pictureOf(given, cascadesOf(cascades, size)), lit, dark, truth).p95;
-    }
-
-    TracedCase given;
-    Picture lit, dark;
-    gnomon::TruthImage truth = given.truth();
-};
-
 // The goal: 1 pixel. A perfect ray through each pixel's centre comes to 0.4.
 TEST(MapCascades, ThreeKeepTheEdgesOfALongStreetWithinAPixelWhereverTheSunStands) {
     for (const double azimuth : {0.0, 45.0, 90.0, 135.0, 180.0}) {
-        const Judge judge(longStreet(azimuth));
-        const double one = judge.edgesOff(1, 2048), two = judge.edgesOff(2, 2048), three = judge.edgesOff(3, 2048),
-                     small = judge.edgesOff(3, 1024), unasked = judge.edgesOff(0, 1024);
+        const test::Judge judge(longStreet(azimuth));
+        const auto off = [&](int cascades, int size) { return judge.edgesOff(judge.with(cascadesOf(cascades, size))); };
+        const double one = off(1, 2048), two = off(2, 2048), three = off(3, 2048), small = off(3, 1024),
+                     unasked = off(0, 1024);
         std::cout << "sun at " << azimuth << "°: " << one << " px with 1, " << two << " with 2, " << three
                   << " with 3; with 3 of half the size " << small << ", as many as it takes " << unasked << "\n";
         EXPECT_LE(three, 1.0) << azimuth;
@@ -118,9 +102,8 @@ TEST(MapCascades, ThatAreFineDoNotAnswerForWhatIsBeyondThem) {
          test::box({380.0, -3.0, 0.0}, {384.0, 3.0, 6.0}), test::box({400.0, -50.0, 0.0}, {401.0, 50.0, 40.0})},
         {-1.0, 0.05, 0.01, 0.0},
         test::perspective({-10.0, 0.0, 2.0}, {100.0, 0.0, 2.0}, 640, 480, 20.0, 0.2, 1000.0)};
-    const Judge judge(given);
     const auto technique = cascadesOf(2, 1024);
-    const test::TruthComparison result = test::compare(pictureOf(given, technique), judge.lit, judge.dark, judge.truth);
+    const test::TruthComparison result = test::CaseTrial(technique, given).comparison;
     EXPECT_EQ(technique->passes(), 2u);
     EXPECT_EQ(result.certain, 0) << result;
     EXPECT_GT(result.shadowed, 100) << result;
@@ -193,18 +176,6 @@ TEST(MapCascades, AreDividedAnewForACameraThatHasGoneElsewhere) {
     EXPECT_LE(street.camera.frame().different(fresh.camera.frame()), 640 * 480 / 1000);
 }
 
-TEST(MapCascades, AreFourAtMost) {
-    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
-    EXPECT_EQ(technique->getCascades(), 0);
-    for (const auto& [asked, kept] : {std::pair(-5, 0), {1, 1}, {3, 3}, {9, 4}}) {
-        technique->setCascades(asked);
-        EXPECT_EQ(technique->getCascades(), kept);
-    }
-    technique->setCascades(3);
-    const osg::ref_ptr<ShadowMapTechnique> copy = osg::clone(technique.get());
-    EXPECT_EQ(copy->getCascades(), 3);
-}
-
 /// 300 walls and blocks at 12 to 1200 m, seen from among them, as near and far as depths of 24 bits allow.
 TracedCase wallsNearAndFar() {
     std::mt19937 random(5);
@@ -230,11 +201,8 @@ TEST(MapCascades, KeepWallsDarkBesideWhatBlocksTheirLight) {
     for (const double azimuth : {-6.0, -15.0, 186.0, 195.0, 250.0}) {
         TracedCase given = wallsNearAndFar();
         given.light = test::sunAt(azimuth, 30.0);
-        const Judge judge(given);
-        const auto wrong = [&judge](int cascades) {
-            return test::compare(pictureOf(judge.given, cascadesOf(cascades, 1024)), judge.lit, judge.dark,
-                                 judge.truth);
-        };
+        const test::Judge judge(given);
+        const auto wrong = [&judge](int cascades) { return judge.compare(judge.with(cascadesOf(cascades, 1024))); };
         const test::TruthComparison found = wrong(0);
         std::cout << azimuth << ": " << found << "\n";
         pixels += found.pixels;

@@ -87,9 +87,8 @@ const osg::Vec4d noon{0.0, 0.0, 1.0, 0.0}, afternoon{0.3, 0.8, 1.0, 0.0}, lamp{0
 /// Whether there is something of it at (s, t).
 using Solid = std::function<bool(double s, double t)>;
 
-bool greater(double s, double t) {
-    return alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows) > 127.5;
-}
+int alphaAt(double s, double t) { return alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows); }
+bool greater(double s, double t) { return alphaAt(s, t) > 127.5; }
 bool everywhere(double, double) { return true; }
 
 struct FenceCase {
@@ -192,9 +191,7 @@ TEST(MapCutout, EachFunctionLeavesWhatItIsToLeave) {
                                      {F::EQUAL, 0.0f, [](int a) { return a == 0; }},
                                      {F::NOTEQUAL, 1.0f, [](int a) { return a < 255; }}}) {
         const auto set = [&](osg::Geometry& fence) { setTest(*fence.getStateSet(), function.how, function.reference); };
-        const auto solid = [&](double s, double t) {
-            return function.passes(alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows));
-        };
+        const auto solid = [&](double s, double t) { return function.passes(alphaAt(s, t)); };
         SCOPED_TRACE(function.how);
         EXPECT_EQ(expectShadowOf({level, noon, solid, set}), Causes());
     }
@@ -348,9 +345,7 @@ TEST(MapCutout, WhatBlendsCastsWhereItsAlphaIsAHalfOrMore) {
         material->setAlpha(osg::Material::FRONT_AND_BACK, 0.6f);
         fence.getStateSet()->setAttribute(material);
     };
-    const auto from213 = [](double s, double t) {
-        return alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows) > 212;
-    };
+    const auto from213 = [](double s, double t) { return alphaAt(s, t) > 212; };
     EXPECT_TRUE(castsOnly(expectShadowOf({upright, afternoon, from213, paler}), "as bright as without shadows"))
         << "its alpha is 1 nowhere";
     const auto fading = [&](osg::Geometry& fence) { // in colours of the vertices, upwards
@@ -361,9 +356,7 @@ TEST(MapCutout, WhatBlendsCastsWhereItsAlphaIsAHalfOrMore) {
         fence.setColorArray(colors, osg::Array::BIND_PER_VERTEX);
         fence.getStateSet()->setMode(GL_LIGHTING, On::OFF);
     };
-    const auto times = [](double s, double t) {
-        return t * alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows) > 127.5;
-    };
+    const auto times = [](double s, double t) { return t * alphaAt(s, t) > 127.5; };
     const Causes causes = expectShadowOf({upright, afternoon, times, fading});
     for (const std::string& cause : causes) EXPECT_NE(cause.find("unlit"), std::string::npos) << cause;
 }
@@ -420,9 +413,7 @@ TEST(MapCutout, ANewReferenceAnotherTextureAndAnImageDirtiedAreSeenInTheNextFram
     EXPECT_EQ(technique->passes(), 1u);
     auto* fence = static_cast<osg::Geometry*>(test::find(*scene.root, "fence"));
     static_cast<osg::AlphaFunc*>(fence->getStateSet()->getAttribute(On::ALPHAFUNC))->setReferenceValue(0.9f);
-    const auto solid = [](double s, double t) {
-        return alphaOf(int(std::floor(s * columns)), int(std::floor(t * rows)) % rows) > 229;
-    };
+    const auto solid = [](double s, double t) { return alphaAt(s, t) > 229; };
     EXPECT_EQ(judge({upright, afternoon, solid, give}, camera.frame()).wrong, 0);
     EXPECT_EQ(technique->passes(), 2u);
     for (unsigned row = 0; row < unsigned(rows); ++row)

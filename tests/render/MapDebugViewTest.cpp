@@ -113,12 +113,3 @@ TEST(MapDebugView, OfMapsShowsThemInTheCornerAndLeavesTheRestAlone) {
     EXPECT_GT(things, side * side / 10);
     EXPECT_EQ(empty + things, side * side);
 }
-
-TEST(MapDebugView, TakesViewsOnlyThatItHas) {
-    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
-    EXPECT_EQ(technique->getView(), ShadowMapTechnique::NOTHING);
-    technique->setView(ShadowMapTechnique::TEXELS);
-    EXPECT_EQ(technique->getView(), ShadowMapTechnique::TEXELS);
-    technique->setView(ShadowMapTechnique::View(17));
-    EXPECT_EQ(technique->getView(), ShadowMapTechnique::NOTHING);
-}

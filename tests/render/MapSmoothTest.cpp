@@ -45,26 +45,13 @@ double coverage(const glm::dvec3& across, double middle) {
     return double(beyond) / (samples * samples);
 }
 
-/// Pictures of a case in which a pixel's share of the light can be told.
-struct Shares {
-    explicit Shares(const TracedCase& of) : given(of) {
-        Scene in = given.build(), out = given.build();
-        out.takeLightAway();
-        lit = test::render(in.root, given.view);
-        dark = test::render(out.root, given.view);
-    }
-    Picture with(ShadowMapTechnique* technique) const {
-        Scene shadowed = given.build();
-        shadowed.addShadow(technique);
-        return test::render(shadowed.root, given.view);
-    }
+/// A case in which a pixel's share of the light can be told.
+struct Shares : test::Judge {
+    using Judge::Judge;
     bool tells(int x, int y) const { return int(lit.at(x, y) & 0xffu) - int(dark.at(x, y) & 0xffu) >= 20; }
     double at(const Picture& picture, int x, int y) const {
         return shareOf(picture.at(x, y), dark.at(x, y), lit.at(x, y));
     }
-
-    TracedCase given;
-    Picture lit, dark;
 };
 
 } // namespace
@@ -114,9 +101,8 @@ TEST(MapSmooth, PixelsHaveTheShareThatIsOnTheLitSide) {
 TEST(MapSmooth, AreNearerToRaysThanHardEdges) {
     for (const TracedCase& given : {test::labEight(), test::townOfHouses()}) {
         const Shares shares(given);
-        const auto truth = given.truth();
         const auto off = [&](ShadowMapTechnique::Edges edges, ShadowMapTechnique::Filter filter) {
-            return test::shareOff(shares.with(mapWith(edges, 4096, filter)), shares.lit, shares.dark, truth);
+            return shares.shareOff(shares.with(mapWith(edges, 4096, filter)));
         };
         const double hard = off(ShadowMapTechnique::HARD, ShadowMapTechnique::BICUBIC),
                      smooth = off(ShadowMapTechnique::SMOOTH, ShadowMapTechnique::BICUBIC),
@@ -142,8 +128,7 @@ TEST(MapSmooth, NoPixelThatAllRaysAgreeOnIsOnTheOtherSide) {
                         (share > 0.5 ? shares.lit : shares.dark).at(x, y);
                 }
             EXPECT_GT(between, 100) << filter;
-            EXPECT_EQ(test::compare(picture, shares.lit, shares.dark, given.truth()).certain, 0)
-                << filter << given.name;
+            EXPECT_EQ(shares.compare(picture).certain, 0) << filter << given.name;
         }
 }
 
@@ -267,8 +252,7 @@ TEST(MapTexels, FollowACameraThatComesNear) {
         const unsigned before = technique->passes();
         const Picture picture = camera.frame();
         EXPECT_EQ(technique->passes() - before, zoom == 0.95 ? 0u : 1u) << zoom;
-        const Shares shares(nearer);
-        EXPECT_EQ(test::compare(picture, shares.lit, shares.dark, nearer.truth()).certain, 0) << zoom;
+        EXPECT_EQ(test::Judge(nearer).compare(picture).certain, 0) << zoom;
     }
 }
 

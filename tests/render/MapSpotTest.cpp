@@ -52,7 +52,7 @@ std::vector<Mesh> casters() {
             test::box({-4.5, 3.0, 0.3}, {-3.0, 4.5, 0.9})};
 }
 
-Scene build(const osg::Vec4d& light) { return test::groundScene(casters(), 8.0, light); }
+Scene build(const Spot& spot) { return test::groundScene(casters(), 8.0, spot.light()); }
 
 /// What is expected of each pixel that shows the ground.
 test::Mask expected(const Spot& spot) {
@@ -73,7 +73,13 @@ struct Judged {
 };
 
 /// Of the ground's pixels but those at edges; a map's texel is less than a pixel here.
-Judged judge(const test::Mask& mask, const Picture& picture, const Picture& asLit, const Picture& asDark) {
+/// @param plain  builds the same without shadows.
+Judged judge(const Spot& spot, const Scene& shadowed, Scene (*plain)(const Spot&)) {
+    Scene lit = plain(spot), unlit = plain(spot);
+    unlit.takeLightAway();
+    const test::Mask mask = expected(spot);
+    const Picture picture = test::render(shadowed.root, view), asLit = test::render(lit.root, view),
+                  asDark = test::render(unlit.root, view);
     Judged result;
     for (int y = 1; y + 1 < view.height; ++y)
         for (int x = 1; x + 1 < view.width; ++x) {
@@ -96,14 +102,12 @@ osg::ref_ptr<ShadowMapTechnique> sharpMap() {
 TEST(MapSpot, OfALightThatShinesAllAroundLeavesTheConeLessItsShadowsToThePixel) {
     for (const Spot& spot : {down, slanting, wide, nearlyFlat})
         for (const bool named : {false, true}) {
-            Scene scene = build(spot.light()), lit = build(spot.light()), dark = build(spot.light());
-            dark.takeLightAway();
+            Scene scene = build(spot);
             const osg::ref_ptr<ShadowMapTechnique> technique = sharpMap();
             if (named) technique->setReceiver({test::find(*scene.root, "ground")});
             scene.addShadow(technique);
             scene.group->addLight(spot.asGiven());
-            const Judged result = judge(expected(spot), test::render(scene.root, view), test::render(lit.root, view),
-                                        test::render(dark.root, view));
+            const Judged result = judge(spot, scene, build);
             EXPECT_EQ(result.wrong, 0) << spot.cutoff;
             EXPECT_GT(result.lit, 3000) << spot.cutoff;
             EXPECT_GT(result.told, 3000) << spot.cutoff;
@@ -113,7 +117,7 @@ TEST(MapSpot, OfALightThatShinesAllAroundLeavesTheConeLessItsShadowsToThePixel) 
 
 /// Where relighting cannot be, for something uses stencil itself, shadows are blended: not what is outside the cone.
 TEST(MapSpot, ThatCannotBeRelitDarkensNothingOutsideItsCone) {
-    Scene scene = build(down.light()), other = build(down.light());
+    Scene scene = build(down), other = build(down);
     const Mesh stencilled = test::box({-1.5, -1.8, 0.0}, {-1.2, -1.5, 0.3});
     for (Scene* each : {&scene, &other}) {
         each->content->addChild(test::node(stencilled));
@@ -149,7 +153,7 @@ Mesh tiled() {
 
 /// An OpenGL spot under a transform that turns and moves it to where it is to be.
 Scene buildTurned(const Spot& spot) {
-    Scene scene = build(spot.light());
+    Scene scene = build(spot);
     auto* old = test::find(*scene.root, "ground")->asGeode();
     old->removeDrawables(0, old->getNumDrawables());
     old->addDrawable(test::node(tiled())->getDrawable(0));
@@ -168,12 +172,10 @@ Scene buildTurned(const Spot& spot) {
 TEST(MapSpot, OfOpenGLUnderATransformIsFoundWithItsConeOrNamed) {
     for (const Spot& spot : {down, slanting})
         for (const bool named : {false, true}) {
-            Scene scene = buildTurned(spot), lit = buildTurned(spot), dark = buildTurned(spot);
-            dark.takeLightAway();
+            Scene scene = buildTurned(spot);
             scene.addShadow(sharpMap());
             if (named) scene.group->addLight(scene.light);
-            const Judged result = judge(expected(spot), test::render(scene.root, view), test::render(lit.root, view),
-                                        test::render(dark.root, view));
+            const Judged result = judge(spot, scene, buildTurned);
             EXPECT_EQ(result.wrong, 0) << spot.cutoff;
             EXPECT_GT(result.lit, 3000) << spot.cutoff;
             EXPECT_GT(result.told, 300) << spot.cutoff << ": what OpenGL lights of squares that reach out of the cone";
@@ -182,8 +184,7 @@ TEST(MapSpot, OfOpenGLUnderATransformIsFoundWithItsConeOrNamed) {
 
 /// The group itself under a transform: cone and casters are told in its frame.
 TEST(MapSpot, IsWhereItIsUnderAGroupThatIsTurnedAndScaled) {
-    Scene scene = build(slanting.light()), lit = build(slanting.light()), dark = build(slanting.light());
-    dark.takeLightAway();
+    Scene scene = build(slanting);
     scene.addShadow(sharpMap());
     const osg::Matrixd worldFromGroup = osg::Matrixd::scale(2.0, 2.0, 2.0) *
                                         osg::Matrixd::rotate(0.7, osg::Vec3d(0.3, -0.2, 1.0)) *
@@ -199,15 +200,14 @@ TEST(MapSpot, IsWhereItIsUnderAGroupThatIsTurnedAndScaled) {
     spot.inGroup = spot.inGroup * groupFromWorld;
     spot.direction = osg::Matrixd::transform3x3(spot.direction, groupFromWorld);
     scene.group->addLight(spot);
-    const Judged result = judge(expected(slanting), test::render(scene.root, view), test::render(lit.root, view),
-                                test::render(dark.root, view));
+    const Judged result = judge(slanting, scene, build);
     // Lighting of vertices under other matrices rounds otherwise: in a few pixels by one step of 255.
     EXPECT_LE(result.wrong, (result.lit + result.dark) / 100);
     EXPECT_GT(result.lit, 3000);
 }
 
 TEST(MapSpot, HasOneMapAndDrawsItAgainOnlyWhenItTurns) {
-    Scene scene = build(wide.light());
+    Scene scene = build(wide);
     const osg::ref_ptr<ShadowMapTechnique> technique = sharpMap();
     scene.addShadow(technique);
     scene.group->addLight(wide.asGiven());
@@ -229,12 +229,10 @@ TEST(MapSpot, HasOneMapAndDrawsItAgainOnlyWhenItTurns) {
 
 TEST(MapSpot, WhoseConeMeetsNoCasterIsStillDarkAround) {
     const Spot spot{{4.5, -4.5, 6.0}, {0.0, 0.0, -1.0}, 20.0};
-    Scene scene = build(spot.light()), lit = build(spot.light()), dark = build(spot.light());
-    dark.takeLightAway();
+    Scene scene = build(spot);
     scene.addShadow(sharpMap());
     scene.group->addLight(spot.asGiven());
-    const Judged result = judge(expected(spot), test::render(scene.root, view), test::render(lit.root, view),
-                                test::render(dark.root, view));
+    const Judged result = judge(spot, scene, build);
     EXPECT_EQ(result.wrong, 0);
     EXPECT_GT(result.lit, 1000);
 }
@@ -267,7 +265,7 @@ TEST(MapSpot, BlendDarkensShadowsWithinTheConeAlone) {
 
 TEST(MapSpot, OfNoDirectionOrOfACutoffThatIsNoneIsALampAllAround) {
     const auto picture = [](const osg::Vec3d& direction, double cutoff) {
-        Scene scene = build(down.light());
+        Scene scene = build(down);
         scene.addShadow(sharpMap());
         scene.group->addLight(ShadowLight{0, down.light(), direction, cutoff});
         return test::render(scene.root, view);
@@ -282,7 +280,6 @@ TEST(MapSpot, OfNoDirectionOrOfACutoffThatIsNoneIsALampAllAround) {
 
 } // namespace
 
-using gnomon::TruthImage;
 using namespace test;
 
 namespace {
@@ -314,16 +311,14 @@ constexpr double mostWrong = 0.005; // of the pixels away from edges
 TEST(MapLamps, AmongCastersAndBelowTheirTopsAreWrongInNoMoreThanAHalfPercentAwayFromEdges) {
     for (const Place& place : places) {
         const TracedCase given = amongThings(place.lamp);
-        Scene lit = given.build(), dark = given.build(), shadowed = given.build();
-        dark.takeLightAway();
+        const Judge judge(given);
         const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
+        Scene shadowed = given.build();
         shadowed.addShadow(technique);
-        const Picture asLit = render(lit.root, given.view), asDark = render(dark.root, given.view);
-        const TruthImage truth = given.truth();
         Camera camera(shadowed.root, given.view);
         for (const int size : {512, 1024, 2048}) {
             technique->setSize(size);
-            const TruthComparison found = compare(camera.frame(), asLit, asDark, truth);
+            const TruthComparison found = judge.compare(camera.frame());
             std::cout << place.name << ", size " << size << ": " << found << "\n";
             EXPECT_LE(found.certain, mostWrong * (found.pixels - found.edges)) << place.name << ", size " << size;
             EXPECT_EQ(found.neither, 0) << place.name;
@@ -345,17 +340,12 @@ TracedCase onALargeGround(double half) {
 // A ground that is seen far away is in the same maps as what is near the lamp.
 TEST(MapLamps, KeepTheShadowsOfWhatIsNearThemHoweverLargeTheGroundIs) {
     for (const double half : {10.0, 400.0, 1000.0, 1500.0}) {
-        const TracedCase given = onALargeGround(half);
-        Scene lit = given.build(), dark = given.build(), shadowed = given.build();
-        dark.takeLightAway();
-        const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
-        shadowed.addShadow(technique);
-        const TruthComparison found = compare(render(shadowed.root, given.view), render(lit.root, given.view),
-                                              render(dark.root, given.view), given.truth());
+        const CaseTrial trial(new ShadowMapTechnique, onALargeGround(half));
+        const TruthComparison& found = trial.comparison;
         std::cout << "ground of " << 2.0 * half << " m: " << found << "\n";
         EXPECT_LE(found.certain, mostWrong * found.shadowed) << half;
         EXPECT_GT(found.shadowed, 3000) << half;
-        EXPECT_EQ(technique->diagnose(), std::vector<std::string>()) << half;
+        EXPECT_EQ(trial.causes, std::vector<std::string>()) << half;
     }
 }
 

@@ -9,7 +9,9 @@
 #include <osg/ContextData>
 #include <osg/GLExtensions>
 
+#include <cmath>
 #include <iostream>
+#include <tuple>
 
 using gnomon::ShadowMapTechnique;
 using test::labEight;
@@ -28,18 +30,10 @@ osg::ref_ptr<ShadowMapTechnique> mapOf(int size, ShadowMapTechnique::Filter filt
     return technique;
 }
 
-test::TruthComparison judged(const TracedCase& given, ShadowMapTechnique* technique) {
-    Scene lit = given.build(), dark = given.build(), shadowed = given.build();
-    dark.takeLightAway();
-    shadowed.addShadow(technique);
-    return test::compare(test::render(shadowed.root, given.view), test::render(lit.root, given.view),
-                         test::render(dark.root, given.view), given.truth());
-}
-
 TEST(Map, IsWrongNowhereButAtEdgesAndThereByAFractionOfAPixel) {
     for (const TracedCase& given : {labEight(), townOfHouses(), room()}) {
-        const osg::ref_ptr<ShadowMapTechnique> technique = mapOf(2048);
-        const test::TruthComparison result = judged(given, technique);
+        const test::CaseTrial trial(mapOf(2048), given);
+        const test::TruthComparison& result = trial.comparison;
         std::cout << given.name << ": " << result << "\n";
         EXPECT_EQ(result.neither, 0) << given.name;
         EXPECT_EQ(result.certain, 0) << given.name << ": a texel is less than a pixel there";
@@ -47,7 +41,7 @@ TEST(Map, IsWrongNowhereButAtEdgesAndThereByAFractionOfAPixel) {
         // that is a third of a pixel is a ninth.
         EXPECT_LE(result.wrong - result.floor, result.edges / 8) << given.name;
         EXPECT_GT(result.shadowed, 5000) << given.name;
-        EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+        EXPECT_EQ(trial.causes, std::vector<std::string>());
     }
 }
 
@@ -111,12 +105,12 @@ TEST(Map, IsTheSameWhereDepthsAreNotCopiedMirrored) {
 }
 
 TEST(Map, EachFilterAndEachSizeIsBetterThanTheOneBefore) {
-    const TracedCase town = townOfHouses();
-    int before = town.view.width * town.view.height;
+    const test::Judge town(townOfHouses());
+    int before = town.given.view.width * town.given.view.height;
     for (const int size : {256, 1024})
         for (const auto filter :
              {ShadowMapTechnique::NEAREST, ShadowMapTechnique::BILINEAR, ShadowMapTechnique::BICUBIC}) {
-            const int wrong = judged(town, mapOf(size, filter)).wrong;
+            const int wrong = town.compare(town.with(mapOf(size, filter))).wrong;
             EXPECT_LT(wrong, before) << "size " << size << ", filter " << filter;
             before = wrong;
         }
@@ -131,7 +125,7 @@ TEST(Map, WhatIsFlatCastsBesideOverAndBehindWhatIsNot) {
                     test::quad({-2.5, -0.5, 1.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}),
                     test::quad({-0.4, -0.4, 2.0}, {1.6, 0.0, 0.0}, {0.0, 1.6, 0.0}),
                     test::quad({-0.6, -0.3, 0.4}, {0.5, 0.0, 0.0}, {0.0, 0.5, 0.0})};
-    const test::TruthComparison result = judged(given, mapOf(1024));
+    const test::TruthComparison result = test::CaseTrial(mapOf(1024), given).comparison;
     EXPECT_EQ(result.neither, 0);
     EXPECT_EQ(result.certain, 0) << "a texel is less than a pixel there";
     EXPECT_GT(result.shadowed, 3000);
@@ -142,13 +136,8 @@ TEST(Map, AThingThatIsSunkIntoAGroundHasAsSharpAnEdgeAsOneThatStandsOnIt) {
     const auto edgesOff = [](double height) {
         TracedCase given = labEight();
         given.meshes = {test::square(40.0), test::sphere({0.0, 0.0, height}, 1.0, 24)};
-        Scene lit = given.build(), dark = given.build(), shadowed = given.build();
-        dark.takeLightAway();
-        const osg::ref_ptr<ShadowMapTechnique> technique = mapOf(256);
-        shadowed.addShadow(technique);
-        return test::edgesOff(test::render(shadowed.root, given.view), test::render(lit.root, given.view),
-                              test::render(dark.root, given.view), given.truth())
-            .p95;
+        const test::Judge judge(given);
+        return judge.edgesOff(judge.with(mapOf(256)));
     };
     const double standing = edgesOff(1.001), sunk = edgesOff(0.7);
     std::cout << "p95 " << standing << " px standing, " << sunk << " px sunk\n";
@@ -173,19 +162,6 @@ TEST(Map, LevelGroundsAreFreeOfAcne) {
         }
 }
 
-/// Pixels about which pictures differ in a block of 3 × 3: edges that are off by less are thinner.
-int differingBlocks(const Picture& a, const Picture& b) {
-    int blocks = 0;
-    for (int y = 1; y + 1 < a.height; ++y)
-        for (int x = 1; x + 1 < a.width; ++x) {
-            bool all = true;
-            for (int v = y - 1; v <= y + 1; ++v)
-                for (int u = x - 1; u <= x + 1; ++u) all = all && a.at(u, v) != b.at(u, v);
-            blocks += all;
-        }
-    return blocks;
-}
-
 TEST(Map, TakesEachOfThreeLightsFromWhereItDoesNotReach) {
     const TracedCase given = labEight();
     const auto picture = [&](gnomon::ShadowTechnique* technique) {
@@ -206,8 +182,8 @@ TEST(Map, TakesEachOfThreeLightsFromWhereItDoesNotReach) {
     };
     const osg::ref_ptr<ShadowMapTechnique> technique = mapOf(2048);
     const Picture mapped = picture(technique), traced = picture(new gnomon::TracedShadowTechnique);
-    EXPECT_EQ(differingBlocks(mapped, traced), 0);
-    EXPECT_GT(differingBlocks(mapped, picture(nullptr)), 10000);
+    EXPECT_EQ(test::differingBlocks(mapped, traced), 0);
+    EXPECT_GT(test::differingBlocks(mapped, picture(nullptr)), 10000);
     EXPECT_EQ(technique->passes(), 2u + 3u); // in the first of two frames: each sun; the lamp down and to two sides
 }
 
@@ -288,7 +264,7 @@ TEST(MapPasses, FollowACameraThatLeavesWhatIsCovered) {
     EXPECT_LE(passes, 10u);
     TracedCase last = moving.given;
     last.view = test::perspective({12.0, 6.0, 1.0}, {0.0, 0.0, 0.0}, 640, 480);
-    EXPECT_EQ(judged(last, moving.technique).certain, 0);
+    EXPECT_EQ(test::CaseTrial(moving.technique, last).comparison.certain, 0);
 }
 
 TEST(Map, ASizeBeyondTheDriversIsToldInOneSentence) {
@@ -306,13 +282,34 @@ TEST(Map, ASizeBeyondTheDriversIsToldInOneSentence) {
     EXPECT_EQ(drawn, 0u);
 }
 
-TEST(Map, TakesSizesOnlyThatItHas) {
+TEST(Map, TakesOnlyOptionsThatItHas) {
+    using Options = gnomon::ShadowMapOptions;
+    const Options fresh;
+    EXPECT_EQ(std::tuple(fresh.size, fresh.cascades, fresh.edges, fresh.sunAngle, fresh.view, fresh.programUnit),
+              std::tuple(1024, 0, Options::HARD, 0.533, Options::NOTHING, -1));
     const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
-    EXPECT_EQ(technique->getSize(), 1024);
-    for (const auto& [asked, kept] : {std::pair(-5, 16), {16, 16}, {300, 300}, {100000, 16384}}) {
-        technique->setSize(asked);
-        EXPECT_EQ(technique->getSize(), kept);
+    const auto kept = [&technique](auto Options::*which, auto asked) {
+        Options options;
+        options.*which = asked;
+        technique->setOptions(options);
+        return technique->getOptions().*which;
+    };
+    for (const auto& [asked, given] : {std::pair(-5, 16), {16, 16}, {300, 300}, {100000, 16384}})
+        EXPECT_EQ(kept(&Options::size, asked), given);
+    for (const auto& [asked, given] : {std::pair(-5, 0), {1, 1}, {3, 3}, {9, 4}})
+        EXPECT_EQ(kept(&Options::cascades, asked), given);
+    for (const auto& [asked, given] : {std::pair(5, 5), {31, 31}, {32, -1}, {-7, -1}})
+        EXPECT_EQ(kept(&Options::programUnit, asked), given);
+    for (const auto& [asked, given] :
+         {std::pair(Options::TEXELS, Options::TEXELS), {Options::View(17), Options::NOTHING}})
+        EXPECT_EQ(kept(&Options::view, asked), given);
+    for (const auto& [asked, given] : {std::pair(-1.0, 0.0), {3.0, 3.0}, {50.0, 20.0}, {double(NAN), 0.0}}) {
+        EXPECT_EQ(kept(&Options::sunAngle, asked), given);
+        EXPECT_EQ(kept(&Options::lampSize, asked), asked == 50.0 ? 50.0 : given);
+        EXPECT_EQ(kept(&Options::radius, asked), asked == 50.0 ? 50.0 : given);
     }
+    technique->setCascades(9);
+    EXPECT_EQ(osg::ref_ptr(osg::clone(technique.get()))->getCascades(), 4);
 }
 
 } // namespace

@@ -127,12 +127,3 @@ TEST(ProgramMaps, FindsInEachOfTwoViewsWhatIsTrueThere) {
         EXPECT_EQ(against(other.truth(), second.frame()).wrong, 0) << frame;
     }
 }
-
-TEST(ProgramMaps, HasUnitsFromNoneTo31) {
-    const osg::ref_ptr<ShadowMapTechnique> technique = new ShadowMapTechnique;
-    EXPECT_EQ(technique->getProgramUnit(), -1);
-    for (const auto& [asked, kept] : {std::pair(5, 5), {31, 31}, {32, -1}, {-7, -1}}) {
-        technique->setProgramUnit(asked);
-        EXPECT_EQ(technique->getProgramUnit(), kept);
-    }
-}

@@ -95,18 +95,36 @@ TracedCase flatGround(double half, double height, double elevation, double near,
             perspective({-half / 2.0, -half / 2.0, height}, {0.0, 0.0, 0.0}, 320, 240, 40.0, near, far)};
 }
 
-CaseTrial drawnBy(gnomon::ShadowTechnique* given, const TracedCase& from) {
-    CaseTrial result;
-    const osg::ref_ptr<gnomon::ShadowTechnique> technique = given;
-    Scene lit = from.build(), dark = from.build(), shadowed = from.build();
-    dark.takeLightAway();
-    shadowed.addShadow(technique);
-    result.lit = render(lit.root, from.view);
-    result.dark = render(dark.root, from.view);
-    result.cast = render(shadowed.root, from.view);
-    result.comparison = compare(result.cast, result.lit, result.dark, from.truth());
-    result.causes = technique->diagnose();
-    return result;
+Judge::Judge(const TracedCase& of) : given(of) {
+    Scene in = given.build(), out = given.build();
+    out.takeLightAway();
+    lit = render(in.root, given.view);
+    dark = render(out.root, given.view);
+}
+
+Picture Judge::with(const osg::ref_ptr<gnomon::ShadowTechnique>& technique) const {
+    Scene shadowed = given.build();
+    shadowed.addShadow(technique.get());
+    return render(shadowed.root, given.view);
+}
+
+const gnomon::TruthImage& Judge::truth() const {
+    if (!_truth) _truth = given.truth();
+    return *_truth;
+}
+
+int differingBlocks(const Picture& a, const Picture& b) {
+    int blocks = 0;
+    for (int y = 1; y + 1 < a.height; ++y)
+        for (int x = 1; x + 1 < a.width; ++x) {
+            bool all = true;
+            for (int i = 0; i < 9; ++i) {
+                const int u = x + i % 3 - 1, v = y + i / 3 - 1;
+                all = all && a.at(u, v) != b.at(u, v);
+            }
+            blocks += all;
+        }
+    return blocks;
 }
 
 } // namespace test

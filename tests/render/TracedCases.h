@@ -6,6 +6,7 @@
 #include <support/Scene.h>
 #include <support/Truth.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,13 +42,37 @@ TracedCase longStreet(double azimuth, double elevation = 15.0);
 /// A level square of `side` × `side` small ones under a sun, see sunAt(), seen from `height`.
 TracedCase flatGround(double half, double height, double elevation, double near, double far, int side = 1);
 
-/// What a technique draws of a case, beside the truth.
-struct CaseTrial {
-    Picture lit, dark, cast;
+/// A case without shadows and what rays find of it, against which pictures with shadows are held.
+struct Judge {
+    explicit Judge(const TracedCase& of);
+    /// The first frame with a technique's shadows.
+    Picture with(const osg::ref_ptr<gnomon::ShadowTechnique>& technique) const;
+    /// Found when it is first asked for.
+    const gnomon::TruthImage& truth() const;
+    TruthComparison compare(const Picture& actual) const { return test::compare(actual, lit, dark, truth()); }
+    /// Pixels: of the edges, 95 % are less off.
+    double edgesOff(const Picture& actual) const { return test::edgesOff(actual, lit, dark, truth()).p95; }
+    double shareOff(const Picture& actual) const { return test::shareOff(actual, lit, dark, truth()); }
+
+    TracedCase given;
+    Picture lit, dark; ///< see compare() of support/Truth.h.
+
+private:
+    mutable std::optional<gnomon::TruthImage> _truth;
+};
+
+/// What a technique draws of a case.
+struct CaseTrial : Judge {
+    CaseTrial(const osg::ref_ptr<gnomon::ShadowTechnique>& technique, const TracedCase& from)
+        : Judge(from), cast(with(technique)), comparison(compare(cast)), causes(technique->diagnose()) {}
+
+    Picture cast;
     TruthComparison comparison;
     std::vector<std::string> causes;
 };
-CaseTrial drawnBy(gnomon::ShadowTechnique* given, const TracedCase& from);
+
+/// Pixels about which pictures differ in a block of 3 × 3: edges that are off by less are thinner.
+int differingBlocks(const Picture& a, const Picture& b);
 
 /// A case with one caster more, which can be moved, seen by a camera that can be turned; and what its maps cost.
 struct MovingCase {

@@ -129,7 +129,7 @@ using test::TracedCase;
 
 namespace {
 
-CaseTrial draw(const TracedCase& given) { return test::drawnBy(new gnomon::TracedShadowTechnique, given); }
+CaseTrial draw(const TracedCase& given) { return {new gnomon::TracedShadowTechnique, given}; }
 
 TEST(Traced, IsAsGoodAsOneRayAPixelCanBe) {
     for (const TracedCase& given : {labEight(), townOfHouses(), room()}) {

@@ -17,7 +17,7 @@
 namespace test {
 namespace {
 
-CaseTrial drawVolume(const TracedCase& given) { return drawnBy(new gnomon::ShadowVolumeTechnique, given); }
+CaseTrial drawVolume(const TracedCase& given) { return {new gnomon::ShadowVolumeTechnique, given}; }
 
 /// As good as one ray a pixel can be, but for a few pixels that the rasteriser decides; and nothing is complained of.
 /// @param least  pixels that are in shadow, or this shows nothing.
@@ -275,8 +275,7 @@ TEST(VolumeCompany, SeveralSamplesSmoothItsEdges) {
     dark.takeLightAway();
     const Picture lit = inSamples(all.build()), unlit = inSamples(dark), cast = inSamples(shadowed);
     const test::CaseTrial single = test::drawVolume(all);
-    const double one = test::shareOff(single.cast, single.lit, single.dark, all.truth()),
-                 four = test::shareOff(cast, lit, unlit, all.truth());
+    const double one = single.shareOff(single.cast), four = test::shareOff(cast, lit, unlit, single.truth());
     EXPECT_LT(four, 0.6 * one);
     EXPECT_GT(one, 0.01) << "there are edges";
 }
