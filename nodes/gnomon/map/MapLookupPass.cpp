@@ -105,19 +105,13 @@ MapPrograms::MapPrograms()
       blocksProgram(quadProgram("gnomon blocks", "", shaders::blocks_frag)),
       coneProgram(quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag)) {}
 
-osg::ref_ptr<const osg::StateSet> MapPrograms::program(const std::string& defines) {
-    return of(_programs, defines, std::string(shaders::cone_frag) + shaders::map_filter_frag + shaders::map_frag);
-}
-
-osg::ref_ptr<const osg::StateSet> MapPrograms::viewProgram(const std::string& defines) {
-    return of(_viewPrograms, defines, shaders::map_view_frag);
-}
-
-osg::ref_ptr<const osg::StateSet> MapPrograms::of(Programs& programs, const std::string& defines,
-                                                  const std::string& shader) {
+osg::ref_ptr<const osg::StateSet> MapPrograms::program(const std::string& defines, bool debugView) {
     Lock lock(_mutex);
-    osg::ref_ptr<osg::StateSet>& set = programs[defines];
-    if (!set) set = quadProgram("gnomon map", defines, (shaders::map_place_frag + shader).c_str());
+    osg::ref_ptr<osg::StateSet>& set = _programs[{debugView, defines}];
+    if (set) return set;
+    const std::string looksUp = std::string(shaders::cone_frag) + shaders::map_filter_frag + shaders::map_frag;
+    set = quadProgram("gnomon map", defines,
+                      (shaders::map_place_frag + (debugView ? shaders::map_view_frag : looksUp)).c_str());
     return set;
 }
 
@@ -125,8 +119,7 @@ std::vector<osg::ref_ptr<osg::StateSet>> MapPrograms::all() {
     Lock lock(_mutex);
     std::vector<osg::ref_ptr<osg::StateSet>> sets{casterProgram, casterByLampProgram, cutoutProgram, blocksProgram,
                                                   coneProgram};
-    for (const Programs* programs : {&_programs, &_viewPrograms})
-        for (const auto& [defines, set] : *programs) sets.push_back(set);
+    for (const auto& [what, set] : _programs) sets.push_back(set);
     return sets;
 }
 
@@ -291,7 +284,7 @@ void drawMapView(const MapLookupPass& quad, ShadowMapOptions::View view, osg::Re
     if (view != ShadowMapOptions::MAP)
         copy = quad.resources->seen.copy(state, pixelsInScissor(*state.getCurrentViewport()));
     if (!copy.cause.empty()) return; // the same
-    state.apply(quad.resources->viewProgram(defines[int(view)] + quad.mapDefines()).get());
+    state.apply(quad.resources->program(defines[int(view)] + quad.mapDefines(), true).get());
     if (!hasProgram(state)) return;
     pass.beginBlend();
     if (view == ShadowMapOptions::MAP) {

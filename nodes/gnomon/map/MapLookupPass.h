@@ -16,6 +16,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -29,9 +30,8 @@ public:
     FrameDepthCopy seen;
     std::atomic<unsigned> passes{0}; ///< maps drawn so far.
 
-    /// The programs for these defines, see map.frag and map_view.frag; made at their first use.
-    osg::ref_ptr<const osg::StateSet> program(const std::string& defines);
-    osg::ref_ptr<const osg::StateSet> viewProgram(const std::string& defines);
+    /// The program for these defines, see map.frag, or of the debug view, see map_view.frag; made at its first use.
+    osg::ref_ptr<const osg::StateSet> program(const std::string& defines, bool debugView = false);
     void resizeGLObjectBuffers(unsigned maxSize);
     void release(osg::State* state);
 
@@ -42,10 +42,7 @@ private:
     std::vector<osg::ref_ptr<osg::StateSet>> all();
 
     OpenThreads::Mutex _mutex;
-    using Programs = std::map<std::string, osg::ref_ptr<osg::StateSet>>;
-    osg::ref_ptr<const osg::StateSet> of(Programs& programs, const std::string& defines, const std::string& shader);
-
-    Programs _programs, _viewPrograms;
+    std::map<std::pair<bool, std::string>, osg::ref_ptr<osg::StateSet>> _programs; ///< by what they are for.
 };
 
 /// From window coordinates x and y, and 1 - depth.

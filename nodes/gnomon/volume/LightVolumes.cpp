@@ -174,7 +174,7 @@ ReceiverBox ReceiverBox::grown() const {
     return {low - share * (high - low), high + share * (high - low)};
 }
 
-/// Leaves share few matrices, those of one one after another.
+/// Leaves that share a matrix mostly follow one another.
 ReceiverBox receiversOf(const ViewFrame& view, const SceneFrame& scene) {
     const osg::Matrixd sceneFromEye = scene.sceneFromEye(view);
     const osg::RefMatrix* known = nullptr;
