@@ -44,16 +44,18 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
                                             const glm::dvec4& light, const SceneFrame& scene) {
     const ReceiverBox receivers = receiversOf(view, scene);
     Lock lock(_mutex);
-    const auto own = _entries.find({view.stage, lightNumber, 0});
+    const auto [known, isNew] = _entries.try_emplace({view.stage, lightNumber}, Entry{receivers, {}});
+    Entry& own = known->second;
     // A light that is asked for twice begins a round as well, for views may count no frames.
-    if (view.frameNumber != _frame || (own != _entries.end() && own->second.used == _round)) ++_round;
+    if (view.frameNumber != _frame || (!isNew && own.used == _round)) ++_round;
     _frame = view.frameNumber;
-    const ReceiverBox& box = boxOf(view.stage, receivers);
-    std::vector<osg::ref_ptr<LightVolumes>> all;
-    for (const VolumeCaster& caster : castersOf(casters))
-        all.push_back(find(caster, _entries[{view.stage, lightNumber, all.size()}], light, box));
+    own.used = _round;
+    if (!own.receivers.fits(receivers)) own.receivers = receivers.grown();
+    const std::vector<VolumeCaster> all = castersOf(casters);
+    own.volumes.resize(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) update(own.volumes[i], all[i], light, own.receivers);
     dropUnused();
-    return seenVolumes(all, scene.clipFromScene(view));
+    return seenVolumes(own.volumes, scene.clipFromScene(view));
 }
 
 std::vector<VolumeCaster> VolumeCache::castersOf(const CasterLayers& casters) {
@@ -68,24 +70,14 @@ std::vector<VolumeCaster> VolumeCache::castersOf(const CasterLayers& casters) {
     return all;
 }
 
-const ReceiverBox& VolumeCache::boxOf(const void* stage, const ReceiverBox& receivers) {
-    const auto [known, isNew] = _boxes.emplace(stage, Box{receivers});
-    Box& box = known->second;
-    if (!isNew && !box.receivers.fits(receivers)) box.receivers = receivers.grown();
-    box.used = _round;
-    return box.receivers;
-}
-
 /// Those of another light give up their memory, unless they are still drawn.
-osg::ref_ptr<LightVolumes> VolumeCache::find(const VolumeCaster& caster, Entry& own, const glm::dvec4& light,
-                                             const ReceiverBox& receivers) {
-    own.used = _round;
-    if (own.volumes && own.volumes->are(caster, light, receivers)) return own.volumes;
-    if (!own.volumes || own.volumes->referenceCount() > 1) own.volumes = new LightVolumes;
+void VolumeCache::update(osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster& caster, const glm::dvec4& light,
+                         const ReceiverBox& receivers) {
+    if (volumes && volumes->are(caster, light, receivers)) return;
+    if (!volumes || volumes->referenceCount() > 1) volumes = new LightVolumes;
     // Isolated: a thread that waits for others must not take up work of the caller's, which might ask in turn.
-    tbb::this_task_arena::isolate([&] { own.volumes->set(caster, light, receivers); });
+    tbb::this_task_arena::isolate([&] { volumes->set(caster, light, receivers); });
     ++_builds;
-    return own.volumes;
 }
 
 void VolumeCache::dropUnused() {
@@ -95,7 +87,6 @@ void VolumeCache::dropUnused() {
     };
     drop(_edges);
     drop(_entries);
-    drop(_boxes);
 }
 
 unsigned VolumeCache::builds() const {
@@ -106,13 +97,15 @@ unsigned VolumeCache::builds() const {
 void VolumeCache::resizeGLObjectBuffers(unsigned maxSize) {
     Lock lock(_mutex);
     program->resizeGLObjectBuffers(maxSize);
-    for (const auto& [owner, entry] : _entries) entry.volumes->resizeGLObjectBuffers(maxSize);
+    for (const auto& [owner, entry] : _entries)
+        for (const auto& volumes : entry.volumes) volumes->resizeGLObjectBuffers(maxSize);
 }
 
 void VolumeCache::release(osg::State* state) const {
     Lock lock(_mutex);
     program->releaseGLObjects(state);
-    for (const auto& [owner, entry] : _entries) entry.volumes->releaseGLObjects(state);
+    for (const auto& [owner, entry] : _entries)
+        for (const auto& volumes : entry.volumes) volumes->releaseGLObjects(state);
 }
 
 } // namespace gnomon

@@ -9,8 +9,8 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -39,11 +39,11 @@ public:
     void release(osg::State* state) const;
 
 private:
-    /// For whom volumes were found: a view's stage, a light's number, and which of the casters'.
-    using Owner = std::tuple<const void*, int, std::size_t>;
+    /// What was found for a light in a view.
     struct Entry {
-        osg::ref_ptr<LightVolumes> volumes;
-        unsigned used = 0; ///< in which round.
+        ReceiverBox receivers;                           ///< the same as before while it fits.
+        std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster.
+        unsigned used = 0;                               ///< in which round.
     };
     /// The edges of a mesh, found once, wherever it stands.
     struct Edges {
@@ -51,23 +51,16 @@ private:
         std::shared_ptr<const SilhouetteMesh> mesh;
         unsigned used = 0; ///< the same.
     };
-    struct Box {
-        ReceiverBox receivers;
-        unsigned used = 0; ///< the same.
-    };
     static constexpr unsigned longUnused = 64; ///< rounds.
 
     std::vector<VolumeCaster> castersOf(const CasterLayers& casters);
-    /// The same as before while it fits.
-    const ReceiverBox& boxOf(const void* stage, const ReceiverBox& receivers);
-    osg::ref_ptr<LightVolumes> find(const VolumeCaster& caster, Entry& own, const glm::dvec4& light,
-                                    const ReceiverBox& receivers);
+    void update(osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster& caster, const glm::dvec4& light,
+                const ReceiverBox& receivers);
     void dropUnused();
 
     mutable OpenThreads::Mutex _mutex;
     std::unordered_map<const CasterMesh*, Edges> _edges;
-    std::map<const void*, Box> _boxes; ///< by stage.
-    std::map<Owner, Entry> _entries;
+    std::map<std::pair<const void*, int>, Entry> _entries; ///< by a view's stage and a light's number.
     unsigned _builds = 0;
     unsigned _round = 0, _frame = 0; ///< a round is a frame.
 };
