@@ -18,10 +18,7 @@
 
 using gnomon::ShadowLight;
 using gnomon::ShadowMapTechnique;
-using test::Mesh;
-using test::Picture;
-using test::Scene;
-using test::View;
+using namespace test;
 
 namespace {
 
@@ -44,25 +41,25 @@ const Spot slanting{{-3.0, -2.0, 5.0}, {1.4, 1.0, -1.6}, 24.0}; // of a directio
 const Spot wide{{0.0, 0.0, 1.6}, {0.1, 0.0, -1.0}, 72.0};
 const Spot nearlyFlat{{0.0, 0.5, 2.5}, {0.0, -1.0, -0.12}, 85.0}; // wider than one map can be
 
-const View view = test::perspective({-2.0, -12.0, 11.0}, {0.0, 0.0, 0.0});
+const View view = perspective({-2.0, -12.0, 11.0}, {0.0, 0.0, 0.0});
 
 /// One in the middle, one that reaches out of `down`'s cone, one that is all outside of it.
 std::vector<Mesh> casters() {
-    return {test::box({-0.5, -0.6, 0.0}, {0.6, 0.3, 1.0}), test::box({2.0, 1.0, 0.0}, {4.2, 1.8, 0.7}),
-            test::box({-4.5, 3.0, 0.3}, {-3.0, 4.5, 0.9})};
+    return {box({-0.5, -0.6, 0.0}, {0.6, 0.3, 1.0}), box({2.0, 1.0, 0.0}, {4.2, 1.8, 0.7}),
+            box({-4.5, 3.0, 0.3}, {-3.0, 4.5, 0.9})};
 }
 
-Scene build(const Spot& spot) { return test::groundScene(casters(), 8.0, spot.light()); }
+Scene build(const Spot& spot) { return groundScene(casters(), 8.0, spot.light()); }
 
 /// What is expected of each pixel that shows the ground.
-test::Mask expected(const Spot& spot) {
-    test::Mask mask = test::castRays(test::square(8.0), casters(), spot.light(), view);
+Mask expected(const Spot& spot) {
+    Mask mask = castRays(square(8.0), casters(), spot.light(), view);
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
-            test::Seen& seen = mask.pixels[std::size_t(y * view.width + x)];
-            const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
-            if (seen == test::Seen::LitReceiver && !spot.lights(sight.from - sight.way * (sight.from.z / sight.way.z)))
-                seen = test::Seen::ShadowedReceiver;
+            Seen& seen = mask.pixels[std::size_t(y * view.width + x)];
+            const Sight sight = test::sight(view, x + 0.5, y + 0.5);
+            if (seen == Seen::LitReceiver && !spot.lights(sight.from - sight.way * (sight.from.z / sight.way.z)))
+                seen = Seen::ShadowedReceiver;
         }
     return mask;
 }
@@ -77,15 +74,15 @@ struct Judged {
 Judged judge(const Spot& spot, const Scene& shadowed, Scene (*plain)(const Spot&)) {
     Scene lit = plain(spot), unlit = plain(spot);
     unlit.takeLightAway();
-    const test::Mask mask = expected(spot);
-    const Picture picture = test::render(shadowed.root, view), asLit = test::render(lit.root, view),
-                  asDark = test::render(unlit.root, view);
+    const Mask mask = expected(spot);
+    const Picture picture = render(shadowed.root, view), asLit = render(lit.root, view),
+                  asDark = render(unlit.root, view);
     Judged result;
     for (int y = 1; y + 1 < view.height; ++y)
         for (int x = 1; x + 1 < view.width; ++x) {
-            const test::Seen seen = mask.at(x, y);
-            if (seen == test::Seen::Nothing || seen == test::Seen::Caster || mask.atEdge(x, y)) continue;
-            const bool dark = seen == test::Seen::ShadowedReceiver;
+            const Seen seen = mask.at(x, y);
+            if (seen == Seen::Nothing || seen == Seen::Caster || mask.atEdge(x, y)) continue;
+            const bool dark = seen == Seen::ShadowedReceiver;
             ++(dark ? result.dark : result.lit);
             result.told += dark && asLit.at(x, y) != asDark.at(x, y);
             result.wrong += picture.at(x, y) != (dark ? asDark : asLit).at(x, y);
@@ -104,7 +101,7 @@ TEST(MapSpot, OfALightThatShinesAllAroundLeavesTheConeLessItsShadowsToThePixel) 
         for (const bool named : {false, true}) {
             Scene scene = build(spot);
             const osg::ref_ptr<ShadowMapTechnique> technique = sharpMap();
-            if (named) technique->setReceiver({test::find(*scene.root, "ground")});
+            if (named) technique->setReceiver({find(*scene.root, "ground")});
             scene.addShadow(technique);
             scene.group->addLight(spot.asGiven());
             const Judged result = judge(spot, scene, build);
@@ -118,9 +115,9 @@ TEST(MapSpot, OfALightThatShinesAllAroundLeavesTheConeLessItsShadowsToThePixel) 
 /// Where relighting cannot be, for something uses stencil itself, shadows are blended: not what is outside the cone.
 TEST(MapSpot, ThatCannotBeRelitDarkensNothingOutsideItsCone) {
     Scene scene = build(down), other = build(down);
-    const Mesh stencilled = test::box({-1.5, -1.8, 0.0}, {-1.2, -1.5, 0.3});
+    const Mesh stencilled = box({-1.5, -1.8, 0.0}, {-1.2, -1.5, 0.3});
     for (Scene* each : {&scene, &other}) {
-        each->content->addChild(test::node(stencilled));
+        each->content->addChild(node(stencilled));
         each->content->getChild(each->content->getNumChildren() - 1)
             ->getOrCreateStateSet()
             ->setMode(GL_STENCIL_TEST, osg::StateAttribute::ON);
@@ -128,12 +125,12 @@ TEST(MapSpot, ThatCannotBeRelitDarkensNothingOutsideItsCone) {
     const osg::ref_ptr<ShadowMapTechnique> technique = sharpMap();
     scene.addShadow(technique);
     scene.group->addLight(down.asGiven());
-    const Picture picture = test::render(scene.root, view), plain = test::render(other.root, view);
+    const Picture picture = render(scene.root, view), plain = render(other.root, view);
     EXPECT_FALSE(technique->diagnose().empty());
     int inCone = 0, outside = 0;
     for (int y = 0; y < view.height; ++y)
         for (int x = 0; x < view.width; ++x) {
-            const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
+            const Sight sight = test::sight(view, x + 0.5, y + 0.5);
             const glm::dvec3 onGround = sight.from - sight.way * (sight.from.z / sight.way.z);
             const bool isFar = glm::distance(glm::dvec2(onGround), glm::dvec2(0.5, 0.3)) > 5.0; // the cone's is 3.5
             if (picture.at(x, y) != plain.at(x, y)) ++(isFar ? outside : inCone);
@@ -146,7 +143,7 @@ TEST(MapSpot, ThatCannotBeRelitDarkensNothingOutsideItsCone) {
 Mesh tiled() {
     Mesh ground;
     for (int i = 0; i < 256; ++i)
-        for (const glm::dvec3& corner : test::quad({i % 16 - 8.0, i / 16 - 8.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}))
+        for (const glm::dvec3& corner : quad({i % 16 - 8.0, i / 16 - 8.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}))
             ground.push_back(corner);
     return ground;
 }
@@ -154,9 +151,9 @@ Mesh tiled() {
 /// An OpenGL spot under a transform that turns and moves it to where it is to be.
 Scene buildTurned(const Spot& spot) {
     Scene scene = build(spot);
-    auto* old = test::find(*scene.root, "ground")->asGeode();
+    auto* old = find(*scene.root, "ground")->asGeode();
     old->removeDrawables(0, old->getNumDrawables());
-    old->addDrawable(test::node(tiled())->getDrawable(0));
+    old->addDrawable(node(tiled())->getDrawable(0));
     const osg::Matrixd turn =
         osg::Matrixd::rotate(osg::Vec3d(0.0, 1.0, 0.0), spot.direction) * osg::Matrixd::translate(spot.place);
     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(turn);
@@ -211,7 +208,7 @@ TEST(MapSpot, HasOneMapAndDrawsItAgainOnlyWhenItTurns) {
     const osg::ref_ptr<ShadowMapTechnique> technique = sharpMap();
     scene.addShadow(technique);
     scene.group->addLight(wide.asGiven());
-    test::Camera camera(scene.root, view);
+    Camera camera(scene.root, view);
     camera.frame();
     EXPECT_EQ(technique->passes(), 1u) << "a lamp without a cone has several here";
     camera.frame();
@@ -240,18 +237,18 @@ TEST(MapSpot, WhoseConeMeetsNoCasterIsStillDarkAround) {
 /// OpenGL has drawn what is outside without the light: to blend it would darken it twice.
 TEST(MapSpot, BlendDarkensShadowsWithinTheConeAlone) {
     std::vector<Mesh> meshes = casters(); // and one in a corner of the map, outside the cone
-    meshes.push_back(test::box({2.9, 2.7, 0.0}, {3.3, 3.1, 0.5}));
-    Scene scene = test::groundScene(meshes, 8.0, down.light()), lit = test::groundScene(meshes, 8.0, down.light());
+    meshes.push_back(box({2.9, 2.7, 0.0}, {3.3, 3.1, 0.5}));
+    Scene scene = groundScene(meshes, 8.0, down.light()), lit = groundScene(meshes, 8.0, down.light());
     scene.addShadow(sharpMap());
     scene.group->addLight(down.asGiven());
     scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
-    const test::Mask shadows = test::castRays(test::square(8.0), meshes, down.light(), view);
-    const Picture blended = test::render(scene.root, view), asLit = test::render(lit.root, view);
+    const Mask shadows = castRays(square(8.0), meshes, down.light(), view);
+    const Picture blended = render(scene.root, view), asLit = render(lit.root, view);
     int within = 0, outside = 0, wrong = 0;
     for (int y = 1; y + 1 < view.height; ++y)
         for (int x = 1; x + 1 < view.width; ++x) {
-            if (shadows.at(x, y) != test::Seen::ShadowedReceiver || shadows.atEdge(x, y)) continue;
-            const test::Sight sight = test::sight(view, x + 0.5, y + 0.5);
+            if (shadows.at(x, y) != Seen::ShadowedReceiver || shadows.atEdge(x, y)) continue;
+            const Sight sight = test::sight(view, x + 0.5, y + 0.5);
             const glm::dvec3 at = sight.from - sight.way * (sight.from.z / sight.way.z);
             const double distance = glm::length(glm::dvec2(at) - glm::dvec2(0.5, 0.3)) * std::sqrt(3.0) / 6.0;
             if (std::abs(distance - 1.0) < 0.02) continue; // at the cone's edge
@@ -268,7 +265,7 @@ TEST(MapSpot, OfNoDirectionOrOfACutoffThatIsNoneIsALampAllAround) {
         Scene scene = build(down);
         scene.addShadow(sharpMap());
         scene.group->addLight(ShadowLight{0, down.light(), direction, cutoff});
-        return test::render(scene.root, view);
+        return render(scene.root, view);
     };
     const Picture lamp = picture({0.0, 0.0, -1.0}, 180.0);
     EXPECT_GT(picture({0.0, 0.0, -1.0}, 30.0).different(lamp), 10000);
@@ -277,12 +274,6 @@ TEST(MapSpot, OfNoDirectionOrOfACutoffThatIsNoneIsALampAllAround) {
     for (const osg::Vec3d& direction : {osg::Vec3d(), osg::Vec3d(NAN, 0.0, 1.0)})
         EXPECT_EQ(picture(direction, 30.0).different(lamp), 0);
 }
-
-} // namespace
-
-using namespace test;
-
-namespace {
 
 /// Things of half a metre to four, a table among them, on a ground, from above.
 TracedCase amongThings(const osg::Vec3d& lamp) {

@@ -116,19 +116,6 @@ TEST(TracedBuffers, LeaveNothingBehindInOpenGL) {
     EXPECT_EQ(objectsIn(*traced.into), without);
 }
 
-} // namespace
-
-using test::CaseTrial;
-using test::flatGround;
-using test::labEight;
-using test::Picture;
-using test::room;
-using test::Scene;
-using test::townOfHouses;
-using test::TracedCase;
-
-namespace {
-
 CaseTrial draw(const TracedCase& given) { return {new gnomon::TracedShadowTechnique, given}; }
 
 TEST(Traced, IsAsGoodAsOneRayAPixelCanBe) {
@@ -148,7 +135,7 @@ int unlit(double half, double height, double elevation, double near, double far,
     const TracedCase given = flatGround(half, height, elevation, near, far, side);
     Scene lit = given.build(), shadowed = given.build();
     shadowed.addShadow(new gnomon::TracedShadowTechnique);
-    return test::render(shadowed.root, given.view).different(test::render(lit.root, given.view));
+    return render(shadowed.root, given.view).different(render(lit.root, given.view));
 }
 
 TEST(Traced, FlatGroundsAreFreeOfAcne) {
@@ -166,8 +153,8 @@ TEST(Traced, FlatGroundsAreFreeOfAcne) {
 
 TEST(Traced, NothingLeaksWhereABoxStandsOnTheGround) {
     TracedCase given = labEight();
-    given.meshes = {test::square(8.0), test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})};
-    given.view = test::perspective({2.0, 9.0, 2.0}, {0.0, 1.0, 0.0}, 640, 480, 20.0);
+    given.meshes = {square(8.0), box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})};
+    given.view = perspective({2.0, 9.0, 2.0}, {0.0, 1.0, 0.0}, 640, 480, 20.0);
     given.light = {0.3, -1.0, 0.8, 0.0};
     const CaseTrial result = draw(given);
     std::cout << "contact: " << result.comparison << "\n";
@@ -181,12 +168,11 @@ TEST(Traced, FindsTheProjectionThatIsDrawnUnderAutomaticNearAndFar) {
     dark.takeLightAway();
     shadowed.addShadow(new gnomon::TracedShadowTechnique);
     const auto picture = [&](Scene& scene) {
-        test::Camera camera(scene.root, given.view);
+        Camera camera(scene.root, given.view);
         camera.viewer().getCamera()->setComputeNearFarMode(osg::CullSettings::COMPUTE_NEAR_FAR_USING_BOUNDING_VOLUMES);
         return camera.frame();
     };
-    const test::TruthComparison comparison =
-        test::compare(picture(shadowed), picture(lit), picture(dark), given.truth());
+    const TruthComparison comparison = compare(picture(shadowed), picture(lit), picture(dark), given.truth());
     EXPECT_TRUE(comparison.good()) << comparison;
 }
 
@@ -209,9 +195,9 @@ TEST(Traced, IsTheSamePictureFarFromTheOrigin) {
                 place->addChild(scene.light);
                 scene.root->removeChild(scene.light);
             }
-            test::View view = given.view;
+            View view = given.view;
             view.view = osg::Matrixd::translate(-offset) * view.view;
-            return test::render(scene.root, view);
+            return render(scene.root, view);
         };
         EXPECT_LE(picture(utm).different(picture({})), 640 * 480 / 10000) << (lamp ? "lamp" : "sun");
     }
@@ -223,7 +209,7 @@ TEST(Traced, BlendDarkensTheSamePixelsOnceAndLeavesTheSkyAlone) {
     Scene scene = given.build();
     scene.addShadow(new gnomon::TracedShadowTechnique);
     scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
-    const Picture blended = test::render(scene.root, given.view);
+    const Picture blended = render(scene.root, given.view);
     int wrong = 0, ground = 0;
     for (std::size_t i = 0; i < blended.pixels.size(); ++i) {
         if (relit.lit.pixels[i] == relit.dark.pixels[i] && relit.lit.pixels[i] != 0xff400000u) continue; // unlit anyway
@@ -251,12 +237,12 @@ TEST(Traced, TakesEachOfSeveralLightsFromWhereItDoesNotReach) {
         scene.root->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
         if (firstOff) scene.takeLightAway();
         if (traced) scene.addShadow(new gnomon::TracedShadowTechnique);
-        return test::render(scene.root, given.view);
+        return render(scene.root, given.view);
     };
     const Picture combination[2][2] = {{picture(false, false, false), picture(false, false, true)},
                                        {picture(false, true, false), picture(false, true, true)}};
     const Picture traced = picture(true, false, false);
-    const gnomon::TruthImage a = given.truth(), b = test::truthOf(given.meshes, second, given.view);
+    const gnomon::TruthImage a = given.truth(), b = truthOf(given.meshes, second, given.view);
     int wrong = 0, both = 0;
     for (std::size_t i = 0; i < traced.pixels.size(); ++i) {
         if (a.pixels[i].isEdge() || b.pixels[i].isEdge() || !a.pixels[i].seen()) continue;
@@ -272,11 +258,11 @@ TEST(Traced, ANamedReceiverIsAllThatReceives) {
     const TracedCase given = labEight();
     Scene scene = given.build(), everything = given.build(), lit = given.build();
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
-    technique->setReceiver({test::find(*scene.root, "ground")});
+    technique->setReceiver({find(*scene.root, "ground")});
     scene.addShadow(technique);
     everything.addShadow(new gnomon::TracedShadowTechnique);
-    const Picture named = test::render(scene.root, given.view), all = test::render(everything.root, given.view),
-                  none = test::render(lit.root, given.view);
+    const Picture named = render(scene.root, given.view), all = render(everything.root, given.view),
+                  none = render(lit.root, given.view);
     EXPECT_GT(named.different(none), 5000);
     const gnomon::TruthImage truth = given.truth();
     int wrong = 0;
@@ -292,12 +278,12 @@ TEST(Traced, BuildsOnceARevisionHoweverManyFramesAndLights) {
     Scene scene = given.build();
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
-    mover->addChild(test::node(test::box({3.0, 3.0, 1.0}, {4.0, 4.0, 2.0})));
+    mover->addChild(node(box({3.0, 3.0, 1.0}, {4.0, 4.0, 2.0})));
     scene.content->addChild(mover);
     scene.addShadow(technique);
     scene.group->addLight({0, given.light});
     scene.group->addLight({1, {0.0, 0.5, 1.0, 0.0}});
-    test::Camera camera(scene.root, given.view);
+    Camera camera(scene.root, given.view);
     const Picture first = camera.frame();
     EXPECT_EQ(camera.frame().different(first), 0);
     EXPECT_EQ(technique->builds(), 1u);
@@ -314,7 +300,7 @@ TEST(Traced, ALightThatIsNowhereIsDiagnosed) {
         const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
         scene.addShadow(technique);
         scene.group->addLight({0, light});
-        EXPECT_EQ(test::render(scene.root, given.view).different(test::render(lit.root, given.view)), 0);
+        EXPECT_EQ(render(scene.root, given.view).different(render(lit.root, given.view)), 0);
         ASSERT_EQ(technique->diagnose().size(), 1u);
         EXPECT_NE(technique->diagnose()[0].find("no finite position or direction"), std::string::npos)
             << technique->diagnose()[0];
@@ -323,12 +309,12 @@ TEST(Traced, ALightThatIsNowhereIsDiagnosed) {
 
 TEST(Traced, ShadowsOutOfSightCostNothingAndSayNothing) {
     TracedCase given = labEight();
-    given.view = test::perspective({0.0, -40.0, 5.0}, {0.0, -80.0, 5.0}, 64, 48);
+    given.view = perspective({0.0, -40.0, 5.0}, {0.0, -80.0, 5.0}, 64, 48);
     Scene scene = given.build();
     const osg::ref_ptr<gnomon::TracedShadowTechnique> technique = new gnomon::TracedShadowTechnique;
     scene.addShadow(technique);
     scene.group->addLight({0, given.light});
-    test::render(scene.root, given.view);
+    render(scene.root, given.view);
     EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
 }
 

@@ -14,10 +14,13 @@
 #include <array>
 #include <iostream>
 
-namespace test {
+using namespace test;
+
+using gnomon::ShadowVolumeTechnique;
+
 namespace {
 
-CaseTrial drawVolume(const TracedCase& given) { return {new gnomon::ShadowVolumeTechnique, given}; }
+CaseTrial drawVolume(const TracedCase& given) { return {new ShadowVolumeTechnique, given}; }
 
 /// As good as one ray a pixel can be, but for a few pixels that the rasteriser decides; and nothing is complained of.
 /// @param least  pixels that are in shadow, or this shows nothing.
@@ -40,18 +43,7 @@ TracedCase sized(TracedCase given, int width, int height) {
     return given;
 }
 
-} // namespace
-} // namespace test
-
-using test::expectFloor;
-using test::labEight;
-using test::room;
-using test::townOfHouses;
-using test::TracedCase;
-
-namespace {
-
-TracedCase small(TracedCase given) { return test::sized(std::move(given), 320, 240); }
+TracedCase small(TracedCase given) { return sized(std::move(given), 320, 240); }
 
 TEST(Volume, IsAsGoodAsOneRayAPixelCanBe) {
     for (const TracedCase& given : {labEight(), townOfHouses(), room()}) expectFloor(small(given));
@@ -60,28 +52,28 @@ TEST(Volume, IsAsGoodAsOneRayAPixelCanBe) {
 TEST(Volume, IsSoInTiltedScenesAndUnderLowSuns) {
     TracedCase low = small(townOfHouses());
     low.name = "town, low sun";
-    low.light = test::sunAt(17.0, 15.0);
+    low.light = sunAt(17.0, 15.0);
     for (const TracedCase& given : {small(tilted(labEight())), small(tilted(room())), low}) expectFloor(given);
 }
 
 TEST(Volume, CountsFromBehindWhereTheEyeIsInShadow) {
     TracedCase given = small(townOfHouses());
     given.name = "in a street";
-    given.light = test::sunAt(-100.0, 25.0);
-    given.view = test::perspective({1.0, -20.0, 1.7}, {4.0, 20.0, 1.5}, 320, 240, 60.0, 0.1, 300.0);
+    given.light = sunAt(-100.0, 25.0);
+    given.view = perspective({1.0, -20.0, 1.7}, {4.0, 20.0, 1.5}, 320, 240, 60.0, 0.1, 300.0);
     expectFloor(given);
 }
 
 // What a light's place by the eye is rounded to changes with each view.
 TEST(Volume, OfALightAtRestIsFoundOnceWhileTheCameraMoves) {
     for (const osg::Vec4d& light : {osg::Vec4d(1.0, 0.4, 1.2, 0.0), osg::Vec4d(2.3, 1.7, 6.1, 1.0)}) {
-        test::Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})}, 8.0, light);
-        const osg::ref_ptr<gnomon::ShadowVolumeTechnique> technique = new gnomon::ShadowVolumeTechnique;
+        Scene scene = groundScene({box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0})}, 8.0, light);
+        const osg::ref_ptr<ShadowVolumeTechnique> technique = new ShadowVolumeTechnique;
         scene.addShadow(technique);
         const auto from = [](int step) {
-            return test::perspective({-7.0 + 0.013 * step, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 96, 72);
+            return perspective({-7.0 + 0.013 * step, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 96, 72);
         };
-        test::Camera camera(scene.root, from(0));
+        Camera camera(scene.root, from(0));
         camera.frame();
         const unsigned before = technique->passes();
         EXPECT_GT(before, 0u);
@@ -93,17 +85,11 @@ TEST(Volume, OfALightAtRestIsFoundOnceWhileTheCameraMoves) {
     }
 }
 
-} // namespace
-
-using test::Mesh;
-
-namespace {
-
-const test::View slanted = test::perspective({-5.0, -9.0, 7.0}, {0.0, 0.0, 0.3}, 160, 120);
+const View slanted = perspective({-5.0, -9.0, 7.0}, {0.0, 0.0, 0.3}, 160, 120);
 
 TracedCase onGround(const char* name, const std::vector<Mesh>& casters, const osg::Vec4d& light,
-                    const test::View& view = slanted) {
-    TracedCase given{name, {test::square(6.0)}, light, view};
+                    const View& view = slanted) {
+    TracedCase given{name, {square(6.0)}, light, view};
     given.meshes.insert(given.meshes.end(), casters.begin(), casters.end());
     return given;
 }
@@ -118,7 +104,7 @@ Mesh turned(Mesh mesh, std::size_t every) {
     return mesh;
 }
 
-Mesh twice(const Mesh& mesh) { return test::joined({mesh, mesh}); }
+Mesh twice(const Mesh& mesh) { return joined({mesh, mesh}); }
 
 /// Triangles without an area, at corners and along edges.
 Mesh withNeedles(Mesh mesh) {
@@ -150,26 +136,25 @@ Mesh withJunctions(const Mesh& mesh, std::size_t every) {
 /// Three sheets on one edge, as no surface has them.
 Mesh fins() {
     const glm::dvec3 low(0.0), up(0.0, 0.0, 1.2);
-    return test::joined({test::quad(low, {0.8, 0.2, 0.0}, up), test::quad(low, {-0.6, 0.5, 0.0}, up),
-                         test::quad(low, {-0.1, -0.8, 0.0}, up)});
+    return joined({quad(low, {0.8, 0.2, 0.0}, up), quad(low, {-0.6, 0.5, 0.0}, up), quad(low, {-0.1, -0.8, 0.0}, up)});
 }
 
 /// One of each fault, on a ground.
 std::vector<Mesh> badMeshes() {
-    const Mesh house = test::house({0.0, 0.0}, {1.1, 0.9, 1.0}, 25.0), ball = test::sphere({0.0, 0.0, 0.7}, 0.6, 12);
+    const Mesh house = test::house({0.0, 0.0}, {1.1, 0.9, 1.0}, 25.0), ball = sphere({0.0, 0.0, 0.7}, 0.6, 12);
     const std::vector<Mesh> all{
-        without(ball, 20, 30),   turned(house, 3),       turned(ball, 2),      twice(house), withNeedles(house), fins(),
-        withJunctions(house, 2), withJunctions(ball, 3), test::insideOut(ball)};
+        without(ball, 20, 30),   turned(house, 3),       turned(ball, 2), twice(house), withNeedles(house), fins(),
+        withJunctions(house, 2), withJunctions(ball, 3), insideOut(ball)};
     std::vector<Mesh> placed;
     for (std::size_t i = 0; i < all.size(); ++i)
-        placed.push_back(test::moved(all[i], {3.0 * double(i % 3) - 3.0, 3.0 * double(i / 3) - 3.0, 0.01}));
+        placed.push_back(moved(all[i], {3.0 * double(i % 3) - 3.0, 3.0 * double(i / 3) - 3.0, 0.01}));
     return placed;
 }
 
 TEST(VolumeMeshes, OfAnyFaultCastTheirShadow) {
-    const test::View view = test::perspective({-6.0, -11.0, 10.0}, {0.3, 0.3, 0.0}, 320, 240);
+    const View view = perspective({-6.0, -11.0, 10.0}, {0.3, 0.3, 0.0}, 320, 240);
     expectFloor(onGround("bad meshes, sun", badMeshes(), {0.8, 0.5, 1.0, 0.0}, view));
-    expectFloor(onGround("bad meshes, low sun", badMeshes(), test::sunAt(200.0, 20.0), view));
+    expectFloor(onGround("bad meshes, low sun", badMeshes(), sunAt(200.0, 20.0), view));
     expectFloor(onGround("bad meshes, lamp", badMeshes(), {0.4, -0.3, 3.0, 1.0}, view));
 }
 
@@ -177,55 +162,43 @@ TEST(VolumeMeshes, OfThreeHundredShellsAreCountedWithoutOverflow) {
     std::vector<Mesh> shells;
     for (int i = 1; i <= 300; ++i) {
         const double half = 0.7 + 0.002 * i;
-        shells.push_back(test::box({-half, -half, 1.4 - half}, {half, half, 1.4 + half}));
+        shells.push_back(box({-half, -half, 1.4 - half}, {half, half, 1.4 + half}));
     }
     expectFloor(onGround("shells", shells, {0.8, 0.5, 1.0, 0.0}));
 }
 
 TEST(VolumeLights, OnAVertexInAFacesPlaneAndInACasterAreRight) {
-    const Mesh block = test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}),
-               post = test::box({2.0, -0.5, 0.0}, {2.5, 0.5, 1.0});
+    const Mesh block = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}), post = box({2.0, -0.5, 0.0}, {2.5, 0.5, 1.0});
     expectFloor(onGround("above a vertex", {block, post}, {1.0, 1.0, 2.0 + 1e-4, 1.0}));
     expectFloor(onGround("in a face's plane", {block, post}, {3.5, 1.0, 3.0, 1.0}));
     expectFloor(onGround("in an edge's line", {block, post}, {1.0, 1.0, 3.5, 1.0}));
     expectFloor(onGround("sun along a face", {block, post}, {1.0, 0.0, 1.0, 0.0}));
-    const Mesh cage = test::box({-3.0, -3.0, -0.5}, {3.0, 3.0, 3.5});
-    expectFloor(onGround("in a closed caster", {cage, test::box({0.8, -0.4, 0.0}, {1.2, 0.4, 1.5})},
-                         {0.0, 0.0, 3.0, 1.0},
-                         test::perspective({0.5, -2.8, 2.8}, {1.5, 0.3, 0.0}, 160, 120, 60.0, 0.1, 20.0)));
+    const Mesh cage = box({-3.0, -3.0, -0.5}, {3.0, 3.0, 3.5});
+    expectFloor(onGround("in a closed caster", {cage, box({0.8, -0.4, 0.0}, {1.2, 0.4, 1.5})}, {0.0, 0.0, 3.0, 1.0},
+                         perspective({0.5, -2.8, 2.8}, {1.5, 0.3, 0.0}, 160, 120, 60.0, 0.1, 20.0)));
 }
 
 TEST(VolumeViews, FromShadowAndThroughCutCastersAreRight) {
-    const Mesh block = test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}),
-               post = test::box({2.0, -0.5, 0.0}, {2.5, 0.5, 1.0});
+    const Mesh block = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}), post = box({2.0, -0.5, 0.0}, {2.5, 0.5, 1.0});
     const osg::Vec4d sun(-1.0, 0.2, 1.0, 0.0);
     expectFloor(onGround("eye in the shadow", {block, post}, sun,
-                         test::perspective({1.3, 0.0, 0.8}, {3.0, 1.0, 0.0}, 160, 120, 70.0, 0.05, 40.0)));
-    expectFloor(onGround(
-        "eye in a caster", {test::insideOut(test::box({-4.0, -4.0, -1.0}, {4.0, 4.0, 5.0})), block, post},
-        {-2.0, 0.5, 4.0, 1.0}, test::perspective({-3.0, -3.0, 3.0}, {1.0, 0.0, 0.0}, 160, 120, 70.0, 0.05, 40.0)));
+                         perspective({1.3, 0.0, 0.8}, {3.0, 1.0, 0.0}, 160, 120, 70.0, 0.05, 40.0)));
+    expectFloor(onGround("eye in a caster", {insideOut(box({-4.0, -4.0, -1.0}, {4.0, 4.0, 5.0})), block, post},
+                         {-2.0, 0.5, 4.0, 1.0},
+                         perspective({-3.0, -3.0, 3.0}, {1.0, 0.0, 0.0}, 160, 120, 70.0, 0.05, 40.0)));
     expectFloor(onGround("near plane through a caster", {block, post}, sun,
-                         test::perspective({0.0, -3.0, 1.6}, {0.4, 0.0, 0.8}, 160, 120, 80.0, 2.6, 40.0)),
+                         perspective({0.0, -3.0, 1.6}, {0.4, 0.0, 0.8}, 160, 120, 80.0, 2.6, 40.0)),
                 200);
-    test::View orthographic = slanted;
+    View orthographic = slanted;
     orthographic.projection = osg::Matrixd::ortho(-5.0, 5.0, -3.75, 3.75, 1.0, 40.0);
     expectFloor(onGround("orthographic", {block, post}, sun, orthographic));
 }
 
-} // namespace
-
-using gnomon::ShadowVolumeTechnique;
-using test::Picture;
-using test::Scene;
-
-namespace {
-
-const std::vector<test::Mesh> casters{test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}),
-                                      test::sphere({2.5, 1.0, 1.0}, 0.8, 16)};
-const test::View view = test::perspective({-5.0, -9.0, 7.0}, {0.0, 0.0, 0.3}, 160, 120);
+const std::vector<Mesh> casters{box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0}), sphere({2.5, 1.0, 1.0}, 0.8, 16)};
+const View view = perspective({-5.0, -9.0, 7.0}, {0.0, 0.0, 0.3}, 160, 120);
 
 TracedCase given(const osg::Vec4d& light) {
-    TracedCase all{"a box and a ball", {test::square(6.0)}, light, view};
+    TracedCase all{"a box and a ball", {square(6.0)}, light, view};
     all.meshes.insert(all.meshes.end(), casters.begin(), casters.end());
     return all;
 }
@@ -233,10 +206,9 @@ TracedCase given(const osg::Vec4d& light) {
 /// A ground of small squares, for OpenGL lights vertices.
 Scene underSpot(bool lit) {
     TracedCase all = given({-2.0, -1.0, 6.0, 1.0});
-    test::Mesh ground;
+    Mesh ground;
     for (int i = 0; i < 48 * 48; ++i) {
-        const test::Mesh tile =
-            test::quad({i % 48 * 0.25 - 6.0, i / 48 * 0.25 - 6.0, 0.0}, {0.25, 0.0, 0.0}, {0.0, 0.25, 0.0});
+        const Mesh tile = quad({i % 48 * 0.25 - 6.0, i / 48 * 0.25 - 6.0, 0.0}, {0.25, 0.0, 0.0}, {0.0, 0.25, 0.0});
         ground.insert(ground.end(), tile.begin(), tile.end());
     }
     all.meshes.front() = ground;
@@ -250,9 +222,9 @@ Scene underSpot(bool lit) {
 TEST(VolumeCompany, ASpotCastsWithinItsCone) {
     Scene shadowed = underSpot(true);
     shadowed.addShadow(new ShadowVolumeTechnique);
-    const Picture lit = test::render(underSpot(true).root, view), dark = test::render(underSpot(false).root, view);
-    const test::TruthComparison found =
-        test::compare(test::render(shadowed.root, view), lit, dark, given({-2.0, -1.0, 6.0, 1.0}).truth());
+    const Picture lit = render(underSpot(true).root, view), dark = render(underSpot(false).root, view);
+    const TruthComparison found =
+        compare(render(shadowed.root, view), lit, dark, given({-2.0, -1.0, 6.0, 1.0}).truth());
     EXPECT_LE(found.wrong, 1.10 * found.floor + 5) << found;
     EXPECT_EQ(found.certain, 0) << found;
     EXPECT_EQ(found.neither, 0) << found;
@@ -261,8 +233,8 @@ TEST(VolumeCompany, ASpotCastsWithinItsCone) {
 }
 
 Picture inSamples(const Scene& scene) {
-    test::IntoTexture into(scene.root, view,
-                           {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, 4});
+    IntoTexture into(scene.root, view,
+                     {GL_RGBA8, osg::Camera::PACKED_DEPTH_STENCIL_BUFFER, GL_DEPTH24_STENCIL8_EXT, 4});
     into.camera->frame();
     return into.camera->frame();
 }
@@ -274,19 +246,19 @@ TEST(VolumeCompany, SeveralSamplesSmoothItsEdges) {
     shadowed.addShadow(new ShadowVolumeTechnique);
     dark.takeLightAway();
     const Picture lit = inSamples(all.build()), unlit = inSamples(dark), cast = inSamples(shadowed);
-    const test::CaseTrial single = test::drawVolume(all);
-    const double one = single.shareOff(single.cast), four = test::shareOff(cast, lit, unlit, single.truth());
+    const CaseTrial single = drawVolume(all);
+    const double one = single.shareOff(single.cast), four = shareOff(cast, lit, unlit, single.truth());
     EXPECT_LT(four, 0.6 * one);
     EXPECT_GT(one, 0.01) << "there are edges";
 }
 
 TEST(VolumeCompany, BlendDarkensWhatRelightDoes) {
     const TracedCase all = given({1.0, 0.4, 1.2, 0.0});
-    const test::CaseTrial relit = test::drawVolume(all);
+    const CaseTrial relit = drawVolume(all);
     Scene blended = all.build();
     blended.addShadow(new ShadowVolumeTechnique);
     blended.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
-    const Picture blend = test::render(blended.root, view);
+    const Picture blend = render(blended.root, view);
     int onlyRelit = 0, onlyBlended = 0;
     for (std::size_t i = 0; i < blend.pixels.size(); ++i) {
         const bool a = relit.cast.pixels[i] != relit.lit.pixels[i], b = blend.pixels[i] != relit.lit.pixels[i];
@@ -320,15 +292,14 @@ Scene underThree(const std::vector<osg::ref_ptr<gnomon::ShadowTechnique>>& techn
 /// Of three lights rays and volumes say the same but for edges, and what stands beside volumes takes nothing away.
 TEST(VolumeCompany, ThreeLightsAndOtherTechniquesTakeNothingFromIt) {
     const auto picture = [](const std::vector<osg::ref_ptr<gnomon::ShadowTechnique>>& techniques) {
-        return test::render(underThree(techniques).root, view);
+        return render(underThree(techniques).root, view);
     };
     const Picture plain = picture({}), traced = picture({new gnomon::TracedShadowTechnique}),
                   volume = picture({new ShadowVolumeTechnique});
     EXPECT_GT(traced.different(plain), 1000);
     EXPECT_LE(volume.different(traced), 40) << "of some 400 pixels with edges";
-    EXPECT_LE(picture({new ShadowVolumeTechnique, test::planar()}).different(volume), 10);
-    EXPECT_LE(picture({test::planar(), new ShadowVolumeTechnique, new gnomon::TracedShadowTechnique}).different(traced),
-              40);
+    EXPECT_LE(picture({new ShadowVolumeTechnique, planar()}).different(volume), 10);
+    EXPECT_LE(picture({planar(), new ShadowVolumeTechnique, new gnomon::TracedShadowTechnique}).different(traced), 40);
 }
 
 } // namespace
