@@ -3,6 +3,7 @@
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/Selection.h>
 
+#include <osgDB/ClassInterface>
 #include <osgDB/InputStream>
 #include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
@@ -89,7 +90,7 @@ Selection readSelection(osgDB::InputStream& in);
 bool writeOthers(osgDB::OutputStream& out, const Selection& selection);
 Selection withOthers(osgDB::InputStream& in, Selection selection);
 
-/// Reserved stencil bits, filter, most decals.
+/// Reserved stencil bits, filter.
 bool writeOptions(osgDB::OutputStream& out, const CompositorOptions& options);
 CompositorOptions readOptions(osgDB::InputStream& in);
 
@@ -136,7 +137,7 @@ void addSelection(osgDB::ObjectWrapper& wrapper, const std::string& name) {
         osgDB::BaseSerializer::RW_USER);
 }
 
-/// A property that keeps every bit in text as well.
+/// A number or a vector of numbers that keeps every bit in text as well.
 template <typename Class, typename Value, typename Base>
 class Exact : public Base {
 public:
@@ -170,16 +171,28 @@ private:
     }
 };
 
-template <typename Class, typename Number>
-using ExactNumber = Exact<Class, Number, osgDB::PropByValSerializer<Class, Number>>;
-template <typename Class, typename Vector>
-using ExactVector = Exact<Class, Vector, osgDB::PropByRefSerializer<Class, Vector>>;
+/// What a new object has.
+template <typename Class, typename Given>
+std::decay_t<Given> fresh(Given (Class::*get)() const) {
+    const osg::ref_ptr<const Class> object = new Class;
+    return (object.get()->*get)();
+}
 
-/// A property whose values have names.
+/// Adds a property that is Exact.
+template <typename Class, typename Given>
+void addExact(osgDB::ObjectWrapper& wrapper, const char* property, Given (Class::*get)() const,
+              void (Class::*set)(Given)) {
+    using Value = std::decay_t<Given>;
+    using Base = std::conditional_t<std::is_reference_v<Given>, osgDB::PropByRefSerializer<Class, Value>,
+                                    osgDB::PropByValSerializer<Class, Value>>;
+    wrapper.addSerializer(new Exact<Class, Value, Base>(property, fresh(get), get, set), osgDB::getTypeEnum<Value>());
+}
+
+/// Adds a property whose values have names.
 template <typename Class, typename Value>
-void addEnum(osgDB::ObjectWrapper& wrapper, const char* property, Value byDefault, Value (Class::*get)() const,
+void addEnum(osgDB::ObjectWrapper& wrapper, const char* property, Value (Class::*get)() const,
              void (Class::*set)(Value), std::initializer_list<std::pair<const char*, Value>> names) {
-    osg::ref_ptr serializer = new osgDB::EnumSerializer<Class, Value, void>(property, byDefault, get, set);
+    osg::ref_ptr serializer = new osgDB::EnumSerializer<Class, Value, void>(property, fresh(get), get, set);
     for (const auto& [name, value] : names) serializer->add(name, value);
     wrapper.addSerializer(serializer, osgDB::BaseSerializer::RW_ENUM);
 }

@@ -7,8 +7,5 @@
 using namespace gnomon;
 
 GNOMON_WRAPPER(HaloPulse, new gnomon::HaloPulse, "osg::Object osg::Callback", "") {
-    const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("Amplitude", fresh->getAmplitude(),
-                                                                    &MyClass::getAmplitude, &MyClass::setAmplitude),
-                           osgDB::BaseSerializer::RW_DOUBLE);
+    fields::addExact(*wrapper, "Amplitude", &MyClass::getAmplitude, &MyClass::setAmplitude);
 }

@@ -114,34 +114,55 @@ REGISTER_CUSTOM_OBJECT_WRAPPER2(gnomon, gnomon_FileVersion, nullptr, osg::Object
 }
 } // namespace FileVersionFields
 
-static bool checkLightSources(const ShadowCasterGroup& group) { return !group.getLightSources().empty(); }
-
-static bool readLightSources(osgDB::InputStream& in, ShadowCasterGroup& group) {
-    group.setLightSources(fields::readList(in, [&] { return in.readObjectOfType<osg::LightSource>(); }));
-    return true;
+static void writeItem(osgDB::OutputStream& out, const osg::ref_ptr<osg::LightSource>& source) {
+    out.writeObject(source.get());
 }
 
-static bool writeLightSources(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
-    return fields::writeList(out, group.getLightSources(), [&](const auto& source) { out.writeObject(source.get()); });
+static void readItem(osgDB::InputStream& in, osg::ref_ptr<osg::LightSource>& source) {
+    source = in.readObjectOfType<osg::LightSource>();
 }
 
-static bool checkLights(const ShadowCasterGroup& group) { return !group.getLights().empty(); }
-
-static bool readLights(osgDB::InputStream& in, ShadowCasterGroup& group) {
-    group.setLights(fields::readList(in, [&] {
-        ShadowLight light;
-        in >> light.number;
-        light.inGroup = fields::readExactVector<osg::Vec4d>(in);
-        return light;
-    }));
-    return true;
+static void writeItem(osgDB::OutputStream& out, const ShadowLight& light) {
+    out << light.number;
+    fields::writeExactVector(out, light.inGroup);
 }
 
-static bool writeLights(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
-    return fields::writeList(out, group.getLights(), [&](const ShadowLight& light) {
-        out << light.number;
-        fields::writeExactVector(out, light.inGroup);
-    });
+static void readItem(osgDB::InputStream& in, ShadowLight& light) {
+    in >> light.number;
+    light.inGroup = fields::readExactVector<osg::Vec4d>(in);
+}
+
+static void writeItem(osgDB::OutputStream& out, const LightUniform& uniform) {
+    out << uniform.number;
+    out.writeWrappedString(uniform.name);
+}
+
+static void readItem(osgDB::InputStream& in, LightUniform& uniform) {
+    in >> uniform.number;
+    in.readWrappedString(uniform.name);
+}
+
+static void writeItem(osgDB::OutputStream& out, const osg::Vec4d& plane) { fields::writeExactVector(out, plane); }
+
+static void readItem(osgDB::InputStream& in, osg::Vec4d& plane) { plane = fields::readExactVector<osg::Vec4d>(in); }
+
+/// Adds a property that is a list of items as above, kept where it is not empty.
+template <typename Class, auto get, auto set>
+static void addList(osgDB::ObjectWrapper& wrapper, const char* property) {
+    const auto check = [](const Class& node) { return !(node.*get)().empty(); };
+    const auto read = [](osgDB::InputStream& in, Class& node) {
+        (node.*set)(fields::readList(in, [&] {
+            typename std::decay_t<decltype((node.*get)())>::value_type item;
+            readItem(in, item);
+            return item;
+        }));
+        return true;
+    };
+    const auto write = [](osgDB::OutputStream& out, const Class& node) {
+        return fields::writeList(out, (node.*get)(), [&](const auto& item) { writeItem(out, item); });
+    };
+    wrapper.addSerializer(new osgDB::UserSerializer<Class>(property, check, read, write),
+                          osgDB::BaseSerializer::RW_USER);
 }
 
 /// Direction and cutoff of each of Lights, where any of those is a spot.
@@ -170,25 +191,6 @@ static bool writeSpots(osgDB::OutputStream& out, const ShadowCasterGroup& group)
     });
 }
 
-static bool checkLightUniforms(const ShadowCasterGroup& group) { return !group.getLightUniforms().empty(); }
-
-static bool readLightUniforms(osgDB::InputStream& in, ShadowCasterGroup& group) {
-    group.setLightUniforms(fields::readList(in, [&] {
-        LightUniform uniform;
-        in >> uniform.number;
-        in.readWrappedString(uniform.name);
-        return uniform;
-    }));
-    return true;
-}
-
-static bool writeLightUniforms(osgDB::OutputStream& out, const ShadowCasterGroup& group) {
-    return fields::writeList(out, group.getLightUniforms(), [&](const LightUniform& uniform) {
-        out << uniform.number;
-        out.writeWrappedString(uniform.name);
-    });
-}
-
 /// Programs that know nothing of Gnomon, such as osgviewer, make their window after they have read the file.
 static ShadowCasterGroup* newGroup() {
     askForStencilBits();
@@ -196,20 +198,15 @@ static ShadowCasterGroup* newGroup() {
 }
 
 GNOMON_WRAPPER(ShadowCasterGroup, newGroup(), "osg::Object osg::Node osg::Group", "") {
-    const osg::ref_ptr<const MyClass> fresh = new MyClass;
     fields::addSelection<MyClass, &MyClass::getCasters, &MyClass::setCasters>(*wrapper, "Casters");
-    fields::addEnum(*wrapper, "Composite", fresh->getComposite(), &MyClass::getComposite, &MyClass::setComposite,
+    fields::addEnum(*wrapper, "Composite", &MyClass::getComposite, &MyClass::setComposite,
                     {{"RELIGHT", MyClass::RELIGHT}, {"BLEND", MyClass::BLEND}});
-    wrapper->addSerializer(
-        new fields::ExactNumber<MyClass, float>("Dark", fresh->getDark(), &MyClass::getDark, &MyClass::setDark),
-        osgDB::BaseSerializer::RW_FLOAT);
-    wrapper->addSerializer(new fields::ExactNumber<MyClass, float>("OpaqueFrom", fresh->getOpaqueFrom(),
-                                                                   &MyClass::getOpaqueFrom, &MyClass::setOpaqueFrom),
-                           osgDB::BaseSerializer::RW_FLOAT);
-    ADD_USER_SERIALIZER(LightSources);
-    ADD_USER_SERIALIZER(Lights);
+    fields::addExact(*wrapper, "Dark", &MyClass::getDark, &MyClass::setDark);
+    fields::addExact(*wrapper, "OpaqueFrom", &MyClass::getOpaqueFrom, &MyClass::setOpaqueFrom);
+    addList<MyClass, &MyClass::getLightSources, &MyClass::setLightSources>(*wrapper, "LightSources");
+    addList<MyClass, &MyClass::getLights, &MyClass::setLights>(*wrapper, "Lights");
     ADD_USER_SERIALIZER(Spots);
-    ADD_USER_SERIALIZER(LightUniforms);
+    addList<MyClass, &MyClass::getLightUniforms, &MyClass::setLightUniforms>(*wrapper, "LightUniforms");
     fields::addCompositorOptions<MyClass>(*wrapper);
 }
 
@@ -217,22 +214,10 @@ GNOMON_WRAPPER(ShadowTechnique, nullptr, "osg::Object osg::Node osg::Geode", "")
     fields::addSelection<MyClass, &MyClass::getReceiver, &MyClass::setReceiver>(*wrapper, "Receiver");
 }
 
-static bool checkPlanes(const PlanarShadowNode& node) { return !node.getPlanes().empty(); }
-
-static bool readPlanes(osgDB::InputStream& in, PlanarShadowNode& node) {
-    node.setPlanes(fields::readList(in, [&] { return fields::readExactVector<osg::Vec4d>(in); }));
-    return true;
-}
-
-static bool writePlanes(osgDB::OutputStream& out, const PlanarShadowNode& node) {
-    return fields::writeList(out, node.getPlanes(),
-                             [&](const osg::Vec4d& plane) { fields::writeExactVector(out, plane); });
-}
-
 GNOMON_WRAPPER(PlanarShadowNode, new gnomon::PlanarShadowNode, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    ADD_USER_SERIALIZER(Planes);
+    addList<MyClass, &MyClass::getPlanes, &MyClass::setPlanes>(*wrapper, "Planes");
     ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
     ADD_BOOL_SERIALIZER(OffsetCure, fresh->getOffsetCure());
     ADD_BOOL_SERIALIZER(ClipCure, fresh->getClipCure());
@@ -250,25 +235,19 @@ GNOMON_WRAPPER(ShadowMapTechnique, new gnomon::ShadowMapTechnique, "osg::Object 
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
     wrapper->addFinishedObjectReadCallback(new AskForAlphaBits);
     ADD_INT_SERIALIZER(Size, fresh->getSize());
-    fields::addEnum(*wrapper, "Filter", fresh->getFilter(), &MyClass::getFilter, &MyClass::setFilter,
+    fields::addEnum(*wrapper, "Filter", &MyClass::getFilter, &MyClass::setFilter,
                     {{"NEAREST", MyClass::NEAREST},
                      {"BILINEAR", MyClass::BILINEAR},
                      {"BICUBIC", MyClass::BICUBIC},
                      {"FINE", MyClass::FINE}});
     ADD_INT_SERIALIZER(Cascades, fresh->getCascades());
-    fields::addEnum(*wrapper, "Edges", fresh->getEdges(), &MyClass::getEdges, &MyClass::setEdges,
+    fields::addEnum(*wrapper, "Edges", &MyClass::getEdges, &MyClass::setEdges,
                     {{"HARD", MyClass::HARD}, {"SMOOTH", MyClass::SMOOTH}, {"SOFT", MyClass::SOFT}});
-    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("SunAngle", fresh->getSunAngle(),
-                                                                    &MyClass::getSunAngle, &MyClass::setSunAngle),
-                           osgDB::BaseSerializer::RW_DOUBLE);
-    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("LampSize", fresh->getLampSize(),
-                                                                    &MyClass::getLampSize, &MyClass::setLampSize),
-                           osgDB::BaseSerializer::RW_DOUBLE);
-    wrapper->addSerializer(new fields::ExactNumber<MyClass, double>("Radius", fresh->getRadius(), &MyClass::getRadius,
-                                                                    &MyClass::setRadius),
-                           osgDB::BaseSerializer::RW_DOUBLE);
+    fields::addExact(*wrapper, "SunAngle", &MyClass::getSunAngle, &MyClass::setSunAngle);
+    fields::addExact(*wrapper, "LampSize", &MyClass::getLampSize, &MyClass::setLampSize);
+    fields::addExact(*wrapper, "Radius", &MyClass::getRadius, &MyClass::setRadius);
     ADD_INT_SERIALIZER(ProgramUnit, fresh->getProgramUnit());
-    fields::addEnum(*wrapper, "View", fresh->getView(), &MyClass::getView, &MyClass::setView,
+    fields::addEnum(*wrapper, "View", &MyClass::getView, &MyClass::setView,
                     {{"NOTHING", MyClass::NOTHING},
                      {"MAP", MyClass::MAP},
                      {"TEXELS", MyClass::TEXELS},
@@ -277,15 +256,13 @@ GNOMON_WRAPPER(ShadowMapTechnique, new gnomon::ShadowMapTechnique, "osg::Object 
 
 GNOMON_WRAPPER(ShadowVolumeTechnique, new gnomon::ShadowVolumeTechnique, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
-    const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    fields::addEnum(*wrapper, "View", fresh->getView(), &MyClass::getView, &MyClass::setView,
+    fields::addEnum(*wrapper, "View", &MyClass::getView, &MyClass::setView,
                     {{"NOTHING", MyClass::NOTHING}, {"VOLUMES", MyClass::VOLUMES}});
 }
 
 GNOMON_WRAPPER(TerrainShadowGeode, new gnomon::TerrainShadowGeode, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
-    const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    fields::addEnum(*wrapper, "Method", fresh->getMethod(), &MyClass::getMethod, &MyClass::setMethod,
+    fields::addEnum(*wrapper, "Method", &MyClass::getMethod, &MyClass::setMethod,
                     {{"BOX", MyClass::BOX}, {"HULL", MyClass::HULL}, {"DRAPE", MyClass::Method(2)}}); // is refused
     wrapper->addFinishedObjectReadCallback(new fields::UnavailableWarning);
 }
@@ -297,40 +274,26 @@ GNOMON_WRAPPER(TracedShadowTechnique, new gnomon::TracedShadowTechnique, "osg::O
 
 GNOMON_WRAPPER(AutoShadowTechnique, new gnomon::AutoShadowTechnique, "osg::Object osg::Node osg::Geode",
                "gnomon::ShadowTechnique") {
-    const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    wrapper->addSerializer(
-        new fields::ExactNumber<MyClass, double>("Error", fresh->getError(), &MyClass::getError, &MyClass::setError),
-        osgDB::BaseSerializer::RW_DOUBLE);
-    wrapper->addSerializer(
-        new fields::ExactNumber<MyClass, double>("Time", fresh->getTime(), &MyClass::getTime, &MyClass::setTime),
-        osgDB::BaseSerializer::RW_DOUBLE);
+    fields::addExact(*wrapper, "Error", &MyClass::getError, &MyClass::setError);
+    fields::addExact(*wrapper, "Time", &MyClass::getTime, &MyClass::setTime);
 }
 
 GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group", "") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    fields::addEnum(*wrapper, "Shape", fresh->getShape(), &MyClass::getShape, &MyClass::setShape,
+    fields::addEnum(*wrapper, "Shape", &MyClass::getShape, &MyClass::setShape,
                     {{"WHOLE", MyClass::WHOLE}, {"PARTS", MyClass::PARTS}, {"PIXELS", MyClass::PIXELS}});
-    wrapper->addSerializer(
-        new fields::ExactNumber<MyClass, double>("Scale", fresh->getScale(), &MyClass::getScale, &MyClass::setScale),
-        osgDB::BaseSerializer::RW_DOUBLE);
+    fields::addExact(*wrapper, "Scale", &MyClass::getScale, &MyClass::setScale);
     ADD_INT_SERIALIZER(Width, fresh->getWidth());
-    wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec4f>("Color", fresh->getColor(), &MyClass::getColor,
-                                                                        &MyClass::setColor),
-                           osgDB::BaseSerializer::RW_VEC4F);
+    fields::addExact(*wrapper, "Color", &MyClass::getColor, &MyClass::setColor);
     ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
     fields::addCompositorOptions<MyClass>(*wrapper);
 }
 
 GNOMON_WRAPPER(PlanarReflectionNode, new gnomon::PlanarReflectionNode, "osg::Object osg::Node osg::Group", "") {
     const osg::ref_ptr<const MyClass> fresh = new MyClass;
-    wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec4d>("Plane", fresh->getPlane(), &MyClass::getPlane,
-                                                                        &MyClass::setPlane),
-                           osgDB::BaseSerializer::RW_VEC4D);
+    fields::addExact(*wrapper, "Plane", &MyClass::getPlane, &MyClass::setPlane);
     fields::addSelection<MyClass, &MyClass::getSurface, &MyClass::setSurface>(*wrapper, "Surface");
-    wrapper->addSerializer(new fields::ExactVector<MyClass, osg::Vec3f>("Reflectance", fresh->getReflectance(),
-                                                                        &MyClass::getReflectance,
-                                                                        &MyClass::setReflectance),
-                           osgDB::BaseSerializer::RW_VEC3F);
+    fields::addExact(*wrapper, "Reflectance", &MyClass::getReflectance, &MyClass::setReflectance);
     ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
     fields::addCompositorOptions<MyClass>(*wrapper);
 }
