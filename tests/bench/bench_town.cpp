@@ -77,7 +77,7 @@ void step(Town& town, const glm::dvec4& sun) {
     const gnomon::HullGround on(ground());
     tbb::parallel_for(std::size_t{0}, town.tiles.size(), [&](std::size_t i) {
         Tile& tile = town.tiles[i];
-        hullSolids(on, tile.parts, sun, tile.origin, tile.solids);
+        tile.solids = hullSolids(on, tile.parts, sun, tile.origin);
     });
 }
 

@@ -41,9 +41,7 @@ HullSolids solidsOf(const Ground& ground, const std::vector<gnomon::ConvexPart>&
                     const glm::dvec3& origin = {800.0, 800.0, 3.0}) {
     std::vector<HullPart> parts;
     for (const gnomon::ConvexPart& part : from) parts.emplace_back(part);
-    HullSolids solids;
-    hullSolids(HullGround(ground), parts, light, origin, solids);
-    return solids;
+    return hullSolids(HullGround(ground), parts, light, origin);
 }
 
 HullOutcome outcomeOf(const HullSolids& solids) {

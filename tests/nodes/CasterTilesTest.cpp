@@ -220,14 +220,4 @@ TEST(TileView, KnowsHowManyPixelsALengthIsAtMost) {
     }
 }
 
-TEST(HullTiles, ThatAFrameHoldsStayAsTheyAre) {
-    Hills hills;
-    hills.update(250.0);
-    const gnomon::HullTiles::List held = hills.tiles.shadows();
-    std::vector<std::vector<glm::vec4>> vertices;
-    for (const auto& tile : held) vertices.push_back(tile->solids.vertices);
-    for (const double azimuth : {200.0, 150.0, 100.0}) hills.update(azimuth);
-    for (std::size_t i = 0; i < held.size(); ++i) EXPECT_TRUE(held[i]->solids.vertices == vertices[i]) << i;
-}
-
 } // namespace

@@ -228,8 +228,8 @@ Method hullMethod() {
     return [](const gnomon::Ground& ground, const Prism& prism, const glm::dvec4& light) {
         std::vector<gnomon::HullPart> parts;
         for (const gnomon::ConvexPart& part : prism.parts()) parts.emplace_back(part);
-        gnomon::HullSolids solids;
-        hullSolids(gnomon::HullGround(ground), parts, light, glm::dvec3(prism.middle(), prism.roof), solids);
+        const gnomon::HullSolids solids =
+            hullSolids(gnomon::HullGround(ground), parts, light, glm::dvec3(prism.middle(), prism.roof));
         return Found{[solids](const glm::dvec3& place) { return solids.around(place) != 0; },
                      solids.corners.size() / 3};
     };

@@ -22,7 +22,6 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double leastPixels = 1.0;
 constexpr double unseenPixels = 0.25; // half of what the edges of a picture are off by themselves
 constexpr std::size_t aFrame = 32;    // of the tiles that may wait, one of so many is found in a frame, and 4 at least
-constexpr std::size_t mostSpare = 64;
 
 /// How many pixels long what has a length of 1 can be where w is 1. A short way on the screen is (x - u w, y - v w) / w for
 /// one of (x, y, w) in clip space from a place that is seen at (u, v); its length is convex in u and v, so that the most is
@@ -111,12 +110,10 @@ bool TileView::maySeeShadowsOf(const glm::dvec3& low, const glm::dvec3& high, co
     return mayBeInView(corners);
 }
 
-void findShadows(const HullGround& ground, const CasterTiles::Tile& tile, bool asBoxes, const glm::dvec4& light,
-                 const glm::dvec3& origin, HullSolids& into) {
-    if (asBoxes)
-        boxSolids(ground, tile.boxes, light, origin, into);
-    else
-        hullSolids(ground, tile.parts, light, origin, into);
+HullSolids shadowsOf(std::size_t tile, const CasterTiles& town, const HullGround& ground, const glm::dvec4& light) {
+    const CasterTiles::Tile& casters = town.tiles()[tile];
+    return town.asBoxes() ? boxSolids(ground, casters.boxes, light, town.origin())
+                          : hullSolids(ground, casters.parts, light, town.origin());
 }
 
 void HullTiles::groundChanged() {
@@ -164,35 +161,16 @@ void HullTiles::update(const CasterTiles& town, const HullGround& ground, const 
     find(town, ground, due);
 }
 
-/// None that a frame still to be drawn holds.
-osg::ref_ptr<TileShadows> HullTiles::unused() {
-    const auto spare =
-        std::find_if(_spare.begin(), _spare.end(), [](const auto& one) { return one->referenceCount() == 1; });
-    if (spare == _spare.end()) return new TileShadows;
-    const osg::ref_ptr<TileShadows> result = *spare;
-    _spare.erase(spare);
-    return result;
-}
-
 void HullTiles::find(const CasterTiles& town, const HullGround& ground, const std::vector<std::size_t>& tiles) {
     if (tiles.empty()) return;
-    std::vector<osg::ref_ptr<TileShadows>> into(tiles.size());
-    for (osg::ref_ptr<TileShadows>& shadows : into) shadows = unused();
     ProgressLine progress("gnomon: finding shadows on terrain");
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-        TileShadows& shadows = *into[i];
-        findShadows(ground, town.tiles()[tiles[i]], town.asBoxes(), _light, town.origin(), shadows.solids);
-        shadows.geometry->set(shadows.solids.vertices, shadows.solids.corners);
-        shadows.found = _light;
+        const std::size_t tile = tiles[i];
+        _shadows[tile] = new TileShadows(shadowsOf(tile, town, ground, _light), _light);
+        _states[tile] = town.tiles()[tile].revision;
         progress.show(double(++done) / double(tiles.size()));
     });
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const osg::ref_ptr<TileShadows> old = const_cast<TileShadows*>(_shadows[tiles[i]].get());
-        _shadows[tiles[i]] = into[i];
-        _states[tiles[i]] = town.tiles()[tiles[i]].revision;
-        if (old && _spare.size() < mostSpare) _spare.push_back(old);
-    }
     _found += static_cast<unsigned>(tiles.size());
 }
 
@@ -216,13 +194,11 @@ std::vector<std::string> HullTiles::causes() const {
 void HullTiles::resizeGLObjectBuffers(unsigned maxSize) {
     for (const auto& one : _shadows)
         if (one) one->geometry->resizeGLObjectBuffers(maxSize);
-    for (const auto& one : _spare) one->geometry->resizeGLObjectBuffers(maxSize);
 }
 
 void HullTiles::releaseGLObjects(osg::State* state) const {
     for (const auto& one : _shadows)
         if (one) one->geometry->releaseGLObjects(state);
-    for (const auto& one : _spare) one->geometry->releaseGLObjects(state);
 }
 
 } // namespace gnomon

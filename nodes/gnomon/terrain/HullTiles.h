@@ -9,15 +9,20 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
 
-/// The shadows of one tile's casters in one light. Not changed while a frame that is still to be drawn holds it.
+/// The shadows of one tile's casters in one light. Never changed.
 struct TileShadows : public osg::Referenced {
-    HullSolids solids;
-    osg::ref_ptr<VolumeGeometry> geometry = new VolumeGeometry;
-    glm::dvec4 found{0.0}; ///< the light that they were found for, ground's frame.
+    TileShadows(HullSolids from, const glm::dvec4& light) : solids(std::move(from)), found(light) {
+        geometry->set(solids.vertices, solids.corners);
+    }
+
+    const HullSolids solids;
+    const osg::ref_ptr<VolumeGeometry> geometry = new VolumeGeometry;
+    const glm::dvec4 found; ///< the light that they were found for, ground's frame.
 
 protected:
     ~TileShadows() override = default;
@@ -69,12 +74,10 @@ public:
 
 private:
     bool isDue(std::size_t tile, const CasterTiles& town, const HullGround& ground, const TileView& view);
-    osg::ref_ptr<TileShadows> unused();
     void find(const CasterTiles& town, const HullGround& ground, const std::vector<std::size_t>& tiles);
 
     List _shadows;
     std::vector<std::uint64_t> _states; ///< revisions of the tiles that the shadows are of.
-    std::vector<osg::ref_ptr<TileShadows>> _spare;
     struct Late {
         std::size_t tile;
         double off; ///< of what it may be.
@@ -87,7 +90,6 @@ private:
 };
 
 /// Shadows of one tile without a view. @param light  ground's frame.
-void findShadows(const HullGround& ground, const CasterTiles::Tile& tile, bool asBoxes, const glm::dvec4& light,
-                 const glm::dvec3& origin, HullSolids& into);
+HullSolids shadowsOf(std::size_t tile, const CasterTiles& town, const HullGround& ground, const glm::dvec4& light);
 
 } // namespace gnomon

@@ -104,11 +104,9 @@ osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterG
     runLocked(_mutex, [&] {
         const Town& town = townOf({group, nullptr, asBoxes, false}, casters, place);
         answer->drawn = town.drawn;
-        const auto& tiles = town.casters.tiles();
-        answer->tiles.resize(tiles.size());
-        tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-            findShadows(*town.ground, tiles[i], asBoxes, light, town.casters.origin(), answer->tiles[i]);
-        });
+        answer->tiles.resize(town.casters.tiles().size());
+        tbb::parallel_for(std::size_t{0}, answer->tiles.size(),
+                          [&](std::size_t i) { answer->tiles[i] = shadowsOf(i, town.casters, *town.ground, light); });
     });
     return answer;
 }

@@ -96,7 +96,7 @@ private:
 /// Layers by cells of a plane: a solid goes above all that were put into the cells it touches.
 class Layers {
 public:
-    void begin(const std::vector<PlanBox>& boxes) {
+    explicit Layers(const std::vector<PlanBox>& boxes) {
         PlanBox all;
         std::vector<double> sizes;
         for (const PlanBox& box : boxes) all.add(box), sizes.push_back(box.diameter());
@@ -106,8 +106,7 @@ public:
         _low = all.low;
         _cell = std::max({sizes[sizes.size() / 2], size.x / side, size.y / side, std::numeric_limits<double>::min()});
         _columns = std::size_t(size.x / _cell) + 1;
-        _cells.assign(_columns * (std::size_t(size.y / _cell) + 1), {});
-        mostOver = 0;
+        _cells.resize(_columns * (std::size_t(size.y / _cell) + 1));
     }
     unsigned place(const PlanBox& box) {
         unsigned layer = 0;
@@ -139,127 +138,114 @@ private:
 /// Solids one after the other; finish() puts them into layers.
 class Writer {
 public:
-    Writer(HullSolids& into, const glm::dvec4& light, const glm::dvec3& origin) : _into(into) {
-        into.origin = origin;
-        into.light = light.w == 0.0 ? light : glm::dvec4(glm::dvec3(light) / light.w - origin, 1.0);
-        into.vertices.clear();
-        memory().beginnings.clear();
-        into.outcomes = {};
-        into.low = glm::dvec3(infinite);
-        into.high = glm::dvec3(-infinite);
-        into.widest = into.largest = into.turn = 0.0;
-        memory().boxes.clear();
-        memory().under.clear();
+    /// Where a solid begins, and ends, as vertices. Without an end it does not go on.
+    struct Corner {
+        glm::dvec4 from;
+        std::optional<glm::dvec4> end;
+    };
+
+    Writer(const glm::dvec4& light, const glm::dvec3& origin) {
+        solids.origin = origin;
+        solids.light = light.w == 0.0 ? light : glm::dvec4(glm::dvec3(light) / light.w - origin, 1.0);
+        solids.low = glm::dvec3(infinite);
+        solids.high = glm::dvec3(-infinite);
     }
-    void begin() { _first = unsigned(_into.vertices.size()), _ends.clear(), _top.reset(); }
-    /// Nearer to the light than the corners: the fan of a solid that does not begin flat.
-    void top(const glm::dvec3& place) { _top = place; }
-    /// @param from  where it begins, as a vertex.
-    /// @param end  as a vertex; nullopt: it does not go on.
-    void corner(const glm::dvec4& from, const std::optional<glm::dvec4>& end) {
-        _into.vertices.emplace_back(from);
-        _ends.push_back(end);
-    }
-    /// @param box   of all of it in plan. @param bottom,top  and upright.
-    /// @param seen  in a plane in which those that hold one place overlap.
-    void end(const PlanBox& box, double bottom, double top, const PlanBox& seen) {
-        Memory& kept = memory();
-        kept.beginnings.push_back({_first, unsigned(_ends.size()), 0});
-        for (unsigned i = 0; i < _ends.size(); ++i) {
-            kept.under.push_back(_ends[i] ? unsigned(_into.vertices.size()) : _first + i);
-            if (_ends[i]) _into.vertices.emplace_back(*_ends[i]);
+    /// @param corners   counter-clockwise from the light.
+    /// @param top       nearer to the light than these: the fan of a solid that does not begin flat.
+    /// @param low,high  bounds of all of it.
+    /// @param seen      in a plane in which those that hold one place overlap.
+    void add(const std::vector<Corner>& corners, const std::optional<glm::dvec3>& top, const glm::dvec3& low,
+             const glm::dvec3& high, const PlanBox& seen) {
+        Beginning at{unsigned(solids.vertices.size()), unsigned(corners.size()), 0, _under.size()};
+        for (const Corner& corner : corners) solids.vertices.emplace_back(corner.from);
+        for (unsigned i = 0; i < at.count; ++i) {
+            _under.push_back(corners[i].end ? unsigned(solids.vertices.size()) : at.first + i);
+            if (corners[i].end) solids.vertices.emplace_back(*corners[i].end);
         }
-        if (_top) {
-            kept.beginnings.back().top = unsigned(_into.vertices.size());
-            _into.vertices.emplace_back(glm::dvec4(*_top, 0.0));
+        if (top) {
+            at.top = unsigned(solids.vertices.size());
+            solids.vertices.emplace_back(glm::dvec4(*top, 0.0));
         }
-        kept.boxes.push_back(seen);
-        _into.low = glm::min(_into.low, glm::dvec3(box.low, bottom));
-        _into.high = glm::max(_into.high, glm::dvec3(box.high, top));
+        _beginnings.push_back(at);
+        _boxes.push_back(seen);
+        solids.low = glm::min(solids.low, low);
+        solids.high = glm::max(solids.high, high);
     }
-    void finish();
+    HullSolids finish();
+
+    HullSolids solids; ///< finish() adds triangles and layers.
 
 private:
-    using Triangles = std::vector<unsigned>;
     /// `count` vertices from `first` on, counter-clockwise from the light; and the one before all of them, 0: there is none.
     struct Beginning {
         unsigned first, count, top;
+        std::size_t under; ///< place of its ends in `_under`.
+        unsigned layer = 0;
     };
-    /// That is used again.
-    struct Memory {
-        std::vector<Beginning> beginnings;
-        std::vector<PlanBox> boxes;
-        std::vector<unsigned> under; ///< the end of each corner that a solid begins with, or itself.
-        Layers layers;
-        std::vector<Triangles> sides, ends; ///< of each layer.
-    };
-    static Memory& memory() {
-        thread_local Memory kept;
-        return kept;
+    void add(unsigned a, unsigned b, unsigned c) {
+        if (a != b && b != c && c != a) solids.corners.insert(solids.corners.end(), {a, b, c});
     }
-    static void add(Triangles& to, unsigned a, unsigned b, unsigned c) {
-        if (a != b && b != c && c != a) to.insert(to.end(), {a, b, c});
+    void addSides(const Beginning& at);
+    void addEnd(const Beginning& at) {
+        const unsigned* under = &_under[at.under];
+        for (unsigned i = 2; i < at.count; ++i) add(under[0], under[i], under[i - 1]);
     }
-    static void addSolid(const Beginning& at, const unsigned* under, Triangles& sides, Triangles& ends);
 
-    HullSolids& _into;
-    unsigned _first = 0;
-    std::optional<glm::dvec3> _top;
-    std::vector<std::optional<glm::dvec4>> _ends;
+    std::vector<Beginning> _beginnings;
+    std::vector<PlanBox> _boxes;
+    std::vector<unsigned> _under; ///< the end of each corner that a solid begins with, or itself.
 };
 
-void Writer::addSolid(const Beginning& at, const unsigned* under, Triangles& sides, Triangles& ends) {
+void Writer::addSides(const Beginning& at) {
+    const unsigned* under = &_under[at.under];
     for (unsigned i = 0; i < at.count; ++i) {
         const unsigned j = i + 1 < at.count ? i + 1 : 0, a = at.first + i, b = at.first + j;
-        add(sides, under[i], under[j], b);
-        add(sides, under[i], b, a);
-        if (at.top) add(sides, at.top, a, b);
-        if (i < 2) continue;
-        if (!at.top) add(sides, at.first, a - 1, a);
-        add(ends, under[0], under[i], under[i - 1]);
+        add(under[i], under[j], b);
+        add(under[i], b, a);
+        if (at.top)
+            add(at.top, a, b);
+        else if (i > 1)
+            add(at.first, a - 1, a);
     }
 }
 
-void Writer::finish() {
-    _into.corners.clear();
-    _into.sides.clear();
-    _into.ends.clear();
-    _into.mostOver = 0;
-    if (memory().beginnings.empty()) {
-        _into.low = _into.high = glm::dvec3(0.0);
-        return;
+HullSolids Writer::finish() {
+    if (_beginnings.empty()) {
+        solids.low = solids.high = glm::dvec3(0.0);
+        return std::move(solids);
     }
-    Memory& kept = memory();
-    for (auto* all : {&kept.sides, &kept.ends})
-        for (Triangles& one : *all) one.clear();
-    kept.layers.begin(kept.boxes);
-    std::size_t used = 0;
-    const unsigned* under = kept.under.data();
-    for (std::size_t i = 0; i < kept.boxes.size(); under += kept.beginnings[i++].count) {
-        const std::size_t layer = kept.layers.place(kept.boxes[i]);
-        used = std::max(used, layer + 1);
-        if (kept.sides.size() < used) kept.sides.resize(used), kept.ends.resize(used);
-        addSolid(kept.beginnings[i], under, kept.sides[layer], kept.ends[layer]);
-    }
-    _into.mostOver = kept.layers.mostOver;
-    const auto append = [&](const std::vector<Triangles>& all, std::vector<unsigned>& ends) {
-        for (std::size_t i = 0; i < used; ++i) {
-            _into.corners.insert(_into.corners.end(), all[i].begin(), all[i].end());
-            ends.push_back(unsigned(_into.corners.size()));
+    Layers layers(_boxes);
+    for (std::size_t i = 0; i < _boxes.size(); ++i) _beginnings[i].layer = layers.place(_boxes[i]);
+    solids.mostOver = layers.mostOver;
+    std::stable_sort(_beginnings.begin(), _beginnings.end(),
+                     [](const Beginning& a, const Beginning& b) { return a.layer < b.layer; });
+    const auto addAll = [this](const auto& addPart, std::vector<unsigned>& layerEnds) {
+        for (const Beginning& at : _beginnings) {
+            addPart(at);
+            layerEnds.resize(at.layer + 1);
+            layerEnds.back() = unsigned(solids.corners.size());
         }
     };
-    append(kept.sides, _into.sides);
-    append(kept.ends, _into.ends);
+    addAll([this](const Beginning& at) { addSides(at); }, solids.sides);
+    addAll([this](const Beginning& at) { addEnd(at); }, solids.ends);
+    return std::move(solids);
 }
+
+/// Memory that is used again for part after part.
+struct Outline {
+    std::vector<glm::dvec3> corners; ///< of the silhouette, counter-clockwise from the light.
+    std::vector<Seen> seen, other;
+    std::vector<Writer::Corner> solid;
+};
 
 /// A part's solid, about its anchor.
 class Solid {
 public:
-    Solid(const HullGround& ground, const HullPart& part, const glm::dvec4& light)
+    Solid(const HullGround& ground, const HullPart& part, const glm::dvec4& light, Outline& outline)
         : _ground(ground),
           _part(part),
           _light(light.w == 0.0 ? light : glm::dvec4(glm::dvec3(light) / light.w - part.anchor, 1.0)),
-          _kept(memory()) {}
+          _outline(outline) {}
 
     HullOutcome find() {
         if (_part.front != glm::dvec4(0.0) && !(glm::dot(_part.front, _light) > 0.0)) return HullOutcome::unseen;
@@ -271,48 +257,48 @@ public:
     }
 
     /// What find() says that is cast.
-    void write(Writer& writer, HullSolids& into) {
-        const glm::dvec3 by = _part.anchor - into.origin;
-        writer.begin();
-        if (isEndless())
-            writeEndless(writer, by);
-        else
-            writeDown(writer, by);
-        into.largest = std::max(into.largest, glm::length(_high - _low));
-        into.widest = std::max(into.widest, isEndless() ? infinite : across());
+    void write(Writer& writer) const {
+        const glm::dvec3 by = _part.anchor - writer.solids.origin;
+        _outline.solid.clear();
+        for (const glm::dvec3& corner : _outline.corners)
+            _outline.solid.push_back({{corner + by, 0.0}, endOf(corner, corner + by)});
+        const double all = far * _part.size;
+        PlanBox box = isEndless() ? PlanBox{glm::dvec2(_low) - all, glm::dvec2(_high) + all} : boxAt(_end);
+        if (!isEndless()) box.add(boxAt(_high.z));
+        const double bottom = isEndless() ? -all : std::min(_end, _low.z), top = isEndless() ? all : _high.z;
+        const glm::dvec2 spare = 0.05 * (box.high - box.low); // for what a sun turns by until it is found anew
+        const double rise = 0.05 * (top - bottom);
+        const PlanBox plan{box.low - spare + glm::dvec2(by), box.high + spare + glm::dvec2(by)};
+        writer.add(_outline.solid, _top ? std::optional(*_top + by) : std::nullopt, {plan.low, bottom - rise + by.z},
+                   {plan.high, top + rise + by.z}, _light.w == 0.0 ? seenBox() : plan);
+        HullSolids& solids = writer.solids;
+        solids.largest = std::max(solids.largest, glm::length(_high - _low));
+        solids.widest = std::max(solids.widest, isEndless() ? infinite : across());
     }
 
 private:
     static constexpr double far = 1e6; // times a caster's size: beyond all that is seen
 
-    struct Memory {
-        std::vector<glm::dvec3> corners; ///< of the silhouette, counter-clockwise from the light.
-        std::vector<Seen> seen, other;
-    };
-    static Memory& memory() {
-        thread_local Memory kept;
-        return kept;
-    }
     bool isEndless() const { return !(_end < infinite); }
 
     /// False if the light meets it edge on.
     bool findSilhouette(const LightView& view) {
-        std::vector<Seen>& seen = _kept.seen;
+        std::vector<Seen>& seen = _outline.seen;
         seen.clear();
         for (unsigned i = 0; i < _part.corners.size(); ++i)
             seen.push_back(view.seen(glm::dvec3(_part.corners[i]), i, _part.size));
         if (seen.size() < 3) return false;
         const Seen top =
             *std::max_element(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.near < b.near; });
-        keepHull(seen, _kept.other);
+        keepHull(seen, _outline.other);
         if (seen.size() < 3) return false;
         double area = 0.0, wide = 0.0;
-        _kept.corners.clear();
+        _outline.corners.clear();
         bool isTopSeen = false;
         for (std::size_t i = 0; i < seen.size(); ++i) {
-            _kept.corners.emplace_back(_part.corners[seen[i].corner]);
-            _low = glm::min(_low, _kept.corners.back());
-            _high = glm::max(_high, _kept.corners.back());
+            _outline.corners.emplace_back(_part.corners[seen[i].corner]);
+            _low = glm::min(_low, _outline.corners.back());
+            _high = glm::max(_high, _outline.corners.back());
             if (i > 1) area += turn(seen[0], seen[i - 1], seen[i]);
             wide = std::max(wide, glm::length(seen[i].at - seen[0].at));
             isTopSeen = isTopSeen || seen[i].near == top.near;
@@ -332,9 +318,9 @@ private:
     /// As a rug is: it would lie in the very surface that receives.
     bool isInGround() const {
         glm::dvec3 middle(0.0);
-        for (const glm::dvec3& corner : _kept.corners) {
+        for (const glm::dvec3& corner : _outline.corners) {
             if (!isUnder(corner)) return false;
-            middle += corner / double(_kept.corners.size());
+            middle += corner / double(_outline.corners.size());
         }
         return isUnder(middle);
     }
@@ -345,7 +331,7 @@ private:
     /// Where what is above a height comes down to it, and what is not stands.
     PlanBox boxAt(double z) const {
         PlanBox box;
-        for (const glm::dvec3& corner : _kept.corners)
+        for (const glm::dvec3& corner : _outline.corners)
             box.add(glm::dvec2(corner) - lengthTo(std::min(z, corner.z), corner) * glm::dvec2(towards(corner)));
         return box;
     }
@@ -360,7 +346,7 @@ private:
     HullOutcome findBottom() {
         const double lowest = _ground.all.low - _part.anchor.z, highest = _ground.all.high - _part.anchor.z;
         if (!(lowest <= highest)) return HullOutcome::noGround;
-        const glm::dvec3 way = towards(_kept.corners.front());
+        const glm::dvec3 way = towards(_outline.corners.front());
         double z = std::min(_high.z, highest), next = z;
         double step = std::max((z - lowest) / 64.0, boxAt(_high.z).diameter() * way.z /
                                                         std::max(glm::length(glm::dvec2(way)), 1e-9 * way.z));
@@ -388,28 +374,11 @@ private:
         return HullOutcome::cast;
     }
 
-    void writeDown(Writer& writer, const glm::dvec3& by) const {
-        for (const glm::dvec3& corner : _kept.corners) {
-            const bool goesOn = corner.z > _bottom + rounding * _part.size; // else no ground is below it
-            writer.corner({corner + by, 0.0},
-                          goesOn ? std::optional(glm::dvec4(corner + by, lengthTo(_end, corner))) : std::nullopt);
-        }
-        if (_top) writer.top(*_top + by);
-        PlanBox box = boxAt(_end);
-        box.add(boxAt(_high.z));
-        finish(writer, box, std::min(_end, _low.z), _high.z, by);
-    }
-    void writeEndless(Writer& writer, const glm::dvec3& by) const {
-        for (const glm::dvec3& corner : _kept.corners) writer.corner({corner + by, 0.0}, glm::dvec4(corner + by, -1.0));
-        if (_top) writer.top(*_top + by);
-        const double all = far * _part.size;
-        finish(writer, {glm::dvec2(_low) - all, glm::dvec2(_high) + all}, -all, all, by);
-    }
-    void finish(Writer& writer, const PlanBox& box, double bottom, double top, const glm::dvec3& by) const {
-        const glm::dvec2 spare = 0.05 * (box.high - box.low); // for what a sun turns by until it is found anew
-        const PlanBox all{box.low - spare + glm::dvec2(by), box.high + spare + glm::dvec2(by)};
-        const double rise = 0.05 * (top - bottom);
-        writer.end(all, bottom - rise + by.z, top + rise + by.z, _light.w == 0.0 ? seenBox() : all);
+    /// @param vertex  the same about the origin of all.
+    std::optional<glm::dvec4> endOf(const glm::dvec3& corner, const glm::dvec3& vertex) const {
+        if (isEndless()) return glm::dvec4(vertex, -1.0);
+        const bool goesOn = corner.z > _bottom + rounding * _part.size; // else no ground is below it
+        return goesOn ? std::optional(glm::dvec4(vertex, lengthTo(_end, corner))) : std::nullopt;
     }
     /// Of all parts in the plane across a sun, with some to spare as above.
     PlanBox seenBox() const {
@@ -422,7 +391,7 @@ private:
     const HullGround& _ground;
     const HullPart& _part;
     const glm::dvec4 _light;
-    Memory& _kept;
+    Outline& _outline;
     glm::dvec3 _low{infinite}, _high{-infinite};     ///< bounds of the silhouette.
     PlanBox _seen;                                   ///< the same across the light.
     std::optional<glm::dvec3> _top;                  ///< the corner nearest to the light, if it is none of them.
@@ -431,15 +400,13 @@ private:
 };
 
 /// All that is seen, whatever the light.
-void writeEverything(const HullPart& part, Writer& writer, HullSolids& into) {
-    const glm::dvec3 middle = part.anchor - into.origin;
-    const double far = 1e6 * (1.0 + glm::length(middle));
-    writer.begin();
+void writeEverything(const HullPart& part, Writer& writer) {
+    const double far = 1e6 * (1.0 + glm::length(part.anchor - writer.solids.origin));
+    std::vector<Writer::Corner> corners;
     for (const auto& [x, y] : {std::pair(-far, -far), {far, -far}, {far, far}, {-far, far}})
-        writer.corner({x, y, far, 0.0}, glm::dvec4(x, y, -far, 0.0));
-    const PlanBox all{glm::dvec2(-far), glm::dvec2(far)};
-    writer.end(all, -far, far, all);
-    into.widest = infinite;
+        corners.push_back({{x, y, far, 0.0}, glm::dvec4(x, y, -far, 0.0)});
+    writer.add(corners, std::nullopt, glm::dvec3(-far), glm::dvec3(far), {glm::dvec2(-far), glm::dvec2(far)});
+    writer.solids.widest = infinite;
 }
 
 } // namespace
@@ -492,29 +459,33 @@ int HullSolids::around(const glm::dvec3& place) const {
     return count;
 }
 
-void hullSolids(const HullGround& ground, const std::vector<HullPart>& parts, const glm::dvec4& light,
-                const glm::dvec3& origin, HullSolids& into) {
-    Writer writer(into, light, origin);
-    const auto count = [&into](HullOutcome outcome) -> std::size_t& { return into.outcomes[std::size_t(outcome)]; };
+HullSolids hullSolids(const HullGround& ground, const std::vector<HullPart>& parts, const glm::dvec4& light,
+                      const glm::dvec3& origin) {
+    Writer writer(light, origin);
+    const auto count = [&](HullOutcome outcome) -> std::size_t& {
+        return writer.solids.outcomes[std::size_t(outcome)];
+    };
+    if (light.w == 0.0) writer.solids.turn = mostTurn * std::min(1.0, light.z / glm::length(glm::dvec2(light)));
     if (!std::isfinite(light.x + light.y + light.z + light.w))
         count(HullOutcome::unseen) = parts.size();
     else if (isLightBelow(ground.ground, light))
         count(HullOutcome::lightBelow) = parts.size();
-    else
+    else {
+        Outline outline;
         for (const HullPart& part : parts) {
-            Solid solid(ground, part, light);
+            Solid solid(ground, part, light, outline);
             const HullOutcome outcome = solid.find();
             ++count(outcome);
-            if (outcome == HullOutcome::cast) solid.write(writer, into);
-            if (outcome == HullOutcome::lightInside) writeEverything(part, writer, into);
+            if (outcome == HullOutcome::cast) solid.write(writer);
+            if (outcome == HullOutcome::lightInside) writeEverything(part, writer);
         }
-    writer.finish();
-    if (light.w == 0.0) into.turn = mostTurn * std::min(1.0, light.z / glm::length(glm::dvec2(light)));
+    }
+    return writer.finish();
 }
 
-void boxSolids(const HullGround& ground, const std::vector<BoxCaster>& boxes, const glm::dvec4& light,
-               const glm::dvec3& origin, HullSolids& into) {
-    Writer writer(into, {0.0, 0.0, 1.0, 0.0}, origin); // from straight above
+HullSolids boxSolids(const HullGround& ground, const std::vector<BoxCaster>& boxes, const glm::dvec4& light,
+                     const glm::dvec3& origin) {
+    Writer writer({0.0, 0.0, 1.0, 0.0}, origin); // from straight above
     for (const BoxCaster& box : boxes) {
         const bool isBelow = light.w == 0.0 && !(light.z > 0.0);
         const auto shadow = isBelow ? std::nullopt : boxShadow(ground.ground, box, light);
@@ -522,7 +493,7 @@ void boxSolids(const HullGround& ground, const std::vector<BoxCaster>& boxes, co
                                     : !shadow                                 ? HullOutcome::noGround
                                     : isBoxOutline(ground.ground, box, light) ? HullOutcome::cast
                                                                               : HullOutcome::boxed;
-        ++into.outcomes[std::size_t(outcome)];
+        ++writer.solids.outcomes[std::size_t(outcome)];
         if (!shadow) continue;
         auto pentagon = boxPentagon(*shadow);
         double area = 0.0;
@@ -537,14 +508,15 @@ void boxSolids(const HullGround& ground, const std::vector<BoxCaster>& boxes, co
         const double spare = ground.margin * plan.diameter(), low = range->low - spare - origin.z,
                      high = range->high + spare - origin.z;
         const glm::dvec2 by(origin);
-        writer.begin();
+        std::vector<Writer::Corner> corners;
         for (const glm::dvec2& corner : pentagon)
-            writer.corner({corner - by, high, 0.0}, glm::dvec4(corner - by, low, 0.0));
+            corners.push_back({{corner - by, high, 0.0}, glm::dvec4(corner - by, low, 0.0)});
         const PlanBox all{plan.low - by, plan.high - by};
-        writer.end(all, low, high, all);
-        into.widest = std::max(into.widest, std::hypot(plan.diameter(), range->high - range->low));
+        writer.add(corners, std::nullopt, {all.low, low}, {all.high, high}, all);
+        double& widest = writer.solids.widest;
+        widest = std::max(widest, std::hypot(plan.diameter(), range->high - range->low));
     }
-    writer.finish();
+    return writer.finish();
 }
 
 } // namespace gnomon

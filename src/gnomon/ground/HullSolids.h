@@ -69,17 +69,16 @@ struct HullGround {
 };
 
 /// @param light   homogeneous, ground's frame: w = 0 the way towards a sun, w > 0 a lamp.
-/// @param into    whose memory is used again.
 ///
 /// Cost    of a house 4 to 20 triangles, its silhouette, and a few questions to the ground's bounds.
 /// Limits  exact for convex parts. What is behind the first crest that all of a shadow meets is left out.
-/// Threads any number, each with its own `into`.
-void hullSolids(const HullGround& ground, const std::vector<HullPart>& parts, const glm::dvec4& light,
-                const glm::dvec3& origin, HullSolids& into);
+/// Threads any number.
+HullSolids hullSolids(const HullGround& ground, const std::vector<HullPart>& parts, const glm::dvec4& light,
+                      const glm::dvec3& origin);
 
 /// The same of the pentagons of boxShadow(): upright, through all of the ground about them.
-void boxSolids(const HullGround& ground, const std::vector<BoxCaster>& boxes, const glm::dvec4& light,
-               const glm::dvec3& origin, HullSolids& into);
+HullSolids boxSolids(const HullGround& ground, const std::vector<BoxCaster>& boxes, const glm::dvec4& light,
+                     const glm::dvec3& origin);
 
 /// Whether there is no light for the ground: a sun that is not above the horizon, or a lamp in the ground.
 bool isLightBelow(const Ground& ground, const glm::dvec4& light);
