@@ -4,7 +4,7 @@
 
 #include <gnomon/geometry/ConvexParts.h>
 #include <gnomon/geometry/ConvexPolygons.h>
-#include <gnomon/ground/GroundIntersection.h>
+#include <gnomon/ground/GroundSearch.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

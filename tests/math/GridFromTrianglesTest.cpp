@@ -3,7 +3,7 @@
 #include "Compare.h"
 #include "GroundTriangles.h"
 
-#include <gnomon/ground/GridFromTriangles.h>
+#include <gnomon/ground/HeightField.h>
 #include <gnomon/ground/HeightPyramid.h>
 
 #include <algorithm>

@@ -62,23 +62,6 @@ TEST(TriangleGround, HasTheHeightsOfTheHeightFieldThatItWasCutFrom) {
     }
 }
 
-TEST(TriangleGround, IsMetByRaysWhereTheHeightFieldIs) {
-    const HeightPyramid field = holed();
-    const TriangleGround ground = cellsOf(field.field());
-    Random random(2);
-    int hits = 0;
-    for (int i = 0; i < 5000; ++i) {
-        const glm::dvec3 start(random.between(0.0, 690.0), random.between(0.0, 690.0), random.between(-60.0, 60.0));
-        const glm::dvec3 along(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-0.4, 0.4));
-        const auto expected = field.hit(start, along), found = ground.hit(start, along);
-        ASSERT_EQ(bool(found), bool(expected)) << i;
-        if (!found) continue;
-        ++hits;
-        EXPECT_TRUE(near(*found, *expected, 1e-9));
-    }
-    EXPECT_GT(hits, 1500);
-}
-
 /// From posts, edges and diagonals, and from beside the grid; along borders of cells, across posts, straight up and down.
 TEST(TriangleGround, IsMetByRaysAlongTheBordersOfCellsWhereTheHeightFieldIs) {
     const HeightPyramid field = test::groundOf(test::steepHills, posts);

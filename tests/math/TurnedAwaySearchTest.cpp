@@ -4,7 +4,7 @@
 #include "GroundTriangles.h"
 #include <support/TerrainTrial.h>
 
-#include <gnomon/ground/TurnedAwaySearch.h>
+#include <gnomon/ground/GroundSearch.h>
 
 #include <algorithm>
 

@@ -128,24 +128,6 @@ TEST(BoxShadowAlone, IsNoneWithoutALightAnObjectOrGround) {
     EXPECT_FALSE(boxAlone({house(), {100.0, 0.0, 0.0}}, sun)) << "beside the ground";
 }
 
-TEST(TerrainShadowGeode, IsFoundOnceALightUntilSomethingChanges) {
-    Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
-    osg::Node* house = scene.content->getChild(1);
-    const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::HULL);
-    scene.addShadow(shadow);
-    test::Camera camera(scene.root, above);
-    for (int i = 0; i < 3; ++i) camera.frame();
-    EXPECT_EQ(shadow->builds(), 1u);
-    scene.light->getLight()->setPosition({1.0f, 1.0f, 1.0f, 0.0f});
-    for (int i = 0; i < 3; ++i) camera.frame();
-    EXPECT_EQ(shadow->builds(), 2u);
-    osg::ref_ptr<osg::MatrixTransform> moved = new osg::MatrixTransform(osg::Matrixd::translate(3.0, 0.0, 0.0));
-    moved->addChild(house);
-    scene.content->replaceChild(house, moved);
-    for (int i = 0; i < 3; ++i) camera.frame();
-    EXPECT_EQ(shadow->builds(), 3u);
-}
-
 TEST(TerrainShadowGeode, TerrainCastsNothingOnItself) {
     Scene scene = test::groundScene({test::box({-1.0, -1.0, 0.0}, {1.0, 1.0, 3.0})}, 20.0, sun);
     const test::Picture plain = test::render(scene.root, above);
@@ -154,35 +136,6 @@ TEST(TerrainShadowGeode, TerrainCastsNothingOnItself) {
     EXPECT_EQ(darkened(test::render(scene.root, above), plain), 0);
     ASSERT_EQ(shadow->diagnose().size(), 1u);
     EXPECT_NE(shadow->diagnose().front().find("every caster is part of the receiver"), std::string::npos);
-}
-
-/// Fifteen shadows over one place, whichever way the bits that are left count them.
-TEST(TerrainShadowGeode, MarksOnceWhateverLiesOverOneAnotherAndHoweverFewBitsAreLeft) {
-    std::vector<test::Mesh> houses;
-    for (int i = 0; i < 15; ++i) houses.push_back(test::box({3.0, -2.0, 0.4 * i}, {3.5 + 0.1 * i, 2.0, 0.4 * i + 0.3}));
-    const auto picture = [&](unsigned reserved, std::string& cause) {
-        Scene scene = test::groundScene(houses, 20.0, sun);
-        const auto shadow = shadowOn(test::find(*scene.root, "ground"), TerrainShadowGeode::HULL);
-        scene.addShadow(shadow);
-        test::Picture result = test::render(test::reserving(scene.root, reserved), above);
-        const std::vector<std::string> causes =
-            test::causesButLitSurfaces(*shadow); // the houses stand in each other's shadow
-        cause = causes.empty() ? "" : causes.front();
-        return result;
-    };
-    Scene unshadowed = test::groundScene(houses, 20.0, sun);
-    const test::Picture plain = test::render(unshadowed.root, above);
-    std::string cause;
-    const test::Picture all = picture(0, cause);
-    EXPECT_EQ(cause, "");
-    EXPECT_GT(darkened(all, plain), 1500);
-    EXPECT_EQ(picture(0x03, cause).different(all), 0) << "one counter: odd from even";
-    EXPECT_EQ(cause, "");
-    EXPECT_EQ(picture(0xf0, cause).different(all), 0) << "two counters";
-    EXPECT_EQ(picture(0x1f, cause).different(all), 0) << "three bits";
-    EXPECT_EQ(cause, "");
-    EXPECT_EQ(picture(0x3f, cause).different(plain), 0);
-    EXPECT_NE(cause.find("need another stencil bit"), std::string::npos) << cause;
 }
 
 namespace {

@@ -96,6 +96,10 @@ TEST(TileUpdates, DarkenOnceWhateverLiesOverWhatAndHoweverFewBitsAreLeft) {
         options.reservedStencilBits = reserved;
         EXPECT_EQ(fresh(low, all, TerrainShadowGeode::HULL, options).different(counted), 0) << reserved;
     }
+    Town town(low);
+    const TerrainShadowGeode& shadow = town.cast();
+    EXPECT_EQ(test::render(test::reserving(town.root, 0x3f), all).different(test::render(Town(low).root, all)), 0);
+    EXPECT_NE(shadow.diagnose().back().find("need another stencil bit"), std::string::npos);
 }
 
 TEST(TileUpdates, CulledAndAllOfThemGiveTheSameBits) {

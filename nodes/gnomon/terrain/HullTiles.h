@@ -2,8 +2,8 @@
 #pragma once
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/VolumeGeometry.h>
+#include <gnomon/ground/GroundSearch.h>
 #include <gnomon/ground/HullSolids.h>
-#include <gnomon/ground/TurnedAwaySearch.h>
 #include <gnomon/group/ViewFrame.h>
 #include <gnomon/terrain/CasterTiles.h>
 

@@ -3,7 +3,6 @@
 #include <gnomon/Ground.h>
 #include <gnomon/TerrainGround.h>
 #include <gnomon/casters/CasterExtraction.h>
-#include <gnomon/ground/GridFromTriangles.h>
 #include <gnomon/ground/HeightField.h>
 #include <gnomon/ground/HeightPyramid.h>
 #include <gnomon/ground/TriangleGround.h>

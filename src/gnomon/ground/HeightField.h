@@ -46,6 +46,8 @@ public:
     }
     /// The two triangles of a cell.
     std::array<GroundTriangle, 2> triangles(int x, int y) const;
+    /// Heights of their planes over a place in the cell, the lower one's first. @param u,v  0 … 1 along x and y.
+    std::array<double, 2> planesOver(int x, int y, double u, double v) const;
     /// nullopt beside the ground and in a hole.
     std::optional<double> height(double x, double y) const;
 
@@ -56,5 +58,17 @@ private:
     double _base;
     std::vector<CellCut> _cuts;
 };
+
+/// The height field that triangles are, where they are one: a regular grid along x and y whose cells are two triangles each,
+/// cut along either diagonal, or a hole. Their order and winding do not matter. Vertical triangles that hang from its posts,
+/// the skirts of terrain tiles, are left out.
+///
+/// @param vertices,indices  as TriangleGround's.
+/// @param tolerance  how far off its place a corner may be along each axis, scene's unit; never more than 1/1000 of a step.
+/// @return nullopt for all else. Heights are floats about the middle of their range.
+///
+/// Cost  one pass over the triangles.
+std::optional<HeightField> gridOf(const std::vector<glm::dvec3>& vertices, const std::vector<unsigned>& indices,
+                                  double tolerance);
 
 } // namespace gnomon

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ground/GroundSearch.h>
 #include <gnomon/ground/HeightPyramid.h>
-#include <gnomon/ground/TurnedAwaySearch.h>
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -98,18 +98,11 @@ GroundBox HeightPyramid::boxOf(const Block& block) const {
 
 template <class Enter>
 void HeightPyramid::descend(const Block& from, const Enter& enter) const {
-    if (node(from).isHole() || !enter(from) || from.level == 0) return;
+    if (node(from).isHole() || !enter(from)) return;
     const Level& lower = _levels[std::size_t(from.level) - 1];
     for (int y = 2 * from.y; y < std::min(2 * from.y + 2, lower.rows); ++y)
         for (int x = 2 * from.x; x < std::min(2 * from.x + 2, lower.columns); ++x)
             descend({from.level - 1, x, y}, enter);
-}
-
-double HeightPyramid::hitInCell(int x, int y, const glm::dvec3& start, const glm::dvec3& along) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const GroundTriangle& triangle : _field.triangles(x, y))
-        nearest = std::min(nearest, meet(triangle, start, along).value_or(nearest));
-    return nearest;
 }
 
 std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm::dvec3& along) const {
@@ -117,8 +110,10 @@ std::optional<glm::dvec3> HeightPyramid::hit(const glm::dvec3& start, const glm:
     descend(top(), [&](const Block& block) {
         const RaySpan span = spanInside(boxOf(block), start, along);
         if (span.from > span.to || span.from >= nearest) return false;
-        if (block.level == 0) nearest = std::min(nearest, hitInCell(block.x, block.y, start, along));
-        return true;
+        if (block.level > 0) return true;
+        for (const GroundTriangle& triangle : _field.triangles(block.x, block.y))
+            nearest = std::min(nearest, meet(triangle, start, along).value_or(nearest));
+        return false;
     });
     if (!std::isfinite(nearest)) return std::nullopt;
     return start + nearest * along;
@@ -135,27 +130,15 @@ TurnedAway HeightPyramid::turnedAway(const glm::dvec4& light) const {
     return search.result();
 }
 
-std::optional<HeightPyramid::Cells> HeightPyramid::cells(const glm::dvec2& low, const glm::dvec2& high) const {
-    const glm::dvec2 from = glm::floor(low), to = glm::floor(high);
-    const glm::dvec2 last(_levels[0].columns - 1, _levels[0].rows - 1);
-    if (!(from.x <= last.x && from.y <= last.y && to.x >= 0.0 && to.y >= 0.0)) return std::nullopt;
-    const glm::ivec2 first(glm::max(from, glm::dvec2(0.0))), end(glm::min(to, last));
-    return Cells{first.x, first.y, end.x, end.y};
-}
-
 /// Lowest and highest of a cell's part that a rectangle touches, or some more: its planes over that part's corners.
 std::pair<double, double> HeightPyramid::heightsIn(int x, int y, const glm::dvec2& low, const glm::dvec2& high) const {
     const Node& cell = node({0, x, y});
-    const double a = _field.post(x, y).z, b = _field.post(x + 1, y).z, c = _field.post(x + 1, y + 1).z,
-                 d = _field.post(x, y + 1).z;
-    const bool falls = _field.cut(x, y) == CellCut::falling;
     const glm::dvec2 corner(x, y), from = glm::clamp(_field.cellOf(low.x, low.y) - corner, 0.0, 1.0),
                                    to = glm::clamp(_field.cellOf(high.x, high.y) - corner, 0.0, 1.0);
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const double u : {from.x, to.x})
         for (const double v : {from.y, to.y}) {
-            const double one = falls ? a + u * (b - a) + v * (d - a) : a + u * (b - a) + v * (c - b),
-                         other = falls ? c + (1.0 - u) * (d - c) + (1.0 - v) * (b - c) : a + v * (d - a) + u * (c - d);
+            const auto [one, other] = _field.planesOver(x, y, u, v);
             least = std::min({least, one, other});
             most = std::max({most, one, other});
         }
@@ -164,9 +147,10 @@ std::pair<double, double> HeightPyramid::heightsIn(int x, int y, const glm::dvec
 }
 
 std::optional<GroundRange> HeightPyramid::range(const glm::dvec2& low, const glm::dvec2& high) const {
-    const auto touched = cells(_field.cellOf(low.x, low.y), _field.cellOf(high.x, high.y));
-    if (!touched) return std::nullopt;
-    const glm::ivec2 first(touched->left, touched->low), end(touched->right, touched->high);
+    const glm::dvec2 from = glm::floor(_field.cellOf(low.x, low.y)), to = glm::floor(_field.cellOf(high.x, high.y)),
+                     last(_levels[0].columns - 1, _levels[0].rows - 1);
+    if (!(from.x <= last.x && from.y <= last.y && to.x >= 0.0 && to.y >= 0.0)) return std::nullopt;
+    const glm::ivec2 first(glm::max(from, glm::dvec2(0.0))), end(glm::min(to, last));
     int level = 0;
     while ((end.x >> level) - (first.x >> level) > 3 || (end.y >> level) - (first.y >> level) > 3) ++level;
     std::optional<GroundRange> range;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ground/GroundIntersection.h>
+#include <gnomon/ground/GroundSearch.h>
 #include <gnomon/ground/HeightField.h>
 
 namespace gnomon {
@@ -20,13 +20,6 @@ public:
     std::optional<GroundRange> range(const glm::dvec2& low, const glm::dvec2& high) const override;
 
 private:
-    /// The last ones included.
-    struct Cells {
-        int left, low, right, high;
-    };
-    /// Those that a rectangle touches; nullopt if it is beside the grid. @param low,high  as HeightField::cellOf() has them.
-    std::optional<Cells> cells(const glm::dvec2& low, const glm::dvec2& high) const;
-
     struct Node {
         float low = 1.0f, high = 0.0f; ///< low > high: all of it is a hole.
         float slope = 0.0f;            ///< steepest; below 0, or -0, where there is a hole in it.
@@ -54,10 +47,9 @@ private:
     std::pair<double, double> heightsIn(int x, int y, const glm::dvec2& low, const glm::dvec2& high) const;
     Node merged(const Block& block) const;
     Level levelOver(const Level& below, int level) const;
-    /// Goes down from the top wherever `enter` says so.
+    /// Goes down wherever `enter` says so, which it does not of a cell.
     template <class Enter>
     void descend(const Block& from, const Enter& enter) const;
-    double hitInCell(int x, int y, const glm::dvec3& start, const glm::dvec3& along) const;
     GroundBox boxOf(const Block& block) const;
     Block top() const { return {static_cast<int>(_levels.size()) - 1, 0, 0}; }
 

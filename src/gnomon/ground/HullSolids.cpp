@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/geometry/Across.h>
-#include <gnomon/ground/GroundIntersection.h>
+#include <gnomon/ground/GroundSearch.h>
 #include <gnomon/ground/HeightPyramid.h>
 #include <gnomon/ground/HullSolids.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Plane.h>
 #include <gnomon/geometry/MeshEdges.h>
+#include <gnomon/ground/GroundSearch.h>
 #include <gnomon/ground/TriangleGround.h>
-#include <gnomon/ground/TurnedAwaySearch.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ground/GroundIntersection.h>
+#include <gnomon/ground/GroundSearch.h>
 
 #include <vector>
 
