@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 namespace gnomon {
 namespace {
+
+[[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
 using Map = ShadowMapOptions;
 
@@ -154,6 +157,35 @@ void describeKeys(std::ostream& out, const std::vector<SpecKey>& keys) {
             << key.byDefault << "\n";
 }
 
+const SpecKey& requireKey(const SpecTechnique& technique, const std::vector<SpecKey>& keys, const std::string& name) {
+    std::vector<std::string> names;
+    for (const SpecKey& key : keys) {
+        if (name == key.name) return key;
+        names.push_back(key.name);
+    }
+    refuse("the technique " + technique.name + " has no key \"" + name + "\". Allowed: " + listed(names) + ".");
+}
+
+void takePair(ShadowSpec& spec, const SpecTechnique& technique, const std::string& pair, std::set<std::string>& seen) {
+    const std::size_t equals = pair.find('=');
+    const std::string name = pair.substr(0, equals);
+    const std::vector<SpecKey> keys = keysOf(technique);
+    const SpecKey& key = requireKey(technique, keys, name);
+    if (!seen.insert(name).second)
+        refuse("the key \"" + name + "\" is given twice. Give it once in \"" + spec.text + "\".");
+    const std::string value = equals == std::string::npos ? "" : pair.substr(equals + 1);
+    if (!key.take(spec, value)) refuse(name + "=" + value + " cannot be used. Allowed: " + key.allowed() + ".");
+}
+
+void takePairs(ShadowSpec& spec, const SpecTechnique& technique, const std::string& pairs) {
+    std::set<std::string> seen;
+    for (std::size_t begin = 0; begin <= pairs.size();) {
+        const std::size_t comma = std::min(pairs.find(',', begin), pairs.size());
+        takePair(spec, technique, pairs.substr(begin, comma - begin), seen);
+        begin = comma + 1;
+    }
+}
+
 } // namespace
 
 std::string SpecKey::allowed() const {
@@ -182,21 +214,17 @@ const std::vector<SpecTechnique>& specTechniques() {
 }
 
 const SpecTechnique& requireTechnique(const std::string& name) {
-    const std::string allowed = " Allowed: " + listed(shadowTechniques()) + ".";
     for (const SpecTechnique& technique : specTechniques()) {
         if (name != technique.name) continue;
         if (const std::string why = technique.whyUnavailable(); !why.empty())
-            throw std::invalid_argument("the technique " + name + " cannot be used. " + why);
+            refuse("the technique " + name + " cannot be used. " + why);
         return technique;
     }
     if (name == "drape")
-        throw std::invalid_argument(
-            "there is no technique drape any more. Use hull on terrain, which is exact there, or map "
-            "or traced if other surfaces receive.");
-    throw std::invalid_argument("\"" + name + "\" is not a shadow technique." + allowed);
+        refuse("there is no technique drape any more. Use hull on terrain, which is exact there, or map or traced if "
+               "other surfaces receive.");
+    refuse("\"" + name + "\" is not a shadow technique. Allowed: " + listed(shadowTechniques()) + ".");
 }
-
-std::vector<SpecKey> sharedKeys() { return sharedKeys(receiversByDefault()); }
 
 std::vector<SpecKey> keysOf(const SpecTechnique& technique) {
     std::vector<SpecKey> keys = technique.keys;
@@ -225,8 +253,20 @@ std::string shadowSpecHelp(const std::vector<std::string>& names) {
         describeKeys(out, technique.keys);
     }
     out << "  keys of every technique, as NAME:key=value,key=value\n";
-    describeKeys(out, sharedKeys());
+    describeKeys(out, sharedKeys(receiversByDefault()));
     return out.str();
+}
+
+ShadowSpec parseShadowSpec(const std::string& text) {
+    ShadowSpec spec;
+    spec.text = text;
+    const std::size_t colon = text.find(':');
+    spec.technique = text.substr(0, colon);
+    const SpecTechnique& technique = requireTechnique(spec.technique);
+    if (colon != std::string::npos) takePairs(spec, technique, text.substr(colon + 1));
+    if (spec.dark && spec.composite != ShadowCasterGroup::BLEND)
+        refuse("dark= needs composite=blend. Add it to \"" + text + "\".");
+    return spec;
 }
 
 } // namespace gnomon

@@ -42,9 +42,7 @@ const std::vector<SpecTechnique>& specTechniques();
 /// @throws std::invalid_argument if there is none, or this build lacks a library for it.
 const SpecTechnique& requireTechnique(const std::string& name);
 
-/// Keys that every technique has.
-std::vector<SpecKey> sharedKeys();
-/// A technique's own keys, then the shared ones.
+/// A technique's own keys, then those that every technique has.
 std::vector<SpecKey> keysOf(const SpecTechnique& technique);
 
 /// "a, b, c".
