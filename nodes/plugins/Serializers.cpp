@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#define OBJECT_CAST dynamic_cast // a callback has osg::Object for a virtual base
 #include "Fields.h"
 
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/HaloNode.h>
+#include <gnomon/HaloPulse.h>
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/SceneProps.h>
@@ -287,6 +289,10 @@ GNOMON_WRAPPER(HaloNode, new gnomon::HaloNode, "osg::Object osg::Node osg::Group
     fields::addExact(*wrapper, "Color", &MyClass::getColor, &MyClass::setColor);
     ADD_BOOL_SERIALIZER(StencilCure, fresh->getStencilCure());
     fields::addCompositorOptions<MyClass>(*wrapper);
+}
+
+GNOMON_WRAPPER(HaloPulse, new gnomon::HaloPulse, "osg::Object osg::Callback", "") {
+    fields::addExact(*wrapper, "Amplitude", &MyClass::getAmplitude, &MyClass::setAmplitude);
 }
 
 GNOMON_WRAPPER(PlanarReflectionNode, new gnomon::PlanarReflectionNode, "osg::Object osg::Node osg::Group", "") {
