@@ -141,25 +141,21 @@ PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, cons
     }
 }
 
-PlanarCasters::PlanarCasters(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under, const Source& source)
+PlanarCasters::PlanarCasters(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under)
     : plane(SceneFrame(layers.origin).plane(groupPlane)),
       low(std::numeric_limits<double>::infinity()),
       high(-low),
       _layers(layers.retired()),
       _groupPlane(groupPlane),
-      _under(under) {
-    for (const PlacedMesh& placed : layers.meshes()) {
-        _meshes.push_back(source(placed, plane));
-        add(*_meshes.back());
-    }
-}
+      _under(under) {}
 
-void PlanarCasters::add(const PlanarParts& more) {
-    if (more.parts.empty()) return;
-    low = glm::min(low, more.low);
-    high = glm::max(high, more.high);
-    highest = std::max(highest, more.highest);
-    for (const PlanarPart& part : more.parts) {
+void PlanarCasters::add(const osg::ref_ptr<const PlanarParts>& more) {
+    _meshes.push_back(more);
+    if (more->parts.empty()) return;
+    low = glm::min(low, more->low);
+    high = glm::max(high, more->high);
+    highest = std::max(highest, more->highest);
+    for (const PlanarPart& part : more->parts) {
         parts.push_back(part);
         crosses = crosses || part.crossing;
     }
@@ -191,31 +187,30 @@ void PlanarCasters::releaseGLObjects(osg::State* state) const {
 /// Joined meshes by their triangles, bodies as wholes. What is under the plane may lie in it: that each triangle tells.
 osg::ref_ptr<PlanarCasters> PlanarCasterCache::make(const CasterLayers& layers, const glm::dvec4& groupPlane,
                                                     bool under, unsigned frame) {
+    const osg::ref_ptr<PlanarCasters> made = new PlanarCasters(layers, groupPlane, under);
     std::vector<osg::ref_ptr<PlanarCasters>> before;
     for (const auto& entry : _entries)
-        if (entry->isOf(groupPlane, under)) before.push_back(entry);
+        if (entry->isOf(groupPlane, under) && entry->plane == made->plane) before.push_back(entry);
     const SceneFrame scene(layers.origin);
-    std::size_t next = 0;
-    return new PlanarCasters(layers, groupPlane, under,
-                             [&](const PlacedMesh& placed, const glm::dvec4& plane) -> osg::ref_ptr<const PlanarParts> {
-                                 const std::size_t place = next++;
-                                 if (placed.isBody && !under) {
-                                     const osg::ref_ptr<const PlanarMesh> whole = wholeOf(*placed.mesh, frame);
-                                     for (const auto& entry : before) {
-                                         const auto known = entry->plane == plane ? entry->at(place, placed) : nullptr;
-                                         if (known && known->whole == whole)
-                                             return known; // it stands still while others move
-                                     }
-                                     return new PlanarParts(placed, plane, scene.point(placed.bounds._min),
-                                                            scene.point(placed.bounds._max), *whole);
-                                 }
-                                 osg::ref_ptr<const PlanarParts> known;
-                                 for (const auto& entry : before)
-                                     if (!known && entry->plane == plane) known = entry->find(placed);
-                                 if (known && (known->knowsSolids || known->firstFrame == frame)) return known;
-                                 return new PlanarParts(placed, plane, under, known.valid(),
-                                                        frame); // which stands still: the search pays
-                             });
+    for (const PlacedMesh& placed : layers.meshes()) {
+        osg::ref_ptr<const PlanarParts> known;
+        if (placed.isBody && !under) {
+            const osg::ref_ptr<const PlanarMesh> whole = wholeOf(*placed.mesh, frame);
+            for (const auto& entry : before)
+                if (!known || known->whole != whole) known = entry->at(made->size(), placed);
+            if (!known || known->whole != whole) // else it stands still while others move
+                known = new PlanarParts(placed, made->plane, scene.point(placed.bounds._min),
+                                        scene.point(placed.bounds._max), *whole);
+        } else {
+            for (const auto& entry : before)
+                if (!known) known = entry->find(placed);
+            if (!known || (!known->knowsSolids && known->firstFrame != frame))
+                known = new PlanarParts(placed, made->plane, under, known.valid(),
+                                        frame); // it stands still: the search pays
+        }
+        made->add(known);
+    }
+    return made;
 }
 
 osg::ref_ptr<const PlanarMesh> PlanarCasterCache::wholeOf(const CasterMesh& mesh, unsigned frame) {

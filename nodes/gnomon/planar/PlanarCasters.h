@@ -12,7 +12,6 @@
 #include <osg/Referenced>
 
 #include <cstddef>
-#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -72,12 +71,12 @@ protected:
 /// Triangles in the plane are left out, and those under it unless asked for.
 class PlanarCasters : public osg::Referenced {
 public:
-    /// Makes or finds the parts of a mesh above a plane of the scene.
-    using Source = std::function<osg::ref_ptr<const PlanarParts>(const PlacedMesh& placed, const glm::dvec4& plane)>;
-
+    /// Of no mesh yet.
     /// @param groupPlane  unit normal, group frame.
     /// @param under       keep what lies under the plane, too.
-    PlanarCasters(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under, const Source& source);
+    PlanarCasters(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under);
+    /// The next one of the layers' meshes.
+    void add(const osg::ref_ptr<const PlanarParts>& more);
 
     bool madeFrom(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under) const {
         return _layers == layers.retired() && isOf(groupPlane, under);
@@ -91,6 +90,7 @@ public:
     osg::ref_ptr<const PlanarParts> find(const PlacedMesh& placed) const;
     /// The same, if it is at this place among the layers' meshes.
     osg::ref_ptr<const PlanarParts> at(std::size_t place, const PlacedMesh& placed) const;
+    std::size_t size() const { return _meshes.size(); } ///< meshes.
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
@@ -104,8 +104,6 @@ protected:
     ~PlanarCasters() override = default;
 
 private:
-    void add(const PlanarParts& more);
-
     CasterLayers::Retired _layers;
     glm::dvec4 _groupPlane;
     bool _under;
