@@ -21,7 +21,7 @@ constexpr unsigned firstLook = 2;   // frames after the first: what moves from t
 constexpr unsigned settling = 8;    // frames of motion after a rest: a single one should change nothing
 // Frames between two decisions that nothing forces: the more triangles are looked at, the more.
 constexpr double leastPatience = 16.0, mostPatience = 64.0, trianglesAFrame = 4096.0;
-constexpr double muchMore = 1.5; // times as many triangles, or so many times fewer, are another scene
+constexpr double muchMore = 1.5; // times as many triangles are another scene
 /// Share of the frames in which things move at least, in the long run: of maps that take the same where all stands still, the
 /// small one is taken.
 constexpr double rarely = 0.02;
