@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What an automatic choice keeps from frame to frame, and what it tells of itself.
 // A camera flies, and what is chosen automatically changes: how often, why, and that nobody sees it.
-#include <gnomon/AutoShadowTechnique.h>
+#include "AutoTrial.h"
+
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/group/SceneFrame.h>
@@ -111,18 +112,15 @@ Picture drawnBy(const std::string& spec, const Flight& flight, const View& view)
 }
 
 void fly(const Flight& flight) {
-    Scene scene = groundScene(flight.casters, flight.half, sun);
-    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
-    technique->setError(budget);
-    scene.addShadow(technique);
-    Camera camera(scene.root, flight.at(0.0));
+    const AutoTrial trial(flight.casters, {budget, 0.0}, flight.half, sun);
+    Camera camera(trial.scene.root, flight.at(0.0));
     std::string before;
     unsigned decisions = 0, changes = 0;
     for (int i = 0; i < frames; ++i) {
         const View view = flight.at(double(i) / frames);
         camera.setView(view);
         camera.viewer().frame();
-        const auto all = technique->lastDecision();
+        const auto all = trial.technique->lastDecision();
         if (all.empty()) continue; // nothing casts in this view
         const gnomon::ShadowDecision& now = all.front();
         decisions = now.decisions;
@@ -140,7 +138,7 @@ void fly(const Flight& flight) {
     std::cout << flight.name << ": " << frames << " frames, " << decisions << " decisions, " << changes << " changes\n";
     EXPECT_GE(decisions, 7u) << "every 64 frames at least, also where the first one took long";
     EXPECT_LE(changes, 12u) << "two a second of a flight of ten seconds, and less";
-    EXPECT_EQ(technique->diagnose(), std::vector<std::string>());
+    EXPECT_EQ(trial.technique->diagnose(), std::vector<std::string>());
 }
 
 } // namespace
@@ -171,33 +169,32 @@ TEST(AutoDecisions, FindTheReceiversOfPlanarOnceWhileNothingMoves) {
 
 // The box that is drawn late gets no shadow, and its decision would hide the other.
 TEST(AutoDecisions, AreToldOfAllKindsOfReceiversAndTheUsualOnesFirst) {
-    Scene scene = groundScene({cube}, 8.0, sun);
-    const auto add = [&scene](const Mesh& mesh) {
+    AutoTrial trial({cube});
+    const gnomon::AutoShadowTechnique& technique = *trial.technique;
+    const auto add = [&trial](const Mesh& mesh) {
         const osg::ref_ptr<osg::Geode> geode = node(mesh);
-        scene.content->addChild(geode);
+        trial.scene.content->addChild(geode);
         return geode->getOrCreateStateSet();
     };
     add(box({-1.0, -5.0, 0.0}, {1.0, -3.5, 1.0}))->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
-    const osg::ref_ptr<gnomon::AutoShadowTechnique> technique = new gnomon::AutoShadowTechnique;
-    scene.addShadow(technique);
-    Camera camera(scene.root, viewFrom(-7.0));
+    Camera camera(trial.scene.root, viewFrom(-7.0));
     camera.frame();
     const auto told = [&technique] {
         std::vector<std::string> all;
-        for (const gnomon::ShadowDecision& each : technique->lastDecision())
+        for (const gnomon::ShadowDecision& each : technique.lastDecision())
             all.push_back(each.subject() + ": " + each.chosen.spec);
         return all;
     };
     EXPECT_EQ(told(), (std::vector<std::string>{"light 0: planar", "light 0, receivers drawn late: none"}));
-    EXPECT_EQ(technique->lastDecision().back().text().rfind("light 0, receivers drawn late: none, predicted", 0), 0u);
+    EXPECT_EQ(technique.lastDecision().back().text().rfind("light 0, receivers drawn late: none, predicted", 0), 0u);
     add(moved(square(0.5), {-2.5, -1.0, 0.001}))
         ->setAttributeAndModes(new osg::PolygonOffset(1.0f, 1.0f), osg::StateAttribute::ON);
     camera.frame();
     ASSERT_EQ(told().size(), 3u);
-    EXPECT_EQ(technique->lastDecision()[0].receivers, "");
-    EXPECT_EQ(technique->lastDecision()[1].receivers, "with a depth range or polygon offset");
-    EXPECT_EQ(technique->lastDecision()[2].receivers, "drawn late");
-    scene.content->removeChildren(2, 2); // the box and the carpet
+    EXPECT_EQ(technique.lastDecision()[0].receivers, "");
+    EXPECT_EQ(technique.lastDecision()[1].receivers, "with a depth range or polygon offset");
+    EXPECT_EQ(technique.lastDecision()[2].receivers, "drawn late");
+    trial.scene.content->removeChildren(2, 2); // the box and the carpet
     camera.frame();
     EXPECT_EQ(told(), std::vector<std::string>{"light 0: planar"}) << "the others are of earlier frames";
 }

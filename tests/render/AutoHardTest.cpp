@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What an automatic choice once got wrong without a word: thin things, small things on vast grounds, sides that are turned away.
-#include <support/Scene.h>
-#include <support/Truth.h>
+#include "AutoTrial.h"
 
-#include <gnomon/AutoShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
@@ -19,20 +17,6 @@ using namespace test;
 using gnomon::AutoShadowTechnique;
 
 namespace {
-
-/// A scene under automatic choice.
-struct Trial {
-    explicit Trial(const std::vector<Mesh>& casters, double half = 8.0, const osg::Vec4d& sun = {1.0, 0.4, 1.2, 0.0})
-        : scene(groundScene(casters, half, sun)), technique(new AutoShadowTechnique) {
-        scene.addShadow(technique);
-    }
-    void blend() { scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND); }
-    gnomon::ShadowDecision decision() const { return technique->lastDecision().at(0); }
-    std::string chosen() const { return decision().chosen.spec; }
-
-    Scene scene;
-    osg::ref_ptr<AutoShadowTechnique> technique;
-};
 
 /// Upright laths in a row, and two rails.
 struct Fence {
@@ -88,14 +72,9 @@ TEST(AutoThin, FencesThrowTheLinesThatRaysFind) {
     for (unsigned seed = 1; seed <= 12; ++seed) {
         const Fence fence = randomFence(seed);
         const std::vector<Mesh> casters = seed % 2 ? fence.laths : std::vector<Mesh>{joined(fence.laths)};
-        Scene lit = groundScene(casters, fence.half, fence.sun), dark = groundScene(casters, fence.half, fence.sun);
-        dark.takeLightAway();
-        const Picture litPicture = render(lit.root, fence.view), darkPicture = render(dark.root, fence.view);
-        std::vector<Mesh> meshes = casters;
-        meshes.push_back(square(fence.half));
-        const gnomon::TruthImage truth = truthOf(meshes, fence.sun, fence.view);
-        Trial trial(casters, fence.half, fence.sun);
-        const TruthComparison found = compare(render(trial.scene.root, fence.view), litPicture, darkPicture, truth);
+        const GroundTruth truth(casters, fence.half, fence.sun, fence.view);
+        AutoTrial trial(casters, {}, fence.half, fence.sun);
+        const TruthComparison found = compare(render(trial.scene.root, fence.view), truth.lit, truth.dark, truth.truth);
         std::cout << "fence " << seed << ": " << trial.decision().text() << "; wrong " << found.wrong << " of "
                   << found.pixels << ", one ray a pixel " << found.floor << "\n";
         // Edges of a map may be off by the pixel that is asked for, twice as far as those of one ray.
@@ -114,7 +93,7 @@ TEST(AutoThin, WhatIsExactToASampleIsNeverLessAccurateThanAMapThatLosesMore) {
         laths.push_back(box({i * 0.25, -5.0, 4.0}, {i * 0.25 + 0.02, 5.0, 4.02}));
         laths.push_back(box({-5.0, i * 0.25, 4.0}, {5.0, i * 0.25 + 0.02, 4.02}));
     }
-    Trial trial({joined(laths)}, 20.0, {-0.12, 0.24, 0.96, 0.0});
+    AutoTrial trial({joined(laths)}, {}, 20.0, {-0.12, 0.24, 0.96, 0.0});
     render(trial.scene.root, perspective({-7.2, -15.6, 14.4}, {0.0, 0.0, 0.5}, 640, 480));
     double volume = 0.0;
     for (const gnomon::ShadowCandidate& each : trial.decision().candidates)
@@ -132,7 +111,7 @@ TEST(AutoVast, SmallThingsOnVastGroundsHaveTheirShadow) {
     View view = perspective({-0.12, -0.2, 0.16}, {0.0, 0.0, 0.0}, 320, 240, 40.0, 0.005, 5.0);
     for (const double half : {10.0, 100.0, 1e3, 1e4, 3e4, 1e5}) {
         Scene bare = groundScene({smallBox(0.04)}, half);
-        Trial trial({smallBox(0.04)}, half, {1.0, 0.0, 1.0, 0.0});
+        AutoTrial trial({smallBox(0.04)}, {}, half, {1.0, 0.0, 1.0, 0.0});
         const int shadow = darker(render(trial.scene.root, view), render(bare.root, view));
         EXPECT_NEAR(shadow, 1494, 15) << half << " m: " << trial.decision().text();
         EXPECT_EQ(trial.technique->diagnose(), std::vector<std::string>());
@@ -147,7 +126,7 @@ TEST(AutoVast, PlanesThatAreCloseAreToldApartOnVastGrounds) {
     int expected = 0;
     for (const double half : {1.0, 1e5}) {
         Scene bare = groundScene({smallBox(0.04), plate}, half, sun);
-        Trial trial({smallBox(0.04), plate}, half, sun);
+        AutoTrial trial({smallBox(0.04), plate}, {}, half, sun);
         const int shadow = darker(render(trial.scene.root, view), render(bare.root, view));
         std::cout << half << ": " << trial.decision().text() << "; " << shadow << " pixels\n";
         if (!expected) expected = shadow;
@@ -161,8 +140,8 @@ TEST(AutoVast, PlanesThatAreCloseAreToldApartOnVastGrounds) {
 TEST(AutoTurnedAway, SidesDoNotJumpWhereAnotherTechniqueTakesOver) {
     for (const bool blend : {true, false}) {
         const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
-        Trial trial({tall}, 8.0, {1.0, 0.0, 1.0, 0.0});
-        if (blend) trial.blend();
+        AutoTrial trial({tall}, {}, 8.0, {1.0, 0.0, 1.0, 0.0});
+        if (blend) trial.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
         const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
         mover->addChild(node(box({-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0}), "other"));
         trial.scene.content->addChild(mover);
@@ -198,7 +177,7 @@ TEST(AutoTurnedAway, AveragedNormalsTakeNoPlanarWhereTheirDarkSideIsSeen) {
     const View lit = perspective({9.0, 0.0, 9.0}, {0.0, 0.0, 1.0}, 160, 120);
     for (const bool averaged : {true, false})
         for (const View* view : {&dark, &lit}) {
-            Trial trial({}, 8.0, sun);
+            AutoTrial trial({}, {}, 8.0, sun);
             trial.scene.content->addChild(ball(averaged));
             render(trial.scene.root, *view);
             EXPECT_EQ(trial.chosen() == "planar", !averaged || view == &lit)
@@ -209,16 +188,16 @@ TEST(AutoTurnedAway, AveragedNormalsTakeNoPlanarWhereTheirDarkSideIsSeen) {
 TEST(AutoTurnedAway, BlendTakesPlanarWhereNoDarkSideIsSeen) {
     const osg::Vec4d sun(1.0, 0.0, 1.0, 0.0);
     const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
-    Trial trial({tall}, 8.0, sun);
-    trial.blend();
+    AutoTrial trial({tall}, {}, 8.0, sun);
+    trial.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
     Camera camera(trial.scene.root, perspective({9.0, -8.0, 8.0}, {0.0, 0.0, 0.0}, 160, 120));
     camera.frame();
     EXPECT_EQ(trial.chosen(), "planar") << "the sides towards -y and +x are lit, or along the light";
     camera.setView(perspective({-9.0, -8.0, 8.0}, {0.0, 0.0, 0.0}, 160, 120));
     camera.frame();
     EXPECT_NE(trial.chosen(), "planar") << "the side towards -x is dark";
-    Trial named({tall}, 8.0, sun);
-    named.blend();
+    AutoTrial named({tall}, {}, 8.0, sun);
+    named.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
     named.technique->setReceiver({find(*named.scene.root, "ground")});
     render(named.scene.root, perspective({-9.0, -8.0, 8.0}, {0.0, 0.0, 0.0}, 160, 120));
     EXPECT_EQ(named.chosen(), "planar") << "the ground alone receives";
@@ -228,7 +207,7 @@ TEST(AutoLights, ALightThatTakesLightAwayCasts) {
     const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
     const View view = perspective({-6.0, -10.0, 8.0}, {0.0, 0.0, 0.0}, 320, 240);
     const auto drawn = [&](bool shadow) {
-        Trial trial({tall}, 8.0, {1.0, 0.0, 1.0, 0.0});
+        AutoTrial trial({tall}, {}, 8.0, {1.0, 0.0, 1.0, 0.0});
         trial.scene.light->getLight()->setAmbient({0.8f, 0.8f, 0.8f, 1.0f});
         trial.scene.light->getLight()->setDiffuse({-0.5f, -0.5f, -0.5f, 1.0f});
         trial.technique->setNodeMask(shadow ? ~0u : 0u);
@@ -242,7 +221,7 @@ TEST(AutoPlanes, AWallInTheGroundLeavesTheGroundLit) {
     const Mesh wall = quad({5.2, 0.96, -0.6}, {1.5, 0.0, 0.0}, {0.0, 0.0, 0.59});
     const View view = perspective({-4.7, -15.9, 6.1}, {-1.2, 1.6, 0.5}, 160, 120);
     const osg::Vec4d lamp(2.8, -3.0, 12.4, 1.0);
-    Trial trial({wall}, 14.0, lamp);
+    AutoTrial trial({wall}, {}, 14.0, lamp);
     EXPECT_EQ(render(trial.scene.root, view).different(render(groundScene({wall}, 14.0, lamp).root, view)), 0)
         << trial.chosen();
 }
@@ -271,7 +250,7 @@ TEST(AutoPlanes, OneSquareIsTheGroundAndAWallInIt) {
 
 TEST(AutoCasters, ThatAreGoneAreLetGo) {
     const Mesh tall = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
-    Trial trial({tall});
+    AutoTrial trial({tall});
     Camera camera(trial.scene.root, perspective({-6.0, -10.0, 8.0}, {0.0, 0.0, 0.0}, 80, 60));
     std::vector<osg::observer_ptr<osg::Array>> gone;
     const auto watch = [&gone](osg::Node& of) {

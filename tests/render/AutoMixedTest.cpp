@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Simple casters by volume and the others by a map, in one shadow.
-#include <support/Scene.h>
-#include <support/Truth.h>
+#include "AutoTrial.h"
 
-#include <gnomon/AutoShadowTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
 #include <osg/Geometry>
@@ -13,7 +11,6 @@
 
 #include <algorithm>
 
-using gnomon::AutoShadowTechnique;
 using test::Camera;
 using test::Picture;
 using test::Scene;
@@ -56,30 +53,17 @@ struct Board {
     }
 };
 
-std::vector<test::Mesh> housesAndBoard() {
-    std::vector<test::Mesh> all = test::town(6);
-    all.push_back(Board().mesh());
-    return all;
-}
-
-struct Town {
+struct Town : test::AutoTrial {
     explicit Town(gnomon::ShadowCasterGroup::Composite composite = gnomon::ShadowCasterGroup::RELIGHT)
-        : scene(test::groundScene(test::town(6), half, sun)),
-          mover(new osg::MatrixTransform),
-          technique(new AutoShadowTechnique) {
+        : AutoTrial(test::town(6), {error, 0.0}, half, sun) {
         mover->addChild(Board().node(true));
         mover->setDataVariance(osg::Object::DYNAMIC);
         scene.content->addChild(mover);
-        technique->setError(error);
-        scene.addShadow(technique);
         scene.group->setComposite(composite);
     }
-    std::string chosen() const { return technique->lastDecision().at(0).chosen.spec; }
-    bool isMixed() const { return technique->lastDecision().at(0).chosen.mixed; }
+    bool isMixed() const { return decision().chosen.mixed; }
 
-    Scene scene;
-    osg::ref_ptr<osg::MatrixTransform> mover;
-    osg::ref_ptr<AutoShadowTechnique> technique;
+    const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
 };
 
 osg::ref_ptr<osg::LightSource> secondSun() {
@@ -93,19 +77,15 @@ osg::ref_ptr<osg::LightSource> secondSun() {
 } // namespace
 
 TEST(AutoMixed, KeepsTheErrorWhereAnAlphaTestLeavesMapsOrBoth) {
-    const std::vector<test::Mesh> casters = housesAndBoard();
-    Scene lit = test::groundScene(casters, half, sun), dark = test::groundScene(casters, half, sun);
-    dark.takeLightAway();
-    const Picture litPicture = test::render(lit.root, view()), darkPicture = test::render(dark.root, view());
-    std::vector<test::Mesh> meshes = casters;
-    meshes.push_back(test::square(half));
-    const gnomon::TruthImage truth = test::truthOf(meshes, sun, view());
+    std::vector<test::Mesh> casters = test::town(6);
+    casters.push_back(Board().mesh());
+    const test::GroundTruth truth(casters, half, sun, view());
     Town town;
     const Picture picture = test::render(town.scene.root, view());
     EXPECT_TRUE(town.isMixed()) << town.chosen();
     EXPECT_EQ(town.chosen().rfind("volume+map", 0), 0u) << town.chosen();
     // 1.5: how well errors of maps are predicted
-    EXPECT_LE(test::edgesOff(picture, litPicture, darkPicture, truth).p95, 1.5 * error) << town.chosen();
+    EXPECT_LE(truth.edgesOffBy(picture), 1.5 * error) << town.chosen();
     EXPECT_EQ(town.technique->diagnose(), std::vector<std::string>());
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is chosen automatically, that it is right, and that a still scene costs next to nothing.
-#include <support/Scene.h>
-#include <support/Truth.h>
+#include "AutoTrial.h"
 
-#include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gtest/gtest.h>
 #include <osg/Geometry>
@@ -19,6 +17,7 @@ using test::box;
 using test::Camera;
 using test::Picture;
 using test::Scene;
+using Trial = test::AutoTrial;
 
 namespace {
 
@@ -36,28 +35,12 @@ test::Mesh balls(int count) {
 
 test::View view() { return test::perspective({-7.0, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 160, 120); }
 
-/// A scene under automatic choice.
-struct Trial {
-    explicit Trial(const std::vector<test::Mesh>& casters, const gnomon::AutoShadowOptions& options = {})
-        : scene(test::groundScene(casters, 8.0, sun)), technique(new AutoShadowTechnique) {
-        technique->setOptions(options);
-        scene.addShadow(technique);
-    }
-    ShadowDecision decision() const {
-        const std::vector<ShadowDecision> all = technique->lastDecision();
-        return all.size() == 1 ? all.front() : ShadowDecision();
-    }
-    std::string chosen() const { return decision().chosen.spec; }
-    std::optional<gnomon::ShadowCandidate> candidate(const std::string& start) const {
-        const ShadowDecision last = decision();
-        for (const gnomon::ShadowCandidate& each : last.candidates)
-            if (each.spec.rfind(start, 0) == 0) return each;
-        return std::nullopt;
-    }
-
-    Scene scene;
-    osg::ref_ptr<AutoShadowTechnique> technique;
-};
+/// Of that decision whose specification begins so.
+std::optional<gnomon::ShadowCandidate> candidate(const ShadowDecision& of, const std::string& start) {
+    for (const gnomon::ShadowCandidate& each : of.candidates)
+        if (each.spec.rfind(start, 0) == 0) return each;
+    return std::nullopt;
+}
 
 /// Tells how often it is drawn.
 struct CountedGeometry : public osg::Geometry {
@@ -113,8 +96,8 @@ TEST(Auto, TakesNoPlanarWhereOneObjectShadowsAnother) {
     Trial trial({cube, below});
     const Picture picture = test::render(trial.scene.root, view());
     EXPECT_TRUE(receivesAll(trial.chosen())) << trial.chosen();
-    ASSERT_TRUE(trial.candidate("planar"));
-    EXPECT_EQ(trial.candidate("planar")->obstacle, "objects shadow one another");
+    ASSERT_TRUE(candidate(trial.decision(), "planar"));
+    EXPECT_EQ(candidate(trial.decision(), "planar")->obstacle, "objects shadow one another");
     EXPECT_EQ(picture.different(drawnBy(trial.chosen(), {cube, below})), 0);
 }
 
@@ -133,29 +116,24 @@ TEST(Auto, TakesVolumesForCastersOfFewEdgesAndMapsForDenseOnes) {
     EXPECT_EQ(picture.different(drawnBy("volume", {cube, below})), 0);
     test::render(dense.scene.root, view());
     EXPECT_TRUE(startsWith(dense.chosen(), "map")) << dense.chosen();
-    ASSERT_TRUE(dense.candidate("volume"));
-    EXPECT_GT(dense.candidate("volume")->still, dense.decision().chosen.still);
-    EXPECT_GT(dense.candidate("volume")->moving, dense.candidate("volume")->still) << "outlines are found again";
+    ASSERT_TRUE(candidate(dense.decision(), "volume"));
+    EXPECT_GT(candidate(dense.decision(), "volume")->still, dense.decision().chosen.still);
+    EXPECT_GT(candidate(dense.decision(), "volume")->moving, candidate(dense.decision(), "volume")->still)
+        << "outlines are found again";
 }
 
 TEST(Auto, DrawsWhatRaysFindWhateverItChooses) {
     for (const std::vector<test::Mesh>& casters : {std::vector{cube, beside}, std::vector{cube, below}}) {
-        Scene lit = test::groundScene(casters, 8.0, sun), dark = test::groundScene(casters, 8.0, sun);
-        dark.takeLightAway();
-        const Picture litPicture = test::render(lit.root, view()), darkPicture = test::render(dark.root, view());
-        std::vector<test::Mesh> meshes = casters;
-        meshes.push_back(test::square(8.0));
-        const gnomon::TruthImage truth = test::truthOf(meshes, sun, view());
+        const test::GroundTruth truth(casters, 8.0, sun, view());
         const auto drawn = [&](double error) {
             Trial trial(casters, {error, 0.0});
             const Picture picture = test::render(trial.scene.root, view());
             EXPECT_TRUE(trial.decision().keepsBudget);
             return picture;
         };
-        for (const double error : {1.0, 4.0})
-            EXPECT_LE(test::edgesOff(drawn(error), litPicture, darkPicture, truth).p95, error);
-        EXPECT_LT(test::shareOff(drawn(0.2), litPicture, darkPicture, truth),
-                  test::shareOff(drawn(1.0), litPicture, darkPicture, truth));
+        for (const double error : {1.0, 4.0}) EXPECT_LE(truth.edgesOffBy(drawn(error)), error);
+        EXPECT_LT(test::shareOff(drawn(0.2), truth.lit, truth.dark, truth.truth),
+                  test::shareOff(drawn(1.0), truth.lit, truth.dark, truth.truth));
     }
 }
 
@@ -167,20 +145,14 @@ TEST(Auto, KeepsAnErrorWhereEdgesGoAlongRowsOfPixels) {
     for (const double degrees : {0.0, 30.0}) {
         test::View from = test::fromAbove(100.0 * pixel, 200);
         from.view.postMultRotate(osg::Quat(osg::DegreesToRadians(degrees), osg::Z_AXIS));
-        Scene lit = test::groundScene({plate}, 8.0, sun), dark = test::groundScene({plate}, 8.0, sun);
-        dark.takeLightAway();
-        const Picture litPicture = test::render(lit.root, from), darkPicture = test::render(dark.root, from);
-        const gnomon::TruthImage truth = test::truthOf({plate, test::square(8.0)}, sun, from);
-        const auto offBy = [&](const Picture& picture) {
-            return test::edgesOff(picture, litPicture, darkPicture, truth).p95;
-        };
+        const test::GroundTruth truth({plate}, 8.0, sun, from);
         Trial trial({plate}, {error, 0.0});
-        EXPECT_LE(offBy(test::render(trial.scene.root, from)), error) << degrees;
+        EXPECT_LE(truth.edgesOffBy(test::render(trial.scene.root, from)), error) << degrees;
         EXPECT_TRUE(trial.decision().keepsBudget) << degrees;
         EXPECT_EQ(trial.chosen() == "planar", degrees > 0.0) << trial.chosen();
         Scene planar = test::groundScene({plate}, 8.0, sun);
         planar.addShadow("planar");
-        EXPECT_EQ(offBy(test::render(planar.root, from)) <= error, degrees > 0.0) << degrees;
+        EXPECT_EQ(truth.edgesOffBy(test::render(planar.root, from)) <= error, degrees > 0.0) << degrees;
     }
 }
 
@@ -399,18 +371,16 @@ TEST(Auto, KnowsInTheNinthFrameOfMotionThatARestIsOver) {
 }
 
 TEST(Auto, SeesAtOnceThatAnObjectMovesIntoAShadow) {
-    Scene scene = test::groundScene({cube}, 8.0, sun);
+    Trial trial({cube});
     const osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->setDataVariance(osg::Object::DYNAMIC);
     mover->addChild(test::node(box({-0.5, -0.5, 0.0}, {0.5, 0.5, 0.5})));
-    scene.content->addChild(mover);
-    const osg::ref_ptr<AutoShadowTechnique> technique = new AutoShadowTechnique;
-    scene.addShadow(technique);
-    Camera camera(scene.root, view());
+    trial.scene.content->addChild(mover);
+    Camera camera(trial.scene.root, view());
     const auto chosenAt = [&](double x, double y) {
         mover->setMatrix(osg::Matrixd::translate(x, y, 0.0));
         camera.frame();
-        return technique->lastDecision().at(0).chosen.spec;
+        return trial.chosen();
     };
     EXPECT_EQ(chosenAt(0.0, -4.0), "planar");
     EXPECT_EQ(chosenAt(0.1, -4.0), "planar");
