@@ -33,6 +33,7 @@ public:
     void draw(const CompositorStage& draw) const override;
 
 private:
+    void drawLarger(const CompositorStage& draw, LeafReplay::Overlay overlay) const;
     void markRim(const CompositorStage& draw, unsigned bit) const;
     void blend(ScreenPass& screen) const;
     void blendEachTriangle(const CompositorStage& draw) const;
@@ -85,21 +86,24 @@ void HaloEffect::draw(const CompositorStage& draw) const {
     draw.clear(bit, wholeScreen);
 }
 
-/// Where the larger children would be seen, but for what one sees of the children themselves.
-void HaloEffect::markRim(const CompositorStage& draw, unsigned bit) const {
-    LeafReplay::Overlay overlay;
+/// The larger children, or a rim in pixels about them, where they would be seen.
+void HaloEffect::drawLarger(const CompositorStage& draw, LeafReplay::Overlay overlay) const {
     overlay.color = LeafReplay::Color::None;
     overlay.keepDepth = true;
-    overlay.reference = overlay.write = bit;
     if (larger.empty()) overlay.shifts = disc(width);
-    {
-        LeafReplay replay(draw, overlay);
-        for (const DrawnLeaf& entry : larger.empty() ? _leaves : _larger) replay.draw(entry);
-    }
-    overlay.shifts.clear();
-    overlay.reference = 0;
-    overlay.equalDepth = true;
     LeafReplay replay(draw, overlay);
+    for (const DrawnLeaf& entry : larger.empty() ? _leaves : _larger) replay.draw(entry);
+}
+
+/// All of that but for what one sees of the children themselves.
+void HaloEffect::markRim(const CompositorStage& draw, unsigned bit) const {
+    LeafReplay::Overlay rim, own;
+    rim.reference = rim.write = own.write = bit;
+    drawLarger(draw, rim);
+    own.color = LeafReplay::Color::None;
+    own.keepDepth = true;
+    own.equalDepth = true;
+    LeafReplay replay(draw, own);
     for (const DrawnLeaf& entry : _leaves) replay.draw(entry);
 }
 
@@ -114,16 +118,10 @@ void HaloEffect::blendEachTriangle(const CompositorStage& draw) const {
         return report("without the stencil cure the halo cannot count triangles, because stencil bit 0 is "
                       "reserved. Leave bit 0 out of CompositorOptions::reservedStencilBits, or switch the cure on.");
     draw.clearLeftovers(bits);
-    LeafReplay::Overlay overlay;
-    overlay.color = LeafReplay::Color::None;
-    overlay.keepDepth = true;
-    overlay.write = bits;
-    overlay.stencilPass = GL_INCR;
-    if (larger.empty()) overlay.shifts = disc(width);
-    {
-        LeafReplay replay(draw, overlay);
-        for (const DrawnLeaf& entry : larger.empty() ? _leaves : _larger) replay.draw(entry);
-    }
+    LeafReplay::Overlay count;
+    count.write = bits;
+    count.stencilPass = GL_INCR;
+    drawLarger(draw, count);
     for (unsigned times = 1; times <= bits; ++times)
         draw.pass(wholeScreen, [&](ScreenPass& screen) {
             screen.stencilAtLeast(times, bits);
