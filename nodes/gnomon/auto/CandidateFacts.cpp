@@ -80,37 +80,24 @@ bool isForMap(const CasterDrawable& piece, double radius) {
 } // namespace
 
 TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receiver) {
-    TerrainFacts facts;
-    if (!hasPart(OptionalPart::Terrain)) {
-        facts.obstacle = "this build has no Qhull";
-        return facts;
-    }
+    if (!hasPart(OptionalPart::Terrain)) return {"this build has no Qhull"};
+    if (const std::string cutOut = whyCutOut(view.casters); !cutOut.empty()) return {cutOut};
+    if (!view.frame.receivers) return {"no terrain is named as receiver"};
     const glm::dvec3 sun(view.towards);
     const double across = glm::length(glm::dvec2(sun));
-    if (!view.frame.receivers) facts.obstacle = "no terrain is named as receiver";
-    if (facts.obstacle.empty() && !(view.towards.w == 0.0 && sun.z > 0.0))
-        facts.obstacle = "the light is no sun above the horizon";
-    const std::string cutOut = whyCutOut(view.casters);
-    if (!cutOut.empty()) facts.obstacle = cutOut;
-    if (!facts.obstacle.empty()) return facts;
-    _drawn = TerrainPlace::inFrameOf(*view.frame.group, receiver).drawn(_drawn);
-    const Ground& ground = *_drawn->ground;
-    const double slope = _drawn->steepest;
-    if (_drawn->isAsSteepAs(sun, steepShare)) {
-        facts.obstacle = "the terrain is so steep that it may shadow itself";
-        return facts;
-    }
+    if (!(view.towards.w == 0.0 && sun.z > 0.0)) return {"the light is no sun above the horizon"};
+    _drawn = groundRevision(*view.frame.group, receiver, _drawn);
+    if (!(_drawn->steepest * across < steepShare * sun.z)) return {"the terrain is so steep that it may shadow itself"};
     std::vector<double> bends;
     const std::size_t step = view.casters.list.size() / mostSamples + 1;
     for (std::size_t i = 0; i < view.casters.list.size(); i += step) {
         const CasterDrawable& piece = *view.casters.list[i];
         if (!piece.bounds.valid() || _drawn->drawables.count(piece.drawable.get())) continue;
-        if (const auto found = bend(ground, piece.bounds, -glm::dvec2(sun) / sun.z)) bends.push_back(*found);
+        if (const auto found = bend(*_drawn->ground, piece.bounds, -glm::dvec2(sun) / sun.z)) bends.push_back(*found);
     }
     std::sort(bends.begin(), bends.end());
     const double rise = bends.empty() ? 0.0 : bends[std::size_t(0.95 * double(bends.size() - 1))];
-    facts.off = rise / std::max(sun.z / std::max(across, 1e-12) - slope, 1e-3);
-    return facts;
+    return {"", rise / std::max(sun.z / std::max(across, 1e-12) - _drawn->steepest, 1e-3)};
 }
 
 MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast)

@@ -3,7 +3,6 @@
 #include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/terrain/GroundRevision.h>
 
-#include <glm/geometric.hpp>
 #include <osg/Camera>
 #include <osg/Geometry>
 #include <osg/LOD>
@@ -53,38 +52,29 @@ osg::NodePath belowCamera(const osg::NodePath& path) {
 
 } // namespace
 
-bool GroundRevision::isAsSteepAs(const glm::dvec3& towardsSun, double share) const {
-    return !(steepest * glm::length(glm::dvec2(towardsSun)) < share * towardsSun.z);
-}
-
-TerrainPlace TerrainPlace::inFrameOf(const osg::Node& group, const Selection& terrain) {
-    const auto root = const_cast<osg::Node*>(&group); // visitors ask for more than they need
+osg::ref_ptr<const GroundRevision> groundRevision(const osg::Node& group, const Selection& terrain,
+                                                  const osg::ref_ptr<const GroundRevision>& known) {
+    auto* root = const_cast<osg::Node*>(&group); // visitors ask for more than they need
+    osg::Matrixd groundFromRoot;
     const auto roots = terrain.roots();
-    if (std::all_of(roots.begin(), roots.end(), [&](const auto& node) { return isUnder(*node, group); }))
-        return {*root, terrain, osg::Matrixd::identity()};
-    const osg::NodePath path = belowCamera(group.getParentalNodePaths().front());
-    return {*path.front(), terrain, osg::Matrixd::inverse(osg::computeLocalToWorld(path, false))};
-}
-
-std::uint64_t TerrainPlace::revision() const {
-    CasterFingerprint revision(terrain);
-    revision.setLevels(CasterVisitor::Levels::All);
-    revision.setRootFromVisited(groundFromRoot);
-    root.accept(revision);
-    return revision.value();
-}
-
-osg::ref_ptr<const GroundRevision> TerrainPlace::drawn(const osg::ref_ptr<const GroundRevision>& known) const {
-    const std::uint64_t now = revision();
-    if (known && known->revision == now) return known;
+    if (!std::all_of(roots.begin(), roots.end(), [&](const auto& node) { return isUnder(*node, group); })) {
+        const osg::NodePath path = belowCamera(group.getParentalNodePaths().front());
+        root = path.front();
+        groundFromRoot = osg::Matrixd::inverse(osg::computeLocalToWorld(path, false));
+    }
+    CasterFingerprint fingerprint(terrain);
+    fingerprint.setLevels(CasterVisitor::Levels::All);
+    fingerprint.setRootFromVisited(groundFromRoot);
+    root->accept(fingerprint);
+    if (known && known->revision == fingerprint.value()) return known;
     TerrainVisitor visitor(terrain);
-    root.accept(visitor);
+    root->accept(visitor);
     osg::ref_ptr<GroundRevision> drawn = new GroundRevision;
-    drawn->revision = now;
+    drawn->revision = fingerprint.value();
     drawn->drawables = std::move(visitor.drawables);
     drawn->sources = std::move(visitor.sources);
     drawn->hasLevels = visitor.hasLevels;
-    drawn->ground = groundOf(root, terrain, groundFromRoot);
+    drawn->ground = groundOf(*root, terrain, groundFromRoot);
     constexpr double everywhere = std::numeric_limits<double>::infinity();
     const auto all = drawn->ground->range(glm::dvec2(-everywhere), glm::dvec2(everywhere));
     drawn->steepest = all ? all->steepest : 0.0;

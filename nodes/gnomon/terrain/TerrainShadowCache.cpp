@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/terrain/TerrainShadowCache.h>
 
 #include <OpenThreads/ScopedLock>
@@ -58,7 +59,7 @@ TerrainShadowCache::Town* TerrainShadowCache::findTown(const ShadowCasterGroup& 
 }
 
 TerrainShadowCache::Town& TerrainShadowCache::townOf(const Asker& asker, const CasterDrawables& casters,
-                                                     const TerrainPlace& place) {
+                                                     const Selection& terrain) {
     Town* known = findTown(asker.group, casters, asker.stage, asker.asBoxes);
     if (!known) {
         _towns.dropOldestBeyond(mostTowns - 1); // before adding, for all would be in memory
@@ -66,7 +67,7 @@ TerrainShadowCache::Town& TerrainShadowCache::townOf(const Asker& asker, const C
     }
     Town& town = *known;
     town.stage = asker.stage;
-    const osg::ref_ptr<const GroundRevision> drawn = place.drawn(town.drawn);
+    const osg::ref_ptr<const GroundRevision> drawn = groundRevision(asker.group, terrain, town.drawn);
     const double margin = drawn->hasLevels || asker.isLoose ? marginOfLevels : marginOfGround;
     if (drawn != town.drawn || margin != town.ground->margin) {
         for (auto& [number, tiles] : town.lights) tiles.groundChanged();
@@ -77,12 +78,12 @@ TerrainShadowCache::Town& TerrainShadowCache::townOf(const Asker& asker, const C
     return town;
 }
 
-TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawables& casters, const TerrainPlace& place,
+TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawables& casters, const Selection& terrain,
                                        int number, const glm::dvec4& light, bool asBoxes) {
     TerrainFrame frame;
     runLocked(_mutex, [&] {
         const bool isLoose = view.pushedBack.x() > 0.0 || view.pushedBack.y() > 0.0;
-        Town& town = townOf({*view.group, view.stage, asBoxes, isLoose}, casters, place);
+        Town& town = townOf({*view.group, view.stage, asBoxes, isLoose}, casters, terrain);
         HullTiles& tiles = town.lights[number];
         const unsigned before = tiles.found();
         tiles.update(town.casters, *town.ground, light, TileView(view, town.casters.origin()));
@@ -98,11 +99,11 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
 }
 
 osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterGroup& group,
-                                                             const CasterDrawables& casters, const TerrainPlace& place,
+                                                             const CasterDrawables& casters, const Selection& terrain,
                                                              const glm::dvec4& light, bool asBoxes) {
     osg::ref_ptr<TerrainAnswer> answer = new TerrainAnswer;
     runLocked(_mutex, [&] {
-        const Town& town = townOf({group, nullptr, asBoxes, false}, casters, place);
+        const Town& town = townOf({group, nullptr, asBoxes, false}, casters, terrain);
         answer->drawn = town.drawn;
         answer->tiles.resize(town.casters.tiles().size());
         tbb::parallel_for(std::size_t{0}, answer->tiles.size(),

@@ -43,11 +43,11 @@ class TerrainShadowCache {
 public:
     /// @param casters  of the view's group, now.
     /// @param number   the light's.
-    TerrainFrame frame(const ViewFrame& view, const CasterDrawables& casters, const TerrainPlace& place, int number,
+    TerrainFrame frame(const ViewFrame& view, const CasterDrawables& casters, const Selection& terrain, int number,
                        const glm::dvec4& light, bool asBoxes);
     /// Of any light; what is drawn is not touched.
     osg::ref_ptr<const TerrainAnswer> answer(const ShadowCasterGroup& group, const CasterDrawables& casters,
-                                             const TerrainPlace& place, const glm::dvec4& light, bool asBoxes);
+                                             const Selection& terrain, const glm::dvec4& light, bool asBoxes);
     /// Drops what is of retired casters.
     void letGo();
     unsigned found() const; ///< how many tiles' shadows, so far.
@@ -72,7 +72,7 @@ private:
         std::map<int, HullTiles> lights;
     };
     Town* findTown(const ShadowCasterGroup& group, const CasterDrawables& casters, const void* stage, bool asBoxes);
-    Town& townOf(const Asker& asker, const CasterDrawables& casters, const TerrainPlace& place);
+    Town& townOf(const Asker& asker, const CasterDrawables& casters, const Selection& terrain);
 
     mutable OpenThreads::Mutex _mutex;
     RecentCache<std::unique_ptr<Town>> _towns;

@@ -150,8 +150,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
     const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) return refuse("the light has no finite position or direction. Set the light's position.");
     const TerrainFrame frame =
-        _cache->frame(view, casters.drawables(), TerrainPlace::inFrameOf(*view.group, getReceiver()), light.number,
-                      *usable, getMethod() == BOX);
+        _cache->frame(view, casters.drawables(), getReceiver(), light.number, *usable, getMethod() == BOX);
     for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     const TileView seen(view, frame.origin);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
@@ -174,8 +173,7 @@ std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& 
 osg::ref_ptr<const osg::Referenced> TerrainShadowGeode::answersFor(const ShadowProbe& probe) const {
     if (!hasReceiver()) return nullptr;
     const glm::dvec4 light(glm::dvec3(probe.light) + probe.light.w * toGlm(probe.origin), probe.light.w);
-    return _cache->answer(probe.group, *probe.group.drawables(), TerrainPlace::inFrameOf(probe.group, getReceiver()),
-                          light, getMethod() == BOX);
+    return _cache->answer(probe.group, *probe.group.drawables(), getReceiver(), light, getMethod() == BOX);
 }
 
 bool TerrainShadowGeode::isLit(const ShadowProbe& probe, const glm::dvec3& point) const {
