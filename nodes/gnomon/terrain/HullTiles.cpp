@@ -163,14 +163,17 @@ void HullTiles::update(const CasterTiles& town, const HullGround& ground, const 
 
 void HullTiles::find(const CasterTiles& town, const HullGround& ground, const std::vector<std::size_t>& tiles) {
     if (tiles.empty()) return;
+    List found(tiles.size());
     ProgressLine progress("gnomon: finding shadows on terrain");
     std::atomic<std::size_t> done{0};
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-        const std::size_t tile = tiles[i];
-        _shadows[tile] = new TileShadows(shadowsOf(tile, town, ground, _light), _light);
-        _states[tile] = town.tiles()[tile].revision;
+        found[i] = new TileShadows(shadowsOf(tiles[i], town, ground, _light), _light);
         progress.show(double(++done) / double(tiles.size()));
     });
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        _shadows[tiles[i]] = found[i];
+        _states[tiles[i]] = town.tiles()[tiles[i]].revision;
+    }
     _found += static_cast<unsigned>(tiles.size());
 }
 
