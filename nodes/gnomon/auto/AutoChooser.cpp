@@ -3,6 +3,7 @@
 #include <gnomon/auto/AutoChooser.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/base/NumberText.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 
 #include <OpenThreads/ScopedLock>
 
@@ -69,6 +70,16 @@ double followed(double share, bool now, unsigned frames) {
 std::string describe(ReceiverKind kind) {
     if (kind == ReceiverKind::Usual) return {};
     return kind == ReceiverKind::Late ? "drawn late" : "with a depth range or polygon offset";
+}
+
+/// Stands for the drawables that can receive, and where they are in the view.
+std::uint64_t fingerprintOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
+    Fingerprint value;
+    for (const osgUtil::RenderLeaf* leaf : leaves) {
+        value.mix(static_cast<const void*>(leaf->_drawable.get()));
+        value.mix(modelviewOf(*leaf));
+    }
+    return value.value();
 }
 
 bool isMoving(const AutoMotion& motion) { return motion.scene > 0.0 || motion.view > 0.0; }

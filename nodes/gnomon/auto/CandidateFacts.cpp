@@ -5,9 +5,11 @@
 #include <gnomon/auto/CandidateFacts.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/CasterBodies.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/group/SceneFrame.h>
 
 #include <glm/geometric.hpp>
+#include <osg/Material>
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +79,36 @@ bool isForMap(const CasterDrawable& piece, double radius) {
     return CasterSplit::isDense(piece, radius) || piece.cutOut;
 }
 
+bool isMoreThanWhite(const osg::Material& material) {
+    for (const osg::Material::Face face : {osg::Material::FRONT, osg::Material::BACK})
+        for (const osg::Vec4& color : {material.getDiffuse(face), material.getSpecular(face)})
+            if (std::max({color.r(), color.g(), color.b()}) > 1.0f) return true;
+    return false;
+}
+
 } // namespace
+
+bool isShadedByOpenGl(const osgUtil::StateGraph* graph) {
+    if (!isOn(graph, GL_LIGHTING) || resolvedAttribute(graph, osg::StateAttribute::PROGRAM)) return false;
+    const auto* material = resolved<osg::Material>(graph, osg::StateAttribute::MATERIAL);
+    return !material || !isMoreThanWhite(*material);
+}
+
+/// Shadows of lights that are fainter may fall on the same place, and are left out, too.
+bool isFaint(const AutoView& view) {
+    const auto found = view.frame.strengths.find(view.light.number);
+    if (view.frame.group->getComposite() != ShadowCasterGroup::RELIGHT || found == view.frame.strengths.end())
+        return false;
+    const auto own = std::make_pair(found->second, found->first);
+    double together = 0.0;
+    for (const auto& [number, strength] : view.frame.strengths)
+        if (std::make_pair(strength, number) <= own) together += strength;
+    if (!(together < leastContrast)) return false;
+    return std::all_of(view.frame.seen.begin(), view.frame.seen.end(),
+                       [](const osgUtil::RenderLeaf* leaf) { return isShadedByOpenGl(leaf->_parent); });
+}
+
+std::string whyCutOut(const CasterDrawables& casters) { return casters.cutouts > 0 ? "casters have clear parts" : ""; }
 
 TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receiver) {
     if (!hasPart(OptionalPart::Terrain)) return {"this build has no Qhull"};

@@ -5,10 +5,14 @@
 #include <gnomon/auto/CandidateFacts.h>
 #include <gnomon/auto/CandidateList.h>
 #include <gnomon/base/NumberText.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/StencilMarks.h>
+#include <gnomon/gl/TriangleClusters.h>
 #include <gnomon/map/LightShadowMaps.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/volume/VolumeForecast.h>
+
+#include <osg/Geometry>
 
 #include <algorithm>
 #include <bitset>
@@ -67,6 +71,41 @@ double denseTriangles(const CasterDrawables& casters) {
 
 osg::ref_ptr<const MapCasters> boxesOf(const CasterLayers& layers) {
     return new MapCasters(layers, MapLayer::boxesOf(*layers.still), MapLayer::boxesOf(*layers.moving));
+}
+
+constexpr double ofAShape = 200.0; // triangles: a ShapeDrawable's sphere has some hundred, its box 12
+
+/// How much of a leaf is drawn again, as LeafReplay does.
+double shareWithin(const osgUtil::RenderLeaf& leaf, const ScreenRect& bounds) {
+    const osg::ref_ptr<const TriangleClusters> clusters = TriangleClusters::of(*leaf._drawable);
+    if (!clusters) return 1.0;
+    double drawn = 0.0, all = 0.0;
+    for (const auto& run : clusters->touching(bounds, modelviewOf(leaf) * projectionOf(leaf))) drawn += run.count;
+    for (const auto& set : leaf._drawable->asGeometry()->getPrimitiveSetList()) all += set->getNumIndices();
+    return std::min(1.0, drawn / all);
+}
+
+/// By its primitives; an estimate where it is no geometry.
+double trianglesOf(const osg::Drawable& drawable) {
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry) return ofAShape;
+    double triangles = 0.0;
+    for (const auto& set : geometry->getPrimitiveSetList()) triangles += set->getNumPrimitives();
+    return triangles;
+}
+
+/// Triangles of these leaves that are drawn again where marks are within these bounds.
+double trianglesWithin(const std::vector<const osgUtil::RenderLeaf*>& leaves, const ScreenRect& bounds) {
+    double triangles = 0.0;
+    TouchTest touches(bounds);
+    for (const osgUtil::RenderLeaf* leaf : leaves)
+        if (touches(*leaf)) triangles += shareWithin(*leaf, bounds) * trianglesOf(*leaf->_drawable);
+    return triangles;
+}
+
+double pixelsOf(const ViewFrame& frame, const ScreenRect& bounds) {
+    const glm::dvec2 size = (bounds.high - bounds.low) / 2.0;
+    return size.x > 0.0 && size.y > 0.0 ? size.x * frame.pixels.x() * size.y * frame.pixels.y() : 0.0;
 }
 
 /// Finds the candidates of one view.

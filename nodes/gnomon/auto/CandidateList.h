@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/auto/AutoCandidate.h>
-#include <gnomon/auto/AutoView.h>
 #include <gnomon/auto/CandidateFacts.h>
 #include <gnomon/auto/FlatReceivers.h>
 #include <gnomon/volume/VolumeForecast.h>

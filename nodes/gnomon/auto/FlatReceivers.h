@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/auto/AutoView.h>
+#include <gnomon/auto/CandidateFacts.h>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
