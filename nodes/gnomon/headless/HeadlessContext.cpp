@@ -168,13 +168,7 @@ private:
 
 thread_local HeadlessContext::Window* HeadlessContext::Window::_current = nullptr;
 
-HeadlessContext::HeadlessContext(int width, int height)
-    : HeadlessContext([&] {
-          Options options;
-          options.width = width;
-          options.height = height;
-          return options;
-      }()) {}
+HeadlessContext::HeadlessContext(int width, int height) : HeadlessContext(Options{width, height}) {}
 
 HeadlessContext::HeadlessContext(const Options& options) {
     requireSize(options, largestSide);
