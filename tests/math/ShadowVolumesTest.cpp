@@ -18,31 +18,16 @@ using gnomon::SilhouetteMesh;
 
 namespace {
 
-using Mesh = std::vector<glm::dvec3>; ///< three corners a triangle.
+using test::Soup;
 
-/// Shapes of a soup.
-template <class Add>
-Mesh meshOf(Add add) {
-    test::Soup soup;
-    add(soup);
-    Mesh mesh;
-    for (const unsigned index : soup.indices) mesh.emplace_back(soup.vertices[index]);
-    return mesh;
+Soup box(const glm::dvec3& low, const glm::dvec3& high) {
+    Soup soup;
+    soup.box(low, high);
+    return soup;
 }
 
-Mesh box(const glm::dvec3& low, const glm::dvec3& high) {
-    return meshOf([&](test::Soup& soup) { soup.box(low, high); });
-}
-
-Mesh sphere(const glm::dvec3& centre, double radius, int slices) {
-    return meshOf([&](test::Soup& soup) { soup.sphere(centre, radius, slices); });
-}
-
-SilhouetteMesh edgesOf(const Mesh& mesh) {
-    const std::vector<glm::vec3> places(mesh.begin(), mesh.end());
-    std::vector<unsigned> corners;
-    for (unsigned i = 0; i < places.size(); ++i) corners.push_back(i);
-    return {places.data(), places.size(), corners.data(), corners.size()};
+SilhouetteMesh edgesOf(const Soup& soup) {
+    return {soup.vertices.data(), soup.vertices.size(), soup.indices.data(), soup.indices.size()};
 }
 
 glm::dvec3 drawn(const glm::vec4& vertex, const glm::dvec4& light) {
@@ -68,68 +53,54 @@ double winding(const std::vector<glm::vec4>& vertices, const std::vector<unsigne
     return sum / (4.0 * std::acos(-1.0));
 }
 
-/// Triangles between a point and the light (T. Moeller, B. Trumbore, 1997).
-int between(const Mesh& mesh, const glm::dvec3& point, const glm::dvec4& light) {
-    const glm::dvec3 along = -gnomon::awayFrom(light, point);
+/// Triangles between a point and the light.
+int between(const Soup& soup, const glm::dvec3& point, const glm::dvec4& light) {
     int count = 0;
-    for (std::size_t i = 0; i < mesh.size(); i += 3) {
-        const glm::dvec3 a = mesh[i], e1 = mesh[i + 1] - a, e2 = mesh[i + 2] - a;
-        const glm::dvec3 p = glm::cross(along, e2), s = point - a, q = glm::cross(s, e1);
-        const double determinant = glm::dot(e1, p);
-        if (determinant == 0.0) continue;
-        const double u = glm::dot(s, p) / determinant, v = glm::dot(along, q) / determinant,
-                     t = glm::dot(e2, q) / determinant;
-        count += u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && (light.w == 0.0 || t < 1.0);
+    for (std::size_t i = 0; i < soup.size(); ++i) {
+        const auto t = test::met(soup, i, point, -gnomon::awayFrom(light, point));
+        count += t && *t > 0.0 && (light.w == 0.0 || *t < 1.0);
     }
     return count;
 }
 
 struct Case {
     const char* name;
-    Mesh mesh;
+    Soup mesh;
     bool closed;
 };
 
-Mesh turnedRound(Mesh mesh, std::size_t every) {
-    for (std::size_t i = 0; i + 2 < mesh.size(); i += 3 * every) std::swap(mesh[i + 1], mesh[i + 2]);
-    return mesh;
-}
-
-Mesh soup() {
+Soup randomTriangles() {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-1.0, 1.0);
-    Mesh mesh;
+    const auto any = [&] { return glm::dvec3(place(random), place(random), place(random)); };
+    Soup soup;
     for (int i = 0; i < 40; ++i) {
-        const glm::dvec3 at(place(random), place(random), place(random) + 2.0);
-        for (int corner = 0; corner < 3; ++corner)
-            mesh.push_back(at + 0.6 * glm::dvec3(place(random), place(random), place(random)));
+        const glm::dvec3 at = any() + glm::dvec3(0.0, 0.0, 2.0);
+        soup.triangle(at + 0.6 * any(), at + 0.6 * any(), at + 0.6 * any());
     }
-    return mesh;
-}
-
-/// Three fins on one edge, as no surface has them.
-Mesh fins() {
-    const glm::dvec3 a(0.0, -1.0, 2.0), b(0.0, 1.0, 2.0);
-    return {a, b, {1.0, 0.0, 2.3}, a, b, {-1.0, 0.0, 2.2}, b, a, {0.1, 0.0, 3.0}};
+    return soup;
 }
 
 std::vector<Case> cases() {
-    const Mesh house = box({-0.5, -0.4, 0.1}, {1.0, 0.6, 2.0}), ball = sphere({0.0, 0.0, 2.0}, 1.0, 12);
-    const Mesh both = meshOf([](test::Soup& soup) {
-        soup.box({-0.5, -0.4, 0.1}, {1.0, 0.6, 2.0});
-        soup.sphere({0.5, 0.0, 2.5}, 1.0, 12);
-    });
-    const Mesh sheet = meshOf([](test::Soup& soup) {
-        soup.quad({-1.0, -1.0, 1.0}, {2.0, 0.3, 0.5}, {0.0, 2.0, -0.4});
-    });
+    const Soup house = box({-0.5, -0.4, 0.1}, {1.0, 0.6, 2.0});
+    Soup ball, both = house, sheet, mixed, fins;
+    ball.sphere({0.0, 0.0, 2.0}, 1.0, 12);
+    both.sphere({0.5, 0.0, 2.5}, 1.0, 12);
+    sheet.quad({-1.0, -1.0, 1.0}, {2.0, 0.3, 0.5}, {0.0, 2.0, -0.4});
+    mixed = ball;
+    for (std::size_t i = 0; i < mixed.indices.size(); i += 9) std::swap(mixed.indices[i + 1], mixed.indices[i + 2]);
+    const glm::dvec3 a(0.0, -1.0, 2.0), b(0.0, 1.0, 2.0); // three on one edge, as no surface has them
+    fins.triangle(a, b, {1.0, 0.0, 2.3});
+    fins.triangle(a, b, {-1.0, 0.0, 2.2});
+    fins.triangle(b, a, {0.1, 0.0, 3.0});
     return {{"a house", house, true},
             {"a ball", ball, true},
-            {"a house turned inside out", turnedRound(house, 1), true},
+            {"a house turned inside out", house.turned(), true},
             {"two bodies", both, true},
             {"a sheet", sheet, false},
-            {"a ball of mixed winding", turnedRound(ball, 3), false},
-            {"fins", fins(), false},
-            {"a soup", soup(), false}};
+            {"a ball of mixed winding", mixed, false},
+            {"fins", fins, false},
+            {"random triangles", randomTriangles(), false}};
 }
 
 std::vector<glm::dvec4> lights() {

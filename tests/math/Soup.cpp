@@ -80,21 +80,25 @@ Soup Soup::without(std::size_t firstTriangle, std::size_t count) const {
     return result;
 }
 
+std::optional<double> met(const Soup& soup, std::size_t triangle, const glm::dvec3& start, const glm::dvec3& along) {
+    const glm::dvec3 a = soup.corner(triangle, 0), e1 = soup.corner(triangle, 1) - a, e2 = soup.corner(triangle, 2) - a;
+    const glm::dvec3 p = glm::cross(along, e2), s = start - a, q = glm::cross(s, e1);
+    const double determinant = glm::dot(e1, p);
+    if (determinant == 0.0) return std::nullopt;
+    const double u = glm::dot(s, p) / determinant, v = glm::dot(along, q) / determinant;
+    if (u < 0.0 || v < 0.0 || u + v > 1.0) return std::nullopt;
+    return glm::dot(e2, q) / determinant;
+}
+
 gnomon::RayHit bruteForce(const Soup& soup, const gnomon::Ray& ray) {
     gnomon::RayHit nearest;
-    const glm::dvec3 start = ray.start - soup.origin;
     for (std::size_t i = 0; i < soup.size(); ++i) {
-        const glm::dvec3 a = soup.corner(i, 0), e1 = soup.corner(i, 1) - a, e2 = soup.corner(i, 2) - a;
-        const glm::dvec3 p = glm::cross(ray.along, e2);
-        const double determinant = glm::dot(e1, p);
-        if (determinant == 0.0) continue;
-        const glm::dvec3 s = start - a, q = glm::cross(s, e1);
-        const double u = glm::dot(s, p) / determinant, v = glm::dot(ray.along, q) / determinant;
-        const double t = glm::dot(e2, q) / determinant;
-        if (u < 0.0 || v < 0.0 || u + v > 1.0 || t < 0.0 || t > ray.reach || t >= nearest.distance) continue;
+        const auto t = met(soup, i, ray.start - soup.origin, ray.along);
+        if (!t || *t < 0.0 || *t > ray.reach || *t >= nearest.distance) continue;
+        const glm::dvec3 a = soup.corner(i, 0);
         nearest.triangle = static_cast<unsigned>(i);
-        nearest.distance = t;
-        nearest.normal = glm::normalize(glm::cross(e1, e2));
+        nearest.distance = *t;
+        nearest.normal = glm::normalize(glm::cross(soup.corner(i, 1) - a, soup.corner(i, 2) - a));
     }
     return nearest;
 }

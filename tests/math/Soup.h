@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/RayScene.h>
 
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -33,7 +34,11 @@ struct Soup {
     }
 };
 
-/// The nearest hit by testing every triangle in double, without any of Gnomon's code (Möller and Trumbore 1997).
+/// How far along a way from a place a triangle is met, in double and without any of Gnomon's code (Möller and Trumbore 1997);
+/// nullopt if it is not. @param start  about the soup's origin.
+std::optional<double> met(const Soup& soup, std::size_t triangle, const glm::dvec3& start, const glm::dvec3& along);
+
+/// The nearest hit by testing every triangle.
 gnomon::RayHit bruteForce(const Soup& soup, const gnomon::Ray& ray);
 
 /// Evenly spread over the sphere of directions.
