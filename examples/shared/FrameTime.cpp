@@ -45,8 +45,6 @@ double quantile(const std::vector<double>& sorted, double part) {
     return sorted[below] + (place - std::floor(place)) * (sorted[above] - sorted[below]);
 }
 
-using Now = std::chrono::steady_clock;
-
 template <class Act>
 class Callback : public osg::Camera::DrawCallback {
 public:
@@ -85,12 +83,12 @@ Quartiles quartiles(std::vector<double> values) {
     return {quantile(values, 0.25), quantile(values, 0.5), quantile(values, 0.75)};
 }
 
-struct DrawTime::Clock {
-    Now::time_point start;
+struct DrawTime::Start {
+    Clock::time_point start;
     std::atomic<double> milliseconds{0.0};
 };
 
-DrawTime::DrawTime() : _clock(std::make_shared<Clock>()) {}
+DrawTime::DrawTime() : _clock(std::make_shared<Start>()) {}
 
 std::string DrawTime::line() const {
     const double time = _clock->milliseconds;
@@ -108,9 +106,9 @@ bool DrawTime::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapt
     _on = !_on;
     osg::Camera& camera = *view->getCamera();
     if (_on) {
-        camera.setInitialDrawCallback(callback([clock = _clock] { clock->start = Now::now(); }));
+        camera.setInitialDrawCallback(callback([clock = _clock] { clock->start = Clock::now(); }));
         camera.setFinalDrawCallback(callback([clock = _clock] {
-            clock->milliseconds = std::chrono::duration<double, std::milli>(Now::now() - clock->start).count();
+            clock->milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - clock->start).count();
         }));
     } else {
         camera.setInitialDrawCallback(nullptr);

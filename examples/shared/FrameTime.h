@@ -38,9 +38,9 @@ public:
     void getUsage(osg::ApplicationUsage& usage) const override;
 
 private:
-    struct Clock;
+    struct Start;
 
-    std::shared_ptr<Clock> _clock; ///< shared with the camera's callbacks.
+    std::shared_ptr<Start> _clock; ///< shared with the camera's callbacks.
     bool _on = false;
 };
 

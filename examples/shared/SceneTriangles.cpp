@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace gnomon::examples {
 namespace {
@@ -62,25 +63,10 @@ void push(osg::State& state, const osg::NodePath& path, const osg::Drawable& dra
     if (drawable.getStateSet()) state.pushStateSet(drawable.getStateSet());
 }
 
+/// Each bit of OpenGL's number of a comparison is one way to pass it: 1 less, 2 equal, 4 greater.
 bool passes(osg::AlphaFunc::ComparisonFunction how, double alpha, double reference) {
-    switch (how) {
-    case osg::AlphaFunc::NEVER:
-        return false;
-    case osg::AlphaFunc::LESS:
-        return alpha < reference;
-    case osg::AlphaFunc::EQUAL:
-        return alpha == reference;
-    case osg::AlphaFunc::LEQUAL:
-        return alpha <= reference;
-    case osg::AlphaFunc::GREATER:
-        return alpha > reference;
-    case osg::AlphaFunc::NOTEQUAL:
-        return alpha != reference;
-    case osg::AlphaFunc::GEQUAL:
-        return alpha >= reference;
-    default:
-        return true;
-    }
+    const unsigned ways = unsigned(how) - GL_NEVER;
+    return (ways & (alpha < reference ? 1u : alpha > reference ? 4u : 2u)) != 0;
 }
 
 int wrapped(int texel, int size, osg::Texture::WrapMode how) {
@@ -100,37 +86,23 @@ struct Collect {
     }
 };
 
-template <typename Array>
-bool append(const osg::Array& array, std::vector<osg::Vec3d>& into) {
+/// @param place  of a vertex of this kind of array.
+template <typename Array, typename Place>
+bool append(const osg::Array& array, std::vector<osg::Vec3d>& into, const Place& place) {
     const auto* typed = dynamic_cast<const Array*>(&array);
-    if (!typed) return false;
-    for (const auto& v : *typed) into.emplace_back(v.x(), v.y(), v.z());
-    return true;
-}
-
-template <typename Array>
-bool appendFlat(const osg::Array& array, std::vector<osg::Vec3d>& into) {
-    const auto* typed = dynamic_cast<const Array*>(&array);
-    if (!typed) return false;
-    for (const auto& v : *typed) into.emplace_back(v.x(), v.y(), 0.0);
-    return true;
-}
-
-template <typename Array>
-bool appendHomogeneous(const osg::Array& array, std::vector<osg::Vec3d>& into) {
-    const auto* typed = dynamic_cast<const Array*>(&array);
-    if (!typed) return false;
-    for (const auto& v : *typed) into.push_back(osg::Vec3d(v.x(), v.y(), v.z()) / double(v.w()));
-    return true;
+    if (typed) std::transform(typed->begin(), typed->end(), std::back_inserter(into), place);
+    return typed != nullptr;
 }
 
 std::vector<osg::Vec3d> positions(const osg::Array* array) {
+    const auto flat = [](const auto& v) { return osg::Vec3d(v.x(), v.y(), 0.0); };
+    const auto solid = [](const auto& v) { return osg::Vec3d(v.x(), v.y(), v.z()); };
+    const auto divided = [](const auto& v) { return osg::Vec3d(v.x(), v.y(), v.z()) / double(v.w()); };
     std::vector<osg::Vec3d> result;
     if (array)
-        (void)(append<osg::Vec3Array>(*array, result) || append<osg::Vec3dArray>(*array, result) ||
-               appendHomogeneous<osg::Vec4Array>(*array, result) ||
-               appendHomogeneous<osg::Vec4dArray>(*array, result) || appendFlat<osg::Vec2Array>(*array, result) ||
-               appendFlat<osg::Vec2dArray>(*array, result));
+        (void)(append<osg::Vec3Array>(*array, result, solid) || append<osg::Vec3dArray>(*array, result, solid) ||
+               append<osg::Vec4Array>(*array, result, divided) || append<osg::Vec4dArray>(*array, result, divided) ||
+               append<osg::Vec2Array>(*array, result, flat) || append<osg::Vec2dArray>(*array, result, flat));
     return result;
 }
 
