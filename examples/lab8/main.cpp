@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // lab8: the point-light shadows of "Lab 8: Fake Shadow", by its own vertex shader and by PlanarShadowNode.
 #include "Example.h"
+#include "InputFile.h"
 #include "Paint.h"
-#include "SceneFile.h"
 
 #include <gnomon/PlanarShadowNode.h>
 

@@ -2,9 +2,9 @@
 // shad: CS-4470's two-pass z-buffer shadows, one additive pass a light, and Gnomon's compositor beside them.
 #include "AddedLamps.h"
 #include "Example.h"
-#include "SceneCamera.h"
-#include "SceneFile.h"
+#include "InputFile.h"
 
+#include <gnomon/SceneProps.h>
 #include <gnomon/ShadowMapTechnique.h>
 
 #include <osg/Math>
@@ -55,6 +55,17 @@ inline std::size_t discoStep(std::vector<DiscoPlace>& lights, int frame) {
     if (light == 1) p.turn = 120.0 * (t + double(round % 3));
     if (light == 2) p.raise = (180.0 - 2.0 * p.orbit.elevation) * (round % 2 ? 1.0 - t : t);
     return light;
+}
+
+/// A subgraph moved and scaled so that the box about it has its middle at the origin and its corners this far away.
+osg::ref_ptr<osg::MatrixTransform> fitted(osg::Node& root, double radius) {
+    const osg::BoundingBoxd box = gnomon::sceneBounds(root);
+    const double scale = box.valid() && box.radius() > 0.0 ? radius / box.radius() : 1.0;
+    const osg::Vec3d middle = box.valid() ? box.center() : osg::Vec3d();
+    osg::ref_ptr<osg::MatrixTransform> result =
+        new osg::MatrixTransform(osg::Matrixd::translate(-middle) * osg::Matrixd::scale(scale, scale, scale));
+    result->addChild(&root);
+    return result;
 }
 
 constexpr double thingsRadius = 0.85; // what the objects are scaled to
@@ -171,6 +182,7 @@ private:
 /// The camera's drags move the light while shift is held, or while it is what one looks from.
 void addHands(SceneWindow& window, Shad& shad) {
     const auto inLightView = [&] { return shad.looksFromLight(); };
+    window.add(*new DragHandler([&](double right, double up) { shad.drag(right, up); }));
     window.add(*new DragHandler([&](double right, double up) { shad.drag(right, up); },
                                 shiftAnd(osgGA::GUIEventAdapter::LEFT_MOUSE_BUTTON, inLightView)));
     window.add(*new DragHandler([&](double, double up) { shad.moveLight(0.0, 0.0, -up / 150.0); },

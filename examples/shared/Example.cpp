@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Example.h"
-#include "SceneFile.h"
+#include "InputFile.h"
 #include "ScenePicture.h"
 
 #include <osgDB/Registry>
@@ -45,15 +45,15 @@ std::string helpText(const ExampleText& text, const Options& table, const std::s
     return text.program + " [OPTION...]" + (text.files.empty() ? "" : " " + text.files) + "\n" + text.about + "\n" +
            describeOptions(table) + osgOptionsHelp() + "\nKEYS\n" + keys +
            "  m        Show or hide the time that a frame takes to draw.\n" + windowKeysHelp(text.program) +
-           "\nDrag with the left mouse button to move the camera, with the middle one to move the light.\n"
-           "\nExample: " +
-           text.example + "\n";
+           "\nDrag with the left mouse button to move the camera" +
+           (text.middleButton.empty() ? "" : ", with the middle one " + text.middleButton) +
+           ".\n\nExample: " + text.example + "\n";
 }
 
 void takeFilesOf(const ExampleText& text, osg::ArgumentParser& arguments, ViewOptions& into) {
     if (!text.files.empty()) {
         takeFiles(arguments, into);
-        if (into.files.empty())
+        if (into.files.empty() && text.files[0] != '[')
             throw std::invalid_argument("no scene file is given. Usage: " + text.program + " [OPTION...] " +
                                         text.files);
         return;

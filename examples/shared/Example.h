@@ -106,7 +106,8 @@ struct ExampleText {
     std::string does;    ///< "shows …", one sentence.
     std::string about;   ///< for --help: a paragraph, lines of at most 120 letters.
     std::string example; ///< a command line.
-    std::string files{}; ///< "FILE...": it takes scene files and needs one; empty: it takes none.
+    std::string files{}; ///< "FILE...": it takes files and needs one; "[FILE]": it may take some; empty: it takes none.
+    std::string middleButton = "to move the light"; ///< what a drag with it is for; empty: it moves the camera, too.
 };
 
 /// Takes an example's own options, those of all examples and its files, or prints what --help prints.
@@ -135,12 +136,14 @@ void press(const std::string& letters, const std::vector<Key<Controls>>& keys, C
     }
 }
 
-/// What a program's mouse does besides; overloaded where there is something.
+/// What a program's mouse and clock do: a drag with the middle button; overloaded where it is something else.
 template <class Controls>
-void addHands(SceneWindow&, Controls&) {}
+void addHands(SceneWindow& window, Controls& controls) {
+    window.add(*new DragHandler([&controls](double right, double up) { controls.drag(right, up); }));
+}
 
 /// A window or a picture of one scene with its controls. @param Controls  has SceneSetup& setup(), what its text says in
-/// describe(), and what a drag with the middle mouse button does in drag(right, up), pixels.
+/// describe(), and what a drag with the middle mouse button does in drag(right, up), pixels; see addHands().
 template <class Controls>
 int showExample(const ExampleText& text, const ExampleOptions& options, const std::vector<Key<Controls>>& keys,
                 Controls& controls) {
@@ -159,7 +162,6 @@ int showExample(const ExampleText& text, const ExampleOptions& options, const st
     const osg::ref_ptr<osgGA::GUIEventHandler> handler = new KeyHandler<Controls>(keys, controls, *hud);
     SceneWindow window({text.program, text.does, "--out IMAGE"}, options.view, controls.setup(), *hud, *handler);
     window.add(*time);
-    window.add(*new DragHandler([&controls](double right, double up) { controls.drag(right, up); }));
     addHands(window, controls);
     return window.run();
 }

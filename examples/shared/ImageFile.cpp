@@ -2,43 +2,43 @@
 #include "ImageFile.h"
 #include "InputFile.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 
 namespace gnomon::examples {
 namespace {
 
-constexpr FileKind picture{"an image", "tif, osgb, png, …"};
-
-constexpr ReadMethod images{
-    [](osgDB::Registry& registry, const std::string& name) { return registry.readImage(name, registry.getOptions()); },
-    [](osgDB::ReaderWriter& reader, std::istream& in, const osgDB::Options* options) {
-        return reader.readImage(in, options);
-    }};
-
-template <std::size_t N>
-bool isOneOf(GLenum value, const std::array<GLenum, N>& allowed) {
-    for (const GLenum one : allowed)
-        if (value == one) return true;
-    return false;
-}
-
 /// What readColours() understands.
 bool isUnderstood(const osg::Image& image) {
-    constexpr std::array<GLenum, 3> types{GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_FLOAT};
-    constexpr std::array<GLenum, 6> formats{GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_RGB, GL_RGBA, GL_BGR, GL_BGRA};
-    return isOneOf(image.getDataType(), types) && isOneOf(image.getPixelFormat(), formats) && image.r() == 1;
+    const auto isOneOf = [](GLenum value, std::initializer_list<GLenum> allowed) {
+        return std::find(allowed.begin(), allowed.end(), value) != allowed.end();
+    };
+    return image.r() == 1 && isOneOf(image.getDataType(), {GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_FLOAT}) &&
+           isOneOf(image.getPixelFormat(), {GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_RGB, GL_RGBA, GL_BGR, GL_BGRA});
+}
+
+using Colour = glm::dvec3;
+
+const Colour missedShadow(0.9, 0.1, 0.1), falseShadow(0.1, 0.2, 1.0), noNumber(1.0, 0.0, 1.0), turnedAway(0.1);
+
+Colour colourAt(const metrics::Picture& visibility, const metrics::TruthMaps& truth, const metrics::PixelSets& sets,
+                std::size_t i) {
+    const double v = visibility.cells[i];
+    if (!std::isfinite(v)) {
+        if (truth.receiver.cells[i] == 0) return Colour(0.0);
+        return truth.facing.cells[i] > 0.05 ? noNumber : turnedAway; // no renderer shows light there
+    }
+    const Colour grey(0.15 + 0.7 * std::clamp(v, 0.0, 1.0));
+    if (!sets.facing.cells[i]) return 0.4 * grey;
+    const bool lit = truth.litCentre.cells[i];
+    if (metrics::isShadowed(v) != lit) return grey;
+    const Colour wrong = lit ? falseShadow : missedShadow;
+    return sets.certain.cells[i] ? wrong : 0.5 * (wrong + grey);
 }
 
 } // namespace
-
-osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& program) {
-    ReadResult result = readFile(file, program, picture, images);
-    osg::ref_ptr<osg::Image> image = result.getImage();
-    if (!image || image->s() < 1 || image->t() < 1 || !image->data())
-        throw std::runtime_error(damagedSentence(file, picture));
-    return image;
-}
 
 metrics::Picture readGrey(const std::string& file, const std::string& program) {
     const osg::ref_ptr<osg::Image> image = readImage(file, program);
@@ -55,6 +55,19 @@ metrics::Picture greysOf(const osg::Image& image) {
     auto grey = greys.cells.begin();
     readColours(image, [&](float r, float g, float b) { *grey++ = (double(r) + double(g) + double(b)) / 3.0; });
     return greys;
+}
+
+osg::ref_ptr<osg::Image> errorOverlay(const metrics::Picture& visibility, const metrics::TruthMaps& truth) {
+    const metrics::PixelSets sets = metrics::pixelSets(truth, visibility);
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(visibility.width, visibility.height, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    for (std::size_t i = 0; i < visibility.cells.size(); ++i) {
+        const Colour colour = colourAt(visibility, truth, sets, i);
+        const int width = visibility.width, at = static_cast<int>(i);
+        unsigned char* pixel = image->data(static_cast<unsigned>(at % width), static_cast<unsigned>(at / width));
+        for (int c = 0; c < 3; ++c) pixel[c] = static_cast<unsigned char>(std::lround(255.0 * colour[c]));
+    }
+    return image;
 }
 
 } // namespace gnomon::examples

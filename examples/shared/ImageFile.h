@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <metrics/Grid.h>
+#include <metrics/PixelSets.h>
 #include <osg/Image>
 #include <osg/ImageUtils>
 
@@ -25,10 +25,6 @@ void readColours(const osg::Image& image, const Take& take) {
     osg::readImage(&image, each);
 }
 
-/// An image file by OSG's readers. @throws std::runtime_error, one sentence, if there is none or it cannot be read.
-/// @param program  whose name goes before that sentence should a reader crash.
-osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& program);
-
 /// A picture's grey, the mean of red, green and blue as they stand in the file, which must be linear. Bytes and shorts
 /// go from 0 to 1; 32-bit floats (.tif, .osgb, .osgt, .osgx, .ktx in OSG 3.6.5) keep every value, NaN too.
 /// @throws std::runtime_error, one sentence, for other kinds of pixels.
@@ -36,5 +32,9 @@ metrics::Picture readGrey(const std::string& file, const std::string& program);
 
 /// The same of an image in memory, whose lowest row comes first.
 metrics::Picture greysOf(const osg::Image& image);
+
+/// The visibility in grey, dark outside R+; missed shadow red, false shadow blue, both pale on edge pixels; magenta
+/// where it is not measured on a surface that faces the light.
+osg::ref_ptr<osg::Image> errorOverlay(const metrics::Picture& visibility, const metrics::TruthMaps& truth);
 
 } // namespace gnomon::examples

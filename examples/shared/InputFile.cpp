@@ -1,73 +1,97 @@
 // SPDX-License-Identifier: MIT
 #include "InputFile.h"
+#include "SceneCamera.h"
+
+#include <gnomon/SceneProps.h>
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
+#include <osgDB/Registry>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <unistd.h>
 
 namespace gnomon::examples {
 namespace {
 
+using ReadResult = osgDB::ReaderWriter::ReadResult;
+
+/// What a file is to hold, in words, and osgDB::Registry's method for it.
+struct FileKind {
+    const char* article; ///< "a scene"
+    const char* formats; ///< "obj, osgt, …"
+    ReadResult (*byName)(osgDB::Registry& registry, const std::string& file);
+    /// Of .osgb; null: that is not a kind such a file can hold.
+    ReadResult (*fromStream)(osgDB::ReaderWriter& reader, std::istream& in, const osgDB::Options* options) = nullptr;
+};
+
+constexpr FileKind scene{
+    "a scene", "obj, osgt, ive, stl, 3ds, …",
+    [](osgDB::Registry& registry, const std::string& name) { return registry.readNode(name, registry.getOptions()); },
+    [](osgDB::ReaderWriter& reader, std::istream& in, const osgDB::Options* options) {
+        return reader.readNode(in, options);
+    }};
+constexpr FileKind elevation{"an elevation model", "tif.gdal, asc.gdal, hgt.gdal, vrt.gdal, …",
+                             [](osgDB::Registry& registry, const std::string& name) {
+                                 return registry.readHeightField(name, registry.getOptions());
+                             }};
+constexpr FileKind picture{
+    "an image", "tif, osgb, png, …",
+    [](osgDB::Registry& registry, const std::string& name) { return registry.readImage(name, registry.getOptions()); },
+    [](osgDB::ReaderWriter& reader, std::istream& in, const osgDB::Options* options) {
+        return reader.readImage(in, options);
+    }};
+
 /// While it lives, a crash prints one sentence and ends the program: readers of old formats trust their input.
 class CrashGuard {
 public:
-    explicit CrashGuard(const std::string& sentence);
-    ~CrashGuard();
+    explicit CrashGuard(const std::string& sentence) {
+        _sentence = sentence + "\n";
+        for (std::size_t i = 0; i < signals.size(); ++i) _before[i] = std::signal(signals[i], say);
+    }
+    ~CrashGuard() {
+        for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], _before[i]);
+    }
     CrashGuard(const CrashGuard&) = delete;
     CrashGuard& operator=(const CrashGuard&) = delete;
 
 private:
     static constexpr std::array<int, 4> signals = {SIGSEGV, SIGABRT, SIGFPE, SIGBUS};
 
-    static void say(int);
+    static void say(int) {
+        const ssize_t written = write(STDERR_FILENO, _sentence.data(), _sentence.size());
+        _exit(written > 0 ? 1 : 2);
+    }
 
-    static std::string _sentence;
+    static inline std::string _sentence;
     std::array<void (*)(int), signals.size()> _before{};
 };
 
-std::string CrashGuard::_sentence;
-
-CrashGuard::CrashGuard(const std::string& sentence) {
-    _sentence = sentence + "\n";
-    for (std::size_t i = 0; i < signals.size(); ++i) _before[i] = std::signal(signals[i], say);
-}
-
-CrashGuard::~CrashGuard() {
-    for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], _before[i]);
-}
-
-void CrashGuard::say(int) {
-    const ssize_t written = write(STDERR_FILENO, _sentence.data(), _sentence.size());
-    _exit(written > 0 ? 1 : 2);
-}
-
 /// OpenSceneGraph's reader goes on at the end of a file that is cut off, with whatever number of things it last read: for
 /// hours, or until memory ends. So the end is an exception.
-ReadResult readBinary(osgDB::Registry& registry, const std::string& file, const ReadMethod& read) {
+ReadResult readBinary(osgDB::Registry& registry, const std::string& file, const FileKind& kind) {
     const std::string path = osgDB::findDataFile(file);
     std::ifstream in(path, std::ios::binary);
     osgDB::ReaderWriter* reader = registry.getReaderWriterForExtension("osgb");
-    if (!in || !reader || !read.fromStream) return read.byName(registry, file);
+    if (!in || !reader || !kind.fromStream) return kind.byName(registry, file);
     osg::ref_ptr<osgDB::Options> options =
         registry.getOptions() ? registry.getOptions()->cloneOptions() : new osgDB::Options;
     options->getDatabasePathList().push_front(osgDB::getFilePath(path));
     in.exceptions(std::ios::failbit | std::ios::badbit);
-    return read.fromStream(*reader, in, options);
+    return kind.fromStream(*reader, in, options);
 }
 
 /// With every way of failing turned into a result.
-ReadResult guarded(const std::string& file, const std::string& sentence, const ReadMethod& read) {
+ReadResult guarded(const std::string& file, const std::string& sentence, const FileKind& kind) {
     const CrashGuard guard(sentence);
     try {
         osgDB::Registry& registry = *osgDB::Registry::instance();
-        return osgDB::getLowerCaseFileExtension(file) == "osgb" ? readBinary(registry, file, read)
-                                                                : read.byName(registry, file);
+        return osgDB::getLowerCaseFileExtension(file) == "osgb" ? readBinary(registry, file, kind)
+                                                                : kind.byName(registry, file);
     } catch (const std::exception&) {
         return ReadResult::ERROR_IN_READING_FILE;
     }
@@ -78,30 +102,67 @@ bool isThere(const std::string& file) {
     return !osgDB::findDataFile(file).empty() || !osgDB::findDataFile(osgDB::getNameLessExtension(file)).empty();
 }
 
-} // namespace
-
-std::string quoted(const std::string& file) { return "\"" + file + "\""; }
-
+/// That the file cannot be read as what it is to hold.
 std::string damagedSentence(const std::string& file, const FileKind& kind) {
     return quoted(file) + " cannot be read as " + kind.article +
            ": it is damaged, or it does not match its name. Allowed: " + kind.formats + ".";
 }
 
-std::optional<std::string> fileBytes(const std::filesystem::path& file) {
-    std::error_code ignored;
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file, ignored)) return std::nullopt;
-    return std::string(std::istreambuf_iterator<char>(in), {});
-}
-
-ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, const ReadMethod& read) {
+/// Reads an object, of whatever class, -O options included. A reader that crashes on a damaged file ends the program with the
+/// damaged file's sentence and status 1; .osgb that ends early is told at its end.
+/// @throws std::runtime_error, one sentence, for a file that is missing, a directory, damaged or of another type.
+ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind) {
     if (osgDB::fileType(file) == osgDB::DIRECTORY)
         throw std::runtime_error(quoted(file) + " is a directory. Give " + kind.article + " file.");
-    ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), read);
+    ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), kind);
     if (result.validObject()) return result;
     if (!isThere(file) && result.status() != ReadResult::ERROR_IN_READING_FILE)
         throw std::runtime_error("there is no file " + quoted(file) + ", or no reader for its type.");
     throw std::runtime_error(damagedSentence(file, kind));
+}
+
+osg::ref_ptr<osg::Node> readOne(const std::string& file, const std::string& program) {
+    ReadResult result = readFile(file, program, scene);
+    const osg::ref_ptr<osg::Node> node = result.getNode();
+    if (!node) throw std::runtime_error(damagedSentence(file, scene));
+    if (!sceneBounds(*node).valid())
+        throw std::runtime_error(quoted(file) +
+                                 " holds nothing to draw. It is empty or damaged, or it does not match its name.");
+    return node;
+}
+
+bool isLevelAtZero(const osg::HeightField& field) {
+    const auto& heights = field.getHeightList();
+    return std::all_of(heights.begin(), heights.end(), [](float height) { return height == 0.0f; });
+}
+
+} // namespace
+
+std::string quoted(const std::string& file) { return "\"" + file + "\""; }
+
+osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files, const std::string& program) {
+    osg::ref_ptr<osg::Group> all = new osg::Group;
+    for (const std::string& file : files) all->addChild(readOne(file, program));
+    return all->getNumChildren() == 1 ? all->getChild(0) : all.get();
+}
+
+osg::ref_ptr<osg::HeightField> readElevation(const std::string& file, const std::string& program) {
+    ReadResult result = readFile(file, program, elevation);
+    osg::ref_ptr<osg::HeightField> field = result.getHeightField();
+    if (!field || field->getNumColumns() < 2 || field->getNumRows() < 2)
+        throw std::runtime_error(damagedSentence(file, elevation));
+    if (isLevelAtZero(*field))
+        throw std::runtime_error(quoted(file) +
+                                 " has the height 0 everywhere. The data that it refers to may be missing or damaged.");
+    return field;
+}
+
+osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& program) {
+    ReadResult result = readFile(file, program, picture);
+    osg::ref_ptr<osg::Image> image = result.getImage();
+    if (!image || image->s() < 1 || image->t() < 1 || !image->data())
+        throw std::runtime_error(damagedSentence(file, picture));
+    return image;
 }
 
 } // namespace gnomon::examples

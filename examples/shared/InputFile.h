@@ -1,37 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <osgDB/Registry>
+#include <osg/Image>
+#include <osg/Node>
+#include <osg/Shape>
+#include <osg/ref_ptr>
 
-#include <filesystem>
-#include <istream>
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace gnomon::examples {
 
-/// What a file is to hold, in words.
-struct FileKind {
-    const char* article; ///< "a scene"
-    const char* formats; ///< "obj, osgt, …"
-};
+/// Reads files as any OpenSceneGraph program does, pseudo-loader suffixes and -O options included.
+/// @return one node that holds all of them.
+/// @throws std::runtime_error, one sentence, for a file that is missing, a directory, damaged, of another type or
+/// empty. A reader that crashes on a damaged file ends the program with the same sentence and status 1.
+osg::ref_ptr<osg::Node> readScene(const std::vector<std::string>& files, const std::string& program);
+
+/// Reads an elevation model as OpenSceneGraph does: what GDAL reads with the suffix .gdal, as in "dem.tif.gdal".
+/// It puts posts on the north-west corners of GDAL's cells: half a cell off where heights stand for the cells' middles.
+/// @return a field of 2 × 2 posts at least.
+/// @throws std::runtime_error, one sentence, for a file that is missing, a directory, damaged, of another type, or level
+/// at 0 all over: so GDAL's reader gives a model whose data cannot be read.
+osg::ref_ptr<osg::HeightField> readElevation(const std::string& file, const std::string& program);
+
+/// An image file by OSG's readers. @throws std::runtime_error, one sentence, if there is none or it cannot be read.
+/// @param program  whose name goes before that sentence should a reader crash.
+osg::ref_ptr<osg::Image> readImage(const std::string& file, const std::string& program);
 
 std::string quoted(const std::string& file);
-/// That the file cannot be read as what it is to hold.
-std::string damagedSentence(const std::string& file, const FileKind& kind);
-
-/// All of a file; nullopt if it is a directory or cannot be opened.
-std::optional<std::string> fileBytes(const std::filesystem::path& file);
-
-/// Reads by one of osgDB::Registry's methods, -O options included. A reader that crashes on a damaged file ends the
-/// program with the damaged file's sentence and status 1; .osgb that ends early is told at its end.
-/// @return an object, of whatever class.
-/// @throws std::runtime_error, one sentence, for a file that is missing, a directory, damaged or of another type.
-using ReadResult = osgDB::ReaderWriter::ReadResult;
-struct ReadMethod {
-    ReadResult (*byName)(osgDB::Registry& registry, const std::string& file);
-    /// Of .osgb; null: that is not a kind such a file can hold.
-    ReadResult (*fromStream)(osgDB::ReaderWriter& reader, std::istream& in, const osgDB::Options* options) = nullptr;
-};
-ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind, const ReadMethod& read);
 
 } // namespace gnomon::examples

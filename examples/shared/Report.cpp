@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Report.h"
+#include "Json.h"
 
 #include <iomanip>
 #include <sstream>
@@ -59,6 +60,16 @@ std::string judgedText(const ShadowMetrics& m) {
            " of the surface dropped, " + pixels(m.unmeasured) + " not measured";
 }
 
+/// Which there are, in words; "none".
+std::string catastropheText(const Catastrophes& catastrophes) {
+    std::string text;
+    if (catastrophes.notFinite) text += pixels(catastrophes.notFinite) + " are not finite; ";
+    if (catastrophes.allShadowed) text += "all is shadowed; ";
+    if (catastrophes.allLit) text += "all is lit; ";
+    if (catastrophes.lostShadow) text += "intersection over union below 0.2; ";
+    return text.empty() ? "none" : text.substr(0, text.size() - 2);
+}
+
 std::vector<std::pair<std::string, std::string>> lines(const ShadowMetrics& m) {
     const Confusion &away = m.headline, &raw = m.raw;
     return {
@@ -77,92 +88,48 @@ std::vector<std::pair<std::string, std::string>> lines(const ShadowMetrics& m) {
         {"catastrophes", catastropheText(m.catastrophes)}};
 }
 
+using nlohmann::ordered_json;
+
+ordered_json countsJson(const Confusion& c) {
+    return {{"pixels", c.pixels()},
+            {"shadow", c.shadow},
+            {"lit", c.lit},
+            {"falseShadow", c.falseShadow},
+            {"falseLit", c.falseLit},
+            {"misclassified", jsonOf(c.misclassified())},
+            {"falseShadowShare", jsonOf(c.falseShadowShare())},
+            {"falseLitShare", jsonOf(c.falseLitShare())},
+            {"balancedError", jsonOf(c.balancedError())},
+            {"iou", jsonOf(c.intersectionOverUnion())}};
+}
+
+ordered_json boundaryJson(const BoundaryDistance& b) {
+    return {{"mean", jsonOf(b.mean)},
+            {"p95", jsonOf(b.p95)},
+            {"max", jsonOf(b.max)},
+            {"signedMean", jsonOf(b.signedMean)},
+            {"drawnLength", jsonOf(b.drawnLength)},
+            {"trueLength", jsonOf(b.trueLength)}};
+}
+
+ordered_json causesJson(const CauseSplit& c) {
+    return {{"acne", c.acne},
+            {"halo", c.halo},
+            {"peterPanning", c.peterPanning},
+            {"leak", c.leak},
+            {"erosion", c.erosion},
+            {"overDark", c.overDark},
+            {"overBright", c.overBright},
+            {"acneShare", jsonOf(c.acneShare)},
+            {"peterPanningShare", jsonOf(c.peterPanningShare)},
+            {"gapMetres", jsonOf(c.gap)}};
+}
+
+ordered_json intensityJson(const IntensityError& e) {
+    return {{"all", jsonOf(e.all)}, {"penumbra", jsonOf(e.penumbra)}};
+}
+
 } // namespace
-
-template <class Way>
-static void fields(Way& way, PartOf<Way, Confusion> c) {
-    way.derived("pixels", c.pixels());
-    way.field("shadow", c.shadow);
-    way.field("lit", c.lit);
-    way.field("falseShadow", c.falseShadow);
-    way.field("falseLit", c.falseLit);
-    way.derived("misclassified", c.misclassified());
-    way.derived("falseShadowShare", c.falseShadowShare());
-    way.derived("falseLitShare", c.falseLitShare());
-    way.derived("balancedError", c.balancedError());
-    way.derived("iou", c.intersectionOverUnion());
-}
-
-template <class Way>
-static void fields(Way& way, PartOf<Way, BoundaryDistance> b) {
-    way.field("mean", b.mean);
-    way.field("p95", b.p95);
-    way.field("max", b.max);
-    way.field("signedMean", b.signedMean);
-    way.field("drawnLength", b.drawnLength);
-    way.field("trueLength", b.trueLength);
-}
-
-template <class Way>
-static void fields(Way& way, PartOf<Way, CauseSplit> c) {
-    way.field("acne", c.acne);
-    way.field("halo", c.halo);
-    way.field("peterPanning", c.peterPanning);
-    way.field("leak", c.leak);
-    way.field("erosion", c.erosion);
-    way.field("overDark", c.overDark);
-    way.field("overBright", c.overBright);
-    way.field("acneShare", c.acneShare);
-    way.field("peterPanningShare", c.peterPanningShare);
-    way.field("gapMetres", c.gap);
-}
-
-template <class Way>
-static void fields(Way& way, PartOf<Way, IntensityError> e) {
-    way.field("all", e.all);
-    way.field("penumbra", e.penumbra);
-}
-
-template <class Way>
-static void fields(Way& way, PartOf<Way, Catastrophes> c) {
-    way.field("notFinitePixels", c.notFinite);
-    way.field("allShadowed", c.allShadowed);
-    way.field("allLit", c.allLit);
-    way.field("lostShadow", c.lostShadow);
-    way.derived("any", c.any());
-}
-
-template <class Way>
-static void allFields(Way& way, PartOf<Way, ShadowMetrics> m) {
-    way.group("pixels", [&](auto& sets) {
-        sets.field("R", m.agreeing);
-        sets.field("R+", m.facing);
-        sets.field("Rc", m.certain);
-        sets.field("unmeasured", m.unmeasured);
-        sets.field("droppedShare", m.droppedShare);
-        sets.field("sound", m.sound);
-    });
-    way.object("awayFromEdges", m.headline);
-    way.object("raw", m.raw);
-    way.object("terminator", m.terminator);
-    way.object("selfShadowed", m.selfShadowed);
-    way.field("turnedAwayWrong", m.turnedAwayWrong);
-    way.object("boundaryPixels", m.boundary);
-    way.object("causes", m.causes);
-    way.object("rmsePointSun", m.pointSun);
-    way.object("rmseDiscSun", m.discSun);
-    way.object("rmsePointSunFiltered4x4", m.thin);
-    way.object("catastrophes", m.catastrophes);
-}
-
-std::string catastropheText(const Catastrophes& catastrophes) {
-    std::string text;
-    if (catastrophes.notFinite) text += pixels(catastrophes.notFinite) + " are not finite; ";
-    if (catastrophes.allShadowed) text += "all is shadowed; ";
-    if (catastrophes.allLit) text += "all is lit; ";
-    if (catastrophes.lostShadow) text += "intersection over union below 0.2; ";
-    return text.empty() ? "none" : text.substr(0, text.size() - 2);
-}
 
 std::string reportText(const ShadowMetrics& m) {
     std::ostringstream out;
@@ -170,14 +137,30 @@ std::string reportText(const ShadowMetrics& m) {
     return out.str();
 }
 
-void fields(FieldWriter& way, const ShadowMetrics& m) { allFields(way, m); }
-void fields(FieldReader& way, ShadowMetrics& m) { allFields(way, m); }
-
-nlohmann::ordered_json reportJson(const ShadowMetrics& m) {
-    nlohmann::ordered_json report;
-    FieldWriter way(report);
-    fields(way, m);
-    return report;
+nlohmann::ordered_json jsonOf(const ShadowMetrics& m) {
+    return {{"pixels",
+             {{"R", m.agreeing},
+              {"R+", m.facing},
+              {"Rc", m.certain},
+              {"unmeasured", m.unmeasured},
+              {"droppedShare", jsonOf(m.droppedShare)},
+              {"sound", m.sound}}},
+            {"awayFromEdges", countsJson(m.headline)},
+            {"raw", countsJson(m.raw)},
+            {"terminator", countsJson(m.terminator)},
+            {"selfShadowed", countsJson(m.selfShadowed)},
+            {"turnedAwayWrong", m.turnedAwayWrong},
+            {"boundaryPixels", m.boundary ? boundaryJson(*m.boundary) : ordered_json()},
+            {"causes", causesJson(m.causes)},
+            {"rmsePointSun", intensityJson(m.pointSun)},
+            {"rmseDiscSun", intensityJson(m.discSun)},
+            {"rmsePointSunFiltered4x4", intensityJson(m.thin)},
+            {"catastrophes",
+             {{"notFinitePixels", m.catastrophes.notFinite},
+              {"allShadowed", m.catastrophes.allShadowed},
+              {"allLit", m.catastrophes.allLit},
+              {"lostShadow", m.catastrophes.lostShadow},
+              {"any", m.catastrophes.any()}}}};
 }
 
 } // namespace gnomon::examples

@@ -8,9 +8,6 @@
 
 namespace gnomon::examples {
 
-/// A subgraph moved and scaled so that the box about it has its middle at the origin and its corners this far away.
-osg::ref_ptr<osg::MatrixTransform> fitted(osg::Node& root, double radius);
-
 /// A camera of fixed near and far planes.
 struct SceneCamera {
     osg::Matrixd view, projection;

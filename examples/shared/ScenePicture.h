@@ -18,6 +18,9 @@ public:
     /// The picture after so many frames, 30 a second of simulation time.
     osg::ref_ptr<osg::Image> draw(int frames = 1);
 
+    osgViewer::Viewer& viewer() { return _viewer; }
+    const HeadlessContext& context() const { return _context; }
+
 private:
     HeadlessContext _context; // before the viewer: it must outlive it
     osgViewer::Viewer _viewer;

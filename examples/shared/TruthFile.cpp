@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "TruthFile.h"
-#include "ImageFile.h"
+#include "InputFile.h"
 
 #include <osg/UserDataContainer>
 #include <osg/ValueObject>
@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
+#include <vector>
 
 namespace gnomon::examples {
 namespace {
@@ -15,44 +17,26 @@ namespace {
 using metrics::Grid;
 using metrics::TruthMaps;
 
-/// A truth's layers by name, all as floats.
-struct Layer {
-    std::string name;
-    Grid<float> values;
-};
-
-template <typename T>
-void addLayer(std::vector<Layer>& layers, const char* name, const Grid<T>& grid) {
-    if (grid.empty()) return;
-    Layer layer{name, Grid<float>(grid.width, grid.height)};
-    std::transform(grid.cells.begin(), grid.cells.end(), layer.values.cells.begin(),
-                   [](const T& value) { return static_cast<float>(value); });
-    layers.push_back(layer);
+/// Calls visit(name, grid, needed) for each map but the positions.
+template <class Maps, class Visit>
+void eachMap(Maps& truth, const Visit& visit) {
+    visit("lit", truth.lit, true);
+    visit("litCentre", truth.litCentre, true);
+    visit("blockerDistance", truth.blockerDistance, true);
+    visit("receiver", truth.receiver, true);
+    visit("facing", truth.facing, true);
+    visit("drawn", truth.drawn, false);
+    visit("litByDisc", truth.litByDisc, false);
+    visit("blocker", truth.blocker, false);
+    visit("edgeLength", truth.edgeLength, false);
 }
 
 constexpr const char* axes[] = {"x", "y", "z"};
 
-void addPositions(std::vector<Layer>& layers, const Grid<glm::dvec3>& position) {
-    for (int axis = 0; axis < 3; ++axis) {
-        Grid<double> one(position.width, position.height);
-        for (std::size_t i = 0; i < one.cells.size(); ++i) one.cells[i] = position.cells[i][axis];
-        addLayer(layers, axes[axis], one);
-    }
-}
-
-std::vector<Layer> layersOf(const TruthMaps& truth) {
-    std::vector<Layer> layers;
-    addLayer(layers, "lit", truth.lit);
-    addLayer(layers, "litCentre", truth.litCentre);
-    addLayer(layers, "blockerDistance", truth.blockerDistance);
-    addLayer(layers, "receiver", truth.receiver);
-    addLayer(layers, "facing", truth.facing);
-    addLayer(layers, "drawn", truth.drawn);
-    addLayer(layers, "litByDisc", truth.litByDisc);
-    addLayer(layers, "blocker", truth.blocker);
-    addLayer(layers, "edgeLength", truth.edgeLength);
-    addPositions(layers, truth.position);
-    return layers;
+Grid<double> along(int axis, const Grid<glm::dvec3>& position) {
+    Grid<double> one(position.width, position.height);
+    for (std::size_t i = 0; i < one.cells.size(); ++i) one.cells[i] = position.cells[i][axis];
+    return one;
 }
 
 osg::Vec3d toOsg(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -71,24 +55,30 @@ public:
         throw std::runtime_error("\"" + _file + "\" is not a truth file: " + why + ".");
     }
 
-    bool has(const std::string& name) const { return std::find(_names.begin(), _names.end(), name) != _names.end(); }
-
     template <typename T>
-    void take(const char* name, Grid<T>& grid) const {
+    void take(const std::string& name, Grid<T>& grid, bool needed) const {
         const auto found = std::find(_names.begin(), _names.end(), name);
+        if (found == _names.end() && needed) refuse("it has no layer \"" + name + "\"");
         if (found == _names.end()) return;
         grid = Grid<T>(_image.s(), _image.t());
-        const int layer = static_cast<int>(found - _names.begin());
+        const auto layer = static_cast<unsigned>(found - _names.begin());
         for (int y = 0; y < grid.height; ++y)
-            for (int x = 0; x < grid.width; ++x)
-                grid.at(x, y) = static_cast<T>(*reinterpret_cast<const float*>(
-                    _image.data(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(layer))));
+            for (int x = 0; x < grid.width; ++x) {
+                const float number = *reinterpret_cast<const float*>(
+                    _image.data(static_cast<unsigned>(x), static_cast<unsigned>(y), layer));
+                if (std::is_integral_v<T> && !(number >= 0.0f && number <= 16777216.0f)) // must not be converted
+                    refuse("its layer \"" + name + "\" holds a value that is not an id");
+                grid.at(x, y) = std::is_same_v<T, unsigned char> ? T(number != 0.0f) : static_cast<T>(number);
+            }
     }
 
-    template <typename T>
-    void need(const char* name, Grid<T>& grid) const {
-        if (!has(name)) refuse(std::string("it has no layer \"") + name + "\"");
-        take(name, grid);
+    void takePositions(Grid<glm::dvec3>& position) const {
+        Grid<double> one[3];
+        for (int axis = 0; axis < 3; ++axis) take(axes[axis], one[axis], false);
+        if (one[0].empty() || one[1].empty() || one[2].empty()) return;
+        position = Grid<glm::dvec3>(_image.s(), _image.t());
+        for (std::size_t i = 0; i < position.cells.size(); ++i)
+            position.cells[i] = {one[0].cells[i], one[1].cells[i], one[2].cells[i]};
     }
 
     void takeVector(const char* name, glm::dvec3& vector) const {
@@ -101,30 +91,6 @@ private:
     std::string _file;
     osg::UserDataContainer::DescriptionList _names;
 };
-
-/// An id or a flag that is no number at all must not reach a conversion to int.
-Grid<int> wholeNumbers(const Reader& reader, const char* name) {
-    Grid<double> numbers;
-    reader.take(name, numbers);
-    Grid<int> whole(numbers.width, numbers.height);
-    for (std::size_t i = 0; i < numbers.cells.size(); ++i) {
-        const double number = numbers.cells[i];
-        if (!(number >= 0.0 && number <= 16777216.0))
-            reader.refuse(std::string("its layer \"") + name + "\" holds a value that is not an id");
-        whole.cells[i] = static_cast<int>(number);
-    }
-    return whole;
-}
-
-void takePositions(const Reader& reader, Grid<glm::dvec3>& position) {
-    if (!reader.has("x") || !reader.has("y") || !reader.has("z")) return;
-    for (int axis = 0; axis < 3; ++axis) {
-        Grid<double> one;
-        reader.take(axes[axis], one);
-        if (position.empty()) position = Grid<glm::dvec3>(one.width, one.height);
-        for (std::size_t i = 0; i < one.cells.size(); ++i) position.cells[i][axis] = one.cells[i];
-    }
-}
 
 bool isShare(double value) { return value >= 0.0 && value <= 1.0; }
 
@@ -142,14 +108,18 @@ void requireNumbers(const Reader& reader, const TruthMaps& truth) {
 } // namespace
 
 osg::ref_ptr<osg::Image> truthImage(const TruthMaps& truth) {
-    const std::vector<Layer> layers = layersOf(truth);
     osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(truth.lit.width, truth.lit.height, static_cast<int>(layers.size()), GL_LUMINANCE, GL_FLOAT);
-    float* place = reinterpret_cast<float*>(image->data());
-    for (const Layer& layer : layers) {
-        place = std::copy(layer.values.cells.begin(), layer.values.cells.end(), place);
-        image->getOrCreateUserDataContainer()->addDescription(layer.name);
-    }
+    std::vector<float> values;
+    const auto add = [&](const char* name, const auto& grid, bool) {
+        if (grid.empty()) return;
+        image->getOrCreateUserDataContainer()->addDescription(name);
+        for (const auto& value : grid.cells) values.push_back(static_cast<float>(value));
+    };
+    eachMap(truth, add);
+    for (int axis = 0; axis < 3; ++axis) add(axes[axis], along(axis, truth.position), false);
+    const int layers = static_cast<int>(values.size() / truth.lit.cells.size());
+    image->allocateImage(truth.lit.width, truth.lit.height, layers, GL_LUMINANCE, GL_FLOAT);
+    std::copy(values.begin(), values.end(), reinterpret_cast<float*>(image->data()));
     image->setUserValue("towardsLight", toOsg(truth.towardsLight));
     image->setUserValue("up", toOsg(truth.up));
     return image;
@@ -158,22 +128,8 @@ osg::ref_ptr<osg::Image> truthImage(const TruthMaps& truth) {
 TruthMaps truthOf(const osg::Image& image, const std::string& file) {
     const Reader reader(image, file);
     TruthMaps truth;
-    reader.need("lit", truth.lit);
-    reader.need("blockerDistance", truth.blockerDistance);
-    reader.need("facing", truth.facing);
-    metrics::Picture needed;
-    reader.need("litCentre", needed);
-    reader.need("receiver", needed);
-    const Grid<int> litCentre = wholeNumbers(reader, "litCentre");
-    truth.litCentre = metrics::Mask(image.s(), image.t());
-    std::transform(litCentre.cells.begin(), litCentre.cells.end(), truth.litCentre.cells.begin(),
-                   [](int lit) { return static_cast<unsigned char>(lit != 0); });
-    truth.receiver = wholeNumbers(reader, "receiver");
-    truth.drawn = wholeNumbers(reader, "drawn");
-    truth.blocker = wholeNumbers(reader, "blocker");
-    reader.take("litByDisc", truth.litByDisc);
-    reader.take("edgeLength", truth.edgeLength);
-    takePositions(reader, truth.position);
+    eachMap(truth, [&](const char* name, auto& grid, bool needed) { reader.take(name, grid, needed); });
+    reader.takePositions(truth.position);
     reader.takeVector("towardsLight", truth.towardsLight);
     reader.takeVector("up", truth.up);
     requireNumbers(reader, truth);

@@ -169,11 +169,6 @@ void takeFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
     for (int i = 1; i < arguments.argc(); ++i) into.files.push_back(arguments[i]);
 }
 
-void readFiles(osg::ArgumentParser& arguments, ViewOptions& into) {
-    takeFiles(arguments, into);
-    if (into.files.empty()) refuse("no scene file is given. See --help.");
-}
-
 void takeUsualShadow(ViewOptions& into) {
     into.isUsual = into.shadows.empty();
     if (into.isUsual) into.shadows = {parseShadowSpec(into.usualShadow)};
@@ -189,6 +184,16 @@ void requireConsistent(const ViewOptions& options) {
     requireCamera(options);
     requireDepthRange(options);
     if (options.lights.size() > mostLights) refuse("--light is given more than 8 times. Allowed: 1 to 8 lights.");
+}
+
+void readViewOptions(osg::ArgumentParser& arguments, const Options& table, ViewOptions& into, const bool& help) {
+    readOptions(arguments, table);
+    readOsgOptions(arguments);
+    if (help) return;
+    takeFiles(arguments, into);
+    if (into.files.empty()) refuse("no scene file is given. See --help.");
+    takeUsualShadow(into);
+    requireConsistent(into);
 }
 
 } // namespace gnomon::examples

@@ -60,11 +60,13 @@ void addSize(Options& table, ViewOptions& into);
 /// Takes what is left of the command line as scene files, if anything. @throws std::invalid_argument if something is an
 /// option.
 void takeFiles(osg::ArgumentParser& arguments, ViewOptions& into);
-/// The same where one is needed. @throws std::invalid_argument if there is none, too.
-void readFiles(osg::ArgumentParser& arguments, ViewOptions& into);
-
 /// Takes the usual shadow where none is given.
 void takeUsualShadow(ViewOptions& into);
+
+/// Reads the command line of a program that shows scene files, of which one is needed.
+/// @param table  its options, those of `into` among them. @param help  of the table: nothing more is read then.
+/// @throws std::invalid_argument, one sentence that names what is wrong and what is allowed.
+void readViewOptions(osg::ArgumentParser& arguments, const Options& table, ViewOptions& into, const bool& help);
 
 /// Names of several specifications, "none" without any.
 std::string techniqueNames(const std::vector<ShadowSpec>& specs);

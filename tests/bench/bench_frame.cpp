@@ -3,7 +3,7 @@
 // stencil bits the pictures must be the same; a lamp among walls stands in gnomonchart's furnished room.
 #include "Contenders.h"
 
-#include <GeneratedScenes.h>
+#include <ChartScene.h>
 #include <support/Oracle.h>
 #include <support/Truth.h>
 
@@ -111,7 +111,7 @@ bool window(int frames) {
 bool lamp(int frames) {
     const Make room = [] {
         test::Scene scene = test::scene({0.1, 0.3, 1.25, 1.0});
-        scene.content->addChild(gnomon::examples::furnishedRoom());
+        scene.content->addChild(gnomon::examples::chartScene("room", 640, 480).content);
         return scene;
     };
     std::vector<Entry> entries = {{"none", ""}};

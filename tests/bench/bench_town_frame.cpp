@@ -4,8 +4,8 @@
 // interleaved run. The pictures are checked.
 #include "Contenders.h"
 
-#include <ElevationFile.h>
 #include <FrameTime.h>
+#include <InputFile.h>
 #include <TownScene.h>
 
 #include <gnomon/ShadowCasterGroup.h>

@@ -3,10 +3,8 @@
 #include "SmallScene.h"
 
 #include "Contender.h"
-#include "Errors.h"
 #include "ImageFile.h"
 #include "StageViewer.h"
-#include "Yardstick.h"
 
 #include <metrics/PixelSets.h>
 
@@ -26,6 +24,9 @@ namespace {
 using namespace gnomon::examples;
 using gnomon::metrics::Picture;
 using gnomon::metrics::ShadowMetrics;
+using test::errorsOf;
+using test::peerNamed;
+using test::smallYardstick;
 using Bytes = std::vector<unsigned char>;
 
 std::string nameOf(const Contender& contender) {
@@ -41,12 +42,6 @@ std::vector<Contender> everyContender() {
     return all;
 }
 
-const Peer& peerNamed(const std::string& name) {
-    for (const Peer& peer : peers())
-        if (peer.name == name) return peer;
-    throw std::logic_error("no peer " + name);
-}
-
 Bytes bytesOf(const StageViewer& viewer) {
     const osg::ref_ptr<osg::Image> image = viewer.image();
     return {image->data(), image->data() + image->getTotalSizeInBytes()};
@@ -60,16 +55,6 @@ Bytes pictureOf(const Contender& contender, const ChartScene& scene, Look look) 
     StageViewer viewer = viewerOf(contender, scene, look);
     viewer.draw();
     return bytesOf(viewer);
-}
-
-ShadowMetrics errorsOf(const Contender& contender, const ChartScene& drawn, const Yardstick& yardstick) {
-    Sight sight(contender, drawn);
-    return gnomon::metrics::shadowMetrics(sight.visibility(), yardstick.maps(), yardstick.limits());
-}
-
-const Yardstick& smallYardstick() {
-    static const Yardstick yardstick(test::smallScene(), false);
-    return yardstick;
 }
 
 /// The bounding-box method as published finds a shadow, but a box's: the casters here are a sphere and a turned house.

@@ -2,7 +2,6 @@
 // What auto's model expects of fixed settings, asked for a small scene.
 #include "SmallScene.h"
 
-#include "Errors.h"
 #include "Forecasts.h"
 
 #include <support/Mesh.h>
@@ -93,9 +92,7 @@ TEST(Forecasts, OfMapsAreByTheEdgesThatAreSeen) {
         Forecasts forecasts(scene);
         for (const char* spec : {"map:filter=nearest,composite=blend,size=1024,cascades=1", "map"}) {
             const Contender contender = gnomonContender(spec, Receives::EVERYTHING);
-            Sight sight(contender, scene);
-            const auto measured =
-                gnomon::metrics::shadowMetrics(sight.visibility(), yardstick.maps(), yardstick.limits());
+            const auto measured = test::errorsOf(contender, scene, yardstick);
             const double predicted = forecasts.of(contender)->error.value(), edge = measured.boundary->p95;
             EXPECT_LT(predicted, 1.5 * edge) << name << ", " << spec;
             EXPECT_GT(predicted, edge / 1.5) << name << ", " << spec;

@@ -3,7 +3,6 @@
 #include "SmallScene.h"
 
 #include "Contender.h"
-#include "Errors.h"
 #include "FlickerRun.h"
 #include "ImageFile.h"
 #include "Race.h"
@@ -28,6 +27,8 @@ namespace {
 
 using namespace gnomon::examples;
 using gnomon::metrics::FlickerMeter;
+using test::peerNamed;
+using test::smallYardstick;
 
 /// For the whole process: Mesa asks where it is once.
 const ShaderCache& shaders() {
@@ -35,30 +36,25 @@ const ShaderCache& shaders() {
     return cache;
 }
 
-const Peer& peerNamed(const std::string& name) {
-    for (const Peer& peer : peers())
-        if (peer.name == name) return peer;
-    throw std::logic_error("no peer " + name);
-}
-
 Contender defaultsOf(const std::string& name) { return peerContender(peerNamed(name), "defaults", {}); }
 
-const Yardstick& yardstick() {
-    static const Yardstick made(test::smallScene(), false);
-    return made;
-}
-
 bool never() { return false; }
+
+/// A race to its end.
+RaceResults raced(const ChartScene& scene, const std::vector<Contender>& contenders, int frames = 2) {
+    return race(scene, contenders, frames, shaders(), [](int, int) { return true; });
+}
 
 /// The ground, the house, the sphere: three draws of 2, 12 and more triangles. A map draws them again, analysis of what
 /// is drawn once more; ShadowTexture draws all but its receiver again.
 TEST(Race, CountsDrawsAndPassesByWhatReachesOpenGL) {
     const std::vector<Contender> all = {defaultsOf("ShadowMap"), defaultsOf("MinimalDrawBounds"),
                                         defaultsOf("ShadowTexture"), plainContender()};
-    const RaceResults results = race(test::smallScene(), all, 2, shaders(), [](int, int) { return true; });
+    const RaceResults results = raced(test::smallScene(), all);
     ASSERT_EQ(results.contenders.size(), 4u);
     const unsigned draws[] = {6, 9, 5, 3}, passes[] = {2, 3, 2, 1};
-    const std::size_t all3 = yardstick().truth().triangles(), triangles[] = {2 * all3, 3 * all3, 2 * all3 - 2, all3};
+    const std::size_t all3 = smallYardstick().truth().triangles(),
+                      triangles[] = {2 * all3, 3 * all3, 2 * all3 - 2, all3};
     for (std::size_t i = 0; i < 4; ++i) {
         ASSERT_TRUE(results.contenders[i].cost) << results.contenders[i].failure;
         EXPECT_EQ(results.contenders[i].cost->draws, draws[i]) << all[i].technique;
@@ -78,7 +74,7 @@ TEST(Race, CountsArraysAndElementsToo) {
         if (x < 0.0f) quad->setPrimitiveSet(0, new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4)); // else it has indices
         scene.content->addChild(quad);
     }
-    const RaceResults results = race(scene, {plainContender()}, 2, shaders(), [](int, int) { return true; });
+    const RaceResults results = raced(scene, {plainContender()});
     ASSERT_TRUE(results.contenders[0].cost);
     EXPECT_EQ(results.contenders[0].cost->draws, 2u);
     EXPECT_EQ(results.contenders[0].cost->triangles, 4u);
@@ -88,7 +84,7 @@ TEST(Race, CountsArraysAndElementsToo) {
 TEST(Race, CountsWhatTheMarksOfGnomonDrawToo) {
     std::vector<Contender> all = gnomonContenders();
     all.insert(all.begin(), plainContender());
-    const RaceResults results = race(test::smallScene(), all, 2, shaders(), [](int, int) { return true; });
+    const RaceResults results = raced(test::smallScene(), all);
     const unsigned plain = results.contenders[0].cost->draws;
     for (std::size_t i = 1; i < all.size(); ++i) {
         const auto begins = [](const std::string& text, const char* with) { return text.rfind(with, 0) == 0; };
@@ -128,7 +124,7 @@ TEST(Race, CountsDrawsOfAContenderThatLearnsOnlyAfterwards) {
     Contender learner = quick;
     learner.learns = true;
     const std::vector<Contender> all = {plainContender(), quick, learner};
-    const RaceResults results = race(test::smallScene(), all, 2, shaders(), [](int, int) { return true; });
+    const RaceResults results = raced(test::smallScene(), all);
     const unsigned plain = results.contenders[0].cost->draws;
     EXPECT_EQ(results.contenders[1].cost->draws, 2 * plain);
     EXPECT_EQ(results.contenders[2].cost->draws, plain);
@@ -180,7 +176,7 @@ Contender laborious(double steady, double moving) {
 /// Of 20 and 60 ms of work, which a machine may take longer for but never less long. A frame of the scene takes a few.
 TEST(Race, TellsWhatEachContenderAddsToThePlainFrameWhileTheLightStandsAndMoves) {
     const std::vector<Contender> all = {plainContender(), laborious(20.0, 60.0), laborious(60.0, 20.0)};
-    const RaceResults results = race(test::smallScene(), all, 3, shaders(), [](int, int) { return true; });
+    const RaceResults results = raced(test::smallScene(), all, 3);
     const auto costOf = [&](std::size_t i) { return *results.contenders[i].cost; };
     EXPECT_LT(std::abs(costOf(0).steadyProcessor.median), 20.0) << "the plain scene against itself";
     EXPECT_LT(std::abs(costOf(0).movingProcessor.median), 20.0);
@@ -208,7 +204,7 @@ TEST(Race, AContenderThatFailsIsOutAndTheOthersRun) {
     scene.receiver.clear();
     scene.terrain.clear();
     const std::vector<Contender> all = {defaultsOf("ShadowTexture"), defaultsOf("ShadowMap")};
-    const RaceResults results = race(scene, all, 2, shaders(), [](int, int) { return true; });
+    const RaceResults results = raced(scene, all);
     EXPECT_FALSE(results.contenders[0].cost);
     EXPECT_NE(results.contenders[0].failure.find("names none"), std::string::npos);
     EXPECT_TRUE(results.contenders[1].cost);
@@ -217,9 +213,9 @@ TEST(Race, AContenderThatFailsIsOutAndTheOthersRun) {
 /// Rays are still wherever the truth is; the map of ViewDependentShadowMap slides over the scene as the camera moves, that
 /// of ShadowMap, laid about the whole scene, does not. 1e-3 of energy is a thousandth of the picture's lit range.
 TEST(Film, MapsThatFollowTheCameraFlicker) {
-    const Film film(yardstick(), Film::Motion::CAMERA, 4, never);
+    const Film film(smallYardstick(), Film::Motion::CAMERA, 4, never);
     const auto energy = [&](const Contender& contender) {
-        Sight sight(contender, yardstick().scene());
+        Sight sight(contender, smallYardstick().scene());
         return film.measure(sight, never).energy().value();
     };
     EXPECT_LT(energy(gnomonContenders().front()), 1e-3);
@@ -229,9 +225,9 @@ TEST(Film, MapsThatFollowTheCameraFlicker) {
 
 /// Edges of Gnomon's map stand still while the camera goes on and turns; those of a coarse ParallelSplitShadowMap swim.
 TEST(Film, InEighthsOfAPixelTellsASwimmingMapFromASteadyOne) {
-    const Film film(yardstick(), Film::Motion::PIXELS, 17, never);
+    const Film film(smallYardstick(), Film::Motion::PIXELS, 17, never);
     const auto crawl = [&](const Contender& contender) {
-        Sight sight(contender, yardstick().scene());
+        Sight sight(contender, smallYardstick().scene());
         return film.measure(sight, never).crawlBeyondRays().value();
     };
     EXPECT_LT(crawl(gnomonContender("traced", Receives::EVERYTHING)), 1e-9);
@@ -241,18 +237,17 @@ TEST(Film, InEighthsOfAPixelTellsASwimmingMapFromASteadyOne) {
 
 /// The first object is the ground.
 TEST(Film, LooksAtTheFirstObjectsAlone) {
-    const Film film(yardstick(), Film::Motion::PIXELS, 3, never);
-    Sight sight(defaultsOf("ViewDependent perspective"), yardstick().scene());
+    const Film film(smallYardstick(), Film::Motion::PIXELS, 3, never);
+    Sight sight(defaultsOf("ViewDependent perspective"), smallYardstick().scene());
     EXPECT_FALSE(film.measure(sight, never, 0).energy());
     EXPECT_GT(film.measure(sight, never, 1).energy().value(), 0.0);
 }
 
 TEST(Sweep, FindsSettingsThatAreNoWorseThanTheDefaults) {
     const Peer& peer = peerNamed("ShadowMap");
-    const Settings best = bestSettings(peer, yardstick(), SweepWidth::WIDE, [] { return true; });
+    const Settings best = bestSettings(peer, smallYardstick(), SweepWidth::WIDE, [] { return true; });
     const auto scoreOf = [&](const Settings& settings) {
-        Sight sight(peerContender(peer, "", settings), yardstick().scene());
-        return score(gnomon::metrics::shadowMetrics(sight.visibility(), yardstick().maps(), yardstick().limits()));
+        return score(test::errorsOf(peerContender(peer, "", settings), smallYardstick().scene(), smallYardstick()));
     };
     EXPECT_LE(scoreOf(best), scoreOf({}));
     EXPECT_LT(scoreOf(best), scoreOf({{"size", "512"}, {"polygonOffset", "4,16"}}));
@@ -263,7 +258,7 @@ TEST(Sweep, FindsSettingsThatAreNoWorseThanTheDefaults) {
 }
 
 TEST(Sweep, StoppedItReturnsTheDefaults) {
-    const Settings best = bestSettings(peerNamed("Standard"), yardstick(), SweepWidth::WIDE, never);
+    const Settings best = bestSettings(peerNamed("Standard"), smallYardstick(), SweepWidth::WIDE, never);
     EXPECT_TRUE(best.empty());
 }
 

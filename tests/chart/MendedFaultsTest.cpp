@@ -14,7 +14,7 @@ namespace {
 
 using namespace gnomon::examples;
 
-StabilityRow measured(const std::string& scene, double value, const StabilityContender& contender, int height) {
+StabilityRow measured(const std::string& scene, double value, const Entrant& contender, int height) {
     StabilityPlan plan;
     plan.scenes = stabilityScenes(std::vector<std::string>{scene});
     plan.scenes[0].values = {value};
@@ -55,7 +55,7 @@ TEST(MendedFaults, MapAndAutoAreAsGoodAsARayAPixelWhereShadowsAreThin) {
 
 TEST(MendedFaults, APictureWithoutShadowsIsOutOfItsBudgetThere) {
     for (const auto& [scene, value] : {std::pair("S4", 0.0), {"S4", 90.0}, {"S8", 3.0}, {"V6", 100.0}, {"S13", 256.0}})
-        EXPECT_FALSE(measured(scene, value, StabilityContender{plainContender()}, 120).cells[0].inBudget()) << scene;
+        EXPECT_FALSE(measured(scene, value, Entrant{plainContender()}, 120).cells[0].inBudget()) << scene;
 }
 
 /// Rays began within the house where a pixel's neighbour is on another face; and under all that is seen, for OpenGL's floats
@@ -83,8 +83,7 @@ TEST(MendedFaults, NoTechniqueLeavesWallsBrightOrStripedThatAreTurnedAway) {
 }
 
 TEST(MendedFaults, APictureWithoutShadowsHasWallsThatAreBrightThoughTurnedAway) {
-    EXPECT_GT(measured("L12", 8.0, StabilityContender{plainContender()}, 120).cells[0].everywhere.turnedAwayWrong,
-              500u);
+    EXPECT_GT(measured("L12", 8.0, Entrant{plainContender()}, 120).cells[0].everywhere.turnedAwayWrong, 500u);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Random scenes: no technique loses its shadow without a word; a fault's scene is made plain.
-#include "RandomSearch.h"
+#include "RandomScene.h"
 
 #include <gtest/gtest.h>
 
@@ -17,14 +17,14 @@ constexpr unsigned inCi = 500; // of the 10,000 that gnomonchart --random 10000 
 bool goOn(std::size_t, const std::string&) { return true; }
 
 /// Each seed has 3 or more of them, so that two cores do all in a minute.
-std::vector<StabilityContender> techniques(const std::set<std::string>& names) {
-    std::vector<StabilityContender> all = stabilityContenders({}, false);
-    const auto isOther = [&](const StabilityContender& each) { return !names.count(each.contender.technique); };
+std::vector<Entrant> techniques(const std::set<std::string>& names) {
+    std::vector<Entrant> all = stabilityContenders({}, false);
+    const auto isOther = [&](const Entrant& each) { return !names.count(each.contender.technique); };
     all.erase(std::remove_if(all.begin(), all.end(), isOther), all.end());
     return all;
 }
 
-RandomSearch searchOf(unsigned count, std::vector<StabilityContender> contenders) {
+RandomSearch searchOf(unsigned count, std::vector<Entrant> contenders) {
     RandomSearch search;
     search.count = count;
     search.contenders = std::move(contenders);
@@ -106,8 +106,8 @@ TEST(RandomScenes, HavePlainerOnesUntilNothingIsLeftToTakeAway) {
         scene = plainer.back();
     }
     ASSERT_EQ(scene.casters.size(), 1u);
-    EXPECT_EQ(scene.casters[0].shape, RandomShape::BOX);
-    EXPECT_EQ(scene.casters[0].state, RandomState::PLAIN);
+    EXPECT_EQ(scene.casters[0].shape, 0);
+    EXPECT_EQ(scene.casters[0].state, 0);
     EXPECT_EQ(scene.half, RandomScene().half);
     EXPECT_EQ(scene.ground, RandomScene::Ground::FLAT);
 }

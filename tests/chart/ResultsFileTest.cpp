@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// results.json there and back.
+// What results.json holds, and what of it a run that goes on keeps.
 #include "../io/Program.h"
 #include "ChartResults.h"
 
@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 namespace {
@@ -98,14 +99,14 @@ ChartResults fullResults() {
 class ResultsFile : public ::testing::Test {
 protected:
     std::string file() const { return (folder.path() / "results.json").string(); }
-    std::string saved(const ChartResults& results) {
+    json saved(const ChartResults& results) {
         saveResults(results, folder.path().string());
-        return readFile(file());
+        return json::parse(readFile(file()));
     }
     std::string refusalOf(const std::string& bytes) {
         folder.write("results.json", bytes);
         try {
-            loadResults(file());
+            loadResults(folder.path().string());
         } catch (const std::runtime_error& error) {
             return error.what();
         }
@@ -115,117 +116,76 @@ protected:
     TemporaryFolder folder;
 };
 
-/// With EveryNumberStandsUnderItsOwnName: what is written is read.
-TEST_F(ResultsFile, IsTheSameToTheBitWhenItIsReadAndWrittenAgain) {
+TEST_F(ResultsFile, HoldsTextAsItIsAndNumbersThatJsonHasNotAsText) {
     ChartResults results = fullResults();
-    results.points.push_back(fullPoint());
-    results.points[2].cost->first = nan;
-    results.points[2].cost->steadyWall = {-infinity, 0.0, infinity};
-    results.points[2].errors->boundary.reset();
-    const std::string text = saved(results);
-    const ChartResults back = loadResults(file());
-    EXPECT_EQ(saved(back), text);
-    EXPECT_EQ(back.points[0].technique, "map \"soft\", 'wide'");
-    EXPECT_EQ(back.points[0].notes[1], "影");
-    EXPECT_EQ(back.points[0].cost->steadyWall.median, 3.0 + 1.0 / 3.0); // the counter's third
-    EXPECT_TRUE(std::isnan(back.points[2].cost->first));
-    EXPECT_EQ(back.points[2].cost->steadyWall.q1, -infinity);
-    EXPECT_FALSE(back.points[2].errors->boundary);
-    EXPECT_FALSE(back.points[1].cost || back.points[1].errors || back.points[1].prediction);
+    results.points[0].cost->first = nan;
+    results.points[0].cost->steadyWall = {-infinity, 0.0, infinity};
+    results.points[0].errors->boundary.reset();
+    results.points[0].notes = {"a\xff" // no UTF-8
+                               "b",
+                               "影"};
+    const json file = saved(results), &point = file["points"][0], &failed = file["points"][1];
+    EXPECT_EQ(point["technique"], "map \"soft\", 'wide'");
+    EXPECT_EQ(point["settings"], json::parse(R"([["size", "1024"], ["filter", "a,b\"c\""]])"));
+    EXPECT_EQ(point["notes"], json({"a\xef\xbf\xbd"
+                                    "b",
+                                    "影"}));
+    EXPECT_EQ(point["cost"]["firstMs"], "NaN");
+    EXPECT_EQ(point["cost"]["steadyWallMs"], json({{"q1", "-Infinity"}, {"median", 0.0}, {"q3", "Infinity"}}));
+    EXPECT_TRUE(point["errors"]["boundaryPixels"].is_null());
+    EXPECT_TRUE(failed["cost"].is_null() && failed["errors"].is_null() && failed["prediction"].is_null());
+    EXPECT_EQ(failed["failure"], "It crashed: signal 11.");
     EXPECT_EQ(folder.list(), std::vector<std::string>{"results.json"});
 }
 
-TEST_F(ResultsFile, TextThatIsNotUtf8IsMended) {
-    ChartResults results = fullResults();
-    results.points[0].notes = {"a\xff"
-                               "b"};
-    saved(results);
-    EXPECT_EQ(loadResults(file()).points.at(0).notes.at(0), "a\xef\xbf\xbd"
-                                                            "b");
+TEST_F(ResultsFile, KeepsAnEarlierRunsToTheBitBeforeItsOwn) {
+    const json earlier = saved(fullResults());
+    ChartResults more;
+    more.kept = loadResults(folder.path().string());
+    more.points = {ChartPoint()};
+    const json both = saved(more);
+    EXPECT_EQ(both["scenes"], earlier["scenes"]);
+    ASSERT_EQ(both["points"].size(), 3u);
+    for (int i : {0, 1}) EXPECT_EQ(both["points"][i], earlier["points"][i]);
 }
 
 /// Where results.json holds what fullPoint() counts, in the order in which it does.
-const std::vector<const char*> countedPlaces{"/cost/firstMs",
-                                             "/cost/steadyWallMs/q1",
-                                             "/cost/steadyWallMs/median",
-                                             "/cost/steadyWallMs/q3",
-                                             "/cost/steadyProcessorMs/q1",
-                                             "/cost/steadyProcessorMs/median",
-                                             "/cost/steadyProcessorMs/q3",
-                                             "/cost/movingWallMs/q1",
-                                             "/cost/movingWallMs/median",
-                                             "/cost/movingWallMs/q3",
-                                             "/cost/movingProcessorMs/q1",
-                                             "/cost/movingProcessorMs/median",
-                                             "/cost/movingProcessorMs/q3",
-                                             "/cost/memoryMiB",
-                                             "/cost/draws",
-                                             "/cost/passes",
-                                             "/cost/triangles",
-                                             "/errors/pixels/R",
-                                             "/errors/pixels/R+",
-                                             "/errors/pixels/Rc",
-                                             "/errors/pixels/unmeasured",
-                                             "/errors/pixels/droppedShare",
-                                             "/errors/awayFromEdges/shadow",
-                                             "/errors/awayFromEdges/falseShadow",
-                                             "/errors/awayFromEdges/falseLit",
-                                             "/errors/awayFromEdges/lit",
-                                             "/errors/raw/shadow",
-                                             "/errors/raw/falseShadow",
-                                             "/errors/raw/falseLit",
-                                             "/errors/raw/lit",
-                                             "/errors/terminator/shadow",
-                                             "/errors/terminator/falseShadow",
-                                             "/errors/terminator/falseLit",
-                                             "/errors/terminator/lit",
-                                             "/errors/selfShadowed/shadow",
-                                             "/errors/selfShadowed/falseShadow",
-                                             "/errors/selfShadowed/falseLit",
-                                             "/errors/selfShadowed/lit",
-                                             "/errors/turnedAwayWrong",
-                                             "/errors/boundaryPixels/mean",
-                                             "/errors/boundaryPixels/p95",
-                                             "/errors/boundaryPixels/max",
-                                             "/errors/boundaryPixels/signedMean",
-                                             "/errors/boundaryPixels/drawnLength",
-                                             "/errors/boundaryPixels/trueLength",
-                                             "/errors/causes/acne",
-                                             "/errors/causes/halo",
-                                             "/errors/causes/peterPanning",
-                                             "/errors/causes/leak",
-                                             "/errors/causes/erosion",
-                                             "/errors/causes/overDark",
-                                             "/errors/causes/overBright",
-                                             "/errors/causes/acneShare",
-                                             "/errors/causes/peterPanningShare",
-                                             "/errors/causes/gapMetres",
-                                             "/errors/rmsePointSun/all",
-                                             "/errors/rmsePointSun/penumbra",
-                                             "/errors/rmseDiscSun/all",
-                                             "/errors/rmseDiscSun/penumbra",
-                                             "/errors/rmsePointSunFiltered4x4/all",
-                                             "/errors/rmsePointSunFiltered4x4/penumbra",
-                                             "/errors/catastrophes/notFinitePixels",
-                                             "/shadedRmse",
-                                             "/flickerEnergy",
-                                             "/flickerShare",
-                                             "/crawlPixels",
-                                             "/prediction/boundaryP95Pixels",
-                                             "/prediction/steadyProcessor/ms",
-                                             "/prediction/movingProcessor/ms"};
+std::vector<std::string> countedPlaces() {
+    std::vector<std::string> places;
+    const auto add = [&places](const std::string& part, const std::vector<const char*>& names) {
+        for (const char* name : names) places.push_back(part + "/" + name);
+    };
+    add("/cost", {"firstMs"});
+    for (const char* time : {"steadyWallMs", "steadyProcessorMs", "movingWallMs", "movingProcessorMs"})
+        add(std::string("/cost/") + time, {"q1", "median", "q3"});
+    add("/cost", {"memoryMiB", "draws", "passes", "triangles"});
+    add("/errors/pixels", {"R", "R+", "Rc", "unmeasured", "droppedShare"});
+    for (const char* set : {"awayFromEdges", "raw", "terminator", "selfShadowed"})
+        add(std::string("/errors/") + set, {"shadow", "falseShadow", "falseLit", "lit"});
+    add("/errors", {"turnedAwayWrong"});
+    add("/errors/boundaryPixels", {"mean", "p95", "max", "signedMean", "drawnLength", "trueLength"});
+    add("/errors/causes", {"acne", "halo", "peterPanning", "leak", "erosion", "overDark", "overBright", "acneShare",
+                           "peterPanningShare", "gapMetres"});
+    for (const char* error : {"rmsePointSun", "rmseDiscSun", "rmsePointSunFiltered4x4"})
+        add(std::string("/errors/") + error, {"all", "penumbra"});
+    add("/errors/catastrophes", {"notFinitePixels"});
+    add("", {"shadedRmse", "flickerEnergy", "flickerShare", "crawlPixels"});
+    add("/prediction", {"boundaryP95Pixels", "steadyProcessor/ms", "movingProcessor/ms"});
+    return places;
+}
 
-TEST_F(ResultsFile, EveryNumberStandsUnderItsOwnName) { // one list serves both ways: two names swapped would come back
-    saveResults(fullResults(), folder.path().string());
-    const json point = json::parse(readFile(file()))["points"][0];
-    for (std::size_t i = 0; i < countedPlaces.size(); ++i) {
-        const json number = point.value(json::json_pointer(countedPlaces[i]), json());
+TEST_F(ResultsFile, EveryNumberStandsUnderItsOwnName) {
+    const json point = saved(fullResults())["points"][0];
+    const std::vector<std::string> places = countedPlaces();
+    ASSERT_EQ(places.size(), 69u);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const json number = point.value(json::json_pointer(places[i]), json());
         const double third = number.is_number_float() ? 1.0 / 3.0 : 0.0; // see Counter
-        EXPECT_EQ(number, double(i + 1) + third) << countedPlaces[i];
+        EXPECT_EQ(number, double(i + 1) + third) << places[i];
     }
 }
 
-TEST_F(ResultsFile, RefusesABrokenFileInOneSentence) {
+TEST_F(ResultsFile, RefusesABrokenOrMissingFileInOneSentence) {
     saveResults(fullResults(), folder.path().string());
     const std::string whole = readFile(file()), begin = "\"" + file() + "\" cannot be read as results of gnomonchart: ";
     const auto changed = [&](const std::string& old, const std::string& by) {
@@ -234,28 +194,17 @@ TEST_F(ResultsFile, RefusesABrokenFileInOneSentence) {
     };
     EXPECT_EQ(refusalOf(whole.substr(0, whole.size() / 2)), begin + "it is not a complete JSON file.");
     EXPECT_EQ(refusalOf(""), begin + "it is not a complete JSON file.");
-    EXPECT_EQ(refusalOf("[]"), begin + "\"gnomonchart\" is missing.");
-    EXPECT_EQ(changed("\"gnomonchart\": 2", "\"gnomonchart\": 1"), begin + "its version is 1. Allowed: 2.");
-    EXPECT_EQ(changed("\"complete\": true", "\"complete\": 1"), begin + "\"complete\" is of another kind.");
-    EXPECT_EQ(changed("\"triangles\": 3000000", "\"triangles\": -3"),
-              begin + "scenes[0]: \"triangles\" is of another kind.");
-    EXPECT_EQ(changed("\"firstMs\"", "\"f\""), begin + "points[0]: cost: \"firstMs\" is missing.");
-    EXPECT_EQ(changed("\"p95\"", "\"p\""), begin + "points[0]: errors: boundaryPixels: \"p95\" is missing.");
-    EXPECT_EQ(changed("\"causes\": {", "\"causes\": 3, \"c\": {"),
-              begin + "points[0]: errors: causes: \"acne\" is missing.");
-    EXPECT_EQ(changed("\"影\"", "7"), begin + "points[0]: \"notes\" is of another kind.");
-}
-
-TEST_F(ResultsFile, RefusesAFileThatIsNotThere) {
-    const std::string gone = (folder.path() / "gone.json").string();
+    EXPECT_EQ(refusalOf("[]"), begin + "it is not a complete JSON file.");
+    EXPECT_EQ(changed("\"gnomonchart\": 2", "\"gnomonchart\": 1"), begin + "its version is not 2.");
+    EXPECT_EQ(changed("\"points\"", "\"p\""), begin + "\"points\" is missing.");
+    std::filesystem::remove(file());
     try {
-        loadResults(gone);
+        loadResults(folder.path().string());
         FAIL();
     } catch (const std::runtime_error& error) {
-        EXPECT_EQ(error.what(), "there is no file \"" + gone + "\". Give the results.json of a run of gnomonchart.");
+        EXPECT_EQ(error.what(), "there is no file \"" + file() + "\". Give the folder of a run of gnomonchart.");
     }
-    EXPECT_THROW(loadResults(folder.path().string()), std::runtime_error);
-    EXPECT_THROW(saveResults({}, gone), std::runtime_error);
+    EXPECT_THROW(saveResults({}, file()), std::runtime_error);
 }
 
 } // namespace

@@ -4,14 +4,14 @@
 #include <support/Mesh.h>
 #include <support/Picture.h>
 
+#include <stdexcept>
+
 namespace test {
 namespace {
 
-using gnomon::examples::ChartScene;
+using namespace gnomon::examples;
 
-gnomon::examples::SceneCamera cameraOf(const View& view) {
-    return {view.view, view.projection, view.width, view.height};
-}
+SceneCamera cameraOf(const View& view) { return {view.view, view.projection, view.width, view.height}; }
 
 } // namespace
 
@@ -30,6 +30,23 @@ ChartScene smallScene() {
     scene.bounds.set(-8.0, -8.0, 0.0, 8.0, 8.0, 3.5);
     scene.center.set(0.0, 0.0, 1.0);
     return scene;
+}
+
+const Yardstick& smallYardstick() {
+    static const Yardstick yardstick(smallScene(), false);
+    return yardstick;
+}
+
+const Peer& peerNamed(const std::string& name) {
+    for (const Peer& peer : peers())
+        if (peer.name == name) return peer;
+    throw std::logic_error("no peer " + name);
+}
+
+gnomon::metrics::ShadowMetrics errorsOf(const Contender& contender, const ChartScene& drawn,
+                                        const Yardstick& yardstick) {
+    Sight sight(contender, drawn);
+    return gnomon::metrics::shadowMetrics(sight.visibility(), yardstick.maps(), yardstick.limits());
 }
 
 } // namespace test

@@ -52,7 +52,7 @@ void hang() {
 
 StabilityPlan smallPlan() {
     StabilityPlan plan;
-    plan.scenes = {{"T1", "tests", "Box", "About.", "radius", "m", {1.0, hostile, 3.0}, madeOf(boxOnGround)}};
+    plan.scenes = {{{"T1", "tests", "Box", "About.", "radius", "m", {1.0, hostile, 3.0}}, madeOf(boxOnGround)}};
     plan.width = 128;
     plan.height = 96;
     return plan;

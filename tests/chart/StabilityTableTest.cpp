@@ -258,7 +258,7 @@ TEST(StabilityFiles, HoldCellsAndOutcomes) {
     const auto folder = std::filesystem::temp_directory_path() / ("stability-" + std::to_string(getpid()));
     std::filesystem::create_directory(folder);
     saveStability(results, folder.string());
-    const auto saved = nlohmann::json::parse(std::ifstream(folder / "stability.json"));
+    const auto saved = nlohmann::ordered_json::parse(std::ifstream(folder / "stability.json"));
     std::filesystem::remove_all(folder);
     EXPECT_EQ(saved["scenes"][0]["values"], (std::vector<double>{1.0, 0.1, 1e7}));
     EXPECT_EQ(saved["rows"][0]["outcome"], "catastrophe");

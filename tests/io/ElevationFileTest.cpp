@@ -3,7 +3,7 @@
 // on the mountains of Jacksboro.
 #include "Program.h"
 
-#include <ElevationFile.h>
+#include <InputFile.h>
 
 #include <gnomon/TerrainGround.h>
 #include <gnomon/ground/HeightPyramid.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The chart's scenes: each can be judged, has light and shadow, and is drawn as well as one ray a pixel can be.
 #include <ChartScene.h>
-#include <SceneFile.h>
+#include <InputFile.h>
 #include <SceneLights.h>
 #include <SceneTruth.h>
 #include <support/Picture.h>
@@ -10,8 +10,8 @@
 
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
-#include <metrics/PixelSets.h>
 #include <gtest/gtest.h>
+#include <metrics/PixelSets.h>
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Material>
 #include <osg/MatrixTransform>

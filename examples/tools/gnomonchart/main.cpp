@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // gnomonchart: how fast and how wrong every shadow technique is, osgShadow's in the same run.
-#include "ChartOptions.h"
 #include "ChartRun.h"
 #include "Contender.h"
-#include "Machine.h"
+#include "ImageFile.h"
+#include "InputFile.h"
 #include "OutputFile.h"
-#include "Progress.h"
-#include "RandomSearch.h"
-#include "SceneFile.h"
+#include "RandomScene.h"
 #include "SceneTruth.h"
 #include "StabilityResults.h"
 #include "StabilityRun.h"
 #include "StabilityScene.h"
 #include "StageViewer.h"
+#include "TimeLeft.h"
+#include "ViewOptions.h"
 
 #include <gnomon_report.h>
 
@@ -20,22 +20,207 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
+#include <array>
 #include <csignal>
-#include <cstring>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <sys/wait.h>
 #include <thread>
-#include <unistd.h>
+#include <vector>
 
 namespace {
 
 using namespace gnomon;
 using namespace gnomon::examples;
+
+/// What gnomonchart's command line asks for.
+struct ChartOptions {
+    ViewOptions view;                         ///< files, and how they are seen; its size is that of all pictures.
+    std::vector<std::string> scenes;          ///< names of built-in ones.
+    std::vector<std::string> techniques;      ///< parts of techniques' names; none: all.
+    std::string out = "chart-out";            ///< folder.
+    std::string again;                        ///< folder of results to be drawn again; empty: measure.
+    std::optional<int> frames;                ///< 60, or 12 with quick.
+    std::optional<int> flicker;               ///< frames of each film; 16, or 8 with quick; none below 2.
+    bool resume = false;                      ///< go on with what is in `out`.
+    bool stability = false;                   ///< the stability table, of the scenes in stabilityScenes.
+    std::vector<std::string> stabilityScenes; ///< ids; empty: all.
+    bool model = false;                       ///< judge techniques on the files against rays instead.
+    std::optional<unsigned> random;           ///< search so many random scenes instead.
+    unsigned seed = 1;                        ///< of the first of them.
+    bool quick = false, list = false, help = false;
+
+    int frameCount() const { return frames.value_or(quick ? 12 : 60); }
+    int flickerFrames() const { return flicker.value_or(quick ? 8 : 16); }
+};
+
+constexpr int leastFrames = 2, mostFrames = 10000;
+constexpr int mostFlickerFrames = 1000;
+constexpr int mostRandom = 1000000, mostSeed = 1000000000;
+constexpr int stabilityWidth = 160, stabilityHeight = 120;
+constexpr int leastSide = 32; // pixels; smaller pictures have no pixel that is judged
+
+// Every technique is measured, each with its own casters and receivers, under light of the chart's own.
+constexpr std::array<const char*, 5> notOfUse{"--shadow", "--casters", "--ambient", "--diffuse", "--background"};
+
+using Text = const std::string&;
+
+void addChartOptions(Options& table, ChartOptions& into) {
+    table.push_back({"--scene", "NAME", "built-in scene, see --list", "all, if no FILE is given",
+                     [&into](Text t) { into.scenes.push_back(t); }, true});
+    table.push_back({"--technique", "TEXT", "measure only techniques whose name contains this, see --list", "all",
+                     [&into](Text t) { into.techniques.push_back(t); }, true});
+    table.push_back({"--out", "FOLDER", "folder for results and pictures; created if missing", "chart-out",
+                     [&into](Text t) { into.out = t; }});
+    table.push_back({"--quick", "",
+                     "small pictures, few frames, narrow sweeps, and three scenes if none is named: at most five "
+                     "minutes on\n      two cores",
+                     "", [&into](Text) { into.quick = true; }});
+    table.push_back({"--frames", "N", "frames to time for each motion, 2 to 10000", "60, with --quick 12",
+                     [&into](Text t) { into.frames = readWhole(t, leastFrames, mostFrames); }});
+    table.push_back(
+        {"--flicker", "N",
+         "frames of each of the two films that flicker is measured in, 0 to 1000; fewer than 2 leave flicker\n"
+         "      out and save time",
+         "16, with --quick 8", [&into](Text t) { into.flicker = readWhole(t, 0, mostFlickerFrames); }});
+    table.push_back({"--stability", "",
+                     "the stability table instead: when shadows break. The arguments are its scenes' ids then, see "
+                     "--list",
+                     "", [&into](Text) { into.stability = true; }});
+    table.push_back({"--model", "",
+                     "instead judge techniques on FILES as they look, under two suns, against rays; prints lines of "
+                     "JSON.\n      --technique is a specification then (default volume, map, traced and auto)",
+                     "", [&into](Text) { into.model = true; }});
+    table.push_back({"--random", "N",
+                     "instead search N random scenes, 1 to 1000000, for shadows that are lost; nothing is written", "",
+                     [&into](Text t) { into.random = unsigned(readWhole(t, 1, mostRandom)); }});
+    table.push_back({"--seed", "S", "seed of the first random scene, 0 to 1000000000", "1",
+                     [&into](Text t) { into.seed = unsigned(readWhole(t, 0, mostSeed)); }});
+    table.push_back({"--resume", "",
+                     "continue an interrupted run; scenes that are complete in FOLDER are not measured again", "",
+                     [&into](Text) { into.resume = true; }});
+    table.push_back({"--again", "FOLDER",
+                     "measure nothing; write the figures and index.html in FOLDER again from its results.json", "",
+                     [&into](Text t) { into.again = t; }});
+    table.push_back(
+        {"--list", "", "print the names of scenes and techniques", "", [&into](Text) { into.list = true; }});
+    table.push_back({"--help", "", "print this", "", [&into](Text) { into.help = true; }});
+}
+
+bool isOfUse(const Option& option) {
+    return std::find(notOfUse.begin(), notOfUse.end(), option.name) == notOfUse.end();
+}
+
+Options chartOptions(ChartOptions& into) {
+    Options table;
+    addChartOptions(table, into);
+    for (Option& option : viewOptions(into.view)) {
+        if (option.name == "--light") option.repeats = false;
+        if (option.name == "--size") option.fallback = "640x480, with --quick 320x240";
+        if (isOfUse(option)) table.push_back(option);
+    }
+    return table;
+}
+
+void setSize(ChartOptions& options, bool given) {
+    if (!given && options.stability) {
+        options.view.width = stabilityWidth;
+        options.view.height = stabilityHeight;
+    } else if (!given && options.model) {
+        options.view.width = 400;
+        options.view.height = 300;
+    } else if (!given) {
+        options.view.width = options.quick ? 320 : 640;
+        options.view.height = options.quick ? 240 : 480;
+    }
+    if (std::min(options.view.width, options.view.height) < leastSide)
+        throw std::invalid_argument("--size is too small to be judged. Allowed: 32x32 pixels or more.");
+}
+
+/// Names of options that stand on the command line.
+std::vector<std::string> namesGiven(const osg::ArgumentParser& arguments, const Options& table) {
+    std::vector<std::string> names;
+    for (const Option& option : table)
+        if (arguments.find(option.name) > 0) names.push_back(option.name);
+    return names;
+}
+
+/// What a mode would not heed is refused.
+struct Mode {
+    std::string name;               ///< of its option.
+    std::vector<std::string> heeds; ///< options beside it.
+};
+
+const std::array<Mode, 4> modes{{{"--random", {"--seed", "--technique"}},
+                                 {"--model", {"--technique", "--size", "--up", "--ground"}},
+                                 {"--again", {"--stability"}},
+                                 {"--stability", {"--technique", "--out", "--size", "--quick", "--again"}}}};
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+void refuseUnheeded(const std::vector<std::string>& given, bool withArguments) {
+    const auto holds = [](const std::vector<std::string>& names, Text name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (const Mode& mode : modes) {
+        if (!holds(given, mode.name)) continue;
+        const std::string allowed = " Allowed beside it: " + listed(mode.heeds) + ".";
+        for (const std::string& name : given)
+            if (name != mode.name && !holds(mode.heeds, name))
+                throw std::invalid_argument(mode.name + " does not go with " + name + "." + allowed);
+        if (withArguments && mode.name != "--stability" && mode.name != "--model")
+            throw std::invalid_argument(mode.name + " does not go with files or scenes." + allowed);
+        break; // the first one is what is done
+    }
+    if (holds(given, "--seed") && !holds(given, "--random")) throw std::invalid_argument("--seed needs --random N.");
+}
+
+/// @throws std::invalid_argument, one sentence that names what is wrong and what is allowed.
+ChartOptions readChartOptions(osg::ArgumentParser& arguments) {
+    ChartOptions options;
+    const Options table = chartOptions(options);
+    const std::vector<std::string> given = namesGiven(arguments, table);
+    const bool sized = arguments.find("--size") > 0;
+    readOptions(arguments, table);
+    readOsgOptions(arguments);
+    if (options.help || options.list) return options;
+    takeFiles(arguments, options.view);
+    refuseUnheeded(given, !options.view.files.empty());
+    if (options.stability) options.stabilityScenes.swap(options.view.files); // the arguments are no files
+    if (!options.view.files.empty() && !options.scenes.empty())
+        throw std::invalid_argument("--scene and files exclude each other. Give one of them.");
+    if (options.model && options.view.files.empty()) throw std::invalid_argument("--model needs a FILE.");
+    requireConsistent(options.view);
+    setSize(options, sized);
+    return options;
+}
+
+std::string chartHelp() {
+    ChartOptions defaults;
+    return "gnomonchart [FILE...] [OPTION...]\n"
+           "gnomonchart --stability [SCENE...] [OPTION...]\n"
+           "Measures how fast and how wrong every shadow technique is, Gnomon's and osgShadow's in the same run: in\n"
+           "built-in scenes, or in a scene of your own. FILES form one scene, in any format that OpenSceneGraph "
+           "reads.\n\n"
+           "Writes results.json, results.csv, pictures and index.html. Ctrl-C ends the run early and keeps its "
+           "results.\n"
+           "Lengths are in the scene's unit. The z axis points up. Times are the milliseconds that shadows add to a "
+           "frame.\n\n" +
+           describeOptions(chartOptions(defaults)) + osgOptionsHelp() +
+           "\nThe options for scene, light and camera apply to FILES only.\n"
+           "\nExample: gnomonchart bunny.obj --quick --out bunny-chart\n";
+}
 
 /// Draws the figures and the page of the results in a folder, and prints what they say: report.py does.
 ///
@@ -43,33 +228,41 @@ using namespace gnomon::examples;
 /// @throws std::runtime_error, one sentence, if Python cannot be started or the report fails; it has said why then.
 void writeReport(const std::string& folder) {
     std::cout.flush();
-    int ends[2];
-    if (pipe(ends) != 0)
-        throw std::runtime_error(std::string("the report cannot be made: ") + std::strerror(errno) + ".");
-    const pid_t child = fork();
-    if (child == 0) {
-        dup2(ends[0], STDIN_FILENO);
-        close(ends[0]);
-        close(ends[1]);
-        execlp(PYTHON3, PYTHON3, "-", folder.c_str(), static_cast<char*>(nullptr));
-        execlp("python3", "python3", "-", folder.c_str(), static_cast<char*>(nullptr));
-        _exit(127);
-    }
-    close(ends[0]);
+    setenv("GNOMON_RESULTS", folder.c_str(), 1);       // which a shell need not quote
     const auto before = std::signal(SIGPIPE, SIG_IGN); // where Python cannot be started
-    const std::size_t length = std::strlen(report_py);
-    for (std::size_t at = 0; child > 0 && at < length;) {
-        const ssize_t written = write(ends[1], report_py + at, length - at);
-        if (written < 0 && errno != EINTR) break;
-        at += written > 0 ? static_cast<std::size_t>(written) : 0;
-    }
-    close(ends[1]);
-    int status = -1;
-    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+    std::FILE* python = popen("p=" PYTHON3 "; test -x $p || p=python3; exec $p - \"$GNOMON_RESULTS\"", "w");
+    if (python) std::fputs(report_py, python);
+    const int status = python ? pclose(python) : -1;
     std::signal(SIGPIPE, before);
-    if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
+    if (status == -1 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
         throw std::runtime_error("the report needs Python, which cannot be started. Install python3.");
     if (status != 0) throw std::runtime_error("the report could not be made; the results are kept.");
+}
+
+constexpr const char* program = "gnomonchart";
+constexpr double quickSeconds = 280.0; // of five minutes
+constexpr int interrupted = 130;       // as shells have it for SIGINT
+
+volatile std::sig_atomic_t stopAsked = 0;
+
+bool isStopped() { return stopAsked != 0; }
+
+/// Ends the run at the next step; a second signal ends the program at once.
+void askToStop(int signal) {
+    stopAsked = 1;
+    std::signal(signal, SIG_DFL);
+}
+
+/// Ctrl-C ends a run with what there is.
+void listenForStop() {
+    std::signal(SIGINT, askToStop);
+    std::signal(SIGTERM, askToStop);
+}
+
+/// @return the program's exit status.
+int ended(bool complete) {
+    if (!complete) std::cerr << program << ": interrupted. The results so far are kept." << std::endl;
+    return complete ? 0 : interrupted;
 }
 
 /// The first value, the middle one and the last.
@@ -103,45 +296,43 @@ void dropUnfinished(StabilityResults& results) {
     results.rows.erase(std::remove_if(results.rows.begin(), results.rows.end(), isUnfinished), results.rows.end());
 }
 
-/// @param stops  see makeStabilityTable().
-template <class Work>
-auto withProgress(std::size_t steps, const std::function<bool()>& stops, const Work& work) {
-    ProgressLine progress(static_cast<double>(steps));
-    return work([&](std::size_t done, const std::string& doing) {
-        if (done) progress.show(double(done), doing);
-        return !stops();
-    });
+/// What a long run calls as it goes on; false ends it.
+std::function<bool(std::size_t, const std::string&)> progressOf(std::size_t steps) {
+    const auto left = std::make_shared<TimeLeft>(static_cast<double>(steps));
+    return [left](std::size_t done, const std::string& doing) {
+        if (done) left->show(double(done), doing);
+        return !isStopped();
+    };
 }
 
 /// Measures the stability table, writes it into the options' folder, and prints it.
-/// @param stops  asked again and again; true ends the run with what there is.
-/// @return whether it is complete.
 /// @throws std::invalid_argument, one sentence, for a scene or technique that is not there; std::runtime_error, one
 /// sentence, if a file cannot be written.
-bool makeStabilityTable(const ChartOptions& options, const std::string& command, const std::function<bool()>& stops) {
+int stability(const ChartOptions& options, const std::string& command) {
     StabilityPlan plan = stabilityPlanOf(options);
     plan.made.insert(plan.made.begin(), {"command", command});
     requireFolder(options.out);
+    listenForStop();
     std::size_t cells = 0;
     for (const StabilityScene& scene : plan.scenes) cells += scene.values.size() * plan.contenders.size();
-    StabilityResults results =
-        withProgress(cells, stops, [&](const auto& progress) { return runStability(plan, progress); });
+    StabilityResults results = runStability(plan, progressOf(cells));
     dropUnfinished(results);
     for (auto& fact : machineFacts()) results.made.push_back(fact); // after the run: it makes a context
     saveStability(results, options.out);
     writeReport(options.out);
-    return results.complete;
+    return ended(results.complete);
 }
 
 /// Searches random scenes for shadows that Gnomon's techniques lose without a word, and prints each with the plainest scene
 /// in which it is lost.
-/// @return whether there is none, and the search went to its end.
-bool searchRandom(const ChartOptions& options, const std::function<bool()>& stops) {
+/// @return 0 if there is none, and the search went to its end.
+int searchRandom(const ChartOptions& options) {
+    listenForStop();
     RandomSearch search;
     search.first = options.seed;
     search.count = options.random.value_or(search.count);
     search.contenders = stabilityContenders(options.techniques, false);
-    const auto isRough = [](const StabilityContender& each) {
+    const auto isRough = [](const Entrant& each) {
         return each.contender.kit != "Gnomon" || each.contender.technique == "box"; // box: shadows of bounding boxes
     };
     search.contenders.erase(std::remove_if(search.contenders.begin(), search.contenders.end(), isRough),
@@ -154,23 +345,14 @@ bool searchRandom(const ChartOptions& options, const std::function<bool()>& stop
         std::cout << faultText(fault) << std::endl; // at once: a long search may be ended
         ++faults;
     };
-    const unsigned done =
-        withProgress(cells, stops, [&](const auto& progress) { return searchRandomScenes(search, progress, print); });
+    const unsigned done = searchRandomScenes(search, progressOf(cells), print);
     std::cout << (done < search.count ? "interrupted after " + std::to_string(done) + " of " : std::string())
               << search.count << " random scenes from seed " << search.first << ", " << faults << " faults\n";
-    return faults == 0 && done == search.count;
+    return faults == 0 && done == search.count ? 0 : 1;
 }
 
 const osg::Vec4d suns[] = {{1.0, -1.0, 1.4, 0.0}, {-0.8, -0.5, 0.6, 0.0}};
 constexpr const char* usual[] = {"volume", "map", "traced", "auto"};
-
-metrics::Picture greys(const osg::Image& image) {
-    const ShadedPicture colours = coloursOf(image);
-    metrics::Picture result(colours.width, colours.height);
-    std::transform(colours.cells.begin(), colours.cells.end(), result.cells.begin(),
-                   [](const glm::dvec3& colour) { return (colour.r + colour.g + colour.b) / 3.0; });
-    return result;
-}
 
 /// Pixels that are judged on this sun, and the pictures with it and without.
 struct Truth {
@@ -178,10 +360,10 @@ struct Truth {
         StageViewer viewer(std::make_unique<PlainStaging>(scene, Look::SHADED), scene.camera,
                            StageViewer::Colour::FLOATS);
         viewer.draw();
-        lit = greys(*viewer.image());
+        lit = greysOf(*viewer.image());
         viewer.staging().setShining(false);
         viewer.draw();
-        dark = greys(*viewer.image());
+        dark = greysOf(*viewer.image());
     }
 
     metrics::TruthMaps maps;
@@ -192,7 +374,7 @@ nlohmann::json judgement(const ChartScene& scene, const Truth& truth, const std:
     StageViewer viewer(gnomonContender(technique, Receives::EVERYTHING).stage(scene, Look::SHADED), scene.camera,
                        StageViewer::Colour::FLOATS);
     for (int frame = 0; frame < 3; ++frame) viewer.draw();
-    const metrics::Picture seen = metrics::visibility(greys(*viewer.image()), truth.lit, truth.dark).value;
+    const metrics::Picture seen = metrics::visibility(greysOf(*viewer.image()), truth.lit, truth.dark).value;
     const metrics::PixelSets sets = metrics::pixelSets(truth.maps, seen);
     const StabilityJudgement judged = judge(seen, truth.maps, sets, sets.agreeing);
     return {{"technique", technique},
@@ -226,24 +408,6 @@ void judgeModel(const ChartOptions& options) {
 }
 
 namespace fs = std::filesystem;
-
-constexpr const char* program = "gnomonchart";
-constexpr double quickSeconds = 280.0; // of five minutes
-constexpr int interrupted = 130;       // as shells have it for SIGINT
-
-volatile std::sig_atomic_t stopAsked = 0;
-
-/// Ends the run at the next step; a second signal ends the program at once.
-void askToStop(int signal) {
-    stopAsked = 1;
-    std::signal(signal, SIG_DFL);
-}
-
-/// Ctrl-C ends a run with what there is.
-void listenForStop() {
-    std::signal(SIGINT, askToStop);
-    std::signal(SIGTERM, askToStop);
-}
 
 void listNames() {
     std::cout << "scenes:\n";
@@ -300,27 +464,14 @@ int chart(const ChartOptions& options, const std::string& command) {
     ChartPlan plan = planOf(options);
     plan.made.insert(plan.made.begin(), {"command", command});
     requireFolder(options.out);
-    if (options.resume) plan.kept = keptOf(loadResults((fs::path(options.out) / "results.json").string()), plan);
+    if (options.resume) plan.kept = keptOf(loadResults(options.out), plan);
     listenForStop();
     const ChartResults results = runChart(
-        plan, [&](const ChartResults& sofar) { saveResults(sofar, options.out); }, [] { return stopAsked != 0; });
+        plan, [&](const ChartResults& sofar) { saveResults(sofar, options.out); }, isStopped);
     for (const auto& [name, value] : results.made)
         if (name.rfind("left out", 0) == 0) std::cout << name << ": " << value << "\n";
     writeReport(options.out);
-    if (!results.complete) std::cerr << program << ": interrupted. The results so far are kept." << std::endl;
-    return results.complete ? 0 : interrupted;
-}
-
-int stability(const ChartOptions& options, const std::string& command) {
-    listenForStop();
-    const bool complete = makeStabilityTable(options, command, [] { return stopAsked != 0; });
-    if (!complete) std::cerr << program << ": interrupted. The results so far are kept." << std::endl;
-    return complete ? 0 : interrupted;
-}
-
-int random(const ChartOptions& options) {
-    listenForStop();
-    return searchRandom(options, [] { return stopAsked != 0; }) ? 0 : 1;
+    return ended(results.complete);
 }
 
 std::string commandOf(osg::ArgumentParser& arguments) {
@@ -341,7 +492,7 @@ int run(osg::ArgumentParser& arguments) {
     else if (options.model)
         judgeModel(options);
     else if (options.random)
-        return random(options);
+        return searchRandom(options);
     else if (options.stability)
         return stability(options, command);
     else

@@ -3,7 +3,6 @@
 #include "CommandLine.h"
 #include "ImageFile.h"
 #include "OutputFile.h"
-#include "Overlay.h"
 #include "Report.h"
 #include "TruthFile.h"
 
@@ -161,7 +160,7 @@ void compare(const CompareOptions& options) {
         std::cerr << program << ": note: more than 5 % of the surface is dropped. Do not trust these numbers."
                   << std::endl;
     if (overlay) overlay->write(*errorOverlay(visibility.value, truth));
-    if (json) json->write(reportJson(result).dump(2) + "\n");
+    if (json) json->write(jsonOf(result).dump(2) + "\n");
 }
 
 int run(osg::ArgumentParser& arguments) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // gnomonviewer: scene files with shadows in a window, as osgviewer shows them without.
-#include "RunningSun.h"
-#include "SceneFile.h"
+#include "InputFile.h"
 #include "SceneWindow.h"
 #include "ShadowControls.h"
 #include "ViewOptions.h"
@@ -31,13 +30,8 @@ Options viewerOptions(ViewerOptions& into) {
 /// @throws std::invalid_argument, one sentence that names what is wrong and what is allowed.
 ViewerOptions readViewerOptions(osg::ArgumentParser& arguments) {
     ViewerOptions options;
-    readOptions(arguments, viewerOptions(options));
-    readOsgOptions(arguments);
-    if (options.help) return options;
-    readFiles(arguments, options.view);
-    takeUsualShadow(options.view);
-    requireConsistent(options.view);
-    if (options.sunSpeed > 0.0 && (!options.view.sun || options.view.lights.size() != 1))
+    readViewOptions(arguments, viewerOptions(options), options.view, options.help);
+    if (!options.help && options.sunSpeed > 0.0 && (!options.view.sun || options.view.lights.size() != 1))
         throw std::invalid_argument("--sun-speed needs exactly one --sun and no --light.");
     return options;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <glm/geometric.hpp>
+#include <metrics/BoundaryDistance.h>
 #include <metrics/CauseSplit.h>
-#include <metrics/Confusion.h>
-#include <metrics/NearestSegment.h>
+#include <metrics/PixelSets.h>
 
 #include <algorithm>
 #include <cmath>

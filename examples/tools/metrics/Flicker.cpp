@@ -3,8 +3,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <metrics/BoundaryDistance.h>
-#include <metrics/Confusion.h>
 #include <metrics/Flicker.h>
+#include <metrics/PixelSets.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -46,6 +47,8 @@ using Picture = Grid<double>;
 using Mask = Grid<unsigned char>;
 
 /// Number of pixels in a set.
-std::size_t count(const Mask& mask);
+inline std::size_t count(const Mask& mask) {
+    return mask.cells.size() - static_cast<std::size_t>(std::count(mask.cells.begin(), mask.cells.end(), 0));
+}
 
 } // namespace gnomon::metrics

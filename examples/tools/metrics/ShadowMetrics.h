@@ -2,7 +2,7 @@
 #pragma once
 #include <metrics/BoundaryDistance.h>
 #include <metrics/CauseSplit.h>
-#include <metrics/Confusion.h>
+#include <metrics/PixelSets.h>
 #include <metrics/Visibility.h>
 
 namespace gnomon::metrics {

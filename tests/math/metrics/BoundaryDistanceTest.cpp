@@ -3,7 +3,7 @@
 #include "BoxOnGround.h"
 
 #include <glm/geometric.hpp>
-#include <metrics/NearestSegment.h>
+#include <metrics/BoundaryDistance.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <metrics/ShadowMetrics.h>
+#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>
@@ -75,17 +76,27 @@ struct ChartSceneResult {
 struct ChartResults {
     std::vector<std::pair<std::string, std::string>> made; ///< command, date, versions, renderer, processor, load …
     bool complete = false;                                 ///< false: interrupted, or still under way.
+    /// Those of an earlier run as it wrote them, before these.
+    nlohmann::ordered_json kept = {{"scenes", nlohmann::ordered_json::array()},
+                                   {"points", nlohmann::ordered_json::array()}};
     std::vector<ChartSceneResult> scenes;
     std::vector<ChartPoint> points;
 };
+
+/// Where and by what results are made: date, versions, renderer, processor, cores, memory. Needs a HeadlessContext,
+/// which it makes.
+std::vector<std::pair<std::string, std::string>> machineFacts();
+
+/// Processes that run or wait for a core, averaged over a minute, as the system tells; "unknown" where it does not.
+std::string machineLoad();
 
 /// Writes results.json, every bit of every number, into an existing folder, whole or not at all.
 /// Cost    about 0.15 ms a point that it holds: may be called after every one of some hundreds.
 /// @throws std::runtime_error, one sentence, if the file cannot be written.
 void saveResults(const ChartResults& results, const std::string& folder);
 
-/// Reads a results.json back, the same to the bit.
-/// @throws std::runtime_error, one sentence, if it is missing, no JSON, or lacks something.
-ChartResults loadResults(const std::string& file);
+/// What results.json of a folder holds: "made", "complete", "scenes" and "points".
+/// @throws std::runtime_error, one sentence, if it is missing, no JSON, of another version, or lacks a list.
+nlohmann::ordered_json loadResults(const std::string& folder);
 
 } // namespace gnomon::examples

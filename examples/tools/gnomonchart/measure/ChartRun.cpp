@@ -2,15 +2,12 @@
 #include "ChartRun.h"
 #include "Complaints.h"
 #include "Contender.h"
-#include "Errors.h"
 #include "FlickerRun.h"
 #include "Forecasts.h"
-#include "Machine.h"
+#include "ImageFile.h"
 #include "OutputFile.h"
-#include "Overlay.h"
-#include "Progress.h"
 #include "Race.h"
-#include "StageViewer.h"
+#include "TimeLeft.h"
 
 #include <metrics/Visibility.h>
 #include <osg/Notify>
@@ -27,25 +24,6 @@ namespace {
 // Rough costs in pictures drawn, for the time left.
 constexpr double truthWork = 40.0, filmFrameWork = 15.0, stillWork = 6.0, sweptValueWork = 5.0;
 
-/// One contender or, with a peer, the best that its sweep finds.
-struct Entry {
-    Contender contender;
-    const Peer* peer = nullptr;
-};
-
-std::vector<Entry> entries(const std::vector<std::string>& parts) {
-    requireKnown(parts);
-    std::vector<Entry> result;
-    for (const Contender& contender : gnomonContenders())
-        if (isAsked(contender.technique, parts)) result.push_back({contender});
-    for (const Peer& peer : peers()) {
-        if (!isAsked(peer.name, parts)) continue;
-        result.push_back({peerContender(peer, "defaults", {})});
-        if (!peer.knobs.empty()) result.push_back({peerContender(peer, "best", {}), &peer});
-    }
-    return result;
-}
-
 double sweepWork(const Peer& peer, SweepWidth width) {
     std::size_t values = 0;
     for (const Knob& knob : peer.knobs) values += knob.values.size();
@@ -53,10 +31,10 @@ double sweepWork(const Peer& peer, SweepWidth width) {
 }
 
 std::vector<std::string> scenesLeft(const ChartPlan& plan) {
-    const auto& kept = plan.kept.scenes;
+    const auto& kept = plan.kept.at("scenes");
     std::vector<std::string> left;
     for (const std::string& name : plan.scenes)
-        if (std::none_of(kept.begin(), kept.end(), [&](const auto& scene) { return scene.name == name; }))
+        if (std::none_of(kept.begin(), kept.end(), [&](const auto& scene) { return scene.at("name") == name; }))
             left.push_back(name);
     return left;
 }
@@ -67,10 +45,10 @@ public:
         : _plan(plan),
           _save(save),
           _stops(stops),
-          _entries(entries(plan.techniques)),
+          _entries(entrants(plan.techniques, true)),
           _scenes(scenesLeft(plan)),
           _progress(sceneWork() * double(_scenes.size())) {
-        _results = plan.kept;
+        _results.kept = plan.kept;
         _results.made = plan.made;
         for (auto& fact : machineFacts()) _results.made.push_back(fact);
         _results.made.emplace_back("load at the start", machineLoad());
@@ -93,13 +71,13 @@ public:
     }
 
 private:
-    double contenderWork(const Entry& entry) const {
-        return stillWork + 4.0 * _plan.flickerFrames + (entry.peer ? sweepWork(*entry.peer, _plan.sweep) : 0.0);
+    double contenderWork(const Entrant& entry) const {
+        return stillWork + 4.0 * _plan.flickerFrames + (entry.sought ? sweepWork(*entry.sought, _plan.sweep) : 0.0);
     }
     double raceWork() const { return 2.0 * _plan.frames * double(_entries.size() + 1); }
     double sceneWork() const {
         double work = truthWork + 2.0 * _plan.flickerFrames * filmFrameWork + raceWork();
-        for (const Entry& entry : _entries) work += contenderWork(entry);
+        for (const Entrant& entry : _entries) work += contenderWork(entry);
         return work;
     }
 
@@ -135,7 +113,7 @@ private:
         makeFilms(yardstick);
         _field = {_results.points.size(), {}, {}};
         _forecasts.emplace(yardstick.scene());
-        for (const Entry& entry : _entries) {
+        for (const Entrant& entry : _entries) {
             if (_stops()) return;
             measureContender(entry, yardstick);
             _done += contenderWork(entry);
@@ -163,11 +141,11 @@ private:
         }
     }
 
-    void measureContender(const Entry& entry, const Yardstick& yardstick) {
+    void measureContender(const Entrant& entry, const Yardstick& yardstick) {
         Contender contender = entry.contender;
         show(yardstick.scene().name + ": " + contender.technique + ", " + contender.setting);
-        if (entry.peer) contender = swept(*entry.peer, yardstick);
-        if (entry.peer && contender.settings.empty())
+        if (entry.sought) contender = swept(*entry.sought, yardstick);
+        if (entry.sought && contender.settings.empty())
             repeatDefaults();
         else
             addPoint(contender, yardstick);
@@ -281,10 +259,10 @@ private:
     const ChartPlan& _plan;
     const std::function<void(const ChartResults&)>& _save;
     const std::function<bool()>& _stops;
-    const std::vector<Entry> _entries;
+    const std::vector<Entrant> _entries;
     const std::vector<std::string> _scenes; ///< still to be measured.
     Complaints _complaints;
-    ProgressLine _progress;
+    TimeLeft _progress;
     double _done = 0.0;
     Field _field;
     std::optional<Forecasts> _forecasts; ///< of the scene that is being measured.
@@ -292,6 +270,7 @@ private:
     ChartResults _results;
 };
 
+using nlohmann::ordered_json;
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
 /// Whether it may differ between runs that go on with one another.
@@ -311,15 +290,14 @@ ChartResults runChart(const ChartPlan& plan, const std::function<void(const Char
     return Run(plan, save, stops).run();
 }
 
-ChartResults keptOf(const ChartResults& earlier, const ChartPlan& plan) {
-    requireSame(earlier.made, plan.made);
-    requireSame(earlier.made, machineFacts());
-    ChartResults kept;
-    kept.scenes = earlier.scenes;
-    if (!earlier.complete && !kept.scenes.empty()) kept.scenes.pop_back();
-    for (const ChartPoint& point : earlier.points)
-        if (std::any_of(kept.scenes.begin(), kept.scenes.end(), [&](const auto& s) { return s.name == point.scene; }))
-            kept.points.push_back(point);
+ordered_json keptOf(const ordered_json& earlier, const ChartPlan& plan) {
+    requireSame(earlier["made"].get<Facts>(), plan.made);
+    requireSame(earlier["made"].get<Facts>(), machineFacts());
+    ordered_json kept = {{"scenes", earlier["scenes"]}, {"points", ordered_json::array()}};
+    if (!earlier.value("complete", false) && !kept["scenes"].empty()) kept["scenes"].erase(kept["scenes"].size() - 1);
+    for (const ordered_json& point : earlier["points"])
+        for (const ordered_json& scene : kept["scenes"])
+            if (scene.at("name") == point.at("scene")) kept["points"].push_back(point);
     return kept;
 }
 

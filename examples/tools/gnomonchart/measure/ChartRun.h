@@ -22,7 +22,7 @@ struct ChartPlan {
     SweepWidth sweep = SweepWidth::WIDE;
     bool disc = true;                                      ///< measure against the sun's disc too.
     std::vector<std::pair<std::string, std::string>> made; ///< what is known of the run already.
-    ChartResults kept; ///< scenes and points that are measured already, of `scenes`; see keptOf().
+    nlohmann::ordered_json kept = ChartResults().kept;     ///< what is measured already of `scenes`, see keptOf().
 };
 
 /// Measures every technique in every scene: errors of still pictures, flicker, then costs, all in one race. A contender
@@ -36,9 +36,9 @@ ChartResults runChart(const ChartPlan& plan, const std::function<void(const Char
                       const std::function<bool()>& stops);
 
 /// What an interrupted run measured to the end, for ChartPlan::kept: all scenes but the one that it was at.
-/// @param plan  of the run that goes on with it.
+/// @param earlier  see loadResults(). @param plan  of the run that goes on with it.
 /// @throws std::invalid_argument, one sentence, if it was made with other settings, another build or on another machine:
 /// its times could not stand beside new ones.
-ChartResults keptOf(const ChartResults& earlier, const ChartPlan& plan);
+nlohmann::ordered_json keptOf(const nlohmann::ordered_json& earlier, const ChartPlan& plan);
 
 } // namespace gnomon::examples

@@ -21,66 +21,37 @@ namespace {
 class GnomonStaging : public Staging {
 public:
     /// @throws std::invalid_argument, one sentence, if the specification does not suit the scene.
-    GnomonStaging(ShadowSpec spec, const ChartScene& scene, Look look);
-    void setLight(const osg::Vec4d& light) override;
-    void setCasting(bool casts) override;
-    std::vector<std::string> diagnose() const override;
-    std::vector<ShadowDecision> decisions() const override;
+    GnomonStaging(ShadowSpec spec, const ChartScene& scene, Look look)
+        : Staging(scene, look), _group(new ShadowCasterGroup) {
+        if (look == Look::VISIBILITY && spec.composite == ShadowCasterGroup::BLEND) {
+            spec.dark = 0.0f;
+            osg::ref_ptr<osg::LightModel> model =
+                new osg::LightModel; // or what is turned away is black, shadowed or not
+            model->setAmbientIntensity({0.25f, 0.25f, 0.25f, 1.0f});
+            _root->getOrCreateStateSet()->setAttributeAndModes(model);
+        }
+        _group->addChild(_content);
+        _root->addChild(_group);
+        _techniques = addShadows(*_group, {spec});
+        GnomonStaging::diagnose(); // who asks is not warned by osg::notify() besides
+        GnomonStaging::setLight(scene.light);
+    }
+
+    void setLight(const osg::Vec4d& light) override {
+        Staging::setLight(light);
+        _group->setLights({{0, light}});
+    }
+    void setCasting(bool casts) override {
+        Selection all;
+        if (!casts) all.mask = 0;
+        _group->setCasters(all);
+    }
+    std::vector<std::string> diagnose() const override { return diagnoses(_techniques); }
+    std::vector<ShadowDecision> decisions() const override { return _techniques.front()->lastDecision(); }
 
 private:
     osg::ref_ptr<ShadowCasterGroup> _group;
     std::vector<osg::ref_ptr<ShadowTechnique>> _techniques;
-};
-
-GnomonStaging::GnomonStaging(ShadowSpec spec, const ChartScene& scene, Look look)
-    : Staging(scene, look), _group(new ShadowCasterGroup) {
-    if (look == Look::VISIBILITY && spec.composite == ShadowCasterGroup::BLEND) {
-        spec.dark = 0.0f;
-        osg::ref_ptr<osg::LightModel> model = new osg::LightModel; // or what is turned away is black, shadowed or not
-        model->setAmbientIntensity({0.25f, 0.25f, 0.25f, 1.0f});
-        _root->getOrCreateStateSet()->setAttributeAndModes(model);
-    }
-    _group->addChild(_content);
-    _root->addChild(_group);
-    _techniques = addShadows(*_group, {spec});
-    GnomonStaging::diagnose(); // who asks is not warned by osg::notify() besides
-    GnomonStaging::setLight(scene.light);
-}
-
-void GnomonStaging::setLight(const osg::Vec4d& light) {
-    Staging::setLight(light);
-    _group->setLights({{0, light}});
-}
-
-void GnomonStaging::setCasting(bool casts) {
-    Selection all;
-    if (!casts) all.mask = 0;
-    _group->setCasters(all);
-}
-
-std::vector<std::string> GnomonStaging::diagnose() const { return diagnoses(_techniques); }
-
-std::vector<ShadowDecision> GnomonStaging::decisions() const { return _techniques.front()->lastDecision(); }
-
-/// A scene under one of osgShadow's techniques.
-///
-/// Casting off  a cull callback keeps the content out of every camera that draws a shadow map, in Look::VISIBILITY only.
-///              Bounds are asked of all of it as before, so that maps lie where they lay. (An empty cast mask would do
-///              more: ViewDependentShadowMap's crop degenerates.)
-/// ParallelSplit  is given the light by setUserLight(), as its documentation asks: it reads no position. A lamp's light
-///              comes from the lamp through the scene's centre.
-/// ShadowTexture  needs receivers that do not cast: what ChartScene::receiver names receives, all else casts.
-class PeerStaging : public Staging {
-public:
-    /// @throws std::invalid_argument, one sentence, if the scene does not suit the peer or a setting is unknown.
-    PeerStaging(const Peer& peer, const Settings& settings, const ChartScene& scene, Look look);
-    ~PeerStaging() override;
-    void setCasting(bool casts) override;
-
-private:
-    class Gate;
-
-    osg::ref_ptr<Gate> _gate;
 };
 
 constexpr osg::Node::NodeMask casts = 0x1, receiveMask = 0x2;
@@ -124,52 +95,62 @@ osg::ref_ptr<osg::Group> splitCopy(const osg::Group& content, const std::string&
     return copy;
 }
 
-class PeerStaging::Gate : public osg::NodeCallback {
+/// A scene under one of osgShadow's techniques.
+///
+/// Casting off  a cull callback keeps the content out of every camera that draws a shadow map, in Look::VISIBILITY only.
+///              Bounds are asked of all of it as before, so that maps lie where they lay. (An empty cast mask would do
+///              more: ViewDependentShadowMap's crop degenerates.)
+/// ParallelSplit  is given the light by setUserLight(), as its documentation asks: it reads no position. A lamp's light
+///              comes from the lamp through the scene's centre.
+/// ShadowTexture  needs receivers that do not cast: what ChartScene::receiver names receives, all else casts.
+class PeerStaging : public Staging {
 public:
-    void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
-        osgUtil::CullVisitor* cull = visitor->asCullVisitor();
-        if (open || !cull || !isCastPass(*cull)) traverse(node, visitor);
+    /// @throws std::invalid_argument, one sentence, if the scene does not suit the peer or a setting is unknown.
+    PeerStaging(const Peer& peer, const Settings& settings, const ChartScene& scene, Look look) : Staging(scene, look) {
+        const PeerParts parts = makePeer(peer, settings, scene.radius);
+        osg::ref_ptr<osgShadow::ShadowedScene> shadowed = new osgShadow::ShadowedScene(parts.technique);
+        if (!peer.partsCastAndReceive) {
+            _content = splitCopy(*_content, scene.receiver);
+            parts.settings->setCastsShadowTraversalMask(casts);
+            parts.settings->setReceivesShadowTraversalMask(receiveMask);
+        }
+        shadowed->setShadowSettings(parts.settings.get());
+        if (auto* splits = dynamic_cast<osgShadow::ParallelSplitShadowMap*>(parts.technique.get()))
+            splits->setUserLight(_light);
+        if (look == Look::VISIBILITY) {
+            if (!peer.lightOnly.empty()) setAmbientBias(*parts.technique, peer.lightOnly);
+            _gate = new Gate;
+            osg::ref_ptr<osg::Group> gated = new osg::Group;
+            gated->addChild(_content);
+            gated->setCullCallback(_gate);
+            shadowed->addChild(gated);
+        } else {
+            shadowed->addChild(_content);
+        }
+        _root->addChild(shadowed);
     }
 
-    bool open = true;
+    void setCasting(bool on) override {
+        if (_gate) _gate->open = on;
+    }
+
+private:
+    struct Gate : osg::NodeCallback {
+        void operator()(osg::Node* node, osg::NodeVisitor* visitor) override {
+            osgUtil::CullVisitor* cull = visitor->asCullVisitor();
+            if (open || !cull || !isCastPass(*cull)) traverse(node, visitor);
+        }
+        bool open = true;
+    };
+
+    osg::ref_ptr<Gate> _gate;
 };
-
-PeerStaging::PeerStaging(const Peer& peer, const Settings& settings, const ChartScene& scene, Look look)
-    : Staging(scene, look) {
-    const PeerParts parts = makePeer(peer, settings, scene.radius);
-    osg::ref_ptr<osgShadow::ShadowedScene> shadowed = new osgShadow::ShadowedScene(parts.technique);
-    if (!peer.partsCastAndReceive) {
-        _content = splitCopy(*_content, scene.receiver);
-        parts.settings->setCastsShadowTraversalMask(casts);
-        parts.settings->setReceivesShadowTraversalMask(receiveMask);
-    }
-    shadowed->setShadowSettings(parts.settings.get());
-    if (auto* splits = dynamic_cast<osgShadow::ParallelSplitShadowMap*>(parts.technique.get()))
-        splits->setUserLight(_light);
-    if (look == Look::VISIBILITY) {
-        if (!peer.lightOnly.empty()) setAmbientBias(*parts.technique, peer.lightOnly);
-        _gate = new Gate;
-        osg::ref_ptr<osg::Group> gated = new osg::Group;
-        gated->addChild(_content);
-        gated->setCullCallback(_gate);
-        shadowed->addChild(gated);
-    } else {
-        shadowed->addChild(_content);
-    }
-    _root->addChild(shadowed);
-}
-
-PeerStaging::~PeerStaging() = default;
-
-void PeerStaging::setCasting(bool on) {
-    if (_gate) _gate->open = on;
-}
 
 struct GnomonPoint {
     const char* technique;
     const char* setting;
     const char* spec; ///< see gnomon::ShadowSpec.
-    Receives receives;
+    Receives receives = Receives::EVERYTHING;
 };
 
 constexpr GnomonPoint gnomonPoints[] = {
@@ -178,45 +159,41 @@ constexpr GnomonPoint gnomonPoints[] = {
     {"box", "relight", "box", Receives::TERRAIN},
     {"hull", "relight", "hull", Receives::TERRAIN},
     {"hull", "blend", "hull:composite=blend", Receives::TERRAIN},
-    {"map", "size 512", "map:size=512", Receives::EVERYTHING},
-    {"map", "size 1024", "map", Receives::EVERYTHING},
-    {"map", "size 2048", "map:size=2048", Receives::EVERYTHING},
-    {"map", "bilinear, size 1024", "map:filter=bilinear", Receives::EVERYTHING},
-    {"map", "nearest, size 1024", "map:filter=nearest", Receives::EVERYTHING},
-    {"map", "blend, nearest, size 256, one map", "map:filter=nearest,composite=blend,size=256,cascades=1",
-     Receives::EVERYTHING},
-    {"map", "blend, nearest, size 512, one map", "map:filter=nearest,composite=blend,size=512,cascades=1",
-     Receives::EVERYTHING},
-    {"map", "blend, nearest, size 1024, one map", "map:filter=nearest,composite=blend,cascades=1",
-     Receives::EVERYTHING},
-    {"map", "blend, nearest, size 512", "map:filter=nearest,composite=blend,size=512", Receives::EVERYTHING},
-    {"map", "blend, nearest, size 1024", "map:filter=nearest,composite=blend", Receives::EVERYTHING},
-    {"map", "blend, size 512", "map:composite=blend,size=512", Receives::EVERYTHING},
-    {"map", "blend, size 1024", "map:composite=blend", Receives::EVERYTHING},
-    {"map", "blend, size 2048", "map:composite=blend,size=2048", Receives::EVERYTHING},
-    {"map, smooth", "relight", "map:edges=smooth", Receives::EVERYTHING},
-    {"map, smooth", "blend, size 512", "map:edges=smooth,composite=blend,size=512", Receives::EVERYTHING},
-    {"map, smooth", "blend", "map:edges=smooth,composite=blend", Receives::EVERYTHING},
-    {"map, smooth", "blend, size 1536", "map:edges=smooth,composite=blend,size=1536", Receives::EVERYTHING},
-    {"map, smooth", "blend, size 2048", "map:edges=smooth,composite=blend,size=2048", Receives::EVERYTHING},
-    {"map, smooth", "blend, fine", "map:edges=smooth,composite=blend,filter=fine,size=4096", Receives::EVERYTHING},
-    {"map, smooth", "blend, bilinear", "map:edges=smooth,composite=blend,filter=bilinear", Receives::EVERYTHING},
-    {"map, smooth", "blend, bilinear, size 512", "map:edges=smooth,composite=blend,filter=bilinear,size=512",
-     Receives::EVERYTHING},
-    {"map, soft", "size 1024", "map:edges=soft", Receives::EVERYTHING},
-    {"map, soft", "size 2048", "map:edges=soft,size=2048", Receives::EVERYTHING},
-    {"map, soft", "blend, size 1024", "map:edges=soft,composite=blend", Receives::EVERYTHING},
-    {"map, soft", "blend, size 2048", "map:edges=soft,composite=blend,size=2048", Receives::EVERYTHING},
-    {"volume", "relight", "volume", Receives::EVERYTHING},
-    {"volume", "blend", "volume:composite=blend", Receives::EVERYTHING},
-    {"auto", "error 4", "auto:error=4", Receives::EVERYTHING},
-    {"auto", "error 1", "auto", Receives::EVERYTHING},
-    {"auto", "error 0.4", "auto:error=0.4", Receives::EVERYTHING},
-    {"auto", "blend, error 4", "auto:error=4,composite=blend", Receives::EVERYTHING},
-    {"auto", "blend, error 1", "auto:composite=blend", Receives::EVERYTHING},
-    {"auto", "blend, error 0.4", "auto:error=0.4,composite=blend", Receives::EVERYTHING},
-    {"traced", "relight", "traced", Receives::EVERYTHING},
-    {"traced", "blend", "traced:composite=blend", Receives::EVERYTHING},
+    {"map", "size 512", "map:size=512"},
+    {"map", "size 1024", "map"},
+    {"map", "size 2048", "map:size=2048"},
+    {"map", "bilinear, size 1024", "map:filter=bilinear"},
+    {"map", "nearest, size 1024", "map:filter=nearest"},
+    {"map", "blend, nearest, size 256, one map", "map:filter=nearest,composite=blend,size=256,cascades=1"},
+    {"map", "blend, nearest, size 512, one map", "map:filter=nearest,composite=blend,size=512,cascades=1"},
+    {"map", "blend, nearest, size 1024, one map", "map:filter=nearest,composite=blend,cascades=1"},
+    {"map", "blend, nearest, size 512", "map:filter=nearest,composite=blend,size=512"},
+    {"map", "blend, nearest, size 1024", "map:filter=nearest,composite=blend"},
+    {"map", "blend, size 512", "map:composite=blend,size=512"},
+    {"map", "blend, size 1024", "map:composite=blend"},
+    {"map", "blend, size 2048", "map:composite=blend,size=2048"},
+    {"map, smooth", "relight", "map:edges=smooth"},
+    {"map, smooth", "blend, size 512", "map:edges=smooth,composite=blend,size=512"},
+    {"map, smooth", "blend", "map:edges=smooth,composite=blend"},
+    {"map, smooth", "blend, size 1536", "map:edges=smooth,composite=blend,size=1536"},
+    {"map, smooth", "blend, size 2048", "map:edges=smooth,composite=blend,size=2048"},
+    {"map, smooth", "blend, fine", "map:edges=smooth,composite=blend,filter=fine,size=4096"},
+    {"map, smooth", "blend, bilinear", "map:edges=smooth,composite=blend,filter=bilinear"},
+    {"map, smooth", "blend, bilinear, size 512", "map:edges=smooth,composite=blend,filter=bilinear,size=512"},
+    {"map, soft", "size 1024", "map:edges=soft"},
+    {"map, soft", "size 2048", "map:edges=soft,size=2048"},
+    {"map, soft", "blend, size 1024", "map:edges=soft,composite=blend"},
+    {"map, soft", "blend, size 2048", "map:edges=soft,composite=blend,size=2048"},
+    {"volume", "relight", "volume"},
+    {"volume", "blend", "volume:composite=blend"},
+    {"auto", "error 4", "auto:error=4"},
+    {"auto", "error 1", "auto"},
+    {"auto", "error 0.4", "auto:error=0.4"},
+    {"auto", "blend, error 4", "auto:error=4,composite=blend"},
+    {"auto", "blend, error 1", "auto:composite=blend"},
+    {"auto", "blend, error 0.4", "auto:error=0.4,composite=blend"},
+    {"traced", "relight", "traced"},
+    {"traced", "blend", "traced:composite=blend"},
 };
 
 ShadowSpec specFor(const std::string& text, Receives receives, const ChartScene& scene) {
@@ -266,24 +243,35 @@ std::vector<std::string> chartTechniques() {
     return names;
 }
 
-bool isAsked(const std::string& technique, const std::vector<std::string>& parts) {
-    const auto isIn = [&](const std::string& part) { return technique.find(part) != std::string::npos; };
-    return parts.empty() || std::any_of(parts.begin(), parts.end(), isIn);
-}
-
-void requireKnown(const std::vector<std::string>& parts) {
-    const std::vector<std::string> names = chartTechniques();
-    for (const std::string& part : parts)
-        if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return isAsked(name, {part}); }))
-            throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
-}
-
 Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings) {
     Contender result{"osgShadow", peer.name, setting, settings, {}};
     if (!peer.partsCastAndReceive) result.receives = Receives::FLAT;
     result.stage = [&peer, settings](const ChartScene& scene, Look look) {
         return std::make_unique<PeerStaging>(peer, settings, scene, look);
     };
+    return result;
+}
+
+std::vector<Entrant> entrants(const std::vector<std::string>& parts, bool best) {
+    const auto holds = [](const std::string& technique, const std::string& part) {
+        return technique.find(part) != std::string::npos;
+    };
+    const std::vector<std::string> names = chartTechniques();
+    for (const std::string& part : parts)
+        if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return holds(name, part); }))
+            throw std::invalid_argument("no technique's name contains \"" + part + "\". See --list.");
+    const auto isAsked = [&](const std::string& name) {
+        return parts.empty() ||
+               std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return holds(name, part); });
+    };
+    std::vector<Entrant> result;
+    for (Contender& contender : gnomonContenders())
+        if (isAsked(contender.technique)) result.push_back({std::move(contender)});
+    for (const Peer& peer : peers()) {
+        if (!isAsked(peer.name)) continue;
+        result.push_back({peerContender(peer, "defaults", {})});
+        if (best && !peer.knobs.empty()) result.push_back({peerContender(peer, "best", {}), &peer});
+    }
     return result;
 }
 

@@ -38,12 +38,19 @@ Contender gnomonContender(const std::string& spec, Receives receives);
 
 /// Names of all techniques that are measured.
 std::vector<std::string> chartTechniques();
-/// Whether a technique's name holds one of these parts; without parts, every technique is asked for.
-bool isAsked(const std::string& technique, const std::vector<std::string>& parts);
-/// @throws std::invalid_argument, one sentence, if a part is in no technique's name.
-void requireKnown(const std::vector<std::string>& parts);
 
 /// A peer at these settings. `setting` names the point.
 Contender peerContender(const Peer& peer, const std::string& setting, const Settings& settings);
+
+/// A contender of a run or, with a peer, the best that a search among its settings finds.
+struct Entrant {
+    Contender contender;
+    const Peer* sought = nullptr;
+};
+
+/// Gnomon's contenders, and peers at their defaults and, if asked for, at their best.
+/// @param parts  of techniques' names; none: all.
+/// @throws std::invalid_argument, one sentence, if a part is in no technique's name.
+std::vector<Entrant> entrants(const std::vector<std::string>& parts, bool best);
 
 } // namespace gnomon::examples

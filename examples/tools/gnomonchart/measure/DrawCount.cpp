@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "DrawCount.h"
+#include "Race.h"
 
 #include <GL/gl.h>
 

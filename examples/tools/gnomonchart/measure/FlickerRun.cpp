@@ -60,28 +60,6 @@ private:
     double _length, _angle;
 };
 
-/// What the meter reads.
-metrics::TruthMaps slim(const metrics::TruthMaps& maps) {
-    metrics::TruthMaps result;
-    result.lit = maps.lit;
-    result.litCentre = maps.litCentre;
-    result.undecided = maps.undecided;
-    result.receiver = maps.receiver;
-    result.position = maps.position;
-    return result;
-}
-
-/// One frame for the meter. @param origin  of the truth's positions.
-metrics::FlickerFrame flickerFrame(const metrics::TruthMaps& truth, const osg::Vec3d& origin, const SceneCamera& camera,
-                                   metrics::Picture visibility, metrics::Mask facing) {
-    metrics::FlickerFrame frame;
-    frame.visibility = std::move(visibility);
-    frame.truth = slim(truth);
-    frame.facing = std::move(facing);
-    frame.clipFromPosition = toGlm(osg::Matrixd::translate(origin) * camera.view * camera.projection);
-    return frame;
-}
-
 } // namespace
 
 Film::Film(const Yardstick& yardstick, Motion motion, int frames, const std::function<bool()>& stops)
@@ -115,7 +93,8 @@ metrics::FlickerMeter Film::measure(Sight& sight, const std::function<bool()>& s
         if (turnedAwayWrong)
             *turnedAwayWrong =
                 std::max(*turnedAwayWrong, metrics::turnedAwayWrong(visibility, frame.truth, sets.turnedAway));
-        meter.add(flickerFrame(frame.truth, _origin, frame.camera, std::move(visibility), std::move(sets.facing)));
+        const osg::Matrixd clip = osg::Matrixd::translate(_origin) * frame.camera.view * frame.camera.projection;
+        meter.add({std::move(visibility), frame.truth, std::move(sets.facing), toGlm(clip)});
     }
     return meter;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "Errors.h"
+#include "Yardstick.h"
 
 #include <metrics/Flicker.h>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "Race.h"
-#include "DrawCount.h"
 #include "StageViewer.h"
 
 #include <osg/GLExtensions>
@@ -8,6 +7,7 @@
 #include <osgViewer/Renderer>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
@@ -71,39 +71,33 @@ unsigned passesOf(StageViewer& viewer) {
     return renderer ? stagesOf(*renderer->getSceneView(0)->getRenderStage()) : 0;
 }
 
-/// One contender on its track.
+/// One contender on its track. Motions: 0 the camera's, 1 the light's.
 struct Runner {
     std::unique_ptr<StageViewer> viewer;
-    Times steady, moving;
+    std::array<Times, 2> times;
+    std::array<std::optional<PredictedTime>, 2> expected;
     double first = 0.0, memory = 0.0;
     std::size_t draws = 0, primitives = 0;
     unsigned passes = 0;
     bool learns = false;
     std::string failure;
-    std::optional<PredictedTime> expectedSteady, expectedMoving;
 
-    /// @param time  of the motion that was drawn.
-    std::optional<PredictedTime> expected(double ShadowCandidate::*time) const {
+    std::optional<PredictedTime> expectedNow(std::size_t motion) const {
         const std::vector<ShadowDecision> decisions = viewer->staging().decisions();
         if (decisions.empty()) return std::nullopt;
         const ShadowCandidate& chosen = decisions.front().chosen;
-        return PredictedTime{chosen.spec, chosen.*time};
+        return PredictedTime{chosen.spec, motion == 0 ? chosen.flying : chosen.moving};
     }
 
-    FrameTime fly(const ChartScene& scene, int round) {
-        viewer->setCamera(movedCamera(scene, cameraStep * round));
-        return viewer->time();
-    }
-
-    FrameTime moveLight(const ChartScene& scene, int round) {
-        viewer->setCamera(scene.camera);
-        viewer->staging().setLight(movedLight(scene, lightStep * round));
+    FrameTime draw(const ChartScene& scene, std::size_t motion, int round) {
+        viewer->setCamera(motion == 0 ? movedCamera(scene, cameraStep * round) : scene.camera);
+        if (motion == 1) viewer->staging().setLight(movedLight(scene, lightStep * round));
         return viewer->time();
     }
 
     /// Frames that count for nothing, before those of one motion.
-    void learn(const ChartScene& scene, FrameTime (Runner::*draw)(const ChartScene&, int)) {
-        for (int round = -learning; learns && round < 0; ++round) (this->*draw)(scene, round);
+    void learn(const ChartScene& scene, std::size_t motion) {
+        for (int round = -learning; learns && round < 0; ++round) draw(scene, motion, round);
     }
 
     void start(const Contender& contender, const ChartScene& scene, const ShaderCache& shaders) {
@@ -113,7 +107,7 @@ struct Runner {
         viewer = std::make_unique<StageViewer>(contender.stage(scene, Look::SHADED), scene.camera,
                                                StageViewer::Colour::BYTES);
         first = viewer->time().wall;
-        learn(scene, &Runner::fly);
+        learn(scene, 0);
         viewer->setCamera(scene.camera);
         viewer->draw();
         memory = residentMiB() - before;
@@ -148,42 +142,29 @@ public:
 
     void run(const std::function<bool(int, int)>& progress) {
         const int all = 2 * (_frames + warmUp);
-        for (int round = 0; round < all && progress(round, all); ++round)
-            if (round < all / 2) {
-                steady(round);
-            } else {
-                if (round == all / 2) learnMoving();
-                moving(round - all / 2);
-            }
+        for (int round = 0; round < all && progress(round, all); ++round) {
+            const std::size_t motion = round < all / 2 ? 0 : 1;
+            if (round == all / 2)
+                for (Runner& runner : _runners) guarded(runner, [this](Runner& r) { r.learn(_scene, 1); });
+            draw(motion, motion == 0 ? round : round - all / 2);
+        }
     }
 
     RaceResults results() const {
         RaceResults results;
         const Runner& plain = _runners[0];
         if (!plain.failure.empty()) throw std::runtime_error("the plain scene cannot be drawn: " + plain.failure);
-        results.frame = quartiles(plain.steady.wall).median;
+        results.frame = quartiles(plain.times[0].wall).median;
         for (std::size_t i = 1; i < _runners.size(); ++i) results.contenders.push_back(resultOf(_runners[i], plain));
         return results;
     }
 
 private:
-    void learnMoving() {
-        for (Runner& runner : _runners) guarded(runner, [this](Runner& r) { r.learn(_scene, &Runner::moveLight); });
-    }
-
-    void steady(int round) {
+    void draw(std::size_t motion, int round) {
         each(round, [&](Runner& runner) {
-            const FrameTime time = runner.fly(_scene, round);
-            if (round >= warmUp) runner.steady.add(time);
-            runner.expectedSteady = runner.expected(&ShadowCandidate::flying);
-        });
-    }
-
-    void moving(int round) {
-        each(round, [&](Runner& runner) {
-            const FrameTime time = runner.moveLight(_scene, round);
-            if (round >= warmUp) runner.moving.add(time);
-            runner.expectedMoving = runner.expected(&ShadowCandidate::moving);
+            const FrameTime time = runner.draw(_scene, motion, round);
+            if (round >= warmUp) runner.times[motion].add(time);
+            runner.expected[motion] = runner.expectedNow(motion);
         });
     }
 
@@ -206,18 +187,19 @@ private:
 
     static RaceResult resultOf(const Runner& runner, const Runner& plain) {
         if (!runner.failure.empty()) return {std::nullopt, runner.failure, {}, {}};
-        if (runner.steady.wall.empty() || runner.moving.wall.empty()) return {};
+        const auto& [steady, moving] = runner.times;
+        if (steady.wall.empty() || moving.wall.empty()) return {};
         ChartCost cost;
         cost.first = runner.first - plain.first;
-        cost.steadyWall = added(runner.steady.wall, plain.steady.wall);
-        cost.steadyProcessor = added(runner.steady.processor, plain.steady.processor);
-        cost.movingWall = added(runner.moving.wall, plain.moving.wall);
-        cost.movingProcessor = added(runner.moving.processor, plain.moving.processor);
+        cost.steadyWall = added(steady.wall, plain.times[0].wall);
+        cost.steadyProcessor = added(steady.processor, plain.times[0].processor);
+        cost.movingWall = added(moving.wall, plain.times[1].wall);
+        cost.movingProcessor = added(moving.processor, plain.times[1].processor);
         cost.memory = std::max(0.0, runner.memory - plain.memory);
         cost.draws = static_cast<unsigned>(runner.draws);
         cost.passes = runner.passes;
         cost.triangles = runner.primitives;
-        return {cost, "", runner.expectedSteady, runner.expectedMoving};
+        return {cost, "", runner.expected[0], runner.expected[1]};
     }
 
     const ChartScene& _scene;

@@ -27,6 +27,11 @@ private:
     std::filesystem::path _folder; ///< empty: none could be made, and Mesa does without.
 };
 
+/// Calls that draw, handed to OpenGL by this process since it began: vertices, elements and display lists, each part of a
+/// multi-draw as one. A program that links this stands between every library and OpenGL, so that whoever draws is counted
+/// alike. What is compiled into a display list counts when the list is called, as one.
+std::size_t drawCalls();
+
 /// What one contender of a race came to.
 struct RaceResult {
     std::optional<ChartCost> cost; ///< none if it could not be staged or drawn, or the race was stopped at once.

@@ -85,4 +85,29 @@ std::string fileName(const std::vector<std::string>& parts, const std::string& e
     return name + ending;
 }
 
+Sight::Sight(const Contender& contender, const ChartScene& scene)
+    : _viewer(contender.stage(scene, Look::VISIBILITY), scene.camera, StageViewer::Colour::FLOATS) {}
+
+metrics::Picture Sight::frame() {
+    _viewer.draw();
+    return greysOf(*_viewer.image());
+}
+
+metrics::Visibility Sight::visibility() {
+    const metrics::Picture casting = frame();
+    _diagnosis = _viewer.staging().diagnose();
+    _decisions = _viewer.staging().decisions();
+    _viewer.staging().setCasting(false);
+    const metrics::Picture notCasting = frame();
+    _viewer.staging().setCasting(true);
+    return metrics::visibility(casting, notCasting, metrics::Picture(casting.width, casting.height));
+}
+
+ShadedPicture shadedPicture(const Contender& contender, const ChartScene& scene, bool shines) {
+    StageViewer viewer(contender.stage(scene, Look::SHADED), scene.camera, StageViewer::Colour::FLOATS);
+    viewer.staging().setShining(shines);
+    viewer.draw();
+    return coloursOf(*viewer.image());
+}
+
 } // namespace gnomon::examples

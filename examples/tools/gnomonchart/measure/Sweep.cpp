@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Sweep.h"
 #include "Contender.h"
-#include "Errors.h"
+#include "Yardstick.h"
 
 #include <algorithm>
 #include <exception>

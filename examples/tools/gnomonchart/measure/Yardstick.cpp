@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "Yardstick.h"
-#include "Contender.h"
-#include "StageViewer.h"
 
 #include <metrics/PixelSets.h>
 
@@ -12,13 +10,6 @@ namespace gnomon::examples {
 namespace {
 
 constexpr double contactShare = 0.01; // of the scene's radius
-
-ShadedPicture plainPicture(const ChartScene& scene, bool shines) {
-    StageViewer viewer(plainContender().stage(scene, Look::SHADED), scene.camera, StageViewer::Colour::FLOATS);
-    viewer.staging().setShining(shines);
-    viewer.draw();
-    return coloursOf(*viewer.image());
-}
 
 ShadedPicture mixed(const ShadedPicture& lit, const ShadedPicture& dark, const metrics::TruthMaps& maps) {
     ShadedPicture result = lit;
@@ -66,7 +57,8 @@ Yardstick::Yardstick(const ChartScene& scene, bool withDisc, osg::Node* seen)
 }
 
 const ShadedPicture& Yardstick::shaded() const {
-    if (_shaded.empty()) _shaded = mixed(plainPicture(_scene, true), plainPicture(_scene, false), _maps);
+    if (_shaded.empty())
+        _shaded = mixed(shadedPicture(plainContender(), _scene), shadedPicture(plainContender(), _scene, false), _maps);
     return _shaded;
 }
 

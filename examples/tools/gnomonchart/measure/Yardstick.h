@@ -3,12 +3,11 @@
 #include "../scenes/ChartScene.h"
 #include "ChartResults.h"
 #include "SceneTruth.h"
+#include "StageViewer.h"
 
 #include <metrics/ShadowMetrics.h>
 
 namespace gnomon::examples {
-
-using ShadedPicture = metrics::Grid<glm::dvec3>; ///< linear light.
 
 /// What a renderer shows that asks one ray a pixel. @param lit  what these say, as TruthMaps::litCentre has it.
 metrics::Visibility raysOf(const metrics::Mask& lit);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "RandomScene.h"
+#include "StabilityRun.h"
 
 #include "scenes/SceneParts.h"
 
@@ -29,28 +30,9 @@ namespace {
 
 constexpr double hillHeight = 1.2; // metres
 constexpr double slopeDegrees = 18.0;
-constexpr const char* shapeNames[] = {"box", "sphere", "prism", "sheet", "open sphere", "turned sphere", "fence"};
-constexpr const char* stateNames[] = {"plain",
-                                      "clipped",
-                                      "with a clear texture",
-                                      "with a solid texture",
-                                      "tested as clear",
-                                      "tested as solid",
-                                      "of clear colours",
-                                      "of solid colours",
-                                      "of clear material",
-                                      "of solid material",
-                                      "restarted",
-                                      "indirect",
-                                      "back culled",
-                                      "front culled",
-                                      "culled",
-                                      "never passing",
-                                      "masked",
-                                      "of lines"};
-constexpr int states = static_cast<int>(std::size(stateNames));
 constexpr double clippedAt = 0.5; // of a unit mesh's height
 constexpr unsigned clipPlanes = 6;
+constexpr float clear = 0.3f, solid = 0.97f; // alpha
 const RandomScene usual;
 constexpr const char* groundNames[] = {"flat", "tilted", "hills"};
 
@@ -69,34 +51,21 @@ private:
 };
 
 double groundHeight(RandomScene::Ground ground, double x, double y) {
-    switch (ground) {
-    case RandomScene::Ground::FLAT:
-        return 0.0;
-    case RandomScene::Ground::TILTED:
-        return -x * std::tan(osg::DegreesToRadians(slopeDegrees));
-    case RandomScene::Ground::HILLS:
-        break;
-    }
+    if (ground == RandomScene::Ground::FLAT) return 0.0;
+    if (ground == RandomScene::Ground::TILTED) return -x * std::tan(osg::DegreesToRadians(slopeDegrees));
     return hillHeight * std::sin(0.5 * x) * std::cos(0.4 * y);
 }
 
 osg::ref_ptr<osg::Geode> groundNode(const RandomScene& scene) {
-    switch (scene.ground) {
-    case RandomScene::Ground::FLAT:
-        return node(square(scene.half), "ground");
-    case RandomScene::Ground::TILTED:
-        return node(tilted(scene.half, slopeDegrees), "ground");
-    case RandomScene::Ground::HILLS:
-        break;
-    }
-    return node(
-        landscape([](double x, double y) { return groundHeight(RandomScene::Ground::HILLS, x, y); }, scene.half, 28),
-        "terrain");
+    if (scene.ground == RandomScene::Ground::FLAT) return node(square(scene.half), "ground");
+    if (scene.ground == RandomScene::Ground::TILTED) return node(tilted(scene.half, slopeDegrees), "ground");
+    const auto height = [](double x, double y) { return groundHeight(RandomScene::Ground::HILLS, x, y); };
+    return node(landscape(height, scene.half, 28), "terrain");
 }
 
 RandomCaster randomCaster(Dice& dice, RandomScene::Ground ground) {
     RandomCaster caster;
-    caster.shape = static_cast<RandomShape>(dice.one(3) ? dice.below(6) : 0);
+    caster.shape = dice.one(3) ? dice.below(6) : 0; // no fence yet
     caster.size = {dice.between(0.4, 3.0), dice.between(0.4, 3.0), dice.between(0.5, 4.0)};
     caster.foot = {dice.between(-6.0, 6.0), dice.between(-6.0, 6.0), 0.0};
     caster.foot.z = groundHeight(ground, caster.foot.x, caster.foot.y) + (dice.one(3) ? dice.between(0.0, 2.0) : -0.6);
@@ -136,27 +105,33 @@ Mesh fence() {
     return joined(parts);
 }
 
+Mesh ball() { return sphere({0.0, 0.0, 0.5}, 0.5, 16); }
+
 /// Of size 1, standing on the origin.
-Mesh unitMesh(RandomShape shape) {
-    const Mesh ball = sphere({0.0, 0.0, 0.5}, 0.5, 16);
-    switch (shape) {
-    case RandomShape::BOX:
-        return boxAt({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
-    case RandomShape::SPHERE:
-        return ball;
-    case RandomShape::PRISM:
-        return moved(sphere({0.0, 0.0, 0.0}, 0.5, 4), {0.0, 0.0, 0.5});
-    case RandomShape::SHEET:
-        return quad({-0.5, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
-    case RandomShape::OPEN:
-        return openSphere(ball);
-    case RandomShape::FENCE:
-        return fence();
-    case RandomShape::TURNED:
-        break;
-    }
-    return turnedSphere(ball);
-}
+struct Shape {
+    const char* name;
+    Mesh (*mesh)();
+};
+
+constexpr int fenceShape = 6;
+constexpr Shape shapes[] = {
+    {"box",
+     [] {
+         return boxAt({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+     }},
+    {"sphere", ball},
+    {"prism",
+     [] {
+         return moved(sphere({0.0, 0.0, 0.0}, 0.5, 4), {0.0, 0.0, 0.5});
+     }},
+    {"sheet",
+     [] {
+         return quad({-0.5, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+     }},
+    {"open sphere", [] { return openSphere(ball()); }},
+    {"turned sphere", [] { return turnedSphere(ball()); }},
+    {"fence", fence},
+};
 
 /// What is below a height.
 Mesh clipped(const Mesh& mesh, double height) {
@@ -172,22 +147,6 @@ Mesh clipped(const Mesh& mesh, double height) {
             result.insert(result.end(), {polygon[0], polygon[k - 1], polygon[k]});
     }
     return result;
-}
-
-bool isThere(RandomState state) {
-    switch (state) {
-    case RandomState::CLEAR_TEXTURE:
-    case RandomState::CLEAR_TEST:
-    case RandomState::CLEAR_COLORS:
-    case RandomState::CLEAR_MATERIAL:
-    case RandomState::BOTH_CULLED:
-    case RandomState::NEVER:
-    case RandomState::MASKED:
-    case RandomState::LINES:
-        return false;
-    default:
-        return true;
-    }
 }
 
 void blend(osg::StateSet& set) {
@@ -250,72 +209,81 @@ void drawIndirect(osg::Geometry& geometry) {
     setIndices(geometry, all);
 }
 
+void addColors(osg::Geometry& geometry, osg::StateSet& set, float alpha) {
+    const osg::ref_ptr<osg::Vec4Array> all = new osg::Vec4Array;
+    all->resize(geometry.getVertexArray()->getNumElements(), colorOf(alpha));
+    geometry.setColorArray(all, osg::Array::BIND_PER_VERTEX);
+    set.setAttribute(material(osg::Material::AMBIENT_AND_DIFFUSE, 1.0f));
+    blend(set);
+}
+
+void blendTexture(osg::Geometry& geometry, osg::StateSet& set, float alpha) {
+    addTexture(geometry, set, alpha);
+    blend(set);
+}
+
+void testTexture(osg::Geometry& geometry, osg::StateSet& set, float alpha) {
+    addTexture(geometry, set, alpha);
+    set.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
+}
+
+void blendMaterial(osg::StateSet& set, float alpha) {
+    set.setAttribute(material(osg::Material::OFF, alpha));
+    blend(set);
+}
+
+void cull(osg::StateSet& set, osg::CullFace::Mode faces) { set.setAttributeAndModes(new osg::CullFace(faces)); }
+
+/// What rays see of a caster.
+enum class Rays { ALL, NOTHING, BELOW_PLANE, FACES };
+
+/// How a caster is drawn.
+struct State {
+    const char* name;
+    Rays rays;
+    void (*set)(osg::Geometry& geometry, osg::StateSet& set);
+};
+
+using G = osg::Geometry;
+using S = osg::StateSet;
+constexpr State states[] = {
+    {"plain", Rays::ALL, [](G&, S&) {}},
+    {"clipped", Rays::BELOW_PLANE, [](G&, S&) {}}, // by a node above it
+    {"with a clear texture", Rays::NOTHING, [](G& g, S& s) { blendTexture(g, s, clear); }},
+    {"with a solid texture", Rays::ALL, [](G& g, S& s) { blendTexture(g, s, solid); }},
+    {"tested as clear", Rays::NOTHING, [](G& g, S& s) { testTexture(g, s, clear); }},
+    {"tested as solid", Rays::ALL, [](G& g, S& s) { testTexture(g, s, solid); }},
+    {"of clear colours", Rays::NOTHING, [](G& g, S& s) { addColors(g, s, clear); }},
+    {"of solid colours", Rays::ALL, [](G& g, S& s) { addColors(g, s, solid); }},
+    {"of clear material", Rays::NOTHING, [](G&, S& s) { blendMaterial(s, clear); }},
+    {"of solid material", Rays::ALL, [](G&, S& s) { blendMaterial(s, solid); }},
+    {"restarted", Rays::ALL, restart},
+    {"indirect", Rays::ALL, [](G& g, S&) { drawIndirect(g); }},
+    {"back culled", Rays::FACES, [](G&, S& s) { cull(s, osg::CullFace::BACK); }},
+    {"front culled", Rays::FACES, [](G&, S& s) { cull(s, osg::CullFace::FRONT); }},
+    {"culled", Rays::NOTHING, [](G&, S& s) { cull(s, osg::CullFace::FRONT_AND_BACK); }},
+    {"never passing", Rays::NOTHING, [](G&, S& s) { s.setAttributeAndModes(new osg::Depth(osg::Depth::NEVER)); }},
+    {"masked", Rays::NOTHING,
+     [](G&, S& s) {
+         s.setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
+         s.setAttribute(new osg::ColorMask(false, false, false, false));
+     }},
+    {"of lines", Rays::NOTHING,
+     [](G&, S& s) { s.setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE)); }},
+};
+
+const State& stateOf(const RandomCaster& caster) { return states[caster.state]; }
+bool isClipped(const RandomCaster& caster) { return stateOf(caster).rays == Rays::BELOW_PLANE; }
+
 /// @param plane  number of a clip plane that nobody else has.
-osg::ref_ptr<osg::Node> withState(osg::Geode& geode, RandomState state, unsigned plane) {
+osg::ref_ptr<osg::Node> withState(osg::Geode& geode, const RandomCaster& caster, unsigned plane) {
     osg::Geometry& geometry = *geode.getDrawable(0)->asGeometry();
-    osg::StateSet& set = *geometry.getOrCreateStateSet();
-    const auto colors = [&](float alpha) {
-        const osg::ref_ptr<osg::Vec4Array> all = new osg::Vec4Array;
-        all->resize(geometry.getVertexArray()->getNumElements(), colorOf(alpha));
-        geometry.setColorArray(all, osg::Array::BIND_PER_VERTEX);
-        set.setAttribute(material(osg::Material::AMBIENT_AND_DIFFUSE, 1.0f));
-        blend(set);
-    };
-    switch (state) {
-    case RandomState::PLAIN:
-        break;
-    case RandomState::CLIPPED: {
-        const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
-        clip->addClipPlane(new osg::ClipPlane(plane, osg::Vec4d(0.0, 0.0, -1.0, clippedAt)));
-        clip->addChild(&geode);
-        return clip;
-    }
-    case RandomState::CLEAR_TEXTURE:
-    case RandomState::SOLID_TEXTURE:
-        addTexture(geometry, set, state == RandomState::CLEAR_TEXTURE ? 0.3f : 0.97f);
-        blend(set);
-        break;
-    case RandomState::CLEAR_TEST:
-    case RandomState::SOLID_TEST:
-        addTexture(geometry, set, state == RandomState::CLEAR_TEST ? 0.3f : 0.97f);
-        set.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
-        break;
-    case RandomState::CLEAR_COLORS:
-    case RandomState::SOLID_COLORS:
-        colors(state == RandomState::CLEAR_COLORS ? 0.3f : 0.97f);
-        break;
-    case RandomState::CLEAR_MATERIAL:
-    case RandomState::SOLID_MATERIAL:
-        set.setAttribute(material(osg::Material::OFF, state == RandomState::CLEAR_MATERIAL ? 0.3f : 0.97f));
-        blend(set);
-        break;
-    case RandomState::RESTARTED:
-        restart(geometry, set);
-        break;
-    case RandomState::INDIRECT:
-        drawIndirect(geometry);
-        break;
-    case RandomState::BACK_CULLED:
-        set.setAttributeAndModes(new osg::CullFace(osg::CullFace::BACK));
-        break;
-    case RandomState::FRONT_CULLED:
-        set.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT));
-        break;
-    case RandomState::BOTH_CULLED:
-        set.setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT_AND_BACK));
-        break;
-    case RandomState::NEVER:
-        set.setAttributeAndModes(new osg::Depth(osg::Depth::NEVER));
-        break;
-    case RandomState::MASKED:
-        set.setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, false));
-        set.setAttribute(new osg::ColorMask(false, false, false, false));
-        break;
-    case RandomState::LINES:
-        set.setAttribute(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE));
-        break;
-    }
-    return &geode;
+    stateOf(caster).set(geometry, *geometry.getOrCreateStateSet());
+    if (!isClipped(caster)) return &geode;
+    const osg::ref_ptr<osg::ClipNode> clip = new osg::ClipNode;
+    clip->addClipPlane(new osg::ClipPlane(plane, osg::Vec4d(0.0, 0.0, -1.0, clippedAt)));
+    clip->addChild(&geode);
+    return clip;
 }
 
 void breakMesh(Mesh& mesh) {
@@ -326,12 +294,12 @@ void breakMesh(Mesh& mesh) {
 
 /// @param drawn  not as rays see it. @param plane  see withState().
 osg::ref_ptr<osg::Node> casterNode(const RandomCaster& caster, bool drawn, unsigned plane) {
-    Mesh mesh = unitMesh(caster.shape);
+    Mesh mesh = shapes[caster.shape].mesh();
     if (drawn && caster.broken) breakMesh(mesh);
-    const bool culled = caster.state == RandomState::BACK_CULLED || caster.state == RandomState::FRONT_CULLED;
-    if (!drawn && caster.state == RandomState::CLIPPED) mesh = clipped(mesh, clippedAt);
+    if (!drawn && isClipped(caster)) mesh = clipped(mesh, clippedAt);
     osg::ref_ptr<osg::Node> below = node(mesh);
-    if (drawn || culled) below = withState(*below->asGeode(), caster.state, plane); // the eye sees them so, too
+    if (drawn || stateOf(caster).rays == Rays::FACES) // the eye sees them so, too
+        below = withState(*below->asGeode(), caster, plane);
     for (int i = 0; i < caster.transforms; ++i) {
         osg::ref_ptr<osg::MatrixTransform> over =
             new osg::MatrixTransform(osg::Matrixd::scale(i % 2 ? -0.5 : -2.0, 1.0, i % 2 ? 1.25 : 0.8));
@@ -359,15 +327,14 @@ osg::ref_ptr<osg::Group> contentOf(const RandomScene& scene, bool drawn) {
     place->addChild(groundNode(scene));
     unsigned planes = 0;
     for (const RandomCaster& caster : scene.casters)
-        if (drawn || isThere(caster.state)) {
-            const bool clips = caster.state == RandomState::CLIPPED;
+        if (drawn || stateOf(caster).rays != Rays::NOTHING) {
             place->addChild(casterNode(caster, drawn, planes));
-            planes += clips ? 1 : 0;
+            planes += isClipped(caster) ? 1 : 0;
         }
     if (scene.stray > 0.0) {
         const osg::ref_ptr<osg::MatrixTransform> far =
             new osg::MatrixTransform(osg::Matrixd::translate(scene.stray, 0.4 * scene.stray, 0.0));
-        far->addChild(node(unitMesh(RandomShape::BOX)));
+        far->addChild(node(shapes[0].mesh()));
         place->addChild(far);
     }
     osg::ref_ptr<osg::Group> content = new osg::Group;
@@ -382,9 +349,9 @@ osg::Vec3d placed(const glm::dvec3& point, const RandomScene& scene) {
 void addStates(RandomScene& scene, Dice& dice) {
     unsigned clips = 0;
     for (RandomCaster& caster : scene.casters) {
-        if (dice.one(12)) caster.shape = RandomShape::FENCE;
-        if (dice.one(3)) caster.state = static_cast<RandomState>(1 + dice.below(states - 1));
-        if (caster.state == RandomState::CLIPPED && ++clips > clipPlanes) caster.state = RandomState::PLAIN;
+        if (dice.one(12)) caster.shape = fenceShape;
+        if (dice.one(3)) caster.state = 1 + dice.below(static_cast<int>(std::size(states)) - 1);
+        if (isClipped(caster) && ++clips > clipPlanes) caster.state = 0;
     }
 }
 
@@ -397,16 +364,6 @@ void turnAlong(RandomScene& scene, double degrees) {
         caster.turn = turn;
         caster.tilt = 0.0;
     }
-}
-
-/// Adds what `change` makes of a copy, if that is any different.
-template <typename Part, typename Value>
-void plainer(std::vector<RandomScene>& into, const RandomScene& scene, Part part, const Value& plain) {
-    RandomScene copy = scene;
-    auto& value = part(copy);
-    if (value == plain) return;
-    value = plain;
-    into.push_back(std::move(copy));
 }
 
 } // namespace
@@ -453,33 +410,26 @@ StabilityCase caseOf(const RandomScene& scene, int width, int height) {
 
 std::vector<RandomScene> simpler(const RandomScene& scene) {
     std::vector<RandomScene> all;
-    for (std::size_t i = 0; scene.casters.size() > 1 && i < scene.casters.size(); ++i) {
-        all.push_back(scene);
-        all.back().casters.erase(all.back().casters.begin() + long(i));
-    }
-    plainer(
-        all, scene, [](RandomScene & s) -> auto& { return s.offset; }, 0.0);
-    plainer(
-        all, scene, [](RandomScene & s) -> auto& { return s.scale; }, 1.0);
-    plainer(
-        all, scene, [](RandomScene & s) -> auto& { return s.half; }, usual.half);
-    plainer(
-        all, scene, [](RandomScene & s) -> auto& { return s.stray; }, usual.stray);
-    plainer(
-        all, scene, [](RandomScene & s) -> auto& { return s.ground; }, RandomScene::Ground::FLAT);
+    const std::string before = describe(scene);
+    const auto add = [&](const auto& change) {
+        RandomScene copy = scene;
+        change(copy);
+        if (describe(copy) != before) all.push_back(std::move(copy));
+    };
+    for (std::size_t i = 0; scene.casters.size() > 1 && i < scene.casters.size(); ++i)
+        add([i](RandomScene& s) { s.casters.erase(s.casters.begin() + long(i)); });
+    add([](RandomScene& s) { s.offset = 0.0; });
+    add([](RandomScene& s) { s.scale = 1.0; });
+    add([](RandomScene& s) { s.half = usual.half; });
+    add([](RandomScene& s) { s.stray = 0.0; });
+    add([](RandomScene& s) { s.ground = RandomScene::Ground::FLAT; });
     for (std::size_t i = 0; i < scene.casters.size(); ++i) {
-        plainer(
-            all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].broken; }, false);
-        plainer(
-            all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].state; }, RandomState::PLAIN);
-        plainer(
-            all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].transforms; }, 0);
-        plainer(
-            all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].shape; }, RandomShape::BOX);
-        plainer(
-            all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].tilt; }, 0.0);
-        plainer(
-            all, scene, [i](RandomScene & s) -> auto& { return s.casters[i].turn; }, 0.0);
+        add([i](RandomScene& s) { s.casters[i].broken = false; });
+        add([i](RandomScene& s) { s.casters[i].state = 0; });
+        add([i](RandomScene& s) { s.casters[i].transforms = 0; });
+        add([i](RandomScene& s) { s.casters[i].shape = 0; });
+        add([i](RandomScene& s) { s.casters[i].tilt = 0.0; });
+        add([i](RandomScene& s) { s.casters[i].turn = 0.0; });
     }
     return all;
 }
@@ -497,7 +447,7 @@ std::string describe(const RandomScene& scene) {
     out << ", fovy " << scene.fovy << ", offset " << scene.offset << ", scale " << scene.scale << ", half "
         << scene.half << ", stray " << scene.stray;
     for (const RandomCaster& caster : scene.casters) {
-        out << "; " << shapeNames[int(caster.shape)] << " " << stateNames[int(caster.state)] << " at ";
+        out << "; " << shapes[caster.shape].name << " " << stateOf(caster).name << " at ";
         put(caster.foot);
         out << " of ";
         put(caster.size);
@@ -505,6 +455,109 @@ std::string describe(const RandomScene& scene) {
             << (caster.broken ? ", broken" : "");
     }
     return out.str();
+}
+
+namespace {
+
+constexpr unsigned seedsAProcess = 25; // whose truths one process keeps
+constexpr double lostBelow = 0.5;
+constexpr std::size_t leastShadow = 200, leastTurnedAway = 50; // px; the first of a false one, too
+
+StabilityScene seedsFrom(unsigned first, unsigned count) {
+    StabilityScene scene;
+    scene.id = "seeds from " + std::to_string(first);
+    scene.parameter = "seed";
+    for (unsigned i = 0; i < count; ++i) scene.values.push_back(first + i);
+    scene.make = [](double seed, int width, int height) {
+        return caseOf(randomScene(static_cast<unsigned>(seed)), width, height);
+    };
+    return scene;
+}
+
+/// Of the seeds of a batch.
+StabilityPlan planOf(const RandomSearch& search) {
+    StabilityPlan plan;
+    plan.contenders = search.contenders;
+    plan.width = search.width;
+    plan.height = search.height;
+    plan.workers = search.workers;
+    for (unsigned done = 0; done < search.count; done += seedsAProcess)
+        plan.scenes.push_back(seedsFrom(search.first + done, std::min(seedsAProcess, search.count - done)));
+    return plan;
+}
+
+/// One scene under one technique.
+StabilityCell cellOf(const RandomSearch& search, const Entrant& contender, const RandomScene& scene) {
+    StabilityPlan plan;
+    plan.contenders = {contender};
+    plan.width = search.width;
+    plan.height = search.height;
+    plan.scenes = {{{"plainer", "", "", "", "", "", {0.0}},
+                    [scene](double, int width, int height) { return caseOf(scene, width, height); }}};
+    return runStability(plan, [](std::size_t, const std::string&) { return true; }).rows[0].cells[0];
+}
+
+RandomFault shrunk(const RandomSearch& search, const Entrant& contender, unsigned seed, const StabilityCell& cell) {
+    RandomFault fault{contender.contender.technique, seed, randomScene(seed), cell};
+    for (bool plainer = true; plainer;) {
+        plainer = false;
+        for (const RandomScene& tried : simpler(fault.plainest)) {
+            const StabilityCell tryCell = cellOf(search, contender, tried);
+            if (!isRandomFault(tryCell)) continue;
+            fault.plainest = tried;
+            fault.cell = tryCell;
+            plainer = true;
+            break;
+        }
+    }
+    return fault;
+}
+
+void tellFaults(const RandomSearch& search, const StabilityResults& results,
+                const std::function<void(const RandomFault&)>& found) {
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        const StabilityRow& row = results.rows[i];
+        const StabilitySceneText& scene = results.scenes[i / search.contenders.size()];
+        for (std::size_t place = 0; place < row.cells.size(); ++place)
+            if (isRandomFault(row.cells[place]))
+                found(shrunk(search, search.contenders[i % search.contenders.size()],
+                             static_cast<unsigned>(scene.values[place]), row.cells[place]));
+    }
+}
+
+} // namespace
+
+bool isRandomFault(const StabilityCell& cell) {
+    if (cell.failure == "crashed" || cell.failure == "hung" || cell.failure == "failed" || cell.notFinite > 0)
+        return true;
+    const StabilityJudgement& judged = cell.onReceiver ? *cell.onReceiver : cell.everywhere;
+    const bool lost = std::max(judged.shadow, judged.wrong) > leastShadow && judged.iou < lostBelow;
+    return cell.failure.empty() && !cell.stated() && (lost || judged.turnedAwayWrong > leastTurnedAway);
+}
+
+unsigned searchRandomScenes(const RandomSearch& search,
+                            const std::function<bool(std::size_t, const std::string&)>& progress,
+                            const std::function<void(const RandomFault&)>& found) {
+    for (unsigned done = 0; done < search.count; done += search.batch) {
+        RandomSearch batch = search;
+        batch.first = search.first + done;
+        batch.count = std::min(search.batch, search.count - done);
+        const std::size_t before = std::size_t(done) * search.contenders.size();
+        const auto tell = [&](std::size_t cells, const std::string& doing) { return progress(before + cells, doing); };
+        const StabilityResults results = runStability(planOf(batch), tell);
+        tellFaults(batch, results, found);
+        if (!results.complete) return done;
+    }
+    return search.count;
+}
+
+std::string faultText(const RandomFault& fault) {
+    const StabilityJudgement& judged = fault.cell.onReceiver ? *fault.cell.onReceiver : fault.cell.everywhere;
+    const std::string what = fault.cell.failure.empty()
+                                 ? "IoU " + valueText(judged.iou) + " of " + std::to_string(judged.shadow) + " px, " +
+                                       std::to_string(judged.turnedAwayWrong) + " px turned away wrong"
+                                 : fault.cell.failure + ", " + fault.cell.message;
+    return fault.technique + " breaks (" + what + "): " + describe(fault.plainest);
 }
 
 } // namespace gnomon::examples

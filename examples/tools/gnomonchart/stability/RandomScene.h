@@ -5,37 +5,16 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <functional>
+#include <string>
+#include <vector>
+
 namespace gnomon::examples {
-
-/// What a random scene's casters are.
-enum class RandomShape { BOX, SPHERE, PRISM, SHEET, OPEN, TURNED, FENCE };
-
-/// How they are drawn. CLEAR has an alpha of 0.3 and is black, SOLID one of 0.97; what is clear, cut or not drawn is not there for rays.
-enum class RandomState {
-    PLAIN,
-    CLIPPED,
-    CLEAR_TEXTURE,
-    SOLID_TEXTURE,
-    CLEAR_TEST,
-    SOLID_TEST,
-    CLEAR_COLORS,
-    SOLID_COLORS,
-    CLEAR_MATERIAL,
-    SOLID_MATERIAL,
-    RESTARTED,
-    INDIRECT,
-    BACK_CULLED,
-    FRONT_CULLED,
-    BOTH_CULLED,
-    NEVER,
-    MASKED,
-    LINES
-};
 
 /// One caster of a random scene. Lengths are metres.
 struct RandomCaster {
-    RandomShape shape = RandomShape::BOX; ///< OPEN: a sphere without some triangles. TURNED: some the wrong way round.
-    RandomState state = RandomState::PLAIN;
+    int shape = 0; ///< 0: a box; else another of the table in RandomScene.cpp.
+    int state = 0; ///< how it is drawn, 0: plainly. What is clear, cut or not drawn is not there for rays.
     glm::dvec3 foot{0.0}, size{1.0};
     double turn = 0.0, tilt = 0.0; ///< degrees, about the vertical and about x.
     int transforms = 0;            ///< above it, mirrored and stretched in turns.
@@ -66,5 +45,37 @@ std::vector<RandomScene> simpler(const RandomScene& scene);
 
 /// All that makes it, for people.
 std::string describe(const RandomScene& scene);
+
+/// What a search looks through.
+struct RandomSearch {
+    unsigned first = 1, count = 500; ///< seeds.
+    std::vector<Entrant> contenders;
+    int width = 128, height = 96; ///< of the pictures, pixels.
+    unsigned workers = 1;         ///< child processes at a time.
+    unsigned batch = 400;         ///< seeds after which faults are told, at least 1.
+};
+
+/// A scene in which a technique breaks, as plain as it still does.
+struct RandomFault {
+    std::string technique;
+    unsigned seed = 0;
+    RandomScene plainest;
+    StabilityCell cell; ///< of the plainest.
+};
+
+/// Whether a cell is a catastrophe among random scenes: a crash, a hang, a failure, NaN, or an IoU below 0.5 where more than
+/// 200 pixels are shadowed, or wrong away from edges, and no limit is stated. A technique with a receiver of its own is judged there.
+bool isRandomFault(const StabilityCell& cell);
+
+/// Measures random scenes, and makes each fault's scene plainer for as long as the fault stays.
+/// @param progress  see runStability().
+/// @param found     called for each fault, after its batch.
+/// @return scenes of which all faults were told; less than search.count if `progress` ended the search.
+unsigned searchRandomScenes(const RandomSearch& search,
+                            const std::function<bool(std::size_t done, const std::string&)>& progress,
+                            const std::function<void(const RandomFault&)>& found);
+
+/// A sentence a fault, with all that makes its scene.
+std::string faultText(const RandomFault& fault);
 
 } // namespace gnomon::examples

@@ -14,24 +14,15 @@ struct StabilityPlace {
     int value = -1; ///< -1: before the first, where the best settings are looked for.
 };
 
-/// What a child process tells its parent, a line of JSON each.
+/// Measures one scene from a place on; runs in the child, and tells its parent a line of JSON each:
 ///     {"begin": [contender, value]}     before anything is done there
 ///     {"cell": …}                       what came of it
 ///     {"settings": [["size", "4096"]]}  what came of the search for the best
 ///     {"film": [contender, value]}      after the last value, if the child made all: before the film at this one
 ///     {"flicker": …}                    what came of it
-struct StabilityLines {
-    static nlohmann::json begin(const StabilityPlace& place);
-    static nlohmann::json cell(const StabilityCell& cell);
-    static nlohmann::json settings(const Settings& settings);
-    static nlohmann::json film(const StabilityPlace& place);
-    static nlohmann::json flicker(const StabilityFlicker& flicker);
-};
-
-/// Measures one scene from a place on; runs in the child.
 /// @param settings  of the contender there, if they have been found.
 /// @param say       sends a line.
 void measureScene(const StabilityPlan& plan, const StabilityScene& scene, StabilityPlace from, const Settings& settings,
-                  const std::function<void(const nlohmann::json&)>& say);
+                  const std::function<void(const nlohmann::ordered_json&)>& say);
 
 } // namespace gnomon::examples

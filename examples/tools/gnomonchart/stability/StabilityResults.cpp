@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "StabilityResults.h"
 #include "../measure/Yardstick.h"
-#include "JsonFields.h"
+#include "Json.h"
 #include "OutputFile.h"
 
 #include <metrics/BoundaryDistance.h>
-#include <metrics/Confusion.h>
 #include <metrics/ShadowMetrics.h>
 
-#include <filesystem>
 #include <iterator>
 #include <sstream>
 
@@ -122,19 +120,8 @@ double StabilityRow::reach() const {
 }
 
 const char* nameOf(StabilityOutcome outcome) {
-    switch (outcome) {
-    case StabilityOutcome::HELD:
-        return "held";
-    case StabilityOutcome::STATED:
-        return "stated limit";
-    case StabilityOutcome::ELSEWHERE:
-        return "elsewhere";
-    case StabilityOutcome::LEFT:
-        return "left";
-    case StabilityOutcome::CATASTROPHE:
-        break;
-    }
-    return "catastrophe";
+    constexpr const char* names[] = {"held", "stated limit", "elsewhere", "left", "catastrophe"};
+    return names[static_cast<std::size_t>(outcome)];
 }
 
 std::string valueText(double value) {
@@ -143,110 +130,103 @@ std::string valueText(double value) {
     return out.str();
 }
 
-using nlohmann::json;
 using nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
-template <class Way>
-static void fields(Way& way, PartOf<Way, StabilityJudgement> judgement) {
-    way.field("p95Pixels", judgement.p95);
-    way.field("floorPixels", judgement.floor);
-    way.field("wrong", judgement.wrong);
-    way.field("turnedAwayWrong", judgement.turnedAwayWrong);
-    way.field("shadow", judgement.shadow);
-    way.field("iou", judgement.iou);
-    way.field("lost", judgement.lost);
+static ordered_json jsonOf(const StabilityJudgement& judgement) {
+    return {{"p95Pixels", jsonOf(judgement.p95)},
+            {"floorPixels", jsonOf(judgement.floor)},
+            {"wrong", judgement.wrong},
+            {"turnedAwayWrong", judgement.turnedAwayWrong},
+            {"shadow", judgement.shadow},
+            {"iou", jsonOf(judgement.iou)},
+            {"lost", judgement.lost}};
 }
 
-template <class Way>
-static void fields(Way& way, PartOf<Way, StabilityCell> cell) {
-    way.field("failure", cell.failure);
-    way.field("message", cell.message);
-    way.field("measured", cell.measured);
-    way.object("everywhere", cell.everywhere);
-    way.object("onReceiver", cell.onReceiver);
-    way.field("notFinite", cell.notFinite);
-    way.field("diagnosis", cell.diagnosis);
-    way.field("notes", cell.notes);
-    way.field("picture", cell.picture);
-    way.derived("inBudget", cell.inBudget());
-    way.derived("catastrophe", cell.catastrophe());
+ordered_json jsonOf(const StabilityCell& cell) {
+    return {{"failure", cell.failure},
+            {"message", cell.message},
+            {"measured", cell.measured},
+            {"everywhere", jsonOf(cell.everywhere)},
+            {"onReceiver", jsonOf(cell.onReceiver)},
+            {"notFinite", cell.notFinite},
+            {"diagnosis", cell.diagnosis},
+            {"notes", cell.notes},
+            {"picture", cell.picture},
+            {"inBudget", cell.inBudget()},
+            {"catastrophe", cell.catastrophe()}};
 }
 
-template <class Way>
-static void fields(Way& way, PartOf<Way, StabilityFlicker> flicker) {
-    way.field("flickerValue", flicker.value);
-    way.field("flickerEnergy", flicker.energy);
-    way.field("flickerShare", flicker.share);
-    way.field("crawlPixels", flicker.crawl);
-    way.field("rayCrawlPixels", flicker.rayCrawl);
-    way.field("flickerTurnedAwayWrong", flicker.turnedAwayWrong);
-    way.field("flickerPicture", flicker.picture);
+ordered_json jsonOf(const StabilityFlicker& flicker) {
+    return {{"flickerValue", jsonOf(flicker.value)},      {"flickerEnergy", jsonOf(flicker.energy)},
+            {"flickerShare", jsonOf(flicker.share)},      {"crawlPixels", jsonOf(flicker.crawl)},
+            {"rayCrawlPixels", jsonOf(flicker.rayCrawl)}, {"flickerTurnedAwayWrong", flicker.turnedAwayWrong},
+            {"flickerPicture", flicker.picture}};
 }
 
-template <class Way>
-static void fields(Way& way, PartOf<Way, StabilityRow> row) {
-    way.field("scene", row.scene);
-    way.field("kit", row.kit);
-    way.field("technique", row.technique);
-    way.field("setting", row.setting);
-    way.field("settings", row.settings);
-    way.derived("outcome", std::string(nameOf(row.outcome())));
-    way.derived("reach", row.reach());
-    fields(way, row.flicker);
-    way.list("cells", row.cells);
+static ordered_json jsonOf(const StabilityRow& row) {
+    ordered_json object = {{"scene", row.scene},     {"kit", row.kit},           {"technique", row.technique},
+                           {"setting", row.setting}, {"settings", row.settings}, {"outcome", nameOf(row.outcome())},
+                           {"reach", row.reach()}};
+    object.update(jsonOf(row.flicker));
+    object["cells"] = jsonOf(row.cells);
+    return object;
 }
 
-template <class Way>
-static void fields(Way& way, PartOf<Way, StabilitySceneText> scene) {
-    way.field("id", scene.id);
-    way.field("section", scene.section);
-    way.field("title", scene.title);
-    way.field("about", scene.about);
-    way.field("parameter", scene.parameter);
-    way.field("unit", scene.unit);
-    way.field("values", scene.values);
+static ordered_json jsonOf(const StabilitySceneText& scene) {
+    return {{"id", scene.id},        {"section", scene.section},     {"title", scene.title},
+            {"about", scene.about},  {"parameter", scene.parameter}, {"unit", scene.unit},
+            {"values", scene.values}};
 }
 
-template <class Way>
-static void fields(Way& way, PartOf<Way, StabilityResults> results) {
-    way.field("complete", results.complete);
-    way.field("made", results.made);
-    way.list("scenes", results.scenes);
-    way.list("rows", results.rows);
+void saveStability(const StabilityResults& results, const std::string& folder) {
+    OutputFile(folder + "/stability.json")
+        .write(resultsText({{"complete", results.complete},
+                            {"made", results.made},
+                            {"scenes", jsonOf(results.scenes)},
+                            {"rows", jsonOf(results.rows)}}));
 }
 
 namespace {
 
-template <class Part>
-ordered_json written(const Part& part) {
-    ordered_json object;
-    FieldWriter way(object);
-    fields(way, part);
-    return object;
+/// What jsonOf() wrote, NaN and infinity as text.
+double numberOf(const ordered_json& from) {
+    return from.is_string() ? std::stod(from.get<std::string>()) : from.get<double>();
 }
 
-template <class Part>
-Part partOf(const json& object) {
-    Part part;
-    FieldReader way(object);
-    fields(way, part);
-    return part;
+template <class Value, class Of>
+std::optional<Value> ifAny(const ordered_json& from, const Of& of) {
+    return from.is_null() ? std::nullopt : std::optional<Value>(of(from));
+}
+
+StabilityJudgement judgementOf(const ordered_json& from) {
+    return {ifAny<double>(from.at("p95Pixels"), numberOf),
+            numberOf(from.at("floorPixels")),
+            from.at("wrong"),
+            from.at("turnedAwayWrong"),
+            from.at("shadow"),
+            numberOf(from.at("iou")),
+            from.at("lost")};
 }
 
 } // namespace
 
-json jsonOf(const StabilityCell& cell) { return written(cell); }
-json jsonOf(const StabilityFlicker& flicker) { return written(flicker); }
+StabilityCell cellOf(const ordered_json& from) {
+    return {from.at("failure"),
+            from.at("message"),
+            from.at("measured"),
+            judgementOf(from.at("everywhere")),
+            ifAny<StabilityJudgement>(from.at("onReceiver"), judgementOf),
+            from.at("notFinite"),
+            from.at("diagnosis"),
+            from.at("notes"),
+            from.at("picture")};
+}
 
-StabilityCell cellOf(const json& object) { return partOf<StabilityCell>(object); }
-StabilityFlicker flickerOf(const json& object) { return partOf<StabilityFlicker>(object); }
-
-void saveStability(const StabilityResults& results, const std::string& folder) {
-    ordered_json object;
-    FieldWriter way(object);
-    fields(way, results);
-    OutputFile((fs::path(folder) / "stability.json").string()).write(resultsText(object));
+StabilityFlicker flickerOf(const ordered_json& from) {
+    const auto number = [&](const char* name) { return ifAny<double>(from.at(name), numberOf); };
+    return {number("flickerValue"),   number("flickerEnergy"),  number("flickerShare"),
+            number("crawlPixels"),    number("rayCrawlPixels"), from.at("flickerTurnedAwayWrong"),
+            from.at("flickerPicture")};
 }
 
 StabilityJudgement judge(const metrics::Picture& visibility, const metrics::TruthMaps& truth,

@@ -85,10 +85,15 @@ struct StabilityRow {
     double reach() const;
 };
 
-/// What a scene is about, see StabilityScene.
+/// What a scene is about.
 struct StabilitySceneText {
-    std::string id, section, title, about, parameter, unit;
-    std::vector<double> values;
+    std::string id;             ///< "L7"
+    std::string section;        ///< "light"
+    std::string title;          ///< a few words.
+    std::string about;          ///< one sentence: what is hard, and what is right.
+    std::string parameter;      ///< what the values are.
+    std::string unit;           ///< of the values; empty: none.
+    std::vector<double> values; ///< from harmless to hostile.
 };
 
 struct StabilityResults {
@@ -109,10 +114,10 @@ std::string valueText(double value);
 void saveStability(const StabilityResults& results, const std::string& folder);
 
 /// What a child process hands over.
-nlohmann::json jsonOf(const StabilityCell& cell);
-nlohmann::json jsonOf(const StabilityFlicker& flicker);
-StabilityCell cellOf(const nlohmann::json& json);
-StabilityFlicker flickerOf(const nlohmann::json& json);
+nlohmann::ordered_json jsonOf(const StabilityCell& cell);
+nlohmann::ordered_json jsonOf(const StabilityFlicker& flicker);
+StabilityCell cellOf(const nlohmann::ordered_json& json);
+StabilityFlicker flickerOf(const nlohmann::ordered_json& json);
 
 /// Judges one picture over the pixels of `within`. A wrong pixel is away from edges if none of the 24 pixels about it is on
 /// an edge or truly otherwise: nearer ones are what the boundary's distance measures. Pixels that the truth leaves undecided

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "StabilityScene.h"
-#include "scenes/Sections.h"
+#include "../measure/ChartResults.h"
+#include "scenes/SceneParts.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -39,18 +40,12 @@ std::vector<StabilityScene> stabilityScenes(const std::vector<std::string>& ids)
     return chosen;
 }
 
-std::vector<StabilityContender> stabilityContenders(const std::vector<std::string>& parts, bool best) {
-    requireKnown(parts);
-    std::vector<StabilityContender> chosen;
-    for (Contender& contender : gnomonContenders()) {
-        if (!isAtDefaults(contender) || !isAsked(contender.technique, parts)) continue;
-        contender.setting = "defaults";
-        chosen.push_back({std::move(contender)});
-    }
-    for (const Peer& peer : peers()) {
-        if (!isAsked(peer.name, parts)) continue;
-        chosen.push_back({peerContender(peer, "defaults", {})});
-        if (best && !peer.knobs.empty()) chosen.push_back({peerContender(peer, "best", {}), &peer});
+std::vector<Entrant> stabilityContenders(const std::vector<std::string>& parts, bool best) {
+    std::vector<Entrant> chosen;
+    for (Entrant& entrant : entrants(parts, best)) {
+        if (!isAtDefaults(entrant.contender)) continue;
+        if (entrant.contender.kit == ourKit) entrant.contender.setting = "defaults";
+        chosen.push_back(std::move(entrant));
     }
     if (chosen.empty())
         throw std::invalid_argument("no technique whose name contains \"" + parts.front() +

@@ -17,14 +17,7 @@ struct StabilityCase {
 };
 
 /// A scene with one parameter, swept from harmless to hostile.
-struct StabilityScene {
-    std::string id;             ///< "L7"
-    std::string section;        ///< "light"
-    std::string title;          ///< a few words.
-    std::string about;          ///< one sentence: what is hard, and what is right.
-    std::string parameter;      ///< what the values are.
-    std::string unit;           ///< of the values; empty: none.
-    std::vector<double> values; ///< from harmless to hostile.
+struct StabilityScene : StabilitySceneText {
     /// @param width,height  of the picture, pixels.
     std::function<StabilityCase(double value, int width, int height)> make;
 };
@@ -36,27 +29,21 @@ const std::vector<StabilityScene>& stabilityScenes();
 /// @throws std::invalid_argument, one sentence that lists what is allowed, for an id that no scene has.
 std::vector<StabilityScene> stabilityScenes(const std::vector<std::string>& ids);
 
-/// One row of the table.
-struct StabilityContender {
-    Contender contender;
-    const Peer* sought = nullptr; ///< its best settings are looked for at the middle value of each scene.
-};
-
 /// What a run measures.
 struct StabilityPlan {
     std::vector<StabilityScene> scenes;
-    std::vector<StabilityContender> contenders;
-    int width = 160, height = 120;                         ///< of the pictures, pixels.
-    double seconds = 60.0;                                 ///< of processor time for one cell, and 20 times as long by
-                                                           ///< the clock, truth included: after that it hangs.
-    unsigned workers = 1;                                  ///< child processes at a time.
-    std::string folder;                                    ///< for pictures; empty: none are written.
+    std::vector<Entrant> contenders; ///< a row each; best settings are looked for at the middle value of each scene.
+    int width = 160, height = 120;   ///< of the pictures, pixels.
+    double seconds = 60.0;           ///< of processor time for one cell, and 20 times as long by
+                                     ///< the clock, truth included: after that it hangs.
+    unsigned workers = 1;            ///< child processes at a time.
+    std::string folder;              ///< for pictures; empty: none are written.
     std::vector<std::pair<std::string, std::string>> made; ///< how it is made, for the results.
 };
 
 /// Gnomon's techniques at their defaults and osgShadow's, those at their best too if asked for.
 /// @param parts  of techniques' names; none: all.
 /// @throws std::invalid_argument, one sentence, if one of them is in no technique's name.
-std::vector<StabilityContender> stabilityContenders(const std::vector<std::string>& parts, bool best);
+std::vector<Entrant> stabilityContenders(const std::vector<std::string>& parts, bool best);
 
 } // namespace gnomon::examples

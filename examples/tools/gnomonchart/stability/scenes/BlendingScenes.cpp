@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Overlaps, edges of receivers, counts; and what the method of ARL-TN-156 stumbles over.
 #include "SceneParts.h"
-#include "Sections.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -9,8 +8,6 @@
 
 namespace gnomon::examples {
 namespace {
-
-constexpr const char* section = "blending and ARL";
 
 /// So many plates above one another, whose shadows overlap.
 SceneParts stacked(double count) {
@@ -109,80 +106,26 @@ SceneParts dugIn(double metres) {
 } // namespace
 
 std::vector<StabilityScene> blendingScenes() {
-    return {
-        {"B1",
-         section,
-         "Overlap",
-         "A place in many shadows is as dark as one in a single shadow.",
-         "plates",
-         "",
-         {1.0, 2.0, 5.0, 20.0, 60.0},
-         madeOf(stacked)},
-        {"B3",
-         section,
-         "Casters' far sides",
-         "A solid's own far side is dark once, and its shadow is not drawn on it.",
-         "sun's turn",
-         "°",
-         {0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0},
-         madeOf(selfShadow)},
-        {"B4",
-         section,
-         "Edge of a table",
-         "The shadow ends at the table's edge, and goes on upon the ground below.",
-         "jug from the edge",
-         "m",
-         {6.0, 3.0, 2.0, 1.0, 0.5, 0.0},
-         madeOf(onTable)},
-        {"B5",
-         section,
-         "Number of casters",
-         "Nothing depends on how many casters there are.",
-         "casters",
-         "",
-         {0.0, 1.0, 9.0, 100.0, 900.0},
-         madeOf(many)},
-        {"A1",
-         section,
-         "Turned box",
-         "A box has no preferred azimuth.",
-         "turn",
-         "°",
-         {0.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 89.0},
-         madeOf(turnedBox)},
-        {"A2",
-         section,
-         "Prism of many sides",
-         "Vertices that lie close to each other all count.",
-         "sides",
-         "",
-         {4.0, 3.0, 5.0, 6.0, 9.0, 16.0, 64.0},
-         madeOf(withSides)},
-        {"A3",
-         section,
-         "Sun about a box",
-         "The outline closes whichever edge comes last.",
-         "sun's azimuth",
-         "°",
-         {45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0},
-         madeOf(sunFrom)},
-        {"A4",
-         section,
-         "Corner at zero",
-         "A coordinate that is exactly zero has a side, too.",
-         "corner's distance from 0",
-         "m",
-         {1.0, 0.1, 1e-3, 1e-6, 0.0, -1e-6},
-         madeOf(cornerAtZero)},
-        {"A5",
-         section,
-         "House dug into a slope",
-         "The part below the terrain casts nothing onto it.",
-         "depth",
-         "m",
-         {0.0, 0.5, 1.0, 2.0, 4.0},
-         madeOf(dugIn)},
-    };
+    Section section("blending and ARL");
+    section.add("B1", "Overlap", "A place in many shadows is as dark as one in a single shadow.", "plates", "",
+                {1.0, 2.0, 5.0, 20.0, 60.0}, stacked);
+    section.add("B3", "Casters' far sides", "A solid's own far side is dark once, and its shadow is not drawn on it.",
+                "sun's turn", "°", {0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0}, selfShadow);
+    section.add("B4", "Edge of a table", "The shadow ends at the table's edge, and goes on upon the ground below.",
+                "jug from the edge", "m", {6.0, 3.0, 2.0, 1.0, 0.5, 0.0}, onTable);
+    section.add("B5", "Number of casters", "Nothing depends on how many casters there are.", "casters", "",
+                {0.0, 1.0, 9.0, 100.0, 900.0}, many);
+    section.add("A1", "Turned box", "A box has no preferred azimuth.", "turn", "°",
+                {0.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 89.0}, turnedBox);
+    section.add("A2", "Prism of many sides", "Vertices that lie close to each other all count.", "sides", "",
+                {4.0, 3.0, 5.0, 6.0, 9.0, 16.0, 64.0}, withSides);
+    section.add("A3", "Sun about a box", "The outline closes whichever edge comes last.", "sun's azimuth", "°",
+                {45.0, 90.0, 135.0, 180.0, 225.0, 270.0, 315.0, 360.0}, sunFrom);
+    section.add("A4", "Corner at zero", "A coordinate that is exactly zero has a side, too.",
+                "corner's distance from 0", "m", {1.0, 0.1, 1e-3, 1e-6, 0.0, -1e-6}, cornerAtZero);
+    section.add("A5", "House dug into a slope", "The part below the terrain casts nothing onto it.", "depth", "m",
+                {0.0, 0.5, 1.0, 2.0, 4.0}, dugIn);
+    return section.scenes();
 }
 
 } // namespace gnomon::examples

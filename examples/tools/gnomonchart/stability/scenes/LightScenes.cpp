@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the light stands.
 #include "SceneParts.h"
-#include "Sections.h"
 
 #include <osg/Geometry>
 
@@ -14,7 +13,6 @@ namespace {
 using glm::dvec3;
 using osg::Vec4d;
 
-constexpr const char* section = "light";
 const std::vector<double> alongWalls{15.0, -15.0, 8.0, -8.0, 4.0, -4.0, 2.0, -2.0, 1.0, -1.0, 0.0, -0.5, 0.5};
 
 /// A house and a sphere on level ground.
@@ -135,94 +133,37 @@ SceneParts streets(double degrees, bool averaged) {
 } // namespace
 
 std::vector<StabilityScene> lightScenes() {
-    return {
-        {"L1",
-         section,
-         "Sun in the plane",
-         "The shadow grows without bound as the sun sets, and then there is none.",
-         "sun's elevation",
-         "°",
-         {45.0, 10.0, 3.0, 1.0, 0.1, 1e-3, 1e-6, 0.0, -1e-6, -1e-3},
-         madeOf(sunAtElevation)},
-        {"L2",
-         section,
-         "Sun below the plane",
-         "A sun below the ground must darken nothing that it does not light.",
-         "sun's elevation",
-         "°",
-         {30.0, 0.0, -1.0, -5.0, -30.0, -80.0},
-         madeOf(sunAtElevation)},
-        {"L3",
-         section,
-         "Lamp far away",
-         "A lamp that moves away must become a sun, without losing digits.",
-         "lamp's distance",
-         "m",
-         {10.0, 30.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7},
-         madeOf(lampAway)},
-        {"L4",
-         section,
-         "Caster taller than the lamp",
-         "Only what lies below the lamp casts on the ground; the rest must not throw an inverted shadow.",
-         "caster's height over the lamp's",
-         "",
-         {0.3, 0.6, 0.9, 0.999, 1.0, 1.001, 1.2, 2.0},
-         madeOf(boxBesideLamp)},
-        {"L5",
-         section,
-         "Caster that crosses the plane",
-         "Only the part above the ground casts onto it.",
-         "sunk by",
-         "radii",
-         {-0.5, 0.0, 0.3, 0.6, 1.0, 1.4, 1.8},
-         madeOf(sunkenSphere)},
-        {"L6",
-         section,
-         "Lamp inside the caster's box",
-         "A lamp within a caster's bounding box casts outwards; no hull of the caster may be taken for it.",
-         "way into the frame",
-         "",
-         {0.0, 0.4, 0.7, 0.8, 0.9, 1.0},
-         madeOf(lampInFrame)},
-        {"L7",
-         section,
-         "Grazing sun",
-         "A low sun stretches a tower's shadow, and every error with it.",
-         "sun's elevation",
-         "°",
-         {45.0, 20.0, 10.0, 7.0, 5.0, 4.0, 3.2},
-         madeOf(lowSunOnTower)},
-        {"L8",
-         section,
-         "Sun overhead",
-         "The direction across the ground vanishes, and no azimuth may be made of it.",
-         "tilt from the vertical",
-         "",
-         {0.3, 0.1, 1e-3, 1e-6, 1e-12, 0.0},
-         madeOf(highSun)},
-        {"L9",
-         section,
-         "Light vectors of odd length",
-         "A direction's length means nothing.",
-         "length of the direction",
-         "",
-         {1.0, 1e3, 1e-3, 1e10, 1e-10, 1e18, 1e-18},
-         madeOf(lightOfLength)},
-        {"L10",
-         section,
-         "Lamp in the plane of a face",
-         "A face seen edge-on by the lamp is neither front nor back: the silhouette must stay closed.",
-         "lamp's distance from the plane",
-         "m",
-         {1.0, 0.1, 1e-2, 1e-4, 1e-6, 0.0},
-         madeOf(lampOverFace)},
-        {"L11", section, "Sun along walls",
-         "A wall that is turned away from the sun by a little is in shadow as a whole, without stripes and bright "
-         "rims.",
-         "walls turned away by", "°", alongWalls, madeOf([](double degrees) { return streets(degrees, false); })},
-        {"L12", section, "Sun along walls, averaged normals", "The same of walls that their normals make bright.",
-         "walls turned away by", "°", alongWalls, madeOf([](double degrees) { return streets(degrees, true); })},
-    };
+    Section section("light");
+    section.add("L1", "Sun in the plane", "The shadow grows without bound as the sun sets, and then there is none.",
+                "sun's elevation", "°", {45.0, 10.0, 3.0, 1.0, 0.1, 1e-3, 1e-6, 0.0, -1e-6, -1e-3}, sunAtElevation);
+    section.add("L2", "Sun below the plane", "A sun below the ground must darken nothing that it does not light.",
+                "sun's elevation", "°", {30.0, 0.0, -1.0, -5.0, -30.0, -80.0}, sunAtElevation);
+    section.add("L3", "Lamp far away", "A lamp that moves away must become a sun, without losing digits.",
+                "lamp's distance", "m", {10.0, 30.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7}, lampAway);
+    section.add("L4", "Caster taller than the lamp",
+                "Only what lies below the lamp casts on the ground; the rest must not throw an inverted shadow.",
+                "caster's height over the lamp's", "", {0.3, 0.6, 0.9, 0.999, 1.0, 1.001, 1.2, 2.0}, boxBesideLamp);
+    section.add("L5", "Caster that crosses the plane", "Only the part above the ground casts onto it.", "sunk by",
+                "radii", {-0.5, 0.0, 0.3, 0.6, 1.0, 1.4, 1.8}, sunkenSphere);
+    section.add("L6", "Lamp inside the caster's box",
+                "A lamp within a caster's bounding box casts outwards; no hull of the caster may be taken for it.",
+                "way into the frame", "", {0.0, 0.4, 0.7, 0.8, 0.9, 1.0}, lampInFrame);
+    section.add("L7", "Grazing sun", "A low sun stretches a tower's shadow, and every error with it.",
+                "sun's elevation", "°", {45.0, 20.0, 10.0, 7.0, 5.0, 4.0, 3.2}, lowSunOnTower);
+    section.add("L8", "Sun overhead", "The direction across the ground vanishes, and no azimuth may be made of it.",
+                "tilt from the vertical", "", {0.3, 0.1, 1e-3, 1e-6, 1e-12, 0.0}, highSun);
+    section.add("L9", "Light vectors of odd length", "A direction's length means nothing.", "length of the direction",
+                "", {1.0, 1e3, 1e-3, 1e10, 1e-10, 1e18, 1e-18}, lightOfLength);
+    section.add("L10", "Lamp in the plane of a face",
+                "A face seen edge-on by the lamp is neither front nor back: the silhouette must stay closed.",
+                "lamp's distance from the plane", "m", {1.0, 0.1, 1e-2, 1e-4, 1e-6, 0.0}, lampOverFace);
+    section.add(
+        "L11", "Sun along walls",
+        "A wall that is turned away from the sun by a little is in shadow as a whole, without stripes and bright rims.",
+        "walls turned away by", "°", alongWalls, [](double degrees) { return streets(degrees, false); });
+    section.add("L12", "Sun along walls, averaged normals", "The same of walls that their normals make bright.",
+                "walls turned away by", "°", alongWalls, [](double degrees) { return streets(degrees, true); });
+    return section.scenes();
 }
 
 } // namespace gnomon::examples

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is hard on shadow maps.
 #include "SceneParts.h"
-#include "Sections.h"
 
 #include <osg/LOD>
 #include <osg/MatrixTransform>
@@ -13,8 +12,6 @@ namespace gnomon::examples {
 namespace {
 
 using glm::dvec3;
-
-constexpr const char* section = "maps";
 
 /// A row of posts along a street that the camera looks down.
 SceneParts street(double half = 120.0) {
@@ -217,136 +214,41 @@ SceneParts instances(double count) {
 } // namespace
 
 std::vector<StabilityScene> mapScenes() {
-    return {
-        {"S1",
-         section,
-         "Acne",
-         "Surfaces that the light meets at a flat angle must not shadow themselves.",
-         "sun's elevation",
-         "°",
-         {75.0, 45.0, 25.0, 15.0, 10.0, 7.0, 5.0},
-         madeOf(lit)},
-        {"S2",
-         section,
-         "Kerb",
-         "A low step keeps its shadow: a bias that is too large takes it away.",
-         "height",
-         "m",
-         {1.0, 0.5, 0.2, 0.1, 0.05},
-         madeOf(kerb)},
-        {"S3",
-         section,
-         "Closed room",
-         "No light leaks through walls, thin as they may be.",
-         "thickness of the walls",
-         "m",
-         {1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001},
-         madeOf(closedRoom)},
-        {"S4",
-         section,
-         "Looking into the sun",
-         "With light and view face to face no warp of the map helps.",
-         "from the sun behind",
-         "°",
-         {0.0, 45.0, 90.0, 135.0, 165.0, 175.0, 180.0},
-         madeOf(facingSun)},
-        {"S5",
-         section,
-         "Creeping camera",
-         "Edges stand still while the camera goes on by fractions of a texel.",
-         "way",
-         "cm",
-         {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.4, 2.7, 3.0, 3.3},
-         madeOf(creeping)},
-        {"S5T",
-         section,
-         "Turning camera",
-         "Edges stand still while the camera turns.",
-         "turned by",
-         "°",
-         {0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55},
-         madeOf(turning)},
-        {"S6",
-         section,
-         "Caster far up-sun",
-         "A caster outside of the view casts into it.",
-         "distance",
-         "m",
-         {10.0, 30.0, 100.0, 200.0, 400.0, 800.0, 1400.0},
-         madeOf(towerUpSun)},
-        {"S7",
-         section,
-         "Wide view",
-         "A wide view stretches what a map has to cover.",
-         "field of view",
-         "°",
-         {40.0, 80.0, 110.0, 140.0, 160.0, 170.0},
-         madeOf(fieldOfView)},
-        {"S7N",
-         section,
-         "Narrow view",
-         "A telescope shows a few metres of a scene from afar.",
-         "field of view",
-         "°",
-         {30.0, 10.0, 3.0, 1.0, 0.3, 0.1},
-         madeOf(fromAfar)},
-        {"S7O",
-         section,
-         "Orthographic view",
-         "A camera without perspective sees from behind its eye.",
-         "half of the picture's height",
-         "m",
-         {10.0, 20.0, 40.0, 80.0},
-         madeOf(orthographic)},
-        {"S8",
-         section,
-         "Eye close to the ground, far from the origin",
-         "The map must cover the first metres of the view.",
-         "eye's height",
-         "m",
-         {20.0, 8.0, 3.0, 1.5, 0.7},
-         madeOf(lowEye)},
-        {"S9",
-         section,
-         "Walk over seams of cascades",
-         "No seam is seen between one map and the next.",
-         "way",
-         "m",
-         {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0},
-         madeOf(walking)},
-        {"S10",
-         section,
-         "Thin slats",
-         "Slats thinner than a texel still cast.",
-         "width",
-         "m",
-         {0.5, 0.3, 0.2, 0.1, 0.05},
-         madeOf(fence)},
-        {"S11",
-         section,
-         "Lamp among posts",
-         "A shadow runs on over the seams of a lamp's six maps.",
-         "turn of the posts",
-         "°",
-         {0.0, 7.5, 15.0, 22.5, 30.0, 37.5},
-         madeOf(lampAmongPosts)},
-        {"S12",
-         section,
-         "Casters with levels of detail",
-         "The level that is drawn is the level that casts.",
-         "distance",
-         "switching ranges",
-         {0.5, 0.9, 1.1, 2.0, 5.0},
-         madeOf(coarseCasters)},
-        {"S13",
-         section,
-         "Shared subgraphs",
-         "One drawable under many parents casts at each of its places.",
-         "places",
-         "",
-         {1.0, 4.0, 16.0, 64.0, 256.0},
-         madeOf(instances)},
-    };
+    Section section("maps");
+    section.add("S1", "Acne", "Surfaces that the light meets at a flat angle must not shadow themselves.",
+                "sun's elevation", "°", {75.0, 45.0, 25.0, 15.0, 10.0, 7.0, 5.0}, lit);
+    section.add("S2", "Kerb", "A low step keeps its shadow: a bias that is too large takes it away.", "height", "m",
+                {1.0, 0.5, 0.2, 0.1, 0.05}, kerb);
+    section.add("S3", "Closed room", "No light leaks through walls, thin as they may be.", "thickness of the walls",
+                "m", {1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001}, closedRoom);
+    section.add("S4", "Looking into the sun", "With light and view face to face no warp of the map helps.",
+                "from the sun behind", "°", {0.0, 45.0, 90.0, 135.0, 165.0, 175.0, 180.0}, facingSun);
+    section.add("S5", "Creeping camera", "Edges stand still while the camera goes on by fractions of a texel.", "way",
+                "cm", {0.0, 0.3, 0.6, 0.9, 1.2, 1.5, 1.8, 2.1, 2.4, 2.7, 3.0, 3.3}, creeping);
+    section.add("S5T", "Turning camera", "Edges stand still while the camera turns.", "turned by", "°",
+                {0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55}, turning);
+    section.add("S6", "Caster far up-sun", "A caster outside of the view casts into it.", "distance", "m",
+                {10.0, 30.0, 100.0, 200.0, 400.0, 800.0, 1400.0}, towerUpSun);
+    section.add("S7", "Wide view", "A wide view stretches what a map has to cover.", "field of view", "°",
+                {40.0, 80.0, 110.0, 140.0, 160.0, 170.0}, fieldOfView);
+    section.add("S7N", "Narrow view", "A telescope shows a few metres of a scene from afar.", "field of view", "°",
+                {30.0, 10.0, 3.0, 1.0, 0.3, 0.1}, fromAfar);
+    section.add("S7O", "Orthographic view", "A camera without perspective sees from behind its eye.",
+                "half of the picture's height", "m", {10.0, 20.0, 40.0, 80.0}, orthographic);
+    section.add("S8", "Eye close to the ground, far from the origin",
+                "The map must cover the first metres of the view.", "eye's height", "m", {20.0, 8.0, 3.0, 1.5, 0.7},
+                lowEye);
+    section.add("S9", "Walk over seams of cascades", "No seam is seen between one map and the next.", "way", "m",
+                {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0}, walking);
+    section.add("S10", "Thin slats", "Slats thinner than a texel still cast.", "width", "m", {0.5, 0.3, 0.2, 0.1, 0.05},
+                fence);
+    section.add("S11", "Lamp among posts", "A shadow runs on over the seams of a lamp's six maps.", "turn of the posts",
+                "°", {0.0, 7.5, 15.0, 22.5, 30.0, 37.5}, lampAmongPosts);
+    section.add("S12", "Casters with levels of detail", "The level that is drawn is the level that casts.", "distance",
+                "switching ranges", {0.5, 0.9, 1.1, 2.0, 5.0}, coarseCasters);
+    section.add("S13", "Shared subgraphs", "One drawable under many parents casts at each of its places.", "places", "",
+                {1.0, 4.0, 16.0, 64.0, 256.0}, instances);
+    return section.scenes();
 }
 
 } // namespace gnomon::examples

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes as they come, and where the eye is among shadows.
 #include "SceneParts.h"
-#include "Sections.h"
 
 #include <cmath>
 #include <cstdint>
@@ -9,8 +8,6 @@
 
 namespace gnomon::examples {
 namespace {
-
-constexpr const char* section = "meshes and volumes";
 
 /// The same on every machine.
 bool drawn(std::mt19937& random, double share) { return double(std::uint32_t(random())) < share * 4294967296.0; }
@@ -106,72 +103,24 @@ SceneParts sheet(double degrees) {
 } // namespace
 
 std::vector<StabilityScene> meshScenes() {
-    return {
-        {"V1",
-         section,
-         "Open meshes",
-         "A mesh with holes casts the shadow of what is there.",
-         "missing triangles",
-         "share",
-         {0.0, 0.05, 0.1, 0.3, 0.6, 0.9},
-         madeOf(open)},
-        {"V1W",
-         section,
-         "Inconsistent winding",
-         "A triangle casts whichever way round its corners go.",
-         "turned triangles",
-         "share",
-         {0.0, 0.02, 0.1, 0.3, 0.5},
-         madeOf(turned)},
-        {"V2",
-         section,
-         "Eye in the shadow",
-         "An eye or a near plane inside of a shadow inverts nothing.",
-         "way into the shadow",
-         "",
-         {0.0, 0.5, 0.8, 0.95, 1.0},
-         madeOf(eyeInShadow)},
-        {"V3",
-         section,
-         "Along the rays",
-         "Seen along its rays a shadow closes over its far end.",
-         "from behind the caster",
-         "°",
-         {90.0, 45.0, 10.0, 1.0, 0.0, 180.0},
-         madeOf(alongRays)},
-        {"V4",
-         section,
-         "Nested shells",
-         "More layers than a stencil buffer counts are still layers.",
-         "shells",
-         "",
-         {1.0, 10.0, 50.0, 120.0, 254.0, 300.0},
-         madeOf(shells)},
-        {"V5",
-         section,
-         "Fine meshes",
-         "No light shines through between two triangles.",
-         "slices of a sphere",
-         "",
-         {12.0, 32.0, 96.0, 200.0},
-         madeOf(fine)},
-        {"V6",
-         section,
-         "Many towers, low sun",
-         "Shadows that overlap and cross half of the scene.",
-         "towers",
-         "",
-         {1.0, 9.0, 25.0, 100.0, 225.0},
-         madeOf(towers)},
-        {"V7",
-         section,
-         "Sheet edge-on",
-         "A sheet without thickness casts less and less as it turns along the rays.",
-         "angle to the rays",
-         "°",
-         {90.0, 45.0, 15.0, 5.0, 1.0, 0.0},
-         madeOf(sheet)},
-    };
+    Section section("meshes and volumes");
+    section.add("V1", "Open meshes", "A mesh with holes casts the shadow of what is there.", "missing triangles",
+                "share", {0.0, 0.05, 0.1, 0.3, 0.6, 0.9}, open);
+    section.add("V1W", "Inconsistent winding", "A triangle casts whichever way round its corners go.",
+                "turned triangles", "share", {0.0, 0.02, 0.1, 0.3, 0.5}, turned);
+    section.add("V2", "Eye in the shadow", "An eye or a near plane inside of a shadow inverts nothing.",
+                "way into the shadow", "", {0.0, 0.5, 0.8, 0.95, 1.0}, eyeInShadow);
+    section.add("V3", "Along the rays", "Seen along its rays a shadow closes over its far end.",
+                "from behind the caster", "°", {90.0, 45.0, 10.0, 1.0, 0.0, 180.0}, alongRays);
+    section.add("V4", "Nested shells", "More layers than a stencil buffer counts are still layers.", "shells", "",
+                {1.0, 10.0, 50.0, 120.0, 254.0, 300.0}, shells);
+    section.add("V5", "Fine meshes", "No light shines through between two triangles.", "slices of a sphere", "",
+                {12.0, 32.0, 96.0, 200.0}, fine);
+    section.add("V6", "Many towers, low sun", "Shadows that overlap and cross half of the scene.", "towers", "",
+                {1.0, 9.0, 25.0, 100.0, 225.0}, towers);
+    section.add("V7", "Sheet edge-on", "A sheet without thickness casts less and less as it turns along the rays.",
+                "angle to the rays", "°", {90.0, 45.0, 15.0, 5.0, 1.0, 0.0}, sheet);
+    return section.scenes();
 }
 
 } // namespace gnomon::examples

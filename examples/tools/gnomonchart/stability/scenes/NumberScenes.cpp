@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What floating-point numbers do.
 #include "SceneParts.h"
-#include "Sections.h"
 
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
@@ -10,8 +9,6 @@
 
 namespace gnomon::examples {
 namespace {
-
-constexpr const char* section = "numbers";
 
 std::vector<Mesh> houses() {
     return {house({2.0, 0.0}, {2.0, 2.0, 3.0}, 30.0), house({-2.5, 1.5}, {1.5, 3.0, 2.0}, 75.0),
@@ -114,56 +111,21 @@ SceneParts depthRange(double ratio) {
 } // namespace
 
 std::vector<StabilityScene> numberScenes() {
-    return {
-        {"N1",
-         section,
-         "Far from the origin, sun",
-         "The picture must be that at the origin.",
-         "distance",
-         "m",
-         {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7},
-         madeOf(farFromOrigin)},
-        {"N1L",
-         section,
-         "Far from the origin, lamp",
-         "A lamp's matrix multiplies coordinates, and loses them twice.",
-         "distance",
-         "m",
-         {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7},
-         madeOf(lampFarFromOrigin)},
-        {"N2",
-         section,
-         "Broken triangles",
-         "NaN, infinity and triangles without area count as if they were not there.",
-         "broken triangles in each caster",
-         "",
-         {0.0, 1.0, 4.0, 16.0, 100.0},
-         madeOf(withBadTriangles)},
-        {"N3",
-         section,
-         "Scale",
-         "The same scene in any unit gives the same picture.",
-         "size of a metre",
-         "units",
-         {1.0, 0.1, 10.0, 1e-2, 1e2, 1e-3, 1e3, 1e4},
-         madeOf(ofScale)},
-        {"N4",
-         section,
-         "Nested and mirrored transforms",
-         "Each transform mirrors and stretches the caster, and turns its faces inside out.",
-         "transforms above a caster",
-         "",
-         {0.0, 1.0, 2.0, 7.0, 16.0, 33.0},
-         madeOf(nested)},
-        {"N5",
-         section,
-         "Depth range",
-         "Marks drawn at the receiver's own depth fight with it where depth is coarse.",
-         "far plane over near plane",
-         "",
-         {1e2, 1e3, 1e4, 1e5, 1e6},
-         madeOf(depthRange)},
-    };
+    Section section("numbers");
+    section.add("N1", "Far from the origin, sun", "The picture must be that at the origin.", "distance", "m",
+                {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7}, farFromOrigin);
+    section.add("N1L", "Far from the origin, lamp", "A lamp's matrix multiplies coordinates, and loses them twice.",
+                "distance", "m", {0.0, 1e3, 1e4, 1e5, 5e5, 1e6, 6e6, 1e7}, lampFarFromOrigin);
+    section.add("N2", "Broken triangles", "NaN, infinity and triangles without area count as if they were not there.",
+                "broken triangles in each caster", "", {0.0, 1.0, 4.0, 16.0, 100.0}, withBadTriangles);
+    section.add("N3", "Scale", "The same scene in any unit gives the same picture.", "size of a metre", "units",
+                {1.0, 0.1, 10.0, 1e-2, 1e2, 1e-3, 1e3, 1e4}, ofScale);
+    section.add("N4", "Nested and mirrored transforms",
+                "Each transform mirrors and stretches the caster, and turns its faces inside out.",
+                "transforms above a caster", "", {0.0, 1.0, 2.0, 7.0, 16.0, 33.0}, nested);
+    section.add("N5", "Depth range", "Marks drawn at the receiver's own depth fight with it where depth is coarse.",
+                "far plane over near plane", "", {1e2, 1e3, 1e4, 1e5, 1e6}, depthRange);
+    return section.scenes();
 }
 
 } // namespace gnomon::examples

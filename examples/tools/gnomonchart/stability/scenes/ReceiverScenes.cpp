@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What shadows fall on.
 #include "SceneParts.h"
-#include "Sections.h"
 
 #include <osg/LOD>
 
@@ -9,8 +8,6 @@
 
 namespace gnomon::examples {
 namespace {
-
-constexpr const char* section = "receivers";
 
 SceneParts onSlope(double degrees) {
     SceneParts parts;
@@ -122,72 +119,25 @@ SceneParts plate(double gap) {
 } // namespace
 
 std::vector<StabilityScene> receiverScenes() {
-    return {
-        {"R1",
-         section,
-         "Slope",
-         "The shadow follows the receiver's own plane, not a level one.",
-         "slope",
-         "°",
-         {0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0},
-         madeOf(onSlope)},
-        {"R2",
-         section,
-         "Cliff",
-         "The shadow splits into plateau, face and lower ground; nothing bridges the air.",
-         "step",
-         "m",
-         {0.0, 0.5, 1.0, 3.0, 6.0, 12.0},
-         madeOf(atCliff)},
-        {"R3",
-         section,
-         "Edge of the terrain",
-         "The shadow ends where the terrain does, and the rest of it stays.",
-         "house from the edge",
-         "m",
-         {6.0, 3.0, 2.0, 1.0, 0.5, 0.0, -0.5},
-         madeOf(atBorder)},
-        {"R4",
-         section,
-         "Bridge",
-         "Both layers are shadowed, and the deck not by its own top.",
-         "deck's height",
-         "m",
-         {3.0, 1.5, 0.7, 0.3, 0.1, 0.03},
-         madeOf(bridge)},
-        {"R5",
-         section,
-         "Terrain with levels of detail",
-         "The shadow lies on the level that is drawn, without floating or fighting.",
-         "distance",
-         "switching ranges",
-         {0.5, 0.9, 1.1, 2.0, 5.0},
-         madeOf(coarseTerrain)},
-        {"R6",
-         section,
-         "Wall as a receiver",
-         "The shadow climbs the other building's wall.",
-         "distance of the towers",
-         "m",
-         {20.0, 10.0, 6.0, 3.0, 1.0, 0.3},
-         madeOf(twoTowers)},
-        {"R7",
-         section,
-         "Receiver thinner than the bias",
-         "A thin slab and the ground below it are shadowed once each.",
-         "thickness",
-         "m",
-         {0.5, 0.2, 0.1, 0.03, 0.01, 0.003},
-         madeOf(decal)},
-        {"R8",
-         section,
-         "Caster close to its receiver",
-         "The contact shadow stays, without acne.",
-         "gap",
-         "m",
-         {1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001},
-         madeOf(plate)},
-    };
+    Section section("receivers");
+    section.add("R1", "Slope", "The shadow follows the receiver's own plane, not a level one.", "slope", "°",
+                {0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0}, onSlope);
+    section.add("R2", "Cliff", "The shadow splits into plateau, face and lower ground; nothing bridges the air.",
+                "step", "m", {0.0, 0.5, 1.0, 3.0, 6.0, 12.0}, atCliff);
+    section.add("R3", "Edge of the terrain", "The shadow ends where the terrain does, and the rest of it stays.",
+                "house from the edge", "m", {6.0, 3.0, 2.0, 1.0, 0.5, 0.0, -0.5}, atBorder);
+    section.add("R4", "Bridge", "Both layers are shadowed, and the deck not by its own top.", "deck's height", "m",
+                {3.0, 1.5, 0.7, 0.3, 0.1, 0.03}, bridge);
+    section.add("R5", "Terrain with levels of detail",
+                "The shadow lies on the level that is drawn, without floating or fighting.", "distance",
+                "switching ranges", {0.5, 0.9, 1.1, 2.0, 5.0}, coarseTerrain);
+    section.add("R6", "Wall as a receiver", "The shadow climbs the other building's wall.", "distance of the towers",
+                "m", {20.0, 10.0, 6.0, 3.0, 1.0, 0.3}, twoTowers);
+    section.add("R7", "Receiver thinner than the bias", "A thin slab and the ground below it are shadowed once each.",
+                "thickness", "m", {0.5, 0.2, 0.1, 0.03, 0.01, 0.003}, decal);
+    section.add("R8", "Caster close to its receiver", "The contact shadow stays, without acne.", "gap", "m",
+                {1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001}, plate);
+    return section.scenes();
 }
 
 } // namespace gnomon::examples

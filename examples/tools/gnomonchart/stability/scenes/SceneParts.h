@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace gnomon::examples {
 
@@ -31,6 +32,29 @@ StabilityCase stabilityCase(const SceneParts& parts, int width, int height);
 
 /// A StabilityScene::make of what makes the parts.
 std::function<StabilityCase(double, int, int)> madeOf(std::function<SceneParts(double value)> parts);
+
+/// A section of the stability table.
+class Section {
+public:
+    explicit Section(const char* name) : _name(name) {}
+    /// See StabilityScene.
+    void add(const char* id, const char* title, const char* about, const char* parameter, const char* unit,
+             std::vector<double> values, std::function<SceneParts(double value)> parts) {
+        _scenes.push_back({{id, _name, title, about, parameter, unit, std::move(values)}, madeOf(std::move(parts))});
+    }
+    std::vector<StabilityScene> scenes() const { return _scenes; }
+
+private:
+    const char* _name;
+    std::vector<StabilityScene> _scenes;
+};
+
+std::vector<StabilityScene> lightScenes();
+std::vector<StabilityScene> receiverScenes();
+std::vector<StabilityScene> numberScenes();
+std::vector<StabilityScene> mapScenes();
+std::vector<StabilityScene> blendingScenes();
+std::vector<StabilityScene> meshScenes();
 
 /// A square named "ground", of which the middle is the origin.
 SceneParts onGround(double half = 12.0);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <unistd.h>
+
+namespace gnomon::examples {
+
+/// One line on a terminal: what is being done and how long the rest will take, as the work done so far tells. Nothing is
+/// written where standard error is no terminal.
+class TimeLeft {
+public:
+    /// @param work  all there is to do, in any unit.
+    explicit TimeLeft(double work) : _work(work) {}
+    ~TimeLeft() {
+        if (_terminal) std::cerr << clearLine << std::flush;
+    }
+    TimeLeft(const TimeLeft&) = delete;
+    TimeLeft& operator=(const TimeLeft&) = delete;
+
+    /// Since it was made.
+    double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - _start).count(); }
+    /// @param done  of the work, so far.
+    void show(double done, const std::string& doing) const {
+        if (!_terminal) return;
+        std::cerr << clearLine << std::lround(100.0 * done / _work) << " %, " << text(seconds() * (_work - done) / done)
+                  << " left: " << doing << std::flush;
+    }
+
+private:
+    static constexpr const char* clearLine = "\r\033[K";
+
+    /// "3 min 20 s", "45 s", "a while" where it cannot be told.
+    static std::string text(double seconds) {
+        if (!std::isfinite(seconds) || seconds < 0.0) return "a while";
+        const long all = std::lround(seconds);
+        const std::string rest = std::to_string(all % 60) + " s";
+        return all < 60 ? rest : std::to_string(all / 60) + " min " + rest;
+    }
+
+    const std::chrono::steady_clock::time_point _start = std::chrono::steady_clock::now();
+    const double _work;
+    const bool _terminal = isatty(STDERR_FILENO) != 0;
+};
+
+} // namespace gnomon::examples
