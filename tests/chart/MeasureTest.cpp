@@ -21,7 +21,6 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
-#include <stdexcept>
 
 namespace {
 

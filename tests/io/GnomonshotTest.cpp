@@ -115,7 +115,8 @@ TEST_F(Gnomonshot, DrawsTheSamePictureEveryTime) {
         << "the light is back where it was given";
 }
 
-/// Ground lit 0.1 + 0.7 cos 45° = 0.595 of white, shadowed 0.1: 151.7 and 25.5 of 255. A sun at 45° moves the shadow by the height.
+/// Ground lit 0.1 + 0.7 cos 45° = 0.595 of white, shadowed 0.1: 151.7 and 25.5 of 255. A sun at 45° moves the shadow by the
+/// height.
 TEST_F(Gnomonshot, TakesAwayExactlyTheLight) {
     folder.write("both.obj", plate(false) + "v -.01 -.01 0\nv .01 -.01 0\nv .01 .01 0\nf 5 6 7\n");
     const osg::ref_ptr<osg::Image> image =

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
-#include <tuple>
 
 using namespace gnomon;
 

@@ -8,7 +8,6 @@
 #include <osgUtil/SceneView>
 #include <osgViewer/CompositeViewer>
 
-#include <cstring>
 #include <memory>
 
 using namespace test;

@@ -15,7 +15,6 @@
 #include <limits>
 #include <map>
 #include <tuple>
-#include <utility>
 
 namespace gnomon {
 namespace {

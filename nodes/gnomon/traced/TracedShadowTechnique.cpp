@@ -37,6 +37,7 @@
 #include <vector>
 
 namespace gnomon {
+
 /// What rays are cast for in one view and of one light.
 struct TracedFrame {
     const void* stage = nullptr; ///< tells views apart.

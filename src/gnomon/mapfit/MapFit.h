@@ -158,8 +158,9 @@ public:
     /// @param clipFromScene  of the view. @param pixels  of the view, across and up.
     TexelDensity(const LightFrame& frame, const glm::dmat4& clipFromScene, const glm::dvec2& pixels);
 
-    /// Adds what of a box lies within all half-spaces and within the light's own. A texel is stretched on what is turned away from the light: on a box that is flat, as grounds are, by its slope, up to eight
-    /// times; on others twice, as on what is turned away by 60 degrees.
+    /// Adds what of a box lies within all half-spaces and within the light's own. A texel is stretched on what is turned away
+    /// from the light: on a box that is flat, as grounds are, by its slope, up to eight times; on others twice, as on what is
+    /// turned away by 60 degrees.
     void addBox(const PlacedBox& box, const HalfSpaces& halfSpaces);
 
     /// Side of the largest texel that is no larger than a pixel anywhere, in the light's x/w and y/w; infinite as long as
