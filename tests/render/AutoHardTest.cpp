@@ -80,6 +80,7 @@ TEST(AutoThin, FencesThrowTheLinesThatRaysFind) {
         // Edges of a map may be off by the pixel that is asked for, twice as far as those of one ray.
         EXPECT_LE(found.wrong, 2 * found.floor + 20) << trial.chosen();
         worse += found.wrong > 1.3 * found.floor + 20;
+        ASSERT_NE(trial.chosen(), "") << "there is a decision";
         EXPECT_TRUE(trial.decision().keepsBudget) << trial.decision().text();
     }
     EXPECT_LE(worse, 4);
@@ -195,6 +196,7 @@ TEST(AutoTurnedAway, BlendTakesPlanarWhereNoDarkSideIsSeen) {
     EXPECT_EQ(trial.chosen(), "planar") << "the sides towards -y and +x are lit, or along the light";
     camera.setView(perspective({-9.0, -8.0, 8.0}, {0.0, 0.0, 0.0}, 160, 120));
     camera.frame();
+    ASSERT_NE(trial.chosen(), "") << "there is a decision";
     EXPECT_NE(trial.chosen(), "planar") << "the side towards -x is dark";
     AutoTrial named({tall}, {}, 8.0, sun);
     named.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
