@@ -40,7 +40,7 @@ public:
     void drag(unsigned button, int right, int down, const std::string& with = "");
     Screenshot picture();
     /// The first picture for which `wanted` holds, twice the same in a row if `still`.
-    /// @throws std::runtime_error with `what` if there is none within 10 s.
+    /// @throws std::runtime_error with `what` if there is none within 60 s.
     Screenshot pictureWhere(const std::string& what, const std::function<bool(const Screenshot&)>& wanted,
                             bool still = true);
 
