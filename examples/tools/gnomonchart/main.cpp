@@ -230,7 +230,7 @@ void writeReport(const std::string& folder) {
     std::cout.flush();
     setenv("GNOMON_RESULTS", folder.c_str(), 1);       // which a shell need not quote
     const auto before = std::signal(SIGPIPE, SIG_IGN); // where Python cannot be started
-    std::FILE* python = popen("p=" PYTHON3 "; test -x $p || p=python3; exec $p - \"$GNOMON_RESULTS\"", "w");
+    std::FILE* python = popen("p='" PYTHON3 "'; test -x \"$p\" || p=python3; exec \"$p\" - \"$GNOMON_RESULTS\"", "w");
     if (python) std::fputs(report_py, python);
     const int status = python ? pclose(python) : -1;
     std::signal(SIGPIPE, before);
