@@ -75,7 +75,7 @@ protected:
     static void TearDownTestSuite() { made.reset(); }
 
     /// Runs gnomonrun in the test's folder, on its own X server.
-    Ending run(const std::string& arguments) { return runAlone(GNOMONRUN " " + arguments); }
+    Ending run(const std::string& arguments) { return runAlone("'" GNOMONRUN "' " + arguments); }
     /// The same without gnomonrun.
     Ending runAlone(const std::string& command) {
         return runProgram("/bin/sh", {"-c", "DISPLAY=" + desktop.name() + " OSG_WINDOW='0 0 320 240' " + command},
@@ -161,7 +161,7 @@ TEST_F(Gnomonrun, WithFramesTheProgramsTimeIsThatOfSixtyFramesASecond) {
 
 TEST_F(Gnomonrun, KeysSwitchTechniquesAndAtTheEndEachCostIsTold) {
     const std::string command =
-        "OSG_WINDOW='0 0 320 240' exec " GNOMONRUN " --shadow auto -- " + built("scene") + " 2>said";
+        "OSG_WINDOW='0 0 320 240' exec '" GNOMONRUN "' --shadow auto -- " + built("scene") + " 2>said";
     ChildProcess program({"sh", "-c", command}, folder.path(), {"DISPLAY=" + desktop.name()});
     desktop.useWindow("");
     desktop.pictureWhere("a picture of several colours", hasSeveralColors);

@@ -79,7 +79,7 @@ namespace {
 
 /// What is written and what is then said. Without a display it ends where it would open a window.
 Ending answered(const std::string& lines, const std::filesystem::path& folder) {
-    return runProgram("sh", {"-c", "printf '" + lines + "' | DISPLAY= " + std::string(LAB8)}, folder);
+    return runProgram("sh", {"-c", "printf '" + lines + "' | DISPLAY= '" LAB8 "'"}, folder);
 }
 
 int timesIn(const std::string& text, const std::string& part) {
