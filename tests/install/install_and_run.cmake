@@ -19,7 +19,7 @@ file(GLOB_RECURSE package ${installed}/*/gnomon.pc)
 get_filename_component(package ${package} DIRECTORY)
 get_filename_component(libraries ${package} DIRECTORY)
 set(ENV{PKG_CONFIG_PATH} ${package})
-run(sh -c "${CXX} -std=c++17 ${PLAIN}/main.cpp $(pkg-config --cflags --libs gnomon) -o ${SCRATCH}/plain")
+run(sh -c "eval \"'${CXX}' -std=c++17 '${PLAIN}/main.cpp' $(pkg-config --cflags --libs gnomon) -o '${SCRATCH}/plain'\"")
 run(${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libraries} ${SCRATCH}/plain)
 
 # The guide is there with its pictures: what a page has a link to lies beside it.
@@ -62,9 +62,9 @@ foreach(program ${programs})
   endforeach()
 endforeach()
 execute_process(COMMAND bash -c
-  "source ${installed}/share/bash-completion/completions/gnomonshot
-   COMP_WORDS=(${installed}/bin/gnomonshot --shadow tr) COMP_CWORD=2; _gnomon ${installed}/bin/gnomonshot; echo \"\${COMPREPLY[@]}\"
-   COMP_WORDS=(${installed}/bin/gnomonshot --fov) COMP_CWORD=1; _gnomon ${installed}/bin/gnomonshot; echo \"\${COMPREPLY[@]}\""
+  "source '${installed}/share/bash-completion/completions/gnomonshot'
+   COMP_WORDS=('${installed}/bin/gnomonshot' --shadow tr) COMP_CWORD=2; _gnomon '${installed}/bin/gnomonshot'; echo \"\${COMPREPLY[@]}\"
+   COMP_WORDS=('${installed}/bin/gnomonshot' --fov) COMP_CWORD=1; _gnomon '${installed}/bin/gnomonshot'; echo \"\${COMPREPLY[@]}\""
   OUTPUT_VARIABLE completed COMMAND_ERROR_IS_FATAL ANY)
 if(NOT completed STREQUAL "traced\n--fovy\n")
   message(FATAL_ERROR "bash completes to: ${completed}")
