@@ -51,12 +51,18 @@ private:
 };
 
 /// The library to preload, by its way from this program's folder.
-/// @throws std::runtime_error if it is not there.
+/// @throws std::runtime_error if it is not there, or the loader would take its path for several.
 std::string libraryToPreload() {
     namespace fs = std::filesystem;
     const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
-    for (const char* way : {GNOMON_PRELOADS})
-        if (fs::exists(here / way)) return fs::canonical(here / way);
+    for (const char* way : {GNOMON_PRELOADS}) {
+        if (!fs::exists(here / way)) continue;
+        const std::string library = fs::canonical(here / way);
+        if (library.find_first_of(" :") == std::string::npos) return library;
+        throw std::runtime_error("'" + library +
+                                 "' cannot be loaded into a program, because its path holds a blank or a colon. Put "
+                                 "Gnomon's programs into a folder without.");
+    }
     throw std::runtime_error("gnomonrun_preload.so is missing. Install Gnomon's programs anew.");
 }
 
