@@ -271,3 +271,21 @@ TEST(MapTexels, AreKnownBeforeWhatSoftEdgesReach) {
     EXPECT_EQ(camera.frame().different(first), 0);
     EXPECT_EQ(technique->passes(), 1u);
 }
+
+// What soft edges alone go by changes no map of others.
+TEST(MapTexels, StayWhereTheSizeOfALightIsOfNoAccount) {
+    const TracedCase given = test::labEight();
+    for (const auto edges : {ShadowMapTechnique::HARD, ShadowMapTechnique::SMOOTH, ShadowMapTechnique::SOFT}) {
+        const osg::ref_ptr<ShadowMapTechnique> technique = mapWith(edges, 512);
+        Scene scene = given.build();
+        scene.addShadow(technique);
+        test::Camera camera(scene.root, given.view);
+        camera.frame();
+        const unsigned before = technique->passes();
+        technique->setSunAngle(3.0);
+        technique->setLampSize(0.5);
+        technique->setRadius(0.25);
+        camera.frame();
+        EXPECT_EQ(technique->passes() > before, edges == ShadowMapTechnique::SOFT) << edges;
+    }
+}

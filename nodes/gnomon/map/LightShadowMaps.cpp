@@ -77,10 +77,9 @@ bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) 
 
 /// True if the maps are the same, whatever the view and the unit.
 bool haveSameMaps(const ShadowMapOptions& a, const ShadowMapOptions& b) {
-    const auto key = [](const ShadowMapOptions& o) {
-        return std::tie(o.size, o.filter, o.cascades, o.edges, o.sunAngle, o.lampSize, o.radius);
-    };
-    return key(a) == key(b);
+    const auto key = [](const ShadowMapOptions& o) { return std::tie(o.size, o.filter, o.cascades, o.edges); };
+    const auto softness = [](const ShadowMapOptions& o) { return std::tie(o.sunAngle, o.lampSize, o.radius); };
+    return key(a) == key(b) && (a.edges != ShadowMapOptions::SOFT || softness(a) == softness(b));
 }
 
 /// Where what is flat, a ground for one, may stand between the light and a place. Of all that is level, each way, the one
