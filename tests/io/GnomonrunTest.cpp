@@ -205,6 +205,20 @@ TEST_F(Gnomonrun, WhatCannotBeReachedIsSaid) {
     EXPECT_NE(unnamed.lastLine().find("no program is given"), std::string::npos) << unnamed.err;
 }
 
+/// The loader takes a blank for the end of a library's path.
+TEST_F(Gnomonrun, RefusesToLoadALibraryWhosePathHoldsABlank) {
+    const std::filesystem::path copy = folder.path() / "a copy", bin = copy / "bin", lib = copy / "lib";
+    std::filesystem::create_directories(bin);
+    std::filesystem::create_directories(lib);
+    std::filesystem::copy(GNOMONRUN, bin);
+    std::filesystem::copy(GNOMON_LIBRARIES "/gnomonrun_preload.so", lib);
+    const Ending refused = runAlone("'" + (bin / "gnomonrun").string() + "' -- " + built("scene"));
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_EQ(refused.lastLine(), "gnomonrun: '" + (lib / "gnomonrun_preload.so").string() +
+                                      "' cannot be loaded into a program, because its path holds a blank or a colon. "
+                                      "Put Gnomon's programs into a folder without.");
+}
+
 TEST_F(Gnomonrun, TheProgramsOwnStatusIsItsStatus) { EXPECT_EQ(run("-- /bin/sh -c 'exit 7'").status, 7); }
 
 } // namespace
