@@ -10,9 +10,9 @@ CALLED = {"sumo": "SUMO, traffic", "dart": "DART, robotics", "ifcplusplus": "IFC
 
 HEAD = """# Programs tried
 
-{count} finished programs, none of which knows Gnomon, were run with shadows by [gnomonrun](files-and-viewers.md#gnomonrun).
+{count} finished programs, none of which knows Gnomon, were run with shadows by [gnomonrun](../files-and-viewers.md#gnomonrun).
 {examples} of them are examples of OpenSceneGraph, built from the sources that Debian has. The others are Debian's own
-programs. `scripts/try-programs --page docs` runs all of them and writes this page.
+programs. `scripts/try-programs --page docs/evidence` runs all of them and writes this page.
 
 {verdict}
 

@@ -28,7 +28,7 @@ namespace gnomon {
 ///
 /// Source
 /// - J. Blinn, "Me and My (Fake) Shadow", IEEE CG&A 8(1), 1988.
-/// - The four planar documents, see docs/sources.md.
+/// - The four planar documents, see docs/evidence/sources.md.
 GNOMON_EXPORT std::optional<glm::dmat4> planarShadowMatrix(const glm::dvec4& plane, const glm::dvec4& light);
 
 /// The half-spaces that a caster is clipped to before it is flattened.

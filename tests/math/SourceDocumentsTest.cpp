@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The planar formula of each source document, written out anew as the document prints it and held against the one
-// matrix; and the mistakes each prints. docs/sources.md has the list.
+// matrix; and the mistakes each prints. docs/evidence/sources.md has the list.
 #include "Compare.h"
 #include <array>
 #include <gnomon/PlanarShadow.h>
