@@ -2,6 +2,8 @@
 // What an automatic choice once got wrong without a word: thin things, small things on vast grounds, sides that are turned away.
 #include "AutoTrial.h"
 
+#include <gnomon/TracedShadowTechnique.h>
+
 #include <gtest/gtest.h>
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
@@ -135,6 +137,21 @@ TEST(AutoVast, PlanesThatAreCloseAreToldApartOnVastGrounds) {
             << trial.decision().text(); // a plane that is taken for another has none
     }
     EXPECT_GT(expected, 1000);
+}
+
+// A tower 940 m away under a near plane that comes closer, until OpenGL itself no longer tells the tower from the ground.
+TEST(AutoVast, RaysAreCastWhereDepthsAreCoarse) {
+    const std::vector<Mesh> casters = {box({-20.0, 780.0, 0.0}, {20.0, 820.0, 60.0})};
+    const osg::Vec4d sun(-0.5, 0.866, 1.0, 0.0);
+    for (const double near : {10.0, 1.0, 0.1, 0.01, 0.001}) {
+        const View view = perspective({-480.0, 300.0, 420.0}, {-20.0, 800.0, 10.0}, 320, 240, 30.0, near, 1000.0);
+        AutoTrial trial(casters, {}, 1200.0, sun);
+        Scene rays = groundScene(casters, 1200.0, sun);
+        rays.addShadow(new gnomon::TracedShadowTechnique);
+        const Picture picture = render(trial.scene.root, view), right = render(rays.root, view);
+        EXPECT_LE(picture.different(right), 4) << near << " m: " << trial.decision().text(); // pixels of the edge
+        EXPECT_EQ(trial.technique->diagnose(), std::vector<std::string>()) << near;
+    }
 }
 
 // Another box comes, is in the first one's shadow, and goes: under BLEND the first one's unlit side must not change.

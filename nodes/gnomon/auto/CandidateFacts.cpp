@@ -6,6 +6,7 @@
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/CasterBodies.h>
 #include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/group/LitCauses.h>
 #include <gnomon/group/SceneFrame.h>
 
 #include <glm/geometric.hpp>
@@ -106,6 +107,15 @@ bool isFaint(const AutoView& view) {
     if (!(together < leastContrast)) return false;
     return std::all_of(view.frame.seen.begin(), view.frame.seen.end(),
                        [](const osgUtil::RenderLeaf* leaf) { return isShadedByOpenGl(leaf->_parent); });
+}
+
+std::string whyCoarse(const AutoView& view, double steps) {
+    const std::vector<const osgUtil::RenderLeaf*> none;
+    const LitView lit{*view.frame.group, view.light, view.casters, none, view.frame.eyeFromGroup};
+    const DepthPixels pixels{view.frame.pixels, steps};
+    if (!reachesCoarseDepth(lit, view.frame.projection, pixels)) return {};
+    const std::string name = coarselyPlaced(lit, view.frame.projection, pixels);
+    return name.empty() ? "" : "depths are too coarse at '" + name + "'";
 }
 
 std::string whyCutOut(const CasterDrawables& casters) { return casters.cutouts > 0 ? "casters have clear parts" : ""; }

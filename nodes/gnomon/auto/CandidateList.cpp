@@ -61,6 +61,18 @@ std::string whyOnlyMaps(const AutoCandidate& candidate, const CasterDrawables& c
     return candidate.hasMap() || casters.own.empty() ? "" : "a caster draws itself, and only maps can let it";
 }
 
+std::string whyNotTraced(const CasterDrawables& casters) {
+    return hasPart(OptionalPart::Traced) ? whyCutOut(casters) : "this build has no Embree";
+}
+
+/// True if it finds the place of a shadow by the depths of what is seen. FlatReceivers asks for itself.
+bool needsDepths(Kind kind) { return kind != Kind::Nothing && kind != Kind::Planar && kind != Kind::Traced; }
+
+/// Why rays alone tell where shadows fall; empty if others do, too, or if rays cannot be had.
+std::string whyOnlyRays(const AutoView& view) {
+    return whyNotTraced(view.casters).empty() && view.casters.own.empty() ? whyCoarse(view, 1.0) : "";
+}
+
 /// Of meshes whose parts are no boxes: each triangle may be on an outline.
 double denseTriangles(const CasterDrawables& casters) {
     double sum = 0.0;
@@ -133,8 +145,11 @@ public:
         addVolume();
         addMixed();
         addTraced();
-        for (AutoCandidate& candidate : _result.all)
+        const std::string onlyRays = whyOnlyRays(_view);
+        for (AutoCandidate& candidate : _result.all) {
             if (candidate.obstacle.empty()) candidate.obstacle = whyOnlyMaps(candidate, _view.casters);
+            if (candidate.obstacle.empty() && needsDepths(candidate.kind)) candidate.obstacle = onlyRays;
+        }
         return _result;
     }
 
@@ -328,7 +343,7 @@ private:
         traced.kind = Kind::Traced;
         traced.error = _sampled;
         traced.why = "rays are cast for some " + roundedText(_pixels) + " pixels";
-        traced.obstacle = hasPart(OptionalPart::Traced) ? whyCutOut(_view.casters) : "this build has no Embree";
+        traced.obstacle = whyNotTraced(_view.casters);
         traced.still = _compose;
         traced.still.pixels = 2.0 * _pixels;
         traced.still.rays = _pixels;
@@ -360,6 +375,8 @@ std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const
     const std::string own = whyOnlyMaps(candidate, view.casters);
     if (!own.empty()) return own;
     if (candidate.kind == Kind::Nothing) return "a shadow may be needed now";
+    if (needsDepths(candidate.kind))
+        if (const std::string coarse = whyOnlyRays(view); !coarse.empty()) return coarse;
     if (candidate.kind == Kind::Terrain) return known.terrain.of(view, receiver).obstacle;
     if (candidate.kind == Kind::Mixed && !known.splits.of(view.casters).isDivided())
         return "all casters are of one kind";

@@ -238,6 +238,7 @@ public:
         const bool cutByDepth = !_view.frame.receivers && !(_result.whole && isRelitAlone(_view, _result));
         if (_result.obstacle.empty() && !_result.planes.empty() && cutByDepth && !_vast.empty())
             refuse("the receiver '" + _vast + "' is so vast that its depths are coarse");
+        if (!_result.planes.empty()) refuse(whyCoarse(_view, cutByDepth ? PlanarMark::tolerance.y : 1.0));
         return _result;
     }
 

@@ -52,7 +52,7 @@ public:
     /// True if the leaf's box comes to the plane but for a hundredth of its size.
     bool canReach(const osgUtil::RenderLeaf& leaf) const override;
     /// Those are marked that lie as far off the plane as what lies in it may be drawn.
-    double depthSteps() const override { return cutToPlane && !cutBySurfaces ? tolerance.y : 0.0; }
+    double depthSteps() const override { return !cutToPlane ? 0.0 : cutBySurfaces ? 1.0 : tolerance.y; }
     std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
 
 protected:
