@@ -50,25 +50,30 @@ private:
     std::string _name;
 };
 
-/// The library to preload, by its way from this program's folder.
-/// @throws std::runtime_error if it is not there, or the loader would take its path for several.
-std::string libraryToPreload() {
+/// Before what a list in the environment holds already.
+void putFirst(const char* list, const std::string& entry) {
+    const char* before = std::getenv(list);
+    setenv(list, (before && *before ? entry + ":" + before : entry).c_str(), 1);
+}
+
+/// Has the loader take the library into the program to come. It takes a blank for the end of a path in LD_PRELOAD, but not in
+/// LD_LIBRARY_PATH.
+/// @throws std::runtime_error if the library is not there, or the loader would take its folder for two.
+void preload() {
     namespace fs = std::filesystem;
     const fs::path here = fs::read_symlink("/proc/self/exe").parent_path();
     for (const char* way : {GNOMON_PRELOADS}) {
         if (!fs::exists(here / way)) continue;
-        const std::string library = fs::canonical(here / way);
-        if (library.find_first_of(" :") == std::string::npos) return library;
-        throw std::runtime_error("'" + library +
-                                 "' cannot be loaded into a program, because its path holds a blank or a colon. Put "
-                                 "Gnomon's programs into a folder without.");
+        const fs::path library = fs::canonical(here / way), folder = library.parent_path();
+        if (folder.string().find_first_of(":;") != std::string::npos)
+            throw std::runtime_error(
+                "'" + library.string() +
+                "' cannot be loaded into a program, because its path holds a colon or a semicolon. "
+                "Put Gnomon's programs into a folder without.");
+        putFirst("LD_LIBRARY_PATH", folder);
+        return putFirst("LD_PRELOAD", library.filename());
     }
     throw std::runtime_error("gnomonrun_preload.so is missing. Install Gnomon's programs anew.");
-}
-
-void preload(const std::string& library) {
-    const char* before = std::getenv("LD_PRELOAD");
-    setenv("LD_PRELOAD", (before && *before ? library + ":" + before : library).c_str(), 1);
 }
 
 [[noreturn]] void become(const Words& command) {
@@ -82,13 +87,12 @@ void preload(const std::string& library) {
 
 /// @return its exit status; `signalled` + signal if one ended it.
 int runProgram(const Words& command, const Words& options, const ReportFile& report) {
-    const std::string library = libraryToPreload();
+    preload();
     const pid_t id = fork();
     if (id < 0) throw std::runtime_error(std::string("no process can be started: ") + std::strerror(errno) + ".");
     if (id == 0) {
         setenv(optionsVariable, joined(options).c_str(), 1);
         setenv(reportVariable, report.name().c_str(), 1);
-        preload(library);
         become(command);
     }
     std::signal(SIGINT, SIG_IGN); // it is the program's
