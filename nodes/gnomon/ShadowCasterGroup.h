@@ -37,7 +37,8 @@ struct CasterView;
 /// - After a change: an extraction of what changed. A drawable of 256 triangles or more that moves costs a matrix.
 /// - RELIGHT: one more draw of the drawables that shadows touch.
 /// - BLEND: one multiplication a shadowed pixel.
-/// - DrawThreadPerContext: the next frame starts only after this frame's shadows are drawn, also if all is STATIC.
+/// - DrawThreadPerContext: the next frame starts while shadows are drawn, unless something in view is DYNAMIC, a caster draws
+///   itself in a map, or there are mirror images or halos.
 /// Needs
 /// - OpenGL 3.0. A framebuffer without stencil bits, or without alpha bits for soft edges, costs copies to one that
 ///   has them.

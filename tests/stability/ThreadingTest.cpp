@@ -26,7 +26,8 @@ constexpr unsigned frames = 300;
 /// Two boxes that move, a third that comes and goes, and one light, with shadows on z = 0.
 class MovingScene {
 public:
-    MovingScene();
+    /// @param lightMoves  and so the state is DYNAMIC: OpenSceneGraph applies lights while it draws.
+    explicit MovingScene(bool lightMoves);
     osg::Group* root() const { return _scene.root; }
     /// Makes it what it is in that frame, whatever it was before.
     void change(unsigned frame);
@@ -36,13 +37,15 @@ private:
     void changeSettings(unsigned frame);
     void changeTechnique(unsigned frame);
 
+    const bool _lightMoves;
     Scene _scene;
     osg::ref_ptr<gnomon::ShadowTechnique> _technique;
     std::array<osg::ref_ptr<osg::MatrixTransform>, 2> _places;
     osg::ref_ptr<osg::Node> _guest = node(box({-0.25, -2.5, 0.0}, {0.25, -2.0, 1.5}), "guest");
 };
 
-MovingScene::MovingScene() : _scene(groundScene({})) {
+MovingScene::MovingScene(bool lightMoves) : _lightMoves(lightMoves), _scene(groundScene({})) {
+    if (lightMoves) _scene.root->getOrCreateStateSet()->setDataVariance(osg::Object::DYNAMIC);
     const Mesh boxes[] = {box({-0.5, -0.5, 0.0}, {0.5, 0.5, 1.0}), box({-0.3, -0.3, 0.2}, {0.3, 0.3, 0.8})};
     for (std::size_t i = 0; i < _places.size(); ++i) {
         _places[i] = new osg::MatrixTransform;
@@ -70,7 +73,7 @@ void MovingScene::changeCasters(unsigned frame) {
 
 void MovingScene::changeSettings(unsigned frame) {
     const double side = 0.25 * (frame % 5);
-    _scene.light->getLight()->setPosition(osg::Vec4d(1.0, side, 1.0, 0.0));
+    if (_lightMoves) _scene.light->getLight()->setPosition(osg::Vec4d(1.0, side, 1.0, 0.0));
     _scene.group->setComposite(frame % 7 < 4 ? ShadowCasterGroup::RELIGHT : ShadowCasterGroup::BLEND);
     _scene.group->setDark(0.25f * static_cast<float>(frame % 3));
     if (frame % 29 == 0) _scene.group->setCasters({nullptr, ~0u});
@@ -138,8 +141,8 @@ osg::ref_ptr<Recorder> addWindow(osgViewer::CompositeViewer& viewer, const gnomo
 using Pictures = std::array<std::vector<Picture>, 2>;
 
 /// What two windows show of a scene of its own.
-Pictures drawnBy(Models::ThreadingModel model) {
-    MovingScene scene;
+Pictures drawnBy(Models::ThreadingModel model, bool lightMoves) {
+    MovingScene scene(lightMoves);
     scene.root()->setUpdateCallback(new Changing(scene));
     const gnomon::HeadlessContext above(size, size), beside(size, size); // outlive the viewer
     osgViewer::CompositeViewer viewer;
@@ -178,16 +181,19 @@ std::size_t kinds(const std::vector<Picture>& pictures) {
 } // namespace
 
 TEST_P(Threads, OfEveryModelDrawWhatOneThreadDraws) {
-    const Pictures wanted = drawnBy(Models::SingleThreaded);
-    for (const std::vector<Picture>& window : wanted) EXPECT_GT(kinds(window), 100u); // there is something to be wrong
-    for (const Models::ThreadingModel model : models) {
-        SCOPED_TRACE(testing::Message() << "threading model " << model);
-        const Pictures found = drawnBy(model);
-        for (std::size_t window = 0; window < wanted.size(); ++window) {
-            SCOPED_TRACE(testing::Message() << "window " << window);
-            ASSERT_EQ(wanted[window].size(), frames);
-            ASSERT_EQ(found[window].size(), frames);
-            EXPECT_EQ(differing(found[window], wanted[window]), "");
+    for (const bool lightMoves : {true, false}) {
+        const Pictures wanted = drawnBy(Models::SingleThreaded, lightMoves);
+        for (const std::vector<Picture>& window : wanted)
+            EXPECT_GT(kinds(window), 100u); // there is something to be wrong
+        for (const Models::ThreadingModel model : models) {
+            SCOPED_TRACE(testing::Message() << "threading model " << model << (lightMoves ? ", the light moves" : ""));
+            const Pictures found = drawnBy(model, lightMoves);
+            for (std::size_t window = 0; window < wanted.size(); ++window) {
+                SCOPED_TRACE(testing::Message() << "window " << window);
+                ASSERT_EQ(wanted[window].size(), frames);
+                ASSERT_EQ(found[window].size(), frames);
+                EXPECT_EQ(differing(found[window], wanted[window]), "");
+            }
         }
     }
 }

@@ -219,6 +219,10 @@ private:
     }
 
     void capture(osgViewer::ViewerBase& viewer) {
+        if (viewer.areThreadsRunning()) { // else it may be the last frame's picture, which they still draw
+            viewer.stopThreading();
+            viewer.startThreading();
+        }
         _capture = new osgViewer::ScreenCaptureHandler(&captured());
         _capture->captureNextFrame(viewer);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/Compositor.h>
+#include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/SoftCompositor.h>
 
@@ -234,6 +235,7 @@ void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Ove
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
     for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.dark);
+    if (replay.notRelit().empty() || !keptBy<StageVerdict>(_draw.stage).mayName()) return;
     for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
         for (const ShadowJob* job : jobs)
             if (job->isReceiver(*leaf) && job->marks->canReach(*leaf))

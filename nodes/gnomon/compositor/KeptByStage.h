@@ -19,22 +19,33 @@ Kept& keptBy(osgUtil::RenderStage& stage) {
     return *fresh;
 }
 
-/// Whether anything could be composed when a stage was last drawn. Only draw can tell, and cull wants to know: the stage
-/// keeps it, see keptBy().
+/// What the draw of a stage tells its later culls: the stage keeps it, see keptBy().
 class StageVerdict : public osg::Object {
 public:
     StageVerdict() = default;
     StageVerdict(const StageVerdict& other, const osg::CopyOp& copyOp) : osg::Object(other, copyOp) {}
     META_Object(gnomon, StageVerdict)
 
+    /// Whether nothing could be composed when the stage was last drawn. Only draw can tell.
     void refuse(bool refused) { _refused = refused; }
     bool isRefused() const { return _refused; }
+
+    /// Draw: true if the scene graph may be read for a leaf's name. Else the stage's next frame is held for it.
+    bool mayName() {
+        _wantsNames = true;
+        return _isHeld;
+    }
+    /// Cull: whether the next frame's update waits for the draw of this one. @param needed  for other reasons.
+    bool hold(bool needed) {
+        const bool wanted = _wantsNames.exchange(false);
+        return _isHeld = needed || wanted;
+    }
 
 protected:
     ~StageVerdict() override = default;
 
 private:
-    std::atomic<bool> _refused{false};
+    std::atomic<bool> _refused{false}, _isHeld{true}, _wantsNames{true};
 };
 
 } // namespace gnomon

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/LeafReplay.h>
 #include <gnomon/compositor/MarkJob.h>
 #include <gnomon/compositor/SoftCompositor.h>
@@ -146,6 +147,7 @@ void SoftCompositor::darkenAside(const Leaves& aside, const Lights& lights, cons
     if (darkened.empty()) return;
     writeWhereSeen(_draw, darkened, _faded, _faded, bounds);
     multiplyByFactor(lights, jobs.front()->dark, bounds);
+    if (!keptBy<StageVerdict>(_draw.stage).mayName()) return;
     for (const ReplayedLeaf& leaf : darkened)
         report(jobs,
                "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +

@@ -251,6 +251,7 @@ void ShadowBin::reset() {
     _effects.clear();
     _watches.clear();
     _waiting.clear();
+    _holdsFrame = false;
     _sharesStencil = false;
     _options = {};
 }
@@ -268,7 +269,8 @@ void ShadowBin::prepareAll() {
     const std::optional<DepthClear> clear =
         _enlisted.empty() ? std::nullopt : firstDepthClear(*getStage(), getBinNum());
     const StageLeaves drawn(*getStage(), clear ? clear->by->getBinNum() : getBinNum(), !_enlisted.empty());
-    const bool refused = keptBy<StageVerdict>(*getStage()).isRefused();
+    StageVerdict& verdict = keptBy<StageVerdict>(*getStage());
+    const bool refused = verdict.isRefused();
     for (const EnlistedTechnique& entry : _enlisted) {
         if (refused) {
             _waiting.push_back(entry.technique->reportIn(entry.frameNumber));
@@ -282,7 +284,10 @@ void ShadowBin::prepareAll() {
     PrepassBin::show(_lateJobs, *getStage());
     for (const osg::ref_ptr<ViewEffect>& effect : _effects) effect->prepare(*getStage(), drawn.early);
     if (!isIdle() || !_lateJobs.empty()) {
-        _sharesStencil = isModeOn(leavesBelow(*getStage(), std::numeric_limits<int>::max()), GL_STENCIL_TEST);
+        const std::vector<DrawnLeaf> all = leavesBelow(*getStage(), std::numeric_limits<int>::max());
+        const auto isDynamic = [](const DrawnLeaf& entry) { return entry.leaf->_dynamic; };
+        _holdsFrame = verdict.hold(_holdsFrame || !_effects.empty() || std::any_of(all.begin(), all.end(), isDynamic));
+        _sharesStencil = isModeOn(all, GL_STENCIL_TEST);
         clearWithStage();
         PrepassBin::watch(*getStage());
     }
@@ -306,6 +311,7 @@ std::size_t ShadowBin::prepareOf(const EnlistedTechnique& entry, const StageLeav
         entry.technique->letGo();
         return 0;
     }
+    _holdsFrame = _holdsFrame || (entry.technique->drawsCasters() && !casters.drawables().own.empty());
     const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
     for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
     prepare(entry, found, casters, drawn);
@@ -390,14 +396,15 @@ void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found
 void ShadowBin::handOn(std::vector<ShadowJob>& jobs, ShadowBin& to, int below) const {
     to._jobs = std::move(jobs);
     to._options = _options;
+    to._holdsFrame = _holdsFrame;
     to._sharesStencil = _sharesStencil;
     to._composesBelow = below;
     jobs.clear();
 }
 
-/// The leaves drawn again, and the casters, may be dynamic: the frame is not done with them before this bin is.
+/// Leaves that are DYNAMIC are drawn again, and casters draw themselves: the frame is not done with them before this bin is.
 unsigned ShadowBin::computeNumberOfDynamicRenderLeaves() const {
-    return osgUtil::RenderBin::computeNumberOfDynamicRenderLeaves() + (isIdle() ? 0u : 1u);
+    return osgUtil::RenderBin::computeNumberOfDynamicRenderLeaves() + (holdsFrame() ? 1u : 0u);
 }
 
 } // namespace gnomon

@@ -70,6 +70,7 @@ protected:
     ~ShadowBin() override = default;
 
 private:
+    bool holdsFrame() const { return _holdsFrame && !isIdle(); }
     bool isIdle() const { return _jobs.empty() && _effects.empty() && _waiting.empty(); }
     void clearWithStage();
     bool isStencilClean(const std::vector<DrawnLeaf>& leaves) const;
@@ -101,6 +102,7 @@ private:
     std::vector<osg::ref_ptr<ViewEffect>> _effects;
     std::vector<osg::ref_ptr<DrawWatch>> _watches; ///< never null.
     std::vector<FrameReport> _waiting; ///< of techniques, for that the stage can be composed in, see StageVerdict.
+    bool _holdsFrame = false;          ///< what it draws may be another in the next frame.
     bool _sharesStencil = false;       ///< leaves of the stage test or mark the stencil buffer themselves.
     CompositorOptions _options;        ///< of all that were enlisted.
 };

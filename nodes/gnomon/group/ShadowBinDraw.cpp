@@ -119,7 +119,7 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
         const std::optional<double> begin = drawStartIfWatched();
         tell(compose(renderInfo, previous));
         if (begin) recordDraw(*begin);
-        renderInfo.getState()->decrementDynamicObjectCount();
+        if (holdsFrame()) renderInfo.getState()->decrementDynamicObjectCount();
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);
 }
