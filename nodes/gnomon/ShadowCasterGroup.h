@@ -40,8 +40,8 @@ struct CasterView;
 /// - DrawThreadPerContext: the next frame starts while shadows are drawn, unless something in view is DYNAMIC, a caster draws
 ///   itself in a map, or there are mirror images or halos.
 /// Needs
-/// - OpenGL 3.0. A framebuffer without stencil bits, or without alpha bits for soft edges, costs copies to one that
-///   has them.
+/// - OpenGL 3.0 with GLSL 1.30, in a compatibility profile, for every technique. A framebuffer without stencil bits, or
+///   without alpha bits for soft edges, costs copies to one that has them.
 /// Limits
 /// - RELIGHT shadows three lights. BLEND shadows any number, but darkens a pixel only once.
 /// - RELIGHT darkens unlit receivers by setDark(), and receivers whose program reads no light it knows.

@@ -11,10 +11,10 @@ namespace gnomon {
 class CasterDrawables;
 class ShadowMapCache;
 
-/// Casts shadows onto everything visible, by depth maps. Choose it first for general scenes.
+/// Casts shadows onto everything visible, by depth maps. Choose it for penumbras, spots and leaves.
 ///
-/// It fits, keeps and biases its maps by itself. Use PlanarShadowNode for flat floors alone, TerrainShadowGeode for
-/// buildings on terrain, and ShadowVolumeTechnique or TracedShadowTechnique for exact hard edges.
+/// It fits, keeps and biases its maps by itself. Start with AutoShadowTechnique, which takes it where it costs least. Use
+/// PlanarShadowNode for flat floors, TerrainShadowGeode for terrain, and volume or traced for exact hard edges.
 ///
 ///     osg::ref_ptr<gnomon::ShadowMapTechnique> shadow = new gnomon::ShadowMapTechnique;
 ///     shadow->setSize(2048);
@@ -29,7 +29,7 @@ class ShadowMapCache;
 /// - Penumbras: 16 texels and 8 to 32 comparisons more a pixel.
 /// - A spot under RELIGHT: another copy and quad over the whole view.
 /// Needs
-/// - OpenGL 3.0 with GLSL 1.30, and a depth buffer.
+/// - A depth buffer.
 /// - One stencil bit a light, and one more where a receiver is named.
 /// - SMOOTH and SOFT edges: alpha bits, unless a single light blends.
 /// - Penumbras: OpenGL 3.3 or its sampler objects.
@@ -53,7 +53,7 @@ class ShadowMapCache;
 /// - Casters that draw themselves need bounds. Each costs as much as in the view, in every map that changes.
 /// - A caster that draws itself is redrawn each frame if it has no display list or is DYNAMIC. Otherwise, changes of its
 ///   place, bounds, state sets and uniforms show.
-/// - Blended casters cast as if they were solid.
+/// - Glass casts no tinted shadow: a point of a caster is solid or clear, see ShadowCasterGroup::setOpaqueFrom().
 /// - Drawables that write no depth do not receive. A polygon offset or depth range moves the place that receives.
 /// - Multisampled framebuffers are shadowed by pixel, from one sample.
 /// - ShadowQuery takes all casters for solid, and ignores spot cones.

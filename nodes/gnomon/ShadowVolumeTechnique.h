@@ -24,7 +24,7 @@ class VolumeCache;
 /// - Volumes end below all that receives. Volumes out of sight are not drawn.
 /// - If the eye may be inside a volume, sees the back of an open sheet or looks through it, its triangles are drawn, too.
 /// Needs
-/// - OpenGL 3.0 with GLSL 1.30, its two-sided stencil and depth clamp.
+/// - Depth clamp, of OpenGL 3.2 or GL_ARB_depth_clamp.
 /// - One stencil bit a light, one more where a receiver is named, and one or more that count.
 /// Limits
 /// - Dense meshes have thousands of edges one before the other: maps are faster there.
