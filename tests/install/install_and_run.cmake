@@ -37,7 +37,7 @@ foreach(page ${pages})
   endforeach()
 endforeach()
 list(LENGTH pages count)
-if(count LESS 20)
+if(count LESS 24)
   message(FATAL_ERROR "The guide has ${count} pages.")
 endif()
 
