@@ -87,7 +87,7 @@ public:
     unsigned passes() const override;
 
     /// Decides if need be, and asks the chosen technique. See ShadowTechnique::prepare().
-    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+    std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
 
     /// True while it draws by techniques of which this is true.

@@ -99,7 +99,7 @@ public:
     bool getClipCure() const { return _cures.clip; }
 
     /// Makes one job for each plane that receives a shadow. See ShadowTechnique::prepare().
-    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+    std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
 
     /// False for a point in one of the planes if a caster above that plane blocks the light. True for any other point.
@@ -120,7 +120,7 @@ protected:
     ~PlanarShadowNode() override;
 
 private:
-    osg::ref_ptr<MarkJob> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterLayers& casters,
+    osg::ref_ptr<Mark> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterLayers& casters,
                                      unsigned index, const glm::dvec4& groupPlane) const;
 
     std::vector<osg::Vec4d> _planes;

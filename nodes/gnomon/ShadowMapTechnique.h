@@ -178,7 +178,7 @@ public:
     unsigned passes() const override;
 
     /// Updates the maps of one light and makes the jobs that look them up. See ShadowTechnique::prepare().
-    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+    std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.

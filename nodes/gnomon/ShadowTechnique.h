@@ -25,7 +25,7 @@ namespace gnomon {
 class DrawWatch;
 class FrameDiagnosis;
 class FrameCasters;
-class MarkJob;
+class Mark;
 class ShadowCasterGroup;
 struct FrameReport;
 struct FrameWork;
@@ -85,7 +85,7 @@ public:
     /// Finds the pixels that one light does not reach in one view. The compositor calls it after the cull.
     /// @return jobs that mark those pixels in draw; empty if the light casts nothing in this view. If a user might
     ///         wonder why, prepare() calls report().
-    virtual std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+    virtual std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                        const FrameCasters& casters) const = 0;
     /// True if prepare() uses only the casters' pieces. The group then makes no meshes of them. Default false.
     virtual bool takesDrawables() const { return false; }

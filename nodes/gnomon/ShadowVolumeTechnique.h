@@ -80,7 +80,7 @@ public:
     unsigned passes() const override { return builds(); }
 
     /// Finds the volumes of one light, and makes the job that draws them. See ShadowTechnique::prepare().
-    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+    std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.

@@ -101,7 +101,7 @@ public:
     std::string whyUnavailable() const override;
 
     /// Makes the job that marks the tiles in view. See ShadowTechnique::prepare().
-    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+    std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
     /// True: the technique keeps casters by drawable.
     bool takesDrawables() const override { return true; }

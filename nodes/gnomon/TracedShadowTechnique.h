@@ -61,7 +61,7 @@ public:
     META_Node(gnomon, TracedShadowTechnique)
 
     /// Makes the job that casts the rays of one light. See ShadowTechnique::prepare().
-    std::vector<osg::ref_ptr<MarkJob>> prepare(const ViewFrame& view, const ShadowLight& light,
+    std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
                                                const FrameCasters& casters) const override;
 
     /// See OptionalPart::Traced.

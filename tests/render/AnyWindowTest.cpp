@@ -3,7 +3,7 @@
 // spare, bit for bit.
 #include "IntoTexture.h"
 
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/gl/WorkFramebuffer.h>
 #include <gnomon/group/ViewFrame.h>
 #include <support/Causes.h>
@@ -86,9 +86,9 @@ std::vector<std::string> causesOf(const Scene& scene) {
     return all;
 }
 
-class NoMarks : public gnomon::MarkJob {
+class NoMarks : public gnomon::Mark {
 public:
-    std::string mark(osg::RenderInfo&, gnomon::ScreenPass&, unsigned) const override { return ""; }
+    std::string draw(gnomon::ScreenPass&) const override { return ""; }
 };
 
 /// Marks nothing, and counts how often it is asked to.
@@ -101,12 +101,12 @@ public:
 
 protected:
     ~CountingTechnique() override = default;
-    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                       const gnomon::FrameCasters& casters) const override;
+    std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+                                                    const gnomon::FrameCasters& casters) const override;
 };
 
-std::vector<osg::ref_ptr<gnomon::MarkJob>>
-CountingTechnique::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight&, const gnomon::FrameCasters&) const {
+std::vector<osg::ref_ptr<gnomon::Mark>> CountingTechnique::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight&,
+                                                                   const gnomon::FrameCasters&) const {
     ++asked;
     return {new NoMarks};
 }

@@ -3,7 +3,7 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/volume/VolumeCache.h>
@@ -47,7 +47,7 @@ Work drawnOf(const gnomon::SeenVolumes& seen) {
 /// Finds volumes as ShadowVolumeTechnique does, and what auto expects of them.
 class Counting : public gnomon::ShadowTechnique {
 public:
-    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+    std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
                                                        const gnomon::FrameCasters& casters) const override {
         const gnomon::CasterLayers& layers = casters.layers();
         const gnomon::SceneFrame scene(layers.origin);
@@ -165,7 +165,7 @@ namespace {
 /// As in a program that counts no frames.
 class Uncounted : public gnomon::ShadowTechnique {
 public:
-    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+    std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
                                                        const gnomon::FrameCasters& casters) const override {
         const gnomon::CasterLayers& layers = casters.layers();
         const gnomon::SceneFrame scene(layers.origin);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <support/DiscShadow.h>
 
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <osg/GLExtensions>
 #include <osg/Program>
@@ -33,19 +33,22 @@ osg::ref_ptr<osg::StateSet> programState() {
     return set;
 }
 
-template <typename Base>
-class DiscMark : public Base {
+class DiscMark : public gnomon::Mark {
 public:
-    std::string draw(osg::RenderInfo& info, gnomon::ScreenPass& pass, float keepBelow, float blocked) const {
-        osg::State& state = *info.getState();
+    Kind kind() const override { return inner < outer ? Kind::Fades : Kind::Hard; }
+
+    std::string draw(gnomon::ScreenPass& pass) const override {
+        using Want = gnomon::ScreenPass::Want;
+        osg::State& state = pass.state();
         state.apply(set.get());
         const auto* program = state.getLastAppliedProgramObject();
         const osg::GLExtensions& gl = *state.get<osg::GLExtensions>();
         const auto at = [&](const char* name) { return program->getUniformLocation(std::string(name)); };
+        const Want want = pass.wanted();
         gl.glUniform2f(at("centre"), static_cast<float>(centre.x()), static_cast<float>(centre.y()));
         gl.glUniform2f(at("radii"), static_cast<float>(inner), static_cast<float>(outer));
-        gl.glUniform1f(at("keepBelow"), keepBelow);
-        gl.glUniform1f(at("blocked"), blocked);
+        gl.glUniform1f(at("keepBelow"), want == Want::Blocked ? 0.5f : want == Want::Touched ? 1.0f : 2.0f);
+        gl.glUniform1f(at("blocked"), want == Want::Blocking ? 1.0f : 0.0f);
         pass.testDepth(GL_GREATER); // nothing at far depth
         pass.drawQuad(1.0);
         glDisable(GL_DEPTH_TEST);
@@ -53,31 +56,13 @@ public:
         return "";
     }
 
-    std::string mark(osg::RenderInfo& info, gnomon::ScreenPass& pass, unsigned bit) const override {
-        pass.stencilEqual(bit, 0, bit);
-        return draw(info, pass, 0.5f, 0.0f);
-    }
-
     osg::Vec2d centre;
     double inner = 0.0, outer = 0.0;
     osg::ref_ptr<osg::StateSet> set = programState();
 };
 
-class SoftDiscMark : public DiscMark<gnomon::SoftMarkJob> {
-public:
-    std::string markTouched(osg::RenderInfo& info, gnomon::ScreenPass& pass, unsigned bit) const override {
-        pass.stencilEqual(bit, 0, bit);
-        return draw(info, pass, 1.0f, 0.0f);
-    }
-
-    std::string drawShare(osg::RenderInfo& info, gnomon::ScreenPass& pass, Share share) const override {
-        return draw(info, pass, 2.0f, share == Share::Blocked ? 1.0f : 0.0f);
-    }
-};
-
-template <typename Mark>
-osg::ref_ptr<gnomon::MarkJob> markOf(const DiscShadow& disc) {
-    osg::ref_ptr<Mark> mark = new Mark;
+osg::ref_ptr<gnomon::Mark> markOf(const DiscShadow& disc) {
+    osg::ref_ptr<DiscMark> mark = new DiscMark;
     mark->centre = disc.centre;
     mark->inner = disc.inner;
     mark->outer = disc.outer;
@@ -92,10 +77,10 @@ osg::ref_ptr<gnomon::MarkJob> markOf(const DiscShadow& disc) {
 
 } // namespace
 
-std::vector<osg::ref_ptr<gnomon::MarkJob>>
-DiscShadow::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight& light, const gnomon::FrameCasters&) const {
+std::vector<osg::ref_ptr<gnomon::Mark>> DiscShadow::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight& light,
+                                                            const gnomon::FrameCasters&) const {
     if (!lights.empty() && !lights.count(light.number)) return {};
-    return {inner < outer ? markOf<SoftDiscMark>(*this) : markOf<DiscMark<gnomon::MarkJob>>(*this)};
+    return {markOf(*this)};
 }
 
 double DiscShadow::arriving(int x, int y) const {

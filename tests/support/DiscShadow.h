@@ -14,7 +14,7 @@ public:
     DiscShadow(const osg::Vec2d& at, double radius) : DiscShadow(at, radius, radius) {}
     DiscShadow(const DiscShadow&, const osg::CopyOp&) = delete;
 
-    std::vector<osg::ref_ptr<gnomon::MarkJob>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
+    std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
                                                        const gnomon::FrameCasters& casters) const override;
 
     /// Share of the light that reaches a pixel's centre.

@@ -31,8 +31,8 @@ public:
         };
         std::vector<Share> shares;               ///< empty: no shadow is drawn.
         std::vector<std::string> causes;         ///< for ShadowTechnique::report(): the budget cannot be kept.
-        std::shared_ptr<const LeafSet> surfaces; ///< see MarkJob::surfaces.
-        bool cutBySurfaces = false;              ///< see MarkJob.
+        std::shared_ptr<const LeafSet> surfaces; ///< see Mark::surfaces.
+        bool cutBySurfaces = false;              ///< see Mark.
     };
     Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/auto/AutoChooser.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ViewFrame.h>
@@ -47,7 +47,7 @@ std::vector<ShadowDecision> AutoShadowTechnique::lastDecision() const { return _
 
 unsigned AutoShadowTechnique::passes() const { return _chooser->passes(); }
 
-std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
+std::vector<osg::ref_ptr<Mark>> AutoShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                                 const FrameCasters& casters) const {
     const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) {
@@ -59,13 +59,13 @@ std::vector<osg::ref_ptr<MarkJob>> AutoShadowTechnique::prepare(const ViewFrame&
     for (const std::string& cause : drawn.causes) report(view.frameNumber, cause);
     ViewFrame here = view;
     here.groupFromTechnique = osg::Matrixd(); // planes are the group's
-    std::vector<osg::ref_ptr<MarkJob>> jobs;
+    std::vector<osg::ref_ptr<Mark>> jobs;
     for (const auto& [technique, part] : drawn.shares) {
         technique->beginFrame(view.frameNumber, view.frameTime, view.stage);
-        for (const osg::ref_ptr<MarkJob>& job : technique->prepare(here, light, part)) jobs.push_back(job);
+        for (const osg::ref_ptr<Mark>& job : technique->prepare(here, light, part)) jobs.push_back(job);
         for (const std::string& cause : causesOf(*technique)) report(view.frameNumber, cause);
     }
-    for (const osg::ref_ptr<MarkJob>& job : jobs) {
+    for (const osg::ref_ptr<Mark>& job : jobs) {
         job->surfaces = drawn.surfaces;
         job->cutBySurfaces = drawn.surfaces && drawn.cutBySurfaces;
     }

@@ -37,7 +37,7 @@ bool isFaint(const AutoView& view);
 /// True if what is drawn so shows no more of a light than the light gives: by OpenGL's own lighting.
 bool isShadedByOpenGl(const osgUtil::StateGraph* graph);
 
-/// Why depths do not tell where casters' shadows fall; empty if they do. @param steps  see MarkJob::depthSteps().
+/// Why depths do not tell where casters' shadows fall; empty if they do. @param steps  see Mark::depthSteps().
 std::string whyCoarse(const AutoView& view, double steps);
 
 /// Why casters need a technique that knows their textures; empty if they do not.

@@ -186,7 +186,7 @@ private:
         _compose.calls += callsALeaf * double(_view.frame.seen.size());
     }
 
-    /// What is left of measure() if these leaves alone are drawn again; see MarkJob::surfaces.
+    /// What is left of measure() if these leaves alone are drawn again; see Mark::surfaces.
     void relightAlone(const LeafSet& leaves, ShadowWork& work) const {
         work.relit = trianglesWithin({leaves.begin(), leaves.end()}, *_one.bounds);
         work.calls -= callsToRelight + callsALeaf * double(_view.frame.seen.size() - leaves.size());

@@ -64,7 +64,7 @@ struct FlatReceivers {
     bool nothing() const { return planes.empty() && obstacle.empty(); }
 };
 
-/// True if relighting can draw the planes' leaves alone; see MarkJob::surfaces.
+/// True if relighting can draw the planes' leaves alone; see Mark::surfaces.
 bool isRelitAlone(const AutoView& view, const FlatReceivers& flat);
 
 /// @param shapes  of the view's casters; those that are asked for are found.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/choice/CandidateChoice.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 
 #include <OpenThreads/Mutex>
 #include <osg/GLExtensions>

@@ -74,8 +74,7 @@ void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
     int drawn = 0;
     for (const ShadowJob& job : jobs)
         if (job.marks->hasView())
-            _draw.pass(wholeScreen,
-                       [&](ScreenPass& screen) { job.marks->drawView(_draw.renderInfo, screen, drawn++); });
+            _draw.pass(wholeScreen, [&](ScreenPass& screen) { job.marks->drawView(screen, drawn++); });
 }
 
 void Compositor::blendAny(const Jobs& jobs, float dark) {
@@ -91,8 +90,8 @@ bool Compositor::darkenDirectly(const Jobs& jobs, float dark) const {
     const ShadowJob& job = *jobs.front();
     if (jobs.size() > 1 || !_draw.vast.empty() || !needsNoMarks(job, _draw.leaves)) return false;
     _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
-        const std::string cause = job.marks->darken(_draw.renderInfo, screen, dark);
-        job.report(cause);
+        screen.ask(ScreenPass::Want::Factor, 0, dark);
+        job.report(job.marks->draw(screen));
     });
     return true;
 }
@@ -120,7 +119,7 @@ void Compositor::relightAny(const Jobs& jobs, std::map<float, Jobs>& blended) {
 bool Compositor::areSoft(const Jobs& jobs) const {
     bool soft = false;
     for (const ShadowJob* job : jobs) {
-        if (!job->softMarks()) continue;
+        if (!job->fades()) continue;
         soft = true;
         if (!_draw.hasAlpha)
             job->report("this framebuffer has no alpha bits, so the shadow's edges are hard. Ask for 8 with "

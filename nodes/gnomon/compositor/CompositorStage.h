@@ -46,7 +46,7 @@ public:
     void pass(const ScreenRect& bounds, Step step) const {
         CleanState cleanState(state, stage.getViewport());
         ScreenPass screen(
-            state, *stage.getViewport(), bounds, [this] { return channels(); }, counters, pattern);
+            renderInfo, *stage.getViewport(), bounds, [this] { return channels(); }, counters, pattern);
         step(screen);
     }
     void clear(unsigned stencil, const ScreenRect& bounds) const;

@@ -176,6 +176,13 @@ const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix) {
     return matrix ? *matrix : identity;
 }
 
+bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b) {
+    for (int row = 0; row < 4; ++row)
+        for (const int column : {0, 1, 3})
+            if (a(row, column) != b(row, column)) return false;
+    return true;
+}
+
 std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number) {
     std::vector<DrawnLeaf> leaves;
     append(stage, number, leaves);

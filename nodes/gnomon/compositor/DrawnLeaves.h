@@ -28,6 +28,9 @@ const osg::Matrixd& matrixOf(const osg::RefMatrix* matrix);
 inline const osg::Matrixd& modelviewOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._modelview.get()); }
 inline const osg::Matrixd& projectionOf(const osgUtil::RenderLeaf& leaf) { return matrixOf(leaf._projection.get()); }
 
+/// True if two views have the same lens: the same but for near and far, which a nested camera finds for itself.
+bool isSameLens(const osg::Matrixd& a, const osg::Matrixd& b);
+
 /// Every leaf that the stage draws before bin `number`, in the order in which it is drawn. Valid from the end of sort
 /// to the end of draw.
 std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);

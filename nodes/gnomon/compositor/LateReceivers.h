@@ -13,7 +13,7 @@ namespace gnomon {
 struct LateReceivers {
     std::vector<DrawnLeaf> leaves;
     std::vector<DrawnLeaf>
-        combined;                ///< do not receive, because a logic operation combines them with what stands behind.
+        combined;                 ///< do not receive, because a logic operation combines them with what stands behind.
     std::vector<DrawnLeaf> torn;  ///< do not receive, because their alpha is 1 in some parts only.
     std::vector<DrawnLeaf> clear; ///< do not receive, because what stands behind shines through all of them.
     osgUtil::RenderBin* last = nullptr; ///< the stage's last bin that draws some of them; null if there are none.

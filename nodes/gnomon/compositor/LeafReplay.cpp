@@ -249,8 +249,7 @@ void LeafReplay::drawGeometry(const osgUtil::RenderLeaf& leaf) {
 void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const bool cut = geometry && canDrawClusters(leaf, *geometry);
-    const MarkJob::BoxTest test =
-        cut && _overlay.marks ? _overlay.marks->boxTest(modelviewOf(leaf)) : MarkJob::BoxTest();
+    const Mark::BoxTest test = cut && _overlay.marks ? _overlay.marks->boxTest(modelviewOf(leaf)) : Mark::BoxTest();
     if (test && geometry->getBoundingBox().valid() && !test(geometry->getBoundingBox())) return;
     const osg::ref_ptr<const TriangleClusters> clusters = cut ? TriangleClusters::of(*geometry) : nullptr;
     if (!clusters) return leaf._drawable->draw(_renderInfo);

@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/LightUniform.h>
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
 #include <glm/vec2.hpp>
@@ -81,7 +81,7 @@ public:
         float unlit =
             0.5f; ///< Replace: a leaf that should lose a light and cannot is drawn in its own colour times this.
         ScreenRect bounds = wholeScreen;         ///< nothing need be drawn outside.
-        const MarkJob* marks = nullptr;          ///< nothing need be drawn where it marks nothing.
+        const Mark* marks = nullptr;             ///< nothing need be drawn where it marks nothing.
         std::vector<LightUniform> lightUniforms; ///< by which programs read lights.
     };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/gl/GlState.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/LeafReplay.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/SoftCompositor.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ SoftCompositor::Lights SoftCompositor::lightsOf(const Jobs& wanted) const {
             lights.emplace_back().number = job->light;
             light = lights.end() - 1;
         }
-        if (!job->softMarks())
+        if (!job->fades())
             light->hard.push_back(job);
         else if (!light->soft)
             light->soft = job;
@@ -239,24 +239,22 @@ void SoftCompositor::weighOne(const Light& light, bool lost, ScreenPass& screen)
 
 /// Cut to the pass's bounds, not to the job's own: outside those its bit is not set.
 void SoftCompositor::multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const {
-    screen.multiplyAlpha();
-    const std::string cause = job.softMarks()->drawShare(
-        _draw.renderInfo, screen, blocked ? SoftMarkJob::Share::Blocked : SoftMarkJob::Share::Arriving);
-    job.report(cause);
+    screen.ask(blocked ? ScreenPass::Want::Blocking : ScreenPass::Want::Arriving);
+    job.report(job.marks->draw(screen));
 }
 
 /// Multiplies alpha by the job's share.
 void SoftCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
     const StencilMarks marks(_draw, _scratch);
     const Leaves others = notOfView(job, _draw.leaves);
-    if (job.softMarks() && !job.receiverNamed && others.empty())
+    if (job.fades() && !job.receiverNamed && others.empty())
         return marks.add(job, bit, true, StencilMarks::Soft::Weighed);
     marks.add(job, bit, true, StencilMarks::Soft::Touched);
     writeWhereSeen(_draw, others, 0, bit, job.marks->screenBounds);
     const TrueDepths depths(_draw, job.marks->screenBounds);
     _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
         screen.stencilAny(bit);
-        if (job.softMarks())
+        if (job.fades())
             multiplyShare(job, false, screen);
         else
             screen.setAlpha(0.0f);

@@ -121,11 +121,10 @@ void StencilMarks::add(const ShadowJob& job, unsigned bit, bool fresh, Soft soft
 void StencilMarks::addUngated(const ShadowJob& job, unsigned bit, Soft soft) const {
     const TrueDepths depths(_draw, job.marks->screenBounds);
     _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
-        const auto* softMarks = soft == Soft::Half ? nullptr : job.softMarks();
-        if (softMarks && soft == Soft::Weighed) screen.multiplyAlpha();
-        const std::string cause = softMarks ? softMarks->markTouched(_draw.renderInfo, screen, bit)
-                                            : job.marks->mark(_draw.renderInfo, screen, bit);
-        job.report(cause);
+        const bool touched = soft != Soft::Half && job.fades();
+        if (touched && soft == Soft::Weighed) screen.multiplyAlpha();
+        screen.ask(touched ? ScreenPass::Want::Touched : ScreenPass::Want::Blocked, bit);
+        job.report(job.marks->draw(screen));
     });
 }
 
@@ -164,7 +163,7 @@ TargetNeeds needsOf(const std::vector<ShadowJob>& jobs) {
         if (job.programMarks()) continue;
         const bool known = !lights.insert(job.relight ? job.light : blended).second;
         together = together || known || job.receiverNamed;
-        needs.alpha = needs.alpha || job.softMarks();
+        needs.alpha = needs.alpha || job.fades();
         const ScreenRect& place = job.marks->hasView() ? wholeScreen : job.marks->screenBounds;
         bounds = bounds ? united(*bounds, place) : place;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/ReplaySelection.h>
 #include <gnomon/gl/GlState.h>
 #include <gnomon/gl/WorkFramebuffer.h>

@@ -30,9 +30,13 @@ PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport) 
     return {x.first, y.first, x.count, y.count};
 }
 
-ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
+ScreenPass::ScreenPass(osg::RenderInfo& renderInfo, const osg::Viewport& viewport, const ScreenRect& bounds,
                        std::function<Channels()> written, unsigned counters, const StencilPattern& pattern)
-    : _state(state), _written(std::move(written)), _counters(counters), _pattern(pattern) {
+    : _renderInfo(renderInfo),
+      _state(*renderInfo.getState()),
+      _written(std::move(written)),
+      _counters(counters),
+      _pattern(pattern) {
     const PixelRect cut = pixelsWithin(bounds, viewport);
     glEnable(GL_SCISSOR_TEST);
     glScissor(cut.x, cut.y, cut.width, cut.height);
@@ -44,6 +48,18 @@ ScreenPass::ScreenPass(osg::State& state, const osg::Viewport& viewport, const S
 ScreenPass::~ScreenPass() {
     leaveDefaults(_state);
     if (_encodes) glDisable(framebufferSrgb); // osg::State, which knows it off, need not be told
+}
+
+void ScreenPass::ask(Want want, unsigned bit, float factor) {
+    _wanted = want;
+    _bit = bit;
+    _factor = factor;
+    if (want == Want::Factor)
+        beginMultiplyByColor();
+    else if (bit)
+        stencilEqual(bit, 0, bit);
+    else
+        multiplyAlpha();
 }
 
 void ScreenPass::clearStencil(unsigned bits) {

@@ -3,6 +3,7 @@
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/GlState.h>
 
+#include <osg/RenderInfo>
 #include <osg/Vec3>
 #include <osg/Vec4>
 #include <osg/Viewport>
@@ -31,11 +32,28 @@ public:
     /// @param written   asked when colours are written: to these channels only.
     /// @param counters  see counters().
     /// @param pattern   nothing is written but in its pixels.
-    ScreenPass(osg::State& state, const osg::Viewport& viewport, const ScreenRect& bounds,
+    ScreenPass(osg::RenderInfo& renderInfo, const osg::Viewport& viewport, const ScreenRect& bounds,
                std::function<Channels()> written, unsigned counters, const StencilPattern& pattern);
     ~ScreenPass();
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;
+
+    osg::RenderInfo& renderInfo() const { return _renderInfo; }
+    osg::State& state() const { return _state; }
+
+    /// Which fragments a Mark is to draw, and what they hold.
+    enum class Want {
+        Blocked, ///< where less than half of the light arrives; each sets bit().
+        Touched, ///< where not all of it arrives, with the share that does in alpha; each sets bit().
+        Arriving, ///< the share that arrives, 0 … 1, in alpha; those of pixels where all of it arrives may be left out.
+        Blocking, ///< the share that does not.
+        Factor    ///< as Touched, with what is left of a pixel's colour: factor() where nothing arrives.
+    };
+    /// Asks what is drawn next for it. @param bit  of the stencil buffer, zero within the bounds so far.
+    void ask(Want want, unsigned bit = 0, float factor = 1.0f);
+    Want wanted() const { return _wanted; }
+    unsigned bit() const { return _bit; }
+    float factor() const { return _factor; }
 
     void clearStencil(unsigned bits);
     /// Pass where (stencil & test) == (reference & test), then set the bits of `write` to those of `reference`.
@@ -107,11 +125,15 @@ private:
     void openToMultiply();
     void drawColor(const osg::Vec4& color);
 
+    osg::RenderInfo& _renderInfo;
     osg::State& _state;
     const std::function<Channels()> _written;
     const unsigned _counters;
     const StencilPattern _pattern;
     bool _encodes = false;
+    Want _wanted = Want::Blocked;
+    unsigned _bit = 0;
+    float _factor = 1.0f;
 };
 
 } // namespace gnomon

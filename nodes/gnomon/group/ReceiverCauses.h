@@ -46,7 +46,7 @@ void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<Enlisted
                       osgUtil::RenderStage& stage);
 
 /// Says that the shadows of what is far away cannot be placed by depth. For techniques whose marks depend on it.
-/// @param steps  see MarkJob::depthSteps(), above 0.
+/// @param steps  see Mark::depthSteps(), above 0.
 void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,
                        osgUtil::RenderStage& stage, double steps);
 

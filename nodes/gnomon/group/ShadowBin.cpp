@@ -163,7 +163,7 @@ std::vector<ShadowJob> jobsFor(Preparation asked, bool alone) {
         ShadowJob job = jobFor(asked.entry, light);
         job.receiverNamed = alone;
         job.receivers = receivers;
-        for (const osg::ref_ptr<MarkJob>& marks : asked.entry.technique->prepare(asked.view, light, asked.casters)) {
+        for (const osg::ref_ptr<Mark>& marks : asked.entry.technique->prepare(asked.view, light, asked.casters)) {
             job.marks = marks;
             marks->screenBounds = common(marks->screenBounds, *asked.within);
             if (job.programMarks() || overlap(marks->screenBounds, marks->screenBounds)) jobs.push_back(job);

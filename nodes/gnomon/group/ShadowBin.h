@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/DrawnLeaves.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/compositor/ViewEffect.h>

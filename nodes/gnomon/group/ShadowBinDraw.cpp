@@ -3,7 +3,7 @@
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/Compositor.h>
 #include <gnomon/compositor/KeptByStage.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/StencilMarks.h>
@@ -28,9 +28,9 @@ namespace {
 
 /// Stencil bits that the compositor takes: one a light, and a scratch bit; one more for lights that fade.
 std::size_t ownBits(const std::vector<ShadowJob>& jobs) {
-    if (std::none_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.marks->counts(); })) return 8;
-    if (std::any_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.softMarks(); }))
-        return mostRelitLights + 2;
+    if (std::none_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.marks->kind() == Mark::Kind::Counts; }))
+        return 8;
+    if (std::any_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.fades(); })) return mostRelitLights + 2;
     std::set<int> lights;
     for (const ShadowJob& job : jobs) lights.insert(job.light);
     return std::min(lights.size(), mostRelitLights) + 1;

@@ -2,7 +2,7 @@
 #include <gnomon/ShadowReport.h>
 #include <gnomon/ShadowTechnique.h>
 #include <gnomon/base/FrameDiagnosis.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/group/ShadowProbe.h>
 
 #include <osg/NodeVisitor>

@@ -138,13 +138,13 @@ glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
     return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
 }
 
-std::string MapLookupPass::draw(osg::RenderInfo& renderInfo, ScreenPass& pass, const Wanted& wanted) const {
-    osg::State& state = *renderInfo.getState();
+std::string MapLookupPass::draw(ScreenPass& pass, const Wanted& wanted) const {
+    osg::State& state = pass.state();
     const osg::Viewport& viewport = *state.getCurrentViewport();
     const PixelRect marked = pixelsInScissor(viewport);
     if (marked.empty()) return "";
     const PixelRect pixels = wholeQuads(marked, viewport);
-    const std::string cause = showMap(renderInfo);
+    const std::string cause = showMap(pass.renderInfo());
     if (!cause.empty()) return cause;
     FrameDepthCopy::Copy copy = resources->seen.copy(state, pixels);
     if (!copy.cause.empty()) return copy.cause;
@@ -274,12 +274,11 @@ void MapLookupPass::addMap(std::size_t i, const glm::dmat4& mapFromPixel, std::v
     if (soft) constants.emplace_back(spread.nearest, spread.farthest);
 }
 
-void drawMapView(const MapLookupPass& quad, ShadowMapOptions::View view, osg::RenderInfo& renderInfo, ScreenPass& pass,
-                 int before) {
+void drawMapView(const MapLookupPass& quad, ShadowMapOptions::View view, ScreenPass& pass, int before) {
     constexpr const char* defines[] = {"", "#define PICTURE\n", "#define TEXELS\n", ""};
-    osg::State& state = *renderInfo.getState();
+    osg::State& state = pass.state();
     if (view == ShadowMapOptions::NOTHING || (view != ShadowMapOptions::MAP && before > 0)) return;
-    if (!quad.showMap(renderInfo).empty()) return; // which marking has said
+    if (!quad.showMap(pass.renderInfo()).empty()) return; // which marking has said
     FrameDepthCopy::Copy copy;
     if (view != ShadowMapOptions::MAP)
         copy = quad.resources->seen.copy(state, pixelsInScissor(*state.getCurrentViewport()));
@@ -296,17 +295,23 @@ void drawMapView(const MapLookupPass& quad, ShadowMapOptions::View view, osg::Re
     state.apply();
 }
 
-std::string SoftMapMark::markTouched(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
-    return markBelow(allOfIt, renderInfo, pass, bit);
+std::string MapMark::draw(ScreenPass& pass) const {
+    using Want = ScreenPass::Want;
+    constexpr double half = 0.5, allOfIt = 511.0 / 512.0, any = 2.0; // less than all is a step of eight bits
+    switch (pass.wanted()) {
+    case Want::Blocked:
+        return quad.draw(pass, {half, false, 1.0});
+    case Want::Touched:
+        return quad.draw(pass, {allOfIt, false, 1.0});
+    case Want::Factor:
+        return quad.draw(pass, {quad.fades() ? allOfIt : half, false, pass.factor()});
+    default:
+        return quad.draw(pass, {any, pass.wanted() == Want::Blocking, 1.0});
+    }
 }
 
-std::string SoftMapMark::drawShare(osg::RenderInfo& renderInfo, ScreenPass& pass, Share share) const {
-    constexpr double any = 2.0;
-    return quad.draw(renderInfo, pass, {any, share == Share::Blocked, 1.0});
-}
-
-std::string SpotMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
-    osg::State& state = *renderInfo.getState();
+std::string SpotMark::draw(ScreenPass& pass) const {
+    osg::State& state = pass.state();
     const osg::Viewport& viewport = *state.getCurrentViewport();
     const PixelRect pixels = pixelsInScissor(viewport);
     if (pixels.empty()) return "";
@@ -319,7 +324,6 @@ std::string SpotMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsign
     setUniform(state, "rows", copy.rows);
     setUniform(state, "depthError", copy.error);
     setUniform(state, "coneFromPixel", coneFromScene * glm::inverse(clipFromScene) * clipFromPixel(viewport));
-    pass.stencilEqual(bit, 0, bit);
     pass.drawQuad();
     state.apply();
     return "";

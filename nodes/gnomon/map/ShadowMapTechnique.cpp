@@ -35,15 +35,6 @@ using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 constexpr unsigned keptRounds = 60;    // maps that nobody asked for since are let go, however many there are
 constexpr std::size_t mostCasters = 8; // groups above one node, and views of different levels of detail
 
-template <class Mark>
-osg::ref_ptr<MarkJob> markOf(const MapLookupPass& quad, const ScreenRect& bounds, ShadowMapOptions::View view) {
-    osg::ref_ptr<Mark> mark = new Mark;
-    mark->quad = quad;
-    mark->screenBounds = bounds;
-    mark->view = view;
-    return mark;
-}
-
 } // namespace
 
 /// A technique's maps: of each light in each view those drawn last, and whether they still do.
@@ -56,9 +47,9 @@ public:
     /// @param light  in the scene about the casters' origin, see localLight().
     /// @param cone   of a lamp that is a spot: nothing outside it is marked.
     /// @return the marks of a light; null if none of its shadow can be seen.
-    osg::ref_ptr<MarkJob> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
-                               const std::optional<SpotCone>& cone, const MapCasters& casters,
-                               const ShadowMapOptions& settings);
+    osg::ref_ptr<Mark> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
+                            const std::optional<SpotCone>& cone, const MapCasters& casters,
+                            const ShadowMapOptions& settings);
     /// Drops the maps and meshes of retired casters.
     void letGo();
 
@@ -77,9 +68,9 @@ private:
     unsigned _round = 0, _frame = 0; ///< a round is a frame, as views count them.
 };
 
-osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
-                                           const std::optional<SpotCone>& cone, const MapCasters& casters,
-                                           const ShadowMapOptions& settings) {
+osg::ref_ptr<Mark> ShadowMapCache::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
+                                        const std::optional<SpotCone>& cone, const MapCasters& casters,
+                                        const ShadowMapOptions& settings) {
     const glm::dmat4 eyeFromScene = SceneFrame(casters.layers->origin).eyeFromScene(view);
     Lock lock(_mutex);
     LightShadowMaps& map = find(view, lightNumber);
@@ -98,8 +89,11 @@ osg::ref_ptr<MarkJob> ShadowMapCache::mark(const ViewFrame& view, int lightNumbe
         screenOutline(corners, 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y())); // two pixels more, against rounding
     if (forPrograms) return new ProgramMaps(quad, glm::inverse(eyeFromScene), unsigned(settings.programUnit));
     if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
-    return quad.fades() ? markOf<SoftMapMark>(quad, *bounds, settings.view)
-                        : markOf<MapMark>(quad, *bounds, settings.view);
+    osg::ref_ptr<MapMark> mark = new MapMark;
+    mark->quad = std::move(quad);
+    mark->screenBounds = *bounds;
+    mark->view = settings.view;
+    return mark;
 }
 
 osg::ref_ptr<const MapCasters> ShadowMapCache::castersOf(const CasterLayers& layers) {
@@ -183,8 +177,8 @@ ShadowMapTechnique::~ShadowMapTechnique() = default;
 
 unsigned ShadowMapTechnique::passes() const { return _maps->resources->passes; }
 
-std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                               const FrameCasters& casters) const {
+std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                            const FrameCasters& casters) const {
     const osg::ref_ptr<const MapCasters> drawn = _maps->castersOf(casters.layers());
     const auto usable = localLight(light.inGroup, SceneFrame(drawn->layers->origin));
     if (!usable) {
@@ -192,7 +186,7 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
         return {};
     }
     const std::optional<SpotCone> cone = spotOf(light);
-    std::vector<osg::ref_ptr<MarkJob>> marks;
+    std::vector<osg::ref_ptr<Mark>> marks;
     if (cone && _options.programUnit < 0 && view.group->getComposite() == ShadowCasterGroup::RELIGHT) {
         osg::ref_ptr<SpotMark> around = new SpotMark;
         around->resources = _maps->resources;
@@ -200,7 +194,7 @@ std::vector<osg::ref_ptr<MarkJob>> ShadowMapTechnique::prepare(const ViewFrame& 
         around->coneFromScene = coneFromScene(glm::dvec3(*usable), *cone);
         marks.emplace_back(around);
     }
-    const osg::ref_ptr<MarkJob> mark = _maps->mark(view, light.number, *usable, cone, *drawn, _options);
+    const osg::ref_ptr<Mark> mark = _maps->mark(view, light.number, *usable, cone, *drawn, _options);
     if (mark) marks.emplace_back(mark); // else out of sight: nothing to say
     return marks;
 }

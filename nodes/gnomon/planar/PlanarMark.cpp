@@ -43,13 +43,11 @@ bool PlanarMark::canReach(const osgUtil::RenderLeaf& leaf) const {
     return lowest <= margin && highest >= -margin;
 }
 
-std::string PlanarMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
-    osg::State& state = *renderInfo.getState();
-    pass.stencilEqual(bit, 0, bit);
+std::string PlanarMark::draw(ScreenPass& pass) const {
     if (!cures.offset) fightReceiver();
-    const bool drawn = drawParts(renderInfo);
-    if (cutToPlane && !cutBySurfaces) cut(state, pass, bit);
-    if (!cures.stencil) darkenEach(renderInfo, pass, bit);
+    const bool drawn = drawParts(pass.renderInfo());
+    if (cutToPlane && !cutBySurfaces) cut(pass);
+    if (!cures.stencil) darkenEach(pass);
     return drawn ? "" : noProgram;
 }
 
@@ -102,20 +100,22 @@ void PlanarMark::fightReceiver() const {
 }
 
 /// Without the stencil cure: each triangle darkens for itself where marked; then no marks are left.
-void PlanarMark::darkenEach(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
-    pass.stencilAny(bit);
+void PlanarMark::darkenEach(ScreenPass& pass) const {
+    pass.stencilAny(pass.bit());
     glDisable(GL_DEPTH_TEST);
     if (!cures.offset) fightReceiver();
     pass.beginMultiply(dark);
-    drawParts(renderInfo);
-    pass.clearStencil(bit);
+    drawParts(pass.renderInfo());
+    pass.clearStencil(pass.bit());
 }
 
 /// Takes the marks back where what stands in the depth buffer is behind the plane, and where it is before it.
-void PlanarMark::cut(const osg::State& state, ScreenPass& pass, unsigned bit) const {
+void PlanarMark::cut(ScreenPass& pass) const {
     // In normalised device coordinates, twice as long as window depths.
-    const auto moved = [&](const glm::dvec2& by) { return 2.0 * depthOf(by, *state.getCurrentViewport(), depth); };
-    pass.stencilEqual(0, 0, bit);
+    const auto moved = [&](const glm::dvec2& by) {
+        return 2.0 * depthOf(by, *pass.state().getCurrentViewport(), depth);
+    };
+    pass.stencilEqual(0, 0, pass.bit());
     pass.testDepth(GL_LEQUAL);
     pass.drawQuad(depth.z + moved(farthestOffset + tolerance), depth.x, depth.y);
     pass.testDepth(GL_GREATER);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/PlanarCures.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/planar/PlanarCasters.h>
 
 #include <glm/mat4x4.hpp>
@@ -21,7 +21,7 @@ struct PlanarPrograms : public osg::Referenced {
 
 /// Marks of one plane and light in one view: the flattened casters, cut where need be to the pixels whose depth is the
 /// plane's.
-class PlanarMark : public MarkJob {
+class PlanarMark : public Mark {
 public:
     /// How far from the plane's depth what lies in it may be drawn: pixels of the plane's slope, steps of the depth buffer.
     ///
@@ -53,7 +53,7 @@ public:
     bool canReach(const osgUtil::RenderLeaf& leaf) const override;
     /// Those are marked that lie as far off the plane as what lies in it may be drawn.
     double depthSteps() const override { return !cutToPlane ? 0.0 : cutBySurfaces ? 1.0 : tolerance.y; }
-    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    std::string draw(ScreenPass& pass) const override;
 
 protected:
     ~PlanarMark() override = default;
@@ -62,9 +62,9 @@ private:
     bool drawParts(osg::RenderInfo& renderInfo) const;
     bool clips(const PlanarPart& part) const { return cures.clip && (part.crossing || reachesLight); }
     void drawPart(osg::RenderInfo& renderInfo, const PlanarPart& part) const;
-    void darkenEach(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const;
+    void darkenEach(ScreenPass& pass) const;
     void fightReceiver() const;
-    void cut(const osg::State& state, ScreenPass& pass, unsigned bit) const;
+    void cut(ScreenPass& pass) const;
 };
 
 } // namespace gnomon

@@ -169,9 +169,9 @@ void PlanarShadowNode::addPlane(const osg::Vec4d& plane) { _planes.push_back(pla
 
 void PlanarShadowNode::setPlanes(const std::vector<osg::Vec4d>& planes) { _planes = planes; }
 
-std::vector<osg::ref_ptr<MarkJob>> PlanarShadowNode::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                             const FrameCasters& casters) const {
-    std::vector<osg::ref_ptr<MarkJob>> jobs;
+std::vector<osg::ref_ptr<Mark>> PlanarShadowNode::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                          const FrameCasters& casters) const {
+    std::vector<osg::ref_ptr<Mark>> jobs;
     if (_planes.empty()) report(view.frameNumber, "no plane is set, so there is no shadow. Set one with addPlane().");
     for (unsigned i = 0; i < _planes.size(); ++i) {
         const auto plane = transformedPlane(toGlm(view.groupFromTechnique), toGlm(_planes[i]));
@@ -179,15 +179,15 @@ std::vector<osg::ref_ptr<MarkJob>> PlanarShadowNode::prepare(const ViewFrame& vi
             report(view.frameNumber,
                    sentence("the normal of the plane", _planes[i],
                             "is zero or not a number. Give (a, b, c, d) of the plane a x + b y + c z + d = 0."));
-        else if (osg::ref_ptr<MarkJob> job = prepareOne(view, light, casters.layers(), i, *plane))
+        else if (osg::ref_ptr<Mark> job = prepareOne(view, light, casters.layers(), i, *plane))
             jobs.push_back(job);
     }
     return jobs;
 }
 
-osg::ref_ptr<MarkJob> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light,
-                                                   const CasterLayers& layers, unsigned index,
-                                                   const glm::dvec4& groupPlane) const {
+osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light,
+                                                const CasterLayers& layers, unsigned index,
+                                                const glm::dvec4& groupPlane) const {
     const auto refuse = [&](const char* start, const osg::Vec4d& what, const char* rest) {
         report(view.frameNumber, sentence(start, what, rest));
         return nullptr;

@@ -3,7 +3,7 @@
 #include <gnomon/OptionalParts.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/TerrainShadowGeode.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/group/FrameCasters.h>
@@ -25,7 +25,7 @@ namespace {
 
 /// Marks of one light in one view: all that stands in a solid. What of that is ground is for the compositor to tell, which
 /// cuts the marks to the receiver.
-class TerrainMark : public MarkJob {
+class TerrainMark : public Mark {
 public:
     struct Tile {
         osg::ref_ptr<const TileShadows> shadows;
@@ -38,8 +38,8 @@ public:
     osg::Matrixd sceneFromEye;
     bool testsBoxes = true; ///< boxTest() knows something.
 
-    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
-    bool counts() const override { return true; }
+    Kind kind() const override { return Kind::Counts; }
+    std::string draw(ScreenPass& pass) const override;
     BoxTest boxTest(const osg::Matrixd& eyeFromBox) const override;
 
 protected:
@@ -59,7 +59,7 @@ void append(const std::vector<unsigned>& ends, unsigned begin, const LayerSlice&
 }
 
 /// Solids go up and down far enough: what is beside them in plan is out of their reach.
-MarkJob::BoxTest TerrainMark::boxTest(const osg::Matrixd& eyeFromBox) const {
+Mark::BoxTest TerrainMark::boxTest(const osg::Matrixd& eyeFromBox) const {
     if (!testsBoxes) return {};
     return [this, toScene = eyeFromBox * sceneFromEye](const osg::BoundingBox& box) {
         const osg::Vec3d middle = osg::Vec3d(box.center()) * toScene,
@@ -77,9 +77,9 @@ MarkJob::BoxTest TerrainMark::boxTest(const osg::Matrixd& eyeFromBox) const {
 
 /// One bit tells odd from even. From above, and from before all of a tile's solids, no line of sight to the ground meets their
 /// ends, which are in the ground: then what is before it is counted, else what is behind it.
-std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
-    osg::State& state = *renderInfo.getState();
-    const unsigned counters = pass.counters();
+std::string TerrainMark::draw(ScreenPass& pass) const {
+    osg::State& state = pass.state();
+    const unsigned counters = pass.counters(), bit = pass.bit();
     std::vector<PrismLayers> layers;
     for (const Tile& tile : tiles) {
         const HullSolids& solids = tile.shadows->solids;
@@ -103,7 +103,7 @@ std::string TerrainMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, uns
                 append(solids.ends, solids.sides.back(), slice, ranges);
                 pass.countHolding(counters ? counters : bit);
             }
-            tile.shadows->geometry->draw(renderInfo, ranges);
+            tile.shadows->geometry->draw(pass.renderInfo(), ranges);
         }
         glFrontFace(GL_CCW);
         state.apply();
@@ -140,11 +140,11 @@ std::string TerrainShadowGeode::whyUnavailable() const {
 
 unsigned TerrainShadowGeode::builds() const { return _cache->found(); }
 
-std::vector<osg::ref_ptr<MarkJob>> TerrainShadowGeode::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                               const FrameCasters& casters) const {
+std::vector<osg::ref_ptr<Mark>> TerrainShadowGeode::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                            const FrameCasters& casters) const {
     const auto refuse = [&](const std::string& cause) {
         report(view.frameNumber, cause);
-        return std::vector<osg::ref_ptr<MarkJob>>();
+        return std::vector<osg::ref_ptr<Mark>>();
     };
     if (!hasReceiver()) return refuse("no terrain is named, so there is no shadow. Name it with setReceiver().");
     const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));

@@ -6,7 +6,7 @@
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/RaySceneCache.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/FrameCopies.h>
 #include <gnomon/gl/SavedFramebuffers.h>
@@ -95,7 +95,7 @@ private:
 namespace {
 
 /// Marks of one light in one view: a ray to the light from where the depth buffer says a surface is.
-class TracedMark : public MarkJob {
+class TracedMark : public Mark {
 public:
     TracedFrame frame;                       ///< without the picture.
     std::shared_ptr<TracedFrames> frames;    ///< the technique's.
@@ -105,7 +105,7 @@ public:
 
     /// Rays find the surface within what a depth may mean.
     double depthSteps() const override { return 0.0; }
-    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
+    std::string draw(ScreenPass& pass) const override;
 
 protected:
     ~TracedMark() override = default;
@@ -253,8 +253,8 @@ std::vector<std::uint8_t> TracedFrames::bitsOf(TracedFrame frame) {
     return std::move(found.bits);
 }
 
-std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
-    osg::State& state = *renderInfo.getState();
+std::string TracedMark::draw(ScreenPass& pass) const {
+    osg::State& state = pass.state();
     if (glInteger(GL_DEPTH_BITS) == 0) return noDepth;
     const PlainPixels plain(state);
     DepthPicture part = partInScissor(*state.getCurrentViewport());
@@ -267,7 +267,6 @@ std::string TracedMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
                                         rounding, frame.scene->longestSide());
     part.drawnDepth = drawn.depth;
     part.drawnPixels = drawn.pixels;
-    pass.stencilEqual(bit, 0, bit);
     TracedFrame seen = frame;
     std::vector<float> depths;
     depths.swap(part.depths);
@@ -289,8 +288,8 @@ TracedShadowTechnique::TracedShadowTechnique(const TracedShadowTechnique& other,
 
 TracedShadowTechnique::~TracedShadowTechnique() = default;
 
-std::vector<osg::ref_ptr<MarkJob>> TracedShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                                  const FrameCasters& casters) const {
+std::vector<osg::ref_ptr<Mark>> TracedShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                               const FrameCasters& casters) const {
     const CasterLayers& layers = casters.layers();
     const SceneFrame scene(layers.origin);
     const auto usable = localLight(light.inGroup, scene);

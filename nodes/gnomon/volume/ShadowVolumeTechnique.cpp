@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowVolumeTechnique.h>
-#include <gnomon/compositor/MarkJob.h>
+#include <gnomon/compositor/Mark.h>
 #include <gnomon/gl/GlState.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ScreenPass.h>
@@ -15,25 +15,24 @@ namespace gnomon {
 namespace {
 
 /// Marks of one light in one view: what is in a volume.
-class VolumeMark : public MarkJob {
+class VolumeMark : public Mark {
 public:
     SeenVolumes seen;
     osg::ref_ptr<const osg::StateSet> program;
     glm::dvec2 pushedBack{0.0}; ///< see ViewFrame.
     bool showsVolumes = false;
 
-    std::string mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const override;
-    bool counts() const override { return true; }
+    Kind kind() const override { return Kind::Counts; }
+    std::string draw(ScreenPass& pass) const override;
     bool hasView() const override { return showsVolumes; }
-    void drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int before) const override;
+    void drawView(ScreenPass& pass, int before) const override;
 
 protected:
     ~VolumeMark() override = default;
 
 private:
-    void count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
-               const VolumeRound::Share& share) const;
-    void uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+    void count(ScreenPass& pass, unsigned counters, const MeshInView& mesh, const VolumeRound::Share& share) const;
+    void uncountBacks(ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                       const VolumeRound::Share& share) const;
 };
 
@@ -79,43 +78,44 @@ constexpr const char* overflow =
 
 /// A light cap lies in the surface that casts, which is as lit as its light's side: so it is behind that from there, and
 /// before it from the other side. A dark cap is where it is, close before the lowest surface for an eye below all.
-void VolumeMark::count(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+void VolumeMark::count(ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                        const VolumeRound::Share& share) const {
-    place(*renderInfo.getState(), mesh);
+    place(pass.state(), mesh);
     pass.countEntered(counters);
-    drawSides(renderInfo, mesh.volumes->sides(), share.entered);
+    drawSides(pass.renderInfo(), mesh.volumes->sides(), share.entered);
     if (share.lightCaps.empty() && share.bothCaps.empty()) return;
     const glm::dvec2 back = glm::max(pushedBack, 0.0) + apart, forward = glm::min(pushedBack, 0.0) - apart;
     pass.countHolding(counters);
-    drawSides(renderInfo, mesh.volumes->sides(), share.left);
-    mesh.caps->draw(renderInfo, share.darkCaps);
-    if (!share.lightCaps.empty()) drawOffset(renderInfo, *mesh.caps, share.lightCaps, back);
+    drawSides(pass.renderInfo(), mesh.volumes->sides(), share.left);
+    mesh.caps->draw(pass.renderInfo(), share.darkCaps);
+    if (!share.lightCaps.empty()) drawOffset(pass.renderInfo(), *mesh.caps, share.lightCaps, back);
     if (share.bothCaps.empty()) return;
     glEnable(GL_CULL_FACE);
-    drawOffset(renderInfo, *mesh.caps, share.bothCaps, back);
+    drawOffset(pass.renderInfo(), *mesh.caps, share.bothCaps, back);
     glCullFace(GL_FRONT);
-    drawOffset(renderInfo, *mesh.caps, share.bothCaps, forward);
+    drawOffset(pass.renderInfo(), *mesh.caps, share.bothCaps, forward);
     glCullFace(GL_BACK);
     glDisable(GL_CULL_FACE);
 }
 
 /// A sheet does not shadow its own back, which OpenGL lights as its front: where that is seen, its volume does not count.
-void VolumeMark::uncountBacks(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned counters, const MeshInView& mesh,
+void VolumeMark::uncountBacks(ScreenPass& pass, unsigned counters, const MeshInView& mesh,
                               const VolumeRound::Share& share) const {
     if (share.backs.empty()) return;
-    place(*renderInfo.getState(), mesh);
+    place(pass.state(), mesh);
     pass.uncount(counters);
     glDisable(depthClamp); // what is cut away before the near plane is not seen
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
-    drawOffset(renderInfo, *mesh.caps, share.backs, glm::min(pushedBack, 0.0) - apart);
+    drawOffset(pass.renderInfo(), *mesh.caps, share.backs, glm::min(pushedBack, 0.0) - apart);
     glCullFace(GL_BACK);
     glDisable(GL_CULL_FACE);
     glEnable(depthClamp);
 }
 
-std::string VolumeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsigned bit) const {
-    osg::State& state = *renderInfo.getState();
+std::string VolumeMark::draw(ScreenPass& pass) const {
+    osg::State& state = pass.state();
+    const unsigned bit = pass.bit();
     const unsigned counters = pass.counters() ? pass.counters() : bit;
     const unsigned capacity = counters & 1u ? counters : 1u; // one bit tells odd from even
     const std::vector<VolumeRound> rounds = seen.rounds(capacity);
@@ -124,9 +124,8 @@ std::string VolumeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
         if (round.holding) pass.setCount(counters, static_cast<unsigned>(round.holding));
         state.apply(program.get());
         if (!hasProgram(state)) return noProgram;
-        for (const auto& [mesh, share] : round.shares) count(renderInfo, pass, counters, seen.meshes[mesh], share);
-        for (const auto& [mesh, share] : round.shares)
-            uncountBacks(renderInfo, pass, counters, seen.meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) count(pass, counters, seen.meshes[mesh], share);
+        for (const auto& [mesh, share] : round.shares) uncountBacks(pass, counters, seen.meshes[mesh], share);
         glFrontFace(GL_CCW);
         state.apply();
         if (pass.counters())
@@ -137,8 +136,8 @@ std::string VolumeMark::mark(osg::RenderInfo& renderInfo, ScreenPass& pass, unsi
     return seen.overflow(capacity) ? overflow : "";
 }
 
-void VolumeMark::drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int) const {
-    osg::State& state = *renderInfo.getState();
+void VolumeMark::drawView(ScreenPass& pass, int) const {
+    osg::State& state = pass.state();
     state.apply(program.get());
     if (!hasProgram(state)) return;
     pass.beginReplace();
@@ -148,9 +147,9 @@ void VolumeMark::drawView(osg::RenderInfo& renderInfo, ScreenPass& pass, int) co
         for (const auto& [mesh, share] : round.shares) {
             place(state, seen.meshes[mesh]);
             setUniform(state, "wire", glm::dvec4(1.0, 0.85, 0.0, 1.0));
-            drawSides(renderInfo, seen.meshes[mesh].volumes->sides(), share.entered);
+            drawSides(pass.renderInfo(), seen.meshes[mesh].volumes->sides(), share.entered);
             setUniform(state, "wire", glm::dvec4(1.0, 0.2, 0.1, 1.0));
-            drawSides(renderInfo, seen.meshes[mesh].volumes->sides(), share.left);
+            drawSides(pass.renderInfo(), seen.meshes[mesh].volumes->sides(), share.left);
         }
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -183,8 +182,8 @@ ShadowVolumeTechnique::~ShadowVolumeTechnique() = default;
 
 unsigned ShadowVolumeTechnique::builds() const { return _cache->builds(); }
 
-std::vector<osg::ref_ptr<MarkJob>> ShadowVolumeTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                                  const FrameCasters& casters) const {
+std::vector<osg::ref_ptr<Mark>> ShadowVolumeTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
+                                                               const FrameCasters& casters) const {
     const CasterLayers& layers = casters.layers();
     const SceneFrame scene(layers.origin);
     const auto usable = localLight(light.inGroup, scene);
