@@ -41,7 +41,7 @@ set(guide ${CMAKE_INSTALL_DATADIR}/doc/gnomon-doc)
 install(FILES README.md CONTRIBUTING.md DESTINATION ${guide} COMPONENT doc)
 install(FILES data/SOURCES.md DESTINATION ${guide}/data COMPONENT doc)
 install(DIRECTORY docs DESTINATION ${guide} COMPONENT doc PATTERN site EXCLUDE)
-install(DIRECTORY examples/addshadows examples/tutorial DESTINATION ${guide}/examples COMPONENT doc)
+install(DIRECTORY examples/addshadows examples/owntechnique examples/tutorial DESTINATION ${guide}/examples COMPONENT doc)
 
 # All that is installed: cmake --build build --target packaged
 get_property(tools GLOBAL PROPERTY GNOMON_TOOLS)

@@ -35,7 +35,8 @@ struct ViewFrame;
 /// Base class of all shadow techniques: finds the pixels that a light does not reach.
 ///
 /// To use a technique, take PlanarShadowNode, ShadowMapTechnique, ShadowVolumeTechnique, TerrainShadowGeode or
-/// TracedShadowTechnique. A new technique derives from this class inside Gnomon, for its jobs are internal.
+/// TracedShadowTechnique. A technique of your own derives from this class: prepare() returns a Mark, which a MarkProgram draws. See
+/// examples/owntechnique.
 ///
 /// A technique is a child of a ShadowCasterGroup, directly or under switches, LODs and transforms. The cull traversal
 /// registers the technique with the compositor of its render stage. After the cull, the compositor calls prepare() once

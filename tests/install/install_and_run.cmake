@@ -42,7 +42,7 @@ if(count LESS 24)
 endif()
 
 # Examples build as they lie there.
-foreach(example addshadows tutorial)
+foreach(example addshadows owntechnique tutorial)
   run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${installed}/share/doc/gnomon-doc/examples/${example} -B ${SCRATCH}/${example}
     -DCMAKE_PREFIX_PATH=${installed})
   run(${CMAKE_COMMAND} --build ${SCRATCH}/${example})

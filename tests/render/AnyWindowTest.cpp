@@ -3,9 +3,9 @@
 // spare, bit for bit.
 #include "IntoTexture.h"
 
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/ViewFrame.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/WorkFramebuffer.h>
-#include <gnomon/group/ViewFrame.h>
 #include <support/Causes.h>
 #include <support/Oracle.h>
 #include <support/Scene.h>

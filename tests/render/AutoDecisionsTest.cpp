@@ -4,7 +4,7 @@
 #include "AutoTrial.h"
 
 #include <gnomon/auto/AutoChooser.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/group/SceneFrame.h>
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ View viewFrom(double x) { return perspective({x, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 
 class Asked : public gnomon::ShadowTechnique {
 public:
     std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                       const gnomon::FrameCasters& casters) const override {
+                                                    const gnomon::FrameCasters& casters) const override {
         const auto usable = gnomon::localLight(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
         surfaces = _chooser.choose({view, light, casters, casters.drawables(), *usable}, {}, {}).surfaces;
         names.clear();

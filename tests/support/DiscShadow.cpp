@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <support/DiscShadow.h>
 
-#include <gnomon/compositor/Mark.h>
-#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/ScreenPass.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <osg/GLExtensions>
 #include <osg/Program>
 #include <osg/State>

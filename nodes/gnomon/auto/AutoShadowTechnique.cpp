@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/AutoShadowTechnique.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/auto/AutoChooser.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
-#include <gnomon/group/ViewFrame.h>
 
 #include <osg/GraphicsContext>
 #include <osgUtil/CullVisitor>
@@ -48,7 +48,7 @@ std::vector<ShadowDecision> AutoShadowTechnique::lastDecision() const { return _
 unsigned AutoShadowTechnique::passes() const { return _chooser->passes(); }
 
 std::vector<osg::ref_ptr<Mark>> AutoShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                                const FrameCasters& casters) const {
+                                                             const FrameCasters& casters) const {
     const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));

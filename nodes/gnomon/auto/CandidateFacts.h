@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/casters/CasterRevisions.h>
 #include <gnomon/group/FrameCasters.h>
-#include <gnomon/group/ViewFrame.h>
 #include <gnomon/map/MapCasters.h>
 #include <gnomon/map/MapSlice.h>
 #include <gnomon/mapfit/EdgeWidths.h>

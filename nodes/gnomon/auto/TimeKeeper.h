@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/choice/CandidateChoice.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 
 #include <OpenThreads/Mutex>
 #include <osg/GLExtensions>

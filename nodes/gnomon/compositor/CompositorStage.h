@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/CompositorOptions.h>
+#include <gnomon/ScreenPass.h>
+#include <gnomon/gl/GlState.h>
 #include <gnomon/compositor/DrawnLeaves.h>
-#include <gnomon/gl/ScreenPass.h>
 
 #include <glm/vec4.hpp>
 #include <osg/RenderInfo>

@@ -2,6 +2,7 @@
 #include <gnomon/Convert.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/gl/GlState.h>
 
 #include <osg/ColorMask>
 #include <osg/Depth>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/Mark.h>
+#include <gnomon/ScreenPass.h>
 #include <gnomon/Selection.h>
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/gl/ScreenPass.h>
 
 #include <osg/StateAttribute>
 #include <osgUtil/RenderLeaf>
@@ -12,7 +13,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 namespace gnomon {
@@ -37,9 +37,6 @@ std::vector<DrawnLeaf> leavesBelow(osgUtil::RenderStage& stage, int number);
 
 /// The same of one bin.
 std::vector<DrawnLeaf> leavesIn(osgUtil::RenderBin& bin);
-
-/// Leaves, to be asked for by address.
-using LeafSet = std::unordered_set<const osgUtil::RenderLeaf*>;
 
 /// Those of them that draw part of `receiver`. Reads the scene graph: call in cull.
 LeafSet receiversAmong(const std::vector<DrawnLeaf>& leaves, const Selection& receiver,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ScreenPass.h>
+#include <gnomon/gl/GlState.h>
 #include <gnomon/compositor/LeafReplay.h>
 #include <gnomon/compositor/MaterialHistory.h>
-#include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/TriangleClusters.h>
 
 #include <osg/ColorMask>

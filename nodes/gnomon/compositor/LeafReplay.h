@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/LightUniform.h>
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
 #include <glm/vec2.hpp>

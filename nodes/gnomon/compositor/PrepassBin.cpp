@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/MaterialHistory.h>
 #include <gnomon/compositor/PrepassBin.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/GlState.h>
 
 #include <algorithm>

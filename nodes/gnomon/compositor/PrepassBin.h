@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/FrameCopies.h>
 
 #include <osg/State>

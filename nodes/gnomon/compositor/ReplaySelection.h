@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/LeafReplay.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/SoftCompositor.h>
 
 #include <algorithm>

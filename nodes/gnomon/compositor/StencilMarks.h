@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/CompositorStage.h>
-#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/ReplaySelection.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/GlState.h>
 #include <gnomon/gl/WorkFramebuffer.h>
 

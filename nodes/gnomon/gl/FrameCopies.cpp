@@ -4,6 +4,7 @@
 #include <gnomon/gl/WorkFramebuffer.h>
 
 #include <OpenThreads/ScopedLock>
+#include <glm/gtc/matrix_transform.hpp>
 #include <osg/ContextData>
 #include <osg/FrameBufferObject>
 #include <osg/TexEnv>
@@ -334,6 +335,12 @@ void FrameColorCopy::release(osg::State* state) {
         if (meant) entry->second->releaseGLObjects(state);
         entry = meant ? _textures.erase(entry) : std::next(entry);
     }
+}
+
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
+    const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);
+    const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
+    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
 }
 
 } // namespace gnomon

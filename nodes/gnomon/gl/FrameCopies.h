@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/gl/GlState.h>
 
 #include <OpenThreads/Mutex>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <osg/GL>
@@ -101,6 +102,9 @@ private:
     OpenThreads::Mutex _mutex;
     std::map<std::pair<unsigned, bool>, Target> _targets; ///< by context, and whether packed.
 };
+
+/// From window coordinates x and y, and 1 - depth, of which floats are fine far away.
+glm::dmat4 clipFromPixel(const osg::Viewport& viewport);
 
 /// Keeps what a viewport shows, in a texture a context, and mixes it with what is drawn there later.
 ///

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <gnomon/ScreenRect.h>
+
 #include <glm/vec2.hpp>
 #include <osg/RenderInfo>
 #include <osg/StateSet>
@@ -74,6 +76,8 @@ struct PixelRect {
     bool empty() const { return width <= 0 || height <= 0; }
 };
 PixelRect pixelsInScissor(const osg::Viewport& viewport);
+/// Pixels of a viewport whose centres lie within bounds, and one more on either side.
+PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport);
 
 /// Rectangle over the whole viewport; depth in normalised device coordinates, z = atCenter + x·slopeX + y·slopeY.
 void drawQuad(osg::State& state, double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);

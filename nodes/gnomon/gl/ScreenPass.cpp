@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/ScreenPass.h>
+#include <gnomon/gl/GlState.h>
 
 #include <osg/GLExtensions>
 #include <osg/State>
@@ -130,6 +131,8 @@ void ScreenPass::takeCount(unsigned bits, unsigned mark) {
     glStencilMask(bits | mark);
     drawQuad(1.0);
 }
+
+bool ScreenPass::isInterlaced() const { return _pattern.bit != 0; }
 
 void ScreenPass::writeFarDepth() {
     glEnable(GL_DEPTH_TEST);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/gl/GlState.h>
 #include <gnomon/gl/SavedFramebuffers.h>
-#include <gnomon/gl/ScreenPass.h>
 
 #include <OpenThreads/Mutex>
 #include <osg/GLObjects>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/KeptByStage.h>
-#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/group/LitCauses.h>
 #include <gnomon/group/ReceiverCauses.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ViewFrame.h>
 #include <gnomon/group/StageLeaves.h>
-#include <gnomon/group/ViewFrame.h>
 
 #include <string>
 #include <vector>

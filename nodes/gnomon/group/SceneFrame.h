@@ -3,9 +3,9 @@
 #include <gnomon/Convert.h>
 #include <gnomon/Plane.h>
 #include <gnomon/ShadowLight.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/casters/CasterLayers.h>
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/group/ViewFrame.h>
 #include <gnomon/mapfit/MapFit.h>
 
 #include <glm/geometric.hpp>
@@ -77,18 +77,23 @@ inline std::string notUsable(const osg::Vec4d& light) {
     return cause.str();
 }
 
-/// The casters' box and everything behind it as a usable light sees it: each corner, and where its shadow goes. Nullopt
-/// if nothing of it is in sight.
-inline std::optional<ScreenRect> shadowBounds(const CasterLayers& casters, const glm::dmat4& clipFromScene,
-                                              const glm::dvec4& light) {
-    const SceneFrame scene(casters.origin);
+/// A box and everything behind it as a usable light sees it: each corner, and where its shadow goes. Nullopt if nothing of it
+/// is in sight. @param inGroup  group frame.
+inline std::optional<ScreenRect> boundsBehind(const osg::BoundingBoxd& inGroup, const SceneFrame& scene,
+                                              const glm::dmat4& clipFromScene, const glm::dvec4& light) {
     std::vector<glm::dvec4> points;
     for (unsigned i = 0; i < 8; ++i) {
-        const glm::dvec3 corner = scene.point(casters.bounds.corner(i)), at(light);
+        const glm::dvec3 corner = scene.point(inGroup.corner(i)), at(light);
         points.push_back(clipFromScene * glm::dvec4(corner, 1.0));
         points.push_back(clipFromScene * glm::dvec4(light.w == 0.0 ? -at : corner - at, 0.0));
     }
     return screenBounds(points);
+}
+
+/// The same of casters.
+inline std::optional<ScreenRect> shadowBounds(const CasterLayers& casters, const glm::dmat4& clipFromScene,
+                                              const glm::dvec4& light) {
+    return boundsBehind(casters.bounds, SceneFrame(casters.origin), clipFromScene, light);
 }
 
 } // namespace gnomon

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ViewFrame.h>
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/group/ReceiverCauses.h>
 #include <gnomon/group/ShadowBin.h>
-#include <gnomon/group/ViewFrame.h>
 #include <gnomon/group/ViewLights.h>
 
 #include <OpenThreads/ScopedLock>

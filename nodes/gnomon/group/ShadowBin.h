@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/compositor/DrawnLeaves.h>
-#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/MaterialHistory.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/compositor/ViewEffect.h>
 #include <gnomon/group/FrameCasters.h>

@@ -3,9 +3,9 @@
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/Compositor.h>
 #include <gnomon/compositor/KeptByStage.h>
-#include <gnomon/compositor/Mark.h>
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/compositor/ResolvedState.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/group/ShadowBin.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/gl/GlState.h>
 #include <gnomon/map/MapCasters.h>
 
 #include <OpenThreads/Mutex>

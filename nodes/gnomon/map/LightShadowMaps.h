@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
-#include <gnomon/group/ViewFrame.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/map/DepthMap.h>
 #include <gnomon/map/MapLookupPass.h>
 #include <gnomon/map/MapSlice.h>

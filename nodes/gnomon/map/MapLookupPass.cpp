@@ -132,12 +132,6 @@ void MapPrograms::release(osg::State* state) {
     seen.release(state);
 }
 
-glm::dmat4 clipFromPixel(const osg::Viewport& viewport) {
-    const glm::dvec3 half(viewport.width() / 2.0, viewport.height() / 2.0, -0.5);
-    const glm::dmat4 atCorner = glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0, -1.0, 1.0));
-    return glm::translate(glm::scale(atCorner, 1.0 / half), glm::dvec3(-viewport.x(), -viewport.y(), 0.0));
-}
-
 std::string MapLookupPass::draw(ScreenPass& pass, const Wanted& wanted) const {
     osg::State& state = pass.state();
     const osg::Viewport& viewport = *state.getCurrentViewport();

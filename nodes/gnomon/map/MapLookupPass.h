@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ScreenPass.h>
 #include <gnomon/ShadowMapOptions.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/FrameCopies.h>
-#include <gnomon/gl/ScreenPass.h>
 #include <gnomon/map/DepthMap.h>
 #include <gnomon/mapfit/MapFit.h>
 
@@ -44,9 +44,6 @@ private:
     OpenThreads::Mutex _mutex;
     std::map<std::pair<bool, std::string>, osg::ref_ptr<osg::StateSet>> _programs; ///< by what they are for.
 };
-
-/// From window coordinates x and y, and 1 - depth.
-glm::dmat4 clipFromPixel(const osg::Viewport& viewport);
 
 /// One map of a light, as pixels look it up.
 struct MapLookUp {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/map/MapSlice.h>
 
 #include <glm/common.hpp>

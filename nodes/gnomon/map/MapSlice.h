@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowMapOptions.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/group/ViewFrame.h>
 #include <gnomon/map/MapCasters.h>
 #include <gnomon/mapfit/MapFit.h>
 

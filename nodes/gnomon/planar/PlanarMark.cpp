@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/Plane.h>
-#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/planar/PlanarMark.h>
 

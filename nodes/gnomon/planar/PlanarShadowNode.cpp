@@ -3,6 +3,7 @@
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
@@ -10,7 +11,6 @@
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
-#include <gnomon/group/ViewFrame.h>
 #include <gnomon/planar/PlanarCasters.h>
 #include <gnomon/planar/PlanarMark.h>
 

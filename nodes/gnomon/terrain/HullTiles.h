@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ViewFrame.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/VolumeGeometry.h>
 #include <gnomon/ground/GroundSearch.h>
 #include <gnomon/ground/HullSolids.h>
-#include <gnomon/group/ViewFrame.h>
 #include <gnomon/terrain/CasterTiles.h>
 
 #include <optional>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/OptionalParts.h>
+#include <gnomon/ScreenPass.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/TerrainShadowGeode.h>
-#include <gnomon/compositor/Mark.h>
-#include <gnomon/gl/ScreenPass.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>

@@ -2,18 +2,18 @@
 #include <gnomon/Convert.h>
 #include <gnomon/OptionalParts.h>
 #include <gnomon/RayScene.h>
+#include <gnomon/ScreenPass.h>
 #include <gnomon/TracedShadowTechnique.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/RaySceneCache.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/FrameCopies.h>
 #include <gnomon/gl/SavedFramebuffers.h>
-#include <gnomon/gl/ScreenPass.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
-#include <gnomon/group/ViewFrame.h>
 #include <gnomon/rays/DepthBufferShadow.h>
 
 #include <OpenThreads/Mutex>

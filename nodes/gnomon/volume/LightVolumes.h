@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ViewFrame.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/gl/VolumeGeometry.h>
 #include <gnomon/group/SceneFrame.h>
-#include <gnomon/group/ViewFrame.h>
 #include <gnomon/silhouette/ShadowVolumes.h>
 #include <gnomon/silhouette/SilhouetteMesh.h>
 

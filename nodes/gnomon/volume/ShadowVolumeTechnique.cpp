@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ScreenPass.h>
 #include <gnomon/ShadowVolumeTechnique.h>
-#include <gnomon/compositor/Mark.h>
+#include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/GlState.h>
 #include <gnomon/gl/SavedFramebuffers.h>
-#include <gnomon/gl/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>

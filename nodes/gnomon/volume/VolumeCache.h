@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
-#include <gnomon/group/ViewFrame.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/volume/LightVolumes.h>
 
 #include <OpenThreads/Mutex>

@@ -203,18 +203,6 @@ glm::dvec4 eyeIn(const glm::dmat4& clipFromFrame) {
     return glm::inverse(clipFromFrame) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
 }
 
-ScreenRect united(const ScreenRect& a, const ScreenRect& b) {
-    return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
-}
-
-ScreenRect common(const ScreenRect& a, const ScreenRect& b) {
-    return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
-}
-
-bool overlap(const ScreenRect& a, const ScreenRect& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
 std::vector<glm::dvec2> convexHull2D(std::vector<glm::dvec2> points) {
     std::sort(points.begin(), points.end(),
               [](const auto& a, const auto& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });

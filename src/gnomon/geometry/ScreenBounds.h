@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/ScreenRect.h>
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -20,19 +22,6 @@ std::array<glm::dvec4, 8> boxCorners(const glm::dvec3& low, const glm::dvec3& hi
 /// nothing. Source: I. Sutherland and G. Hodgman, "Reentrant Polygon Clipping", CACM 17(1), 1974, a face at a time.
 std::vector<glm::dvec3> cutBox(const glm::dvec3& low, const glm::dvec3& high,
                                const std::vector<glm::dvec4>& halfSpaces);
-
-/// Rectangle in normalised device coordinates, each within [-1, 1].
-struct ScreenRect {
-    glm::dvec2 low, high;
-};
-constexpr ScreenRect wholeScreen{{-1.0, -1.0}, {1.0, 1.0}};
-
-/// The smallest rectangle that holds both.
-ScreenRect united(const ScreenRect& a, const ScreenRect& b);
-/// What lies in both; low > high somewhere if nothing does.
-ScreenRect common(const ScreenRect& a, const ScreenRect& b);
-/// True if the two touch, be it in a point. False if one of them is empty.
-bool overlap(const ScreenRect& a, const ScreenRect& b);
 
 /// Bounds, on the screen, of the convex hull of homogeneous points in clip space, as far as it lies in front of the
 /// eye (clip w > 0). Conservative: never smaller than what is drawn, also where the hull passes behind the eye.

@@ -1,19 +1,35 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/CompositorOptions.h>
-#include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/Export.h>
+#include <gnomon/Mark.h>
+#include <gnomon/ScreenRect.h>
+#include <gnomon/ShadowLight.h>
 
+#include <osg/BoundingBox>
+#include <osg/Drawable>
 #include <osg/Matrixd>
 #include <osg/Vec2d>
 #include <osgUtil/RenderLeaf>
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace gnomon {
 
 class ShadowCasterGroup;
+
+class FrameCasters;
+
+/// A drawable that casts, at one place.
+struct CasterBox {
+    const osg::Drawable* drawable; ///< As long as the frame's cull.
+    osg::BoundingBoxd inGroup;     ///< Bounds of its triangles, group frame.
+};
+/// The boxes of those that have triangles, in the order in which a traversal meets them.
+GNOMON_EXPORT std::vector<CasterBox> boxesOf(const FrameCasters& casters);
 
 /// A technique is asked about each kind of receivers apart.
 enum class ReceiverKind {
@@ -23,7 +39,7 @@ enum class ReceiverKind {
 };
 
 /// One view in one frame, as a technique sees it after cull. OSG's convention: row vectors, eye = group * eyeFromGroup.
-struct ViewFrame {
+struct GNOMON_EXPORT ViewFrame {
     osg::Matrixd eyeFromGroup;       ///< modelview of the ShadowCasterGroup.
     osg::Matrixd groupFromTechnique; ///< identity unless a transform stands between group and technique.
     osg::Matrixd projection;         ///< as drawn, near and far included.
@@ -42,6 +58,12 @@ struct ViewFrame {
     std::size_t lights = 1;                       ///< whose shadows the group wants in the view.
     std::map<int, double> strengths;              ///< of these, see GroupLights.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.
+
+    /// Takes the group's frame to clip space.
+    osg::Matrixd clipFromGroup() const { return eyeFromGroup * projection; }
+    /// Where a box and all that is behind it, as a light sees it, can be seen; nullopt if nowhere.
+    /// @param inGroup  group frame, valid.
+    std::optional<ScreenRect> boundsBehind(const osg::BoundingBoxd& inGroup, const ShadowLight& light) const;
 };
 
 } // namespace gnomon

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/gl/GlState.h>
+#include <gnomon/Export.h>
+#include <gnomon/ScreenRect.h>
 
 #include <osg/RenderInfo>
 #include <osg/Vec3>
@@ -22,12 +22,11 @@ struct Channels {
     bool encoded = false; ///< written as sRGB: what is blended is linear.
 };
 
-/// Pixels of a viewport whose centres lie within bounds, and one more on either side.
-PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport);
+struct StencilPattern;
 
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
 /// Puts everything back at its end.
-class ScreenPass {
+class GNOMON_EXPORT ScreenPass {
 public:
     /// @param written   asked when colours are written: to these channels only.
     /// @param counters  see counters().
@@ -80,7 +79,7 @@ public:
     /// Sets `mark` wherever any of `bits` is set and something stands in the depth buffer; and those to 0.
     void takeCount(unsigned bits, unsigned mark);
     /// True if the pixels beside one may be of another picture: the other eye's.
-    bool isInterlaced() const { return _pattern.bit != 0; }
+    bool isInterlaced() const;
     void writeFarDepth();
     /// Writes the depths of triangles where they are nearer than what stands.
     /// @param corners  three a triangle, in clip space. @param range  see glDepthRange().
@@ -116,7 +115,7 @@ public:
     /// `discard`).
     void testAlpha();
 
-    /// See gnomon::drawQuad().
+    /// Draws a rectangle over the whole viewport. Depth in normalised device coordinates: z = atCenter + x slopeX + y slopeY.
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
 
 private:
@@ -129,7 +128,7 @@ private:
     osg::State& _state;
     const std::function<Channels()> _written;
     const unsigned _counters;
-    const StencilPattern _pattern;
+    const StencilPattern& _pattern;
     bool _encodes = false;
     Want _wanted = Want::Blocked;
     unsigned _bit = 0;
