@@ -38,6 +38,7 @@ public:
         Fades, ///< A share of the light arrives. At most one a pixel; none where nothing stands (far depth).
         Counts ///< As Hard, found by ScreenPass::counters().
     };
+    /// Default: Hard.
     virtual Kind kind() const { return Kind::Hard; }
 
     /// Draws fragments where not all of the light arrives, as ScreenPass::wanted() has it. Colour, stencil and depth that the pass
@@ -59,7 +60,7 @@ public:
     virtual bool hasView() const { return false; }
     /// Draws over the finished picture how its marks come about.
     /// @param before  how many other marks of the view have done so.
-    virtual void drawView(ScreenPass&, int /*before*/) const {}
+    virtual void drawView(ScreenPass& pass, int before) const { static_cast<void>(pass), static_cast<void>(before); }
 
     /// False if it is known that no mark falls on this leaf, as a cause of diagnose() should be about what receives.
     virtual bool canReach(const osgUtil::RenderLeaf&) const { return true; }

@@ -18,7 +18,9 @@ namespace gnomon {
 
 /// Colour channels.
 struct Channels {
-    bool red = false, green = false, blue = false;
+    bool red = false;     ///< It is written.
+    bool green = false;   ///< The same.
+    bool blue = false;    ///< The same.
     bool encoded = false; ///< written as sRGB: what is blended is linear.
 };
 
@@ -37,7 +39,9 @@ public:
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;
 
+    /// Of the draw traversal.
     osg::RenderInfo& renderInfo() const { return _renderInfo; }
+    /// What is applied on top of it is to be taken back by osg::State::apply().
     osg::State& state() const { return _state; }
 
     /// Which fragments a Mark is to draw, and what they hold.
@@ -50,10 +54,14 @@ public:
     };
     /// Asks what is drawn next for it. @param bit  of the stencil buffer, zero within the bounds so far.
     void ask(Want want, unsigned bit = 0, float factor = 1.0f);
+    /// What was asked for last.
     Want wanted() const { return _wanted; }
+    /// The stencil bit that was asked for last; 0 if there is none.
     unsigned bit() const { return _bit; }
+    /// Of Want::Factor.
     float factor() const { return _factor; }
 
+    /// Sets these bits to 0 within the bounds.
     void clearStencil(unsigned bits);
     /// Pass where (stencil & test) == (reference & test), then set the bits of `write` to those of `reference`.
     void stencilEqual(unsigned reference, unsigned test, unsigned write);
@@ -80,11 +88,13 @@ public:
     void takeCount(unsigned bits, unsigned mark);
     /// True if the pixels beside one may be of another picture: the other eye's.
     bool isInterlaced() const;
+    /// Depth becomes the farthest.
     void writeFarDepth();
     /// Writes the depths of triangles where they are nearer than what stands.
     /// @param corners  three a triangle, in clip space. @param range  see glDepthRange().
     /// @param offset   see glPolygonOffset().
     void writeDepths(const std::vector<glm::vec4>& corners, const glm::dvec2& range, const glm::dvec2& offset);
+    /// Colour and alpha become this.
     void writeColor(const osg::Vec4& color);
     /// What is drawn next replaces what stands; ends with endMix().
     void beginReplace();
@@ -92,6 +102,7 @@ public:
     void blendColor(const osg::Vec3& color, float opacity);
     /// What is drawn next is blended in by its own alpha; that of the frame stays.
     void beginBlend();
+    /// What stands is multiplied by the factor; alpha stays.
     void multiplyColor(float factor);
     /// What is drawn next multiplies what stands by the factor, whatever its own colour.
     void beginMultiply(float factor);
@@ -100,12 +111,15 @@ public:
     /// What is drawn next and what stands are mixed: (1 - kept) of the one, kept of the other, a channel each. Alpha is
     /// that of what is drawn.
     void beginMix(const osg::Vec3& kept);
+    /// Ends beginReplace(), beginMix() and the like: no colour is written.
     void endMix();
-    /// Alpha alone: set; alpha = factor + (1 - factor) alpha.
+    /// Alpha alone becomes this.
     void setAlpha(float value);
+    /// Alpha alone becomes factor + (1 - factor) alpha.
     void fadeAlpha(float factor);
     /// What is drawn next multiplies alpha by its own, and writes nothing else.
     void multiplyAlpha();
+    /// What stands is multiplied by its alpha, which stays.
     void multiplyColorByAlpha();
     /// Passes where what is drawn next compares so with the depth that stands.
     /// @param clamp  what is nearer than the near plane, or beyond the far one, is taken for as far as that; else it is cut off.

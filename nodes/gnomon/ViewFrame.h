@@ -46,10 +46,10 @@ struct GNOMON_EXPORT ViewFrame {
     osg::Vec2d pixels;               ///< of the viewport.
     osg::Vec2d
         pushedBack; ///< what receives, by polygon offset: in pixels of its slope, and in steps of the depth buffer.
-    const ShadowCasterGroup* group = nullptr;
-    float dark = 0.5f;         ///< of the ShadowCasterGroup.
-    CompositorOptions options; ///< of the ShadowCasterGroup.
-    unsigned frameNumber = 0;
+    const ShadowCasterGroup* group = nullptr;     ///< Above the technique.
+    float dark = 0.5f;                            ///< of the ShadowCasterGroup.
+    CompositorOptions options;                    ///< of the ShadowCasterGroup.
+    unsigned frameNumber = 0;                     ///< For ShadowTechnique::report().
     double frameTime = 0.0;                       ///< seconds, see timeOf().
     const void* stage = nullptr;                  ///< tells views apart, and in each the kinds of receivers.
     const void* renderStage = nullptr;            ///< the same for all kinds of receivers in a view.
