@@ -1,4 +1,4 @@
-// The least depth in a block of texels, of a map or of finer blocks: see MinDepthPyramid.
+// The least depth in a block of texels, of a map or of finer blocks: see DepthMap.
 uniform sampler2D finer;
 uniform int side; // of the block, texels
 

@@ -108,7 +108,7 @@ float litDisc(int i, vec2 p, float depth, vec2 slope, vec2 radius) {
 
 #ifdef PENUMBRA
 uniform sampler2D depths;     // of the maps
-uniform sampler2D blocks;     // the least of them: see MinDepthPyramid
+uniform sampler2D blocks;     // the least of them: see DepthMap
 // penumbra: half of it, texels, for each unit of depth between what blocks the light and the surface.
 
 const float finest = 8.0, coarsest = 256.0; // sides of blocks, texels

@@ -7,7 +7,7 @@
 uniform sampler2D seen;       // depths of the frame
 
 // What is the same for all pixels: SHARED vectors, PLACING of them for each map, then EACH for each map. The first FLATS come
-// from the vertices: see quad.vert and MapLookupPass::setConstants().
+// from the vertices: see quad.vert and MapLookup::setConstants().
 uniform vec4 constants[CONSTANTS];
 #if FLATS > 0
 flat in vec4 constant[FLATS];

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "Soup.h"
 
-#include <gnomon/mapfit/EdgeWidths.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/mapfit/SeenEdges.h>
 #include <metrics/BoundaryDistance.h>

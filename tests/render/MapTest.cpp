@@ -275,11 +275,11 @@ TEST(Map, ASizeBeyondTheDriversIsToldInOneSentence) {
     osg::RenderInfo renderInfo(context.getState(), nullptr);
     const osg::ref_ptr<gnomon::DepthMap> map = new gnomon::DepthMap({1 << 20, 16}, osg::Texture::LINEAR);
     const osg::ref_ptr<gnomon::MapPicture> picture = new gnomon::MapPicture;
-    unsigned drawn = 0;
-    const std::string cause = map->show(renderInfo, *picture, drawn);
+    const osg::ref_ptr<gnomon::MapPrograms> programs = new gnomon::MapPrograms;
+    const std::string cause = map->show(renderInfo, *picture, *programs);
     context.releaseContext();
     EXPECT_NE(cause.find("a map of 1048576 x 16 texels cannot be made"), std::string::npos) << cause;
-    EXPECT_EQ(drawn, 0u);
+    EXPECT_EQ(programs->passes, 0u);
 }
 
 TEST(Map, TakesOnlyOptionsThatItHas) {

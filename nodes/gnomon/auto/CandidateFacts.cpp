@@ -147,11 +147,11 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
     _clipFromScene = scene.clipFromScene(view.frame);
     const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(scene.origin, 0.0);
     const bool byTriangles = !view.frame.receivers && areLookedAt(*boxes.layers);
-    const std::vector<MapReceiver> receivers =
+    const std::vector<PlacedBox> receivers =
         receiversOf(byTriangles ? without(*boxes.layers->pieces, view) : view.frame, scene.eyeFromScene(view.frame));
     const auto seenOf = [&](SeenEdges::Relief relief) {
         SeenEdges seen(_clipFromScene, _pixels, *forecast.bounds, light);
-        for (const MapReceiver& receiver : receivers) seen.addReceiver(receiver, relief);
+        for (const PlacedBox& receiver : receivers) seen.addReceiver(receiver, relief);
         for (const MapForecast::Map& map : forecast.each) seen.addMap(map.mapFromScene);
         return seen;
     };
@@ -160,8 +160,8 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
         for (const PlacedTriangles& mesh : trianglesOf(*boxes.layers)) seen.addMesh(mesh);
     else
         for (const MapLayer* layer : {boxes.still.get(), boxes.moving.get()})
-            for (const auto* some : {&layer->bodyBoxes, &layer->flatBoxes})
-                for (const MapLayer::Box& box : *some) seen.addCaster({box.low, box.high});
+            for (const auto* some : {&layer->bodies, &layer->flats})
+                for (const MapPart& box : *some) seen.addCaster({box.low, box.high});
     _places = seen.edges();
     if (!_places.empty()) return;
     if (!byTriangles) seen = seenOf(SeenEdges::Relief::Whole); // a terrain shadows itself, who knows where

@@ -4,9 +4,9 @@
 #include <gnomon/ViewFrame.h>
 #include <gnomon/casters/CasterRevisions.h>
 #include <gnomon/group/FrameCasters.h>
+#include <gnomon/map/LightShadowMaps.h>
 #include <gnomon/map/MapCasters.h>
-#include <gnomon/map/MapSlice.h>
-#include <gnomon/mapfit/EdgeWidths.h>
+#include <gnomon/mapfit/SeenEdges.h>
 #include <gnomon/terrain/GroundRevision.h>
 
 #include <glm/vec4.hpp>

@@ -8,7 +8,6 @@
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/StencilMarks.h>
 #include <gnomon/gl/TriangleClusters.h>
-#include <gnomon/map/LightShadowMaps.h>
 #include <gnomon/mapfit/MapFit.h>
 #include <gnomon/volume/VolumeForecast.h>
 
@@ -82,7 +81,7 @@ double denseTriangles(const CasterDrawables& casters) {
 }
 
 osg::ref_ptr<const MapCasters> boxesOf(const CasterLayers& layers) {
-    return new MapCasters(layers, MapLayer::boxesOf(*layers.still), MapLayer::boxesOf(*layers.moving));
+    return new MapCasters(layers, new MapLayer(*layers.still), new MapLayer(*layers.moving));
 }
 
 constexpr double ofAShape = 200.0; // triangles: a ShapeDrawable's sphere has some hundred, its box 12

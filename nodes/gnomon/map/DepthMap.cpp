@@ -5,102 +5,99 @@
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/gl/UncomparedSampler.h>
 #include <gnomon/map/DepthMap.h>
+#include <gnomon_shaders.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
+#include <optional>
 
 namespace gnomon {
 namespace {
+
+using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+using Parts = std::vector<MapPicture::Part>;
 
 constexpr int levels = 6;                               // blocks.frag and map_filter.frag know it, too
 constexpr int finest = 8, coarsest = 8 << (levels - 1); // texels on a side of a block
 constexpr GLint oneFloat = 0x822E;                      // GL_R32F
 constexpr GLenum red = 0x1903;                          // GL_RED
-constexpr const char* noFloats = "the penumbras are no wider than the filter, because this context cannot render into "
-                                 "a float texture. Use OpenGL 3.3 or later.";
+constexpr const char* noTarget = "this context cannot render into a depth texture, so there is no map. Use OpenGL 3.0 "
+                                 "or later, with framebuffer objects.";
+constexpr const char* noBlocks = "the penumbras are no wider than the filter, because this context has no sampler "
+                                 "objects, or cannot render into a float texture. Use OpenGL 3.3 or later.";
 
-/// Of a side, for a multiple of the coarsest blocks.
-int blocksOf(int texels) { return (texels + coarsest - 1) / coarsest * (coarsest / finest); }
-
-osg::ref_ptr<osg::Texture2D> blocksTexture(const glm::ivec2& texels) {
+osg::ref_ptr<osg::Texture2D> textureOf(const glm::ivec2& size, GLint format, GLenum source, GLenum type) {
     osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
-    texture->setTextureSize(blocksOf(texels.x), blocksOf(texels.y));
-    texture->setInternalFormat(oneFloat);
-    texture->setSourceFormat(red);
-    texture->setSourceType(GL_FLOAT);
+    texture->setTextureSize(size.x, size.y);
+    texture->setInternalFormat(format);
+    texture->setSourceFormat(source);
+    texture->setSourceType(type);
     texture->setResizeNonPowerOfTwoHint(false);
-    texture->setNumMipmapLevels(levels);
-    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST_MIPMAP_NEAREST);
-    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
     for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T})
         texture->setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
     return texture;
 }
 
-/// OpenGL as values are drawn under; put back at its end.
-class ValueState {
-public:
-    ValueState() {
-        glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_COLOR_BUFFER_BIT);
-        for (const GLenum mode :
-             {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_ALPHA_TEST})
-            glDisable(mode);
-        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    }
-    ~ValueState() { glPopAttrib(); }
-    ValueState(const ValueState&) = delete;
-    ValueState& operator=(const ValueState&) = delete;
-};
+osg::ref_ptr<osg::Texture2D> mapTexture(const glm::ivec2& size, osg::Texture::FilterMode filter) {
+    const auto texture = textureOf(size, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT);
+    texture->setShadowComparison(true);
+    texture->setShadowCompareFunc(osg::Texture::LEQUAL);
+    for (const auto which : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER}) texture->setFilter(which, filter);
+    return texture;
+}
+
+/// Of whole ones of the coarsest.
+osg::ref_ptr<osg::Texture2D> blocksTexture(const glm::ivec2& texels) {
+    const auto texture = textureOf((texels + coarsest - 1) / coarsest * (coarsest / finest), oneFloat, red, GL_FLOAT);
+    texture->setNumMipmapLevels(levels);
+    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST_MIPMAP_NEAREST);
+    texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
+    return texture;
+}
 
 void readLevels(GLint first, GLint last) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, first);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, last);
 }
 
-using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
-
-osg::ref_ptr<osg::Texture2D> mapTexture(const glm::ivec2& size, osg::Texture::FilterMode filter) {
-    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
-    texture->setTextureSize(size.x, size.y);
-    texture->setInternalFormat(GL_DEPTH_COMPONENT24);
-    texture->setSourceFormat(GL_DEPTH_COMPONENT);
-    texture->setSourceType(GL_UNSIGNED_INT);
-    texture->setResizeNonPowerOfTwoHint(false);
-    texture->setShadowComparison(true);
-    texture->setShadowCompareFunc(osg::Texture::LEQUAL);
-    for (const auto which : {osg::Texture::MIN_FILTER, osg::Texture::MAG_FILTER}) texture->setFilter(which, filter);
-    for (const auto wrap : {osg::Texture::WRAP_S, osg::Texture::WRAP_T})
-        texture->setWrap(wrap, osg::Texture::CLAMP_TO_EDGE);
-    return texture;
-}
-
-constexpr const char* noSamplers =
-    "the penumbras are no wider than the filter, because this context has no sampler objects. Use OpenGL 3.3 or later.";
-
-PixelRect wholeOf(const MapPicture::Tile& tile, int size) { return {tile.corner.x, tile.corner.y, size, size}; }
-
-/// What is drawn next goes there.
-void drawInto(const osg::State& state, const MapPicture::Tile& tile, int size, const PixelRect& texels) {
-    glViewport(tile.corner.x, tile.corner.y, size, size);
-    glScissor(texels.x, texels.y, texels.width, texels.height);
-    setUniform(state, "clipFromVertex", tile.clipFromScene);
-    setUniform(state, "nearest", tile.nearest);
-    (tile.nearest > 0.0 ? glEnable : glDisable)(GL_CLIP_PLANE0);
-}
-
-void drawMeshes(osg::RenderInfo& renderInfo, const glm::dmat4& clipFromScene,
-                const std::vector<MapLayer::Drawn>& meshes) {
-    for (const auto& mesh : meshes) {
-        if (!isInMap(mesh.box, clipFromScene)) continue;
-        const glm::dmat4 clipFromMesh = clipFromScene * mesh.sceneFromMesh;
-        setUniform(*renderInfo.getState(), "clipFromVertex", clipFromMesh);
-        mesh.faces->draw(renderInfo, clipFromMesh, mesh.outside);
+/// OpenGL with these off; put back at its end.
+class SavedState {
+public:
+    SavedState(GLbitfield kept, std::initializer_list<GLenum> off) {
+        glPushAttrib(kept);
+        for (const GLenum mode : off) glDisable(mode);
     }
-}
+    ~SavedState() { glPopAttrib(); }
+    SavedState(const SavedState&) = delete;
+    SavedState& operator=(const SavedState&) = delete;
+};
+
+/// OpenGL as a map is drawn under, each surface half a texel of its own slope deeper. As much of the slope that is seen
+/// counts in map.frag.
+struct MapState : SavedState {
+    MapState()
+        : SavedState(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
+                         GL_STENCIL_BUFFER_BIT,
+                     {GL_STENCIL_TEST, GL_CULL_FACE, GL_CLIP_PLANE0, GL_CLIP_PLANE1, GL_CLIP_PLANE2, GL_CLIP_PLANE3,
+                      GL_CLIP_PLANE4, GL_CLIP_PLANE5}) {
+        for (const GLenum mode :
+             {GLenum(GL_SCISSOR_TEST), GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)})
+            glEnable(mode);
+        glDepthFunc(GL_LESS);
+        glDepthMask(GL_TRUE);
+        glDepthRange(0.0, 1.0);
+        glClearDepth(1.0);
+        glPolygonOffset(0.5f, 0.0f);
+    }
+};
+
+void scissorTo(const PixelRect& texels) { glScissor(texels.x, texels.y, texels.width, texels.height); }
 
 /// Depths, to the bit, between framebuffers of one size.
 void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::vector<PixelRect>& parts) {
@@ -114,29 +111,6 @@ void copyDepths(const osg::GLExtensions& gl, GLuint from, GLuint to, const std::
     glEnable(GL_SCISSOR_TEST);
 }
 
-/// OpenGL as a map is drawn under, each surface half a texel of its own slope deeper; put back at its end. As much of the
-/// slope that is seen counts in map.frag.
-class MapState {
-public:
-    MapState() {
-        glPushAttrib(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_DEPTH_BUFFER_BIT | GL_POLYGON_BIT | GL_SCISSOR_BIT |
-                     GL_STENCIL_BUFFER_BIT);
-        for (const GLenum mode : {GL_STENCIL_TEST, GL_CULL_FACE}) glDisable(mode);
-        for (GLenum plane = GL_CLIP_PLANE0; plane <= GL_CLIP_PLANE5; ++plane) glDisable(plane);
-        for (const GLenum mode :
-             {GLenum(GL_SCISSOR_TEST), GLenum(GL_DEPTH_TEST), depthClamp, GLenum(GL_POLYGON_OFFSET_FILL)})
-            glEnable(mode);
-        glDepthFunc(GL_LESS);
-        glDepthMask(GL_TRUE);
-        glDepthRange(0.0, 1.0);
-        glClearDepth(1.0);
-        glPolygonOffset(0.5f, 0.0f);
-    }
-    ~MapState() { glPopAttrib(); }
-    MapState(const MapState&) = delete;
-    MapState& operator=(const MapState&) = delete;
-};
-
 /// While a caster's own state is applied. OpenGL and osg::State are as before at its end.
 class OwnState {
 public:
@@ -148,7 +122,7 @@ public:
         _state.apply(); // so that osg::State knows now what it will be told at the end
         _unit = _state.getActiveTextureUnit();
         glPushAttrib(GL_ALL_ATTRIB_BITS);
-        for (const auto& set : own.view.states) _state.pushStateSet(set);
+        for (const auto& set : own.states) _state.pushStateSet(set);
         for (const auto& set : drawing.states) _state.pushStateSet(set);
         _state.apply();
         _state.setActiveTextureUnit(0); // evaluators know no other
@@ -171,150 +145,162 @@ private:
     const osg::ref_ptr<osg::RefMatrix> _projection, _modelview;
 };
 
-osg::ref_ptr<osg::RefMatrix> refMatrix(const glm::dmat4& matrix) { return new osg::RefMatrix(toOsg(matrix)); }
+/// Draws one picture into the framebuffer that is bound, under a MapState.
+class Drawing {
+public:
+    Drawing(osg::RenderInfo& info, const MapPicture& shown, const MapPrograms& of)
+        : _renderInfo(info), _state(*info.getState()), _picture(shown), _programs(of) {}
 
-/// Nothing that a lamp has nearer than this casts. The plane is one that does not cut the caster already, if there is one.
-void clipOwn(osg::State& state, const OwnCaster& caster, const glm::dmat4& clipFromEye, double nearest) {
-    if (!(nearest > 0.0)) return;
-    const auto isUsed = [&caster](GLenum plane) {
-        const auto& clips = caster.drawing->casting.clips;
-        return std::any_of(clips.begin(), clips.end(),
-                           [plane](const NumberedPlane& used) { return GL_CLIP_PLANE0 + used.first == plane; });
-    };
-    GLenum free = GL_CLIP_PLANE0;
-    while (isUsed(free) && free < GL_CLIP_PLANE5) ++free;
-    const glm::dvec4 distance = glm::row(clipFromEye, 3), plane = distance - glm::dvec4(0.0, 0.0, 0.0, nearest);
-    state.applyModelViewMatrix(nullptr);
-    glClipPlane(free, &plane[0]);
-    glEnable(free);
-}
-
-/// By its own code, at what that costs in the view. The modelview is the view's, so that what goes by the eye, as
-/// tessellation may, looks as it does there.
-void drawOwn(osg::RenderInfo& renderInfo, const MapPicture& picture, const OwnCaster& caster,
-             const MapPicture::Tile& tile, const PixelRect& texels) {
-    osg::State& state = *renderInfo.getState();
-    const glm::dmat4 clipFromEye = tile.clipFromScene * glm::inverse(picture.own.view.eyeFromScene);
-    glViewport(tile.corner.x, tile.corner.y, picture.size, picture.size);
-    glScissor(texels.x, texels.y, texels.width, texels.height);
-    glMatrixMode(GL_PROJECTION);
-    glLoadIdentity(); // else Mesa keeps a part of a perspective's inverse, and cuts elsewhere
-    state.applyProjectionMatrix(refMatrix(clipFromEye));
-    if (!state.getLastAppliedProgramObject()) clipOwn(state, caster, clipFromEye, tile.nearest);
-    state.applyModelViewMatrix(refMatrix(picture.own.view.eyeFromScene * caster.sceneFromLocal));
-    for (const auto& [number, plane] : caster.drawing->casting.clips) {
-        const osg::Vec4d inLocal = caster.drawing->groupFromLocal * plane;
-        glClipPlane(GL_CLIP_PLANE0 + number, inLocal.ptr());
-        glEnable(GL_CLIP_PLANE0 + number);
+    /// @param all  of the texture is to be cleared, parts that no tile is in, too.
+    std::string drawStill(const Parts& parts, bool all) {
+        if (all) {
+            glDisable(GL_SCISSOR_TEST);
+            glClear(GL_DEPTH_BUFFER_BIT);
+            glEnable(GL_SCISSOR_TEST);
+        }
+        for (const auto& part : all ? Parts() : parts) {
+            scissorTo(part.texels);
+            glClear(GL_DEPTH_BUFFER_BIT);
+        }
+        return drawLayer(_picture.still, parts);
     }
-    if (state.getUseModelViewAndProjectionUniforms()) state.applyModelViewAndProjectionUniformsIfRequired();
-    caster.drawing->drawable->draw(renderInfo);
-}
 
-using Parts = std::vector<MapPicture::Part>;
+    std::string drawMovers(const Parts& parts) {
+        const std::string cause = drawLayer(_picture.moving, parts);
+        if (!cause.empty()) return cause;
+        for (const OwnCaster& caster : _picture.own.casters) {
+            const auto isIn = [&](const MapPicture::Part& part) {
+                return isInMap(caster.box, part.tile->clipFromScene());
+            };
+            if (std::none_of(parts.begin(), parts.end(), isIn)) continue;
+            const OwnState own(_state, _picture.own, *caster.drawing);
+            const MapState map;
+            glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+            if (const float alpha = caster.drawing->casting.ownFrom; alpha > 0.0f) {
+                glEnable(GL_ALPHA_TEST);
+                glAlphaFunc(GL_GEQUAL, alpha);
+            }
+            for (const MapPicture::Part& part : parts)
+                if (isIn(part)) drawOwn(caster, part);
+        }
+        return "";
+    }
 
-std::string drawLayer(osg::RenderInfo& renderInfo, const MapPicture& picture, const MapPicture::Layer& layer,
-                      const Parts& parts) {
-    if (parts.empty()) return "";
-    osg::State& state = *renderInfo.getState();
-    if (!layer.meshes.empty()) {
-        state.apply(picture.program.get());
-        if (!hasProgram(state)) return noProgram;
-        for (const auto& [tile, texels] : parts) {
-            drawInto(state, *tile, picture.size, texels);
-            drawMeshes(renderInfo, tile->clipFromScene, layer.meshes);
+private:
+    std::string drawLayer(const MapPicture::Layer& layer, const Parts& parts) {
+        if (parts.empty()) return "";
+        if (!layer.meshes.empty()) {
+            const bool byLamp = parts.front().tile->nearest > 0.0;
+            _state.apply(byLamp ? _programs.casterByLamp : _programs.caster);
+            if (!hasProgram(_state)) return noProgram;
+            for (const auto& part : parts) {
+                drawInto(part);
+                drawMeshes(layer, part.tile->clipFromScene());
+            }
+        }
+        if (layer.cutouts.empty()) return "";
+        _state.apply(_programs.cutout);
+        if (!hasProgram(_state)) return noProgram;
+        setUniform(_state, "cutout", 0);
+        for (const MapCutout& cutout : layer.cutouts) {
+            _state.applyTextureAttribute(0, cutout.texture);
+            setUniform(_state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
+            for (const auto& part : parts) {
+                drawInto(part);
+                cutout.geometry->draw(_renderInfo);
+            }
+        }
+        return "";
+    }
+
+    void drawMeshes(const MapPicture::Layer& layer, const glm::dmat4& clipFromScene) {
+        for (const MapPicture::Mesh& mesh : layer.meshes) {
+            if (!isInMap(mesh.box, clipFromScene)) continue;
+            const glm::dmat4 clipFromMesh = clipFromScene * mesh.sceneFromMesh;
+            setUniform(_state, "clipFromVertex", clipFromMesh);
+            mesh.faces->draw(_renderInfo, clipFromMesh, mesh.outside);
         }
     }
-    if (layer.cutouts.empty()) return "";
-    state.apply(picture.cutoutProgram.get());
-    if (!hasProgram(state)) return noProgram;
-    setUniform(state, "cutout", 0);
-    for (const MapLayer::Cutout& cutout : layer.cutouts) {
-        state.applyTextureAttribute(0, cutout.texture);
-        setUniform(state, "alphaTest", glm::dvec2(cutout.passing, cutout.reference));
-        for (const auto& [tile, texels] : parts) {
-            drawInto(state, *tile, picture.size, texels);
-            cutout.geometry->draw(renderInfo);
+
+    /// What is drawn next goes there.
+    void drawInto(const MapPicture::Part& part) {
+        glViewport(part.tile->corner.x, part.tile->corner.y, _picture.size, _picture.size);
+        scissorTo(part.texels);
+        setUniform(_state, "clipFromVertex", part.tile->clipFromScene());
+        setUniform(_state, "nearest", part.tile->nearest);
+        (part.tile->nearest > 0.0 ? glEnable : glDisable)(GL_CLIP_PLANE0);
+    }
+
+    /// By its own code, at what that costs in the view. The modelview is the view's, so that what goes by the eye, as
+    /// tessellation may, looks as it does there.
+    void drawOwn(const OwnCaster& caster, const MapPicture::Part& part) {
+        const glm::dmat4& eyeFromScene = _picture.own.eyeFromScene;
+        const glm::dmat4 clipFromEye = part.tile->clipFromScene() * glm::inverse(eyeFromScene);
+        const auto refMatrix = [](const glm::dmat4& matrix) { return new osg::RefMatrix(toOsg(matrix)); };
+        glViewport(part.tile->corner.x, part.tile->corner.y, _picture.size, _picture.size);
+        scissorTo(part.texels);
+        glMatrixMode(GL_PROJECTION);
+        glLoadIdentity(); // else Mesa keeps a part of a perspective's inverse, and cuts elsewhere
+        _state.applyProjectionMatrix(refMatrix(clipFromEye));
+        if (const double nearest = part.tile->nearest; nearest > 0.0 && !_state.getLastAppliedProgramObject()) {
+            const glm::dvec4 before = glm::row(clipFromEye, 3) - glm::dvec4(0.0, 0.0, 0.0, nearest);
+            _state.applyModelViewMatrix(nullptr);
+            glClipPlane(GL_CLIP_PLANE5, &before[0]); // unless the caster has as many planes of its own
+            glEnable(GL_CLIP_PLANE5);
         }
-    }
-    return "";
-}
-
-/// @param all  of the texture is to be cleared, parts that no tile is in, too.
-std::string drawStill(osg::RenderInfo& renderInfo, const MapPicture& picture, const Parts& parts, bool all) {
-    if (all) {
-        glDisable(GL_SCISSOR_TEST);
-        glClear(GL_DEPTH_BUFFER_BIT);
-        glEnable(GL_SCISSOR_TEST);
-    }
-    for (const auto& [tile, texels] : all ? Parts() : parts) {
-        glScissor(texels.x, texels.y, texels.width, texels.height);
-        glClear(GL_DEPTH_BUFFER_BIT);
-    }
-    return drawLayer(renderInfo, picture, picture.still, parts);
-}
-
-std::string drawMovers(osg::RenderInfo& renderInfo, const MapPicture& picture, const Parts& parts) {
-    const std::string cause = drawLayer(renderInfo, picture, picture.moving, parts);
-    if (!cause.empty()) return cause;
-    for (const OwnCaster& caster : picture.own.casters) {
-        const auto isIn = [&](const MapPicture::Part& part) { return isInMap(caster.box, part.tile->clipFromScene); };
-        if (std::none_of(parts.begin(), parts.end(), isIn)) continue;
-        const OwnState own(*renderInfo.getState(), picture.own, *caster.drawing);
-        const MapState map;
-        glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-        if (const float alpha = caster.drawing->casting.ownFrom; alpha > 0.0f) {
-            glEnable(GL_ALPHA_TEST);
-            glAlphaFunc(GL_GEQUAL, alpha);
+        _state.applyModelViewMatrix(refMatrix(eyeFromScene * caster.sceneFromLocal));
+        for (const auto& [number, plane] : caster.drawing->casting.clips) {
+            const osg::Vec4d inLocal = caster.drawing->groupFromLocal * plane;
+            glClipPlane(GL_CLIP_PLANE0 + number, inLocal.ptr());
+            glEnable(GL_CLIP_PLANE0 + number);
         }
-        for (const MapPicture::Part& part : parts)
-            if (isIn(part)) drawOwn(renderInfo, picture, caster, *part.tile, part.texels);
+        if (_state.getUseModelViewAndProjectionUniforms()) _state.applyModelViewAndProjectionUniformsIfRequired();
+        caster.drawing->drawable->draw(_renderInfo);
     }
-    return "";
-}
 
-constexpr const char* noTarget = "this context cannot render into a depth texture, so there is no map. Use OpenGL 3.0 "
-                                 "or later, with framebuffer objects.";
+    osg::RenderInfo& _renderInfo;
+    osg::State& _state;
+    const MapPicture& _picture;
+    const MapPrograms& _programs;
+};
 
 } // namespace
 
-MinDepthPyramid::MinDepthPyramid(const glm::ivec2& texels) : _texture(blocksTexture(texels)) {}
+MapPrograms::MapPrograms()
+    : caster(keep("caster", shaderProgram())), // for a clip distance costs a third more a vertex on llvmpipe
+      casterByLamp(keep("caster by lamp", shaderProgram("#define NEAREST\n"))),
+      cutout(keep("cutout", shaderProgram("#define NEAREST\n#define CUTOUT\n"))),
+      blocks(keep("blocks", quadProgram("gnomon blocks", "", shaders::blocks_frag))),
+      cone(keep("cone", quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag))) {}
 
-std::string MinDepthPyramid::update(osg::State& state, const osg::StateSet& program, const osg::Texture2D& map) {
-    const auto& gl = *state.get<osg::GLExtensions>();
-    const bool made = _texture->getTextureObject(state.getContextID());
-    bind(state, 0);
-    if (!made) gl.glGenerateMipmap(GL_TEXTURE_2D); // room for all levels
-    const ValueState values;
-    const ScratchFramebuffer framebuffer(gl);
-    state.apply(&program);
-    if (!hasProgram(state)) return noProgram;
-    setUniform(state, "finer", 0);
-    state.applyTextureAttribute(0, &map);
-    bool drawn = false;
-    {
-        const UncomparedSampler raw(state, 0);
-        drawn = drawLevel(state, 0);
-    }
-    bind(state, 0);
-    for (int level = 1; drawn && level < levels; ++level) {
-        readLevels(level - 1, level - 1);
-        drawn = drawLevel(state, level);
-    }
-    readLevels(0, levels - 1);
-    return drawn ? "" : noFloats;
+const osg::StateSet* MapPrograms::keep(const char* what, const osg::ref_ptr<osg::StateSet>& set) {
+    _programs[what] = set;
+    return set.get();
 }
 
-/// From what is bound to unit 0.
-bool MinDepthPyramid::drawLevel(osg::State& state, int level) const {
-    const auto& gl = *state.get<osg::GLExtensions>();
-    const GLuint name = _texture->getTextureObject(state.getContextID())->id();
-    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D, name, level);
-    if (gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) != GL_FRAMEBUFFER_COMPLETE_EXT) return false;
-    glViewport(0, 0, _texture->getTextureWidth() >> level, _texture->getTextureHeight() >> level);
-    setUniform(state, "side", level == 0 ? finest : 2);
-    drawQuad(state);
-    return true;
+osg::ref_ptr<const osg::StateSet> MapPrograms::program(const std::string& defines, bool debugView) {
+    Lock lock(_mutex);
+    osg::ref_ptr<osg::StateSet>& set = _programs[(debugView ? "view " : "") + defines];
+    if (set) return set;
+    const std::string looksUp = std::string(shaders::cone_frag) + shaders::map_filter_frag + shaders::map_frag;
+    set = quadProgram("gnomon map", defines,
+                      (shaders::map_place_frag + (debugView ? shaders::map_view_frag : looksUp)).c_str());
+    return set;
+}
+
+void MapPrograms::resizeGLObjectBuffers(unsigned maxSize) {
+    Lock lock(_mutex);
+    for (const auto& [what, set] : _programs) set->resizeGLObjectBuffers(maxSize);
+}
+
+void MapPrograms::release(osg::State* state) {
+    seen.release(state);
+    Lock lock(_mutex);
+    for (const auto& [what, set] : _programs) set->releaseGLObjects(state);
+}
+
+glm::dmat4 MapPicture::Tile::clipFromScene() const {
+    return glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0)) * mapFromScene;
 }
 
 bool MapPicture::Layer::operator==(const Layer& other) const {
@@ -326,126 +312,130 @@ bool MapPicture::Layer::operator==(const Layer& other) const {
 const MapPicture::Tile* MapPicture::findStill(const Tile& tile, const MapPicture& other) const {
     if (!(still == other.still && size == other.size)) return nullptr;
     const auto found = std::find_if(tiles.begin(), tiles.end(), [&tile](const Tile& each) {
-        return each.corner == tile.corner && each.clipFromScene == tile.clipFromScene;
+        return each.corner == tile.corner && each.mapFromScene == tile.mapFromScene;
     });
     return found == tiles.end() ? nullptr : &*found;
 }
 
 DepthMap::DepthMap(const glm::ivec2& texels, osg::Texture::FilterMode filter)
-    : size(texels), _texture(mapTexture(texels, filter)) {}
+    : size(texels),
+      _texture(mapTexture(texels, filter)),
+      _saved(mapTexture(texels, osg::Texture::NEAREST)),
+      _blocks(blocksTexture(texels)) {}
 
 DepthMap::~DepthMap() { release(nullptr); }
 
-std::string DepthMap::show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn) {
+std::string DepthMap::show(osg::RenderInfo& renderInfo, const MapPicture& picture, MapPrograms& programs) {
     osg::State& state = *renderInfo.getState();
     const GLint most = glInteger(GL_MAX_TEXTURE_SIZE);
     if (std::max(size.x, size.y) > most)
         return "a map of " + std::to_string(size.x) + " x " + std::to_string(size.y) +
                " texels cannot be made, because this OpenGL allows at most " + std::to_string(most) +
                " on a side. Set a smaller size.";
-    Target& target = targetOf(state.getContextID());
+    Target& target = targetOf(state);
     const auto* texture = _texture->getTextureObject(state.getContextID());
     if (texture && target.shown == &picture && target.texture == texture) return "";
     if (target.texture != texture) target.shown = nullptr;
-    const std::string cause = draw(renderInfo, target, picture, drawn);
+    const std::string cause = draw(renderInfo, target, picture, programs);
+    target.shown = cause.empty() ? &picture : nullptr;
     state.apply(); // ResolvedDepth draws by what it finds, and finds a program otherwise
     return cause;
 }
 
-std::string DepthMap::updateBlocks(osg::State& state, const osg::StateSet& program) {
-    if (!UncomparedSampler::isSupported(state)) return noSamplers;
-    Target& target = targetOf(state.getContextID());
-    if (target.inBlocks) return "";
-    {
-        Lock lock(_mutex);
-        if (!_blocks) _blocks = new MinDepthPyramid(size);
-    }
-    const std::string cause = _blocks->update(state, program, *_texture);
-    target.inBlocks = cause.empty();
-    return cause;
-}
-
-void DepthMap::bind(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _texture); }
-
-/// @return false if OpenGL cannot draw to it.
-bool DepthMap::attach(osg::State& state, Target& target, const ScratchFramebuffer& framebuffer) const {
+/// What stands still where the texture shows something else, and what moves where that is, or was.
+std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture,
+                           MapPrograms& programs) {
+    osg::State& state = *renderInfo.getState();
+    const auto& gl = *state.get<osg::GLExtensions>();
+    if (!gl.isFrameBufferObjectSupported || !gl.glBlitFramebuffer) return noTarget;
+    const ScratchFramebuffer framebuffer(gl);
     bind(state, 0); // which makes it
     target.texture = _texture->getTextureObject(state.getContextID());
     framebuffer.attachDepth(*target.texture);
-    return framebuffer.isComplete();
-}
-
-std::string DepthMap::draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn) {
-    osg::State& state = *renderInfo.getState();
-    const auto& gl = *state.get<osg::GLExtensions>();
-    if (!gl.isFrameBufferObjectSupported) return noTarget;
-    const ScratchFramebuffer framebuffer(gl);
-    if (!attach(state, target, framebuffer)) return noTarget;
+    if (!framebuffer.isComplete()) return noTarget;
     const MapState mapState;
     const bool sameMoving = target.shown && target.shown->hasSameMoving(picture);
-    Parts still, moving;
-    std::vector<PixelRect> hidden; // by what moved
     unsigned due = 0;
+    Parts still, moving;
+    std::vector<PixelRect> hidden, toHide; // by what moved, and by what moves
     for (const MapPicture::Tile& tile : picture.tiles) {
-        const MapPicture::Tile* shown =
-            target.shown && gl.glBlitFramebuffer ? target.shown->findStill(tile, picture) : nullptr;
+        const MapPicture::Tile* shown = target.shown ? target.shown->findStill(tile, picture) : nullptr;
         if (shown && (sameMoving || (shown->movers.empty() && tile.movers.empty()))) continue;
         ++due;
-        if (!shown) still.push_back({&tile, wholeOf(tile, picture.size)});
+        if (!shown) still.push_back({&tile, {tile.corner.x, tile.corner.y, picture.size, picture.size}});
         if (shown && !shown->movers.empty()) hidden.push_back(shown->movers);
-        if (!tile.movers.empty()) moving.push_back({&tile, tile.movers});
+        if (tile.movers.empty()) continue;
+        moving.push_back({&tile, tile.movers});
+        toHide.push_back(tile.movers);
     }
-    std::string cause = drawStill(renderInfo, picture, still, !target.shown);
-    if (cause.empty()) cause = drawMoving(renderInfo, framebuffer, picture, hidden, moving);
-    if (cause.empty()) drawn += due;
-    target.shown = cause.empty() ? &picture : nullptr;
     if (due > 0) target.inBlocks = false;
+    Drawing drawing(renderInfo, picture, programs);
+    std::string cause = drawing.drawStill(still, !target.shown);
+    if (cause.empty() && !(hidden.empty() && moving.empty())) {
+        state.applyTextureAttribute(0, _saved); // which makes it
+        const ScratchFramebuffer saved(gl);
+        saved.attachDepth(*_saved->getTextureObject(state.getContextID()));
+        if (!saved.isComplete()) return noTarget;
+        copyDepths(gl, saved.name, framebuffer.name, hidden);
+        copyDepths(gl, framebuffer.name, saved.name, toHide);
+        framebuffer.bind();
+        cause = drawing.drawMovers(moving);
+    }
+    if (cause.empty()) programs.passes += due;
     return cause;
 }
 
-std::string DepthMap::drawMoving(osg::RenderInfo& renderInfo, const ScratchFramebuffer& framebuffer,
-                                 const MapPicture& picture, const std::vector<PixelRect>& hidden,
-                                 const std::vector<MapPicture::Part>& parts) {
-    if (hidden.empty() && parts.empty()) return "";
-    osg::State& state = *renderInfo.getState();
+std::string DepthMap::updateBlocks(osg::State& state, const MapPrograms& programs) {
+    if (!UncomparedSampler::isSupported(state)) return noBlocks;
+    Target& target = targetOf(state);
+    if (target.inBlocks) return "";
     const auto& gl = *state.get<osg::GLExtensions>();
-    if (!gl.glBlitFramebuffer) return drawMovers(renderInfo, picture, parts); // all is drawn each time
-    const osg::ref_ptr<osg::Texture2D> texture = savedTexture();
-    state.applyTextureAttribute(0, texture); // which makes it
-    const ScratchFramebuffer saved(gl);
-    saved.attachDepth(*texture->getTextureObject(state.getContextID()));
-    if (!saved.isComplete()) return noTarget;
-    copyDepths(gl, saved.name, framebuffer.name, hidden);
-    std::vector<PixelRect> toHide;
-    for (const auto& part : parts) toHide.push_back(part.texels);
-    copyDepths(gl, framebuffer.name, saved.name, toHide);
-    framebuffer.bind();
-    return drawMovers(renderInfo, picture, parts);
+    const bool made = _blocks->getTextureObject(state.getContextID());
+    bindBlocks(state, 0);
+    if (!made) gl.glGenerateMipmap(GL_TEXTURE_2D); // room for all levels
+    const SavedState values(GL_ENABLE_BIT | GL_VIEWPORT_BIT | GL_COLOR_BUFFER_BIT,
+                            {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST, GL_CULL_FACE, GL_BLEND, GL_ALPHA_TEST});
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    const ScratchFramebuffer framebuffer(gl);
+    state.apply(programs.blocks);
+    if (!hasProgram(state)) return noProgram;
+    setUniform(state, "finer", 0);
+    target.inBlocks = true;
+    for (int level = 0; target.inBlocks && level < levels; ++level) {
+        std::optional<UncomparedSampler> raw;
+        state.applyTextureAttribute(0, level == 0 ? _texture : _blocks);
+        level == 0 ? void(raw.emplace(state, 0u)) : readLevels(level - 1, level - 1);
+        target.inBlocks = drawLevel(state, level);
+    }
+    bindBlocks(state, 0);
+    readLevels(0, levels - 1);
+    return target.inBlocks ? "" : noBlocks;
 }
 
-osg::ref_ptr<osg::Texture2D> DepthMap::savedTexture() {
-    Lock lock(_mutex);
-    if (!_saved) _saved = mapTexture(size, osg::Texture::NEAREST);
-    return _saved;
+/// From what is bound to unit 0. @return false if OpenGL cannot draw to it.
+bool DepthMap::drawLevel(osg::State& state, int level) const {
+    const auto& gl = *state.get<osg::GLExtensions>();
+    const GLuint name = _blocks->getTextureObject(state.getContextID())->id();
+    gl.glFramebufferTexture2D(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT, GL_TEXTURE_2D, name, level);
+    if (gl.glCheckFramebufferStatus(GL_FRAMEBUFFER_EXT) != GL_FRAMEBUFFER_COMPLETE_EXT) return false;
+    glViewport(0, 0, _blocks->getTextureWidth() >> level, _blocks->getTextureHeight() >> level);
+    setUniform(state, "side", level == 0 ? finest : 2);
+    drawQuad(state);
+    return true;
 }
 
-DepthMap::Target& DepthMap::targetOf(unsigned context) {
+DepthMap::Target& DepthMap::targetOf(const osg::State& state) {
     Lock lock(_mutex);
-    return _targets[context];
+    return _targets[state.getContextID()];
 }
 
 void DepthMap::resizeGLObjectBuffers(unsigned maxSize) {
-    _texture->resizeGLObjectBuffers(maxSize);
-    Lock lock(_mutex);
-    if (_saved) _saved->resizeGLObjectBuffers(maxSize);
-    if (_blocks) _blocks->resizeGLObjectBuffers(maxSize);
+    for (const auto& texture : {_texture, _saved, _blocks}) texture->resizeGLObjectBuffers(maxSize);
 }
 
 void DepthMap::release(osg::State* state) {
-    _texture->releaseGLObjects(state);
+    for (const auto& texture : {_texture, _saved, _blocks}) texture->releaseGLObjects(state);
     Lock lock(_mutex);
-    if (_saved) _saved->releaseGLObjects(state);
-    if (_blocks) _blocks->release(state);
     for (auto entry = _targets.begin(); entry != _targets.end();) {
         const bool meant = !state || state->getContextID() == entry->first;
         entry = meant ? _targets.erase(entry) : std::next(entry);

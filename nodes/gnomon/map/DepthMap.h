@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/gl/FrameCopies.h>
 #include <gnomon/gl/GlState.h>
 #include <gnomon/map/MapCasters.h>
+#include <gnomon/mapfit/MapFit.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
@@ -11,73 +13,79 @@
 #include <osg/StateSet>
 #include <osg/Texture2D>
 
-#include <cstdint>
+#include <atomic>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace gnomon {
 
-/// The least depth in each block of a depth map: of 8 × 8 texels, and of blocks of twice the side a mipmap level, up to
-/// 256 × 256.
-///
-/// Needs   what UncomparedSampler needs, and textures of floats that can be drawn to.
-/// Threads one a context.
-/// Source: G. Guennebaud, L. Barthe and M. Paulin, "Real-time Soft Shadow Mapping by Backprojection", EGSR 2006: a
-///         hierarchical map tells how near what blocks the light can be.
-class MinDepthPyramid : public osg::Referenced {
+/// What a ShadowMapTechnique's maps and marks share: it belongs to the technique, and is released with its other OpenGL objects.
+class MapPrograms : public osg::Referenced {
+    OpenThreads::Mutex _mutex;
+    std::map<std::string, osg::ref_ptr<osg::StateSet>> _programs; ///< by what they are for.
+
 public:
-    /// @param texels  of the map.
-    explicit MinDepthPyramid(const glm::ivec2& texels);
+    MapPrograms();
 
-    /// Makes them those of a depth map as it is now. Leaves its program applied.
-    /// @param program  see blocks.frag.
-    /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
-    std::string update(osg::State& state, const osg::StateSet& program, const osg::Texture2D& map);
-    void bind(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _texture); }
+    const osg::StateSet *const caster, *const casterByLamp, *const cutout, *const blocks, *const cone;
+    FrameDepthCopy seen;
+    std::atomic<unsigned> passes{0}; ///< maps drawn so far.
 
-    void resizeGLObjectBuffers(unsigned maxSize) { _texture->resizeGLObjectBuffers(maxSize); }
-    void release(osg::State* state) { _texture->releaseGLObjects(state); }
+    /// The program for these defines, see map.frag, or of the debug view, see map_view.frag; made at its first use.
+    osg::ref_ptr<const osg::StateSet> program(const std::string& defines, bool debugView = false);
+    void resizeGLObjectBuffers(unsigned maxSize);
+    void release(osg::State* state);
 
 protected:
-    ~MinDepthPyramid() override = default;
+    ~MapPrograms() override = default;
 
 private:
-    bool drawLevel(osg::State& state, int level) const;
-
-    const osg::ref_ptr<osg::Texture2D> _texture;
+    const osg::StateSet* keep(const char* what, const osg::ref_ptr<osg::StateSet>& set);
 };
-
-class ScratchFramebuffer;
 
 /// What one light's maps are to show. Never changed once made, so that a frame that is still drawn keeps its own.
 struct MapPicture : public osg::Referenced {
-    /// A square part of the texture, and what is drawn there.
+    /// A map, in a square part of the texture.
     struct Tile {
         glm::ivec2 corner{0};
-        glm::dmat4 clipFromScene{1.0}; ///< The map's clip space. Scene: see SceneFrame.
-        double nearest = 0.0;          ///< w of clip space before which nothing is drawn; 0 for a sun.
-        PixelRect movers;              ///< texels outside which nothing moves.
+        glm::dmat4 mapFromScene{1.0}; ///< see MapFit. Scene: see SceneFrame.
+        MapErrors errors{};
+        MapSpread spread{};
+        double nearest = 0.0; ///< w of clip space before which nothing is drawn; 0 for a sun.
+        PixelRect movers{};   ///< texels outside which nothing moves.
+
+        glm::dmat4 clipFromScene() const; ///< The map's clip space.
     };
     /// A tile, and what of it is drawn.
     struct Part {
         const Tile* tile;
         PixelRect texels;
     };
+    /// A mesh, or some of its triangles, at a place.
+    struct Mesh {
+        osg::ref_ptr<const CullableFaces> faces;
+        glm::dmat4 sceneFromMesh{1.0};
+        MapBox box;                       ///< in the scene.
+        CullableFaces::Outside outside{}; ///< where the light is.
+
+        bool operator==(const Mesh& other) const {
+            return faces == other.faces && sceneFromMesh == other.sceneFromMesh && outside == other.outside;
+        }
+    };
     /// What is drawn of a layer of the casters. Two are equal if they look alike.
     struct Layer {
         osg::ref_ptr<const MapLayer> of;
-        std::vector<MapLayer::Drawn> meshes;   ///< whole ones.
-        std::vector<MapLayer::Cutout> cutouts; ///< those that textures cut out.
+        std::vector<Mesh> meshes{};       ///< whole ones.
+        std::vector<MapCutout> cutouts{}; ///< those that textures cut out.
 
         bool operator==(const Layer& other) const;
     };
     Layer still, moving;
-    OwnCasters own;                                  ///< they count as moving.
-    osg::ref_ptr<const osg::StateSet> program;       ///< see shaderProgram().
-    osg::ref_ptr<const osg::StateSet> cutoutProgram; ///< the same with CUTOUT.
-    int size = 0;                                    ///< of a tile's side, texels.
-    std::vector<Tile> tiles;
+    OwnCasters own;          ///< they count as moving.
+    int size = 0;            ///< of a tile's side, texels.
+    std::vector<Tile> tiles; ///< the finest comes first, for pixels take the first that holds them.
+    bool divided = false;    ///< several may hold a place of their light's frame, but not its depth.
 
     /// True if what moves looks as in another picture.
     bool hasSameMoving(const MapPicture& other) const { return moving == other.moving && own.areSame(other.own); }
@@ -93,6 +101,10 @@ protected:
 /// Where something moves, the depths of what stands still are saved before it is drawn over them, in a texture of the same
 /// size that is made when first something moves; and put back before it is drawn elsewhere.
 ///
+/// Blocks are the least depths in 8 × 8 texels, and, a mipmap level each, in blocks of twice the side up to 256 × 256.
+/// Source: G. Guennebaud, L. Barthe and M. Paulin, "Real-time Soft Shadow Mapping by Backprojection", EGSR 2006: a
+///         hierarchical map tells how near what blocks the light can be.
+///
 /// Threads one a context.
 class DepthMap : public osg::Referenced {
 public:
@@ -102,16 +114,15 @@ public:
     const glm::ivec2 size; ///< texels.
 
     /// Makes the texture of this context show the picture, unless it does.
-    /// @param drawn  counts tiles in which anything is drawn.
     /// @return why that cannot be, as a cause for ShadowTechnique::report(); empty if all is well.
-    std::string show(osg::RenderInfo& renderInfo, const MapPicture& picture, unsigned& drawn);
-    void bind(osg::State& state, unsigned unit) const;
+    std::string show(osg::RenderInfo& renderInfo, const MapPicture& picture, MapPrograms& programs);
+    void bind(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _texture); }
     osg::Texture2D* texture() const { return _texture.get(); }
 
-    /// Makes the blocks of this context those of what it shows, unless they are. After show().
-    /// @return as MinDepthPyramid::update().
-    std::string updateBlocks(osg::State& state, const osg::StateSet& program);
-    void bindBlocks(osg::State& state, unsigned unit) const { _blocks->bind(state, unit); }
+    /// Makes the blocks of this context those of what it shows, unless they are. After show(). Leaves its program applied.
+    /// @return as show(): UncomparedSampler and textures of floats that can be drawn to are needed.
+    std::string updateBlocks(osg::State& state, const MapPrograms& programs);
+    void bindBlocks(osg::State& state, unsigned unit) const { state.applyTextureAttribute(unit, _blocks); }
 
     void resizeGLObjectBuffers(unsigned maxSize);
     void release(osg::State* state);
@@ -125,17 +136,11 @@ private:
         osg::ref_ptr<const MapPicture> shown;
         bool inBlocks = false; ///< its blocks are those of what it shows.
     };
-    Target& targetOf(unsigned context);
-    osg::ref_ptr<osg::Texture2D> savedTexture();
-    bool attach(osg::State& state, Target& target, const ScratchFramebuffer& framebuffer) const;
-    std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, unsigned& drawn);
-    std::string drawMoving(osg::RenderInfo& renderInfo, const ScratchFramebuffer& framebuffer,
-                           const MapPicture& picture, const std::vector<PixelRect>& hidden,
-                           const std::vector<MapPicture::Part>& parts);
+    Target& targetOf(const osg::State& state);
+    std::string draw(osg::RenderInfo& renderInfo, Target& target, const MapPicture& picture, MapPrograms& programs);
+    bool drawLevel(osg::State& state, int level) const;
 
-    osg::ref_ptr<osg::Texture2D> _texture;
-    osg::ref_ptr<osg::Texture2D> _saved;   ///< null until something moves.
-    osg::ref_ptr<MinDepthPyramid> _blocks; ///< null until they are asked for.
+    const osg::ref_ptr<osg::Texture2D> _texture, _saved, _blocks; ///< OpenGL makes each at its first use.
     OpenThreads::Mutex _mutex;
     std::map<unsigned, Target> _targets; ///< by context.
 };

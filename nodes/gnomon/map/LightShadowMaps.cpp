@@ -1,25 +1,36 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/casters/CasterLayers.h>
-#include <gnomon/geometry/ScreenBounds.h>
+#include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/LightShadowMaps.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec4.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <map>
 #include <tuple>
 #include <utility>
 
 namespace gnomon {
 namespace {
+
+constexpr double reserve = 1.0 / 16.0; // of a map's sides
+constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
+constexpr double fewestSoft = 256.0;  // texels of soft edges: with fewer, what 128 of them reach would be most of a map
+constexpr double border = 3.0;        // texels: what a comparison reaches over, and one against rounding
+constexpr int largestTexture = 16384; // texels on a side: what OpenGL has in most places
+constexpr double sameLight = 1e-7;    // of the distance: what floats make of a light at rest
+constexpr double sameAmong = 1e-10;   // of what is about a lamp: what doubles do
+constexpr double mostRatio = 1e6;     // of a lamp's distances: what is nearer is at the lamp itself
+constexpr double widestRatio = 64.0;  // the same of what softens edges: by what is nearer they are as wide
+constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
 
 /// Of a sun one; of a lamp that sees all casters to one side one, else those of a cube, a little larger so that what is
 /// on an edge is in both. Of a spot one about its cone, unless that is nearly flat.
@@ -50,19 +61,9 @@ std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<Sp
     return holdsAll ? std::vector{ahead} : frames;
 }
 
-bool areSame(const std::vector<LightFrame>& a, const std::vector<LightFrame>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LightFrame& one, const LightFrame& other) {
-        return one.sun == other.sun && one.lightFromScene == other.lightFromScene && one.halfSpaces == other.halfSpaces;
-    });
+bool areSame(const LightFrame& a, const LightFrame& b) {
+    return a.sun == b.sun && a.lightFromScene == b.lightFromScene && a.halfSpaces == b.halfSpaces;
 }
-
-constexpr double reserve = 1.0 / 16.0; // of a map's sides
-constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
-constexpr double fewestSoft = 256.0;  // texels of soft edges: with fewer, what 128 of them reach would be most of a map
-constexpr double border = 3.0;        // texels: what a comparison reaches over, and one against rounding
-constexpr int largestTexture = 16384; // texels on a side: what OpenGL has in most places
-constexpr double sameLight = 1e-7;    // of the distance: what floats make of a light at rest
-constexpr double sameAmong = 1e-10;   // of what is about a lamp: what doubles do
 
 /// @param widest  of the drawables, which a lamp may be within.
 bool isSame(const glm::dvec4& a, const glm::dvec4& b, double widest) {
@@ -82,164 +83,92 @@ bool haveSameMaps(const ShadowMapOptions& a, const ShadowMapOptions& b) {
     return key(a) == key(b) && (a.edges != ShadowMapOptions::SOFT || softness(a) == softness(b));
 }
 
-/// Where what is flat, a ground for one, may stand between the light and a place. Of all that is level, each way, the one
-/// nearest to the light says so for all.
-HalfSpaces beyondFlats(const MapCasters& casters, const glm::dvec4& light) {
-    HalfSpaces halves; // six at most
-    for (const auto* flats : {&casters.still->flatBoxes, &casters.moving->flatBoxes})
-        for (const MapLayer::Box& flat : *flats) {
+/// Half-space of what something flat can darken: what is beyond it, seen from the light.
+glm::dvec4 beyond(const MapBox& flat, const glm::dvec4& light, const glm::dvec3& reach) {
+    const glm::dvec3 size = flat.high - flat.low;
+    const int axis = size.x == 0.0 ? 0 : size.y == 0.0 ? 1 : 2;
+    const double level = flat.low[axis], side = light[axis] - light.w * level > 0.0 ? 1.0 : -1.0;
+    glm::dvec4 result(0.0, 0.0, 0.0, side * level - 1e-6 * glm::length(reach)); // what eye space makes of a place in it
+    result[axis] = -side;
+    return result;
+}
+
+/// True if what is flat, a ground for one, may stand between the light and a place that is seen: not if all of those are on the
+/// light's side of it, or in it. Of all that is level, each way, the one nearest to the light says so for all.
+bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std::vector<PlacedBox>& receivers) {
+    std::map<std::array<double, 3>, glm::dvec4> halves; // by the way; six at most
+    for (const MapLayer* layer : {casters.still.get(), casters.moving.get()})
+        for (const MapPart& flat : layer->flats) {
             const glm::dvec4 half = beyond(flat, light, casters.layers->reach);
-            const auto known = std::find_if(halves.begin(), halves.end(), [&](const glm::dvec4& other) {
-                return glm::dvec3(other) == glm::dvec3(half);
-            });
-            if (known == halves.end())
-                halves.push_back(half);
-            else
-                known->w = std::max(known->w, half.w);
+            glm::dvec4& known = halves.try_emplace(std::array{half.x, half.y, half.z}, half).first->second;
+            known.w = std::max(known.w, half.w);
         }
-    return halves;
-}
-
-/// True if any part of what is seen is there: not if all of that is on the light's side of what is flat, or in it.
-bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std::vector<MapReceiver>& receivers) {
-    const HalfSpaces halves = beyondFlats(casters, light);
-    if (halves.empty()) return false;
-    return std::any_of(receivers.begin(), receivers.end(), [&](const MapReceiver& receiver) {
-        const auto corners = boxCorners(receiver.low, receiver.high, receiver.sceneFromBox);
-        return std::any_of(halves.begin(), halves.end(), [&](const glm::dvec4& half) {
-            return std::any_of(corners.begin(), corners.end(),
-                               [&](const glm::dvec4& corner) { return !(glm::dot(half, corner) < 0.0); });
-        });
+    return std::any_of(receivers.begin(), receivers.end(), [&](const PlacedBox& receiver) {
+        return std::any_of(halves.begin(), halves.end(),
+                           [&](const auto& half) { return !cornersWithin(receiver, {half.second}).empty(); });
     });
 }
 
-/// All faces, as in a light's first picture: where only those turned to it are drawn, single texels at rims differ.
-constexpr CullableFaces::Outside wholly{false, false};
+/// True of what the light sees edge-on, and of triangles of no area: hard edges have nothing between them.
+bool isThin(const LightFrame& frame, const MapOutline& outline) {
+    const glm::dvec2 size = fitMap(frame, outline, outline, 0.0, 0.0, 1.0).size;
+    return std::min(size.x, size.y) <= 2e-6 * std::max(size.x, size.y); // fitMap() makes no side less than half of that
+}
 
-bool isWhole(const MapPicture::Layer& layer) {
-    return std::all_of(layer.meshes.begin(), layer.meshes.end(), [](const MapLayer::Drawn& mesh) {
-        return (!mesh.faces->solids || !mesh.outside.solids) && (!mesh.faces->holed || !mesh.outside.holed);
-    });
+/// What a drawable of unknown bounds is taken for: it may be anywhere in the view.
+PlacedBox wholeView(const ViewFrame& view, const glm::dmat4& sceneFromEye) {
+    const glm::dmat4 eyeFromClip = glm::inverse(toGlm(view.projection));
+    PlacedBox box{glm::dvec3(std::numeric_limits<double>::infinity()), {}, sceneFromEye};
+    box.high = -box.low;
+    for (const glm::dvec4& corner : boxCorners(glm::dvec3(-1.0), glm::dvec3(1.0), eyeFromClip)) {
+        box.low = glm::min(box.low, glm::dvec3(corner) / corner.w);
+        box.high = glm::max(box.high, glm::dvec3(corner) / corner.w);
+    }
+    return box;
 }
 
 } // namespace
 
-void LightShadowMaps::setCause(const MapRequest& cause) {
-    _light = cause.light;
-    _cone = cause.cone;
-    const MapRequest& old = _cause;
-    const bool sameMaps = haveSameMaps(old.settings, cause.settings);
-    if (old.casters && old.casters->layers->origin == cause.casters->layers->origin && old.flats == cause.flats &&
-        sameMaps && isSame(cause.cone, old.cone) && isSame(cause.light, old.light, cause.casters->layers->widest) &&
-        (old.casters == cause.casters ||
-         areSame(_frames, framesOf(old.light, old.cone, *cause.casters->layers, old.settings.size))))
-        return takeCasters(*cause.casters);
-    if (!sameMaps) _map = nullptr;
-    _cause = cause;
-    _stale = true;
-    begin();
-    if (!_map) _texels = cause.settings.size;
+/// Soft: penumbras of a pixel or two are wider than the filter.
+double widestTexel(const ShadowMapOptions& options) {
+    constexpr double plain = 1.5, fine = 0.7, soft = 0.33;
+    if (options.edges == ShadowMapOptions::SOFT) return soft;
+    return options.edges == ShadowMapOptions::SMOOTH && options.filter == ShadowMapOptions::FINE ? fine : plain;
 }
 
-void LightShadowMaps::begin() {
-    _clear = _clearOfStill = std::nullopt;
-    _faces.clear();
-    _splits.clear();
-    _cascades = _cause.settings.cascades;
-    _frames = framesOf(_cause.light, _cause.cone, *_cause.casters->layers, _cause.settings.size);
-    for (const LightFrame& frame : _frames) addFaces(frame);
+double MapRequest::lightRadius(const LightFrame& frame) const {
+    if (settings.edges != ShadowMapOptions::SOFT) return 0.0;
+    if (frame.sun && light.w == 0.0) return std::tan(glm::radians(settings.sunAngle / 2.0));
+    return settings.lampSize / 2.0 / (frame.sun ? glm::length(glm::dvec3(light)) : 1.0);
 }
 
-/// From a lamp to the nearest caster: nothing that is nearer is dark.
-double LightShadowMaps::clearance() {
-    const glm::dvec3 lamp(_cause.light);
-    if (!_clearOfStill) _clearOfStill = _cause.casters->still->clearanceOf(lamp);
-    if (!_clear)
-        _clear = std::min(
-            {*_clearOfStill, _cause.casters->moving->clearanceOf(lamp), clearanceOf(_cause.casters->own, lamp)});
-    return *_clear;
+bool MapRequest::isWide(const LightFrame& frame) const {
+    return settings.edges == ShadowMapOptions::SOFT && (lightRadius(frame) > 0.0 || settings.radius > 0.0);
 }
 
-/// Distance along a frame's axis before which nothing is drawn. What is in a plane with the lamp would be anywhere, by
-/// floats. 0 for a sun.
-double LightShadowMaps::nearestDrawn(const MapSlice& face) {
-    constexpr double corner = 8.0;            // of the widest frame: the way to it to its distance
-    constexpr double least = 1.0 / (1 << 20); // of the coordinates: what rays leave out, too
-    if (face.frame.sun) return 0.0;
-    const double size = glm::length(glm::dvec3(_cause.light)) + glm::length(reachOf(face));
-    return std::max(std::min(clearance(), size) / corner, least * size);
+double MapRequest::softness(const LightFrame& frame, MapOutline blocker, double farthest) const {
+    blocker.limitNearest(widestRatio);
+    return softReach(frame, blocker.nearest, farthest, lightRadius(frame), settings.radius);
 }
 
-/// Where nothing changes any more, finds all anew, for what is kept of maps goes by frames before. That is as dear as a
-/// change: what moves in every second frame, say, is not found anew each time.
-void LightShadowMaps::settle(Seen seen) {
-    constexpr int fewestAtRest = 8; // frames
-    if (seen == _seen) {
-        if (_settled || ++_rest < fewestAtRest) return;
-        _settled = _anew = true;
-        _cause.light = _light;
-        _cause.cone = _cone;
-        _texels = _cause.settings.size;
-        begin();
-        return;
-    }
-    _settled = !_seen.casters; // the first frame
-    _rest = 0;
-    _seen = std::move(seen);
-}
-
-/// As seen from the same light.
-void LightShadowMaps::takeCasters(const MapCasters& casters) {
-    if (_cause.casters == &casters) return;
-    _clear = std::nullopt;
-    const bool sameStill = _cause.casters->still == casters.still;
-    if (!sameStill) _clearOfStill = std::nullopt;
-    _cause.casters = &casters;
-    _stale = true;
-    const MapSlice* before = nullptr; // of the same frame
-    for (MapSlice& face : _faces) {
-        if (face.part > 0) {
-            face.still = before->still;
-            face.blockers = before->blockers;
-        } else {
-            if (!sameStill) face.takeStill(_cause);
-            face.takeBlockers(_cause);
-        }
-        before = &face;
-    }
-}
-
-void LightShadowMaps::addFaces(const LightFrame& frame) {
-    MapSlice face(frame, _cause);
-    const int wanted = _cause.settings.cascades, most = 2 * _cause.settings.size <= largestTexture ? mostCascades : 1;
-    const std::size_t parts = frame.sun ? std::size_t(wanted ? wanted : most) : 2;
-    for (; face.part < parts; ++face.part) _faces.push_back(face);
-}
-
-/// On a side of a texel, were there one map, at a distance along the line of sight.
-double LightShadowMaps::pixelsATexel(double distance) const {
-    const auto side = [&](int axis) {
-        return 2.0 * distance / glm::length(glm::dvec3(glm::row(_seen.clipFromScene, axis)));
+std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
+    const glm::dmat4 sceneFromEye = glm::inverse(eyeFromScene);
+    std::vector<std::pair<double, PlacedBox>> sized; // by the diagonal, scene
+    const auto add = [&sized](const PlacedBox& box) {
+        sized.emplace_back(glm::length(glm::dvec3(box.sceneFromBox * glm::dvec4(box.high - box.low, 0.0))), box);
     };
-    const MapSlice& face = _faces.front();
-    MapOutline all(face.frame);
-    for (const MapBlocker& blocker : face.blockers) all.merge(blocker.outline);
-    const glm::dvec2 most = fitMap(face.frame, all, all, 0.0, 0.0, 1.0).size;
-    const double covered = std::min(std::max(most.x, most.y), std::max({side(0), side(1), distance}));
-    return covered / _cause.settings.size / (side(0) / _seen.pixels.x);
-}
-
-void LightShadowMaps::findSplits() {
-    if (!(_faces.size() > 1 && _faces.front().frame.sun)) return;
-    SeenRange seen(_seen.clipFromScene);
-    for (const MapBlocker& blocker : _faces.front().blockers) {
-        const HalfSpaces halfSpaces =
-            both(both(viewPart(_seen.clipFromScene, {}, 0), blocker.halfSpaces), blocker.outline.sides());
-        for (const MapReceiver& receiver : _seen.receivers) seen.addBox(receiver, halfSpaces);
+    bool anywhere = false;
+    for (const osgUtil::RenderLeaf* leaf : view.seen) {
+        const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+        anywhere = anywhere || !box.valid();
+        if (box.valid())
+            add({toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)), sceneFromEye * toGlm(modelviewOf(*leaf))});
     }
-    if (!_cause.settings.cascades && !seen.empty())
-        _cascades = cascadesFor(seen, pixelsATexel(seen.farthest), _cascades);
-    _splits = cascadeSplits(seen, std::max(_cascades, 1));
+    if (anywhere) add(wholeView(view, sceneFromEye));
+    std::sort(sized.begin(), sized.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<PlacedBox> result;
+    for (const auto& [size, box] : sized) result.push_back(box);
+    return result;
 }
 
 std::vector<glm::dvec4> LightShadowMaps::find(const ViewFrame& view, MapRequest wanted) {
@@ -247,280 +176,439 @@ std::vector<glm::dvec4> LightShadowMaps::find(const ViewFrame& view, MapRequest 
     Seen seen{toGlm(view.projection) * eyeFromScene, // clip space is the projection of eye space to the last bit
               {view.pixels.x(), view.pixels.y()},
               receiversOf(view, eyeFromScene),
-              wanted.light,
-              wanted.casters};
+              wanted};
     wanted.flats = anyIsBetween(*wanted.casters, wanted.light, seen.receivers);
     setCause(wanted);
     settle(std::move(seen));
     findSplits();
-    if (_faces.front().frame.sun)
-        for (MapSlice& face : _faces) {
-            face.isAlone = _splits.empty();
-            if (face.part <= _splits.size())
-                findFace(face, viewPart(_seen.clipFromScene, _splits, face.part));
-            else
-                face.clear();
-        }
+    if (_sides.front().frame.sun)
+        for (Face& face : _faces)
+            face.part <= _splits.size() ? findFace(face, viewPart(_seen.clipFromScene, _splits, face.part))
+                                        : face.clear();
     else
         for (std::size_t i = 0; i < _faces.size(); i += 2) findLamp(_faces[i], _faces[i + 1]);
     std::vector<glm::dvec4> points;
-    for (const MapSlice& face : _faces)
+    for (const Face& face : _faces)
         for (const glm::dvec4& point : face.needed.body()) points.push_back(_seen.clipFromScene * point);
     return points;
 }
 
-void LightShadowMaps::findFace(MapSlice& face, const HalfSpaces& halfSpaces) {
-    face.find(_cause, _seen.receivers, halfSpaces, TexelDensity(face.frame, _seen.clipFromScene, _seen.pixels),
-              _texels);
+void LightShadowMaps::setCause(const MapRequest& cause) {
+    const MapRequest& old = _cause;
+    const bool sameMaps = haveSameMaps(old.settings, cause.settings);
+    const auto areSameSides = [&] {
+        const auto frames = framesOf(old.light, old.cone, *cause.casters->layers, old.settings.size);
+        return std::equal(_sides.begin(), _sides.end(), frames.begin(), frames.end(),
+                          [](const Side& side, const LightFrame& frame) { return areSame(side.frame, frame); });
+    };
+    if (old.casters && old.casters->layers->origin == cause.casters->layers->origin && old.flats == cause.flats &&
+        sameMaps && isSame(cause.cone, old.cone) && isSame(cause.light, old.light, cause.casters->layers->widest) &&
+        (old.casters == cause.casters || areSameSides()))
+        return takeCasters(*cause.casters);
+    if (!sameMaps) _map = nullptr;
+    _cause = cause;
+    begin();
+    if (!_map) _texels = cause.settings.size;
+}
+
+/// As seen from the same light.
+void LightShadowMaps::takeCasters(const MapCasters& casters) {
+    if (_cause.casters == &casters) return;
+    const bool sameStill = _cause.casters->still == casters.still;
+    if (!sameStill) _clearOfStill = std::nullopt;
+    _cause.casters = &casters;
+    for (Side& side : _sides) {
+        if (!sameStill) side.still = outlinesOf(*casters.still, side.frame);
+        findBlockers(side);
+    }
+}
+
+/// Where nothing changes any more, finds all anew, for what is kept of maps goes by frames before. That is as dear as a
+/// change: what moves in every second frame, say, is not found anew each time.
+void LightShadowMaps::settle(Seen seen) {
+    if (!(seen == _seen)) {
+        _rest = _seen.asked.casters ? 0 : fewestAtRest; // a light's first frame has none before
+        _seen = std::move(seen);
+    } else if (!isSettled() && ++_rest == fewestAtRest) {
+        _cause.light = _seen.asked.light;
+        _cause.cone = _seen.asked.cone;
+        _texels = _cause.settings.size;
+        begin();
+    }
+}
+
+void LightShadowMaps::begin() {
+    _clearOfStill = std::nullopt;
+    _faces.clear();
+    _sides.clear();
+    _splits.clear();
+    const int wanted = _cause.settings.cascades, most = 2 * _cause.settings.size <= largestTexture ? mostCascades : 1;
+    _cascades = wanted;
+    for (const LightFrame& frame : framesOf(_cause.light, _cause.cone, *_cause.casters->layers, _cause.settings.size)) {
+        _sides.push_back({frame, outlinesOf(*_cause.casters->still, frame), {}});
+        findBlockers(_sides.back());
+    }
+    for (const Side& side : _sides) {
+        const std::size_t parts = side.frame.sun ? std::size_t(wanted ? wanted : most) : 2;
+        for (std::size_t part = 0; part < parts; ++part) _faces.emplace_back(side, part);
+    }
+}
+
+LightShadowMaps::Outlines LightShadowMaps::outlinesOf(const MapLayer& layer, const LightFrame& frame) const {
+    Outlines outlines{MapOutline(frame), {}};
+    for (const MapPart& body : layer.bodies) outlines.bodies.addBox({body.low, body.high});
+    if (!_cause.flats) return outlines;
+    for (const MapPart& flat : layer.flats) {
+        outlines.flats.emplace_back(frame);
+        outlines.flats.back().addBox({flat.low, flat.high});
+    }
+    return outlines;
+}
+
+/// Skips what is empty, and what is flat and behind the bodies: it darkens nothing that they may not, but widens edges where it
+/// is far from where they are.
+void LightShadowMaps::findBlockers(Side& side) const {
+    const bool wide = _cause.isWide(side.frame);
+    side.blockers.clear();
+    const auto add = [&](const MapOutline& outline, const HalfSpaces& halfSpaces) {
+        if (!outline.empty()) side.blockers.push_back({outline, halfSpaces});
+    };
+    const MapCasters& casters = *_cause.casters;
+    const Outlines moving = outlinesOf(*casters.moving, side.frame);
+    MapOutline bodies = side.still.bodies;
+    bodies.merge(moving.bodies);
+    for (const OwnCaster& caster : casters.own) bodies.addBox({caster.box.low, caster.box.high});
+    if (wide || !areThin(side.frame)) add(bodies, {});
+    const auto addFlats = [&](const Outlines& outlines, const MapLayer& layer) {
+        for (std::size_t i = 0; i < outlines.flats.size(); ++i)
+            if (wide || !(bodies.isBefore(outlines.flats[i]) || isThin(side.frame, outlines.flats[i])))
+                add(outlines.flats[i], {beyond(layer.flats[i], _cause.light, casters.layers->reach)});
+    };
+    addFlats(side.still, *casters.still);
+    addFlats(moving, *casters.moving);
+}
+
+/// True of each body: all of them together may be thin where they are not, for one is very far away.
+bool LightShadowMaps::areThin(const LightFrame& frame) const {
+    const auto isBoxThin = [&frame](const MapBox& box) {
+        MapOutline outline(frame);
+        outline.addBox({box.low, box.high});
+        return outline.empty() || isThin(frame, outline);
+    };
+    const MapCasters& casters = *_cause.casters;
+    const auto &still = casters.still->bodies, &moving = casters.moving->bodies;
+    return std::all_of(still.begin(), still.end(), isBoxThin) && std::all_of(moving.begin(), moving.end(), isBoxThin) &&
+           std::all_of(casters.own.begin(), casters.own.end(), [&](const auto& own) { return isBoxThin(own.box); });
+}
+
+void LightShadowMaps::findSplits() {
+    const Side& side = _sides.front();
+    if (!(_faces.size() > 1 && side.frame.sun)) return;
+    SeenRange seen(_seen.clipFromScene);
+    for (const Blocker& blocker : side.blockers) {
+        const HalfSpaces halfSpaces =
+            both(both(viewPart(_seen.clipFromScene, {}, 0), blocker.halfSpaces), blocker.outline.sides());
+        for (const PlacedBox& receiver : _seen.receivers) seen.addBox(receiver, halfSpaces);
+    }
+    if (!_cause.settings.cascades && !seen.empty())
+        _cascades = cascadesFor(seen, pixelsATexel(seen.farthest), _cascades);
+    _splits = cascadeSplits(seen, std::max(_cascades, 1));
+}
+
+/// On a side of a texel, were there one map, at a distance along the line of sight.
+double LightShadowMaps::pixelsATexel(double distance) const {
+    const auto side = [&](int axis) {
+        return 2.0 * distance / glm::length(glm::dvec3(glm::row(_seen.clipFromScene, axis)));
+    };
+    MapOutline all(_sides.front().frame);
+    for (const Blocker& blocker : _sides.front().blockers) all.merge(blocker.outline);
+    const double most = fitMap(_sides.front().frame, all, all, 0.0, 0.0, 1.0).longer();
+    const double covered = std::min(most, std::max({side(0), side(1), distance}));
+    return covered / _cause.settings.size / (side(0) / _seen.pixels.x);
+}
+
+/// What of a part of the scene is needed.
+void LightShadowMaps::findFace(Face& face, const HalfSpaces& halfSpaces) const {
+    face.clear();
+    TexelDensity pixels(face.side->frame, _seen.clipFromScene, _seen.pixels);
+    for (const Blocker& blocker : face.side->blockers)
+        addNeeded(face, blocker, both(halfSpaces, blocker.halfSpaces), pixels);
+    face.texel = pixels.side;
+    face.needed.limitNearest(mostRatio);
+    findHeld(face);
 }
 
 /// Divides between two maps what one would hold too coarsely.
-void LightShadowMaps::findLamp(MapSlice& far, MapSlice& near) {
+void LightShadowMaps::findLamp(Face& far, Face& near) {
     const HalfSpaces inView = viewPart(_seen.clipFromScene, {}, 0);
+    const LightFrame& frame = far.side->frame;
     findFace(far, inView);
     near.clear();
     if (!(far.needed.split() > 0.0)) return;
     constexpr double corner = 1.8; // of a cube's face and what it is larger by: the way to it to its distance
-    const HalfSpaces beyondClear = both(inView, {fartherThan(far.frame, clearance() / corner)});
+    const HalfSpaces beyondClear = both(inView, {fartherThan(frame, clearance() / corner)});
     findFace(far, beyondClear);
     const double split = far.needed.split();
     if (!(split > 0.0)) return;
-    findFace(near, both(beyondClear, {nearerThan(near.frame, split)}));
-    findFace(far, both(inView, {fartherThan(far.frame, split)}));
+    findFace(near, both(beyondClear, {nearerThan(frame, split)}));
+    findFace(far, both(inView, {fartherThan(frame, split)}));
 }
 
-MapForecast LightShadowMaps::forecast() const {
-    MapForecast result;
-    result.maps = mapsNeeded();
-    result.most = largestTexture / std::clamp(result.maps, 1, columns());
-    for (const MapSlice& face : _faces) {
-        if (face.needed.empty()) continue;
-        const MapFit fit = fitOf(face);
-        const glm::dvec2 size = fit.size;
-        result.each.push_back({fit.mapFromScene, face.frame.sun ? viewPart(_seen.clipFromScene, _splits, face.part)
-                                                                : face.frame.halfSpaces});
-        result.pixel = std::min(result.pixel, face.texel);
-        result.texels = std::max(result.texels, std::max(size.x, size.y) / face.texel);
+/// What of what a blocker can darken is seen.
+void LightShadowMaps::addNeeded(Face& face, const Blocker& blocker, HalfSpaces halfSpaces, TexelDensity& pixels) const {
+    const LightFrame& frame = face.side->frame;
+    const auto add = [&](auto& to) {
+        for (const PlacedBox& receiver : _seen.receivers) to.addBox(receiver, halfSpaces);
+    };
+    MapOutline dark = blocker.outline, seen(frame);
+    if (_cause.isWide(frame)) {
+        MapOutline all(frame);
+        add(all);
+        if (all.empty()) return;
+        dark.grow(_cause.softness(frame, blocker.outline, all.farthest));
     }
-    return result;
+    if (frame.sun) halfSpaces = both(std::move(halfSpaces), dark.sides()); // a lamp's have sides of their own
+    add(seen);
+    seen.cut(dark);
+    if (seen.empty()) return;
+    add(pixels);
+    const double nearest = blocker.outline.nearest;
+    face.nearestBlocker = face.needed.empty() ? nearest : std::min(face.nearestBlocker, nearest);
+    face.needed.merge(seen);
+    face.reach.merge(dark);
 }
 
-MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
-                         const ShadowMapOptions& settings) {
-    const auto usable = localLight(light.inGroup, SceneFrame(boxes.layers->origin));
-    if (!usable) return {};
-    LightShadowMaps maps(nullptr, light.number);
-    const auto corners = maps.find(view, {*usable, spotOf(light), &boxes, false, settings});
-    MapForecast result = maps.forecast();
-    result.bounds = corners.empty() ? std::nullopt : screenBounds(corners);
-    if (!result.bounds) result.maps = 0;
-    return result;
+/// Of edges that are wider than the filter: what is about each place, too, and how far away what blocks the light is.
+void LightShadowMaps::findHeld(Face& face) const {
+    const LightFrame& frame = face.side->frame;
+    MapOutline& held = face.held;
+    held = face.needed;
+    if (face.needed.empty()) return;
+    if (!_cause.isWide(frame)) {
+        // What is beyond all that blocks the light, a sky say, is compared as if it were there.
+        if (frame.sun && _splits.empty())
+            held.farthest = std::min(held.farthest, std::max(held.nearest, face.reach.farthest));
+        return;
+    }
+    const double most = 1.5 * widestSpread / _texels * face.needed.length(); // a map so much larger has wider texels
+    MapOutline blocking = face.reach;
+    blocking.nearest = face.nearestBlocker;
+    held.grow(std::min(_cause.softness(frame, blocking, face.needed.farthest), most));
+    held.cut(face.reach);
+    blocking.farthest = face.needed.farthest;
+    blocking.limitNearest(widestRatio);
+    held.nearest = std::min(held.nearest, blocking.nearest);
+}
+
+/// From a lamp to the nearest caster: nothing that is nearer is dark.
+double LightShadowMaps::clearance() {
+    const MapCasters& casters = *_cause.casters;
+    const glm::dvec3 lamp(_cause.light);
+    if (!_clearOfStill) _clearOfStill = casters.still->clearanceOf(lamp);
+    return std::min(*_clearOfStill, casters.clearanceOfMoving(lamp));
+}
+
+void LightShadowMaps::update(const ViewFrame& view, MapMeshes& meshes) {
+    const MapCasters& casters = *_cause.casters;
+    const OwnCasters own(casters.own, SceneFrame(casters.layers->origin).eyeFromScene(view), view.seen);
+    resize();
+    const bool due = anyDue();
+    if (!due && isOfCasters() && _picture->own.areSame(own)) return;
+    for (Face& face : _faces) {
+        if (face.needed.empty())
+            face.fit = std::nullopt;
+        else if (!holds(face))
+            face.fit = fitOf(face);
+    }
+    const bool stillAgain = _picture && _picture->still.of == casters.still,
+               movingAgain = _picture && _picture->moving.of == casters.moving;
+    const osg::ref_ptr<MapPicture> picture = new MapPicture;
+    picture->own = own;
+    meshes.startPicture();
+    picture->still = stillAgain && !due ? _picture->still : drawnOf(*casters.still, stillAgain, meshes);
+    picture->moving = drawnOf(*casters.moving, movingAgain, meshes);
+    picture->size = _texels;
+    const glm::ivec2 size = addTiles(*picture);
+    if (!_map || _map->size != size)
+        _map = new DepthMap(size, _cause.settings.filter == ShadowMapOptions::NEAREST ? osg::Texture::NEAREST
+                                                                                      : osg::Texture::LINEAR);
+    _picture = picture;
 }
 
 /// On a side of the map that needs most.
 double LightShadowMaps::texelsWanted() const {
     double wanted = 0.0;
-    for (const MapSlice& face : _faces) {
+    for (const Face& face : _faces) {
         if (face.needed.empty()) continue;
-        if (_cause.isWide(face.frame)) wanted = std::max(wanted, fewestSoft);
-        const glm::dvec2 size = holds(face) ? face.fit->size : fitOf(face).size;
-        wanted = std::max(wanted, std::max(size.x, size.y) / (widestTexel(_cause.settings) * face.texel));
+        if (_cause.isWide(face.side->frame)) wanted = std::max(wanted, fewestSoft);
+        const double size = (holds(face) ? *face.fit : fitOf(face)).longer();
+        wanted = std::max(wanted, size / (widestTexel(_cause.settings) * face.texel));
     }
     return wanted;
 }
 
 int LightShadowMaps::mapsNeeded() const {
-    const auto needed = [](const MapSlice& face) { return !face.needed.empty(); };
+    const auto needed = [](const Face& face) { return !face.needed.empty(); };
     return static_cast<int>(std::count_if(_faces.begin(), _faces.end(), needed));
 }
 
 /// No fewer than rows.
 int LightShadowMaps::columns() const { return mapsNeeded() > 6 ? 4 : mapsNeeded() > 4 ? 3 : 2; }
 
+int LightShadowMaps::mostTexels() const { return largestTexture / std::clamp(mapsNeeded(), 1, columns()); }
+
 /// Takes other texels than before if need be, fewer only where a map is to be drawn anyway: none holds what it must then.
 void LightShadowMaps::resize() {
     constexpr int rounds = 8; // what soft edges reach depends on how wide texels are
-    const int most = std::min(_cause.settings.size, largestTexture / std::clamp(mapsNeeded(), 1, columns()));
-    int before = _map && !_anew ? _texels : 0;
-    _anew = false;
+    const int most = std::min(_cause.settings.size, mostTexels());
+    const bool begun = std::none_of(_faces.begin(), _faces.end(), [](const Face& face) { return bool(face.fit); });
+    int before = _map && !(begun && isSettled()) ? _texels : 0;
     for (int round = 0; round < rounds; ++round) {
         const int texels = texelsFor(texelsWanted(), most, before);
         if (texels == before || (texels < before && !anyDue())) return;
         before = _texels = texels;
-        for (MapSlice& face : _faces) {
+        for (Face& face : _faces) {
             face.fit = std::nullopt;
-            face.findHeld(_cause, _texels);
+            findHeld(face);
         }
     }
 }
 
 bool LightShadowMaps::anyDue() const {
     return std::any_of(_faces.begin(), _faces.end(),
-                       [this](const MapSlice& face) { return !face.needed.empty() && !holds(face); });
+                       [this](const Face& face) { return !face.needed.empty() && !holds(face); });
 }
 
 /// True if the face's map is not to be drawn again.
-bool LightShadowMaps::holds(const MapSlice& face) const {
+bool LightShadowMaps::holds(const Face& face) const {
     if (!face.fit || !face.fit->covers(face.held, (border - 1.0) / _texels)) return false;
     return face.fit->area() <= mostWaste * fitOf(face).area();
 }
 
 /// What moves will be beside what casters can darken now.
-MapFit LightShadowMaps::fitOf(const MapSlice& face) const {
+MapFit LightShadowMaps::fitOf(const Face& face) const {
     MapOutline most = face.reach;
-    if (!_settled && !_cause.casters->moving->casters->pieces.empty()) {
+    if (!isSettled() && !_cause.casters->moving->casters->pieces.empty()) {
         most.merge(face.held);
         most.grow(reserve * face.held.length());
     }
-    return fitMap(face.frame, face.held, most, reserve, border / _texels, glm::length(reachOf(face)) / 64.0);
+    return fitMap(face.side->frame, face.held, most, reserve, border / _texels, glm::length(reachOf(face)) / 64.0);
 }
 
 /// Half sides of a box about the origin that holds what its map draws: no further than the map and the widest drawable.
-glm::dvec3 LightShadowMaps::reachOf(const MapSlice& face) const {
+glm::dvec3 LightShadowMaps::reachOf(const Face& face) const {
     glm::dvec3 result(0.0);
     for (const glm::dvec4& point : face.held.body()) result = glm::max(result, glm::abs(glm::dvec3(point) / point.w));
     const CasterLayers& layers = *_cause.casters->layers;
     return glm::min(layers.reach, result + (_cause.flats ? layers.widest : layers.widestBody));
 }
 
-/// Without its tiles. @param due  some are to be drawn from the first.
-osg::ref_ptr<MapPicture> LightShadowMaps::pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies,
-                                                    const OwnView& view) {
-    osg::ref_ptr<MapPicture> picture = new MapPicture;
-    const bool stillAgain = _picture && _picture->still.of == _cause.casters->still,
-               movingAgain = _picture && _picture->moving.of == _cause.casters->moving;
-    bodies.startPicture();
-    picture->still = stillAgain && !due ? _picture->still : drawnOf(*_cause.casters->still, stillAgain, bodies);
-    picture->moving = drawnOf(*_cause.casters->moving, movingAgain, bodies);
-    picture->own = {_cause.casters->own, view};
-    picture->program = _frames.front().sun ? resources.casterProgram : resources.casterByLampProgram;
-    picture->cutoutProgram = resources.cutoutProgram;
-    picture->size = _texels;
-    return picture;
-}
-
-MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, MapBodies& bodies) const {
-    MapPicture::Layer drawn{&layer, layer.faces(_cause.flats, again, &layer == _cause.casters->moving, bodies), {}};
-    for (MapLayer::Drawn& mesh : drawn.meshes)
-        mesh.outside = _settled ? wholly : mesh.faces->outside(glm::inverse(mesh.sceneFromMesh) * _cause.light);
-    for (const MapLayer::Cutout& cutout : layer.cutouts)
-        if (_cause.flats || !cutout.flat) drawn.cutouts.push_back(cutout);
+/// Where nothing changes any more, as in a light's first picture: all faces, for where only those turned to the light are drawn,
+/// single texels at rims differ.
+MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, MapMeshes& meshes) const {
+    MapPicture::Layer drawn{&layer};
+    for (std::size_t i = 0; i < layer.meshes.size(); ++i) {
+        const PlacedMesh& placed = layer.casters->meshes[i];
+        const MapBox box = boxOf(placed, layer.casters->origin);
+        for (const MapCutout& cutout : layer.meshes[i]->cutouts)
+            if (_cause.flats || !cutout.flat) drawn.cutouts.push_back(cutout);
+        if (placed.ownDrawn || (placed.isBody && isFlat(box) && !_cause.flats)) continue;
+        const bool moving = &layer == _cause.casters->moving;
+        const auto faces = meshes.facesOf(*layer.meshes[i], _cause.flats, again && !isSettled(), moving);
+        if (!faces) continue;
+        CullableFaces::Outside outside{false, false};
+        if (!isSettled()) outside = faces->outside(glm::inverse(placed.sceneFromMesh) * _cause.light);
+        drawn.meshes.push_back({faces, placed.sceneFromMesh, box, outside});
+    }
     return drawn;
 }
 
+/// @return texels of them all.
+glm::ivec2 LightShadowMaps::addTiles(MapPicture& picture) {
+    std::vector<std::pair<const Face*, glm::ivec2>> tiles;
+    for (const Face& face : _faces) {
+        const int tile = static_cast<int>(tiles.size());
+        if (face.fit) tiles.emplace_back(&face, _texels * glm::ivec2(tile % columns(), tile / columns()));
+    }
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const auto& a, const auto& b) { return a.first->fit->area() < b.first->fit->area(); });
+    glm::ivec2 end(0);
+    for (const auto& [face, corner] : tiles) {
+        picture.tiles.push_back(tileOf(*face, corner));
+        picture.divided = picture.divided || (face->part > 0 && tiles.size() > 1);
+        end = glm::max(end, corner + _texels);
+    }
+    return end;
+}
+
+/// Before a lamp's nearest caster nothing is drawn: what is in a plane with the lamp would be anywhere, by floats.
+MapPicture::Tile LightShadowMaps::tileOf(const Face& face, const glm::ivec2& corner) {
+    constexpr double aside = 8.0;             // of the widest frame: the way to its corner to its distance
+    constexpr double least = 1.0 / (1 << 20); // of the coordinates: what rays leave out, too
+    const LightFrame& frame = face.side->frame;
+    MapPicture::Tile tile{corner, face.fit->mapFromScene, mapErrors(frame, *face.fit, reachOf(face), _texels),
+                          mapSpread(frame, *face.fit, _cause.lightRadius(frame), _cause.settings.radius, _texels)};
+    const double size = glm::length(glm::dvec3(_cause.light)) + glm::length(reachOf(face));
+    if (!frame.sun) tile.nearest = std::max(std::min(clearance(), size) / aside, least * size);
+    tile.movers = moversIn(tile);
+    return tile;
+}
+
 /// Texels of a tile that what moves may cover.
-PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const {
-    const MapLayer& moving = *_cause.casters->moving;
+PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile) const {
+    const glm::dmat4 clipFromScene = tile.clipFromScene();
     glm::dvec2 low(1.0), high(-1.0);
-    const auto add = [&](const MapLayer::Box& box) {
-        const auto corners = boxCorners(box.low, box.high, tile.clipFromScene);
+    const auto add = [&](const MapBox& box) {
+        const auto corners = boxCorners(box.low, box.high, clipFromScene);
         const auto bounds = screenBounds({corners.begin(), corners.end()});
         if (!bounds) return;
         low = glm::min(low, bounds->low);
         high = glm::max(high, bounds->high);
     };
-    std::for_each(moving.bodyBoxes.begin(), moving.bodyBoxes.end(), add);
-    if (_cause.flats) std::for_each(moving.flatBoxes.begin(), moving.flatBoxes.end(), add);
+    const MapLayer& moving = *_cause.casters->moving;
+    std::for_each(moving.bodies.begin(), moving.bodies.end(), add);
+    if (_cause.flats) std::for_each(moving.flats.begin(), moving.flats.end(), add);
     for (const OwnCaster& caster : _cause.casters->own) add(caster.box);
     if (!(low.x <= high.x && low.y <= high.y)) return {};
-    const double more = 1.0 + std::max(errors.nearest.texels, errors.farthest.texels), size = _texels;
+    const double more = 1.0 + std::max(tile.errors.nearest.texels, tile.errors.farthest.texels), size = _texels;
     const auto texel = [size](const glm::dvec2& place) { return glm::ivec2(glm::clamp(place, 0.0, size)); };
     const glm::ivec2 first = texel(glm::floor((low + 1.0) / 2.0 * size - more)),
                      end = texel(glm::ceil((high + 1.0) / 2.0 * size + more));
     return {tile.corner.x + first.x, tile.corner.y + first.y, end.x - first.x, end.y - first.y};
 }
 
-MapLookUp LightShadowMaps::lookUpOf(const MapSlice& face) const {
-    return {face.fit->mapFromScene, mapErrors(face.frame, *face.fit, reachOf(face), _texels),
-            mapSpread(face.frame, *face.fit, _cause.lightRadius(face.frame), _cause.settings.radius, _texels)};
-}
-
-/// True if the last picture is of the same maps, and drawn in the same way if that is settled.
-bool LightShadowMaps::isShown() const {
-    const auto tiles = std::count_if(_faces.begin(), _faces.end(), [](const MapSlice& face) { return bool(face.fit); });
-    const auto shows = [this](const MapSlice& face) {
-        const auto same = [&face](const MapLookUp& lookUp) { return lookUp.mapFromScene == face.fit->mapFromScene; };
-        return !face.fit || std::any_of(_lookUps.begin(), _lookUps.end(), same);
-    };
-    if (_settled && !(isWhole(_picture->still) && isWhole(_picture->moving))) return false;
-    return _picture->size == _texels && std::size_t(tiles) == _lookUps.size() &&
-           std::all_of(_faces.begin(), _faces.end(), shows);
-}
-
-/// The finest map comes first, for pixels take the first that holds them.
-void LightShadowMaps::update(const MapPrograms& resources, MapBodies& bodies, const OwnView& view) {
-    if (_picture && !_picture->own.areSame({_cause.casters->own, view})) _stale = true;
-    resize();
-    const bool due = anyDue();
-    if (!_stale && !due) return;
-    for (MapSlice& face : _faces) {
-        if (face.needed.empty())
-            face.fit = std::nullopt;
-        else if (!holds(face))
-            face.fit = fitOf(face);
-    }
-    if (!_stale && isShown()) return;
-    const osg::ref_ptr<MapPicture> picture = pictureOf(resources, due, bodies, view);
-    std::vector<std::pair<const MapSlice*, glm::ivec2>> tiles;
-    for (const MapSlice& face : _faces) {
-        const int tile = static_cast<int>(tiles.size());
-        if (face.fit) tiles.emplace_back(&face, picture->size * glm::ivec2(tile % columns(), tile / columns()));
-    }
-    std::stable_sort(tiles.begin(), tiles.end(),
-                     [](const auto& a, const auto& b) { return a.first->fit->area() < b.first->fit->area(); });
-    _lookUps.clear();
-    glm::ivec2 end(0);
-    const glm::dmat4 clipFromMap = glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0));
-    for (const auto& [face, corner] : tiles) {
-        _lookUps.push_back(lookUpOf(*face));
-        picture->tiles.push_back({corner, clipFromMap * face->fit->mapFromScene, nearestDrawn(*face), {}});
-        picture->tiles.back().movers = moversIn(picture->tiles.back(), _lookUps.back().errors);
-        end = glm::max(end, corner + picture->size);
-    }
-    if (!_map || _map->size != end)
-        _map = new DepthMap(end, _cause.settings.filter == ShadowMapOptions::NEAREST ? osg::Texture::NEAREST
-                                                                                     : osg::Texture::LINEAR);
-    _picture = picture;
-    _stale = false;
-}
-
 void LightShadowMaps::letGo() {
-    if (_picture && _picture->still.of == _cause.casters->still && _picture->moving.of == _cause.casters->moving)
-        return;
+    if (isOfCasters()) return;
     _map = nullptr;
     _picture = nullptr;
-    _stale = true;
 }
 
-/// True if several maps may hold a place of their light's frame, but not its depth.
-bool LightShadowMaps::isDivided() const {
-    const auto further = [](const MapSlice& face) { return face.part > 0 && face.fit; };
-    return _lookUps.size() > 1 && std::any_of(_faces.begin(), _faces.end(), further);
+MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
+                         const ShadowMapOptions& settings) {
+    const auto usable = localLight(light.inGroup, SceneFrame(boxes.layers->origin));
+    if (!usable) return {};
+    LightShadowMaps maps;
+    const auto corners = maps.find(view, {*usable, spotOf(light), &boxes, settings});
+    MapForecast result = maps.forecast();
+    if (!corners.empty()) result.bounds = screenBounds(corners);
+    if (!result.bounds) result.maps = 0;
+    return result;
 }
 
-MapLookupPass LightShadowMaps::quad() const {
-    MapLookupPass quad;
-    quad.map = _map;
-    quad.picture = _picture;
-    quad.lookUps = _lookUps;
-    quad.rounding = _cause.casters->layers->rounding;
-    quad.clipFromScene = _seen.clipFromScene;
-    quad.filter = _cause.settings.filter;
-    quad.cascades = isDivided();
-    quad.soft = _cause.settings.edges == ShadowMapOptions::SOFT;
-    quad.smooth = _cause.settings.edges == ShadowMapOptions::SMOOTH && quad.filter != ShadowMapOptions::NEAREST;
-    quad.penumbra = _cause.lightRadius(_faces.front().frame) > 0.0;
-    return quad;
-}
-
-void LightShadowMaps::resizeGLObjectBuffers(unsigned maxSize) {
-    if (_map) _map->resizeGLObjectBuffers(maxSize);
-    if (_cause.casters) _cause.casters->resizeGLObjectBuffers(maxSize);
-}
-
-void LightShadowMaps::release(osg::State* state) {
-    if (_map) _map->release(state);
-    if (_cause.casters) _cause.casters->releaseGLObjects(state);
+MapForecast LightShadowMaps::forecast() const {
+    MapForecast result;
+    result.maps = mapsNeeded();
+    result.most = mostTexels();
+    for (const Face& face : _faces) {
+        if (face.needed.empty()) continue;
+        const MapFit fit = fitOf(face);
+        const LightFrame& frame = face.side->frame;
+        result.each.push_back(
+            {fit.mapFromScene, frame.sun ? viewPart(_seen.clipFromScene, _splits, face.part) : frame.halfSpaces});
+        result.pixel = std::min(result.pixel, face.texel);
+        result.texels = std::max(result.texels, fit.longer() / face.texel);
+    }
+    return result;
 }
 
 } // namespace gnomon

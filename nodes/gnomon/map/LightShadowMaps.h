@@ -1,24 +1,68 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
+#include <gnomon/ShadowMapOptions.h>
 #include <gnomon/ViewFrame.h>
+#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/map/DepthMap.h>
-#include <gnomon/map/MapLookupPass.h>
-#include <gnomon/map/MapSlice.h>
+#include <gnomon/map/MapCasters.h>
+#include <gnomon/mapfit/MapFit.h>
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include <limits>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 namespace gnomon {
 
-/// The maps of one light in one view: what they must hold, and those drawn last.
+/// What the maps of one light in one view would be like, found without making any: for whoever chooses among settings.
+struct MapForecast {
+    int maps = 0;        ///< 0: none of the shadow can be seen.
+    int most = 0;        ///< texels on a side of a map, by OpenGL's largest texture.
+    double texels = 0.0; ///< on a side of the largest map, with one texel a pixel where pixels are smallest.
+    double pixel = std::numeric_limits<double>::infinity(); ///< smallest side of a pixel, see TexelDensity.
+    std::optional<ScreenRect> bounds;                       ///< where on the screen the shadow can be.
+    /// One of the maps.
+    struct Map {
+        glm::dmat4 mapFromScene; ///< what it holds is within 0 and 1, homogeneous.
+        HalfSpaces halfSpaces;   ///< what of the scene is looked up in it.
+    };
+    std::vector<Map> each{};
+};
+
+/// Of a light whose maps are not made. @param boxes  see MapLayer.
+MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
+                         const ShadowMapOptions& settings);
+
+/// Pixels on a side of a texel, where it is widest; fewer only with more texels than `size`.
+double widestTexel(const ShadowMapOptions& options);
+
+/// Boxes of what is seen in a view, the largest first.
+std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene);
+
+/// What the maps of one light are of.
+struct MapRequest {
+    glm::dvec4 light{0.0};        ///< in the scene about the casters' origin, see localLight().
+    std::optional<SpotCone> cone; ///< of a lamp that is a spot: nothing outside it is marked.
+    osg::ref_ptr<const MapCasters> casters;
+    ShadowMapOptions settings;
+    bool flats = false; ///< those that are flat cast, too.
+
+    /// See softReach().
+    double lightRadius(const LightFrame& frame) const;
+    /// True if edges are wider than the filter makes them.
+    bool isWide(const LightFrame& frame) const;
+    /// How far edges of what blocks the light are spread where it is as far as that from the light.
+    double softness(const LightFrame& frame, MapOutline blocker, double farthest) const;
+};
+
+/// The maps of one light in one view: what they must hold, and those drawn last. In each frame call find(), then update() or
+/// letGo().
 class LightShadowMaps {
 public:
-    LightShadowMaps(const void* ofStage, int ofLight) : stage(ofStage), lightNumber(ofLight) {}
-
-    const void* const stage;
-    const int lightNumber;
-    unsigned lastRound = 0; ///< of its cache, that asked for it.
-
     bool areCastersRetired() const { return !_cause.casters || _cause.casters->layers->isRetired(); }
     /// Finds what is needed now. Starts anew if anything but the casters differs from what the maps are of; they stay as they
     /// lie where those move.
@@ -26,79 +70,105 @@ public:
     /// @return what is needed, corners in clip space: on the screen shadows can fall about them; none if nowhere.
     std::vector<glm::dvec4> find(const ViewFrame& view, MapRequest wanted);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
-    void update(const MapPrograms& resources, MapBodies& bodies, const OwnView& view);
+    void update(const ViewFrame& view, MapMeshes& meshes);
     /// Where none is needed: forgets those drawn last if they show what has changed since.
     void letGo();
     /// What the maps would be like if they were made after find().
     MapForecast forecast() const;
-    /// For the view of find(), without what a cone adds.
-    MapLookupPass quad() const;
 
-    void resizeGLObjectBuffers(unsigned maxSize);
-    void release(osg::State* state);
+    /// After update().
+    const osg::ref_ptr<DepthMap>& map() const { return _map; }
+    const osg::ref_ptr<const MapPicture>& picture() const { return _picture; }
 
 private:
-    /// What a frame's maps are found by, beside the cone.
+    /// What darkens the same places: all bodies, or something flat, a ground for one.
+    struct Blocker {
+        MapOutline outline;    ///< of what it can darken, were all edges hard.
+        HalfSpaces halfSpaces; ///< that hold what it can darken: what is flat darkens what is beyond it.
+    };
+    /// What a layer of the casters can darken.
+    struct Outlines {
+        MapOutline bodies;             ///< all together.
+        std::vector<MapOutline> flats; ///< one by one, as in MapLayer::flats; none where they do not cast.
+    };
+    /// One direction that the light looks in, and what casts there.
+    struct Side {
+        LightFrame frame;
+        Outlines still; ///< of those that stand still.
+        std::vector<Blocker> blockers;
+    };
+    /// One map: of a side, and one part of what is seen.
+    struct Face {
+        const Side* side;
+        std::size_t part; ///< of a sun see viewPart(); of a lamp 1 is what is near it, if one map cannot hold all.
+        MapOutline reach, needed;    ///< what the blockers can darken; what of that is seen.
+        MapOutline held;             ///< what the map must hold for that.
+        double nearestBlocker = 0.0; ///< depth of the nearest of what darkens any of it.
+        double texel = 0.0;          ///< side of the largest that is no larger than any pixel of it, see TexelDensity.
+        std::optional<MapFit> fit{}; ///< of the map that is drawn.
+
+        Face(const Side& of, std::size_t itsPart)
+            : side(&of), part(itsPart), reach(of.frame), needed(of.frame), held(of.frame) {}
+        void clear() { reach = needed = held = MapOutline(side->frame); }
+    };
+    /// What a frame's maps are found by.
     struct Seen {
         glm::dmat4 clipFromScene{0.0};
         glm::dvec2 pixels{0.0}; ///< of the view, across and up.
-        std::vector<MapReceiver> receivers;
-        glm::dvec4 light{0.0};
-        osg::ref_ptr<const MapCasters> casters;
+        std::vector<PlacedBox> receivers;
+        MapRequest asked; ///< the settings do not count.
 
-        bool operator==(const Seen& other) const {
-            return clipFromScene == other.clipFromScene && pixels == other.pixels && receivers == other.receivers &&
-                   light == other.light && casters == other.casters;
-        }
+        auto all() const { return std::tie(clipFromScene, pixels, receivers, asked.light, asked.cone, asked.casters); }
+        bool operator==(const Seen& other) const { return all() == other.all(); }
     };
 
+    static constexpr int fewestAtRest = 8; ///< frames.
+    /// True if maps are as if there had been no frames before.
+    bool isSettled() const { return _rest == fewestAtRest; }
+    /// True if the last picture is of the casters as they are now.
+    bool isOfCasters() const {
+        return _picture && _picture->still.of == _cause.casters->still && _picture->moving.of == _cause.casters->moving;
+    }
+
     void setCause(const MapRequest& cause);
-    void begin();
     void takeCasters(const MapCasters& casters);
-    void addFaces(const LightFrame& frame);
     void settle(Seen seen);
-    double clearance();
-    double nearestDrawn(const MapSlice& face);
-    double pixelsATexel(double distance) const;
+    void begin();
+    Outlines outlinesOf(const MapLayer& layer, const LightFrame& frame) const;
+    bool areThin(const LightFrame& frame) const;
+    void findBlockers(Side& side) const;
     void findSplits();
-    void findFace(MapSlice& face, const HalfSpaces& halfSpaces);
-    void findLamp(MapSlice& far, MapSlice& near);
+    double pixelsATexel(double distance) const;
+    void findFace(Face& face, const HalfSpaces& halfSpaces) const;
+    void findLamp(Face& far, Face& near);
+    void addNeeded(Face& face, const Blocker& blocker, HalfSpaces halfSpaces, TexelDensity& pixels) const;
+    void findHeld(Face& face) const;
+    double clearance();
     int mapsNeeded() const;
     int columns() const;
-    double texelsWanted() const;
+    int mostTexels() const;
     void resize();
+    double texelsWanted() const;
     bool anyDue() const;
-    bool holds(const MapSlice& face) const;
-    MapFit fitOf(const MapSlice& face) const;
-    glm::dvec3 reachOf(const MapSlice& face) const;
-    osg::ref_ptr<MapPicture> pictureOf(const MapPrograms& resources, bool due, MapBodies& bodies, const OwnView& view);
-    MapPicture::Layer drawnOf(const MapLayer& layer, bool again, MapBodies& bodies) const;
-    MapLookUp lookUpOf(const MapSlice& face) const;
-    PixelRect moversIn(const MapPicture::Tile& tile, const MapErrors& errors) const;
-    bool isShown() const;
-    bool isDivided() const;
+    bool holds(const Face& face) const;
+    MapFit fitOf(const Face& face) const;
+    glm::dvec3 reachOf(const Face& face) const;
+    MapPicture::Layer drawnOf(const MapLayer& layer, bool again, MapMeshes& meshes) const;
+    glm::ivec2 addTiles(MapPicture& picture);
+    MapPicture::Tile tileOf(const Face& face, const glm::ivec2& corner);
+    PixelRect moversIn(const MapPicture::Tile& tile) const;
 
-    MapRequest _cause;
-    glm::dvec4 _light{0.0}; ///< as it was asked for last, and the cone; see isSame().
-    std::optional<SpotCone> _cone;
-    std::optional<double> _clear, _clearOfStill; ///< see clearance().
-    Seen _seen;                                  ///< in the last frame.
-    int _rest = 0;                               ///< frames since anything changed.
-    bool _settled = true;                        ///< maps are as if there had been no frames before.
-    bool _anew = true;                           ///< they are to be found so.
-    std::vector<LightFrame> _frames;
-    std::vector<MapSlice> _faces; ///< of each frame one a part; of a lamp's frame two.
-    int _cascades = 0;            ///< maps that a sun is to have; 0 until that is known.
-    std::vector<double> _splits;  ///< of what is seen: see cascadeSplits().
-    int _texels = 0;              ///< on a side of a tile, of those drawn last.
-    osg::ref_ptr<DepthMap> _map;
+    MapRequest _cause;                   ///< what the maps are of.
+    Seen _seen;                          ///< in the last frame.
+    int _rest = 0;                       ///< frames since anything changed; see settle().
+    std::optional<double> _clearOfStill; ///< see clearance().
+    std::vector<Side> _sides;
+    std::vector<Face> _faces;                ///< of each side one a part; of a lamp's side two.
+    int _cascades = 0;                       ///< maps that a sun is to have; 0 until that is known.
+    std::vector<double> _splits;             ///< of what is seen: see cascadeSplits().
+    int _texels = 0;                         ///< on a side of a tile, of those drawn last.
+    osg::ref_ptr<DepthMap> _map;             ///< null until there is one that fits the settings.
     osg::ref_ptr<const MapPicture> _picture; ///< the last one.
-    bool _stale = true;                      ///< it is to be made anew.
-    std::vector<MapLookUp> _lookUps;
 };
-
-/// What maps of one light in a view would be like; none is made. @param boxes  see MapLayer::boxesOf().
-MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
-                         const ShadowMapOptions& settings);
 
 } // namespace gnomon

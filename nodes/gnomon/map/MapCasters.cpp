@@ -15,11 +15,14 @@
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace gnomon {
 namespace {
 
 constexpr std::size_t mostSearched = 30000; // triangles a picture: ten milliseconds
+constexpr double inPlane = 1.0 / (1 << 20); // of the coordinates, as RayScene has it
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// From the origin to the segment between two points.
 inline double segmentDistance(const glm::dvec3& a, const glm::dvec3& b) {
@@ -40,60 +43,48 @@ inline double triangleDistance(const glm::dvec3& a, const glm::dvec3& b, const g
     return std::min({segmentDistance(a, b), segmentDistance(b, c), segmentDistance(c, a)});
 }
 
-/// As it is drawn.
-MapLayer::Box boxOf(const CasterMesh& mesh, std::size_t first, std::size_t end) {
-    MapLayer::Box box{glm::dvec3(std::numeric_limits<double>::infinity()), {}};
-    box.high = -box.low;
-    for (std::size_t i = first; i < end; ++i) {
-        const glm::dvec3 vertex = toGlm(osg::Vec3d((*mesh.vertices)[(*mesh.triangles)[i]]));
-        box.low = glm::min(box.low, vertex);
-        box.high = glm::max(box.high, vertex);
-    }
-    return box;
-}
-
-/// In floats, as what is drawn: what is flat is so whatever its transform makes of the last bits.
-MapLayer::Box boxOf(const PlacedMesh& placed, const osg::Vec3d& origin) {
-    const auto rounded = [](const osg::Vec3d& v) { return toGlm(osg::Vec3d(osg::Vec3(v))); };
-    return {rounded(placed.bounds._min - origin), rounded(placed.bounds._max - origin)};
-}
-
-bool isFlat(const MapLayer::Box& box) {
-    const glm::dvec3 size = box.high - box.low;
-    return std::min({size.x, size.y, size.z}) == 0.0;
-}
-
-void sortBySize(std::vector<MapLayer::Box>& boxes) {
-    std::sort(boxes.begin(), boxes.end(),
-              [](const auto& a, const auto& b) { return glm::distance(a.low, a.high) > glm::distance(b.low, b.high); });
-}
-
-constexpr double inPlane = 1.0 / (1 << 20); // of the coordinates, as RayScene has it
-
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-double distance(const MapLayer::Box& box, const glm::dvec3& place) {
+double distance(const MapBox& box, const glm::dvec3& place) {
     return glm::distance(place, glm::clamp(place, box.low, box.high));
 }
 
-/// A drawable's part of the mesh's triangles.
-struct Span {
-    const GLuint* corners;
-    std::size_t count;
-};
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-void append(osg::DrawElementsUInt& to, const Span& span) {
-    to.insert(to.end(), span.corners, span.corners + span.count);
+/// To the nearest of its triangles that cast.
+double distanceOfTriangles(const MapPart& part, const glm::dvec3& lamp) {
+    const CasterMesh& mesh = *part.placed->mesh;
+    const double size = std::max({largest(lamp), largest(part.low), largest(part.high)});
+    const auto from = [&](std::size_t i) {
+        const osg::Vec3& vertex = (*mesh.vertices)[(*mesh.triangles)[i]];
+        return glm::dvec3(part.placed->sceneFromMesh * glm::dvec4(vertex.x(), vertex.y(), vertex.z(), 1.0)) - lamp;
+    };
+    double nearest = infinity;
+    for (std::size_t i = part.first; i + 2 < part.end; i += 3) {
+        const glm::dvec3 a = from(i), b = from(i + 1), c = from(i + 2), normal = glm::cross(b - a, c - a);
+        if (std::abs(glm::dot(a, normal)) > inPlane * size * glm::length(normal))
+            nearest = std::min(nearest, triangleDistance(a, b, c));
+    }
+    return nearest;
+}
+
+/// As it is drawn.
+MapPart partOf(const CasterMesh& mesh, std::size_t first, std::size_t end) {
+    MapPart part{{glm::dvec3(infinity), glm::dvec3(-infinity)}, nullptr, first, end};
+    for (std::size_t i = first; i < end; ++i) {
+        const glm::dvec3 vertex = toGlm(osg::Vec3d((*mesh.vertices)[(*mesh.triangles)[i]]));
+        part.low = glm::min(part.low, vertex);
+        part.high = glm::max(part.high, vertex);
+    }
+    return part;
 }
 
 /// Drawables that share a texture and a test, one after another.
 class CutoutBuilder {
 public:
-    void add(const CasterMesh& mesh, const CasterExtraction::Cutout& cutout, const Span& span) {
+    void add(const CasterMesh& mesh, const CasterExtraction::Cutout& cutout, const MapPart& part) {
         const auto own = mesh.vertices->begin() + static_cast<std::ptrdiff_t>(cutout.firstVertex);
         const auto places = static_cast<GLuint>(_vertices->size());
-        for (std::size_t i = 0; i < span.count; ++i)
-            _triangles->push_back(span.corners[i] - cutout.firstVertex + places);
+        for (std::size_t i = part.first; i < part.end; ++i)
+            _triangles->push_back((*mesh.triangles)[i] - cutout.firstVertex + places);
         _vertices->insert(_vertices->end(), own, own + static_cast<std::ptrdiff_t>(cutout.coordinates.size()));
         _coordinates->insert(_coordinates->end(), cutout.coordinates.begin(), cutout.coordinates.end());
     }
@@ -113,217 +104,6 @@ private:
     osg::ref_ptr<osg::DrawElementsUInt> _triangles = noTriangles();
 };
 
-/// A drawable's part of a mesh's triangles, as a lamp sees it.
-struct Part {
-    Part(const PlacedMesh& of, const MapLayer::Box& itsBox, std::size_t itsFirst, std::size_t itsEnd,
-         const glm::dvec3& lamp)
-        : placed(&of), box(itsBox), first(itsFirst), end(itsEnd), atLeast(distance(box, lamp)) {}
-
-    double clearanceOf(const glm::dvec3& lamp) const {
-        const double size = std::max({largest(lamp), largest(box.low), largest(box.high)});
-        const auto from = [&](std::size_t i) {
-            const osg::Vec3& vertex = (*placed->mesh->vertices)[(*placed->mesh->triangles)[i]];
-            return glm::dvec3(placed->sceneFromMesh * glm::dvec4(vertex.x(), vertex.y(), vertex.z(), 1.0)) - lamp;
-        };
-        double nearest = std::numeric_limits<double>::infinity();
-        for (std::size_t i = first; i + 2 < end; i += 3) {
-            const glm::dvec3 a = from(i), b = from(i + 1), c = from(i + 2), normal = glm::cross(b - a, c - a);
-            if (std::abs(glm::dot(a, normal)) > inPlane * size * glm::length(normal))
-                nearest = std::min(nearest, triangleDistance(a, b, c));
-        }
-        return nearest;
-    }
-
-    const PlacedMesh* placed;
-    MapLayer::Box box;
-    std::size_t first, end; ///< corners.
-    double atLeast;         ///< distance of the box from the lamp.
-};
-
-} // namespace
-
-const osg::ref_ptr<const CullableFaces>& DrawnFaces::get(bool solids) {
-    if (!faces || (solids && !knowsSolids)) {
-        faces = new CullableFaces(*mesh, triangles, solids);
-        knowsSolids = solids;
-    }
-    return faces;
-}
-
-osg::ref_ptr<const CullableFaces> MapBodies::of(const CasterMesh& mesh, bool again, bool moving) {
-    DrawnFaces& known = _known[&mesh];
-    if (!known.mesh) known = {&mesh, mesh.triangles, nullptr};
-    const bool solids = again || (moving && known.faces && _searched < mostSearched);
-    if (solids && !known.knowsSolids) _searched += mesh.triangles->size() / 3;
-    return known.get(solids);
-}
-
-/// Pictures hold what is drawn.
-void MapBodies::prune() {
-    for (auto entry = _known.begin(); entry != _known.end();)
-        entry = entry->second.faces->referenceCount() > 1 ? std::next(entry) : _known.erase(entry);
-}
-
-void MapBodies::resizeGLObjectBuffers(unsigned maxSize) const {
-    for (const auto& [mesh, known] : _known) known.faces->resizeGLObjectBuffers(maxSize);
-}
-
-void MapBodies::releaseGLObjects(osg::State* state) const {
-    for (const auto& [mesh, known] : _known) known.faces->releaseGLObjects(state);
-}
-
-/// What is drawn of a joined mesh.
-struct MapLayer::Joined {
-    explicit Joined(const CasterMesh& of);
-    osg::ref_ptr<const CullableFaces> faces(bool flats, bool again);
-
-    /// Its part of the mesh's triangles.
-    struct Drawable {
-        Box box;
-        std::size_t first, end; ///< corners.
-    };
-
-    const osg::ref_ptr<const CasterMesh> mesh;
-    std::vector<Drawable> drawables;
-    DrawnFaces all, bodies; ///< triangles may be empty.
-    std::vector<Cutout> cutouts;
-    std::vector<Box> bodyBoxes, flatBoxes;
-
-private:
-    using Builders = std::map<std::tuple<osg::Texture2D*, int, float, bool>, CutoutBuilder>;
-    void sort(Builders& builders);
-};
-
-MapLayer::Joined::Joined(const CasterMesh& of) : mesh(&of) {
-    all = {&of, noTriangles(), nullptr};
-    bodies = {&of, noTriangles(), nullptr};
-    Builders builders;
-    sort(builders);
-    for (const auto& [key, builder] : builders) {
-        const auto& [texture, passing, reference, flat] = key;
-        cutouts.push_back({builder.geometry(), texture, passing, reference, flat});
-    }
-    if (mesh->cutouts.empty()) all.triangles = mesh->triangles;
-    if (flatBoxes.empty()) bodies.triangles = all.triangles;
-}
-
-/// The triangles by how they are drawn.
-void MapLayer::Joined::sort(Builders& builders) {
-    auto cutout = mesh->cutouts.begin();
-    for (std::size_t i = 0; i < mesh->drawn.size(); ++i) {
-        const std::size_t first = mesh->drawn[i].first,
-                          end = i + 1 < mesh->drawn.size() ? mesh->drawn[i + 1].first : mesh->triangles->size();
-        if (first == end) continue;
-        const Box box = boxOf(*mesh, first, end);
-        const bool flat = isFlat(box);
-        (flat ? flatBoxes : bodyBoxes).push_back(box);
-        drawables.push_back({box, first, end});
-        const Span span{&(*mesh->triangles)[first], end - first};
-        if (cutout != mesh->cutouts.end() && cutout->drawn == i) {
-            const AlphaTest& test = cutout->test;
-            if (!cutout->ownDrawn)
-                builders[{test.texture.get(), test.passing, test.sampledReference(), flat}].add(*mesh, *cutout, span);
-            ++cutout;
-        } else {
-            append(*all.triangles, span);
-            if (!flat) append(*bodies.triangles, span);
-        }
-    }
-}
-
-osg::ref_ptr<const CullableFaces> MapLayer::Joined::faces(bool flats, bool again) {
-    DrawnFaces& drawn = flats && !flatBoxes.empty() ? all : bodies;
-    return drawn.triangles->empty() ? nullptr : drawn.get(again);
-}
-
-MapLayer::MapLayer(const CasterLayer& given, const std::vector<osg::ref_ptr<const MapLayer>>& before)
-    : casters(&given) {
-    for (const auto& layer : before)
-        if (layer->_joined && layer->_joined->mesh == casters->loose) _joined = layer->_joined;
-    if (!_joined && casters->loose) _joined = std::make_shared<Joined>(*casters->loose);
-    if (_joined) {
-        cutouts = _joined->cutouts;
-        bodyBoxes = _joined->bodyBoxes;
-        flatBoxes = _joined->flatBoxes;
-    }
-    for (const PlacedMesh& placed : casters->meshes)
-        if (placed.isBody) {
-            const Box box = boxOf(placed, casters->origin);
-            (isFlat(box) ? flatBoxes : bodyBoxes).push_back(box);
-        }
-    sortBySize(bodyBoxes);
-    sortBySize(flatBoxes);
-}
-
-osg::ref_ptr<const MapLayer> MapLayer::boxesOf(const CasterLayer& casters) {
-    osg::ref_ptr<MapLayer> layer = new MapLayer(casters);
-    for (const auto& piece : casters.pieces) {
-        if (!piece->bounds.valid()) continue;
-        const Box box{toGlm(piece->bounds._min - casters.origin), toGlm(piece->bounds._max - casters.origin)};
-        (isFlat(box) ? layer->flatBoxes : layer->bodyBoxes).push_back(box);
-    }
-    sortBySize(layer->bodyBoxes);
-    sortBySize(layer->flatBoxes);
-    return layer;
-}
-
-std::vector<MapLayer::Drawn> MapLayer::faces(bool flats, bool again, bool moving, MapBodies& bodies) const {
-    std::vector<Drawn> result;
-    for (const PlacedMesh& placed : casters->meshes) {
-        const Box box = boxOf(placed, casters->origin);
-        if (placed.ownDrawn || (placed.isBody && isFlat(box) && !flats)) continue;
-        const auto faces = placed.isBody ? bodies.of(*placed.mesh, again, moving) : _joined->faces(flats, again);
-        if (faces) result.push_back({faces, placed.sceneFromMesh, box});
-    }
-    return result;
-}
-
-double MapLayer::clearanceOf(const glm::dvec3& lamp) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    if (_boxesOnly) {
-        for (const std::vector<Box>* boxes : {&bodyBoxes, &flatBoxes})
-            for (const Box& box : *boxes) nearest = std::min(nearest, distance(box, lamp));
-        return nearest;
-    }
-    std::vector<Part> nearestFirst;
-    for (const PlacedMesh& placed : casters->meshes)
-        if (placed.isBody)
-            nearestFirst.emplace_back(placed, boxOf(placed, casters->origin), 0, placed.mesh->triangles->size(), lamp);
-        else
-            for (const Joined::Drawable& part : _joined->drawables)
-                nearestFirst.emplace_back(placed, part.box, part.first, part.end, lamp);
-    std::sort(nearestFirst.begin(), nearestFirst.end(),
-              [](const Part& a, const Part& b) { return a.atLeast < b.atLeast; });
-    for (const Part& part : nearestFirst) {
-        if (!(part.atLeast < nearest)) break;
-        nearest = std::min(nearest, part.clearanceOf(lamp));
-    }
-    return nearest;
-}
-
-bool isInMap(const MapLayer::Box& box, const glm::dmat4& clipFromScene) {
-    const auto corners = boxCorners(box.low, box.high, clipFromScene);
-    const auto allBeyond = [&](int axis, double sign) {
-        return std::all_of(corners.begin(), corners.end(),
-                           [&](const glm::dvec4& corner) { return sign * corner[axis] > 1.01 * corner.w; });
-    };
-    return !(allBeyond(0, 1.0) || allBeyond(0, -1.0) || allBeyond(1, 1.0) || allBeyond(1, -1.0));
-}
-
-void MapLayer::resizeGLObjectBuffers(unsigned maxSize) const {
-    if (!_joined) return;
-    for (const auto& part : {_joined->all, _joined->bodies})
-        if (part.faces) part.faces->resizeGLObjectBuffers(maxSize);
-    for (const Cutout& cutout : cutouts) cutout.geometry->resizeGLObjectBuffers(maxSize);
-}
-
-void MapLayer::releaseGLObjects(osg::State* state) const {
-    if (!_joined) return;
-    for (const auto& part : {_joined->all, _joined->bodies})
-        if (part.faces) part.faces->releaseGLObjects(state);
-    for (const Cutout& cutout : cutouts) cutout.geometry->releaseGLObjects(state);
-}
-
 std::vector<OwnCaster> ownCastersOf(const CasterLayers& layers) {
     std::vector<OwnCaster> result;
     const glm::dmat4 sceneFromGroup = glm::translate(glm::dmat4(1.0), -toGlm(layers.origin));
@@ -337,29 +117,158 @@ std::vector<OwnCaster> ownCastersOf(const CasterLayers& layers) {
     return result;
 }
 
-double clearanceOf(const std::vector<OwnCaster>& casters, const glm::dvec3& lamp) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const OwnCaster& caster : casters)
-        if (!caster.drawing->hasPiece)
-            nearest = std::min(nearest, glm::distance(lamp, glm::clamp(lamp, caster.box.low, caster.box.high)));
+} // namespace
+
+bool isInMap(const MapBox& box, const glm::dmat4& clipFromScene) {
+    const auto corners = boxCorners(box.low, box.high, clipFromScene);
+    const auto allBeyond = [&](int axis, double sign) {
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](const glm::dvec4& corner) { return sign * corner[axis] > 1.01 * corner.w; });
+    };
+    return !(allBeyond(0, 1.0) || allBeyond(0, -1.0) || allBeyond(1, 1.0) || allBeyond(1, -1.0));
+}
+
+bool isFlat(const MapBox& box) {
+    const glm::dvec3 size = box.high - box.low;
+    return std::min({size.x, size.y, size.z}) == 0.0;
+}
+
+MapBox boxOf(const PlacedMesh& placed, const osg::Vec3d& origin) {
+    const auto rounded = [](const osg::Vec3d& v) { return toGlm(osg::Vec3d(osg::Vec3(v))); };
+    return {rounded(placed.bounds._min - origin), rounded(placed.bounds._max - origin)};
+}
+
+/// Sorts what is joined by how it is drawn.
+MapMesh::MapMesh(const PlacedMesh& placed)
+    : mesh(placed.mesh), isBody(placed.isBody), all{noTriangles()}, unflat{noTriangles()} {
+    std::map<std::tuple<osg::Texture2D*, int, float, bool>, CutoutBuilder> builders;
+    auto cutout = mesh->cutouts.begin();
+    bool anyFlat = false;
+    for (std::size_t i = 0; i < mesh->drawn.size() && !isBody; ++i) {
+        const std::size_t first = mesh->drawn[i].first,
+                          end = i + 1 < mesh->drawn.size() ? mesh->drawn[i + 1].first : mesh->triangles->size();
+        if (first == end) continue;
+        parts.push_back(partOf(*mesh, first, end));
+        const bool flat = isFlat(parts.back());
+        anyFlat = anyFlat || flat;
+        const GLuint *begin = &mesh->triangles->front() + first, *behind = &mesh->triangles->front() + end;
+        if (cutout != mesh->cutouts.end() && cutout->drawn == i) {
+            const AlphaTest& test = cutout->test;
+            if (!cutout->ownDrawn)
+                builders[{test.texture.get(), test.passing, test.sampledReference(), flat}].add(*mesh, *cutout,
+                                                                                                parts.back());
+            ++cutout;
+        } else {
+            all.triangles->insert(all.triangles->end(), begin, behind);
+            if (!flat) unflat.triangles->insert(unflat.triangles->end(), begin, behind);
+        }
+    }
+    for (const auto& [key, builder] : builders) {
+        const auto& [texture, passing, reference, flat] = key;
+        cutouts.push_back({builder.geometry(), texture, passing, reference, flat});
+    }
+    if (isBody || mesh->cutouts.empty()) all.triangles = mesh->triangles;
+    if (!anyFlat) unflat.triangles = all.triangles;
+}
+
+osg::ref_ptr<MapMesh> MapMeshes::of(const PlacedMesh& placed) {
+    osg::ref_ptr<MapMesh>& known = _known[placed.mesh.get()];
+    if (!known) known = new MapMesh(placed);
+    return known;
+}
+
+osg::ref_ptr<const CullableFaces> MapMeshes::facesOf(MapMesh& mesh, bool flats, bool again, bool moving) {
+    MapMesh::Faces& faces = flats && mesh.all.triangles != mesh.unflat.triangles ? mesh.all : mesh.unflat;
+    if (faces.triangles->empty()) return nullptr;
+    const bool solids = again || (moving && mesh.isBody && faces.drawn && _searched < mostSearched);
+    if (faces.drawn && (faces.solids || !solids)) return faces.drawn;
+    if (solids && mesh.isBody) _searched += faces.triangles->size() / 3;
+    faces.drawn = new CullableFaces(*mesh.mesh, faces.triangles, solids);
+    faces.solids = solids;
+    return faces.drawn;
+}
+
+void MapMeshes::prune() {
+    for (auto entry = _known.begin(); entry != _known.end();)
+        entry = entry->second->referenceCount() > 1 ? std::next(entry) : _known.erase(entry);
+}
+
+template <class Act>
+void MapMeshes::forAll(const Act& act) const {
+    for (const auto& [address, mesh] : _known) {
+        for (const auto& faces : {mesh->all.drawn, mesh->unflat.drawn})
+            if (faces) act(*faces);
+        for (const MapCutout& cutout : mesh->cutouts) act(*cutout.geometry);
+    }
+}
+
+void MapMeshes::resizeGLObjectBuffers(unsigned maxSize) const {
+    forAll([maxSize](auto& drawn) { drawn.resizeGLObjectBuffers(maxSize); });
+}
+
+void MapMeshes::releaseGLObjects(osg::State* state) const {
+    forAll([state](auto& drawn) { drawn.releaseGLObjects(state); });
+}
+
+MapLayer::MapLayer(const CasterLayer& given, MapMeshes* known) : casters(&given) {
+    const auto add = [this](const MapPart& part) { (isFlat(part) ? flats : bodies).push_back(part); };
+    if (!known)
+        for (const auto& piece : casters->pieces)
+            if (piece->bounds.valid())
+                add({{toGlm(piece->bounds._min - casters->origin), toGlm(piece->bounds._max - casters->origin)}});
+    for (std::size_t i = 0; known && i < casters->meshes.size(); ++i) {
+        const PlacedMesh& placed = casters->meshes[i];
+        meshes.push_back(known->of(placed));
+        if (placed.isBody) add({boxOf(placed, casters->origin), &placed, 0, placed.mesh->triangles->size()});
+        for (const MapPart& part : meshes.back()->parts) add({part, &placed, part.first, part.end});
+    }
+    for (auto* parts : {&bodies, &flats})
+        std::sort(parts->begin(), parts->end(), [](const auto& a, const auto& b) {
+            return glm::distance(a.low, a.high) > glm::distance(b.low, b.high);
+        });
+}
+
+double MapLayer::clearanceOf(const glm::dvec3& lamp) const {
+    std::vector<std::pair<double, const MapPart*>> nearestFirst;
+    for (const auto* parts : {&bodies, &flats})
+        for (const MapPart& part : *parts) nearestFirst.emplace_back(distance(part, lamp), &part);
+    std::sort(nearestFirst.begin(), nearestFirst.end());
+    double nearest = infinity;
+    for (const auto& [atLeast, part] : nearestFirst) {
+        if (!(atLeast < nearest)) break;
+        nearest = std::min(nearest, part->placed ? distanceOfTriangles(*part, lamp) : atLeast);
+    }
     return nearest;
 }
 
 /// osgUtil::SceneView's set has the time and the view's matrices, and is at the root of all leaves.
-OwnView::OwnView(const glm::dmat4& matrix, const std::vector<const osgUtil::RenderLeaf*>& seen) : eyeFromScene(matrix) {
-    if (seen.empty()) return;
+OwnCasters::OwnCasters(const std::vector<OwnCaster>& all, const glm::dmat4& matrix,
+                       const std::vector<const osgUtil::RenderLeaf*>& seen)
+    : casters(all), eyeFromScene(matrix) {
+    if (casters.empty() || seen.empty()) return;
     for (const osgUtil::StateGraph* graph = seen.front()->_parent; graph; graph = graph->_parent)
         if (graph->getStateSet() && graph->getStateSet()->getNumParents() == 0)
             states.insert(states.begin(), graph->getStateSet());
 }
 
 bool OwnCasters::areSame(const OwnCasters& other) const {
-    const bool sameView = view.eyeFromScene == other.view.eyeFromScene;
+    const bool sameView = eyeFromScene == other.eyeFromScene;
     return std::equal(casters.begin(), casters.end(), other.casters.begin(), other.casters.end(),
                       [sameView](const OwnCaster& a, const OwnCaster& b) {
                           return a.drawing == b.drawing && a.sceneFromLocal == b.sceneFromLocal &&
                                  !a.drawing->mayChange && (sameView || !a.drawing->byProgram);
                       });
+}
+
+MapCasters::MapCasters(const CasterLayers& casters, const osg::ref_ptr<const MapLayer>& standing,
+                       const osg::ref_ptr<const MapLayer>& others)
+    : layers(&casters), still(standing), moving(others), own(ownCastersOf(casters)) {}
+
+double MapCasters::clearanceOfMoving(const glm::dvec3& lamp) const {
+    double nearest = moving->clearanceOf(lamp);
+    for (const OwnCaster& caster : own)
+        if (!caster.drawing->hasPiece) nearest = std::min(nearest, distance(caster.box, lamp));
+    return nearest;
 }
 
 } // namespace gnomon

@@ -7,10 +7,10 @@
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/LightShadowMaps.h>
+#include <gnomon/map/MapLookup.h>
 
 #include <OpenThreads/Mutex>
 #include <OpenThreads/ScopedLock>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
@@ -42,116 +42,103 @@ constexpr std::size_t mostCasters = 8; // groups above one node, and views of di
 /// Threads any number.
 class ShadowMapCache {
 public:
-    /// The casters as maps draw them; made once for all lights, and for all views of the same levels of detail.
-    osg::ref_ptr<const MapCasters> castersOf(const CasterLayers& layers);
-    /// @param light  in the scene about the casters' origin, see localLight().
-    /// @param cone   of a lamp that is a spot: nothing outside it is marked.
-    /// @return the marks of a light; null if none of its shadow can be seen.
-    osg::ref_ptr<Mark> mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
-                            const std::optional<SpotCone>& cone, const MapCasters& casters,
-                            const ShadowMapOptions& settings);
-    /// Drops the maps and meshes of retired casters.
-    void letGo();
+    const osg::ref_ptr<MapPrograms> programs{new MapPrograms};
 
-    const osg::ref_ptr<MapPrograms> resources{new MapPrograms};
-    void resizeGLObjectBuffers(unsigned maxSize);
-    void release(osg::State* state);
+    /// The casters as maps draw them; made once for all lights, and for all views of the same levels of detail.
+    osg::ref_ptr<const MapCasters> castersOf(const CasterLayers& layers) {
+        Lock lock(_mutex);
+        const auto* known = _casters.find([&](const auto& entry) { return entry->layers == &layers; });
+        if (known) return *known;
+        const auto still = layerOf(*layers.still), moving = layerOf(*layers.moving);
+        dropRetired();
+        _casters.dropOldestBeyond(mostCasters - 1);
+        return _casters.add(new MapCasters(layers, still, moving));
+    }
+
+    /// @param wanted  all but `flats`. @param lookup  gets its maps.
+    /// @return the marks of a light; null if none of its shadow can be seen.
+    osg::ref_ptr<Mark> mark(const ViewFrame& view, int lightNumber, const MapRequest& wanted, MapLookup& lookup) {
+        const bool forPrograms = lookup.settings.programUnit >= 0;
+        const glm::dmat4 sceneFromEye = glm::inverse(SceneFrame(wanted.casters->layers->origin).eyeFromScene(view));
+        Lock lock(_mutex);
+        LightShadowMaps& maps = find(view, lightNumber);
+        const std::vector<glm::dvec4> corners = maps.find(view, wanted);
+        const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
+        if (!bounds) {
+            maps.letGo();
+            return forPrograms ? programMaps(lookup, sceneFromEye) : nullptr;
+        }
+        maps.update(view, _meshes);
+        lookup.map = maps.map();
+        lookup.picture = maps.picture();
+        const glm::dvec2 rounding = 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y()); // two pixels more
+        lookup.outline = screenOutline(corners, rounding);
+        lookup.screenBounds = *bounds;
+        return forPrograms ? programMaps(lookup, sceneFromEye) : &lookup;
+    }
+
+    /// Drops the maps and meshes of retired casters.
+    void letGo() {
+        Lock lock(_mutex);
+        _maps.dropIf([](const auto& entry) { return entry->maps.areCastersRetired(); });
+        dropRetired();
+    }
+
+    void resizeGLObjectBuffers(unsigned maxSize) {
+        programs->resizeGLObjectBuffers(maxSize);
+        Lock lock(_mutex);
+        for (const auto& entry : _maps)
+            if (entry->maps.map()) entry->maps.map()->resizeGLObjectBuffers(maxSize);
+        _meshes.resizeGLObjectBuffers(maxSize);
+    }
+
+    void release(osg::State* state) {
+        programs->release(state);
+        Lock lock(_mutex);
+        for (const auto& entry : _maps)
+            if (entry->maps.map()) entry->maps.map()->release(state);
+        _meshes.releaseGLObjects(state);
+    }
 
 private:
-    LightShadowMaps& find(const ViewFrame& view, int lightNumber);
-    osg::ref_ptr<const MapLayer> layerOf(const CasterLayer& layer) const;
+    struct Entry {
+        const void* stage;
+        int light;
+        unsigned lastRound = 0; ///< that asked for it.
+        LightShadowMaps maps{};
+    };
+
+    /// Maps that are asked for twice begin a round as well, for views may count no frames.
+    LightShadowMaps& find(const ViewFrame& view, int light) {
+        auto* known = _maps.find([&](const auto& each) { return each->stage == view.stage && each->light == light; });
+        Entry& entry = known ? **known : *_maps.add(std::unique_ptr<Entry>(new Entry{view.stage, light}));
+        if (view.frameNumber != _frame || entry.lastRound == _round) {
+            _frame = view.frameNumber;
+            ++_round;
+        }
+        entry.lastRound = _round;
+        _maps.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
+        return entry.maps;
+    }
+
+    osg::ref_ptr<const MapLayer> layerOf(const CasterLayer& layer) {
+        for (const auto& entry : _casters)
+            for (const auto& known : {entry->still, entry->moving})
+                if (known->casters == &layer) return known;
+        return new MapLayer(layer, &_meshes);
+    }
+
+    void dropRetired() {
+        _casters.dropIf([](const auto& entry) { return entry->layers->isRetired(); });
+        _meshes.prune();
+    }
 
     OpenThreads::Mutex _mutex;
-    RecentCache<std::unique_ptr<LightShadowMaps>> _maps;
+    RecentCache<std::unique_ptr<Entry>> _maps;
     RecentCache<osg::ref_ptr<const MapCasters>> _casters;
-    MapBodies _bodies;
-    unsigned _round = 0, _frame = 0; ///< a round is a frame, as views count them.
+    MapMeshes _meshes;
+    unsigned _round = 1, _frame = 0; ///< a round is a frame, as views count them.
 };
-
-osg::ref_ptr<Mark> ShadowMapCache::mark(const ViewFrame& view, int lightNumber, const glm::dvec4& light,
-                                        const std::optional<SpotCone>& cone, const MapCasters& casters,
-                                        const ShadowMapOptions& settings) {
-    const glm::dmat4 eyeFromScene = SceneFrame(casters.layers->origin).eyeFromScene(view);
-    Lock lock(_mutex);
-    LightShadowMaps& map = find(view, lightNumber);
-    const std::vector<glm::dvec4> corners = map.find(view, {light, cone, &casters, false, settings});
-    const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
-    const bool forPrograms = settings.programUnit >= 0;
-    if (!bounds) {
-        map.letGo();
-        return forPrograms ? new ProgramMaps(unsigned(settings.programUnit)) : nullptr;
-    }
-    map.update(*resources, _bodies, casters.own.empty() ? OwnView() : OwnView(eyeFromScene, view.seen));
-    MapLookupPass quad = map.quad();
-    quad.resources = resources;
-    quad.pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
-    quad.outline =
-        screenOutline(corners, 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y())); // two pixels more, against rounding
-    if (forPrograms) return new ProgramMaps(quad, glm::inverse(eyeFromScene), unsigned(settings.programUnit));
-    if (cone) quad.coneFromScene = coneFromScene(glm::dvec3(light), *cone);
-    osg::ref_ptr<MapMark> mark = new MapMark;
-    mark->quad = std::move(quad);
-    mark->screenBounds = *bounds;
-    mark->view = settings.view;
-    return mark;
-}
-
-osg::ref_ptr<const MapCasters> ShadowMapCache::castersOf(const CasterLayers& layers) {
-    Lock lock(_mutex);
-    const auto* known = _casters.find([&](const auto& entry) { return entry->layers == &layers; });
-    if (known) return *known;
-    const osg::ref_ptr<const MapCasters> made = new MapCasters(layers, layerOf(*layers.still), layerOf(*layers.moving));
-    _casters.dropIf([](const auto& entry) { return entry->layers->isRetired(); });
-    _casters.dropOldestBeyond(mostCasters - 1);
-    _bodies.prune();
-    return _casters.add(made);
-}
-
-/// The one that is known, or else one that takes what it can of others.
-osg::ref_ptr<const MapLayer> ShadowMapCache::layerOf(const CasterLayer& layer) const {
-    std::vector<osg::ref_ptr<const MapLayer>> known;
-    for (const auto& entry : _casters)
-        for (const auto& each : {entry->still, entry->moving}) {
-            if (each->casters == &layer) return each;
-            known.push_back(each);
-        }
-    return new MapLayer(layer, known);
-}
-
-/// A map that is asked for twice begins a round as well, for views may count no frames.
-LightShadowMaps& ShadowMapCache::find(const ViewFrame& view, int lightNumber) {
-    auto* known =
-        _maps.find([&](const auto& map) { return map->stage == view.stage && map->lightNumber == lightNumber; });
-    LightShadowMaps& map = known ? **known : *_maps.add(std::make_unique<LightShadowMaps>(view.stage, lightNumber));
-    if (view.frameNumber != _frame || (known && map.lastRound == _round)) {
-        _frame = view.frameNumber;
-        ++_round;
-    }
-    map.lastRound = _round;
-    _maps.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
-    return map;
-}
-
-void ShadowMapCache::letGo() {
-    Lock lock(_mutex);
-    _maps.dropIf([](const auto& map) { return map->areCastersRetired(); });
-    _casters.dropIf([](const auto& entry) { return entry->layers->isRetired(); });
-    _bodies.prune();
-}
-
-void ShadowMapCache::resizeGLObjectBuffers(unsigned maxSize) {
-    resources->resizeGLObjectBuffers(maxSize);
-    Lock lock(_mutex);
-    for (const auto& map : _maps) map->resizeGLObjectBuffers(maxSize);
-    _bodies.resizeGLObjectBuffers(maxSize);
-}
-
-void ShadowMapCache::release(osg::State* state) {
-    resources->release(state);
-    Lock lock(_mutex);
-    for (const auto& map : _maps) map->release(state);
-    _bodies.releaseGLObjects(state);
-}
 
 ShadowMapOptions ShadowMapOptions::usable() const {
     const ShadowMapOptions fresh;
@@ -175,27 +162,30 @@ ShadowMapTechnique::ShadowMapTechnique(const ShadowMapTechnique& other, const os
 
 ShadowMapTechnique::~ShadowMapTechnique() = default;
 
-unsigned ShadowMapTechnique::passes() const { return _maps->resources->passes; }
+unsigned ShadowMapTechnique::passes() const { return _maps->programs->passes; }
 
 std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                             const FrameCasters& casters) const {
     const osg::ref_ptr<const MapCasters> drawn = _maps->castersOf(casters.layers());
-    const auto usable = localLight(light.inGroup, SceneFrame(drawn->layers->origin));
+    const SceneFrame scene(drawn->layers->origin);
+    const auto usable = localLight(light.inGroup, scene);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
     const std::optional<SpotCone> cone = spotOf(light);
+    const osg::ref_ptr<MapLookup> lookup = new MapLookup;
+    lookup->programs = _maps->programs;
+    lookup->settings = _options;
+    lookup->clipFromScene = toGlm(view.projection) * scene.eyeFromScene(view);
+    lookup->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
+    lookup->rounding = drawn->layers->rounding;
+    if (cone) lookup->coneFromScene = coneFromScene(glm::dvec3(*usable), *cone);
     std::vector<osg::ref_ptr<Mark>> marks;
-    if (cone && _options.programUnit < 0 && view.group->getComposite() == ShadowCasterGroup::RELIGHT) {
-        osg::ref_ptr<SpotMark> around = new SpotMark;
-        around->resources = _maps->resources;
-        around->clipFromScene = toGlm(view.projection) * SceneFrame(drawn->layers->origin).eyeFromScene(view);
-        around->coneFromScene = coneFromScene(glm::dvec3(*usable), *cone);
-        marks.emplace_back(around);
-    }
-    const osg::ref_ptr<Mark> mark = _maps->mark(view, light.number, *usable, cone, *drawn, _options);
-    if (mark) marks.emplace_back(mark); // else out of sight: nothing to say
+    if (cone && _options.programUnit < 0 && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
+        marks.push_back(spotMark(*lookup));
+    const osg::ref_ptr<Mark> mark = _maps->mark(view, light.number, {*usable, cone, drawn, _options}, *lookup);
+    if (mark) marks.push_back(mark); // else out of sight: nothing to say
     return marks;
 }
 

@@ -24,22 +24,15 @@ constexpr double mostRatio =
     256.0; // of a lamp's distances in a map: an error of depth is less than a texel of 1024 there
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+int leastOf(const glm::dvec3& v) { return v.x <= v.y && v.x <= v.z ? 0 : v.y <= v.z ? 1 : 2; }
+
 glm::dvec3 anyAcross(const glm::dvec3& axis) {
-    const glm::dvec3 thin = glm::abs(axis);
-    const glm::dvec3 other = thin.x <= thin.y && thin.x <= thin.z ? glm::dvec3(1, 0, 0)
-                             : thin.y <= thin.z                   ? glm::dvec3(0, 1, 0)
-                                                                  : glm::dvec3(0, 0, 1);
+    glm::dvec3 other(0.0);
+    other[leastOf(glm::abs(axis))] = 1.0;
     return glm::normalize(glm::cross(axis, other));
 }
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
-
-double areaOf(const Polygon& polygon) {
-    double twice = 0.0;
-    for (std::size_t i = 0; i + 2 < polygon.size(); ++i)
-        twice += cross(polygon[i + 1] - polygon[0], polygon[i + 2] - polygon[0]);
-    return twice / 2.0;
-}
 
 /// What of a polygon is on the left of the line from `a` to `b`.
 Polygon leftOf(const Polygon& polygon, const glm::dvec2& a, const glm::dvec2& b) {
@@ -99,11 +92,10 @@ void widen(Rectangle& rectangle) {
 glm::dmat4 unitFromLight(const Rectangle& rectangle, double nearest, double farthest) {
     const glm::dvec2 size = rectangle.high - rectangle.low, across = rectangle.across();
     const double range = farthest - nearest;
-    glm::dmat4 result(0.0);
-    result = glm::row(result, 0, glm::dvec4(rectangle.along / size.x, 0.0, -rectangle.low.x / size.x));
-    result = glm::row(result, 1, glm::dvec4(across / size.y, 0.0, -rectangle.low.y / size.y));
-    result = glm::row(result, 2, glm::dvec4(0.0, 0.0, 1.0 / range, -nearest / range));
-    return glm::row(result, 3, glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    return glm::transpose(glm::dmat4(glm::dvec4(rectangle.along / size.x, 0.0, -rectangle.low.x / size.x),
+                                     glm::dvec4(across / size.y, 0.0, -rectangle.low.y / size.y),
+                                     glm::dvec4(0.0, 0.0, 1.0 / range, -nearest / range),
+                                     glm::dvec4(0.0, 0.0, 0.0, 1.0)));
 }
 
 /// Of a box. A look at them is faster than to cut it: what is known already adds nothing.
@@ -161,7 +153,7 @@ std::optional<int> flatAxis(const PlacedBox& box) {
     glm::dvec3 length;
     for (int axis = 0; axis < 3; ++axis)
         length[axis] = glm::length(glm::dvec3(box.sceneFromBox[axis])) * (box.high[axis] - box.low[axis]);
-    const int thin = length.x <= length.y && length.x <= length.z ? 0 : length.y <= length.z ? 1 : 2;
+    const int thin = leastOf(length);
     if (length[thin] > flat * std::min(length[(thin + 1) % 3], length[(thin + 2) % 3])) return std::nullopt;
     return thin;
 }
@@ -230,7 +222,7 @@ void MapOutline::merge(const MapOutline& other) {
 void MapOutline::cut(const MapOutline& other) {
     const Polygon& edges = other.corners;
     if (edges.empty()) corners.clear();
-    if (!(areaOf(edges) > 0.0)) return;
+    if (edges.size() < 3) return;
     for (std::size_t i = 0; i < edges.size(); ++i) corners = leftOf(corners, edges[i], edges[(i + 1) % edges.size()]);
 }
 
@@ -326,7 +318,7 @@ MapErrors mapErrors(const LightFrame& frame, const MapFit& fit, const glm::dvec3
         const glm::dvec4 row = glm::abs(glm::row(fit.mapFromScene, axis));
         return floatError * (glm::dot(glm::dvec3(row), reach) + row.w);
     };
-    const double range = fit.farthest - fit.nearest, texel = std::max(fit.size.x, fit.size.y) / texels;
+    const double range = fit.farthest - fit.nearest, texel = fit.longer() / texels;
     const auto at = [&](double depth) {
         const double perW = frame.sun ? 1.0 : -depth;
         return MapError{steps + 2.0 * floatError + rounding(2) * perW,

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -105,6 +106,7 @@ struct MapFit {
     /// within the range.
     bool covers(const MapOutline& outline, double margin) const;
     double area() const { return size.x * size.y; }
+    double longer() const { return std::max(size.x, size.y); }
 };
 
 /// The smallest rectangle about an outline that is not empty, and more.

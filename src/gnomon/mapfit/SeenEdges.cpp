@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/geometry/Across.h>
 #include <gnomon/mapfit/SeenEdges.h>
 
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat2x2.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <utility>
 
@@ -17,55 +19,72 @@ namespace {
 constexpr double ofPicture = 1e-9; // what is rounded away there
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double grazing = 0.05; // cosine between a normal and the way to the light
+constexpr int directions = 6;    // of edges, over half a turn
+constexpr double halfTurn = 3.14159265358979323846;
+
+/// Change of x/w and y/w along two ways on a surface.
+glm::dmat2 slopeOf(const glm::dmat4& matrix, const glm::dvec4& at, const glm::dvec3& u, const glm::dvec3& v) {
+    const auto along = [&](const glm::dvec3& way) {
+        const glm::dvec4 change = matrix * glm::dvec4(way, 0.0);
+        return (glm::dvec2(change) - glm::dvec2(at) / at.w * change.w) / at.w;
+    };
+    return {along(u), along(v)};
+}
+
+/// The longer side of a pixel, squared, in the map.
+double longest(const glm::dmat2& mapFromPicture) {
+    return std::max(glm::dot(mapFromPicture[0], mapFromPicture[0]), glm::dot(mapFromPicture[1], mapFromPicture[1]));
+}
+
+/// Of a way in pixels.
+double riseOf(const glm::dvec2& way) {
+    const glm::dvec2 along = glm::abs(way);
+    return std::min(along.x, along.y) / std::max(along.x, along.y);
+}
+
+double sampledBy(double rise) {
+    constexpr double bent = 1.08; // to straight ones: on the tuning scenes of gnomonchart
+    return std::min(bent * sampledEdgeOf(rise), 0.5);
+}
+
+/// How far off what is so wide is among places so far apart: it is lost, or drawn as wide as they are apart.
+double lostWidth(double across, double apart) { return across < apart ? apart : 0.0; }
 
 } // namespace
 
 RayBins::RayBins(const glm::dmat4& pictureFromScene, std::vector<Ray> rays)
-    : _pictureFromScene(pictureFromScene), _rays(std::move(rays)), _starts(bins * bins + 1, 0) {
-    std::vector<std::size_t> in(_rays.size(), bins * bins);
+    : _pictureFromScene(pictureFromScene), _rays(std::move(rays)), _bins(side * side) {
     for (std::size_t i = 0; i < _rays.size(); ++i) {
         const glm::dvec2& at = _rays[i].at;
-        if (!(at.x >= 0.0 && at.y >= 0.0 && at.x < 1.0 && at.y < 1.0)) continue;
-        in[i] = std::size_t(binOf(at.y)) * bins + std::size_t(binOf(at.x));
-        ++_starts[in[i] + 1];
+        if (at.x >= 0.0 && at.y >= 0.0 && at.x < 1.0 && at.y < 1.0)
+            _bins[std::size_t(binOf(at.y) * side + binOf(at.x))].push_back(i);
     }
-    for (std::size_t bin = 0; bin < bins * bins; ++bin) _starts[bin + 1] += _starts[bin];
-    _order.resize(_starts.back());
-    std::vector<std::size_t> next(_starts.begin(), _starts.end() - 1);
-    for (std::size_t i = 0; i < _rays.size(); ++i)
-        if (in[i] < bins * bins) _order[next[in[i]]++] = i;
 }
 
-int RayBins::binOf(double at) { return int(std::clamp(at * bins, 0.0, bins - 1.0)); }
-
-bool RayBins::anyIn(const ScreenRect& rect) const {
-    if (!(rect.high.x >= 0.0 && rect.high.y >= 0.0 && rect.low.x <= 1.0 && rect.low.y <= 1.0)) return false;
-    const int left = binOf(rect.low.x), right = binOf(rect.high.x), top = binOf(rect.high.y);
-    for (int row = binOf(rect.low.y); row <= top; ++row)
-        if (_starts[std::size_t(row * bins + right + 1)] > _starts[std::size_t(row * bins + left)]) return true;
-    return false;
-}
+int RayBins::binOf(double at) { return int(std::clamp(at * side, 0.0, side - 1.0)); }
 
 template <class Visit>
 void RayBins::eachIn(const ScreenRect& rect, const Visit& visit) const {
+    if (!(rect.high.x >= 0.0 && rect.high.y >= 0.0 && rect.low.x <= 1.0 && rect.low.y <= 1.0)) return;
     const int left = binOf(rect.low.x), right = binOf(rect.high.x), top = binOf(rect.high.y);
-    for (int row = binOf(rect.low.y); row <= top; ++row) {
-        const std::size_t end = _starts[std::size_t(row * bins + right + 1)];
-        for (std::size_t i = _starts[std::size_t(row * bins + left)]; i < end; ++i) {
-            const Ray& ray = _rays[_order[i]];
-            if (ray.at.x >= rect.low.x && ray.at.x <= rect.high.x && ray.at.y >= rect.low.y && ray.at.y <= rect.high.y)
-                visit(_order[i], ray);
-        }
-    }
+    for (int row = binOf(rect.low.y); row <= top; ++row)
+        for (int column = left; column <= right; ++column)
+            for (const std::size_t i : _bins[std::size_t(row * side + column)]) {
+                const glm::dvec2& at = _rays[i].at;
+                if (at.x >= rect.low.x && at.x <= rect.high.x && at.y >= rect.low.y && at.y <= rect.high.y)
+                    visit(i, _rays[i]);
+            }
 }
 
 /// A triangle that reaches behind the eye may be anywhere in the picture.
+/// Source: T. Möller and B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 2(1), 1997.
 void RayBins::meet(const PlacedTriangles& triangles, const Hit& hit) const {
-    if (_order.empty()) return;
+    if (_rays.empty()) return;
     const glm::dmat4 pictureFromMesh = _pictureFromScene * triangles.sceneFromMesh;
-    std::vector<glm::dvec3> seen(triangles.cornerCount); // x/w, y/w, w
+    std::vector<glm::dvec3> places(triangles.cornerCount), seen(triangles.cornerCount); // seen: x/w, y/w, w
     for (std::size_t i = 0; i < triangles.cornerCount; ++i) {
-        const glm::dvec4 corner = pictureFromMesh * glm::dvec4(triangles.corners[i], 1.0);
+        const glm::dvec4 inMesh(triangles.corners[i], 1.0), corner = pictureFromMesh * inMesh;
+        places[i] = glm::dvec3(triangles.sceneFromMesh * inMesh);
         seen[i] = {corner.x / corner.w, corner.y / corner.w, corner.w};
     }
     for (std::size_t i = 0; i < triangles.count; ++i) {
@@ -76,35 +95,24 @@ void RayBins::meet(const PlacedTriangles& triangles, const Hit& hit) const {
         if (a.z > 0.0 && b.z > 0.0 && c.z > 0.0)
             rect = {glm::dvec2(glm::min(a, glm::min(b, c))) - ofPicture,
                     glm::dvec2(glm::max(a, glm::max(b, c))) + ofPicture};
-        if (!anyIn(rect)) continue;
-        const auto corner = [&](int which) {
-            return glm::dvec3(triangles.sceneFromMesh * glm::dvec4(triangles.corners[index[which]], 1.0));
-        };
-        meet(i, {corner(0), corner(1), corner(2)}, rect, hit);
+        const glm::dvec3 &first = places[index[0]], u = places[index[1]] - first, v = places[index[2]] - first;
+        const glm::dvec3 normal = glm::cross(u, v);
+        eachIn(rect, [&](std::size_t number, const Ray& ray) {
+            const double along = -glm::dot(normal, ray.way);
+            const glm::dvec3 from = ray.from - first, turned = glm::cross(from, ray.way);
+            const double inU = glm::dot(v, turned) / along, inV = -glm::dot(u, turned) / along;
+            if (inU >= 0.0 && inV >= 0.0 && inU + inV <= 1.0) hit({number, i, glm::dot(normal, from) / along, normal});
+        });
     }
 }
 
-/// Source: T. Möller and B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of Graphics Tools 2(1), 1997.
-void RayBins::meet(std::size_t triangle, const std::array<glm::dvec3, 3>& corners, const ScreenRect& rect,
-                   const Hit& hit) const {
-    const glm::dvec3 u = corners[1] - corners[0], v = corners[2] - corners[0], normal = glm::cross(u, v);
-    eachIn(rect, [&](std::size_t number, const Ray& ray) {
-        const double along = -glm::dot(normal, ray.way);
-        const glm::dvec3 from = ray.from - corners[0], turned = glm::cross(from, ray.way);
-        const double inU = glm::dot(v, turned) / along, inV = -glm::dot(u, turned) / along;
-        if (inU >= 0.0 && inV >= 0.0 && inU + inV <= 1.0)
-            hit({number, triangle, glm::dot(normal, from) / along, normal});
-    });
-}
-
 void RayBins::meet(const PlacedBox& box, const Hit& hit) const {
-    if (_order.empty()) return;
+    if (_rays.empty()) return;
     const glm::dmat4 clipFromPicture = glm::scale(glm::translate(glm::dmat4(1.0), {-1.0, -1.0, 0.0}), {2.0, 2.0, 1.0});
     const auto corners = boxCorners(box.low, box.high, clipFromPicture * _pictureFromScene * box.sceneFromBox);
     const auto bounds = screenBounds({corners.begin(), corners.end()});
     if (!bounds) return;
     const ScreenRect rect{(bounds->low + 1.0) / 2.0 - ofPicture, (bounds->high + 1.0) / 2.0 + ofPicture};
-    if (!anyIn(rect)) return;
     const glm::dmat4 boxFromScene = glm::inverse(box.sceneFromBox);
     const glm::dmat3 turn(boxFromScene), back = glm::transpose(turn);
     eachIn(rect, [&](std::size_t number, const Ray& ray) {
@@ -368,5 +376,106 @@ std::vector<SeenPlace> SeenEdges::facing() const {
         if (faces(cell)) result.push_back(cell.place());
     return result;
 }
+
+EdgeWidths::EdgeWidths(const glm::dmat4& clipFromScene, const glm::dvec2& pixels)
+    : _clipFromScene(clipFromScene), _sceneFromClip(glm::inverse(clipFromScene)), _pixels(pixels) {}
+
+/// Sides of a pixel in the map on what faces the eye: neither nearer nor farther along the picture.
+glm::dmat2 EdgeWidths::facing(const glm::dvec4& clip, const glm::dmat4& mapFromScene) const {
+    const glm::dmat4 mapFromClip = mapFromScene * _sceneFromClip;
+    const glm::dvec4 there = clip / clip.w;
+    const glm::dvec3 x(2.0 / _pixels.x, 0.0, 0.0), y(0.0, 2.0 / _pixels.y, 0.0);
+    return slopeOf(mapFromClip, mapFromClip * there, x, y);
+}
+
+/// An edge along a way in the map is moved across it. In the picture the area between its two places is the determinant times
+/// as large, and it is that area divided by its length there that it moves.
+void EdgeWidths::add(const SeenPlace& place, const glm::dmat4& mapFromScene) {
+    constexpr double shortened = 16.0; // as in map.frag
+    const glm::dvec4 here(place.place, 1.0), clip = _clipFromScene * here, map = mapFromScene * here;
+    if (!(clip.w > 0.0) || !(map.w > 0.0)) return;
+    const auto [u, v] = across(glm::normalize(place.normal));
+    const glm::dmat2 inMap = slopeOf(mapFromScene, map, u, v);
+    glm::dmat2 inPicture = slopeOf(_clipFromScene, clip, u, v);
+    for (int column = 0; column < 2; ++column) inPicture[column] *= _pixels / 2.0;
+    const glm::dmat2 pictureFromMap = inPicture * glm::inverse(inMap);
+    const glm::dmat2 mapFromPicture = glm::inverse(pictureFromMap);
+    const double area = std::abs(glm::determinant(pictureFromMap));
+    const bool slanted = longest(mapFromPicture) > shortened * longest(facing(clip, mapFromScene));
+    const auto add = [&](const glm::dvec2& way, double length) {
+        const double width = area * glm::length(mapFromPicture * way) / glm::length(way);
+        if (length * place.share > 0.0 && width > 0.0 && std::isfinite(width))
+            addEdge({width, length * place.share, place.across, riseOf(way), place.folded, slanted});
+    };
+    if (place.edge != glm::dvec2(0.0)) return add(place.edge * _pixels, 1.0);
+    for (int i = 0; i < directions; ++i) {
+        const double angle = halfTurn * i / directions;
+        const glm::dvec2 way = inPicture * glm::dvec2(std::cos(angle), std::sin(angle));
+        add(way, glm::length(way) / directions);
+    }
+}
+
+void EdgeWidths::addEdge(const Edge& edge) {
+    constexpr double kinds = 8.0; // of widths, an octave: so they are sorted sooner
+    const auto step = [](double of) {
+        return of > 0.0 && std::isfinite(of) ? int(std::floor(kinds * std::log2(of))) : INT_MAX;
+    };
+    const int rise = int(std::floor(kinds * edge.rise));
+    Edge& all = _edges[{step(edge.width), step(edge.across), rise, edge.folded, edge.slanted}];
+    const double before = all.length / (all.length + edge.length);
+    const double width = before * all.width + (1.0 - before) * edge.width;
+    const double length = all.length + edge.length;
+    all = edge;
+    all.width = width;
+    all.length = length;
+}
+
+/// The share of all edges that is off by no more than x grows with x by pieces: those that are off by less count whole.
+double EdgeWidths::usual(double share, const Off& off) const {
+    std::vector<std::pair<double, double>> edges; // how far off, and how long
+    double all = 0.0, slope = 0.0, whole = 0.0;
+    for (const auto& [like, edge] : _edges) {
+        edges.emplace_back(off(edge), edge.length);
+        all += edge.length;
+        slope += edges.back().first > 0.0 ? edge.length / edges.back().first : 0.0;
+    }
+    std::sort(edges.begin(), edges.end());
+    for (const auto& [most, length] : edges) {
+        const double reached = (share * all - whole) / slope;                      // if it lies before this edge's
+        if (reached <= most) return std::min(reached / share, edges.back().first); // not by rounding beyond all
+        whole += length;
+        slope -= most > 0.0 ? length / most : 0.0;
+    }
+    return edges.empty() ? 0.0 : edges.back().first;
+}
+
+/// Between two columns the drawn edge goes on level, or rises by a pixel. So above or below the true one it is off by any amount
+/// between e and e - rise, or e and e + 1 - rise, with e at random: by more than a in (0.5 - a)^2 / (rise (1 - rise)) of its length.
+/// The nearest place is nearer than that above or below, as if more of it were beyond: fitted to stripes.
+double sampledEdgeOf(double rise) {
+    constexpr double beyond = 0.05, ofNearest = 0.12;
+    const double most = 0.5 - std::max(0.5 * beyond, std::sqrt(ofNearest * rise * (1.0 - rise)));
+    return most / std::hypot(1.0, rise);
+}
+
+double sampledError(const EdgeWidths::Edge& edge) {
+    return std::max(sampledBy(edge.rise), lostWidth(edge.across, 1.0));
+}
+
+/// A smooth edge is as hard as others where pixels are long, and next to a fold.
+double mapError(const EdgeWidths::Edge& edge, const EdgeFilter& filter, double texels) {
+    const double texel = edge.width / texels, sampled = sampledBy(edge.rise);
+    const bool mean = filter.mean && !edge.slanted && !edge.folded;
+    EdgeFilter here = filter;
+    if (!filter.mean) here.pixel *= sampled / sampledEdge;
+    if (filter.pixel < sampledEdge && (edge.slanted || edge.folded)) here.pixel = std::max(here.pixel, sampled);
+    return std::max(mapError(here, texel), lostWidth(edge.across, mean ? texel : std::max(texel, 1.0)));
+}
+
+double mapError(const EdgeFilter& filter, double pixelsATexel) {
+    return std::hypot(filter.pixel, filter.spread * pixelsATexel);
+}
+
+double polygonError(double pixelsOff) { return std::hypot(sampledEdge, pixelsOff); }
 
 } // namespace gnomon
