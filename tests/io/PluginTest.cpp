@@ -65,7 +65,7 @@ TEST_F(Plugin, IsFoundByProgramsThatKnowNothingOfGnomon) {
 TEST_F(Suffix, AddsTechniquesInEitherSpelling) {
     for (const char* suffix :
          {".osgt.(map:edges=soft,sun-angle=0.5).gnomon", ".osgt.map:edges=soft,sun-angle=0.5.gnomon",
-          ".osgt.(map:edges=soft;sun-angle=0.5).GNOMON"}) {
+          ".osgt.(map:edges=soft;sun-angle=0.5).GNOMON", ".osgt.nosun+map:edges=soft,sun-angle=0.5.gnomon"}) {
         const osg::ref_ptr<osg::Node> scene = read(suffix).takeNode();
         ASSERT_TRUE(scene) << suffix;
         EXPECT_STREQ(scene->className(), "ShadowCasterGroup");

@@ -114,6 +114,20 @@ TEST(ShadowedScene, LetsTheScenesOwnLightsCastAlone) {
     EXPECT_EQ(both[1]->getLight()->getLightNum(), 1) << "the lamp has number 0";
 }
 
+TEST(ShadowedScene, HasRoomForASunBesideSevenLights) {
+    const osg::ref_ptr<osg::Group> scene = boxScene();
+    for (int number = 0; number < 7; ++number) {
+        osg::ref_ptr<osg::LightSource> lamp = new osg::LightSource;
+        lamp->getLight()->setLightNum(number);
+        scene->addChild(lamp);
+    }
+    EXPECT_EQ(lightSourcesIn(*shadowed(*scene, "map+sun")).back()->getLight()->getLightNum(), 7);
+    osg::ref_ptr<osg::LightSource> eighth = new osg::LightSource;
+    eighth->getLight()->setLightNum(7);
+    scene->addChild(eighth);
+    EXPECT_THROW(shadowed(*scene, "map+sun"), std::invalid_argument);
+}
+
 TEST(ShadowedScene, StandsOnAGroundOfFourRadiiWhereOneIsAskedFor) {
     const osg::BoundingBoxd bounds = sceneBounds(*boxScene());
     EXPECT_EQ(bounds._min, osg::Vec3d(-1, -1, 2));

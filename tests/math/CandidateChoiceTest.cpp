@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 using gnomon::ChoiceCandidate;
 using gnomon::ChoiceReason;
 using gnomon::chooseCandidate;
@@ -78,6 +81,20 @@ TEST(ErrorControl, LoosensInFewFramesAndTriesATighterErrorSeldom) {
     EXPECT_GT(changes, 2);
     EXPECT_LE(changes, 20) << "each try waits twice as long as the one before";
     EXPECT_LE(tight, 8 * changes / 2) << "eight frames show that it is too slow";
+}
+
+TEST(ErrorControl, WaitsBeforeEachTighterErrorAsLongAsBeforeTheFirst) {
+    ErrorControl control(8.0, 1.0);
+    std::vector<int> changes;
+    double before = control.error();
+    for (int i = 0, since = 0; i < 200; ++i) {
+        control.add(0.1, 1.0);
+        ++since;
+        if (control.error() == before) continue;
+        before = control.error();
+        changes.push_back(std::exchange(since, 0));
+    }
+    EXPECT_EQ(changes, (std::vector<int>{36, 36, 36})) << "4 that may be late, and 32 quick ones";
 }
 
 TEST(ErrorControl, HeedsNoSingleFrameAndSaysWhatIsTooSlow) {

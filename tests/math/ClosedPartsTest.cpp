@@ -3,6 +3,7 @@
 #include "Soup.h"
 
 #include <gnomon/geometry/ClosedParts.h>
+#include <gnomon/geometry/MeshEdges.h>
 
 #include <functional>
 #include <utility>
@@ -269,4 +270,16 @@ TEST(WeldedVertices, AreTheFirstOfEachPositionAndMinusZeroIsZero) {
                                            {1, 2, 3}, {0, 1, 0}, {-0.0f, 1, -0.0f}, {0, next, 0}};
     EXPECT_EQ(closedParts(positions.data(), positions.size(), nullptr, 0).welded,
               (std::vector<unsigned>{0, 1, 0, 3, 1, 0, 6, 6, 8}));
+}
+
+TEST(WeldedVertices, ThatAreNearlyTheSameAreSoAcrossTheBordersOfTheGrid) {
+    constexpr double reach = 0.5; // a cell is 8 wide
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 below(1.0), above(1.0);
+        below[axis] = 7.8;
+        above[axis] = 8.2;
+        EXPECT_EQ(nearlyTheSame({below, above}, reach), (std::vector<unsigned>{0, 0})) << axis;
+        EXPECT_EQ(nearlyTheSame({above, below}, reach), (std::vector<unsigned>{0, 0})) << axis;
+        EXPECT_EQ(nearlyTheSame({below, above}, 0.3), (std::vector<unsigned>{0, 1})) << axis;
+    }
 }

@@ -189,6 +189,8 @@ TEST(CasterDrawables, AreClearSolidOrCutOutByTheTexelsThatTheyShow) {
                              {osg::Texture::REPEAT, -5, -1, 0, 0},
                              {osg::Texture::MIRROR, 8, 13, 0, 0},
                              {osg::Texture::MIRROR, 13, 16, 1, 0},
+                             {osg::Texture::MIRROR, -3, 0, 1, 0},
+                             {osg::Texture::MIRROR, -8, -4, 0, 0},
                              {osg::Texture::CLAMP_TO_EDGE, -9, 2, 1, 0},
                              {osg::Texture::CLAMP_TO_EDGE, 9, 20, 0, 0},
                              {osg::Texture::CLAMP_TO_BORDER, -9, 2, 1, 1}}) {

@@ -32,6 +32,17 @@ TEST(ProgramText, MatricesLeaveVerticesInTheirPlace) {
     EXPECT_FALSE(gnomon::placesOf(*programOf("", "void main() { gl_FragColor = vec4(1.0); }")).movesVertices);
 }
 
+TEST(ProgramText, AnAttributeIsTheVertexWhereTheProgramBindsItToLocationZero) {
+    const std::string text =
+        "attribute vec4 place; void main() { gl_Position = gl_ModelViewProjectionMatrix * place; }";
+    for (const unsigned location : {0u, 6u, 0u}) {
+        const osg::ref_ptr<osg::Program> program = programOf(text);
+        program->addBindAttribLocation("place", location);
+        EXPECT_EQ(gnomon::placesOf(*program).movesVertices, location != 0) << location;
+    }
+    EXPECT_TRUE(moves(text));
+}
+
 TEST(ProgramText, InstancesBonesAndWavesMoveThem) {
     EXPECT_TRUE(moves("#version 140\nvoid main() { vec4 v = gl_Vertex; v.x += 3.0 * float(gl_InstanceID);\n"
                       "gl_Position = gl_ModelViewProjectionMatrix * v; }"));
