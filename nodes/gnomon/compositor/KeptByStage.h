@@ -5,6 +5,7 @@
 #include <osgUtil/RenderStage>
 
 #include <atomic>
+#include <thread>
 
 namespace gnomon {
 
@@ -30,13 +31,15 @@ public:
     void refuse(bool refused) { _refused = refused; }
     bool isRefused() const { return _refused; }
 
-    /// Draw: true if the scene graph may be read for a leaf's name. Else the stage's next frame is held for it.
+    /// Draw: true if the scene graph may be read for a leaf's name: the frame is held, or one thread culls and draws it. Else the
+    /// stage's next frame is held for it.
     bool mayName() {
         _wantsNames = true;
-        return _isHeld;
+        return _isHeld || _culls == std::this_thread::get_id();
     }
     /// Cull: whether the next frame's update waits for the draw of this one. @param needed  for other reasons.
     bool hold(bool needed) {
+        _culls = std::this_thread::get_id();
         const bool wanted = _wantsNames.exchange(false);
         return _isHeld = needed || wanted;
     }
@@ -46,6 +49,7 @@ protected:
 
 private:
     std::atomic<bool> _refused{false}, _isHeld{true}, _wantsNames{true};
+    std::atomic<std::thread::id> _culls{};
 };
 
 } // namespace gnomon
