@@ -5,6 +5,7 @@
 #include <gnomon/NamedNode.h>
 
 #include <osg/MatrixTransform>
+#include <osgUtil/LineSegmentIntersector>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,8 @@ namespace {
 constexpr double framingMargin = 1.15;    // of the scene's radius
 constexpr double framingAzimuth = 215.0;  // degrees, of the camera as seen from the scene
 constexpr double framingElevation = 30.0; // degrees
+constexpr double floorHeight = 0.005;     // of the scene's radius
+constexpr int raysASide = 6;
 
 osg::ref_ptr<osg::Node> upright(osg::Node& files, bool yUp) {
     if (!yUp) return &files;
@@ -25,10 +28,34 @@ osg::ref_ptr<osg::Node> upright(osg::Node& files, bool yUp) {
     return turn;
 }
 
+/// Whether the scene stands on a floor of its own: of rays straight down a third meet what lies level at its lowest point.
+bool hasFloor(osg::Node& scene, const osg::BoundingBoxd& bounds) {
+    const double top = bounds.zMin() + floorHeight * bounds.radius();
+    if (!(bounds.zMax() > top)) return false; // a sheet, which has nothing below it
+    osg::ref_ptr<osgUtil::IntersectorGroup> rays = new osgUtil::IntersectorGroup;
+    const osg::Vec3d size = bounds._max - bounds._min;
+    for (int i = 0; i < raysASide * raysASide; ++i) { // off the middle, where triangles meet
+        const osg::Vec3d from(bounds.xMin() + size.x() * (i % raysASide + 0.37) / raysASide,
+                              bounds.yMin() + size.y() * (i / raysASide + 0.71) / raysASide, bounds.zMax() + size.z());
+        const osg::Vec3d to(from.x(), from.y(), bounds.zMin() - size.z());
+        rays->addIntersector(new osgUtil::LineSegmentIntersector(osgUtil::Intersector::MODEL, from, to, nullptr,
+                                                                 osgUtil::Intersector::LIMIT_NEAREST));
+    }
+    osgUtil::IntersectionVisitor visitor(rays);
+    scene.accept(visitor);
+    const auto meetsFloor = [top](const osg::ref_ptr<osgUtil::Intersector>& each) {
+        auto& ray = static_cast<osgUtil::LineSegmentIntersector&>(*each);
+        return ray.containsIntersections() && ray.getFirstIntersection().getWorldIntersectPoint().z() <= top;
+    };
+    const auto& all = rays->getIntersectors();
+    return 3 * std::count_if(all.begin(), all.end(), meetsFloor) > raysASide * raysASide;
+}
+
 /// Side of the ground to put under the scene; 0: none.
 double groundSide(const ViewOptions& o, osg::Node& scene, const osg::BoundingBoxd& bounds) {
     if (o.ground == "none" || findNamed(scene, "ground") || findNamed(scene, o.receiver)) return 0.0;
-    return o.ground == "auto" ? 4.0 * bounds.radius() : std::stod(o.ground);
+    if (o.ground != "auto") return std::stod(o.ground);
+    return hasFloor(scene, bounds) ? 0.0 : 4.0 * bounds.radius();
 }
 
 Selection selectCasters(const std::string& casters, osg::Node& root) {
@@ -134,6 +161,9 @@ void SceneSetup::furnish(const ViewOptions& options) {
     const double side = groundSide(options, scene, bounds);
     osg::ref_ptr<osg::Node> ground = side > 0.0 ? makeGround(bounds, side) : nullptr;
     if (ground) group->addChild(ground);
+    if (ground && options.ground == "auto")
+        note =
+            "the scene has no floor and no node named ground, so it got a white ground; --ground none leaves it out.";
     lights = std::make_unique<SceneLights>(options, *root, *group);
     if (ground) lights->shineOn(*ground);
     group->setCasters(selectCasters(options.casters, *group));

@@ -23,6 +23,7 @@ struct SceneSetup {
     std::vector<osg::ref_ptr<ShadowTechnique>> techniques;
     std::unique_ptr<SceneLights> lights;
     osg::BoundingBoxd bounds; ///< of the files, without the ground put under them; world.
+    std::string note;         ///< what was added that nobody asked for; empty: nothing.
     std::string receiver;     ///< for every shadow that names none itself.
 
     /// Adds ground, lights and shadows as the options ask, for the scene as it is now. @throws as setUpScene().

@@ -129,8 +129,8 @@ void addShadowOptions(Options& table, ViewOptions& into) {
                      [&into](Text t) { into.casters = t; }});
     table.push_back(
         {"--ground", "auto|none|SIZE",
-         "white square ground at the scene's lowest point, if no node is named ground; SIZE is its side in\n"
-         "      the scene's unit, auto is 4 times the scene's radius",
+         "white square ground under the scene, if no node is named ground; SIZE is its side in the scene's\n"
+         "      unit; auto is 4 times the scene's radius, where the scene has no level floor",
          into.ground, [&into](Text t) { into.ground = readGround(t); }});
 }
 

@@ -18,7 +18,7 @@ GNOMON_EXPORT osg::BoundingBoxd sceneBounds(osg::Node& root);
 
 /// Makes a matt white square, named "ground", for a scene that stands on nothing.
 ///
-/// Its normal is +z. Its centre lies under that of `scene`, at the scene's lowest point.
+/// Its normal is +z. Its centre lies under that of `scene`, 1/10000 of the scene's radius below its lowest point.
 /// @param scene  bounds of what stands on it, for example those of sceneBounds().
 /// @param side   length of a side, scene's unit, > 0.
 GNOMON_EXPORT osg::ref_ptr<osg::Node> makeGround(const osg::BoundingBoxd& scene, double side);

@@ -148,6 +148,38 @@ TEST_F(Gnomonshot, PutsGroundOnlyUnderScenesWithoutOne) {
     EXPECT_EQ(countDifferent(*shoot({scene}), *shoot({scene, "--ground", "none"})), 0);
 }
 
+/// A box on a sheet that is no ground by its name.
+const std::string boxOnItsFloor = R"(#Ascii Scene
+#Version 161
+#Generator by hand
+osg::Geode { UniqueID 1 Name "mat" Drawables 2 {
+  osg::ShapeDrawable { UniqueID 2 Shape TRUE { osg::Box { UniqueID 3 Center 0 0 0.5 HalfLengths 0.5 0.5 0.5 } } }
+  osg::ShapeDrawable { UniqueID 4 Shape TRUE { osg::Box { UniqueID 5 Center 0 0 0 HalfLengths 3 3 0 } } Color 0 1 0 1 } } }
+)";
+
+/// The sheet is green, from wherever it is seen, and a ground white; red is 0 of the one, 255 of the other, 51 of the sky.
+TEST_F(Gnomonshot, LeavesAFloorOfTheModelsOwnWhole) {
+    folder.write("floor.osgt", boxOnItsFloor);
+    const Arguments flat = {"floor.osgt", "--shadow", "none", "--ambient", "1", "--diffuse", "0"};
+    for (const Arguments& view : {fromAbove, Arguments{"--size", "160x120"}}) {
+        const auto alone = shoot(flat + view), onGround = shoot(flat + view + Arguments{"--ground", "20"});
+        int greens = 0;
+        for (int y = 0; y < alone->t(); ++y)
+            for (int x = 0; x < alone->s(); ++x) {
+                greens += red(*alone, x, y) == 0;
+                if (red(*alone, x, y) != 51) EXPECT_EQ(red(*alone, x, y), red(*onGround, x, y)) << x << " " << y;
+            }
+        EXPECT_GT(greens, 1000);
+        EXPECT_EQ(red(*alone, 80, 3), 51);
+        EXPECT_EQ(red(*onGround, 80, 3), 255);
+    }
+    EXPECT_EQ(run(flat + Arguments{"--out", "o.png"}).err, "");
+    EXPECT_EQ(run(flat + Arguments{"--out", "o.png", "--ground", "20"}).err, "");
+    folder.write("plate.obj", plate(false));
+    const std::string said = run({"plate.obj", "--out", "o.png"}).err;
+    EXPECT_NE(said.find("gnomonshot: note: the scene has no floor"), std::string::npos) << said;
+}
+
 /// A light of the file's own, from 45°, on for the file's own box only.
 const std::string boxUnderItsLight = R"(#Ascii Scene
 #Version 161

@@ -45,6 +45,7 @@ public:
     std::vector<osg::ref_ptr<osg::LightSource>> found;
 };
 
+constexpr double hair = 1e-4;  // of the scene's radius: a level underside does not fight with the ground
 constexpr unsigned cells = 16; // a side: OpenGL lights vertices, and a lamp's light varies over the ground
 
 osg::ref_ptr<osg::Vec3Array> gridVertices(double side) {
@@ -94,7 +95,7 @@ osg::BoundingBoxd sceneBounds(osg::Node& root) {
 osg::ref_ptr<osg::Node> makeGround(const osg::BoundingBoxd& scene, double side) {
     const osg::Vec3d centre = scene.center();
     osg::ref_ptr<osg::MatrixTransform> place =
-        new osg::MatrixTransform(osg::Matrixd::translate(centre.x(), centre.y(), scene.zMin()));
+        new osg::MatrixTransform(osg::Matrixd::translate(centre.x(), centre.y(), scene.zMin() - hair * scene.radius()));
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
     geode->addDrawable(grid(side));
     place->addChild(geode);
