@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "CommandLine.h"
 
+#include <gnomon/SceneProps.h>
+#include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
 
 #include <charconv>
 #include <cmath>
+#include <dlfcn.h>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
@@ -63,8 +66,15 @@ void takeOne(osg::ArgumentParser& arguments, const Option& option, int position)
 
 } // namespace
 
+void findOwnPlugins() {
+    Dl_info library{};
+    if (!dladdr(reinterpret_cast<const void*>(&askForStencilBits), &library)) return;
+    osgDB::Registry::instance()->getLibraryFilePathList().push_front(osgDB::getFilePath(library.dli_fname));
+}
+
 int runProgram(const char* name, int argc, char** argv, int (*run)(osg::ArgumentParser& arguments)) {
     try {
+        findOwnPlugins();
         osg::ArgumentParser arguments(&argc, argv);
         return run(arguments);
     } catch (const std::exception& error) {

@@ -3,8 +3,6 @@
 #include "InputFile.h"
 #include "ScenePicture.h"
 
-#include <osgDB/Registry>
-
 #include <iostream>
 
 namespace gnomon::examples {
@@ -80,7 +78,6 @@ std::optional<ExampleOptions> readExample(osg::ArgumentParser& arguments, const 
 }
 
 osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string& program) {
-    osgDB::Registry::instance()->getLibraryFilePathList().push_front(GNOMON_LIBRARIES);
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(readScene({file}, program));
     return root;

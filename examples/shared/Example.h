@@ -116,7 +116,7 @@ struct ExampleText {
 std::optional<ExampleOptions> readExample(osg::ArgumentParser& arguments, const ExampleText& text, const Options& own,
                                           const ExampleOptions& defaults, const std::string& keys);
 
-/// A scene file that Gnomon's own nodes stand in, in a group; the plugin that reads them is the one that this build made.
+/// A scene file that Gnomon's own nodes stand in, in a group.
 /// @throws std::runtime_error as readScene() does.
 osg::ref_ptr<osg::Group> readKitScene(const std::string& file, const std::string& program);
 

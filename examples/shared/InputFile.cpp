@@ -4,6 +4,7 @@
 
 #include <gnomon/SceneProps.h>
 
+#include <osg/Notify>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
@@ -12,6 +13,8 @@
 #include <array>
 #include <csignal>
 #include <fstream>
+#include <iostream>
+#include <set>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -71,6 +74,38 @@ private:
     std::array<void (*)(int), signals.size()> _before{};
 };
 
+/// Hears what OpenSceneGraph says while it lives: a line that was said before is not said again, and classes that no plugin
+/// knows are kept for a sentence. Readers of text say the same of each thing behind the end of a file that is cut off.
+class Listener {
+public:
+    Listener() { osg::setNotifyHandler(_handler); }
+    ~Listener() { osg::setNotifyHandler(_handler->before); }
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+    /// "gnomon::HaloNode, gnomon::PlanarShadowNode"; empty: none.
+    std::string unknownClasses() const {
+        std::string text;
+        for (const std::string& name : _handler->unknown) text += (text.empty() ? "" : ", ") + name;
+        return text;
+    }
+
+private:
+    struct Handler : public osg::NotifyHandler {
+        void notify(osg::NotifySeverity severity, const char* message) override {
+            static const std::string start = "InputStream::readObject(): Unsupported wrapper class ";
+            const std::string text = message;
+            if (text.rfind(start, 0) == 0)
+                unknown.insert(text.substr(start.size(), text.find_last_not_of('\n') + 1 - start.size()));
+            else if (said.insert(text).second)
+                before->notify(severity, message);
+        }
+        osg::ref_ptr<osg::NotifyHandler> before = osg::getNotifyHandler();
+        std::set<std::string> said, unknown;
+    };
+    osg::ref_ptr<Handler> _handler = new Handler;
+};
+
 /// OpenSceneGraph's reader goes on at the end of a file that is cut off, with whatever number of things it last read: for
 /// hours, or until memory ends. So the end is an exception.
 ReadResult readBinary(osgDB::Registry& registry, const std::string& file, const FileKind& kind) {
@@ -97,9 +132,10 @@ ReadResult guarded(const std::string& file, const std::string& sentence, const F
     }
 }
 
-/// Also where the last ending only chooses a reader, as .gdal does.
+/// Also where endings only choose a reader, as .gdal does, or move what is read, as .30,0,0.rot does.
 bool isThere(const std::string& file) {
-    return !osgDB::findDataFile(file).empty() || !osgDB::findDataFile(osgDB::getNameLessExtension(file)).empty();
+    const std::string shorter = osgDB::getNameLessExtension(file);
+    return !osgDB::findDataFile(file).empty() || (shorter != file && isThere(shorter));
 }
 
 /// That the file cannot be read as what it is to hold.
@@ -114,10 +150,17 @@ std::string damagedSentence(const std::string& file, const FileKind& kind) {
 ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind) {
     if (osgDB::fileType(file) == osgDB::DIRECTORY)
         throw std::runtime_error(quoted(file) + " is a directory. Give " + kind.article + " file.");
+    const Listener listener;
     ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), kind);
+    const std::string unknown = listener.unknownClasses();
+    if (result.validObject() && !unknown.empty())
+        std::cerr << program << ": note: " << quoted(file) << " is shown in part: no plugin here reads its " << unknown
+                  << "." << std::endl;
     if (result.validObject()) return result;
-    if (!isThere(file) && result.status() != ReadResult::ERROR_IN_READING_FILE)
-        throw std::runtime_error("there is no file " + quoted(file) + ", or no reader for its type.");
+    if (!isThere(file)) throw std::runtime_error("there is no file " + quoted(file) + ".");
+    if (!unknown.empty())
+        throw std::runtime_error("no plugin here reads " + unknown + " in " + quoted(file) +
+                                 ". Name the folder of its plugin's folder in OSG_LIBRARY_PATH.");
     throw std::runtime_error(damagedSentence(file, kind));
 }
 

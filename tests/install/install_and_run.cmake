@@ -61,6 +61,14 @@ foreach(program ${programs})
     endif()
   endforeach()
 endforeach()
+
+# They find the plugins beside them, and so the nodes of Gnomon's own scenes.
+set(ENV{OSG_LIBRARY_PATH} "")
+execute_process(COMMAND ${installed}/bin/gnomonshot ${installed}/share/gnomon/halomagic.osgt --size 80x60 --out ${SCRATCH}/halomagic.png
+  ERROR_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+if(said MATCHES "plugin")
+  message(FATAL_ERROR "gnomonshot says: ${said}")
+endif()
 execute_process(COMMAND bash -c
   "source '${installed}/share/bash-completion/completions/gnomonshot'
    COMP_WORDS=('${installed}/bin/gnomonshot' --shadow tr) COMP_CWORD=2; _gnomon '${installed}/bin/gnomonshot'; echo \"\${COMPREPLY[@]}\"

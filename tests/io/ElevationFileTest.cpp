@@ -105,7 +105,7 @@ TEST(ElevationFile, NothingMeasuredIsAHole) {
 }
 
 TEST(ElevationFile, BadOnesAreRefusedInOneSentence) {
-    EXPECT_EQ(refusal("none.asc", ""), "there is no file \"none.asc.gdal\", or no reader for its type.");
+    EXPECT_EQ(refusal("none.asc", ""), "there is no file \"none.asc.gdal\".");
     EXPECT_EQ(refusal("text.vrt", "not a model"), damaged("text.vrt"));
     EXPECT_EQ(refusal("half.vrt", "<VRTDataset rasterXSize=\"3\" raster"), damaged("half.vrt"));
     EXPECT_EQ(refusal("nowhere.vrt", rawGrid("nowhere.raw", 0)), damaged("nowhere.vrt"));

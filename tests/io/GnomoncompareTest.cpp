@@ -218,11 +218,11 @@ TEST_F(Gnomoncompare, RefusesFilesThatAreMissingOrDamagedOrOfOtherSizes) {
     const std::string whole = readFile(folder.path() / "t.osgb");
     folder.write("cut.osgb", whole.substr(0, whole.size() / 2));
     folder.write("empty.tif", "");
-    const std::string gone = "there is no file \"gone.tif\", or no reader for its type.",
+    const std::string gone = "there is no file \"gone.tif\".",
                       small = "\"small.tif\" is 64 x 96 px and \"a.tif\" 128 x 96 px. Give files of one size.";
     EXPECT_EQ(refused({"--json", "n.json"}, "gone.tif"), gone);
     EXPECT_EQ(refused({"--shadowed", "gone.tif"}), gone);
-    EXPECT_EQ(refused({}, "a.tif", "b.tif", "gone.osgb"), "there is no file \"gone.osgb\", or no reader for its type.");
+    EXPECT_EQ(refused({}, "a.tif", "b.tif", "gone.osgb"), "there is no file \"gone.osgb\".");
     EXPECT_NE(refused({}, "a.tif", "b.tif", "cut.osgb").find("\"cut.osgb\""), std::string::npos);
     EXPECT_NE(refused({}, "empty.tif").find("\"empty.tif\""), std::string::npos);
     EXPECT_EQ(refused({}, "a.tif", "small.tif"), small);

@@ -9,6 +9,9 @@
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
+#include <set>
+#include <sstream>
+
 namespace {
 
 using namespace gnomon::testing;
@@ -184,9 +187,12 @@ TEST_F(BadInput, FilesThatAreMissingOrOfAnotherType) {
     folder.write("letter.osgt", "Dear OpenSceneGraph,\n");
     folder.write("letter.obj", "Dear OpenSceneGraph,\n");
     for (const std::string name : {"gone.osgt", "gone"})
-        EXPECT_EQ(refusalOf(name), "there is no file \"" + name + "\", or no reader for its type.");
+        EXPECT_EQ(refusalOf(name), "there is no file \"" + name + "\".");
     for (const std::string name : {"dir.osgt", "."})
         EXPECT_EQ(refusalOf(name), "\"" + name + "\" is a directory. Give a scene file.");
+    EXPECT_EQ(refusal(GNOMONVIEWER, {"gone"}, folder, false), "there is no file \"gone\".")
+        << "no plugin is loaded yet";
+    EXPECT_EQ(refusalOf("gone.osgt.30,0,0.rot"), "there is no file \"gone.osgt.30,0,0.rot\".");
     for (const char* name : {"noise.png", "letter.obj", "letter.osgt"}) EXPECT_EQ(refusalOf(name), damaged(name));
     refusalOf("readme.txt");
 }
@@ -200,6 +206,35 @@ TEST_F(BadInput, FilesWithNothingInThem) {
     folder.write("empty.osgt", "#Ascii Scene\n#Version 161\n#Generator by hand\n\nosg::Group {\n  UniqueID 1\n}\n");
     folder.write("nan.obj", "v nan nan nan\nv nan 0 0\nv 0 nan 0\nf 1 2 3\n");
     for (const char* name : {"empty.osgt", "nan.obj"}) EXPECT_EQ(refusalOf(name), empty(name));
+}
+
+/// A scene of which a class is nobody's: refused where nothing is left, told of where something is.
+TEST_F(BadInput, ClassesThatNoPluginKnows) {
+    const std::string head = "#Ascii Scene\n#Version 161\n#Generator by hand\n\n",
+                      lamp = "elsewhere::Lamp { UniqueID 9 }";
+    folder.write("all.osgt", head + lamp + "\n");
+    EXPECT_EQ(refusalOf("all.osgt"),
+              "no plugin here reads elsewhere::Lamp in \"all.osgt\". Name the folder of its plugin's "
+              "folder in OSG_LIBRARY_PATH.");
+    folder.write("part.osgt", head + "osg::Group { UniqueID 1 Children 2 { " + lamp +
+                                  " osg::Geode { UniqueID 2 Drawables 1 { osg::ShapeDrawable { UniqueID 3 Shape TRUE { "
+                                  "osg::Sphere { UniqueID 4 } } } } } } }\n");
+    const Ending ending = runGnomonshot({"part.osgt", "--out", "o.png", "--ground", "none"}, folder.path());
+    EXPECT_EQ(ending.status, 0);
+    EXPECT_EQ(ending.err,
+              "gnomonshot: note: \"part.osgt\" is shown in part: no plugin here reads its elsewhere::Lamp.\n");
+}
+
+/// Readers of text say the same of each thing that is behind the end.
+TEST_F(BadInput, ALineOfOpenSceneGraphsIsSaidOnce) {
+    const std::string whole = readFile(scene);
+    folder.write("cut.osgt", whole.substr(0, whole.size() * 9 / 10));
+    const Ending ending = runGnomonshot({"cut.osgt", "--out", "o.png"}, folder.path());
+    std::istringstream lines(ending.out + ending.err);
+    std::multiset<std::string> said;
+    for (std::string line; std::getline(lines, line);) said.insert(line);
+    EXPECT_GT(said.size(), 1u);
+    for (const std::string& line : said) EXPECT_EQ(said.count(line), 1u) << line;
 }
 
 TEST_F(BadInput, TruncatedFile) {

@@ -169,6 +169,7 @@ private:
     explicit ProgramRun(const RunOptions& options) : _options(options) {
         askForStencilBits();
         askForAlphaBits();
+        findOwnPlugins();
         met(metProgram);
         std::atexit([] { // where the program ends by itself
             if (programNeedsOsg()) ofProcess()->met(metOsg);
