@@ -6,6 +6,7 @@
 #include <gnomon/ground/BoxMethod.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/common.hpp>
 #include <random>
 
@@ -154,6 +155,21 @@ TEST(BoxShadow, KnowsThatItsOutlineIsNotThatOfAnythingButAnUprightBlockInTheGrou
     for (glm::dvec3& corner : sheet) corner.y = 195.0 + (corner.x - 192.0) * 10.0 / 16.0;
     porch.emplace_back(212.0, 200.0, 3.0);
     for (const auto& points : {gable, floating, sheet, porch}) EXPECT_FALSE(isOutline(points, sun(30.0)));
+}
+
+/// Shadows of the roof's edges are straight on any plane, and not where it has a kink under them.
+TEST(BoxShadow, KnowsThatTheGroundBendsItsOutline) {
+    const auto isOutline = [](const auto& heightAt) {
+        std::vector<float> heights;
+        for (int y = 0; y < 41; ++y)
+            for (int x = 0; x < 41; ++x) heights.push_back(float(heightAt(10.0 * x, 10.0 * y)));
+        const HeightPyramid ground({41, 41, {0.0, 0.0}, {10.0, 10.0}, std::move(heights)});
+        return gnomon::isBoxOutline(ground, boxOf(house().corners(), house()), sun(30.0));
+    };
+    EXPECT_TRUE(isOutline([](double x, double y) { return 3.0 + 0.1 * (x - 200.0) - 0.05 * (y - 200.0); }));
+    // The shadow's end goes from x = 175 to 191, its side from y = 165 to 175.
+    EXPECT_FALSE(isOutline([](double x, double) { return 3.0 + 0.3 * std::max(0.0, 180.0 - x); }));
+    EXPECT_FALSE(isOutline([](double, double y) { return 3.0 + 0.3 * std::max(0.0, 170.0 - y); }));
 }
 
 } // namespace

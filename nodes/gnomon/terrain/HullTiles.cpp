@@ -62,8 +62,8 @@ double turnBetween(const glm::dvec4& a, const glm::dvec4& b) {
 std::string sentenceOf(HullOutcome outcome) {
     switch (outcome) {
     case HullOutcome::boxed:
-        return "its shadow is that of its bounding box, whose outline differs from the caster's in this light. Use "
-               "hull.";
+        return "its shadow is that of its bounding box, whose outline differs from the caster's in this light or on "
+               "this ground. Use hull.";
     case HullOutcome::lightInside:
         return "all the ground is dark, because the light is inside the caster. Move the light out of it.";
     case HullOutcome::lightBelow:

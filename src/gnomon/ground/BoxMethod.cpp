@@ -108,6 +108,7 @@ private:
         if (hit) point = *hit + glm::dvec3(0.0, 0.0, _lifts.projected);
         return hit.has_value();
     }
+    bool isStraight(const glm::dvec2& from, const glm::dvec2& to) const;
 
     const Ground& _ground;
     const BoxCaster& _caster;
@@ -141,16 +142,32 @@ bool Method::isSide(std::size_t side, bool isTurnedAway) const {
     return isTurnedAway ? behind >= -grazing : behind <= grazing;
 }
 
+/// Whether the shadow of an edge of the roof runs straight in plan, at a quarter, a half and three quarters of its way.
+/// That of an upright edge always does.
+bool Method::isStraight(const glm::dvec2& from, const glm::dvec2& to) const {
+    glm::dvec3 a, b, between;
+    if (!project(from, a) || !project(to, b)) return false;
+    const glm::dvec2 way(b - a);
+    for (const double share : {0.25, 0.5, 0.75}) {
+        if (!project(glm::mix(from, to, share), between)) return false;
+        const double off = way.x * (between.y - a.y) - way.y * (between.x - a.x);
+        if (std::abs(off) > mostOffOf(_caster) * glm::length(way)) return false;
+    }
+    return true;
+}
+
 bool Method::isOutline() const {
     if (!_caster.isBlock) return false;
-    const std::size_t first = indexOf(corners().first);
+    const Corners at = corners();
+    const std::size_t first = indexOf(at.first);
     for (std::size_t i = 0; i < 4; ++i)
         if (!isSide((first + i) % 4, i < 2)) return false;
     for (std::size_t i = 0; i < 4; ++i) {
         const auto ground = _ground.height(_caster.vertices[i].x, _caster.vertices[i].y);
         if (!ground || !(_caster.feet[i] <= *ground + mostOffOf(_caster))) return false;
     }
-    return true;
+    const glm::dvec2 middle = vertexAt(at.middle);
+    return isStraight(vertexAt(at.first), middle) && isStraight(middle, vertexAt(at.last));
 }
 
 } // namespace

@@ -51,8 +51,8 @@ std::optional<BoxTriangles> boxShadow(const Ground& ground, const BoxCaster& cas
 std::array<glm::dvec2, 5> boxPentagon(const BoxTriangles& shadow);
 
 /// Whether the method's outline is the caster's own: a block that stands in the ground, with those two sides turned away
-/// from the light that the method takes for it. Walls that are missing between the caster's vertices, and rough ground
-/// under the shadow, are not found.
+/// from the light that the method takes for it, and shadows of the roof's edges that the ground does not bend. Walls that
+/// are missing between the caster's vertices are not found.
 bool isBoxOutline(const Ground& ground, const BoxCaster& caster, const glm::dvec4& light);
 
 } // namespace gnomon
