@@ -469,7 +469,7 @@ def report_chart(folder, results):
 
 OUTCOMES = ["held", "stated limit", "elsewhere", "left", "catastrophe"]
 REACH = LinearSegmentedColormap.from_list("reach", ["#d03727", "#f4a55c", "#fde7a0"])
-HELD = "#5b9bd0"
+HELD, NOT_DRAWN = "#5b9bd0", "#e5e7eb"
 SIGNS = {"stated limit": "/", "elsewhere": "·", "catastrophe": "×"}
 
 
@@ -498,8 +498,10 @@ def stability_figure(table, contenders):
     figure.subplots_adjust(left=2.1 / width, right=1 - 0.1 / width, top=1 - 1.1 / height, bottom=0.4 / height)
     for row in table["rows"]:
         x, y = column[row["scene"]], contenders.index(contender(row))
-        hatch = "/////" if row["outcome"] == "stated limit" else None
-        axes.add_patch(plt.Rectangle((x - 0.46, y - 0.46), 0.92, 0.92, facecolor=reach_colour(row), hatch=hatch,
+        limit = row["outcome"] == "stated limit"
+        hatch = "/////" if limit and row["kit"] == OURS else None
+        colour = NOT_DRAWN if limit and not hatch else reach_colour(row)  # osgShadow states nothing: the chart cannot stage it
+        axes.add_patch(plt.Rectangle((x - 0.46, y - 0.46), 0.92, 0.92, facecolor=colour, hatch=hatch,
                                      edgecolor="#111827" if hatch else "none", lw=0))  # fmt: skip
         if row["outcome"] in ("elsewhere", "catastrophe"):
             axes.text(x, y, SIGNS[row["outcome"]], ha="center", va="center", fontsize=8, fontweight="bold")
@@ -519,9 +521,10 @@ def stability_figure(table, contenders):
     figure.legend(handles=[Patch(color=HELD, label="right to the end"), Patch(color="#fde7a0", label="fails late"),
                            Patch(color="#d03727", label="fails at once"),
                            Patch(facecolor="white", edgecolor="#111827", hatch="/////", label="it states the limit"),
+                           Patch(color=NOT_DRAWN, label="no receiver for it"),
                            Line2D([], [], ls="", marker="$·$", color="#111827", label="right on its receiver"),
                            Line2D([], [], ls="", marker="x", color="#111827", label="lost without a word")],
-                  loc="lower left", ncols=6, fontsize=7.5, frameon=False)  # fmt: skip
+                  loc="lower left", ncols=7, fontsize=7.5, frameon=False)  # fmt: skip
     return figure
 
 
