@@ -47,7 +47,7 @@ public:
     /// @return why nothing could be drawn, as a cause for ShadowTechnique::report(); empty if all is well.
     virtual std::string draw(ScreenPass& pass) const = 0;
 
-    /// True if it can draw ScreenPass::Want::Factor.
+    /// True if it can draw ScreenPass::Want::Factor, as a MarkProgram can.
     virtual bool canDarken() const { return false; }
 
     /// How many steps of the depth buffer a surface may be off its place for its marks; 0: however many.

@@ -98,9 +98,9 @@ public:
     /// See setClipCure().
     bool getClipCure() const { return _cures.clip; }
 
-    /// Makes one job for each plane that receives a shadow. See ShadowTechnique::prepare().
+    /// Makes one mark for each plane that receives a shadow. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const FrameCasters& casters) const override;
+                                            const FrameCasters& casters) const override;
 
     /// False for a point in one of the planes if a caster above that plane blocks the light. True for any other point.
     /// A point is in a plane if it is nearer than 10⁻⁵ of the casters' size.
@@ -121,7 +121,7 @@ protected:
 
 private:
     osg::ref_ptr<Mark> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterLayers& casters,
-                                     unsigned index, const glm::dvec4& groupPlane) const;
+                                  unsigned index, const glm::dvec4& groupPlane) const;
 
     std::vector<osg::Vec4d> _planes;
     PlanarCures _cures;

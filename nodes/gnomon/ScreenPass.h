@@ -106,8 +106,6 @@ public:
     void multiplyColor(float factor);
     /// What is drawn next multiplies what stands by the factor, whatever its own colour.
     void beginMultiply(float factor);
-    /// What is drawn next multiplies what stands by its own colour; alpha stays.
-    void beginMultiplyByColor();
     /// What is drawn next and what stands are mixed: (1 - kept) of the one, kept of the other, a channel each. Alpha is
     /// that of what is drawn.
     void beginMix(const osg::Vec3& kept);
@@ -133,6 +131,7 @@ public:
     void drawQuad(double atCenter = 0.0, double slopeX = 0.0, double slopeY = 0.0);
 
 private:
+    void beginMultiplyByColor();
     void count(unsigned bits, bool behind);
     void openChannels(GLboolean alpha) const;
     void openToMultiply();

@@ -177,9 +177,9 @@ public:
     /// A map counts once a frame if any caster is drawn into it.
     unsigned passes() const override;
 
-    /// Updates the maps of one light and makes the jobs that look them up. See ShadowTechnique::prepare().
+    /// Updates the maps of one light and makes the marks that look them up. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const FrameCasters& casters) const override;
+                                            const FrameCasters& casters) const override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

@@ -84,10 +84,10 @@ public:
     void traverse(osg::NodeVisitor& visitor) override;
 
     /// Finds the pixels that one light does not reach in one view. The compositor calls it after the cull.
-    /// @return jobs that mark those pixels in draw; empty if the light casts nothing in this view. If a user might
+    /// @return what marks those pixels in draw; empty if the light casts nothing in this view. If a user might
     ///         wonder why, prepare() calls report().
     virtual std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                                       const FrameCasters& casters) const = 0;
+                                                    const FrameCasters& casters) const = 0;
     /// True if prepare() uses only the casters' pieces. The group then makes no meshes of them. Default false.
     virtual bool takesDrawables() const { return false; }
 
@@ -129,7 +129,7 @@ public:
     /// @param time  seconds, by which viewers that count frames alike differ.
     /// @param view  any address that identifies the view.
     void beginFrame(unsigned frame, double time, const void* view) const;
-    /// A reporter for one frame, for jobs that outlive the frame's cull. It does as report().
+    /// A reporter for one frame, for marks that outlive the frame's cull. It does as report().
     FrameReport reportIn(unsigned frame) const;
     /// True if lastReport() has been called: then record() is to be.
     bool isRecorded() const;
@@ -143,8 +143,6 @@ protected:
 
     /// Registers the technique with the compositor of the current render stage, or reports why it cannot.
     void enlist(osgUtil::CullVisitor& cull);
-    /// True if a ShadowCasterGroup is above the visited node.
-    static bool hasGroupAbove(const osg::NodeVisitor& visitor);
 
 private:
     SelectionReference _receiver;

@@ -79,9 +79,9 @@ public:
     /// The same.
     unsigned passes() const override { return builds(); }
 
-    /// Finds the volumes of one light, and makes the job that draws them. See ShadowTechnique::prepare().
+    /// Finds the volumes of one light, and makes the mark that draws them. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const FrameCasters& casters) const override;
+                                            const FrameCasters& casters) const override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

@@ -100,9 +100,9 @@ public:
     /// See OptionalPart::Terrain. BOX is in every build.
     std::string whyUnavailable() const override;
 
-    /// Makes the job that marks the tiles in view. See ShadowTechnique::prepare().
+    /// Makes the mark of the tiles in view. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const FrameCasters& casters) const override;
+                                            const FrameCasters& casters) const override;
     /// True: the technique keeps casters by drawable.
     bool takesDrawables() const override { return true; }
     /// See ShadowTechnique::letGo().

@@ -60,9 +60,9 @@ public:
     TracedShadowTechnique(const TracedShadowTechnique& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY);
     META_Node(gnomon, TracedShadowTechnique)
 
-    /// Makes the job that casts the rays of one light. See ShadowTechnique::prepare().
+    /// Makes the mark that casts the rays of one light. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const FrameCasters& casters) const override;
+                                            const FrameCasters& casters) const override;
 
     /// See OptionalPart::Traced.
     std::string whyUnavailable() const override;

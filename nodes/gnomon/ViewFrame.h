@@ -13,6 +13,7 @@
 #include <osgUtil/RenderLeaf>
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -38,6 +39,19 @@ enum class ReceiverKind {
     Late       ///< drawn after the opaque bins.
 };
 
+/// Tells the views of a technique apart, and in each the parts of its receivers: what techniques keep is found by it.
+struct ViewKey {
+    const void* stage = nullptr; ///< osgUtil's; its address alone. Null: no view.
+    int part = 0;                ///< of the receivers.
+
+    /// True if both tell of one view and one part.
+    bool operator==(const ViewKey& other) const { return stage == other.stage && part == other.part; }
+    /// Any order, for maps.
+    bool operator<(const ViewKey& other) const {
+        return stage != other.stage ? std::less<>()(stage, other.stage) : part < other.part;
+    }
+};
+
 /// One view in one frame, as a technique sees it after cull. OSG's convention: row vectors, eye = group * eyeFromGroup.
 struct GNOMON_EXPORT ViewFrame {
     osg::Matrixd eyeFromGroup;       ///< modelview of the ShadowCasterGroup.
@@ -46,15 +60,14 @@ struct GNOMON_EXPORT ViewFrame {
     osg::Vec2d pixels;               ///< of the viewport.
     osg::Vec2d
         pushedBack; ///< what receives, by polygon offset: in pixels of its slope, and in steps of the depth buffer.
-    const ShadowCasterGroup* group = nullptr;     ///< Above the technique.
-    float dark = 0.5f;                            ///< of the ShadowCasterGroup.
-    CompositorOptions options;                    ///< of the ShadowCasterGroup.
-    unsigned frameNumber = 0;                     ///< For ShadowTechnique::report().
-    double frameTime = 0.0;                       ///< seconds, see timeOf().
-    const void* stage = nullptr;                  ///< tells views apart, and in each the kinds of receivers.
-    const void* renderStage = nullptr;            ///< the same for all kinds of receivers in a view.
-    ReceiverKind kind = ReceiverKind::Usual;      ///< of `seen`.
-    const LeafSet* receivers = nullptr;           ///< leaves of the named receiver; null if none is named.
+    const ShadowCasterGroup* group = nullptr; ///< Above the technique.
+    CompositorOptions options; ///< of the ShadowCasterGroup; its filter is that of all groups in the view.
+    unsigned frameNumber = 0;  ///< For ShadowTechnique::report().
+    double frameTime = 0.0;    ///< seconds, see timeOf().
+    ViewKey key;               ///< Of this view and these receivers.
+    ReceiverKind kind = ReceiverKind::Usual; ///< of `seen`.
+    const LeafSet* receivers =
+        nullptr; ///< `seen`, where that is not all that the view sees: of a named receiver, displaced or late; else null.
     std::size_t lights = 1;                       ///< whose shadows the group wants in the view.
     std::map<int, double> strengths;              ///< of these, see GroupLights.
     std::vector<const osgUtil::RenderLeaf*> seen; ///< leaves that can receive: those, or all of the view.

@@ -89,11 +89,11 @@ struct PlacedRayScene {
 class GNOMON_EXPORT RayScene {
 public:
     /// Receives the finished share of a build, 0 … 1. The building threads call it, possibly several at once.
-    using ProgressLine = std::function<void(double)>;
+    using Progress = std::function<void(double)>;
 
     /// Builds the tree.
     /// @throws std::runtime_error with one sentence if Embree is missing or cannot start, or there is not enough memory.
-    explicit RayScene(const TriangleSoup& triangles, const ProgressLine& progress = {});
+    explicit RayScene(const TriangleSoup& triangles, const Progress& progress = {});
     /// Builds a tree of two levels over scenes that are there: a microsecond a part. It shares their triangles.
     /// Parts with a matrix that is not affine, finite and invertible are left out, and so are empty ones.
     /// @throws std::runtime_error as above, and std::invalid_argument if a part is null or has parts.

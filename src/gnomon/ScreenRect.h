@@ -17,7 +17,9 @@ constexpr ScreenRect wholeScreen{{-1.0, -1.0}, {1.0, 1.0}};
 inline ScreenRect united(const ScreenRect& a, const ScreenRect& b) {
     return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
-/// What lies in both; low > high somewhere if nothing does.
+/// True of what common() gives where nothing lies in both.
+inline bool isEmpty(const ScreenRect& rect) { return !(rect.low.x <= rect.high.x && rect.low.y <= rect.high.y); }
+/// What lies in both.
 inline ScreenRect common(const ScreenRect& a, const ScreenRect& b) {
     return {glm::max(a.low, b.low), glm::min(a.high, b.high)};
 }

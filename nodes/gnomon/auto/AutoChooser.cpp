@@ -88,15 +88,15 @@ bool isMoving(const AutoMotion& motion) { return motion.scene > 0.0 || motion.vi
 
 AutoChooser::Choice& AutoChooser::find(const AutoView& view) {
     auto* known = _choices.find(
-        [&](const auto& choice) { return choice->stage == view.frame.stage && choice->light == view.light.number; });
+        [&](const auto& choice) { return choice->view == view.frame.key && choice->light == view.light.number; });
     Choice& choice = known ? **known : *_choices.add(std::make_unique<Choice>());
-    if (!known) choice.stage = view.frame.stage, choice.light = view.light.number;
+    if (!known) choice.view = view.frame.key, choice.light = view.light.number;
     if (view.frame.frameNumber != _frame || (known && choice.lastRound == _round)) {
         _frame = view.frame.frameNumber;
         ++_round;
     }
     choice.lastRound = _round;
-    choice.renderStage = _lastRenderStage = view.frame.renderStage;
+    _lastStage = view.frame.key.stage;
     choice.kind = view.frame.kind;
     _choices.dropWhile([this](const auto& old) { return _round - old->lastRound > keptRounds; });
     return choice;
@@ -115,8 +115,8 @@ AutoChooser::Seen AutoChooser::seenIn(const AutoView& view, const Selection& rec
     sight.mix(fingerprintOf(frame.seen));
     for (const double number :
          {frame.pixels.x(), frame.pixels.y(), double(frame.group->getComposite()),
-          double(frame.options.reservedStencilBits), double(frame.lights), double(frame.dark), double(isFaint(view)),
-          view.light.inGroup.w(), double(receiver.mask), double(_renderer->value.load())})
+          double(frame.options.reservedStencilBits), double(frame.lights), double(frame.group->getDark()),
+          double(isFaint(view)), view.light.inGroup.w(), double(receiver.mask), double(_renderer->value.load())})
         asked.mix(number);
     for (const osg::ref_ptr<osg::Node>& root : receiver.roots()) asked.mix(static_cast<const void*>(root.get()));
     return {motion.value(), sight.value(), asked.value(), error};
@@ -186,7 +186,7 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
     Choice& choice = find(view);
     _idleCulls = 0;
     _known.flat.reset();
-    TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(view.frame.renderStage, options) : nullptr;
+    TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(view.frame.key.stage, options) : nullptr;
     const Seen now = seenIn(view, receiver, keeper ? keeper->error() : usualError(options));
     if (isDue(choice, now, view, receiver) || isOld(choice, now)) decide(choice, now, view, receiver);
     if (choice.candidate.kind != AutoCandidate::Kind::Mixed) _known.splits.forgetOthersThan(view.casters);
@@ -221,13 +221,13 @@ std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(Choice& choice, const See
     return choice.flat.in(view.frame.seen);
 }
 
-TimeKeeper& AutoChooser::keeperOf(const void* renderStage, const AutoShadowOptions& options) {
+TimeKeeper& AutoChooser::keeperOf(const void* stage, const AutoShadowOptions& options) {
     Keeper* known = _keepers.find([&](const Keeper& each) {
-        return each.renderStage == renderStage && each.error == options.error && each.keeper->time == options.time;
+        return each.stage == stage && each.error == options.error && each.keeper->time == options.time;
     });
     if (!known) {
         const double finest = options.error > 0.0 ? options.error : ErrorControl::tightest;
-        known = &_keepers.add({renderStage, options.error, 0,
+        known = &_keepers.add({stage, options.error, 0,
                                new TimeKeeper(options.time, ErrorControl(usualError(options), finest), *_renderer)});
     }
     known->lastRound = _round;
@@ -245,17 +245,17 @@ void AutoChooser::beginCull(bool isCurrent) {
     _known = {};
 }
 
-osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* renderStage, const AutoShadowOptions& options) {
+osg::ref_ptr<DrawWatch> AutoChooser::watch(const void* stage, const AutoShadowOptions& options) {
     if (!(options.time > 0.0) && _renderer->value != Renderer::Unknown) return nullptr;
     Lock lock(_mutex);
-    return &keeperOf(renderStage, options);
+    return &keeperOf(stage, options);
 }
 
 std::vector<ShadowDecision> AutoChooser::lastDecision() const {
     Lock lock(_mutex);
     std::vector<const Choice*> last; // in the order in which they were asked for
     for (const auto& choice : _choices)
-        if (choice->renderStage == _lastRenderStage && choice->lastRound == _round) last.push_back(choice.get());
+        if (choice->view.stage == _lastStage && choice->lastRound == _round) last.push_back(choice.get());
     std::stable_sort(last.begin(), last.end(), [](const Choice* a, const Choice* b) {
         return std::make_pair(a->light, a->kind) < std::make_pair(b->light, b->kind);
     });

@@ -40,7 +40,7 @@ public:
     /// @param isCurrent  the thread may ask OpenGL, and so learns who draws.
     void beginCull(bool isCurrent);
     /// What is to be learnt in the view's draw; null: nothing.
-    osg::ref_ptr<DrawWatch> watch(const void* renderStage, const AutoShadowOptions& options);
+    osg::ref_ptr<DrawWatch> watch(const void* stage, const AutoShadowOptions& options);
 
     /// Of the view that asked last, for each light and kind of receivers.
     std::vector<ShadowDecision> lastDecision() const;
@@ -64,9 +64,8 @@ private:
         }
     };
     struct Choice {
-        const void* stage;
+        ViewKey view;
         int light;
-        const void* renderStage = nullptr; ///< see ViewFrame.
         ReceiverKind kind = ReceiverKind::Usual;
         Seen decided, last;
         AutoCandidate candidate;
@@ -84,7 +83,7 @@ private:
     };
     Choice& find(const AutoView& view);
     Seen seenIn(const AutoView& view, const Selection& receiver, double error) const;
-    TimeKeeper& keeperOf(const void* renderStage, const AutoShadowOptions& options);
+    TimeKeeper& keeperOf(const void* stage, const AutoShadowOptions& options);
     std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver);
     std::shared_ptr<const LeafSet> surfacesOf(Choice& choice, const Seen& now, const AutoView& view);
     bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
@@ -93,7 +92,7 @@ private:
 
     /// Of the shadows of one view, while time= is set.
     struct Keeper {
-        const void* renderStage;
+        const void* stage;
         double error; ///< that was asked for.
         unsigned lastRound;
         osg::ref_ptr<TimeKeeper> keeper;
@@ -107,7 +106,7 @@ private:
     const osg::ref_ptr<RendererFact> _renderer = new RendererFact;
     unsigned _round = 0, _frame = 0;
     unsigned _idleCulls = 0; ///< since the last choice.
-    const void* _lastRenderStage = nullptr;
+    const void* _lastStage = nullptr;
 };
 
 } // namespace gnomon

@@ -59,17 +59,17 @@ std::vector<osg::ref_ptr<Mark>> AutoShadowTechnique::prepare(const ViewFrame& vi
     for (const std::string& cause : drawn.causes) report(view.frameNumber, cause);
     ViewFrame here = view;
     here.groupFromTechnique = osg::Matrixd(); // planes are the group's
-    std::vector<osg::ref_ptr<Mark>> jobs;
+    std::vector<osg::ref_ptr<Mark>> marks;
     for (const auto& [technique, part] : drawn.shares) {
-        technique->beginFrame(view.frameNumber, view.frameTime, view.stage);
-        for (const osg::ref_ptr<Mark>& job : technique->prepare(here, light, part)) jobs.push_back(job);
+        technique->beginFrame(view.frameNumber, view.frameTime, view.key.stage);
+        for (const osg::ref_ptr<Mark>& mark : technique->prepare(here, light, part)) marks.push_back(mark);
         for (const std::string& cause : causesOf(*technique)) report(view.frameNumber, cause);
     }
-    for (const osg::ref_ptr<Mark>& job : jobs) {
-        job->surfaces = drawn.surfaces;
-        job->cutBySurfaces = drawn.surfaces && drawn.cutBySurfaces;
+    for (const osg::ref_ptr<Mark>& mark : marks) {
+        mark->surfaces = drawn.surfaces;
+        mark->cutBySurfaces = drawn.surfaces && drawn.cutBySurfaces;
     }
-    return jobs;
+    return marks;
 }
 
 /// The first frame's choice knows who draws where the context is current in cull.
@@ -87,7 +87,7 @@ void AutoShadowTechnique::letGo() const {
 }
 
 osg::ref_ptr<DrawWatch> AutoShadowTechnique::watch(const ViewFrame& view) const {
-    return _chooser->watch(view.renderStage, _options);
+    return _chooser->watch(view.key.stage, _options);
 }
 
 void AutoShadowTechnique::resizeGLObjectBuffers(unsigned maxSize) {

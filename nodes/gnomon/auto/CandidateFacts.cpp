@@ -123,7 +123,7 @@ std::string whyCutOut(const CasterDrawables& casters) { return casters.cutouts >
 TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receiver) {
     if (!hasPart(OptionalPart::Terrain)) return {"this build has no Qhull"};
     if (const std::string cutOut = whyCutOut(view.casters); !cutOut.empty()) return {cutOut};
-    if (!view.frame.receivers) return {"no terrain is named as receiver"};
+    if (receiver == Selection()) return {"no terrain is named as receiver"};
     const glm::dvec3 sun(view.towards);
     const double across = glm::length(glm::dvec2(sun));
     if (!(view.towards.w == 0.0 && sun.z > 0.0)) return {"the light is no sun above the horizon"};

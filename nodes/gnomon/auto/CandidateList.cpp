@@ -158,7 +158,7 @@ private:
         if (_one.maps == 0) return "no shadow can fall on what is in sight";
         if (_one.texels < leastShadow) return "the shadow is narrower than half a pixel";
         if (isFaint(_view)) return "the light is so faint that nobody could see its shadow";
-        if (blends() && _view.frame.dark >= 1.0f - float(leastContrast))
+        if (blends() && _view.frame.group->getDark() >= 1.0f - float(leastContrast))
             return "the shadow would not be seen, as its factor is 1";
         return {};
     }

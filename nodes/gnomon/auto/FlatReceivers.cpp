@@ -430,7 +430,7 @@ bool mayShadow(const ConvexBody& caster, const ConvexBody& body, const glm::dvec
     return !parts(caster, body, 1.0) && !parts(body, caster, -1.0);
 }
 
-/// Several planes are several jobs, none of which knows all; and jobs of several lights are relit together.
+/// Several planes are several marks, none of which knows all; and marks of several lights are relit together.
 bool isRelitAlone(const AutoView& view, const FlatReceivers& flat) {
     return view.frame.group->getComposite() == ShadowCasterGroup::RELIGHT && view.frame.lights == 1 &&
            !view.frame.receivers && flat.planes.size() == 1;

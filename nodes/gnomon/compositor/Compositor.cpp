@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/Compositor.h>
+#include <gnomon/compositor/FadingCompositor.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/PrepassBin.h>
-#include <gnomon/compositor/SoftCompositor.h>
 
 #include <algorithm>
 #include <deque>
@@ -24,7 +24,7 @@ std::vector<Jobs> byView(const Jobs& jobs) {
 /// A job that knows where its shadow falls, as if those leaves were its named receiver.
 ShadowJob onItsSurfaces(ShadowJob job) {
     job.receiverNamed = true;
-    job.receivers = job.marks->surfaces;
+    job.receivers = job.mark->surfaces;
     return job;
 }
 
@@ -32,7 +32,7 @@ ShadowJob onItsSurfaces(ShadowJob job) {
 
 /// Unless it has a named receiver or something of another view lies over it.
 bool needsNoMarks(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
-    return !job.relight && !job.receiverNamed && job.marks->canDarken() && notOfView(job, leaves).empty();
+    return !job.relight && !job.receiverNamed && job.mark->canDarken() && notOfView(job, leaves).empty();
 }
 
 Compositor::Compositor(CompositorStage draw) : _draw(std::move(draw)), _lightBits(_draw.bits) {
@@ -54,8 +54,8 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     std::map<float, Jobs> blended;
     std::deque<ShadowJob> onSurfaces;
     for (const ShadowJob& given : jobs) {
-        if (given.programMarks()) continue;
-        const bool cut = given.marks->surfaces && !given.receiverNamed;
+        if (given.programMark()) continue;
+        const bool cut = given.mark->surfaces && !given.receiverNamed;
         const ShadowJob& job = cut ? onSurfaces.emplace_back(onItsSurfaces(given)) : given;
         if (job.relight)
             relit.push_back(&job);
@@ -73,14 +73,14 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
 void Compositor::drawViews(const std::vector<ShadowJob>& jobs) const {
     int drawn = 0;
     for (const ShadowJob& job : jobs)
-        if (job.marks->hasView())
-            _draw.pass(wholeScreen, [&](ScreenPass& screen) { job.marks->drawView(screen, drawn++); });
+        if (job.mark->hasView())
+            _draw.pass(wholeScreen, [&](ScreenPass& screen) { job.mark->drawView(screen, drawn++); });
 }
 
 void Compositor::blendAny(const Jobs& jobs, float dark) {
     if (darkenDirectly(jobs, dark)) return;
-    if (areSoft(jobs))
-        SoftCompositor(_draw).blend(jobs, dark);
+    if (areFading(jobs))
+        FadingCompositor(_draw).blend(jobs, dark);
     else if (!composeDirectly(jobs))
         blend(jobs, dark);
 }
@@ -89,49 +89,49 @@ void Compositor::blendAny(const Jobs& jobs, float dark) {
 bool Compositor::darkenDirectly(const Jobs& jobs, float dark) const {
     const ShadowJob& job = *jobs.front();
     if (jobs.size() > 1 || !_draw.vast.empty() || !needsNoMarks(job, _draw.leaves)) return false;
-    _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
+    _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
         screen.ask(ScreenPass::Want::Factor, 0, dark);
-        job.report(job.marks->draw(screen));
+        job.report(job.mark->draw(screen));
     });
     return true;
 }
 
 /// In the cheapest way that is right.
 void Compositor::relightAny(const Jobs& jobs, std::map<float, Jobs>& blended) {
-    const bool soft = areSoft(jobs);
-    if (!soft && composeDirectly(jobs)) return;
+    const bool fading = areFading(jobs);
+    if (!fading && composeDirectly(jobs)) return;
     if (isModeOn(_draw.leaves, GL_STENCIL_TEST))
         blendInstead(jobs, blended,
                      "an opaque object in this view has a stencil test of its own, so the shadow blends "
                      "instead of relighting. Draw that object in a bin above 8, or set BLEND.");
-    else if (!soft && !isBackgroundKnown() && readsBack(_draw.leaves))
+    else if (!fading && !isBackgroundKnown() && readsBack(_draw.leaves))
         blendInstead(jobs, blended,
                      "an opaque object in this view blends over colours that the camera does not clear, in a "
                      "multisampled framebuffer object, so the shadow blends instead of relighting. Draw that object in "
                      "a bin above 8, or set BLEND.");
-    else if (soft)
-        SoftCompositor(_draw).relight(jobs);
+    else if (fading)
+        FadingCompositor(_draw).relight(jobs);
     else
         relight(jobs);
 }
 
-/// True if any of them has soft edges, and the framebuffer can hold them.
-bool Compositor::areSoft(const Jobs& jobs) const {
-    bool soft = false;
+/// True if any of them fades, and the framebuffer can hold them.
+bool Compositor::areFading(const Jobs& jobs) const {
+    bool fading = false;
     for (const ShadowJob* job : jobs) {
         if (!job->fades()) continue;
-        soft = true;
+        fading = true;
         if (!_draw.hasAlpha)
             job->report("this framebuffer has no alpha bits, so the shadow's edges are hard. Ask for 8 with "
                         "osg::DisplaySettings::setMinimumNumAlphaBits(8) before the window is made.");
     }
-    return soft && _draw.hasAlpha;
+    return fading && _draw.hasAlpha;
 }
 
 /// A leaf with a stencil test of its own cannot be drawn again under ours, nor can one that blends with what is not known.
 void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, const std::string& cause) {
     for (const ShadowJob* job : jobs) {
-        if (job->marks->relightsOnly()) continue;
+        if (job->mark->relightsOnly()) continue;
         if (job->dark < 1.0f) blended[job->dark].push_back(job);
         job->report(cause);
     }
@@ -142,8 +142,8 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, 
 bool Compositor::composeDirectly(const Jobs& wanted) {
     const ShadowJob& job = *wanted.front();
     if (wanted.size() > 1 || !job.receiverNamed) return false;
-    const bool relit = job.relight, apart = job.marks->surfaces != nullptr;
-    const ScreenRect& bounds = job.marks->screenBounds;
+    const bool relit = job.relight, apart = job.mark->surfaces != nullptr;
+    const ScreenRect& bounds = job.mark->screenBounds;
     std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, wanted, bounds);
     PlainTest plain;
     const auto other = [&job](const ReplayedLeaf& leaf) { return !job.isNamed(leaf.entry.leaf); };
@@ -160,11 +160,11 @@ bool Compositor::composeDirectly(const Jobs& wanted) {
     overlay.equalDepth = true;
     overlay.hidingOnly = job.hidingOnly;
     overlay.bounds = bounds;
-    overlay.marks = job.marks.get();
+    overlay.mark = job.mark.get();
     if (!relit) {
         overlay.color = LeafReplay::Color::Factor;
         overlay.factor = job.dark;
-        for (ReplayedLeaf& leaf : leaves) leaf.dark = 0;
+        for (ReplayedLeaf& leaf : leaves) leaf.lost = 0;
     }
     replay(leaves, overlay, wanted);
     _draw.clear(bit, bounds);
@@ -183,7 +183,7 @@ void Compositor::relight(const Jobs& wanted) {
     resetMarked(lightBits, bounds);
     for (unsigned subset = 1; subset < (1u << bitOf.size()); ++subset) {
         const Combination combination = combine(jobs, bitOf, subset);
-        if (overlap(combination.bounds, combination.bounds)) replay(combination, lightBits);
+        if (!isEmpty(combination.bounds)) replay(combination, lightBits);
     }
     _draw.clear(lightBits, bounds);
 }
@@ -233,11 +233,11 @@ void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Ove
     overlay.onHiding = jobs.front()->hidingOnly;
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
-    for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.dark);
-    if (replay.notRelit().empty() || !keptBy<StageVerdict>(_draw.stage).mayName()) return;
+    for (const ReplayedLeaf& leaf : leaves) replay.draw(leaf.entry, leaf.lost);
+    if (replay.notRelit().empty() || !keptBy<StageVerdict>(_draw.stage).askToName()) return;
     for (const osgUtil::RenderLeaf* leaf : replay.notRelit())
         for (const ShadowJob* job : jobs)
-            if (job->isReceiver(*leaf) && job->marks->canReach(*leaf))
+            if (job->isReceiver(*leaf) && job->mark->canReach(*leaf))
                 job->report(
                     "no light can be taken from '" + nameOf(*leaf) +
                     "', because it is unlit or its program does not read gl_LightSource. Its colour is multiplied "

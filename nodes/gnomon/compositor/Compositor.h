@@ -15,7 +15,7 @@ namespace gnomon {
 bool needsNoMarks(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves);
 
 /// What a ShadowBin does in draw: marks, takes light away where marked, and leaves the stencil bits it used at zero.
-/// Jobs with soft edges go to the SoftCompositor.
+/// Jobs that fade go to the FadingCompositor.
 class Compositor {
 public:
     explicit Compositor(CompositorStage draw);
@@ -31,7 +31,7 @@ private:
         ScreenRect bounds;
     };
 
-    bool areSoft(const Jobs& jobs) const;
+    bool areFading(const Jobs& jobs) const;
     void relightAny(const Jobs& jobs, std::map<float, Jobs>& blended);
     bool composeDirectly(const Jobs& jobs);
     void relight(const Jobs& wanted);

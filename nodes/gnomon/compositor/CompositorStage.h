@@ -2,10 +2,10 @@
 #pragma once
 #include <gnomon/CompositorOptions.h>
 #include <gnomon/ScreenPass.h>
-#include <gnomon/gl/GlState.h>
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/VastLeaves.h>
+#include <gnomon/gl/GlState.h>
 
-#include <glm/vec4.hpp>
 #include <osg/RenderInfo>
 #include <osg/Viewport>
 #include <osgUtil/RenderStage>
@@ -16,31 +16,23 @@
 
 namespace gnomon {
 
-/// A leaf that OpenGL draws off its place, and its triangles in clip space as far as they are seen.
-struct VastLeaf {
-    DrawnLeaf entry;
-    std::vector<glm::vec4> corners;
-};
-
-/// Finds leaves with polygons so vast that their depths are off, as a ground of many kilometres that begins under the eye:
-/// OpenGL cuts it at the near plane in floats of that size.
-///
-/// Cost    a look at each leaf's box; at the triangles of those that are vast.
-/// Limits  drawables of up to 2,000 triangles, which a program may not move, seen in perspective.
-std::vector<VastLeaf> vastLeaves(const std::vector<DrawnLeaf>& leaves, const osg::Viewport& viewport);
-
 class MaterialHistory;
+
+/// What a CompositorStage is made of.
+struct DrawnStage {
+    std::vector<DrawnLeaf> leaves; ///< that it has drawn before, in order.
+    CompositorOptions options;
+    bool clean;      ///< the stencil buffer is known to be zero.
+    std::size_t own; ///< how many stencil bits the compositor takes for itself, 2 to 8; others are counters.
+};
 
 /// One stage while the compositor draws in it: what was drawn before, and what its framebuffer offers.
 class CompositorStage {
 public:
     /// In a stage that can be composed in, see whyNeverComposed().
-    /// @param leaves  what the stage drew before, in order.
-    /// @param clean   the stencil buffer is known to be zero.
     /// @param materials  what the leaves' materials left for each other; must outlive this.
-    /// @param own     how many stencil bits the compositor takes for itself, 2 to 8; others are counters.
-    CompositorStage(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, std::vector<DrawnLeaf> leaves,
-                    const CompositorOptions& options, bool clean, std::size_t own, MaterialHistory& materials);
+    CompositorStage(osg::RenderInfo& renderInfo, osgUtil::RenderStage& stage, DrawnStage drawn,
+                    MaterialHistory& materials);
 
     /// One step, cut to `bounds`, from and back to OpenGL's defaults.
     template <typename Step>

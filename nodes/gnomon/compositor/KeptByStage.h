@@ -33,7 +33,7 @@ public:
 
     /// Draw: true if the scene graph may be read for a leaf's name: the frame is held, or one thread culls and draws it. Else the
     /// stage's next frame is held for it.
-    bool mayName() {
+    bool askToName() {
         _wantsNames = true;
         return _isHeld || _culls == std::this_thread::get_id();
     }

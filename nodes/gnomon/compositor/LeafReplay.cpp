@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ScreenPass.h>
-#include <gnomon/gl/GlState.h>
 #include <gnomon/compositor/LeafReplay.h>
 #include <gnomon/compositor/MaterialHistory.h>
+#include <gnomon/gl/GlState.h>
 #include <gnomon/gl/TriangleClusters.h>
 
 #include <osg/ColorMask>
@@ -124,33 +124,33 @@ void restoreColors(const osg::State& state, int number) {
 
 } // namespace
 
-bool ProgramLightUse::canLose(unsigned dark) {
+bool ProgramLightUse::canLose(unsigned lost) {
     const Program* program = _state.getLastAppliedProgramObject();
     if (!program) return fixedFunctionReads(_state);
     const auto [known, isNew] = _readsColors.insert({program, false});
     if (isNew)
         known->second = readsLights(*_state.get<osg::GLExtensions>(), program->getHandle()) &&
                         textUsesColor(*program->getProgram());
-    return known->second || readsUniforms(*program, dark);
+    return known->second || readsUniforms(*program, lost);
 }
 
-bool ProgramLightUse::readsUniforms(const Program& program, unsigned dark) const {
+bool ProgramLightUse::readsUniforms(const Program& program, unsigned lost) const {
     unsigned read = 0;
     for (const LightUniform& uniform : _uniforms) {
         const auto active = program.getActiveUniforms().find(osg::Uniform::getNameID(uniform.name));
         const bool isColor = active != program.getActiveUniforms().end() && componentsOf(active->second._type) > 0;
         if (isColor) read |= 1u << uniform.number;
     }
-    return (dark & ~read) == 0;
+    return (lost & ~read) == 0;
 }
 
-void ProgramLightUse::darken(unsigned dark) {
+void ProgramLightUse::darken(unsigned lost) {
     const Program* program = _state.getLastAppliedProgramObject();
     if (!program) return;
     const osg::GLExtensions& gl = *_state.get<osg::GLExtensions>();
     for (const LightUniform& uniform : _uniforms) {
         const auto active = program->getActiveUniforms().find(osg::Uniform::getNameID(uniform.name));
-        if (!(dark & (1u << uniform.number)) || active == program->getActiveUniforms().end()) continue;
+        if (!(lost & (1u << uniform.number)) || active == program->getActiveUniforms().end()) continue;
         DarkUniform changed{active->second._location, componentsOf(active->second._type), {}};
         if (changed.components == 0) continue;
         gl.glGetUniformfv(program->getHandle(), changed.location, changed.value);
@@ -189,14 +189,14 @@ LeafReplay::~LeafReplay() {
     _state.haveAppliedMode(mirrorClipPlane, osg::StateAttribute::OFF);
 }
 
-void LeafReplay::draw(const DrawnLeaf& entry, unsigned dark) {
+void LeafReplay::draw(const DrawnLeaf& entry, unsigned lost) {
     if (_state.getAbortRendering()) return;
     apply(entry);
     layOver();
-    const bool faded = dark && !_lights.canLose(dark);
-    darken(faded ? 0 : dark);
+    const bool faded = lost && !_lights.canLose(lost);
+    darken(faded ? 0 : lost);
     if (faded) return drawFaded(*entry.leaf);
-    _lights.darken(dark);
+    _lights.darken(lost);
     const bool tested = _overlay.hidingOnly && _state.getLastAppliedMode(GL_BLEND) &&
                         !_state.getLastAppliedMode(GL_COLOR_LOGIC_OP); // which takes the place of blending
     if (tested) layAlphaOver();
@@ -205,9 +205,9 @@ void LeafReplay::draw(const DrawnLeaf& entry, unsigned dark) {
     _lights.restore();
 }
 
-bool LeafReplay::canBeRelit(const DrawnLeaf& entry, unsigned dark) {
+bool LeafReplay::canBeRelit(const DrawnLeaf& entry, unsigned lost) {
     apply(entry);
-    return _lights.canLose(dark);
+    return _lights.canLose(lost);
 }
 
 /// All of the leaf's own state.
@@ -250,7 +250,7 @@ void LeafReplay::drawGeometry(const osgUtil::RenderLeaf& leaf) {
 void LeafReplay::drawOnce(const osgUtil::RenderLeaf& leaf) {
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const bool cut = geometry && canDrawClusters(leaf, *geometry);
-    const Mark::BoxTest test = cut && _overlay.marks ? _overlay.marks->boxTest(modelviewOf(leaf)) : Mark::BoxTest();
+    const Mark::BoxTest test = cut && _overlay.mark ? _overlay.mark->boxTest(modelviewOf(leaf)) : Mark::BoxTest();
     if (test && geometry->getBoundingBox().valid() && !test(geometry->getBoundingBox())) return;
     const osg::ref_ptr<const TriangleClusters> clusters = cut ? TriangleClusters::of(*geometry) : nullptr;
     if (!clusters) return leaf._drawable->draw(_renderInfo);
@@ -360,6 +360,23 @@ void LeafReplay::darken(unsigned lights) {
             restoreColors(_state, i);
     }
     _dark = lights;
+}
+
+void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, unsigned reference,
+                    unsigned write, const ScreenRect& bounds) {
+    OpaqueTest opaque;
+    for (const bool equal : {false, true}) {
+        LeafReplay::Overlay overlay;
+        overlay.reference = reference;
+        overlay.write = write;
+        overlay.color = LeafReplay::Color::None;
+        overlay.equalDepth = equal;
+        overlay.keepDepth = true;
+        overlay.bounds = bounds;
+        LeafReplay replay(draw, overlay);
+        for (const ReplayedLeaf& leaf : leaves)
+            if (opaque(*leaf.entry.leaf) == equal) replay.draw(leaf.entry);
+    }
 }
 
 } // namespace gnomon

@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/LightUniform.h>
 #include <gnomon/compositor/CompositorStage.h>
+#include <gnomon/compositor/ReplaySelection.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/geometry/ScreenBounds.h>
 
@@ -23,11 +24,11 @@ public:
     ProgramLightUse(const osg::State& state, const std::vector<LightUniform>& uniforms)
         : _state(state), _uniforms(uniforms) {}
 
-    /// True if it can lose all of `dark` (bit i: OpenGL light i).
-    bool canLose(unsigned dark);
+    /// True if it can lose all of `lost` (bit i: OpenGL light i).
+    bool canLose(unsigned lost);
 
     /// Sets the named uniforms of these lights to 0 in the program in use.
-    void darken(unsigned dark);
+    void darken(unsigned lost);
     /// Puts back what darken() changed.
     void restore();
 
@@ -39,7 +40,7 @@ private:
         GLfloat value[4]; ///< that it had.
     };
 
-    bool readsUniforms(const Program& program, unsigned dark) const;
+    bool readsUniforms(const Program& program, unsigned lost) const;
 
     const osg::State& _state;
     const std::vector<LightUniform>& _uniforms;
@@ -81,7 +82,7 @@ public:
         float unlit =
             0.5f; ///< Replace: a leaf that should lose a light and cannot is drawn in its own colour times this.
         ScreenRect bounds = wholeScreen;         ///< nothing need be drawn outside.
-        const Mark* marks = nullptr;             ///< nothing need be drawn where it marks nothing.
+        const Mark* mark = nullptr;              ///< nothing need be drawn where it marks nothing.
         std::vector<LightUniform> lightUniforms; ///< by which programs read lights.
     };
 
@@ -93,11 +94,11 @@ public:
     LeafReplay(const LeafReplay&) = delete;
     LeafReplay& operator=(const LeafReplay&) = delete;
 
-    /// @param dark  bit i: draw it without the diffuse and specular of OpenGL light i.
-    void draw(const DrawnLeaf& entry, unsigned dark = 0);
+    /// @param lost  bit i: draw it without the diffuse and specular of OpenGL light i.
+    void draw(const DrawnLeaf& entry, unsigned lost = 0);
 
-    /// True if the leaf can lose all lights of `dark`, see ProgramLightUse. Draws nothing.
-    bool canBeRelit(const DrawnLeaf& entry, unsigned dark);
+    /// True if the leaf can lose all lights of `lost`, see ProgramLightUse. Draws nothing.
+    bool canBeRelit(const DrawnLeaf& entry, unsigned lost);
 
     /// Leaves drawn so far that could not lose a light.
     const std::vector<const osgUtil::RenderLeaf*>& notRelit() const { return _notRelit; }
@@ -126,11 +127,16 @@ private:
     const Overlay _overlay;
     ProgramLightUse _lights;
     const unsigned _stackSize;
-    unsigned _dark = 0; ///< lights that are dark in OpenGL now.
+    unsigned _dark = 0; ///< lights that are lost in OpenGL now.
     FilledTest _filled;
     std::vector<const osgUtil::RenderLeaf*> _notRelit;
     osgUtil::RenderBin* _bin = nullptr;
     osgUtil::StateGraph* _previous = nullptr; ///< whose state sets are on the stack.
 };
+
+/// Sets the bits of `write` to those of `reference` where one sees these leaves; where they write no depth, wherever they
+/// pass their own test.
+void writeWhereSeen(const CompositorStage& draw, const std::vector<ReplayedLeaf>& leaves, unsigned reference,
+                    unsigned write, const ScreenRect& bounds);
 
 } // namespace gnomon

@@ -47,14 +47,14 @@ osg::ref_ptr<osg::StateSet> nothingInstead(const osg::StateSet& shown) {
 
 /// With a stage that is reset or goes; nobody else may say that its techniques are gone.
 PrepassBin::~PrepassBin() {
-    osgUtil::RenderStage* stage = _job.marks ? getStage() : nullptr;
+    osgUtil::RenderStage* stage = _job.mark ? getStage() : nullptr;
     if (!stage || stage->referenceCount() == 0) return;
-    const osg::StateSet* shown = _job.programMarks()->state.get();
+    const osg::StateSet* shown = _job.programMark()->state.get();
     if (stage->getStateSet() == shown) stage->setStateSet(nothingInstead(*shown));
 }
 
 void PrepassBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& stage) {
-    const auto isFor = [](const ShadowJob& job) { return job.programMarks() != nullptr; };
+    const auto isFor = [](const ShadowJob& job) { return job.programMark() != nullptr; };
     const auto job = std::find_if(jobs.begin(), jobs.end(), isFor);
     if (job == jobs.end()) return;
     const osg::StateSet* before = stage.getStateSet();
@@ -65,7 +65,7 @@ void PrepassBin::show(const std::vector<ShadowJob>& jobs, osgUtil::RenderStage& 
     if (std::any_of(job + 1, jobs.end(), isFor))
         job->report("programs can read the maps of one light only. Name that light with "
                     "ShadowCasterGroup::setLights() or setLightSources().");
-    osg::StateSet* state = job->programMarks()->state.get();
+    osg::StateSet* state = job->programMark()->state.get();
     state->setName(stateName);
     stage.setStateSet(state);
     binOf(stage)._job = *job;
@@ -88,9 +88,9 @@ bool PrepassBin::followsDefault(osgUtil::RenderStage& stage) {
 void PrepassBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     osg::State& state = *renderInfo.getState();
     if (isCoreProfile(state)) {
-        if (_job.marks) _job.report(coreProfileRefused);
+        if (_job.mark) _job.report(coreProfileRefused);
     } else {
-        if (_colors || _job.marks) drawAhead(renderInfo, previous);
+        if (_colors || _job.mark) drawAhead(renderInfo, previous);
         _followsDefault = MaterialHistory::isDefault(state);
     }
     osgUtil::RenderBin::drawImplementation(renderInfo, previous);
@@ -104,10 +104,10 @@ void PrepassBin::drawAhead(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& pr
         const CleanState clean(state, getStage()->getViewport());
         if (!_colors->save(state, *getStage()->getViewport())) _colors.reset();
     }
-    if (_job.marks) {
+    if (_job.mark) {
         forgetArrays(state);
         const CleanState clean(state, getStage()->getViewport());
-        const std::string cause = _job.programMarks()->drawAhead(renderInfo);
+        const std::string cause = _job.programMark()->drawAhead(renderInfo);
         _job.report(cause);
         forgetArrays(state);
     }

@@ -13,10 +13,10 @@ bool isReceiver(const std::vector<const ShadowJob*>& jobs, const osgUtil::Render
 }
 
 unsigned lightsLostBy(const osgUtil::RenderLeaf* leaf, const std::vector<const ShadowJob*>& jobs) {
-    unsigned dark = 0;
+    unsigned lost = 0;
     for (const ShadowJob* job : jobs)
-        if (job->isReceiver(*leaf)) dark |= 1u << job->light;
-    return dark;
+        if (job->isReceiver(*leaf)) lost |= 1u << job->light;
+    return lost;
 }
 
 /// Index of the last receiver, if only receivers and what is drawn over or before them can show where marks are.
@@ -37,7 +37,7 @@ std::size_t lastReceiver(const std::vector<DrawnLeaf>& leaves, const std::vector
 } // namespace
 
 std::vector<ReplayedLeaf> notOfView(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves) {
-    TouchTest touches(job.marks->screenBounds);
+    TouchTest touches(job.mark->screenBounds);
     std::vector<ReplayedLeaf> result;
     for (const DrawnLeaf& entry : leaves)
         if (!job.isOfView(*entry.leaf) && touches(*entry.leaf)) result.push_back({entry, 0});

@@ -10,7 +10,7 @@ namespace gnomon {
 /// A leaf to be drawn again, and the lights (bit i: light i) that it loses.
 struct ReplayedLeaf {
     DrawnLeaf entry;
-    unsigned dark;
+    unsigned lost;
 };
 
 /// Which leaves must be drawn again so that marked pixels get exactly what a full redraw would give them.

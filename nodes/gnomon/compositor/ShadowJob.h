@@ -37,25 +37,25 @@ protected:
     ~ProgramMark() override = default;
 };
 
-/// A technique's job for one light in one view, and how its marks are to be used.
+/// A mark of a technique in one view, and how the compositor is to use it.
 struct ShadowJob {
-    osg::ref_ptr<const Mark> marks;
+    osg::ref_ptr<const Mark> mark;
     FrameReport report;  ///< for the technique.
     int light = 0;       ///< OpenGL light number.
     bool relight = true; ///< else blended.
     float dark = 1.0f;
     osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
-    bool receiverNamed = false;
-    std::shared_ptr<const LeafSet> receivers; ///< the leaves of the named receiver, for all jobs; null: none is named.
+    bool receiverNamed = false;                    ///< only `receivers` lose the light.
+    std::shared_ptr<const LeafSet> receivers;      ///< see ViewFrame, or Mark::surfaces.
     bool hidingOnly = false; ///< a receiver loses the light only where it hides what is behind, see LateReceivers.
     std::vector<LightUniform> lightUniforms; ///< of the group.
 
     /// True if the leaf is of the named receiver.
     bool isNamed(const osgUtil::RenderLeaf* leaf) const { return receivers && receivers->count(leaf) > 0; }
     /// True if pixels may have a part of the light.
-    bool fades() const { return marks->kind() == Mark::Kind::Fades; }
-    /// The marks, if they are for programs alone; else null.
-    const ProgramMark* programMarks() const { return dynamic_cast<const ProgramMark*>(marks.get()); }
+    bool fades() const { return mark->kind() == Mark::Kind::Fades; }
+    /// The mark, if it is for programs alone; else null.
+    const ProgramMark* programMark() const { return dynamic_cast<const ProgramMark*>(mark.get()); }
     /// True if the leaf loses the light where marked: it is of the named receiver, or with none named, of this view.
     bool isReceiver(const osgUtil::RenderLeaf& leaf) const { return receiverNamed ? isNamed(&leaf) : isOfView(leaf); }
     /// True if the leaf is seen through the technique's lens, unlike what a nested camera lays over the view.

@@ -32,11 +32,11 @@ GLenum depthFormat(const osg::GLExtensions& extensions) {
 }
 
 /// Leaves `to` bound for reading.
-void resolve(const osg::GLExtensions& extensions, GLuint from, GLuint to, GLint x, GLint y, GLsizei width,
-             GLsizei height) {
+void resolve(const osg::GLExtensions& extensions, GLuint from, GLuint to, const PixelRect& pixels) {
+    const GLint right = pixels.x + pixels.width, top = pixels.y + pixels.height;
     extensions.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, from);
     extensions.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, to);
-    extensions.glBlitFramebuffer(x, y, x + width, y + height, x, y, x + width, y + height, GL_DEPTH_BUFFER_BIT,
+    extensions.glBlitFramebuffer(pixels.x, pixels.y, right, top, pixels.x, pixels.y, right, top, GL_DEPTH_BUFFER_BIT,
                                  GL_NEAREST);
     extensions.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, to);
 }
@@ -132,7 +132,7 @@ osg::ref_ptr<osg::Texture2D> makeTexture() {
 
 } // namespace
 
-std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, GLint x, GLint y, GLsizei width, GLsizei height,
+std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, const PixelRect& pixels,
                                               const std::function<void()>& readOut) {
     const auto& extensions = *state.get<osg::GLExtensions>();
     const SavedFramebuffers bound(extensions);
@@ -141,10 +141,11 @@ std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, GLint x, GLint 
     Buffers& own = of(state.getContextID());
     const GLint samples = glInteger(GL_SAMPLES);
     const bool known = own.format == format && own.samples == samples;
-    if (!known || own.width < x + width || own.height < y + height) {
+    const GLsizei width = pixels.x + pixels.width, height = pixels.y + pixels.height;
+    if (!known || own.width < width || own.height < height) {
         own.format = format;
         own.samples = samples;
-        fit(own, extensions, x + width, y + height);
+        fit(own, extensions, width, height);
     }
     const ScratchFramebuffer framebuffer(extensions);
     framebuffer.attachDepth(own.depth);
@@ -152,7 +153,7 @@ std::optional<glm::dvec2> ResolvedDepth::read(osg::State& state, GLint x, GLint 
     if (!known)
         own.place = {placeOnSlope(own, framebuffer.name, state, false),
                      placeOnSlope(own, framebuffer.name, state, true)};
-    resolve(extensions, bound.draw, framebuffer.name, x, y, width, height);
+    resolve(extensions, bound.draw, framebuffer.name, pixels);
     readOut();
     return own.place;
 }
@@ -176,7 +177,7 @@ double ResolvedDepth::placeOnSlope(const Buffers& buffers, GLuint into, osg::Sta
     const Pixel pixel(extensions, buffers.format, buffers.samples);
     drawQuad(state, 0.0, upwards ? 0.0 : 1.0, upwards ? 1.0 : 0.0);
     float place = 0.5f;
-    resolve(extensions, pixel.framebuffer.name, into, 0, 0, 1, 1);
+    resolve(extensions, pixel.framebuffer.name, into, {0, 0, 1, 1});
     glReadPixels(0, 0, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &place);
     return static_cast<double>(place);
 }
@@ -212,7 +213,7 @@ FrameDepthCopy::Copy FrameDepthCopy::copy(osg::State& state, const PixelRect& pi
     result.texture = target.texture;
     const auto read = [&] { result.rows = transfer(state, target, pixels); };
     if (resolves) {
-        const auto place = _resolved.read(state, pixels.x, pixels.y, pixels.width, pixels.height, read);
+        const auto place = _resolved.read(state, pixels, read);
         if (!place) return {unresolvedDepth};
         result.error.z = place->x - 0.5;
         result.error.w = place->y - 0.5;

@@ -44,8 +44,7 @@ public:
     /// Calls `readOut` while the depths of the framebuffer that is bound for drawing can be read without samples, in window
     /// coordinates; bindings stay as they are. The scissor must not cut into the rectangle; no program is bound.
     /// @return where in its pixel each depth was taken, 0 … 1; nothing if OpenGL cannot resolve them.
-    std::optional<glm::dvec2> read(osg::State& state, GLint x, GLint y, GLsizei width, GLsizei height,
-                                   const std::function<void()>& readOut);
+    std::optional<glm::dvec2> read(osg::State& state, const PixelRect& pixels, const std::function<void()>& readOut);
 
     /// Lets go of what a context holds, of null of what all of them do; OSG deletes it when it next can.
     void release(const osg::State* state);

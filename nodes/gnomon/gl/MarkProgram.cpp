@@ -12,7 +12,8 @@ namespace {
 /// Between them stands what the user gives.
 constexpr const char* before = R"(
 uniform sampler2D gnomon_seen;
-uniform vec2 gnomon_rows, gnomon_wanted;
+uniform vec2 gnomon_rows;
+uniform vec4 gnomon_wanted;
 uniform mat4 gnomon_frameFromPixel;
 )";
 constexpr const char* after = R"(
@@ -23,15 +24,21 @@ void main() {
     vec4 place = gnomon_frameFromPixel * vec4(gl_FragCoord.xy, e, 1.0);
     float arrives = e > 0.0 ? clamp(arrivesAt(place.xyz / place.w), 0.0, 1.0) : 1.0;
     if (arrives >= gnomon_wanted.x) discard;
-    gl_FragColor = vec4(0.0, 0.0, 0.0, mix(arrives, 1.0 - arrives, gnomon_wanted.y));
+    gl_FragColor = vec4(vec3(mix(gnomon_wanted.z, 1.0, arrives)), mix(arrives, 1.0 - arrives, gnomon_wanted.y));
 }
 )";
 
-/// Fragments of pixels that less than `x` of the light reaches; y: their alpha is what does not arrive.
-glm::dvec2 wantedOf(ScreenPass::Want want) {
+/// Fragments of pixels that less than `x` of the light reaches; y: their alpha is what does not arrive; z: what is left of a
+/// colour where nothing arrives; w: 0.
+glm::dvec4 wantedOf(const ScreenPass& pass) {
     using Want = ScreenPass::Want;
     constexpr double half = 0.5, allOfIt = 511.0 / 512.0, any = 2.0; // less than all is a step of eight bits
-    return {want == Want::Blocked ? half : want == Want::Touched ? allOfIt : any, want == Want::Blocking ? 1.0 : 0.0};
+    const Want want = pass.wanted();
+    const bool touched = want == Want::Touched || want == Want::Factor;
+    return {want == Want::Blocked ? half
+            : touched             ? allOfIt
+                                  : any,
+            want == Want::Blocking ? 1.0 : 0.0, pass.factor(), 0.0};
 }
 
 } // namespace
@@ -62,7 +69,7 @@ std::string MarkProgram::draw(ScreenPass& pass, const osg::Matrixd& clipFromFram
     state.applyTextureAttribute(0, copy.texture);
     setUniform(state, "gnomon_seen", 0);
     setUniform(state, "gnomon_rows", copy.rows);
-    setUniform(state, "gnomon_wanted", wantedOf(pass.wanted()));
+    setUniform(state, "gnomon_wanted", wantedOf(pass));
     setUniform(state, "gnomon_frameFromPixel", glm::inverse(toGlm(clipFromFrame)) * clipFromPixel(viewport));
     pass.drawQuad();
     state.apply();

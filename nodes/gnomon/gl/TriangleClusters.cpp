@@ -141,7 +141,8 @@ void drawRuns(const osg::PrimitiveSet& primitives, const TriangleClusters::Run* 
         const std::size_t size = elements->getTotalDataSize() / elements->getNumIndices();
         const std::uintptr_t indices = indicesOf(*elements, state, useBuffers);
         std::vector<const void*> places(number);
-        for (std::size_t i = 0; i < number; ++i) places[i] = reinterpret_cast<const void*>(indices + runs[i].first * size);
+        for (std::size_t i = 0; i < number; ++i)
+            places[i] = reinterpret_cast<const void*>(indices + runs[i].first * size);
         gl.glMultiDrawElements(elements->getMode(), counts.data(), indexType(*elements), places.data(), drawn);
     } else {
         const auto& arrays = static_cast<const osg::DrawArrays&>(primitives);

@@ -134,20 +134,6 @@ std::string unshadowedCause(const EnlistedTechnique& entry, const std::vector<En
 
 } // namespace
 
-ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) {
-    ViewFrame view;
-    view.pixels = {viewport.width(), viewport.height()};
-    view.eyeFromGroup = entry.eyeFromGroup;
-    view.groupFromTechnique = entry.groupFromTechnique;
-    view.projection = *entry.projection;
-    view.group = entry.group.get();
-    view.dark = entry.group->getDark();
-    view.options = entry.group->getCompositorOptions();
-    view.frameNumber = entry.frameNumber;
-    view.frameTime = entry.frameTime;
-    return view;
-}
-
 std::string whyNoPicture(const EnlistedTechnique& entry) {
     bool overrides = false;
     const auto* program =

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/ViewFrame.h>
 #include <gnomon/group/StageLeaves.h>
 
 #include <string>
 #include <vector>
 
 namespace gnomon {
-
-/// What a technique's prepare() is told of the view, but for its receivers.
-ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport);
 
 /// Why a view is no picture of the scene, in which shadows could fall; empty if it is one. A program over all that takes
 /// neither light nor normals nor textures draws data, as identifiers of objects are.

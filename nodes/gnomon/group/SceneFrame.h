@@ -5,22 +5,16 @@
 #include <gnomon/ShadowLight.h>
 #include <gnomon/ViewFrame.h>
 #include <gnomon/casters/CasterLayers.h>
-#include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/mapfit/MapFit.h>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <osg/Vec3d>
-#include <osg/io_utils>
 
-#include <cmath>
 #include <optional>
-#include <sstream>
 #include <string>
-#include <vector>
 
 namespace gnomon {
 
@@ -52,43 +46,18 @@ struct SceneFrame {
 };
 
 /// A light in the scene: w is 0 and the direction has length 1, or w is 1. Nullopt if it is nowhere.
-inline std::optional<glm::dvec4> localLight(const osg::Vec4d& inGroup, const SceneFrame& scene) {
-    const glm::dvec4 given = toGlm(inGroup);
-    const glm::dvec4 light = given.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(given)), 0.0)
-                                            : glm::dvec4(glm::dvec3(given) / given.w - scene.origin, 1.0);
-    if (!(std::isfinite(given.w) && std::isfinite(light.x) && std::isfinite(light.y) && std::isfinite(light.z)))
-        return std::nullopt;
-    return light;
-}
+std::optional<glm::dvec4> localLight(const osg::Vec4d& inGroup, const SceneFrame& scene);
 
 /// Of a lamp that is a spot; nullopt of all others.
-inline std::optional<SpotCone> spotOf(const ShadowLight& light) {
-    const glm::dvec3 axis = glm::normalize(toGlm(light.direction));
-    if (light.inGroup.w() == 0.0 || !(light.cutoff >= 0.0 && light.cutoff <= 90.0) ||
-        !std::isfinite(axis.x + axis.y + axis.z))
-        return std::nullopt;
-    return SpotCone{axis, osg::DegreesToRadians(light.cutoff)};
-}
+std::optional<SpotCone> spotOf(const ShadowLight& light);
 
 /// The cause for ShadowTechnique::report() where there is none.
-inline std::string notUsable(const osg::Vec4d& light) {
-    std::ostringstream cause;
-    cause << "the light at (" << light << ") has no finite position or direction. Set the light's position.";
-    return cause.str();
-}
+std::string notUsable(const osg::Vec4d& light);
 
 /// A box and everything behind it as a usable light sees it: each corner, and where its shadow goes. Nullopt if nothing of it
 /// is in sight. @param inGroup  group frame.
-inline std::optional<ScreenRect> boundsBehind(const osg::BoundingBoxd& inGroup, const SceneFrame& scene,
-                                              const glm::dmat4& clipFromScene, const glm::dvec4& light) {
-    std::vector<glm::dvec4> points;
-    for (unsigned i = 0; i < 8; ++i) {
-        const glm::dvec3 corner = scene.point(inGroup.corner(i)), at(light);
-        points.push_back(clipFromScene * glm::dvec4(corner, 1.0));
-        points.push_back(clipFromScene * glm::dvec4(light.w == 0.0 ? -at : corner - at, 0.0));
-    }
-    return screenBounds(points);
-}
+std::optional<ScreenRect> boundsBehind(const osg::BoundingBoxd& inGroup, const SceneFrame& scene,
+                                       const glm::dmat4& clipFromScene, const glm::dvec4& light);
 
 /// The same of casters.
 inline std::optional<ScreenRect> shadowBounds(const CasterLayers& casters, const glm::dmat4& clipFromScene,

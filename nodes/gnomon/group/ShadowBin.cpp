@@ -5,6 +5,7 @@
 #include <gnomon/compositor/PrepassBin.h>
 #include <gnomon/group/ReceiverCauses.h>
 #include <gnomon/group/ShadowBin.h>
+#include <gnomon/group/StageStats.h>
 #include <gnomon/group/ViewLights.h>
 
 #include <OpenThreads/ScopedLock>
@@ -16,14 +17,12 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <typeinfo>
 #include <utility>
 
 namespace gnomon {
 namespace {
 
-constexpr int highestNumber = 8;    // below 9, where osg::OcclusionQueryNode draws, and 10, the transparent bin
-constexpr int lateNumber = 1 << 30; // below another bin, after all others there
+constexpr int highestNumber = 8; // below 9, where osg::OcclusionQueryNode draws, and 10, the transparent bin
 constexpr const char* binName = "gnomon::ShadowBin";
 
 /// Makes the bin known to osgUtil, which creates bins by name.
@@ -110,6 +109,16 @@ ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     return job;
 }
 
+void addMarks(FrameWork& work, const std::vector<ShadowJob>& jobs, std::size_t from, const osg::Viewport& viewport) {
+    const glm::dvec2 pixels(viewport.width(), viewport.height());
+    for (std::size_t i = from; i < jobs.size(); ++i) {
+        const ScreenRect& bounds = jobs[i].mark->screenBounds;
+        const glm::dvec2 size = 0.5 * (bounds.high - bounds.low) * pixels;
+        work.pixels += size.x * size.y;
+        ++work.marks;
+    }
+}
+
 /// Where leaves can be seen.
 std::optional<ScreenRect> boundsOf(const std::vector<const osgUtil::RenderLeaf*>& leaves) {
     std::optional<ScreenRect> all;
@@ -120,67 +129,50 @@ std::optional<ScreenRect> boundsOf(const std::vector<const osgUtil::RenderLeaf*>
     return all;
 }
 
-/// Leaves whose depths belong together. What all lies at one depth, as a sky does, receives nothing.
-std::map<DepthPlacement, Leaves> byPlacement(const Leaves& leaves,
-                                             const std::map<const osgUtil::RenderLeaf*, DepthPlacement>& displaced) {
-    std::map<DepthPlacement, Leaves> parts;
-    if (displaced.empty()) {
-        parts[DepthPlacement()] = leaves;
-        return parts;
-    }
-    for (const osgUtil::RenderLeaf* leaf : leaves) {
-        const auto found = displaced.find(leaf);
-        const DepthPlacement placement = found == displaced.end() ? DepthPlacement() : found->second;
-        if (placement.nearest != placement.farthest) parts[placement].push_back(leaf);
-    }
-    return parts;
-}
-
 /// A depth range, as a part of the projection.
 osg::Matrixd rangeOf(const DepthPlacement& placement) {
     return osg::Matrixd::scale(1.0, 1.0, placement.farthest - placement.nearest) *
            osg::Matrixd::translate(0.0, 0.0, placement.farthest + placement.nearest - 1.0);
 }
 
-/// What a technique is asked for in one view.
-struct Preparation {
-    const EnlistedTechnique& entry;
-    const std::vector<ShadowLight>& lights;
-    const FrameCasters& casters;
-    ViewFrame view;
-    const std::vector<const osgUtil::RenderLeaf*>& receiving;
-    std::optional<ScreenRect> within = wholeScreen; ///< where those are; nullopt: nowhere.
+/// Leaves that receive and whose depths belong together: a technique is asked about each such part apart.
+struct ReceiverPart {
+    Leaves leaves;
+    DepthPlacement placement;
+    bool late;                        ///< drawn after the opaque bins.
+    bool isAll;                       ///< of what the view sees.
+    std::optional<ScreenRect> within; ///< where they are seen; nullopt: nowhere.
 };
 
-/// @param alone  what receives is not all that the view sees.
-std::vector<ShadowJob> jobsFor(Preparation asked, bool alone) {
-    std::vector<ShadowJob> jobs;
-    std::shared_ptr<const LeafSet> receivers;
-    if (alone) receivers = std::make_shared<const LeafSet>(asked.receiving.begin(), asked.receiving.end());
-    asked.view.receivers = receivers.get();
-    asked.view.seen = asked.receiving;
-    for (const ShadowLight& light : asked.lights) {
-        ShadowJob job = jobFor(asked.entry, light);
-        job.receiverNamed = alone;
-        job.receivers = receivers;
-        for (const osg::ref_ptr<Mark>& marks : asked.entry.technique->prepare(asked.view, light, asked.casters)) {
-            job.marks = marks;
-            marks->screenBounds = common(marks->screenBounds, *asked.within);
-            if (job.programMarks() || overlap(marks->screenBounds, marks->screenBounds)) jobs.push_back(job);
+/// What all lies at one depth, as a sky does, receives nothing.
+std::vector<ReceiverPart> partsOf(const Leaves& leaves, const StageLeaves& drawn, bool late, bool named) {
+    std::map<DepthPlacement, Leaves> byPlacement;
+    if (drawn.displaced.empty())
+        byPlacement[DepthPlacement()] = leaves;
+    else
+        for (const osgUtil::RenderLeaf* leaf : leaves) {
+            const auto found = drawn.displaced.find(leaf);
+            const DepthPlacement placement = found == drawn.displaced.end() ? DepthPlacement() : found->second;
+            if (placement.nearest != placement.farthest) byPlacement[placement].push_back(leaf);
         }
+    std::vector<ReceiverPart> parts;
+    for (auto& [placement, those] : byPlacement) {
+        const bool apart = late || byPlacement.size() > 1;
+        const std::optional<ScreenRect> within = apart ? boundsOf(those) : wholeScreen;
+        parts.push_back({std::move(those), placement, late, !apart && !named, within});
     }
-    return jobs;
+    return parts;
 }
 
-/// The bin that composes what the bin `last` of the stage draws, right after it: a bin below it, or else beside it.
-ShadowBin& binAfter(osgUtil::RenderBin& last) {
-    const bool drawsBinsBelow = typeid(last) == typeid(osgUtil::RenderBin) || typeid(last) == typeid(ShadowBin);
-    const bool below = drawsBinsBelow && !last.getStateSet();
-    osgUtil::RenderBin& parent = below ? last : *last.getStage();
-    for (int number = below ? lateNumber : last.getBinNum() + 1;; ++number) {
-        auto* bin = dynamic_cast<ShadowBin*>(parent.find_or_insert(number, binName));
-        if (bin) return *bin;
-    }
+/// What a technique is told of one part.
+ViewFrame viewOf(ViewFrame view, const EnlistedTechnique& entry, const ReceiverPart& part) {
+    view.projection = *entry.projection * rangeOf(part.placement);
+    view.pushedBack = {part.placement.pixels, part.placement.steps};
+    view.kind = part.late                  ? ReceiverKind::Late
+                : part.placement.isPlain() ? ReceiverKind::Usual
+                                           : ReceiverKind::Displaced;
+    view.seen = part.leaves;
+    return view;
 }
 
 /// What only its own code knows may clear the depths that shadows are found by, so that what follows is on top.
@@ -242,27 +234,17 @@ void ShadowBin::clearWithStage() {
 }
 
 void ShadowBin::reset() {
-    osgUtil::RenderBin::reset();
-    setSortMode(getDefaultRenderBinSortMode());
+    ComposeBin::reset();
     _enlisted.clear();
-    _jobs.clear();
     _lateJobs.clear();
-    _composesBelow.reset();
-    _effects.clear();
-    _watches.clear();
-    _waiting.clear();
-    _holdsFrame = false;
-    _sharesStencil = false;
-    _options = {};
 }
 
 void ShadowBin::sortImplementation() {
-    if (!_composesBelow) prepareAll();
-    sortAsAsked();
-    osgUtil::RenderBin::sortImplementation();
+    askTechniques();
+    ComposeBin::sortImplementation();
 }
 
-void ShadowBin::prepareAll() {
+void ShadowBin::askTechniques() {
     _jobs.clear();
     std::deque<FrameCasters> known;
     if (!_enlisted.empty() || !_effects.empty()) moveBinStatesToGraphs(*getStage());
@@ -277,7 +259,7 @@ void ShadowBin::prepareAll() {
             continue;
         }
         const std::optional<Start> start = startIfWatched(entry);
-        const std::size_t lights = prepareOf(entry, drawn, known);
+        const std::size_t lights = askTechnique(entry, drawn, known);
         if (start) recordCull(entry, *start, lights);
     }
     PrepassBin::show(_jobs, *getStage());
@@ -294,14 +276,14 @@ void ShadowBin::prepareAll() {
     saveColorsIfBlended(drawn);
     if (!_lateJobs.empty()) {
         for (ShadowJob& job : _lateJobs) job.hidingOnly = true;
-        handOn(_lateJobs, binAfter(*drawn.late.last), drawn.late.last->getBinNum() + 1);
+        handOn(_lateJobs, after(*drawn.late.last), drawn.late.last->getBinNum() + 1);
     }
-    if (clear && !_jobs.empty()) handOn(_jobs, binAfter(*clear->before), clear->by->getBinNum());
+    if (clear && !_jobs.empty()) handOn(_jobs, after(*clear->before), clear->by->getBinNum());
 }
 
 /// @return how many lights were asked for.
-std::size_t ShadowBin::prepareOf(const EnlistedTechnique& entry, const StageLeaves& drawn,
-                                 std::deque<FrameCasters>& known) {
+std::size_t ShadowBin::askTechnique(const EnlistedTechnique& entry, const StageLeaves& drawn,
+                                    std::deque<FrameCasters>& known) {
     if (const std::string cause = whyNoPicture(entry); !cause.empty()) {
         entry.technique->report(entry.frameNumber, cause);
         return 0;
@@ -314,7 +296,7 @@ std::size_t ShadowBin::prepareOf(const EnlistedTechnique& entry, const StageLeav
     _holdsFrame = _holdsFrame || (entry.technique->drawsCasters() && !casters.drawables().own.empty());
     const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
     for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
-    prepare(entry, found, casters, drawn);
+    askForMarks(entry, found, casters, drawn);
     return found.lights.size();
 }
 
@@ -329,82 +311,86 @@ void ShadowBin::saveColorsIfBlended(const StageLeaves& drawn) {
     if (blended) PrepassBin::saveColors(*getStage());
 }
 
-/// Leaves that asked for a bin of this number got this one, which must sort as the kind they named.
-void ShadowBin::sortAsAsked() {
-    for (const osgUtil::StateGraph* graph : getStateGraphList())
-        for (; graph; graph = graph->_parent) {
-            const osg::StateSet* set = graph->getStateSet();
-            if (!set || !set->useRenderBinDetails() || set->getBinNumber() != getBinNum()) continue;
-            const osgUtil::RenderBin* kind = osgUtil::RenderBin::getRenderBinPrototype(set->getBinName());
-            if (kind) setSortMode(kind->getSortMode());
-        }
-}
-
-void ShadowBin::prepare(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
-                        const StageLeaves& drawn) {
+void ShadowBin::askForMarks(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+                            const StageLeaves& drawn) {
     if (const std::string why = entry.technique->whyUnavailable(); !why.empty())
         return entry.technique->report(entry.frameNumber, "there is no shadow. " + why);
-    const auto receiving = receivingOf(entry, drawn.early, *getStage());
-    const auto lateOnes = receivingOf(entry, drawn.late.leaves, *getStage());
-    reportReceiverStates(entry, {receiving, lateOnes, drawn}, *getStage());
+    const auto early = receivingOf(entry, drawn.early, *getStage());
+    const auto late = receivingOf(entry, drawn.late.leaves, *getStage());
+    const Receiving receiving{early, late, drawn};
+    reportReceiverStates(entry, receiving, *getStage());
     const bool otherLens = reportOtherLens(entry, _enlisted, drawn, *getStage());
-    if (entry.technique->hasReceiver() && receiving.empty() && lateOnes.empty()) {
+    if (entry.technique->hasReceiver() && early.empty() && late.empty()) {
         if (!otherLens) reportNoReceiver(entry, *getStage());
         return;
     }
-    reportEnclosers(entry, found.lights, casters.drawables(), receiving, *getStage());
-    ViewFrame view = viewOf(entry, *getStage()->getViewport());
-    view.lights = found.lights.size();
-    view.strengths = found.strengths;
-    view.renderStage = getStage();
-    view.options.filter = _options.filter; // as all who share this bin want it
-    const auto add = [&](auto& to, const Leaves& those, std::optional<ScreenRect> within, bool alone, bool programs) {
-        for (ShadowJob& job : jobsFor({entry, found.lights, casters, view, those, within}, alone))
-            if (programs || !job.programMarks()) to.push_back(std::move(job));
-    };
+    reportEnclosers(entry, found.lights, casters.drawables(), early, *getStage());
     const std::size_t before = _jobs.size(), lateBefore = _lateJobs.size();
-    int index = 0;
-    bool programs = true; // are served once
-    const auto addAll = [&](const Leaves& all, bool late) {
-        const auto parts = byPlacement(all, drawn.displaced);
-        for (const auto& [placement, those] : parts) {
-            view.stage = reinterpret_cast<const char*>(getStage()) + index++; // to a technique's caches another view
-            view.projection = *entry.projection * rangeOf(placement);
-            view.pushedBack = {placement.pixels, placement.steps};
-            view.kind = late ? ReceiverKind::Late : placement.isPlain() ? ReceiverKind::Usual : ReceiverKind::Displaced;
-            const bool part = parts.size() > 1;
-            const std::optional<ScreenRect> within = part || late ? boundsOf(those) : wholeScreen;
-            const bool named = part || late || entry.technique->hasReceiver();
-            if (within) add(late ? _lateJobs : _jobs, those, within, named, programs);
-            programs = false;
-        }
-    };
-    if (!receiving.empty() || lateOnes.empty()) addAll(receiving, false);
-    if (const auto watch = entry.technique->watch(view)) _watches.push_back(watch);
-    addAll(lateOnes, true);
+    addJobs(entry, found, casters, receiving);
     if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
     reportUnshadowed(entry, _enlisted, found.lights, casters.drawables(), drawn, *getStage());
     double steps = 0.0;
-    const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.marks->depthSteps()); };
+    const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.mark->depthSteps()); };
     std::for_each(_jobs.begin() + before, _jobs.end(), take);
     std::for_each(_lateJobs.begin() + lateBefore, _lateJobs.end(), take);
     if (steps > 0.0) reportCoarseDepth(entry, found.lights.front(), casters.drawables(), *getStage(), steps);
 }
 
-/// To a bin of their own, which composes what the stage draws before that number: what receives late, or what depths are
-/// cleared after.
-void ShadowBin::handOn(std::vector<ShadowJob>& jobs, ShadowBin& to, int below) const {
-    to._jobs = std::move(jobs);
-    to._options = _options;
-    to._holdsFrame = _holdsFrame;
-    to._sharesStencil = _sharesStencil;
-    to._composesBelow = below;
-    jobs.clear();
+/// Asks a technique for its marks: each part of the receivers, and each light.
+void ShadowBin::addJobs(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+                        const Receiving& receiving) {
+    const bool named = entry.technique->hasReceiver();
+    std::vector<ReceiverPart> parts;
+    const auto add = [&](const Leaves& leaves, bool late) {
+        for (ReceiverPart& part : partsOf(leaves, receiving.drawn, late, named)) parts.push_back(std::move(part));
+    };
+    if (!receiving.early.empty() || receiving.late.empty()) add(receiving.early, false);
+    add(receiving.late, true);
+    ViewFrame whole = viewOf(entry, *getStage()->getViewport());
+    whole.lights = found.lights.size();
+    whole.strengths = found.strengths;
+    whole.options.filter = _options.filter; // as all who share this bin want it
+    whole.key.stage = getStage();
+    for (const ReceiverPart& part : parts) {
+        const bool isFirst = &part == &parts.front();
+        ViewFrame view = viewOf(whole, entry, part);
+        view.key.part = int(&part - parts.data());
+        std::shared_ptr<const LeafSet> receivers;
+        if (!part.isAll) receivers = std::make_shared<const LeafSet>(part.leaves.begin(), part.leaves.end());
+        view.receivers = receivers.get();
+        if (!part.within) continue;
+        for (const ShadowLight& light : found.lights)
+            for (const osg::ref_ptr<Mark>& mark : entry.technique->prepare(view, light, casters)) {
+                ShadowJob job = jobFor(entry, light);
+                job.receiverNamed = !part.isAll;
+                job.receivers = receivers;
+                job.mark = mark;
+                mark->screenBounds = common(mark->screenBounds, *part.within);
+                const bool isForPrograms = job.programMark() != nullptr; // these are served once
+                if (isForPrograms ? isFirst : !isEmpty(mark->screenBounds))
+                    (part.late ? _lateJobs : _jobs).push_back(std::move(job));
+            }
+    }
+    if (const auto watch = entry.technique->watch(whole)) _watches.push_back(watch);
 }
 
-/// Leaves that are DYNAMIC are drawn again, and casters draw themselves: the frame is not done with them before this bin is.
-unsigned ShadowBin::computeNumberOfDynamicRenderLeaves() const {
-    return osgUtil::RenderBin::computeNumberOfDynamicRenderLeaves() + (holdsFrame() ? 1u : 0u);
+std::optional<ShadowBin::Start> ShadowBin::startIfWatched(const EnlistedTechnique& entry) const {
+    if (!entry.technique->isRecorded() && !StageStats(*getStage()).collect()) return std::nullopt;
+    return Start{secondsNow(), _jobs.size(), _lateJobs.size()};
+}
+
+void ShadowBin::recordCull(const EnlistedTechnique& entry, const Start& start, std::size_t lights) const {
+    const double end = secondsNow();
+    FrameWork work;
+    work.frame = entry.frameNumber;
+    work.lights = static_cast<unsigned>(lights);
+    addMarks(work, _jobs, start.jobs, *getStage()->getViewport());
+    addMarks(work, _lateJobs, start.lateJobs, *getStage()->getViewport());
+    work.cull = 1000.0 * (end - start.time);
+    entry.technique->record(work);
+    const StageStats stats(*getStage());
+    stats.addTime(work.frame, "Shadow cull", start.time, end);
+    stats.addCount(work.frame, "Shadow marks", work.marks);
 }
 
 } // namespace gnomon

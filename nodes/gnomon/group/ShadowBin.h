@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/compositor/DrawnLeaves.h>
-#include <gnomon/compositor/MaterialHistory.h>
-#include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/compositor/StencilMarks.h>
-#include <gnomon/compositor/ViewEffect.h>
+#include <gnomon/group/ComposeBin.h>
 #include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/StageLeaves.h>
 #include <gnomon/group/ViewLights.h>
-
-#include <osgUtil/RenderBin>
-#include <osgUtil/RenderStage>
 
 #include <deque>
 #include <optional>
@@ -18,12 +11,14 @@
 
 namespace gnomon {
 
+struct Receiving;
+
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
 ///
 /// It runs after all opaque bins of the stage and before the transparent ones. Lights and leaves are asked for after the
 /// whole cull, so their order in the graph does not matter; nothing is kept from frame to frame or view to view.
-/// Where leaves of later bins receive too (LateReceivers), a second bin of this class runs after the last of them.
-/// Where code of the application's own may clear depth in an earlier bin, another runs before that one.
+/// Where leaves of later bins receive too (LateReceivers), a ComposeBin runs after the last of them. Where code of the
+/// application's own may clear depth in an earlier bin, another runs before that one.
 ///
 /// Cost    scissored to where marks can fall: the marks, a stencil clear, and the leaves that the marks can touch, once
 ///         more, big ones in part (TriangleClusters). One job with a named receiver that nothing else shows on: its leaves
@@ -42,14 +37,13 @@ namespace gnomon {
 ///         through receives nothing there; nor does what is seen through it, if it writes depth and both are late. A leaf
 ///         that a logic operation draws receives there if it hides what is behind; diagnose() names the others.
 /// Threads sort in the cull thread, draw in the draw thread, as every RenderBin.
-class ShadowBin : public osgUtil::RenderBin {
+class ShadowBin : public ComposeBin {
 public:
     ShadowBin() = default;
     ShadowBin(const ShadowBin& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)
-        : osgUtil::RenderBin(other, copyOp) {}
+        : ComposeBin(other, copyOp) {}
     osg::Object* cloneType() const override { return new ShadowBin; }
     osg::Object* clone(const osg::CopyOp& copyOp) const override { return new ShadowBin(*this, copyOp); }
-    const char* libraryName() const override { return "gnomon"; }
     const char* className() const override { return "ShadowBin"; }
 
     /// The bin of `stage`, made if it has none: number 8, or the next lower one that another kind of bin has not taken.
@@ -63,48 +57,28 @@ public:
     /// Also lets the stage clear its stencil buffer, if it clears depth and no bits are reserved: the two together cost
     /// less than a clear of our bits later.
     void sortImplementation() override;
-    void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
-    unsigned computeNumberOfDynamicRenderLeaves() const override;
 
 protected:
     ~ShadowBin() override = default;
 
 private:
-    bool holdsFrame() const { return _holdsFrame && !isIdle(); }
-    bool isIdle() const { return _jobs.empty() && _effects.empty() && _waiting.empty(); }
-    void clearWithStage();
-    bool isStencilClean(const std::vector<DrawnLeaf>& leaves) const;
-    std::string compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous);
-    std::string compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves, MaterialHistory& materials);
-    TargetNeeds needs(const std::vector<DrawnLeaf>& leaves) const;
-    void tell(const std::string& cause);
     struct Start {
-        double time; ///< seconds, of osg::Timer.
+        double time; ///< see secondsNow().
         std::size_t jobs, lateJobs;
     };
+    void askTechniques();
+    std::size_t askTechnique(const EnlistedTechnique& entry, const StageLeaves& drawn, std::deque<FrameCasters>& known);
+    void askForMarks(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+                     const StageLeaves& drawn);
+    void addJobs(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+                 const Receiving& receiving);
+    void clearWithStage();
+    void saveColorsIfBlended(const StageLeaves& drawn);
     std::optional<Start> startIfWatched(const EnlistedTechnique& entry) const;
     void recordCull(const EnlistedTechnique& entry, const Start& start, std::size_t lights) const;
-    std::optional<double> drawStartIfWatched() const;
-    void recordDraw(double begin) const;
-    void sortAsAsked();
-    void prepareAll();
-    std::size_t prepareOf(const EnlistedTechnique& entry, const StageLeaves& drawn, std::deque<FrameCasters>& known);
-    void saveColorsIfBlended(const StageLeaves& drawn);
-    void prepare(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
-                 const StageLeaves& drawn);
-    void handOn(std::vector<ShadowJob>& jobs, ShadowBin& to, int below) const;
 
     std::vector<EnlistedTechnique> _enlisted;
-    std::vector<ShadowJob> _jobs;
     std::vector<ShadowJob> _lateJobs; ///< for the bin that composes what is drawn later.
-    std::optional<int>
-        _composesBelow; ///< set of a bin that gets jobs of another: what the stage draws before this number.
-    std::vector<osg::ref_ptr<ViewEffect>> _effects;
-    std::vector<osg::ref_ptr<DrawWatch>> _watches; ///< never null.
-    std::vector<FrameReport> _waiting; ///< of techniques, for that the stage can be composed in, see StageVerdict.
-    bool _holdsFrame = false;          ///< what it draws may be another in the next frame.
-    bool _sharesStencil = false;       ///< leaves of the stage test or mark the stencil buffer themselves.
-    CompositorOptions _options;        ///< of all that were enlisted.
 };
 
 } // namespace gnomon

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowReport.h>
 #include <gnomon/ShadowTechnique.h>
-#include <gnomon/ViewFrame.h>
 #include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/group/FrameCasters.h>
-#include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
 
 #include <osg/NodeVisitor>
@@ -86,19 +83,6 @@ std::vector<ShadowReport> shadowReports(osg::Node& scene) {
     Asker asker;
     scene.accept(asker);
     return asker.reports;
-}
-
-std::optional<ScreenRect> ViewFrame::boundsBehind(const osg::BoundingBoxd& inGroup, const ShadowLight& light) const {
-    const SceneFrame scene(inGroup.center());
-    const auto usable = localLight(light.inGroup, scene);
-    return usable ? gnomon::boundsBehind(inGroup, scene, scene.clipFromScene(*this), *usable) : std::nullopt;
-}
-
-std::vector<CasterBox> boxesOf(const FrameCasters& casters) {
-    std::vector<CasterBox> boxes;
-    for (const auto& piece : casters.drawables().list)
-        if (piece->bounds.valid()) boxes.push_back({piece->drawable.get(), piece->bounds});
-    return boxes;
 }
 
 } // namespace gnomon

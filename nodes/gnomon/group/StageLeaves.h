@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowTechnique.h>
+#include <gnomon/ViewFrame.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/base/FrameDiagnosis.h>
 #include <gnomon/casters/Casting.h>
@@ -35,6 +36,9 @@ struct EnlistedTechnique {
     unsigned frameNumber = 0;
     double frameTime = 0.0; ///< seconds, see timeOf().
 };
+
+/// What a technique's prepare() is told of the view, but for its receivers.
+ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport);
 
 using Leaves = std::vector<const osgUtil::RenderLeaf*>;
 

@@ -69,10 +69,6 @@ void ShadowTechnique::enlist(osgUtil::CullVisitor& cull) {
     ShadowBin::of(stage).enlist(entry);
 }
 
-bool ShadowTechnique::hasGroupAbove(const osg::NodeVisitor& visitor) {
-    return groupAbove(visitor.getNodePath()).group != nullptr;
-}
-
 void ShadowTechnique::traverse(osg::NodeVisitor& visitor) {
     if (osgUtil::CullVisitor* cull = visitor.asCullVisitor()) enlist(*cull);
     osg::Geode::traverse(visitor);

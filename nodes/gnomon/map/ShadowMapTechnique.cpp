@@ -102,7 +102,7 @@ public:
 
 private:
     struct Entry {
-        const void* stage;
+        ViewKey view;
         int light;
         unsigned lastRound = 0; ///< that asked for it.
         LightShadowMaps maps{};
@@ -110,8 +110,8 @@ private:
 
     /// Maps that are asked for twice begin a round as well, for views may count no frames.
     LightShadowMaps& find(const ViewFrame& view, int light) {
-        auto* known = _maps.find([&](const auto& each) { return each->stage == view.stage && each->light == light; });
-        Entry& entry = known ? **known : *_maps.add(std::unique_ptr<Entry>(new Entry{view.stage, light}));
+        auto* known = _maps.find([&](const auto& each) { return each->view == view.key && each->light == light; });
+        Entry& entry = known ? **known : *_maps.add(std::unique_ptr<Entry>(new Entry{view.key, light}));
         if (view.frameNumber != _frame || entry.lastRound == _round) {
             _frame = view.frameNumber;
             ++_round;

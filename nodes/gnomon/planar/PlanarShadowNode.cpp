@@ -171,7 +171,7 @@ void PlanarShadowNode::setPlanes(const std::vector<osg::Vec4d>& planes) { _plane
 
 std::vector<osg::ref_ptr<Mark>> PlanarShadowNode::prepare(const ViewFrame& view, const ShadowLight& light,
                                                           const FrameCasters& casters) const {
-    std::vector<osg::ref_ptr<Mark>> jobs;
+    std::vector<osg::ref_ptr<Mark>> marks;
     if (_planes.empty()) report(view.frameNumber, "no plane is set, so there is no shadow. Set one with addPlane().");
     for (unsigned i = 0; i < _planes.size(); ++i) {
         const auto plane = transformedPlane(toGlm(view.groupFromTechnique), toGlm(_planes[i]));
@@ -179,10 +179,10 @@ std::vector<osg::ref_ptr<Mark>> PlanarShadowNode::prepare(const ViewFrame& view,
             report(view.frameNumber,
                    sentence("the normal of the plane", _planes[i],
                             "is zero or not a number. Give (a, b, c, d) of the plane a x + b y + c z + d = 0."));
-        else if (osg::ref_ptr<Mark> job = prepareOne(view, light, casters.layers(), i, *plane))
-            jobs.push_back(job);
+        else if (osg::ref_ptr<Mark> mark = prepareOne(view, light, casters.layers(), i, *plane))
+            marks.push_back(mark);
     }
-    return jobs;
+    return marks;
 }
 
 osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light,
@@ -222,7 +222,7 @@ osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const Sha
     mark->reachesLight = heightLimit(clip, casters->plane) < casters->highest;
     mark->mirrored = isMirrored(view);
     mark->cures = _cures;
-    mark->dark = view.dark;
+    mark->dark = view.group->getDark();
     const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
     const auto bounds = boundsOf(*mark);
     const auto depth = depthOnScreen(casters->plane, clipFromScene);

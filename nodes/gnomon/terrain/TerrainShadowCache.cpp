@@ -46,7 +46,7 @@ bool TerrainAnswer::holds(const glm::dvec3& place) const {
 /// That of these casters; else one whose casters are gone, or that was this view's: it takes little to follow. Null if
 /// there is none.
 TerrainShadowCache::Town* TerrainShadowCache::findTown(const ShadowCasterGroup& group, const CasterDrawables& casters,
-                                                       const void* stage, bool asBoxes) {
+                                                       const ViewKey& view, bool asBoxes) {
     const auto find = [&](auto isWanted) {
         const auto* known = _towns.find([&](const auto& town) {
             return town->group == &group && town->casters.asBoxes() == asBoxes && isWanted(*town);
@@ -54,19 +54,19 @@ TerrainShadowCache::Town* TerrainShadowCache::findTown(const ShadowCasterGroup& 
         return known ? known->get() : nullptr;
     };
     if (Town* town = find([&](const Town& known) { return known.casters.are(casters); })) return town;
-    if (Town* town = find([&](const Town& known) { return known.stage == stage; })) return town;
+    if (Town* town = find([&](const Town& known) { return known.view == view; })) return town;
     return find([&](const Town& known) { return known.casters.areRetired(); });
 }
 
 TerrainShadowCache::Town& TerrainShadowCache::townOf(const Asker& asker, const CasterDrawables& casters,
                                                      const Selection& terrain) {
-    Town* known = findTown(asker.group, casters, asker.stage, asker.asBoxes);
+    Town* known = findTown(asker.group, casters, asker.view, asker.asBoxes);
     if (!known) {
         _towns.dropOldestBeyond(mostTowns - 1); // before adding, for all would be in memory
         known = _towns.add(std::make_unique<Town>(asker.group, asker.asBoxes)).get();
     }
     Town& town = *known;
-    town.stage = asker.stage;
+    town.view = asker.view;
     const osg::ref_ptr<const GroundRevision> drawn = groundRevision(asker.group, terrain, town.drawn);
     const double margin = drawn->hasLevels || asker.isLoose ? marginOfLevels : marginOfGround;
     if (drawn != town.drawn || margin != town.ground->margin) {
@@ -83,7 +83,7 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
     TerrainFrame frame;
     runLocked(_mutex, [&] {
         const bool isLoose = view.pushedBack.x() > 0.0 || view.pushedBack.y() > 0.0;
-        Town& town = townOf({*view.group, view.stage, asBoxes, isLoose}, casters, terrain);
+        Town& town = townOf({*view.group, view.key, asBoxes, isLoose}, casters, terrain);
         HullTiles& tiles = town.lights[number];
         const unsigned before = tiles.found();
         tiles.update(town.casters, *town.ground, light, TileView(view, town.casters.origin()));
@@ -103,7 +103,7 @@ osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterG
                                                              const glm::dvec4& light, bool asBoxes) {
     osg::ref_ptr<TerrainAnswer> answer = new TerrainAnswer;
     runLocked(_mutex, [&] {
-        const Town& town = townOf({group, nullptr, asBoxes, false}, casters, terrain);
+        const Town& town = townOf({group, {}, asBoxes, false}, casters, terrain);
         answer->drawn = town.drawn;
         answer->tiles.resize(town.casters.tiles().size());
         tbb::parallel_for(std::size_t{0}, answer->tiles.size(),

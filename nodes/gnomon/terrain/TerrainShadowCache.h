@@ -55,23 +55,23 @@ public:
     void releaseGLObjects(osg::State* state) const;
 
 private:
-    /// Who asks: a view, or a query, whose stage is null.
+    /// Who asks: a view, or a query, whose key names none.
     struct Asker {
         const ShadowCasterGroup& group;
-        const void* stage;
+        ViewKey view;
         bool asBoxes;
         bool isLoose; ///< the ground may be drawn beside its place.
     };
     struct Town {
         Town(const ShadowCasterGroup& of, bool asBoxes) : group(&of), casters(asBoxes) {}
         const ShadowCasterGroup* group; ///< to be told apart from others only.
-        const void* stage = nullptr;    ///< of the view that had it last.
+        ViewKey view;                   ///< that had it last.
         osg::ref_ptr<const GroundRevision> drawn;
         std::unique_ptr<const HullGround> ground; ///< of `drawn`.
         CasterTiles casters;
         std::map<int, HullTiles> lights;
     };
-    Town* findTown(const ShadowCasterGroup& group, const CasterDrawables& casters, const void* stage, bool asBoxes);
+    Town* findTown(const ShadowCasterGroup& group, const CasterDrawables& casters, const ViewKey& view, bool asBoxes);
     Town& townOf(const Asker& asker, const CasterDrawables& casters, const Selection& terrain);
 
     mutable OpenThreads::Mutex _mutex;

@@ -40,8 +40,8 @@ namespace gnomon {
 
 /// What rays are cast for in one view and of one light.
 struct TracedFrame {
-    const void* stage = nullptr; ///< tells views apart.
-    int light = 0;               ///< number.
+    ViewKey view;
+    int light = 0; ///< number.
     std::shared_ptr<const RayScene> scene;
     osg::ref_ptr<const CasterDrawables> pieces; ///< of the scene; null if they are not known.
     osg::Vec3d origin;                          ///< of the scene, group frame.
@@ -148,7 +148,7 @@ bool readDepth(osg::State& state, ResolvedDepth& resolved, DepthPicture& part) {
         glReadPixels(x, y, part.width, part.height, GL_DEPTH_COMPONENT, GL_FLOAT, part.depths.data());
     };
     if (ResolvedDepth::isNeeded(state)) {
-        const auto place = resolved.read(state, x, y, part.width, part.height, read);
+        const auto place = resolved.read(state, {x, y, part.width, part.height}, read);
         part.place = place.value_or(part.place);
         return place.has_value();
     }
@@ -221,14 +221,14 @@ std::optional<std::vector<RayBox>> TracedFrames::changesBetween(const Known& bef
 std::shared_ptr<const TracedFrames::Known> TracedFrames::find(const TracedFrame& frame) {
     Lock lock(_mutex);
     const auto* found = _known.find(
-        [&](const auto& known) { return known->frame.stage == frame.stage && known->frame.light == frame.light; });
+        [&](const auto& known) { return known->frame.view == frame.view && known->frame.light == frame.light; });
     return found ? *found : nullptr;
 }
 
 void TracedFrames::keep(std::shared_ptr<const Known> known) {
     Lock lock(_mutex);
     _known.dropIf([&](const auto& old) {
-        return old->frame.stage == known->frame.stage && old->frame.light == known->frame.light;
+        return old->frame.view == known->frame.view && old->frame.light == known->frame.light;
     });
     _known.dropOldestBeyond(most - 1);
     _known.add(std::move(known));
@@ -300,7 +300,7 @@ std::vector<osg::ref_ptr<Mark>> TracedShadowTechnique::prepare(const ViewFrame& 
     osg::ref_ptr<TracedMark> mark = new TracedMark;
     mark->frame.lightInScene = *usable;
     mark->frame.light = light.number;
-    mark->frame.stage = view.stage;
+    mark->frame.view = view.key;
     mark->frame.origin = layers.origin;
     mark->frame.pieces = layers.pieces;
     mark->frames = _frames;

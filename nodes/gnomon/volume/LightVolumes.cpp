@@ -271,7 +271,7 @@ std::optional<ScreenRect> boundsOf(const VolumeHull& hull) {
         rect.high = glm::max(rect.high, at);
     }
     rect = common(rect, wholeScreen);
-    if (!overlap(rect, rect)) return std::nullopt;
+    if (isEmpty(rect)) return std::nullopt;
     return rect;
 }
 

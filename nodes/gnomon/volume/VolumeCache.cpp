@@ -44,7 +44,7 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
                                             const glm::dvec4& light, const SceneFrame& scene) {
     const ReceiverBox receivers = receiversOf(view, scene);
     Lock lock(_mutex);
-    const auto [known, isNew] = _entries.try_emplace({view.stage, lightNumber}, Entry{receivers, {}});
+    const auto [known, isNew] = _entries.try_emplace({view.key, lightNumber}, Entry{receivers, {}});
     Entry& own = known->second;
     // A light that is asked for twice begins a round as well, for views may count no frames.
     if (view.frameNumber != _frame || (!isNew && own.used == _round)) ++_round;

@@ -60,7 +60,7 @@ private:
 
     mutable OpenThreads::Mutex _mutex;
     std::unordered_map<const CasterMesh*, Edges> _edges;
-    std::map<std::pair<const void*, int>, Entry> _entries; ///< by a view's stage and a light's number.
+    std::map<std::pair<ViewKey, int>, Entry> _entries; ///< by a view and a light's number.
     unsigned _builds = 0;
     unsigned _round = 0, _frame = 0; ///< a round is a frame.
 };

@@ -16,7 +16,7 @@ struct DrawnError {
 /// is allowed here for sides, a third of what is allowed for coordinates, a fifth of what is allowed for matrices.
 /// @param projection  as it is drawn.
 /// @param width        of the viewport, pixels.
-/// @param rounding     of the vertices by their own floats, see CasterExtraction::getRounding().
+/// @param rounding     of the vertices' own coordinates to floats, scene's unit.
 /// @param longestSide  of the polygons.
 DrawnError drawnError(const glm::dmat4& clipFromScene, const glm::dmat4& projection, double width, double rounding,
                       double longestSide);

@@ -14,7 +14,7 @@ namespace {
 
 struct RayScene::Embree {};
 
-RayScene::RayScene(const TriangleSoup&, const ProgressLine&) { refuse(); }
+RayScene::RayScene(const TriangleSoup&, const Progress&) { refuse(); }
 RayScene::RayScene(const std::vector<PlacedRayScene>&) { refuse(); }
 RayScene::~RayScene() = default;
 

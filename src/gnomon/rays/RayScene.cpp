@@ -55,7 +55,7 @@ bool isTriangle(const TriangleSoup& soup, const unsigned* corner) {
 }
 
 bool report(void* progress, double share) {
-    (*static_cast<const RayScene::ProgressLine*>(progress))(share);
+    (*static_cast<const RayScene::Progress*>(progress))(share);
     return true;
 }
 
@@ -144,7 +144,7 @@ struct RayScene::Embree {
 
     void take(const TriangleSoup& soup);
     void take(const std::vector<PlacedRayScene>& given);
-    void commit(const ProgressLine& progress);
+    void commit(const Progress& progress);
     bool empty() const { return kept.empty() && parts.empty(); }
     void measure();
     void measureParts();
@@ -235,9 +235,9 @@ void RayScene::Embree::take(const TriangleSoup& soup) {
     rtcReleaseGeometry(geometry);
 }
 
-void RayScene::Embree::commit(const ProgressLine& progress) {
+void RayScene::Embree::commit(const Progress& progress) {
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    if (progress) rtcSetSceneProgressMonitorFunction(scene, report, const_cast<ProgressLine*>(&progress));
+    if (progress) rtcSetSceneProgressMonitorFunction(scene, report, const_cast<Progress*>(&progress));
     rtcCommitScene(scene);
     if (progress) rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
     const RTCError error = rtcGetDeviceError(embreeDevice());
@@ -360,7 +360,7 @@ RayHit RayScene::Embree::refined(const Cast& cast, const RTCHit& hit) const {
     return result;
 }
 
-RayScene::RayScene(const TriangleSoup& triangles, const ProgressLine& progress) : _embree(new Embree) {
+RayScene::RayScene(const TriangleSoup& triangles, const Progress& progress) : _embree(new Embree) {
     _embree->take(triangles);
     _embree->commit(progress);
 }

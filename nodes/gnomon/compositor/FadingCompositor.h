@@ -8,15 +8,15 @@
 
 namespace gnomon {
 
-/// Composes jobs of which one at least has soft edges: visibility goes through destination alpha, which is 1 afterwards.
+/// Composes jobs of which one at least fades, as smooth edges and penumbras do: visibility goes through destination alpha, which is 1 afterwards.
 ///
 /// Relight: a pixel's colour is the sum of what it would be under each set of lights, weighted by the share of it that
 /// sees just these; with one light that is one mix. Each leaf is drawn again at the depth that stands. A leaf that blends,
 /// writes no depth or cannot lose its light is darkened by the factor instead, and reported.
-class SoftCompositor {
+class FadingCompositor {
 public:
     /// @param draw  with alpha bits and at least one stencil bit; must outlive this.
-    explicit SoftCompositor(const CompositorStage& draw);
+    explicit FadingCompositor(const CompositorStage& draw);
 
     void relight(const Jobs& wanted) const;
     void blend(const Jobs& jobs, float dark) const;
@@ -26,18 +26,18 @@ private:
     struct Light {
         int number = 0;
         Jobs hard;
-        const ShadowJob* soft = nullptr;
-        unsigned hardBit = 0, softBit = 0;
-        unsigned bits() const { return hardBit | softBit; }
-        bool isMixed() const { return hardBit && softBit; }
-        bool isSoftOnly() const { return soft && hard.empty(); }
+        const ShadowJob* fading = nullptr;
+        unsigned hardBit = 0, fadingBit = 0;
+        unsigned bits() const { return hardBit | fadingBit; }
+        bool isMixed() const { return hardBit && fadingBit; }
+        bool isFadingOnly() const { return fading && hard.empty(); }
     };
     using Lights = std::vector<Light>;
     using Leaves = std::vector<ReplayedLeaf>;
 
     Lights lightsOf(const Jobs& wanted) const;
     bool assignBits(Light& light, std::vector<unsigned>& unused) const;
-    void mark(const Lights& lights, StencilMarks::Soft soft) const;
+    void mark(const Lights& lights, StencilMarks::Pixels pixels) const;
     Leaves setAside(Leaves& leaves, const Jobs& jobs) const;
     void darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const;
     void multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const;

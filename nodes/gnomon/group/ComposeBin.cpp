@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// ShadowBin: its part of a draw traversal, and what it did, for those who ask. See ShadowReport and addShadowStats().
 #include <gnomon/casters/DrawableTriangles.h>
 #include <gnomon/compositor/Compositor.h>
 #include <gnomon/compositor/KeptByStage.h>
@@ -7,13 +6,10 @@
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/compositor/StencilMarks.h>
-#include <gnomon/group/ShadowBin.h>
+#include <gnomon/group/ComposeBin.h>
+#include <gnomon/group/StageStats.h>
 
-#include <osg/Camera>
-#include <osg/Stats>
 #include <osg/Stencil>
-#include <osg/Timer>
-#include <osg/View>
 #include <osg/Viewport>
 #include <osgUtil/RenderStage>
 
@@ -21,14 +17,25 @@
 #include <map>
 #include <set>
 #include <string>
+#include <typeinfo>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
 namespace {
 
+constexpr int lateNumber = 1 << 30; // below another bin, after all others there
+constexpr const char* binName = "gnomon::ComposeBin";
+
+/// Makes the bin known to osgUtil, which creates bins by name.
+const bool registered = [] {
+    osgUtil::RenderBin::addRenderBinPrototype(binName, new ComposeBin);
+    return true;
+}();
+
 /// Stencil bits that the compositor takes: one a light, and a scratch bit; one more for lights that fade.
 std::size_t ownBits(const std::vector<ShadowJob>& jobs) {
-    if (std::none_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.marks->kind() == Mark::Kind::Counts; }))
+    if (std::none_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.mark->kind() == Mark::Kind::Counts; }))
         return 8;
     if (std::any_of(jobs.begin(), jobs.end(), [](const auto& job) { return job.fades(); })) return mostRelitLights + 2;
     std::set<int> lights;
@@ -55,66 +62,62 @@ bool mayStencilHide(const DrawnLeaf& entry) {
     return oneSided ? oneSided->getFunction() != osg::Stencil::ALWAYS : test != nullptr;
 }
 
-/// OSG's statistics of a stage's camera and of its view, as long as the camera's collect. See addShadowStats().
-class StageStats {
-public:
-    explicit StageStats(const osgUtil::RenderStage& stage);
-
-    bool collect() const { return !_all.empty(); }
-    /// Notes a stretch of time. Several in one frame: the first begin, the last end, and the sum.
-    /// @param what   "Shadow cull" or "Shadow draw".
-    /// @param begin  seconds, of osg::Timer.
-    void addTime(unsigned frame, const std::string& what, double begin, double end) const;
-    /// Adds to a count.
-    void addCount(unsigned frame, const std::string& what, double count) const;
-
-private:
-    std::vector<osg::Stats*> _all;
-};
-
-double valueOf(const osg::Stats& stats, unsigned frame, const std::string& name, double otherwise) {
-    double value = otherwise;
-    stats.getAttribute(frame, name, value);
-    return value;
-}
-
-StageStats::StageStats(const osgUtil::RenderStage& stage) {
-    const osg::Camera* camera = stage.getCamera();
-    osg::Stats* own = camera ? const_cast<osg::Camera*>(camera)->getStats() : nullptr;
-    if (!own || !(own->collectStats("rendering") || own->collectStats("gnomon"))) return;
-    _all.push_back(own);
-    osg::View* view = const_cast<osg::Camera*>(camera)->getView();
-    if (view && view->getStats() && view->getStats() != own) _all.push_back(view->getStats());
-}
-
-void StageStats::addTime(unsigned frame, const std::string& what, double begin, double end) const {
-    for (osg::Stats* stats : _all) {
-        stats->setAttribute(frame, what + " begin time", valueOf(*stats, frame, what + " begin time", begin));
-        stats->setAttribute(frame, what + " end time", end);
-    }
-    addCount(frame, what + " time taken", end - begin);
-}
-
-void StageStats::addCount(unsigned frame, const std::string& what, double count) const {
-    for (osg::Stats* stats : _all) stats->setAttribute(frame, what, valueOf(*stats, frame, what, 0.0) + count);
-}
-
-double now() { return osg::Timer::instance()->time_s(); }
-double milliseconds(double begin, double end) { return 1000.0 * (end - begin); }
-
-void addMarks(FrameWork& work, const std::vector<ShadowJob>& jobs, std::size_t from, const osg::Viewport& viewport) {
-    const glm::dvec2 pixels(viewport.width(), viewport.height());
-    for (std::size_t i = from; i < jobs.size(); ++i) {
-        const ScreenRect& bounds = jobs[i].marks->screenBounds;
-        const glm::dvec2 size = 0.5 * (bounds.high - bounds.low) * pixels;
-        work.pixels += size.x * size.y;
-        ++work.marks;
-    }
-}
-
 } // namespace
 
-void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
+ComposeBin& ComposeBin::after(osgUtil::RenderBin& last) {
+    const bool drawsBinsBelow = typeid(last) == typeid(osgUtil::RenderBin) || dynamic_cast<ComposeBin*>(&last);
+    const bool below = drawsBinsBelow && !last.getStateSet();
+    osgUtil::RenderBin& parent = below ? last : *last.getStage();
+    for (int number = below ? lateNumber : last.getBinNum() + 1;; ++number) {
+        auto* bin = dynamic_cast<ComposeBin*>(parent.find_or_insert(number, binName));
+        if (bin) return *bin;
+    }
+}
+
+void ComposeBin::reset() {
+    osgUtil::RenderBin::reset();
+    setSortMode(getDefaultRenderBinSortMode());
+    _jobs.clear();
+    _effects.clear();
+    _watches.clear();
+    _waiting.clear();
+    _holdsFrame = false;
+    _sharesStencil = false;
+    _options = {};
+    _below.reset();
+}
+
+void ComposeBin::sortImplementation() {
+    sortAsAsked();
+    osgUtil::RenderBin::sortImplementation();
+}
+
+/// Leaves that asked for a bin of this number got this one, which must sort as the kind they named.
+void ComposeBin::sortAsAsked() {
+    for (const osgUtil::StateGraph* graph : getStateGraphList())
+        for (; graph; graph = graph->_parent) {
+            const osg::StateSet* set = graph->getStateSet();
+            if (!set || !set->useRenderBinDetails() || set->getBinNumber() != getBinNum()) continue;
+            const osgUtil::RenderBin* kind = osgUtil::RenderBin::getRenderBinPrototype(set->getBinName());
+            if (kind) setSortMode(kind->getSortMode());
+        }
+}
+
+void ComposeBin::handOn(std::vector<ShadowJob>& jobs, ComposeBin& to, int below) const {
+    to._jobs = std::move(jobs);
+    to._options = _options;
+    to._holdsFrame = _holdsFrame;
+    to._sharesStencil = _sharesStencil;
+    to._below = below;
+    jobs.clear();
+}
+
+/// Leaves that are DYNAMIC are drawn again, and casters draw themselves: the frame is not done with them before this bin is.
+unsigned ComposeBin::computeNumberOfDynamicRenderLeaves() const {
+    return osgUtil::RenderBin::computeNumberOfDynamicRenderLeaves() + (holdsFrame() ? 1u : 0u);
+}
+
+void ComposeBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     if (!isIdle()) {
         const std::optional<double> begin = drawStartIfWatched();
         tell(compose(renderInfo, previous));
@@ -125,11 +128,11 @@ void ShadowBin::drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderL
 }
 
 /// @return why nothing could be composed, as a cause for diagnose(); empty if all is well.
-std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
+std::string ComposeBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) {
     osg::State& state = *renderInfo.getState();
     const std::string never = whyNeverComposed(state, *getStage());
     if (!never.empty()) return never;
-    std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _composesBelow.value_or(getBinNum()));
+    std::vector<DrawnLeaf> leaves = leavesBelow(*getStage(), _below.value_or(getBinNum()));
     MaterialHistory materials(state, *getStage(), PrepassBin::followsDefault(*getStage()));
     osgUtil::RenderLeaf* const last = previous;
     popLeafState(state, previous);
@@ -147,14 +150,15 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*
     return cause;
 }
 
-std::string ShadowBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves, MaterialHistory& materials) {
+std::string ComposeBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves,
+                                MaterialHistory& materials) {
     osg::State& state = *renderInfo.getState();
     const TargetNeeds needs = this->needs(leaves);
     const CompositorTarget target(state, *getStage()->getViewport(), needs);
     CompositorOptions options = _options;
     if (target.isOwn()) options.reservedStencilBits = 0;
     const bool clean = target.isOwn() || isStencilClean(leaves);
-    const CompositorStage draw(renderInfo, *getStage(), std::move(leaves), options, clean, ownBits(_jobs), materials);
+    const CompositorStage draw(renderInfo, *getStage(), {std::move(leaves), options, clean, ownBits(_jobs)}, materials);
     const std::string cause = needs.stencilBits > 0 ? whyNotComposed(draw) : "";
     if (cause.empty()) {
         if (target.lacksDepth()) {
@@ -171,7 +175,7 @@ std::string ShadowBin::compose(osg::RenderInfo& renderInfo, std::vector<DrawnLea
     return cause;
 }
 
-TargetNeeds ShadowBin::needs(const std::vector<DrawnLeaf>& leaves) const {
+TargetNeeds ComposeBin::needs(const std::vector<DrawnLeaf>& leaves) const {
     TargetNeeds needs;
     if (_effects.empty() && _jobs.size() == 1 && needsNoMarks(_jobs.front(), leaves) &&
         vastLeaves(leaves, *getStage()->getViewport()).empty())
@@ -184,56 +188,37 @@ TargetNeeds ShadowBin::needs(const std::vector<DrawnLeaf>& leaves) const {
 }
 
 /// As the stage draws. @param leaves  drawn since.
-bool ShadowBin::isStencilClean(const std::vector<DrawnLeaf>& leaves) const {
+bool ComposeBin::isStencilClean(const std::vector<DrawnLeaf>& leaves) const {
     return (getStage()->getClearMask() & GL_STENCIL_BUFFER_BIT) && getStage()->getClearStencil() == 0 &&
            !isModeOn(leaves, GL_STENCIL_TEST);
 }
 
 /// All whom it concerns; and those that ask in the stage's later frames, that no work need be done for them.
-void ShadowBin::tell(const std::string& cause) {
+void ComposeBin::tell(const std::string& cause) {
     for (const FrameReport& report : _waiting) report(cause);
     for (const ShadowJob& job : _jobs) job.report(cause);
     for (const osg::ref_ptr<ViewEffect>& effect : _effects) effect->report(cause);
-    const auto isForPrograms = [](const ShadowJob& job) { return job.programMarks() != nullptr; };
+    const auto isForPrograms = [](const ShadowJob& job) { return job.programMark() != nullptr; };
     const bool served = std::any_of(_jobs.begin(), _jobs.end(), isForPrograms);
     keptBy<StageVerdict>(*getStage()).refuse(!cause.empty() && !served);
 }
 
-std::optional<ShadowBin::Start> ShadowBin::startIfWatched(const EnlistedTechnique& entry) const {
-    if (!entry.technique->isRecorded() && !StageStats(*getStage()).collect()) return std::nullopt;
-    return Start{now(), _jobs.size(), _lateJobs.size()};
-}
-
-void ShadowBin::recordCull(const EnlistedTechnique& entry, const Start& start, std::size_t lights) const {
-    const double end = now();
-    FrameWork work;
-    work.frame = entry.frameNumber;
-    work.lights = static_cast<unsigned>(lights);
-    addMarks(work, _jobs, start.jobs, *getStage()->getViewport());
-    addMarks(work, _lateJobs, start.lateJobs, *getStage()->getViewport());
-    work.cull = milliseconds(start.time, end);
-    entry.technique->record(work);
-    const StageStats stats(*getStage());
-    stats.addTime(work.frame, "Shadow cull", start.time, end);
-    stats.addCount(work.frame, "Shadow marks", work.marks);
-}
-
-std::optional<double> ShadowBin::drawStartIfWatched() const {
+std::optional<double> ComposeBin::drawStartIfWatched() const {
     const auto isRecorded = [](const ShadowJob& job) { return job.report.diagnosis->isRecorded(); };
     const bool watched =
         std::any_of(_jobs.begin(), _jobs.end(), isRecorded) || (!_jobs.empty() && StageStats(*getStage()).collect());
-    return watched ? std::optional<double>(now()) : std::nullopt;
+    return watched ? std::optional<double>(secondsNow()) : std::nullopt;
 }
 
 /// All techniques of the stage are composed together.
-void ShadowBin::recordDraw(double begin) const {
-    const double end = now();
+void ComposeBin::recordDraw(double begin) const {
+    const double end = secondsNow();
     std::map<FrameDiagnosis*, unsigned> frames;
     for (const ShadowJob& job : _jobs) frames[job.report.diagnosis.get()] = job.report.frame;
     for (const auto& [technique, frame] : frames) {
         FrameWork work;
         work.frame = frame;
-        work.draw = milliseconds(begin, end);
+        work.draw = 1000.0 * (end - begin);
         technique->addWork(work);
     }
     StageStats(*getStage()).addTime(_jobs.front().report.frame, "Shadow draw", begin, end);

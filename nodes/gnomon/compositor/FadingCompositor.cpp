@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/compositor/FadingCompositor.h>
 #include <gnomon/compositor/KeptByStage.h>
 #include <gnomon/compositor/LeafReplay.h>
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/compositor/SoftCompositor.h>
+#include <gnomon/compositor/TrueDepths.h>
 
 #include <algorithm>
 
@@ -21,7 +22,7 @@ Jobs jobsOf(const Lights& lights) {
     Jobs jobs;
     for (const auto& light : lights) {
         jobs.insert(jobs.end(), light.hard.begin(), light.hard.end());
-        if (light.soft) jobs.push_back(light.soft);
+        if (light.fading) jobs.push_back(light.fading);
     }
     return jobs;
 }
@@ -32,7 +33,7 @@ void report(const Jobs& jobs, const std::string& cause) {
 
 } // namespace
 
-SoftCompositor::SoftCompositor(const CompositorStage& draw) : _draw(draw) {
+FadingCompositor::FadingCompositor(const CompositorStage& draw) : _draw(draw) {
     for (const unsigned bit : draw.bits)
         if (!(bit & draw.counters)) _lightBits.push_back(bit);
     const auto take = [this] {
@@ -45,14 +46,14 @@ SoftCompositor::SoftCompositor(const CompositorStage& draw) : _draw(draw) {
     _faded = take();
 }
 
-void SoftCompositor::relight(const Jobs& wanted) const {
+void FadingCompositor::relight(const Jobs& wanted) const {
     const Lights lights = lightsOf(wanted);
     const Jobs jobs = jobsOf(lights);
     if (jobs.empty()) return;
     const ScreenRect bounds = boundsOf(jobs);
-    const bool weighsAtOnce = lights.size() == 1 && lights.front().isSoftOnly();
+    const bool weighsAtOnce = lights.size() == 1 && lights.front().isFadingOnly();
     if (weighsAtOnce) _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
-    mark(lights, weighsAtOnce ? StencilMarks::Soft::Weighed : StencilMarks::Soft::Touched);
+    mark(lights, weighsAtOnce ? StencilMarks::Pixels::Weighed : StencilMarks::Pixels::Touched);
     Leaves leaves = leavesToReplay(_draw, jobs, bounds);
     const Leaves aside = setAside(leaves, jobs);
     if (!aside.empty()) darkenAside(aside, lights, jobs);
@@ -61,7 +62,7 @@ void SoftCompositor::relight(const Jobs& wanted) const {
     _draw.clear(bitsOf(lights), bounds);
 }
 
-SoftCompositor::Lights SoftCompositor::lightsOf(const Jobs& wanted) const {
+FadingCompositor::Lights FadingCompositor::lightsOf(const Jobs& wanted) const {
     Lights lights;
     for (const ShadowJob* job : wanted) {
         auto light = std::find_if(lights.begin(), lights.end(),
@@ -72,8 +73,8 @@ SoftCompositor::Lights SoftCompositor::lightsOf(const Jobs& wanted) const {
         }
         if (!job->fades())
             light->hard.push_back(job);
-        else if (!light->soft)
-            light->soft = job;
+        else if (!light->fading)
+            light->fading = job;
         else {
             light->hard.push_back(job);
             report({job}, "another technique has soft edges for the same light, so these edges are hard. Use one "
@@ -90,8 +91,8 @@ SoftCompositor::Lights SoftCompositor::lightsOf(const Jobs& wanted) const {
     return lights;
 }
 
-bool SoftCompositor::assignBits(Light& light, std::vector<unsigned>& unused) const {
-    const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.soft ? 1u : 0u);
+bool FadingCompositor::assignBits(Light& light, std::vector<unsigned>& unused) const {
+    const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.fading ? 1u : 0u);
     if (unused.size() < needed) {
         report(jobsOf(Lights{light}),
                "light " + std::to_string(light.number) +
@@ -105,21 +106,21 @@ bool SoftCompositor::assignBits(Light& light, std::vector<unsigned>& unused) con
         return bit;
     };
     if (!light.hard.empty()) light.hardBit = take();
-    if (light.soft) light.softBit = take();
+    if (light.fading) light.fadingBit = take();
     return true;
 }
 
-void SoftCompositor::mark(const Lights& lights, StencilMarks::Soft soft) const {
+void FadingCompositor::mark(const Lights& lights, StencilMarks::Pixels pixels) const {
     const StencilMarks marks(_draw, _scratch);
     _draw.clearLeftovers(bitsOf(lights) | _scratch | _faded);
     for (const Light& light : lights) {
         for (const ShadowJob* job : light.hard) marks.add(*job, light.hardBit, job == light.hard.front());
-        if (light.soft) marks.add(*light.soft, light.softBit, true, soft);
+        if (light.fading) marks.add(*light.fading, light.fadingBit, true, pixels);
     }
 }
 
 /// Takes out of `leaves` those that cannot be mixed. What receives nothing and is not drawn over others stays as it is.
-SoftCompositor::Leaves SoftCompositor::setAside(Leaves& leaves, const Jobs& jobs) const {
+FadingCompositor::Leaves FadingCompositor::setAside(Leaves& leaves, const Jobs& jobs) const {
     LeafReplay::Overlay overlay;
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay judge(_draw, overlay);
@@ -127,27 +128,27 @@ SoftCompositor::Leaves SoftCompositor::setAside(Leaves& leaves, const Jobs& jobs
     Leaves aside, mixed;
     for (const ReplayedLeaf& leaf : leaves) {
         const auto ofView = [&leaf](const ShadowJob* job) { return job->isOfView(*leaf.entry.leaf); };
-        const bool laidOver = leaf.dark == 0 && !std::all_of(jobs.begin(), jobs.end(), ofView);
-        const bool hides = opaque(*leaf.entry.leaf) || (leaf.dark && jobs.front()->hidingOnly);
+        const bool laidOver = leaf.lost == 0 && !std::all_of(jobs.begin(), jobs.end(), ofView);
+        const bool hides = opaque(*leaf.entry.leaf) || (leaf.lost && jobs.front()->hidingOnly);
         if (!hides || laidOver)
             aside.push_back(leaf);
-        else if (leaf.dark)
-            (judge.canBeRelit(leaf.entry, leaf.dark) ? mixed : aside).push_back(leaf);
+        else if (leaf.lost)
+            (judge.canBeRelit(leaf.entry, leaf.lost) ? mixed : aside).push_back(leaf);
     }
     leaves = mixed;
     return aside;
 }
 
 /// What cannot be mixed keeps its colour, times the factor where it lost light; no light bit stays set there.
-void SoftCompositor::darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const {
+void FadingCompositor::darkenAside(const Leaves& aside, const Lights& lights, const Jobs& jobs) const {
     const ScreenRect bounds = boundsOf(jobs);
     Leaves kept, darkened;
-    for (const ReplayedLeaf& leaf : aside) (leaf.dark && _faded ? darkened : kept).push_back(leaf);
+    for (const ReplayedLeaf& leaf : aside) (leaf.lost && _faded ? darkened : kept).push_back(leaf);
     if (!kept.empty()) writeWhereSeen(_draw, kept, 0, bitsOf(lights), bounds);
     if (darkened.empty()) return;
     writeWhereSeen(_draw, darkened, _faded, _faded, bounds);
     multiplyByFactor(lights, jobs.front()->dark, bounds);
-    if (!keptBy<StageVerdict>(_draw.stage).mayName()) return;
+    if (!keptBy<StageVerdict>(_draw.stage).askToName()) return;
     for (const ReplayedLeaf& leaf : darkened)
         report(jobs,
                "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +
@@ -155,7 +156,7 @@ void SoftCompositor::darkenAside(const Leaves& aside, const Lights& lights, cons
                    "colour is multiplied by setDark() instead. Light it with OpenGL, or leave it out of the receiver.");
 }
 
-void SoftCompositor::multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const {
+void FadingCompositor::multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const {
     weigh(lights, 0, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.stencilAny(_faded);
@@ -166,7 +167,7 @@ void SoftCompositor::multiplyByFactor(const Lights& lights, float factor, const 
 }
 
 /// @param weighed  alpha is already the share of the one light there is.
-void SoftCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs, bool weighed) const {
+void FadingCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs& jobs, bool weighed) const {
     if (lights.size() > 1) {
         weigh(lights, 0, boundsOf(jobs));
         _draw.pass(boundsOf(jobs), [&](ScreenPass& screen) {
@@ -176,15 +177,15 @@ void SoftCompositor::mix(const Leaves& leaves, const Lights& lights, const Jobs&
     }
     for (unsigned lost = 1; lost < (1u << lights.size()); ++lost) {
         const ScreenRect bounds = boundsWithout(lights, lost);
-        if (!overlap(bounds, bounds)) continue;
+        if (isEmpty(bounds)) continue;
         if (!weighed) weigh(lights, lights.size() == 1 ? 0 : lost, bounds);
         replay(leaves, lights, lost, bounds, jobs);
     }
 }
 
 /// Adds what the leaves look like without the lights of `lost` (bit i: lights[i]); of one light, mixes it in.
-void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned lost, const ScreenRect& bounds,
-                            const Jobs& jobs) const {
+void FadingCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned lost, const ScreenRect& bounds,
+                              const Jobs& jobs) const {
     LeafReplay::Overlay overlay;
     overlay.bounds = bounds;
     for (std::size_t i = 0; i < lights.size(); ++i)
@@ -197,17 +198,17 @@ void SoftCompositor::replay(const Leaves& leaves, const Lights& lights, unsigned
     overlay.color = lights.size() == 1 ? LeafReplay::Color::Mix : LeafReplay::Color::Add;
     overlay.lightUniforms = lightUniformsOf(jobs);
     LeafReplay replay(_draw, overlay);
-    unsigned dark = 0;
+    unsigned lostNumbers = 0;
     for (std::size_t i = 0; i < lights.size(); ++i)
-        if (lost & (1u << i)) dark |= 1u << lights[i].number;
+        if (lost & (1u << i)) lostNumbers |= 1u << lights[i].number;
     TouchTest touches(bounds);
     for (const ReplayedLeaf& leaf : leaves)
-        if (!_draw.options.filter || touches(*leaf.entry.leaf)) replay.draw(leaf.entry, leaf.dark & dark);
+        if (!_draw.options.filter || touches(*leaf.entry.leaf)) replay.draw(leaf.entry, leaf.lost & lostNumbers);
 }
 
 /// Where pixels can lose all of these lights; with a light of two bits in use, which one stencil test cannot ask for,
 /// where they can lose any of all lights.
-ScreenRect SoftCompositor::boundsWithout(const Lights& lights, unsigned lost) const {
+ScreenRect FadingCompositor::boundsWithout(const Lights& lights, unsigned lost) const {
     if (std::any_of(lights.begin(), lights.end(), [](const Light& light) { return light.isMixed(); }))
         return boundsOf(jobsOf(lights));
     ScreenRect bounds = wholeScreen;
@@ -217,7 +218,7 @@ ScreenRect SoftCompositor::boundsWithout(const Lights& lights, unsigned lost) co
 }
 
 /// Alpha becomes the share of each pixel that sees all lights but those of `lost`.
-void SoftCompositor::weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const {
+void FadingCompositor::weigh(const Lights& lights, unsigned lost, const ScreenRect& bounds) const {
     const TrueDepths depths(_draw, bounds);
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.setAlpha(1.0f);
@@ -225,10 +226,10 @@ void SoftCompositor::weigh(const Lights& lights, unsigned lost, const ScreenRect
     });
 }
 
-void SoftCompositor::weighOne(const Light& light, bool lost, ScreenPass& screen) const {
-    if (light.soft) {
-        screen.stencilEqual(light.softBit, light.bits(), 0);
-        multiplyShare(*light.soft, lost, screen);
+void FadingCompositor::weighOne(const Light& light, bool lost, ScreenPass& screen) const {
+    if (light.fading) {
+        screen.stencilEqual(light.fadingBit, light.bits(), 0);
+        multiplyShare(*light.fading, lost, screen);
     }
     if (lost)
         screen.stencilEqual(0, light.bits(), 0);
@@ -238,21 +239,21 @@ void SoftCompositor::weighOne(const Light& light, bool lost, ScreenPass& screen)
 }
 
 /// Cut to the pass's bounds, not to the job's own: outside those its bit is not set.
-void SoftCompositor::multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const {
+void FadingCompositor::multiplyShare(const ShadowJob& job, bool blocked, ScreenPass& screen) const {
     screen.ask(blocked ? ScreenPass::Want::Blocking : ScreenPass::Want::Arriving);
-    job.report(job.marks->draw(screen));
+    job.report(job.mark->draw(screen));
 }
 
 /// Multiplies alpha by the job's share.
-void SoftCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
+void FadingCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
     const StencilMarks marks(_draw, _scratch);
     const Leaves others = notOfView(job, _draw.leaves);
     if (job.fades() && !job.receiverNamed && others.empty())
-        return marks.add(job, bit, true, StencilMarks::Soft::Weighed);
-    marks.add(job, bit, true, StencilMarks::Soft::Touched);
-    writeWhereSeen(_draw, others, 0, bit, job.marks->screenBounds);
-    const TrueDepths depths(_draw, job.marks->screenBounds);
-    _draw.pass(job.marks->screenBounds, [&](ScreenPass& screen) {
+        return marks.add(job, bit, true, StencilMarks::Pixels::Weighed);
+    marks.add(job, bit, true, StencilMarks::Pixels::Touched);
+    writeWhereSeen(_draw, others, 0, bit, job.mark->screenBounds);
+    const TrueDepths depths(_draw, job.mark->screenBounds);
+    _draw.pass(job.mark->screenBounds, [&](ScreenPass& screen) {
         screen.stencilAny(bit);
         if (job.fades())
             multiplyShare(job, false, screen);
@@ -261,14 +262,14 @@ void SoftCompositor::addBlended(const ShadowJob& job, unsigned bit) const {
     });
 }
 
-void SoftCompositor::blend(const Jobs& jobs, float dark) const {
+void FadingCompositor::blend(const Jobs& jobs, float dark) const {
     const ScreenRect bounds = boundsOf(jobs);
     const unsigned bit = _lightBits.front();
     _draw.clearLeftovers(bit | _scratch);
     _draw.pass(bounds, [](ScreenPass& screen) { screen.setAlpha(1.0f); });
     for (const ShadowJob* job : jobs) {
         addBlended(*job, bit);
-        _draw.clear(bit, job->marks->screenBounds);
+        _draw.clear(bit, job->mark->screenBounds);
     }
     _draw.pass(bounds, [&](ScreenPass& screen) {
         screen.fadeAlpha(dark);

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/compositor/CompositorTarget.h>
+#include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/MaterialHistory.h>
+#include <gnomon/compositor/ShadowJob.h>
+#include <gnomon/compositor/ViewEffect.h>
+
+#include <osgUtil/RenderBin>
+#include <osgUtil/RenderStage>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+/// Composes the jobs that it is given over what the stage has drawn before it: in draw, by a Compositor.
+///
+/// The stage's ShadowBin is one. Where some receivers are drawn later, or depths are cleared in between, the ShadowBin hands
+/// their jobs to another, which takes its turn right after what it composes.
+///
+/// Threads it is filled in cull and draws in draw, as every RenderBin.
+class ComposeBin : public osgUtil::RenderBin {
+public:
+    ComposeBin() = default;
+    ComposeBin(const ComposeBin& other, const osg::CopyOp& copyOp = osg::CopyOp::SHALLOW_COPY)
+        : osgUtil::RenderBin(other, copyOp) {}
+    osg::Object* cloneType() const override { return new ComposeBin; }
+    osg::Object* clone(const osg::CopyOp& copyOp) const override { return new ComposeBin(*this, copyOp); }
+    const char* libraryName() const override { return "gnomon"; }
+    const char* className() const override { return "ComposeBin"; }
+
+    /// The bin that composes what the bin `last` of the stage draws, right after it: a bin below it, or else beside it.
+    static ComposeBin& after(osgUtil::RenderBin& last);
+
+    void reset() override;
+    void sortImplementation() override;
+    void drawImplementation(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous) override;
+    unsigned computeNumberOfDynamicRenderLeaves() const override;
+
+protected:
+    ~ComposeBin() override = default;
+
+    bool isIdle() const { return _jobs.empty() && _effects.empty() && _waiting.empty(); }
+    /// Hands jobs to another bin, which composes what the stage draws before bin number `below`.
+    void handOn(std::vector<ShadowJob>& jobs, ComposeBin& to, int below) const;
+
+    std::vector<ShadowJob> _jobs;
+    std::vector<osg::ref_ptr<ViewEffect>> _effects;
+    std::vector<osg::ref_ptr<DrawWatch>> _watches; ///< never null.
+    std::vector<FrameReport> _waiting; ///< of techniques, for that the stage can be composed in, see StageVerdict.
+    bool _holdsFrame = false;          ///< what it draws may be another in the next frame.
+    bool _sharesStencil = false;       ///< leaves of the stage test or mark the stencil buffer themselves.
+    CompositorOptions _options;        ///< of all whose jobs these are.
+
+private:
+    bool holdsFrame() const { return _holdsFrame && !isIdle(); }
+    void sortAsAsked();
+    bool isStencilClean(const std::vector<DrawnLeaf>& leaves) const;
+    std::string compose(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*& previous);
+    std::string compose(osg::RenderInfo& renderInfo, std::vector<DrawnLeaf> leaves, MaterialHistory& materials);
+    TargetNeeds needs(const std::vector<DrawnLeaf>& leaves) const;
+    void tell(const std::string& cause);
+    std::optional<double> drawStartIfWatched() const;
+    void recordDraw(double begin) const;
+
+    std::optional<int> _below; ///< nullopt: composes what the stage draws before this bin.
+};
+
+} // namespace gnomon
