@@ -4,15 +4,8 @@
 
 namespace gnomon {
 
-/// Settings of a ShadowMapTechnique, with their defaults.
-///
-/// Use it to set several at once, or to keep them apart from a node. A technique's setters change one each.
-///
-///     gnomon::ShadowMapOptions options;
-///     options.size = 2048;
-///     options.edges = gnomon::ShadowMapOptions::SMOOTH;
-///     shadow->setOptions(options);
-struct GNOMON_EXPORT ShadowMapOptions {
+/// Values of the settings below, under the names that ShadowMapOptions and ShadowMapTechnique share.
+struct ShadowMapNames {
     /// How many texels of the map a pixel is compared with. Later filters are more accurate in general, and slower.
     enum Filter : int {
         NEAREST,  ///< One texel: stepped edges.
@@ -38,7 +31,17 @@ struct GNOMON_EXPORT ShadowMapOptions {
                  ///< shows texels wider than two pixels.
         CASCADES ///< The map of the first light that answers: red (the finest), green, blue, yellow, purple or cyan.
     };
+};
 
+/// Settings of a ShadowMapTechnique, with their defaults.
+///
+/// Use it to set several at once, or to keep them apart from a node. A technique's setters change one each.
+///
+///     gnomon::ShadowMapOptions options;
+///     options.size = 2048;
+///     options.edges = gnomon::ShadowMapOptions::SMOOTH;
+///     shadow->setOptions(options);
+struct GNOMON_EXPORT ShadowMapOptions : ShadowMapNames {
     static constexpr int leastSize = 16;      ///< Range of size, texels.
     static constexpr int mostSize = 16384;    ///< Range of size, texels.
     static constexpr int mostCascades = 4;    ///< Range of cascades.
@@ -76,6 +79,9 @@ struct GNOMON_EXPORT ShadowMapOptions {
     /// Options that can be used. Numbers are clamped to their ranges, and NaN becomes 0. An unknown filter, kind of
     /// edges, view or unit becomes the default.
     ShadowMapOptions usable() const;
+    /// True if edges have shades between lit and dark, for which the framebuffer needs alpha bits: SOFT, and SMOOTH but with
+    /// NEAREST.
+    bool fades() const { return edges == SOFT || (edges == SMOOTH && filter != NEAREST); }
 };
 
 } // namespace gnomon

@@ -101,23 +101,8 @@ class ShadowMapCache;
 ///       Size 2048
 ///       Filter BILINEAR
 ///     }
-class GNOMON_EXPORT ShadowMapTechnique : public ShadowTechnique {
+class GNOMON_EXPORT ShadowMapTechnique : public ShadowTechnique, public ShadowMapNames {
 public:
-    using Filter = ShadowMapOptions::Filter;                       ///< See ShadowMapOptions::Filter.
-    using Edges = ShadowMapOptions::Edges;                         ///< See ShadowMapOptions::Edges.
-    using View = ShadowMapOptions::View;                           ///< See ShadowMapOptions::View.
-    static constexpr Filter NEAREST = ShadowMapOptions::NEAREST;   ///< See ShadowMapOptions::NEAREST.
-    static constexpr Filter BILINEAR = ShadowMapOptions::BILINEAR; ///< See ShadowMapOptions::BILINEAR.
-    static constexpr Filter BICUBIC = ShadowMapOptions::BICUBIC;   ///< See ShadowMapOptions::BICUBIC.
-    static constexpr Filter FINE = ShadowMapOptions::FINE;         ///< See ShadowMapOptions::FINE.
-    static constexpr Edges HARD = ShadowMapOptions::HARD;          ///< See ShadowMapOptions::HARD.
-    static constexpr Edges SMOOTH = ShadowMapOptions::SMOOTH;      ///< See ShadowMapOptions::SMOOTH.
-    static constexpr Edges SOFT = ShadowMapOptions::SOFT;          ///< See ShadowMapOptions::SOFT.
-    static constexpr View NOTHING = ShadowMapOptions::NOTHING;     ///< See ShadowMapOptions::NOTHING.
-    static constexpr View MAP = ShadowMapOptions::MAP;             ///< See ShadowMapOptions::MAP.
-    static constexpr View TEXELS = ShadowMapOptions::TEXELS;       ///< See ShadowMapOptions::TEXELS.
-    static constexpr View CASCADES = ShadowMapOptions::CASCADES;   ///< See ShadowMapOptions::CASCADES.
-
     /// A technique with the default properties.
     ShadowMapTechnique();
     /// Copies the properties.

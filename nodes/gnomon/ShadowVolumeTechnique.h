@@ -70,7 +70,10 @@ public:
     /// See setOptions().
     const ShadowVolumeOptions& getOptions() const { return _options; }
     /// See ShadowVolumeOptions::view.
-    void setView(View view) { setOptions({view}); }
+    void setView(View view) {
+        _options.view = view;
+        setOptions(_options);
+    }
     /// See ShadowVolumeOptions::view.
     View getView() const { return _options.view; }
 

@@ -228,7 +228,7 @@ GNOMON_WRAPPER(PlanarShadowNode, new gnomon::PlanarShadowNode, "osg::Object osg:
 /// Windows made later have alpha bits.
 struct AskForAlphaBits : osgDB::FinishedObjectReadCallback {
     void objectRead(osgDB::InputStream&, osg::Object& object) override {
-        if (static_cast<const ShadowMapTechnique&>(object).getEdges() != ShadowMapTechnique::HARD) askForAlphaBits();
+        if (static_cast<const ShadowMapTechnique&>(object).getOptions().fades()) askForAlphaBits();
     }
 };
 

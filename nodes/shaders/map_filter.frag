@@ -1,5 +1,4 @@
-// What share of the light passes a place of a map: see ShadowMapTechnique. FILTER is NEAREST, BILINEAR or BICUBIC; FINE, if
-// texels may be smaller than pixels; HALVES, if it only matters whether that is more than half; SMOOTH, if pixels ask for their
+// What share of the light passes a place of a map: see ShadowMapTechnique. BICUBIC: 4 x 4 texels instead of one or 2 x 2; HALVES, if it only matters whether that is more than half; SMOOTH, if pixels ask for their
 // mean; SOFT, if what is wider than the filter counts; PENUMBRA, if that goes by how far away what blocks the light is.
 
 uniform sampler2DShadow maps;

@@ -12,18 +12,12 @@ uniform vec4 light; // homogeneous; a vertex's w says how far it goes on away fr
 uniform float endless; // how far that is; below 0 to infinity
 #endif
 
-#ifdef NEAREST
+#ifdef CLIP_NEAR
 uniform float nearest; // what a lamp has nearer than this along the axis casts nothing
 #endif
 
 #ifdef CUTOUT
 out vec3 coordinates;
-#endif
-
-#ifdef BITMAP
-// Of the whole bitmap; from unit 0 where its texels begin in plan and how many there are to a length of 1, from unit 1 these:
-flat out vec4 texels; // the last one, bytes in a row of blocks, the first byte in the sheet
-out vec2 texel;
 #endif
 
 void main() {
@@ -38,11 +32,7 @@ void main() {
 #ifdef CUTOUT
     coordinates = gl_MultiTexCoord0.xyz;
 #endif
-#ifdef BITMAP
-    texel = (gl_Vertex.xy - gl_MultiTexCoord0.xy) * gl_MultiTexCoord0.z;
-    texels = gl_MultiTexCoord1;
-#endif
-#ifdef NEAREST
+#ifdef CLIP_NEAR
     gl_ClipDistance[0] = gl_Position.w - nearest;
 #endif
 #ifdef CLIP

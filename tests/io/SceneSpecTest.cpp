@@ -143,12 +143,14 @@ TEST(ShadowedScene, AsksForTheBitsThatItsShadowsNeed) {
     osg::DisplaySettings& settings = *osg::DisplaySettings::instance();
     settings.setMinimumNumStencilBits(0);
     settings.setMinimumNumAlphaBits(0);
-    shadowed(*boxScene(), "map");
-    EXPECT_EQ(settings.getMinimumNumStencilBits(), 8u);
-    EXPECT_EQ(settings.getMinimumNumAlphaBits(), 0u);
-    for (const char* wide : {"map:edges=smooth", "auto"}) {
+    for (const char* hard : {"map", "map:edges=smooth,filter=nearest", "volume"}) {
+        shadowed(*boxScene(), hard);
+        EXPECT_EQ(settings.getMinimumNumStencilBits(), 8u);
+        EXPECT_EQ(settings.getMinimumNumAlphaBits(), 0u) << hard;
+    }
+    for (const char* fading : {"map:edges=smooth", "map:edges=soft,filter=nearest", "auto"}) {
         settings.setMinimumNumAlphaBits(0);
-        shadowed(*boxScene(), wide);
-        EXPECT_EQ(settings.getMinimumNumAlphaBits(), 8u) << wide;
+        shadowed(*boxScene(), fading);
+        EXPECT_EQ(settings.getMinimumNumAlphaBits(), 8u) << fading;
     }
 }

@@ -322,6 +322,10 @@ TEST_P(SceneFile, AsksForTheBitsThatItsShadowsNeedBeforeAWindowIsMade) {
     EXPECT_EQ(settings.getMinimumNumStencilBits(), 8u);
     EXPECT_EQ(settings.getMinimumNumAlphaBits(), 0u) << "hard edges need none";
     map->setEdges(ShadowMapTechnique::SMOOTH);
+    map->setFilter(ShadowMapTechnique::NEAREST);
+    test::throughFile(*group, kind());
+    EXPECT_EQ(settings.getMinimumNumAlphaBits(), 0u) << "smooth edges of one texel are hard";
+    map->setFilter(ShadowMapTechnique::BILINEAR);
     settings.setMinimumNumStencilBits(16);
     test::throughFile(*group, kind());
     EXPECT_EQ(settings.getMinimumNumStencilBits(), 16u) << "never lowered";

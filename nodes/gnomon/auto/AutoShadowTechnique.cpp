@@ -29,7 +29,10 @@ double within(double number, double least, double most) { return number > 0.0 ? 
 } // namespace
 
 AutoShadowOptions AutoShadowOptions::usable() const {
-    return {within(error, leastError, mostError), within(time, leastTime, mostTime)};
+    AutoShadowOptions options;
+    options.error = within(error, leastError, mostError);
+    options.time = within(time, leastTime, mostTime);
+    return options;
 }
 
 AutoShadowTechnique::AutoShadowTechnique() : _chooser(new AutoChooser) {}
@@ -39,9 +42,15 @@ AutoShadowTechnique::AutoShadowTechnique(const AutoShadowTechnique& other, const
 
 AutoShadowTechnique::~AutoShadowTechnique() = default;
 
-void AutoShadowTechnique::setError(double pixels) { setOptions({pixels, _options.time}); }
+void AutoShadowTechnique::setError(double pixels) {
+    _options.error = pixels;
+    setOptions(_options);
+}
 
-void AutoShadowTechnique::setTime(double milliseconds) { setOptions({_options.error, milliseconds}); }
+void AutoShadowTechnique::setTime(double milliseconds) {
+    _options.time = milliseconds;
+    setOptions(_options);
+}
 
 std::vector<ShadowDecision> AutoShadowTechnique::lastDecision() const { return _chooser->lastDecision(); }
 

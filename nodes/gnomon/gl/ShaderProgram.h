@@ -16,7 +16,7 @@ namespace gnomon {
 /// @param defines  "#define CLIP\n": it writes clip distances to the uniform planes abovePlane and belowLight, too.
 ///                 "#define CUTOUT\n": it leaves out what the texture `cutout` says, by the uniform alphaTest.
 ///                 "#define EXTRUDE\n": vertices as ShadowVolumes has them, by the uniform light; coloured by wire.
-///                 "#define BITMAP\n": it leaves out what a ShadowBitmap says, see TileBitmap.
+///                 "#define CLIP_NEAR\n": it writes a clip distance to the uniform `nearest`, see mark.vert.
 osg::ref_ptr<osg::StateSet> shaderProgram(const std::string& defines = "");
 /// State with a program for ScreenPass::drawQuad(): a fragment shader for each pixel. GLSL 1.30.
 osg::ref_ptr<osg::StateSet> quadProgram(const char* name, const std::string& defines, const char* fragmentShader);

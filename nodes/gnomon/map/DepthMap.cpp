@@ -268,8 +268,8 @@ private:
 
 MapPrograms::MapPrograms()
     : caster(keep("caster", shaderProgram())), // for a clip distance costs a third more a vertex on llvmpipe
-      casterByLamp(keep("caster by lamp", shaderProgram("#define NEAREST\n"))),
-      cutout(keep("cutout", shaderProgram("#define NEAREST\n#define CUTOUT\n"))),
+      casterByLamp(keep("caster by lamp", shaderProgram("#define CLIP_NEAR\n"))),
+      cutout(keep("cutout", shaderProgram("#define CLIP_NEAR\n#define CUTOUT\n"))),
       blocks(keep("blocks", quadProgram("gnomon blocks", "", shaders::blocks_frag))),
       cone(keep("cone", quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag))) {}
 

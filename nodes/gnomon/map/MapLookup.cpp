@@ -40,8 +40,7 @@ glm::dvec4 errorOf(const MapError& error, double last) { return {error.depth, er
 bool isOdd(const PixelRect& p) { return ((p.x | p.y | (p.x + p.width) | (p.y + p.height)) & 1) != 0; }
 
 /// How the shaders compare, by ShadowMapOptions::Filter.
-constexpr const char* comparing[] = {"#define NEAREST\n", "#define BILINEAR\n",
-                                     "#define BICUBIC\n#define SAMPLES 4.0\n",
+constexpr const char* comparing[] = {"", "", "#define BICUBIC\n#define SAMPLES 4.0\n",
                                      "#define BICUBIC\n#define FINE\n#define SAMPLES 16.0\n"};
 
 /// How many vectors of a map's program the vertices hand on: as many as OpenGL takes of those that all maps share, those by which

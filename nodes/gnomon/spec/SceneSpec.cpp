@@ -77,8 +77,8 @@ void takeNumber(SceneSpec& spec, const ScenePart& part, const std::string& pair)
         spec.*key.number = *number;
         return;
     }
-    refuse("the item " + part.name + " has no key \"" + name + "\". Allowed: " +
-           (names.empty() ? "none" : listed(names)) + ".");
+    refuse("the item " + part.name + " has no key \"" + name +
+           "\". Allowed: " + (names.empty() ? "none" : listed(names)) + ".");
 }
 
 void takePart(SceneSpec& spec, const ScenePart& part, const std::string& item) {
@@ -141,9 +141,8 @@ void light(ShadowCasterGroup& group, const SceneSpec& spec) {
     for (const osg::ref_ptr<osg::LightSource>& source : lights) group.addLight(source);
 }
 
-bool mayHaveWideEdges(const ShadowSpec& spec) {
-    if (spec.technique == "auto") return true;
-    return spec.technique == "map" && spec.map.edges != ShadowMapOptions::HARD;
+bool mayFade(const ShadowSpec& spec) {
+    return spec.technique == "auto" || (spec.technique == "map" && spec.map.fades());
 }
 
 } // namespace
@@ -182,7 +181,7 @@ osg::ref_ptr<ShadowCasterGroup> shadowedScene(osg::Node& scene, const SceneSpec&
     addShadows(*group, spec.shadows);
     light(*group, spec);
     askForStencilBits();
-    if (std::any_of(spec.shadows.begin(), spec.shadows.end(), mayHaveWideEdges)) askForAlphaBits();
+    if (std::any_of(spec.shadows.begin(), spec.shadows.end(), mayFade)) askForAlphaBits();
     return group;
 }
 
