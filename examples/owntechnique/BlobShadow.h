@@ -45,7 +45,7 @@ public:
     META_Node(examples, BlobShadow)
 
     std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                    const gnomon::FrameCasters& casters) const override {
+                                                    const gnomon::Casters& casters) const override {
         constexpr unsigned most = 64;
         std::vector<gnomon::CasterBox> boxes = gnomon::boxesOf(casters);
         if (boxes.size() > most) {

@@ -88,10 +88,9 @@ public:
 
     /// Decides if need be, and asks the chosen technique. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                               const FrameCasters& casters) const override;
+                                            const Casters& casters) const override;
 
     /// True while it draws by techniques of which this is true.
-    bool takesDrawables() const override;
     /// See ShadowTechnique::letGo().
     void letGo() const override;
     /// Keeps a time. See ShadowTechnique::watch().

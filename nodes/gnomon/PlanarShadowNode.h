@@ -12,7 +12,6 @@
 
 namespace gnomon {
 
-struct CasterLayers;
 class PlanarCasterCache;
 struct PlanarPrograms;
 
@@ -100,7 +99,7 @@ public:
 
     /// Makes one mark for each plane that receives a shadow. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                            const FrameCasters& casters) const override;
+                                            const Casters& casters) const override;
 
     /// False for a point in one of the planes if a caster above that plane blocks the light. True for any other point.
     /// A point is in a plane if it is nearer than 10⁻⁵ of the casters' size.
@@ -120,7 +119,7 @@ protected:
     ~PlanarShadowNode() override;
 
 private:
-    osg::ref_ptr<Mark> prepareOne(const ViewFrame& view, const ShadowLight& light, const CasterLayers& casters,
+    osg::ref_ptr<Mark> prepareOne(const ViewFrame& view, const ShadowLight& light, const Casters& casters,
                                   unsigned index, const glm::dvec4& groupPlane) const;
 
     std::vector<osg::Vec4d> _planes;

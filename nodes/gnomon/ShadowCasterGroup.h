@@ -12,14 +12,12 @@
 #include <osg/Group>
 #include <osg/LightSource>
 
-#include <memory>
 #include <vector>
 
 namespace gnomon {
 
-class CasterDrawables;
-struct CasterLayers;
-class CasterRevisions;
+class Casters;
+class CasterTable;
 struct CasterView;
 
 /// Group whose subgraph casts shadows. Every scene with Gnomon's shadows has one.
@@ -167,17 +165,11 @@ public:
     /// Traverses the parents, but not for osgUtil::Optimizer.
     void ascend(osg::NodeVisitor& visitor) override;
 
-    /// For the techniques, whose types are internal: the casters as meshes. Only what changed is extracted again.
+    /// For the techniques, whose types are internal: the casters. Only what changed is read again.
     /// Call it where the graph may be read: in update, event or cull.
     /// @param view  whose levels of detail cast. Default: the finest cast.
-    osg::ref_ptr<const CasterLayers> casters(const CasterView* view = nullptr) const;
-    /// For the techniques, whose types are internal: the casters, drawable by drawable. Only changed drawables are read again. Call it as casters().
-    osg::ref_ptr<const CasterDrawables> drawables(const CasterView* view = nullptr) const;
-    /// For the techniques, whose types are internal: some of the casters as meshes. Call it as casters().
-    /// @param some    pieces of drawables().
-    /// @param before  meshes of these or others, whatever of which is the same is taken.
-    osg::ref_ptr<const CasterLayers> castersAmong(const CasterDrawables& some, const CasterLayers& before) const;
-    /// Number of changes that casters() and drawables() have found. 0 before the first call of either.
+    osg::ref_ptr<const Casters> casters(const CasterView* view = nullptr) const;
+    /// Number of changes that casters() has found. 0 before its first call.
     /// A choice of levels of detail that no view had lately is a change.
     unsigned revision() const;
 
@@ -193,7 +185,7 @@ private:
     std::vector<LightUniform> _lightUniforms;
     CompositorOptions _options;
 
-    const std::unique_ptr<CasterRevisions> _revisions;
+    const osg::ref_ptr<CasterTable> _table;
 };
 
 } // namespace gnomon

@@ -8,7 +8,7 @@
 
 namespace gnomon {
 
-class CasterDrawables;
+class Casters;
 class ShadowMapCache;
 
 /// Casts shadows onto everything visible, by depth maps. Choose it for penumbras, spots and leaves.
@@ -164,7 +164,7 @@ public:
 
     /// Updates the maps of one light and makes the marks that look them up. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                            const FrameCasters& casters) const override;
+                                            const Casters& casters) const override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

@@ -18,7 +18,7 @@
 
 namespace gnomon {
 
-struct CasterLayers;
+class Casters;
 class ShadowCasterGroup;
 struct ShadowProbe;
 
@@ -84,7 +84,7 @@ private:
 
     osg::ref_ptr<const ShadowTechnique> _technique; ///< null: exact.
     osg::ref_ptr<const ShadowCasterGroup> _group;
-    osg::ref_ptr<const CasterLayers> _layers;
+    osg::ref_ptr<const Casters> _casters;
     std::shared_ptr<const RayScene> _scene;
     osg::Vec3d _origin;
     glm::dvec4 _light{0.0};

@@ -24,7 +24,7 @@ namespace gnomon {
 
 class DrawWatch;
 class FrameDiagnosis;
-class FrameCasters;
+class Casters;
 class Mark;
 class ShadowCasterGroup;
 struct FrameReport;
@@ -87,9 +87,7 @@ public:
     /// @return what marks those pixels in draw; empty if the light casts nothing in this view. If a user might
     ///         wonder why, prepare() calls report().
     virtual std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                                    const FrameCasters& casters) const = 0;
-    /// True if prepare() uses only the casters' pieces. The group then makes no meshes of them. Default false.
-    virtual bool takesDrawables() const { return false; }
+                                                    const Casters& casters) const = 0;
 
     /// Lets go what it keeps of casters that are gone. The compositor calls it in place of prepare() where nothing casts.
     /// Default: nothing is kept.

@@ -84,7 +84,7 @@ public:
 
     /// Finds the volumes of one light, and makes the mark that draws them. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                            const FrameCasters& casters) const override;
+                                            const Casters& casters) const override;
 
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;

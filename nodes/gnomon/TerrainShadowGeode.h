@@ -102,9 +102,7 @@ public:
 
     /// Makes the mark of the tiles in view. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                            const FrameCasters& casters) const override;
-    /// True: the technique keeps casters by drawable.
-    bool takesDrawables() const override { return true; }
+                                            const Casters& casters) const override;
     /// See ShadowTechnique::letGo().
     void letGo() const override;
     /// 1: it shadows its receiver alone.

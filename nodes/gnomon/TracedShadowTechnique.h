@@ -62,7 +62,7 @@ public:
 
     /// Makes the mark that casts the rays of one light. See ShadowTechnique::prepare().
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
-                                            const FrameCasters& casters) const override;
+                                            const Casters& casters) const override;
 
     /// See OptionalPart::Traced.
     std::string whyUnavailable() const override;

@@ -22,7 +22,7 @@ namespace gnomon {
 
 class ShadowCasterGroup;
 
-class FrameCasters;
+class Casters;
 
 /// A drawable that casts, at one place.
 struct CasterBox {
@@ -30,7 +30,7 @@ struct CasterBox {
     osg::BoundingBoxd inGroup;     ///< Bounds of its triangles, group frame.
 };
 /// The boxes of those that have triangles, in the order in which a traversal meets them.
-GNOMON_EXPORT std::vector<CasterBox> boxesOf(const FrameCasters& casters);
+GNOMON_EXPORT std::vector<CasterBox> boxesOf(const Casters& casters);
 
 /// A technique is asked about each kind of receivers apart.
 enum class ReceiverKind {

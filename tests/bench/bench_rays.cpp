@@ -64,16 +64,16 @@ std::vector<gnomon::Ray> shadowRays(const gnomon::RayScene& scene, std::vector<o
     return rays;
 }
 
-void measure(const gnomon::CasterLayers& casters, const gnomon::ShadowTechnique& technique) {
+void measure(const gnomon::Casters& casters, const gnomon::ShadowTechnique& technique) {
     const osg::ElapsedTime watch;
     const std::shared_ptr<const gnomon::RayScene> trees = gnomon::RaySceneCache().of(casters, "bench");
     const gnomon::RayScene& scene = *trees;
-    std::printf("  tree of %zu triangles: %.2f s\n", casters.triangles(), watch.elapsedTime());
+    std::printf("  tree of %zu triangles: %.2f s\n", casters.layers().triangles(), watch.elapsedTime());
     std::vector<osg::Vec3d> places;
     const std::vector<gnomon::Ray> rays = shadowRays(scene, places);
     std::vector<std::uint8_t> answers(rays.size());
     const gnomon::ShadowQuery query(technique, {0, sun});
-    for (osg::Vec3d& place : places) place += casters.origin;
+    for (osg::Vec3d& place : places) place += casters.layers().origin;
     std::printf("  shadow rays, in order of pixels:  %.1f million a second and core\n",
                 rate(rays.size(), [&] { scene.blocked(rays.data(), rays.size(), answers.data()); }));
     std::printf("  %.0f %% of them are blocked\n",

@@ -4,16 +4,15 @@
 
 #include <gnomon/Convert.h>
 #include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/casters/CasterBodies.h>
 #include <gnomon/casters/CasterExtraction.h>
-#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/casters/Casters.h>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <osg/observer_ptr>
 
-using gnomon::CasterLayers;
 using gnomon::CasterMesh;
+using gnomon::Casters;
 using gnomon::PlacedMesh;
 
 namespace {
@@ -34,7 +33,11 @@ struct Bodies {
         group->addChild(place);
         return *place;
     }
-    osg::ref_ptr<const CasterLayers> casters() const { return group->casters(); }
+    osg::ref_ptr<const Casters> casters() const {
+        const osg::ref_ptr<const Casters> now = group->casters();
+        now->layers();
+        return now;
+    }
     osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
 };
 
@@ -45,17 +48,18 @@ TEST(CasterBodies, KeepTheirMeshWhileTheyMove) {
     osg::MatrixTransform& place = bodies.add(strip(300), osg::Matrixd());
     bodies.add(strip(20), osg::Matrixd::translate(0, 9, 0));
     const auto first = bodies.casters();
-    ASSERT_EQ(first->still->meshes.size(), 2u);
-    const osg::ref_ptr<const CasterMesh> mesh = first->still->meshes[1].mesh, joined = first->still->loose;
-    EXPECT_TRUE(first->still->meshes[1].isBody);
+    ASSERT_EQ(first->layers().still->meshes.size(), 2u);
+    const osg::ref_ptr<const CasterMesh> mesh = first->layers().still->meshes[1].mesh,
+                                         joined = first->layers().still->loose;
+    EXPECT_TRUE(first->layers().still->meshes[1].isBody);
     EXPECT_EQ(mesh->triangles->size(), 900u);
     EXPECT_EQ(joined->triangles->size(), 60u);
     for (int step = 1; step < 5; ++step) {
         place.setMatrix(osg::Matrixd::translate(step, 0, 0));
         const auto now = bodies.casters();
-        ASSERT_EQ(now->moving->meshes.size(), 1u);
-        EXPECT_EQ(now->moving->meshes[0].mesh, mesh);
-        EXPECT_EQ(now->still->loose, joined) << "what stands is not made again";
+        ASSERT_EQ(now->layers().moving->meshes.size(), 1u);
+        EXPECT_EQ(now->layers().moving->meshes[0].mesh, mesh);
+        EXPECT_EQ(now->layers().still->loose, joined) << "what stands is not made again";
     }
 }
 
@@ -64,9 +68,10 @@ TEST(CasterBodies, OfOneGeometryShareAMeshWhereverTheyAre) {
     const osg::ref_ptr<osg::Geometry> one = strip(300);
     for (int i = 0; i < 5; ++i) bodies.add(one, osg::Matrixd::translate(0, 3 * i, 0));
     const auto casters = bodies.casters();
-    ASSERT_EQ(casters->still->meshes.size(), 5u);
-    for (const PlacedMesh& placed : casters->still->meshes) EXPECT_EQ(placed.mesh, casters->still->meshes[0].mesh);
-    EXPECT_EQ(casters->triangles(), 1500u);
+    ASSERT_EQ(casters->layers().still->meshes.size(), 5u);
+    for (const PlacedMesh& placed : casters->layers().still->meshes)
+        EXPECT_EQ(placed.mesh, casters->layers().still->meshes[0].mesh);
+    EXPECT_EQ(casters->layers().triangles(), 1500u);
 }
 
 // The vertices that an extraction in the group's frame finds, in double. Floats about the mesh's origin are off by a
@@ -80,7 +85,7 @@ TEST(CasterBodies, AreWhereTheirTransformsPutThem) {
         const auto casters = bodies.casters();
         gnomon::CasterExtraction expected;
         bodies.group->accept(expected);
-        const PlacedMesh& placed = casters->still->meshes.at(0);
+        const PlacedMesh& placed = casters->layers().still->meshes.at(0);
         ASSERT_EQ(placed.mesh->triangles->size(), expected.getTriangles().size());
         for (std::size_t i = 0; i < expected.getTriangles().size(); ++i) {
             const std::size_t other = !placed.mirrored || i % 3 == 0 ? i
@@ -89,7 +94,7 @@ TEST(CasterBodies, AreWhereTheirTransformsPutThem) {
             const osg::Vec3& vertex = (*placed.mesh->vertices)[(*placed.mesh->triangles)[i]];
             const glm::dvec3 found(placed.sceneFromMesh * glm::dvec4(vertex.x(), vertex.y(), vertex.z(), 1.0));
             const osg::Vec3d& meant = expected.getVertices()[expected.getTriangles()[other]];
-            ASSERT_LE(glm::distance(found, gnomon::toGlm(meant - casters->origin)), 2e-6) << i;
+            ASSERT_LE(glm::distance(found, gnomon::toGlm(meant - casters->layers().origin)), 2e-6) << i;
         }
     }
 }
@@ -114,9 +119,9 @@ TEST(CasterBodies, ThatCannotBePlacedAreJoined) {
         Bodies bodies;
         bodies.add(strip(300), matrix);
         const auto casters = bodies.casters();
-        ASSERT_EQ(casters->still->meshes.size(), 1u);
-        EXPECT_FALSE(casters->still->meshes[0].isBody);
-        EXPECT_EQ(casters->triangles(), 300u);
+        ASSERT_EQ(casters->layers().still->meshes.size(), 1u);
+        EXPECT_FALSE(casters->layers().still->meshes[0].isBody);
+        EXPECT_EQ(casters->layers().triangles(), 300u);
     }
 }
 
@@ -124,13 +129,13 @@ TEST(CasterBodies, WhoseArraysChangeAreReadAgain) {
     Bodies bodies;
     const osg::ref_ptr<osg::Geometry> geometry = strip(300);
     bodies.add(geometry, osg::Matrixd());
-    const osg::ref_ptr<const CasterMesh> before = bodies.casters()->still->meshes[0].mesh;
+    const osg::ref_ptr<const CasterMesh> before = bodies.casters()->layers().still->meshes[0].mesh;
     auto& vertices = static_cast<osg::Vec3Array&>(*geometry->getVertexArray());
     vertices[0].z() = 3.0f;
     vertices.dirty();
     const auto now = bodies.casters();
-    ASSERT_EQ(now->moving->meshes.size(), 1u);
-    EXPECT_NE(now->moving->meshes[0].mesh, before);
+    ASSERT_EQ(now->layers().moving->meshes.size(), 1u);
+    EXPECT_NE(now->layers().moving->meshes[0].mesh, before);
     EXPECT_EQ(now->bounds.zMax(), 3.0);
 }
 

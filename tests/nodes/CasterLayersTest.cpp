@@ -2,14 +2,14 @@
 // Casters in two layers: which of them is made anew when.
 #include "Scene.h"
 
-#include <gnomon/casters/CasterBodies.h>
-#include <gnomon/casters/CasterLayers.h>
-#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/CasterTable.h>
 
 #include <gtest/gtest.h>
 
-using gnomon::CasterDrawables;
+#include <vector>
+
 using gnomon::CasterLayers;
+using gnomon::Casters;
 
 namespace {
 
@@ -25,16 +25,16 @@ struct Row {
         static_cast<osg::MatrixTransform&>(*root->getChild(i)).setMatrix(osg::Matrixd::translate(corner + to));
     }
     /// What casts now.
-    osg::ref_ptr<const CasterLayers> next() {
-        pieces = CasterDrawables::of(*root, {}, pieces);
-        return casters = CasterLayers::of(*pieces, casters, bodies);
+    const CasterLayers* next() {
+        kept.push_back(table->casters(*root, {}, nullptr));
+        return casters = &kept.back()->layers();
     }
 
     osg::Vec3d corner;
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    osg::ref_ptr<const CasterDrawables> pieces;
-    osg::ref_ptr<const CasterLayers> casters;
-    gnomon::CasterBodies bodies;
+    osg::ref_ptr<gnomon::CasterTable> table = new gnomon::CasterTable;
+    std::vector<osg::ref_ptr<const Casters>> kept; ///< all so far.
+    const CasterLayers* casters = nullptr;         ///< of the last.
 };
 
 TEST(CasterLayers, AllStandStillAtFirst) {
@@ -117,12 +117,12 @@ TEST(CasterLayers, WhatHasComeToRestStandsStillAgainOnceItHasCostAsMuchAsAll) {
 
 TEST(CasterLayers, ThatAreTheSameInAnotherOrderStandStill) {
     Row row(5);
-    const auto first = row.next();
-    const CasterDrawables::List& list = row.pieces->list;
-    const osg::ref_ptr<const CasterDrawables> turned = new CasterDrawables({list.rbegin(), list.rend()}, 1);
-    const auto now = CasterLayers::of(*turned, first, row.bodies);
-    EXPECT_EQ(now->moving->triangles, 0u);
-    EXPECT_EQ(now->still->triangles, 5u);
+    row.next();
+    const gnomon::CasterList& list = row.kept.back()->list;
+    const osg::ref_ptr<const Casters> turned = new Casters({list.rbegin(), list.rend()}, 1);
+    const CasterLayers& now = turned->layersAfter(*row.kept.back());
+    EXPECT_EQ(now.moving->triangles, 0u);
+    EXPECT_EQ(now.still->triangles, 5u);
 }
 
 /// Largest distance of a drawn vertex from where it ought to be: each triangle's corner.

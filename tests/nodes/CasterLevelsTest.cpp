@@ -3,7 +3,7 @@
 #include "Scene.h"
 
 #include <gnomon/ShadowCasterGroup.h>
-#include <gnomon/casters/CasterRevisions.h>
+#include <gnomon/casters/CasterTable.h>
 #include <gnomon/casters/Casting.h>
 
 #include <osg/LOD>
@@ -58,7 +58,7 @@ CasterView viewFrom(const osg::Vec3d& eye, const void* key = nullptr) {
 
 Drawables castersOf(const gnomon::ShadowCasterGroup& group, const CasterView* view) {
     Drawables result;
-    for (const auto& piece : group.drawables(view)->list) result.insert(piece->drawable.get());
+    for (const auto& piece : group.casters(view)->list) result.insert(piece->drawable.get());
     return result;
 }
 
@@ -190,7 +190,7 @@ TEST(CasterLevels, WithoutAViewAreTheFinest) {
     const Drawables casters = castersOf(*flight.group, nullptr);
     for (std::size_t i = 0; i < flight.levels.size(); ++i)
         EXPECT_EQ(casters.count(flight.levels[i]), i % 2 ? 0u : 1u) << i;
-    EXPECT_EQ(flight.group->casters()->triangles(), 5u);
+    EXPECT_EQ(flight.group->casters()->layers().triangles(), 5u);
 }
 
 TEST(CasterLevels, AreReadOnceOnAFlightToAndFro) {
@@ -199,8 +199,9 @@ TEST(CasterLevels, AreReadOnceOnAFlightToAndFro) {
         for (int step = 0; step < 80; ++step) {
             const double x = 10.0 * (step < 40 ? step : 80 - step) - 40.0;
             const CasterView view = viewFrom({x, 0.0, 20.0}, &flight);
-            EXPECT_EQ(flight.group->casters(&view)->triangles(), 5u);
-            EXPECT_EQ(flight.group->drawables(&view)->list.size(), 5u);
+            const auto casters = flight.group->casters(&view);
+            EXPECT_EQ(casters->layers().triangles(), 5u);
+            EXPECT_EQ(casters->list.size(), 5u);
         }
     EXPECT_EQ(flight.reads(), 8) << "two levels at four places";
 }
@@ -218,10 +219,10 @@ TEST(CasterLevels, OfASequenceAreReadOnce) {
     const CasterView view = viewFrom({0, 0, 20}, group.get());
     for (int step = 0; step < 40; ++step) {
         sequence->setValue(step % 8);
-        const auto drawables = group->drawables(&view);
-        ASSERT_EQ(drawables->list.size(), 1u);
-        EXPECT_EQ(drawables->list.front()->drawable, all[std::size_t(step % 8)]);
-        EXPECT_EQ(group->casters(&view)->triangles(), 1u);
+        const auto casters = group->casters(&view);
+        ASSERT_EQ(casters->list.size(), 1u);
+        EXPECT_EQ(casters->list.front()->drawable, all[std::size_t(step % 8)]);
+        EXPECT_EQ(casters->layers().triangles(), 1u);
     }
     for (const auto& each : all) EXPECT_EQ(each->reads, 1);
 }
@@ -229,16 +230,12 @@ TEST(CasterLevels, OfASequenceAreReadOnce) {
 TEST(CasterLevels, OfEachViewAreItsOwnAndStay) {
     const Flight flight;
     const CasterView near = viewFrom({0, 0, 20}, &near), far = viewFrom({0, 0, 500}, &far);
-    const auto nearMesh = flight.group->casters(&near), farMesh = flight.group->casters(&far);
-    const auto nearPieces = flight.group->drawables(&near), farPieces = flight.group->drawables(&far);
-    EXPECT_NE(nearMesh, farMesh);
-    EXPECT_NE(nearPieces, farPieces);
+    const auto nearOnes = flight.group->casters(&near), farOnes = flight.group->casters(&far);
+    EXPECT_NE(nearOnes, farOnes);
     const unsigned revision = flight.group->revision();
     for (int frame = 0; frame < 3; ++frame) {
-        EXPECT_EQ(flight.group->casters(&near), nearMesh);
-        EXPECT_EQ(flight.group->drawables(&near), nearPieces);
-        EXPECT_EQ(flight.group->casters(&far), farMesh);
-        EXPECT_EQ(flight.group->drawables(&far), farPieces);
+        EXPECT_EQ(flight.group->casters(&near), nearOnes);
+        EXPECT_EQ(flight.group->casters(&far), farOnes);
     }
     EXPECT_EQ(flight.group->revision(), revision);
 }
@@ -246,12 +243,12 @@ TEST(CasterLevels, OfEachViewAreItsOwnAndStay) {
 TEST(CasterLevels, ThatLeaveTheGraphLeaveMemory) {
     Flight flight;
     const CasterView near = viewFrom({0, 0, 20}, &near), far = viewFrom({0, 0, 500}, &near);
-    for (const CasterView* view : {&near, &far}) flight.group->drawables(view);
+    for (const CasterView* view : {&near, &far}) flight.group->casters(view);
     const osg::observer_ptr<Counted> fine = flight.levels[0].get(), coarse = flight.levels[1].get();
     flight.group->removeChild(flight.lods[0]);
     flight.lods.erase(flight.lods.begin());
     flight.levels.erase(flight.levels.begin(), flight.levels.begin() + 2);
-    for (int frame = 0; frame < 300; ++frame) flight.group->drawables(&near);
+    for (int frame = 0; frame < 300; ++frame) flight.group->casters(&near);
     EXPECT_FALSE(fine.valid());
     EXPECT_FALSE(coarse.valid());
 }
@@ -260,10 +257,11 @@ TEST(CasterLevels, AreRetiredOnceTheyAreReplaced) {
     const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
     const osg::ref_ptr<osg::MatrixTransform> body = triangleAt(1.0);
     group->addChild(body);
-    const osg::ref_ptr<const gnomon::CasterLayers> casters = group->casters();
+    const osg::ref_ptr<const gnomon::Casters> casters = group->casters();
+    casters->layers();
     EXPECT_FALSE(casters->isRetired());
     body->setMatrix(osg::Matrixd::translate(2.0, 0.0, 0.0));
-    group->drawables();
+    group->casters();
     EXPECT_TRUE(casters->isRetired());
-    EXPECT_TRUE(casters->still->loose->sources.empty()) << "whoever keeps the mesh keeps no removed caster";
+    EXPECT_TRUE(casters->layers().still->loose->sources.empty()) << "whoever keeps the mesh keeps no removed caster";
 }

@@ -53,7 +53,7 @@ constexpr double finePixel = 0.04; // metres
 
 /// Boxes on hills, and what is found of them.
 struct Hills {
-    Hills() { town.take(*gnomon::CasterDrawables::of(*root, {}, nullptr), {}); }
+    Hills() { town.take(*gnomon::Casters::of(*root, {}, nullptr), {}); }
     void update(double azimuth, const gnomon::ViewFrame& view = viewAbove(500.0, finePixel)) {
         tiles.update(town, on, sunAt(azimuth, elevation), gnomon::TileView(view, town.origin()));
     }
@@ -109,11 +109,11 @@ TEST(CasterTiles, WeldsARoofToTheWallsThatWereThereBefore) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(cubeFaces(false));
     CasterTiles town(false);
-    const auto walls = gnomon::CasterDrawables::of(*root, {}, nullptr);
+    const auto walls = gnomon::Casters::of(*root, {}, nullptr);
     town.take(*walls, {});
     EXPECT_GT(partsOf(town), 1u) << "plates";
     root->addChild(cubeFaces(true));
-    town.take(*gnomon::CasterDrawables::of(*root, {}, walls), {});
+    town.take(*gnomon::Casters::of(*root, {}, walls), {});
     EXPECT_EQ(partsOf(town), 1u) << "a solid";
 }
 

@@ -102,11 +102,11 @@ public:
 protected:
     ~CountingTechnique() override = default;
     std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                    const gnomon::FrameCasters& casters) const override;
+                                                    const gnomon::Casters& casters) const override;
 };
 
 std::vector<osg::ref_ptr<gnomon::Mark>> CountingTechnique::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight&,
-                                                                   const gnomon::FrameCasters&) const {
+                                                                   const gnomon::Casters&) const {
     ++asked;
     return {new NoMarks};
 }

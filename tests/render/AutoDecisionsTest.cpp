@@ -31,9 +31,9 @@ View viewFrom(double x) { return perspective({x, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 
 class Asked : public gnomon::ShadowTechnique {
 public:
     std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                    const gnomon::FrameCasters& casters) const override {
+                                                    const gnomon::Casters& casters) const override {
         const auto usable = gnomon::localLight(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
-        surfaces = _chooser.choose({view, light, casters, casters.drawables(), *usable}, {}, {}).surfaces;
+        surfaces = _chooser.choose({view, light, casters, *usable}, {}, {}).surfaces;
         names.clear();
         for (const osgUtil::RenderLeaf* leaf : *surfaces) names.insert(gnomon::nameOf(*leaf));
         return {};

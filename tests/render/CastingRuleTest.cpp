@@ -5,8 +5,7 @@
 
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/TracedShadowTechnique.h>
-#include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/casters/Casters.h>
 #include <gtest/gtest.h>
 #include <osg/AlphaFunc>
 #include <osg/BlendColor>
@@ -233,8 +232,9 @@ struct Shop {
     /// The same by both ways to the casters.
     std::size_t trianglesOf() const {
         std::size_t triangles = 0;
-        for (const auto& piece : group->drawables()->list) triangles += piece->triangles;
-        EXPECT_EQ(group->casters()->triangles(), triangles);
+        const auto casters = group->casters();
+        for (const auto& piece : casters->list) triangles += piece->triangles;
+        EXPECT_EQ(casters->layers().triangles(), triangles);
         return triangles;
     }
     osg::ref_ptr<ShadowCasterGroup> group = new ShadowCasterGroup;

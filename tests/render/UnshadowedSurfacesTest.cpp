@@ -88,8 +88,7 @@ const Causes nothing;
 TEST(RecalledCauses, AreKeptForManyTechniquesAndLights) {
     const osg::ref_ptr<gnomon::RecalledCauses> memory = new gnomon::RecalledCauses;
     const osg::ref_ptr<gnomon::ShadowCasterGroup> group = new gnomon::ShadowCasterGroup;
-    const osg::ref_ptr<const gnomon::CasterDrawables> casters =
-        new gnomon::CasterDrawables(gnomon::CasterDrawables::List(), 1);
+    const osg::ref_ptr<const gnomon::Casters> casters = new gnomon::Casters(gnomon::CasterList(), 1);
     const std::vector<const osgUtil::RenderLeaf*> receivers;
     const osg::Matrixd eyeFromGroup;
     const char techniques[5] = {};

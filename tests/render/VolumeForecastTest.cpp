@@ -3,8 +3,8 @@
 #include <support/Picture.h>
 #include <support/Scene.h>
 
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/volume/VolumeCache.h>
 #include <gnomon/volume/VolumeForecast.h>
@@ -48,7 +48,7 @@ Work drawnOf(const gnomon::SeenVolumes& seen) {
 class Counting : public gnomon::ShadowTechnique {
 public:
     std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                    const gnomon::FrameCasters& casters) const override {
+                                                    const gnomon::Casters& casters) const override {
         const gnomon::CasterLayers& layers = casters.layers();
         const gnomon::SceneFrame scene(layers.origin);
         const auto seen =
@@ -166,7 +166,7 @@ namespace {
 class Uncounted : public gnomon::ShadowTechnique {
 public:
     std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                    const gnomon::FrameCasters& casters) const override {
+                                                    const gnomon::Casters& casters) const override {
         const gnomon::CasterLayers& layers = casters.layers();
         const gnomon::SceneFrame scene(layers.origin);
         gnomon::ViewFrame uncounted = view;

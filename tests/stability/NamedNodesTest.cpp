@@ -2,8 +2,7 @@
 // Nodes that the kit names without keeping them: what is above the one that names it is freed, and copies name their own.
 #include <gnomon/PlanarReflectionNode.h>
 #include <gnomon/TerrainShadowGeode.h>
-#include <gnomon/casters/CasterDrawables.h>
-#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/casters/Casters.h>
 #include <gtest/gtest.h>
 #include <osg/MatrixTransform>
 #include <osg/observer_ptr>
@@ -82,8 +81,7 @@ TEST(NamedNodes, AboveTheOneThatNamesThemAreFreed) {
         {
             Graph graph;
             namings[i](graph);
-            graph.group->casters();
-            graph.group->drawables();
+            graph.group->casters()->layers();
             root = graph.root.get();
             group = graph.group.get();
         }
@@ -133,7 +131,7 @@ TEST(NamedNodes, ThatAreGoneSelectNothing) {
     EXPECT_TRUE(graph.technique->hasReceiver());
     EXPECT_EQ(graph.technique->getReceiver(), Selection({nullptr, 0u}));
     EXPECT_TRUE(graph.group->areCastersGone());
-    EXPECT_TRUE(graph.group->drawables()->empty());
+    EXPECT_TRUE(graph.group->casters()->empty());
     EXPECT_EQ(graph.group->getNumLightSources(), 1u);
     EXPECT_TRUE(graph.group->getLightSources().empty());
 }

@@ -78,7 +78,7 @@ osg::ref_ptr<gnomon::Mark> markOf(const DiscShadow& disc) {
 } // namespace
 
 std::vector<osg::ref_ptr<gnomon::Mark>> DiscShadow::prepare(const gnomon::ViewFrame&, const gnomon::ShadowLight& light,
-                                                            const gnomon::FrameCasters&) const {
+                                                            const gnomon::Casters&) const {
     if (!lights.empty() && !lights.count(light.number)) return {};
     return {markOf(*this)};
 }

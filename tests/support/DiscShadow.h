@@ -15,7 +15,7 @@ public:
     DiscShadow(const DiscShadow&, const osg::CopyOp&) = delete;
 
     std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                       const gnomon::FrameCasters& casters) const override;
+                                                    const gnomon::Casters& casters) const override;
 
     /// Share of the light that reaches a pixel's centre.
     double arriving(int x, int y) const;

@@ -31,7 +31,7 @@ double usualError(const AutoShadowOptions& options) {
     return options.error > 0.0 ? options.error : AutoShadowOptions::usualError;
 }
 
-double triangles(const CasterDrawables& casters) {
+double triangles(const Casters& casters) {
     double sum = 0.0;
     for (const auto& piece : casters.list) sum += double(piece->triangles);
     return sum;
@@ -199,13 +199,13 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
 std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate& candidate, const AutoView& view,
                                                              const Selection& receiver) {
     if (candidate.kind == AutoCandidate::Kind::Nothing) return {};
-    if (candidate.kind != AutoCandidate::Kind::Mixed) return {{_inner.of(candidate, receiver, _round), view.meshes}};
+    if (candidate.kind != AutoCandidate::Kind::Mixed) return {{_inner.of(candidate, receiver, _round), &view.casters}};
     const CasterSplit& split = _known.splits.of(view.casters);
     AutoCandidate volume, map = candidate;
     volume.kind = AutoCandidate::Kind::Volume;
     map.kind = AutoCandidate::Kind::Map;
-    return {{_inner.of(volume, receiver, _round), split.simple(view.meshes)},
-            {_inner.of(map, receiver, _round), split.dense(view.meshes)}};
+    return {{_inner.of(volume, receiver, _round), split.simple(view.casters)},
+            {_inner.of(map, receiver, _round), split.dense(view.casters)}};
 }
 
 std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(Choice& choice, const Seen& now, const AutoView& view) {
@@ -270,12 +270,6 @@ std::vector<ShadowDecision> AutoChooser::lastDecision() const {
 unsigned AutoChooser::passes() const {
     Lock lock(_mutex);
     return _inner.passes();
-}
-
-bool AutoChooser::takesDrawables() const {
-    Lock lock(_mutex);
-    const auto does = [](const auto& choice) { return choice->candidate.kind == AutoCandidate::Kind::Terrain; };
-    return _choices.begin() != _choices.end() && std::all_of(_choices.begin(), _choices.end(), does);
 }
 
 void AutoChooser::forEach(const std::function<void(ShadowTechnique&)>& visit) const {

@@ -27,7 +27,7 @@ public:
         /// A technique, and what it draws.
         struct Share {
             osg::ref_ptr<const ShadowTechnique> technique;
-            FrameCasters casters;
+            osg::ref_ptr<const Casters> casters;
         };
         std::vector<Share> shares;               ///< empty: no shadow is drawn.
         std::vector<std::string> causes;         ///< for ShadowTechnique::report(): the budget cannot be kept.
@@ -46,8 +46,6 @@ public:
     std::vector<ShadowDecision> lastDecision() const;
     /// See InnerTechniques::passes().
     unsigned passes() const;
-    /// True if all that was chosen takes the casters drawable by drawable.
-    bool takesDrawables() const;
     void forEach(const std::function<void(ShadowTechnique&)>& visit) const;
     void releaseGLObjects(osg::State* state) const;
 

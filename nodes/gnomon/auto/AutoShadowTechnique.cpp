@@ -2,8 +2,8 @@
 #include <gnomon/AutoShadowTechnique.h>
 #include <gnomon/ViewFrame.h>
 #include <gnomon/auto/AutoChooser.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ShadowJob.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 
 #include <osg/GraphicsContext>
@@ -57,21 +57,20 @@ std::vector<ShadowDecision> AutoShadowTechnique::lastDecision() const { return _
 unsigned AutoShadowTechnique::passes() const { return _chooser->passes(); }
 
 std::vector<osg::ref_ptr<Mark>> AutoShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                             const FrameCasters& casters) const {
+                                                             const Casters& casters) const {
     const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};
     }
-    const AutoChooser::Drawn drawn =
-        _chooser->choose({view, light, casters, casters.drawables(), *usable}, getReceiver(), _options);
+    const AutoChooser::Drawn drawn = _chooser->choose({view, light, casters, *usable}, getReceiver(), _options);
     for (const std::string& cause : drawn.causes) report(view.frameNumber, cause);
     ViewFrame here = view;
     here.groupFromTechnique = osg::Matrixd(); // planes are the group's
     std::vector<osg::ref_ptr<Mark>> marks;
     for (const auto& [technique, part] : drawn.shares) {
         technique->beginFrame(view.frameNumber, view.frameTime, view.key.stage);
-        for (const osg::ref_ptr<Mark>& mark : technique->prepare(here, light, part)) marks.push_back(mark);
+        for (const osg::ref_ptr<Mark>& mark : technique->prepare(here, light, *part)) marks.push_back(mark);
         for (const std::string& cause : causesOf(*technique)) report(view.frameNumber, cause);
     }
     for (const osg::ref_ptr<Mark>& mark : marks) {
@@ -88,8 +87,6 @@ void AutoShadowTechnique::traverse(osg::NodeVisitor& visitor) {
     if (cull) _chooser->beginCull(state && state->getGraphicsContext() && state->getGraphicsContext()->isCurrent());
     ShadowTechnique::traverse(visitor);
 }
-
-bool AutoShadowTechnique::takesDrawables() const { return _chooser->takesDrawables(); }
 
 void AutoShadowTechnique::letGo() const {
     _chooser->forEach([](ShadowTechnique& inner) { inner.letGo(); });

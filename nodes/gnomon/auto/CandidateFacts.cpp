@@ -4,7 +4,7 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/auto/CandidateFacts.h>
 #include <gnomon/base/Fingerprint.h>
-#include <gnomon/casters/CasterBodies.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/group/LitCauses.h>
 #include <gnomon/group/SceneFrame.h>
@@ -44,8 +44,9 @@ bool holds(const MapForecast::Map& map, const glm::dvec3& place) {
                        [&](const glm::dvec4& half) { return glm::dot(half, here) >= 0.0; });
 }
 
-bool areLookedAt(const CasterLayers& casters) {
-    return casters.triangles() <= mostTriangles && casters.triangles() > ofABox * casters.pieces->list.size();
+bool areLookedAt(const Casters& casters) {
+    const std::size_t triangles = casters.layers().triangles();
+    return triangles <= mostTriangles && triangles > ofABox * casters.list.size();
 }
 
 std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
@@ -63,7 +64,7 @@ std::vector<PlacedTriangles> trianglesOf(const CasterLayers& casters) {
 }
 
 /// The view without some casters: their triangles are looked at.
-ViewFrame without(const CasterDrawables& casters, const AutoView& view) {
+ViewFrame without(const Casters& casters, const AutoView& view) {
     std::unordered_set<const osg::Drawable*> casting;
     for (const auto& piece : casters.list) casting.insert(piece->drawable.get());
     ViewFrame result = view.frame;
@@ -72,13 +73,11 @@ ViewFrame without(const CasterDrawables& casters, const AutoView& view) {
     return result;
 }
 
-constexpr std::size_t mostSplits = 4; // as CasterRevisions has choices
+constexpr std::size_t mostSplits = 4; // as CasterTable has choices
 constexpr unsigned keptCalls = 8;     // of retired casters: other views may be about to follow
 constexpr double large = 0.5;         // of the radius of all: so large a part is not told from the whole
 
-bool isForMap(const CasterDrawable& piece, double radius) {
-    return CasterSplit::isDense(piece, radius) || piece.cutOut;
-}
+bool isForMap(const Caster& piece, double radius) { return CasterSplit::isDense(piece, radius) || piece.cutOut; }
 
 bool isMoreThanWhite(const osg::Material& material) {
     for (const osg::Material::Face face : {osg::Material::FRONT, osg::Material::BACK})
@@ -118,7 +117,7 @@ std::string whyCoarse(const AutoView& view, double steps) {
     return name.empty() ? "" : "depths are too coarse at '" + name + "'";
 }
 
-std::string whyCutOut(const CasterDrawables& casters) { return casters.cutouts > 0 ? "casters have clear parts" : ""; }
+std::string whyCutOut(const Casters& casters) { return casters.cutouts > 0 ? "casters have clear parts" : ""; }
 
 TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receiver) {
     if (!hasPart(OptionalPart::Terrain)) return {"this build has no Qhull"};
@@ -132,7 +131,7 @@ TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receive
     std::vector<double> bends;
     const std::size_t step = view.casters.list.size() / mostSamples + 1;
     for (std::size_t i = 0; i < view.casters.list.size(); i += step) {
-        const CasterDrawable& piece = *view.casters.list[i];
+        const Caster& piece = *view.casters.list[i];
         if (!piece.bounds.valid() || _drawn->drawables.count(piece.drawable.get())) continue;
         if (const auto found = bend(*_drawn->ground, piece.bounds, -glm::dvec2(sun) / sun.z)) bends.push_back(*found);
     }
@@ -143,12 +142,12 @@ TerrainFacts TerrainKnowledge::of(const AutoView& view, const Selection& receive
 
 MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForecast& forecast)
     : _pixels(view.frame.pixels.x(), view.frame.pixels.y()) {
-    const SceneFrame scene(boxes.layers->origin);
+    const SceneFrame scene(boxes.layers.origin);
     _clipFromScene = scene.clipFromScene(view.frame);
     const glm::dvec4 light = view.towards - view.towards.w * glm::dvec4(scene.origin, 0.0);
-    const bool byTriangles = !view.frame.receivers && areLookedAt(*boxes.layers);
+    const bool byTriangles = !view.frame.receivers && areLookedAt(*boxes.of);
     const std::vector<PlacedBox> receivers =
-        receiversOf(byTriangles ? without(*boxes.layers->pieces, view) : view.frame, scene.eyeFromScene(view.frame));
+        receiversOf(byTriangles ? without(*boxes.of, view) : view.frame, scene.eyeFromScene(view.frame));
     const auto seenOf = [&](SeenEdges::Relief relief) {
         SeenEdges seen(_clipFromScene, _pixels, *forecast.bounds, light);
         for (const PlacedBox& receiver : receivers) seen.addReceiver(receiver, relief);
@@ -157,7 +156,7 @@ MapEdges::MapEdges(const AutoView& view, const MapCasters& boxes, const MapForec
     };
     SeenEdges seen = seenOf(SeenEdges::Relief::HalfWay);
     if (byTriangles)
-        for (const PlacedTriangles& mesh : trianglesOf(*boxes.layers)) seen.addMesh(mesh);
+        for (const PlacedTriangles& mesh : trianglesOf(boxes.layers)) seen.addMesh(mesh);
     else
         for (const MapLayer* layer : {boxes.still.get(), boxes.moving.get()})
             for (const auto* some : {&layer->bodies, &layer->flats})
@@ -178,14 +177,14 @@ EdgeWidths MapEdges::in(const MapForecast& forecast) const {
     return widths;
 }
 
-bool CasterSplit::isDense(const CasterDrawable& piece, double radius) {
-    return piece.triangles >= CasterBodies::fewestTriangles && piece.bounds.radius() < large * radius;
+bool CasterSplit::isDense(const Caster& piece, double radius) {
+    return piece.triangles >= fewestOfABody && piece.bounds.radius() < large * radius;
 }
 
-void CasterSplit::follow(const CasterDrawables& all) {
+void CasterSplit::follow(const Casters& all) {
     if (isOf(all)) return;
     _all = &all;
-    CasterDrawables::List simple, dense;
+    CasterList simple, dense;
     for (const auto& piece : all.list) {
         if (!piece->bounds.valid()) continue;
         (isForMap(*piece, all.bounds.radius()) ? dense : simple).push_back(piece);
@@ -195,32 +194,32 @@ void CasterSplit::follow(const CasterDrawables& all) {
 }
 
 /// What is the same stays, and with it all that was made of it.
-void CasterSplit::set(Part& part, CasterDrawables::List pieces, CasterDrawables::OwnList own, std::uint64_t choice) {
+void CasterSplit::set(Part& part, CasterList pieces, Casters::OwnList own, std::uint64_t choice) {
     if (pieces.empty() && own.empty()) {
-        part.pieces.set(nullptr);
-        part.layers.set(nullptr);
+        part.now.set(nullptr);
+        part.former = nullptr;
         return;
     }
-    const osg::ref_ptr<const CasterDrawables> before = part.pieces.get();
+    const osg::ref_ptr<const Casters> before = part.now.get();
     if (before && before->list == pieces && before->own == own) return;
     Fingerprint fingerprint;
     for (const auto& piece : pieces) fingerprint.mix(piece->fingerprint);
     for (const auto& drawing : own) fingerprint.mix(static_cast<const void*>(drawing.get()));
-    part.pieces.set(new CasterDrawables(std::move(pieces), fingerprint.value(), choice, std::move(own)));
+    if (before && before->hasLayers()) part.former = before;
+    part.now.set(new Casters(std::move(pieces), fingerprint.value(), choice, std::move(own)));
 }
 
-FrameCasters CasterSplit::partOf(const FrameCasters& all, const Part& part) {
-    const osg::ref_ptr<const CasterLayers> known = part.layers.get();
-    if (!known || known->pieces != part.pieces.get())
-        part.layers.set(all.group().castersAmong(*part.pieces.get(), known ? *known : all.layers()));
-    return all.part(*part.layers.get());
+osg::ref_ptr<const Casters> CasterSplit::partOf(const Casters& all, const Part& part) {
+    part.now.get()->layersAfter(part.former ? *part.former : all);
+    part.former = nullptr;
+    return part.now.get();
 }
 
-void CasterSplits::forgetOthersThan(const CasterDrawables& all) {
+void CasterSplits::forgetOthersThan(const Casters& all) {
     _splits.dropIf([&](const Entry& entry) { return entry.choice == all.choice && !entry.split->isOf(all); });
 }
 
-CasterSplit& CasterSplits::of(const CasterDrawables& all) {
+CasterSplit& CasterSplits::of(const Casters& all) {
     Entry* known = _splits.find([&](const Entry& entry) { return entry.choice == all.choice; });
     if (!known) {
         _splits.dropOldestBeyond(mostSplits - 1);

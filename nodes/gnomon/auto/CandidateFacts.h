@@ -2,8 +2,8 @@
 #pragma once
 #include <gnomon/ShadowLight.h>
 #include <gnomon/ViewFrame.h>
-#include <gnomon/casters/CasterRevisions.h>
-#include <gnomon/group/FrameCasters.h>
+#include <gnomon/base/RecentCache.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/map/LightShadowMaps.h>
 #include <gnomon/map/MapCasters.h>
 #include <gnomon/mapfit/SeenEdges.h>
@@ -22,9 +22,8 @@ namespace gnomon {
 struct AutoView {
     const ViewFrame& frame;
     const ShadowLight& light;
-    const FrameCasters& meshes;     ///< of the casters; a decision alone asks for them.
-    const CasterDrawables& casters; ///< the same, drawable by drawable.
-    glm::dvec4 towards;             ///< the light, group frame: w = 0 and length 1, or w = 1.
+    const Casters& casters; ///< a decision alone asks for their meshes.
+    glm::dvec4 towards;     ///< the light, group frame: w = 0 and length 1, or w = 1.
 };
 
 /// The least change of a channel that can be seen.
@@ -41,7 +40,7 @@ bool isShadedByOpenGl(const osgUtil::StateGraph* graph);
 std::string whyCoarse(const AutoView& view, double steps);
 
 /// Why casters need a technique that knows their textures; empty if they do not.
-std::string whyCutOut(const CasterDrawables& casters);
+std::string whyCutOut(const Casters& casters);
 
 /// What a named receiver is like as terrain.
 struct TerrainFacts {
@@ -88,29 +87,30 @@ private:
 class CasterSplit {
 public:
     /// True of a mesh of many triangles that is not as large as a ground is. @param radius  of the bounds of all casters.
-    static bool isDense(const CasterDrawable& piece, double radius);
+    static bool isDense(const Caster& piece, double radius);
     /// Divides casters, unless that was done.
-    void follow(const CasterDrawables& all);
+    void follow(const Casters& all);
     /// True if no view will ask for what was divided last.
     bool isRetired() const { return !_all.valid() || _all->isRetired(); }
     /// True if it was made of these.
-    bool isOf(const CasterDrawables& all) const { return _all.get() == &all; }
+    bool isOf(const Casters& all) const { return _all.get() == &all; }
     /// True if there is something in either part.
-    bool isDivided() const { return _simple.pieces.get() && _dense.pieces.get(); }
+    bool isDivided() const { return _simple.now.get() && _dense.now.get(); }
 
     /// The parts as a technique takes them. Only where isDivided().
-    FrameCasters simple(const FrameCasters& all) const { return partOf(all, _simple); }
-    FrameCasters dense(const FrameCasters& all) const { return partOf(all, _dense); }
+    /// @param all  of which they are a part.
+    osg::ref_ptr<const Casters> simple(const Casters& all) const { return partOf(all, _simple); }
+    osg::ref_ptr<const Casters> dense(const Casters& all) const { return partOf(all, _dense); }
 
 private:
     struct Part {
-        CurrentCasters<CasterDrawables> pieces;
-        mutable CurrentCasters<CasterLayers> layers;
+        CurrentCasters now;
+        mutable osg::ref_ptr<const Casters> former; ///< retired ones, whose layers the next are made from.
     };
-    static FrameCasters partOf(const FrameCasters& all, const Part& part);
-    static void set(Part& part, CasterDrawables::List pieces, CasterDrawables::OwnList own, std::uint64_t choice);
+    static osg::ref_ptr<const Casters> partOf(const Casters& all, const Part& part);
+    static void set(Part& part, CasterList pieces, Casters::OwnList own, std::uint64_t choice);
 
-    osg::observer_ptr<const CasterDrawables> _all;
+    osg::observer_ptr<const Casters> _all;
     Part _simple, _dense;
 };
 
@@ -118,9 +118,9 @@ private:
 class CasterSplits {
 public:
     /// As CasterSplit::follow() leaves it. It holds until the next call.
-    CasterSplit& of(const CasterDrawables& all);
+    CasterSplit& of(const Casters& all);
     /// Lets go what was made of casters that were there before these.
-    void forgetOthersThan(const CasterDrawables& all);
+    void forgetOthersThan(const Casters& all);
 
 private:
     struct Entry {

@@ -56,11 +56,11 @@ constexpr double facedAnObject = 0.03;  // to ask a triangle whether it faces th
 constexpr int sizes[] = {512, 1024, 2048, 4096};
 
 /// Why a candidate would leave a caster out; empty if it would not.
-std::string whyOnlyMaps(const AutoCandidate& candidate, const CasterDrawables& casters) {
+std::string whyOnlyMaps(const AutoCandidate& candidate, const Casters& casters) {
     return candidate.hasMap() || casters.own.empty() ? "" : "a caster draws itself, and only maps can let it";
 }
 
-std::string whyNotTraced(const CasterDrawables& casters) {
+std::string whyNotTraced(const Casters& casters) {
     return hasPart(OptionalPart::Traced) ? whyCutOut(casters) : "this build has no Embree";
 }
 
@@ -73,15 +73,16 @@ std::string whyOnlyRays(const AutoView& view) {
 }
 
 /// Of meshes whose parts are no boxes: each triangle may be on an outline.
-double denseTriangles(const CasterDrawables& casters) {
+double denseTriangles(const Casters& casters) {
     double sum = 0.0;
     for (const auto& piece : casters.list)
         if (CasterSplit::isDense(*piece, casters.bounds.radius())) sum += double(piece->triangles);
     return sum;
 }
 
-osg::ref_ptr<const MapCasters> boxesOf(const CasterLayers& layers) {
-    return new MapCasters(layers, new MapLayer(*layers.still), new MapLayer(*layers.moving));
+osg::ref_ptr<const MapCasters> partsOf(const Casters& casters) {
+    const CasterLayers& layers = casters.layers();
+    return new MapCasters(casters, new MapLayer(*layers.still), new MapLayer(*layers.moving));
 }
 
 constexpr double ofAShape = 200.0; // triangles: a ShapeDrawable's sphere has some hundred, its box 12
@@ -123,7 +124,11 @@ double pixelsOf(const ViewFrame& frame, const ScreenRect& bounds) {
 class Lister {
 public:
     Lister(const AutoView& view, const Selection& receiver, AutoKnowledge& known)
-        : _view(view), _receiver(receiver), _known(known), _layers(view.meshes.layers()), _boxes(boxesOf(_layers)) {}
+        : _view(view),
+          _receiver(receiver),
+          _known(known),
+          _layers(view.casters.layers()),
+          _boxes(partsOf(view.casters)) {}
 
     CandidateList list() {
         _one = forecast(*_boxes, 1, sizes[0]);
@@ -302,17 +307,18 @@ private:
     void addMixed() {
         const CasterSplit& split = _known.splits.of(_view.casters);
         if (!split.isDivided()) return;
-        const FrameCasters dense = split.dense(_view.meshes);
-        const double simple = _casters - double(dense.layers().triangles());
-        const osg::ref_ptr<const MapCasters> boxes = boxesOf(dense.layers());
+        const osg::ref_ptr<const Casters> dense = split.dense(_view.casters);
+        const CasterLayers& layers = dense->layers();
+        const double simple = _casters - double(layers.triangles());
+        const osg::ref_ptr<const MapCasters> boxes = partsOf(*dense);
         const MapForecast one = forecast(*boxes, 1, sizes[0]);
         if (one.maps == 0) return;
         const EdgeWidths edges = MapEdges(_view, *boxes, one).in(one);
-        const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(dense.layers().triangles()),
-                            double(dense.drawables().list.size())};
+        const Mapped mapped{one, edges, pixelsOf(_view.frame, *one.bounds), double(layers.triangles()),
+                            double(dense->list.size())};
         AutoCandidate volume;
         const VolumeForecast others =
-            forecastVolumes(_view.frame, dense.layers(), _view.towards, _known.open, _volumes.counted);
+            forecastVolumes(_view.frame, layers, _view.towards, _known.open, _volumes.counted);
         addVolumeOf(_volumes - others, simple, volume);
         volume.still.calls += 3.0; // marks are handed on
         for (const int size : sizes)

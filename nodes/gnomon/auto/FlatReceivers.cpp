@@ -156,7 +156,7 @@ bool isFlatShaded(const osg::Drawable& drawable) {
     return faces.flat;
 }
 
-DrawableBodies look(const CasterDrawable& piece) {
+DrawableBodies look(const Caster& piece) {
     DrawableBodies result;
     result.convex = piece.triangles <= CasterShapes::mostTriangles;
     if (result.convex) {
@@ -283,7 +283,7 @@ private:
         return {glm::round(glm::dvec3(plane) / step(1.0)) * step(1.0), std::round(plane.w / far) * far};
     }
 
-    void addPiece(const CasterDrawable& piece, const osgUtil::RenderLeaf& leaf) {
+    void addPiece(const Caster& piece, const osgUtil::RenderLeaf& leaf) {
         if (piece.triangles > CasterShapes::mostTriangles)
             return refuse("the receiver '" + nameOf(leaf) + "' has too many triangles to be looked at");
         if (_receiving.size() >= mostBodies)
@@ -372,7 +372,7 @@ private:
 
     /// Those that a caster reaches above, and the leaves in them.
     void keepPlanesInUse() {
-        const auto reachesAbove = [](const CasterDrawable& piece, const osg::Vec4d& given) {
+        const auto reachesAbove = [](const Caster& piece, const osg::Vec4d& given) {
             if (!piece.bounds.valid()) return false;
             const glm::dvec4 plane = toGlm(given);
             const glm::dvec3 middle = toGlm(piece.bounds.center());
@@ -392,7 +392,7 @@ private:
 
     const AutoView& _view;
     CasterShapes& _shapes;
-    std::unordered_multimap<const osg::Drawable*, const CasterDrawable*> _pieces;
+    std::unordered_multimap<const osg::Drawable*, const Caster*> _pieces;
     glm::dmat4 _groupFromEye{1.0};
     glm::dvec4 _eye{0.0};
     bool _blends = false;
@@ -405,7 +405,7 @@ private:
 
 } // namespace
 
-const DrawableBodies& CasterShapes::of(const CasterDrawable& piece) {
+const DrawableBodies& CasterShapes::of(const Caster& piece) {
     Entry& entry = _known[&piece];
     if (!entry.piece.valid()) entry = {&piece, look(piece)};
     return entry.shape;

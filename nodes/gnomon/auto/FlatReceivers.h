@@ -36,16 +36,16 @@ class CasterShapes {
 public:
     static constexpr std::size_t mostTriangles = 4000; ///< of a drawable that is looked at; others are boxes.
     /// Reads the graph as a cull traversal does, see meshOf().
-    const DrawableBodies& of(const CasterDrawable& piece);
+    const DrawableBodies& of(const Caster& piece);
     /// Forgets casters that are gone.
     void prune();
 
 private:
     struct Entry {
-        osg::observer_ptr<const CasterDrawable> piece; // null if another has its address now
+        osg::observer_ptr<const Caster> piece; // null if another has its address now
         DrawableBodies shape;
     };
-    std::unordered_map<const CasterDrawable*, Entry> _known;
+    std::unordered_map<const Caster*, Entry> _known;
 };
 
 /// True if a caster may stand between a light and any part of a body; it errs towards true.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/casters/CasterBodies.h>
-#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/casters/Casters.h>
+#include <gnomon/casters/KnownCasters.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -20,7 +20,7 @@ constexpr double farthest = 64.0; // as CasterMesh
 
 /// The middle one of a measure of the drawables, each as often as it has triangles.
 template <class Measure>
-double middleOf(const CasterDrawables& pieces, Measure measure) {
+double middleOf(const Casters& pieces, Measure measure) {
     std::vector<std::pair<double, std::size_t>> all;
     std::size_t triangles = 0;
     for (const auto& piece : pieces.list) {
@@ -36,14 +36,14 @@ double middleOf(const CasterDrawables& pieces, Measure measure) {
 }
 
 /// With what draws itself.
-osg::BoundingBoxd boundsOf(const CasterDrawables& pieces) {
+osg::BoundingBoxd boundsOf(const Casters& pieces) {
     osg::BoundingBoxd bounds = pieces.bounds;
     for (const auto& drawing : pieces.own) bounds.expandBy(drawing->bounds);
     return bounds;
 }
 
 /// As CasterExtraction::getRounding() has it.
-double roundingOf(const CasterDrawable& piece) {
+double roundingOf(const Caster& piece) {
     const osg::BoundingBox& box = piece.drawable->getBoundingBox();
     if (!box.valid()) return 0.0;
     const glm::dmat3 axes(toGlm(piece.groupFromLocal));
@@ -54,14 +54,14 @@ double roundingOf(const CasterDrawable& piece) {
 
 } // namespace
 
-CasterLayer::CasterLayer(CasterDrawables::List given, const osg::Vec3d& about, CasterBodies& bodies,
+CasterLayer::CasterLayer(CasterList given, const osg::Vec3d& about, KnownCasters& known,
                          const std::vector<const CasterLayer*>& before)
     : pieces(std::move(given)), origin(about) {
     std::vector<PlacedMesh> placed;
     for (const auto& piece : pieces) {
         triangles += piece->triangles;
         std::optional<PlacedMesh> body;
-        if (CasterBodies::isBody(*piece)) body = bodies.placed(*piece, origin);
+        if (isBody(*piece)) body = known.placed(*piece, origin);
         if (body)
             placed.push_back(*std::move(body));
         else
@@ -82,13 +82,10 @@ void CasterLayer::join(const std::vector<const CasterLayer*>& before) {
     if (!loose->triangles->empty()) meshes.push_back(joined);
 }
 
-osg::ref_ptr<const CasterLayers>
-CasterLayers::of(const CasterDrawables& pieces, const osg::ref_ptr<const CasterLayers>& before, CasterBodies& bodies) {
-    if (before && before->pieces == &pieces) return before;
-    const osg::ref_ptr<CasterLayers> now = new CasterLayers(pieces);
-    before ? now->follow(*before, bodies) : now->begin(bodies);
-    now->measure();
-    return now;
+CasterLayers::CasterLayers(const Casters& casters, const CasterLayers* before, KnownCasters& known)
+    : _casters(casters) {
+    before ? follow(*before, known) : begin(known);
+    measure();
 }
 
 std::vector<PlacedMesh> CasterLayers::meshes() const {
@@ -97,44 +94,44 @@ std::vector<PlacedMesh> CasterLayers::meshes() const {
     return all;
 }
 
-void CasterLayers::begin(CasterBodies& bodies) {
+void CasterLayers::begin(KnownCasters& known) {
     origin = middle();
-    CasterDrawables::List all;
-    for (const auto& piece : pieces->list)
+    CasterList all;
+    for (const auto& piece : _casters.list)
         if (piece->bounds.valid()) all.push_back(piece);
-    still = new CasterLayer(std::move(all), origin, bodies, {});
-    moving = new CasterLayer({}, origin, bodies, {});
+    still = new CasterLayer(std::move(all), origin, known, {});
+    moving = new CasterLayer({}, origin, known, {});
 }
 
-void CasterLayers::follow(const CasterLayers& before, CasterBodies& bodies) {
+void CasterLayers::follow(const CasterLayers& before, KnownCasters& known) {
     _change = before._change + 1;
     origin = before.origin;
-    CasterDrawables::List others;
+    CasterList others;
     auto next = before.still->pieces.begin();
     const auto end = before.still->pieces.end();
-    for (const auto& piece : pieces->list)
+    for (const auto& piece : _casters.list)
         if (next != end && *next == piece)
             ++next;
         else if (piece->bounds.valid())
             others.push_back(piece);
     std::size_t atRest = 0;
     for (const auto& piece : others) {
-        const auto known = before._since.find(piece.get());
-        _since.emplace(piece.get(), known == before._since.end() ? _change : known->second);
+        const auto since = before._since.find(piece.get());
+        _since.emplace(piece.get(), since == before._since.end() ? _change : since->second);
         if (isAtRest(piece.get())) atRest += piece->triangles;
     }
     const bool sameMoving = others == before.moving->pieces;
     _wasted = before._wasted + (sameMoving ? 0 : atRest);
-    if (next != end || !isNear(origin) || _wasted > before.still->triangles + atRest) return divideAnew(before, bodies);
+    if (next != end || !isNear(origin) || _wasted > before.still->triangles + atRest) return divideAnew(before, known);
     still = before.still;
-    moving = sameMoving ? before.moving : new CasterLayer(std::move(others), origin, bodies, {before.moving});
+    moving = sameMoving ? before.moving : new CasterLayer(std::move(others), origin, known, {before.moving});
 }
 
-void CasterLayers::divideAnew(const CasterLayers& before, CasterBodies& bodies) {
-    std::unordered_set<const CasterDrawable*> stood;
+void CasterLayers::divideAnew(const CasterLayers& before, KnownCasters& known) {
+    std::unordered_set<const Caster*> stood;
     for (const auto& piece : before.still->pieces) stood.insert(piece.get());
-    CasterDrawables::List standing, others;
-    for (const auto& piece : pieces->list) {
+    CasterList standing, others;
+    for (const auto& piece : _casters.list) {
         if (!piece->bounds.valid()) continue;
         const bool stands = stood.count(piece.get()) > 0 || isAtRest(piece.get());
         (stands ? standing : others).push_back(piece);
@@ -143,45 +140,45 @@ void CasterLayers::divideAnew(const CasterLayers& before, CasterBodies& bodies) 
     _wasted = 0;
     if (!isNear(origin)) origin = middle();
     const std::vector<const CasterLayer*> former{before.still, before.moving};
-    still = new CasterLayer(std::move(standing), origin, bodies, former);
-    moving = new CasterLayer(std::move(others), origin, bodies, former);
+    still = new CasterLayer(std::move(standing), origin, known, former);
+    moving = new CasterLayer(std::move(others), origin, known, former);
 }
 
 /// The centre of all, unless a few are so far that floats about it were coarse for the others: then a place among most.
 osg::Vec3d CasterLayers::middle() const {
-    const osg::BoundingBoxd all = boundsOf(*pieces);
+    const osg::BoundingBoxd all = boundsOf(_casters);
     if (!all.valid()) return {};
-    if (pieces->empty()) return all.center();
+    if (_casters.empty()) return all.center();
     osg::Vec3d among;
     for (int axis = 0; axis < 3; ++axis)
-        among[axis] = middleOf(*pieces, [axis](const CasterDrawable& piece) { return piece.bounds.center()[axis]; });
-    const double most = middleOf(*pieces, [&among](const CasterDrawable& piece) {
+        among[axis] = middleOf(_casters, [axis](const Caster& piece) { return piece.bounds.center()[axis]; });
+    const double most = middleOf(_casters, [&among](const Caster& piece) {
         return (piece.bounds.center() - among).length() + piece.bounds.radius();
     });
-    return pieces->bounds.radius() <= farthest * most ? osg::Vec3d(pieces->bounds.center()) : among;
+    return _casters.bounds.radius() <= farthest * most ? osg::Vec3d(_casters.bounds.center()) : among;
 }
 
 /// Whether floats about a place are as fine, but for a bit, as about the middle of all.
 bool CasterLayers::isNear(const osg::Vec3d& place) const {
-    const osg::BoundingBoxd all = boundsOf(*pieces);
+    const osg::BoundingBoxd all = boundsOf(_casters);
     return !all.valid() || (place - all.center()).length() <= all.radius();
 }
 
-bool CasterLayers::isAtRest(const CasterDrawable* piece) const {
+bool CasterLayers::isAtRest(const Caster* piece) const {
     const auto since = _since.find(piece);
     return since != _since.end() && _change - since->second >= restAfter;
 }
 
 void CasterLayers::measure() {
-    bounds = boundsOf(*pieces);
+    bounds = boundsOf(_casters);
     if (!bounds.valid()) return;
     low = toGlm(bounds._min - origin);
     high = toGlm(bounds._max - origin);
     reach = glm::max(glm::abs(low), glm::abs(high));
-    for (const auto& drawing : pieces->own)
+    for (const auto& drawing : _casters.own)
         if (drawing->bounds.valid()) widest = widestBody = std::max(widest, 2.0 * drawing->bounds.radius());
     double least = std::numeric_limits<double>::infinity();
-    for (const auto& piece : pieces->list) {
+    for (const auto& piece : _casters.list) {
         if (!piece->bounds.valid()) continue;
         widest = std::max(widest, 2.0 * piece->bounds.radius());
         const osg::Vec3f lowest(piece->bounds._min - origin), highest(piece->bounds._max - origin);
@@ -192,7 +189,7 @@ void CasterLayers::measure() {
         least = std::min(least, own);
     }
     // One large ground must not cost what stands on it the light beside its shadows.
-    if (rounding > 2.0 * least) rounding = middleOf(*pieces, roundingOf);
+    if (rounding > 2.0 * least) rounding = middleOf(_casters, roundingOf);
     for (const auto& layer : {still, moving})
         for (const PlacedMesh& mesh : layer->meshes) largestRounding = std::max(largestRounding, mesh.rounding);
 }

@@ -21,7 +21,7 @@ class RayScene;
 
 /// Casters as one triangle mesh: one that moves as a whole, in its own frame, or others joined in the group's.
 ///
-/// CasterLayers has all meshes of a group, and where they are. Use CasterDrawables to treat each drawable apart.
+/// CasterLayers has all meshes of a group, and where they are. Use Casters to treat each drawable apart.
 ///
 /// Cost
 /// - 12 bytes a triangle, and 12 bytes a vertex that a triangle uses.
@@ -76,7 +76,7 @@ struct PlacedMesh {
     double rounding = 0.0;         ///< Largest error of a vertex by its float source, group's unit.
     Hiding hiding = Hiding::Both;  ///< Of a body; what is joined has its own for each drawable.
     osg::BoundingBoxd bounds;      ///< Of its triangles, group frame.
-    bool ownDrawn = false;         ///< A body that maps draw by its own state: see CasterDrawable.
+    bool ownDrawn = false;         ///< A body that maps draw by its own state: see Caster.
 };
 
 } // namespace gnomon

@@ -51,11 +51,11 @@ Found findOrBuild(const CasterMesh& mesh, const std::string& name) {
 
 } // namespace
 
-std::shared_ptr<const RayScene> RaySceneCache::of(const CasterLayers& casters, const std::string& name) {
+std::shared_ptr<const RayScene> RaySceneCache::of(const Casters& casters, const std::string& name) {
     Lock lock(_mutex);
     if (const Entry* known = _entries.find([&](const Entry& entry) { return entry.casters == casters.retired(); }))
         return known->scene;
-    const std::vector<PlacedMesh> meshes = casters.meshes();
+    const std::vector<PlacedMesh> meshes = casters.layers().meshes();
     const auto there = builtOf(meshes); // held, for others may go before more are built
     _entries.dropIf([](const Entry& entry) { return entry.casters->load(); });
     _entries.dropOldestBeyond(most - 1);

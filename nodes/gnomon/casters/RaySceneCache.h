@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/RayScene.h>
 #include <gnomon/base/RecentCache.h>
-#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/casters/Casters.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/vec3.hpp>
@@ -30,13 +30,13 @@ class RaySceneCache {
 public:
     /// @param name  of whom it is, for the line of progress.
     /// @throws std::runtime_error, see RayScene.
-    std::shared_ptr<const RayScene> of(const CasterLayers& casters, const std::string& name);
+    std::shared_ptr<const RayScene> of(const Casters& casters, const std::string& name);
     /// How often a tree over triangles was not there yet.
     unsigned builds() const;
 
 private:
     struct Entry {
-        CasterLayers::Retired casters;
+        Casters::Retired casters;
         std::shared_ptr<const RayScene> scene;
     };
 

@@ -71,7 +71,7 @@ constexpr double nearlyAll = 0.95, cone = 0.5; // the cosine of 60°
 struct CastingNode {
     const osg::Node* node = nullptr;
     osg::BoundingBoxd bounds;
-    CasterDrawables::List pieces;
+    CasterList pieces;
     std::size_t triangles = 0;
 };
 
@@ -80,7 +80,7 @@ const osg::Node* parentOf(const osg::Drawable& drawable) {
 }
 
 /// The one with the largest bounds.
-CastingNode largestNode(const CasterDrawables& casters) {
+CastingNode largestNode(const Casters& casters) {
     std::map<const osg::Node*, CastingNode> nodes;
     for (const auto& piece : casters.list) {
         CastingNode& entry = nodes[parentOf(*piece->drawable)];

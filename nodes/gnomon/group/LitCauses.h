@@ -2,7 +2,7 @@
 #pragma once
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowLight.h>
-#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 
 #include <osg/Drawable>
@@ -23,7 +23,7 @@ namespace gnomon {
 struct LitView {
     const ShadowCasterGroup& group;
     const ShadowLight& light;
-    const CasterDrawables& casters;
+    const Casters& casters;
     const std::vector<const osgUtil::RenderLeaf*>& receivers;
     const osg::Matrixd& eyeFromGroup;
 };

@@ -102,7 +102,7 @@ LeafSet shadowedBy(const EnlistedTechnique& entry, const StageLeaves& drawn, osg
 
 /// Drawables that cast nothing by a technique: what its shadow lies on.
 std::set<const osg::Drawable*> notCastingBy(const EnlistedTechnique& entry, const LeafSet& shadowed,
-                                            const CasterDrawables& casters) {
+                                            const Casters& casters) {
     std::set<const osg::Drawable*> result;
     for (const osgUtil::RenderLeaf* leaf : shadowed) result.insert(leaf->_drawable.get());
     if (!entry.technique->hasReceiver()) return result;
@@ -114,7 +114,7 @@ std::set<const osg::Drawable*> notCastingBy(const EnlistedTechnique& entry, cons
 }
 
 std::string unshadowedCause(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                            const ShadowLight& light, const CasterDrawables& casters, const StageLeaves& drawn,
+                            const ShadowLight& light, const Casters& casters, const StageLeaves& drawn,
                             osgUtil::RenderStage& stage) {
     Leaves surfaces = surfacesOf(entry, drawn);
     for (const EnlistedTechnique& other : all) {
@@ -208,8 +208,8 @@ void reportReceiverStates(const EnlistedTechnique& entry, const Receiving& recei
     if (!early.empty() || !late.empty()) reportFog(entry, drawn);
 }
 
-void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
-                     const CasterDrawables& casters, const Leaves& receiving, osgUtil::RenderStage& stage) {
+void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const Casters& casters,
+                     const Leaves& receiving, osgUtil::RenderStage& stage) {
     for (const ShadowLight& light : lights) {
         const LitView view{*entry.group, light, casters, receiving, entry.eyeFromGroup};
         const std::string cause =
@@ -220,7 +220,7 @@ void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLig
 }
 
 void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                      const std::vector<ShadowLight>& lights, const CasterDrawables& casters, const StageLeaves& drawn,
+                      const std::vector<ShadowLight>& lights, const Casters& casters, const StageLeaves& drawn,
                       osgUtil::RenderStage& stage) {
     if (entry.technique->surfacesKey() == 0) return;
     const std::optional<std::uint64_t> seen = drawn.shadedFingerprint();
@@ -237,7 +237,7 @@ void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<Enlisted
     }
 }
 
-void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,
+void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const Casters& casters,
                        osgUtil::RenderStage& stage, double steps) {
     const DepthPixels pixels{{stage.getViewport()->width(), stage.getViewport()->height()}, steps};
     const Leaves none;

@@ -32,18 +32,18 @@ struct Receiving {
 void reportReceiverStates(const EnlistedTechnique& entry, const Receiving& receiving, osgUtil::RenderStage& stage);
 
 /// Says what keeps lights from all that is seen.
-void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights,
-                     const CasterDrawables& casters, const Leaves& receiving, osgUtil::RenderStage& stage);
+void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const Casters& casters,
+                     const Leaves& receiving, osgUtil::RenderStage& stage);
 
 /// Says which surface stays lit though a shadow can reach it. For techniques that shadow some of what is in view.
 /// @param all  techniques of the stage: that surface may have the shadow of another one of the same group.
 void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                      const std::vector<ShadowLight>& lights, const CasterDrawables& casters, const StageLeaves& drawn,
+                      const std::vector<ShadowLight>& lights, const Casters& casters, const StageLeaves& drawn,
                       osgUtil::RenderStage& stage);
 
 /// Says that the shadows of what is far away cannot be placed by depth. For techniques whose marks depend on it.
 /// @param steps  see Mark::depthSteps(), above 0.
-void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const CasterDrawables& casters,
+void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const Casters& casters,
                        osgUtil::RenderStage& stage, double steps);
 
 } // namespace gnomon

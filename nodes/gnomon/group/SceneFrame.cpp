@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/StageLeaves.h>
 
@@ -66,9 +65,9 @@ std::optional<ScreenRect> ViewFrame::boundsBehind(const osg::BoundingBoxd& inGro
     return usable ? gnomon::boundsBehind(inGroup, scene, scene.clipFromScene(*this), *usable) : std::nullopt;
 }
 
-std::vector<CasterBox> boxesOf(const FrameCasters& casters) {
+std::vector<CasterBox> boxesOf(const Casters& casters) {
     std::vector<CasterBox> boxes;
-    for (const auto& piece : casters.drawables().list)
+    for (const auto& piece : casters.list)
         if (piece->bounds.valid()) boxes.push_back({piece->drawable.get(), piece->bounds});
     return boxes;
 }

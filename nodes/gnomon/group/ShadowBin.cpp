@@ -32,7 +32,7 @@ const bool registered = [] {
 }();
 
 /// Casters without triangles are drawn by their own code, or not at all; clear parts of triangles in maps alone.
-void reportOwnDrawings(const EnlistedTechnique& entry, const CasterDrawables& casters) {
+void reportOwnDrawings(const EnlistedTechnique& entry, const Casters& casters) {
     const auto report = [&entry](const std::string& cause) { entry.technique->report(entry.frameNumber, cause); };
     const auto& own = casters.own;
     if (entry.technique->drawsCasters()) {
@@ -55,7 +55,7 @@ void reportOwnDrawings(const EnlistedTechnique& entry, const CasterDrawables& ca
                ", the first in '" + casters.cutoutNode + "'. Use map for them, or leave them out of the casters.");
 }
 
-bool areSome(const EnlistedTechnique& entry, const CasterDrawables& casters) {
+bool hasCasters(const EnlistedTechnique& entry, const Casters& casters) {
     reportOwnDrawings(entry, casters);
     if (casters.invalidTriangles > 0)
         entry.technique->report(entry.frameNumber,
@@ -82,21 +82,34 @@ bool areSome(const EnlistedTechnique& entry, const CasterDrawables& casters) {
     return false;
 }
 
-bool hasCasters(const EnlistedTechnique& entry, const FrameCasters& casters) {
-    return areSome(entry, entry.technique->takesDrawables() ? casters.drawables() : *casters.layers().pieces);
-}
+} // namespace
+
+/// What casts below a group as one view has it in this frame.
+struct ShadowBin::ViewCasters {
+    osg::ref_ptr<const ShadowCasterGroup> group;
+    CasterView view;
+    osg::ref_ptr<const Casters> casters;
+
+    bool areOf(const ShadowCasterGroup& other, const CasterView& seen) const {
+        return group == &other && view.eyeFromGroup == seen.eyeFromGroup && view.projection == seen.projection &&
+               view.lodScale == seen.lodScale && view.viewPoint == seen.viewPoint && view.mask == seen.mask;
+    }
+};
 
 /// Asked for once for all techniques that share a group and a view of it.
-const FrameCasters& castersOf(const EnlistedTechnique& entry, osgUtil::RenderStage& stage,
-                              std::deque<FrameCasters>& known) {
+const Casters& ShadowBin::castersOf(const EnlistedTechnique& entry, std::deque<ViewCasters>& known) {
+    osgUtil::RenderStage& stage = *getStage();
     const CasterView view{entry.eyeFromGroup,  *entry.projection,
                           stage.getViewport(), entry.viewPoint,
                           entry.lodScale,      &stage,
                           entry.mask,          clipPlanesOf(stage, entry.eyeFromGroup)};
     const auto found = std::find_if(known.begin(), known.end(),
-                                    [&](const FrameCasters& casters) { return casters.areOf(*entry.group, view); });
-    return found == known.end() ? known.emplace_back(*entry.group, view) : *found;
+                                    [&](const ViewCasters& casters) { return casters.areOf(*entry.group, view); });
+    if (found != known.end()) return *found->casters;
+    return *known.emplace_back(ViewCasters{entry.group, view, entry.group->casters(&view)}).casters;
 }
+
+namespace {
 
 ShadowJob jobFor(const EnlistedTechnique& entry, const ShadowLight& light) {
     ShadowJob job;
@@ -246,7 +259,7 @@ void ShadowBin::sortImplementation() {
 
 void ShadowBin::askTechniques() {
     _jobs.clear();
-    std::deque<FrameCasters> known;
+    std::deque<ViewCasters> known;
     if (!_enlisted.empty() || !_effects.empty()) moveBinStatesToGraphs(*getStage());
     const std::optional<DepthClear> clear =
         _enlisted.empty() ? std::nullopt : firstDepthClear(*getStage(), getBinNum());
@@ -283,17 +296,17 @@ void ShadowBin::askTechniques() {
 
 /// @return how many lights were asked for.
 std::size_t ShadowBin::askTechnique(const EnlistedTechnique& entry, const StageLeaves& drawn,
-                                    std::deque<FrameCasters>& known) {
+                                    std::deque<ViewCasters>& known) {
     if (const std::string cause = whyNoPicture(entry); !cause.empty()) {
         entry.technique->report(entry.frameNumber, cause);
         return 0;
     }
-    const FrameCasters& casters = castersOf(entry, *getStage(), known);
+    const Casters& casters = castersOf(entry, known);
     if (!hasCasters(entry, casters)) {
         entry.technique->letGo();
         return 0;
     }
-    _holdsFrame = _holdsFrame || (entry.technique->drawsCasters() && !casters.drawables().own.empty());
+    _holdsFrame = _holdsFrame || (entry.technique->drawsCasters() && !casters.own.empty());
     const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
     for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
     askForMarks(entry, found, casters, drawn);
@@ -311,7 +324,7 @@ void ShadowBin::saveColorsIfBlended(const StageLeaves& drawn) {
     if (blended) PrepassBin::saveColors(*getStage());
 }
 
-void ShadowBin::askForMarks(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+void ShadowBin::askForMarks(const EnlistedTechnique& entry, const GroupLights& found, const Casters& casters,
                             const StageLeaves& drawn) {
     if (const std::string why = entry.technique->whyUnavailable(); !why.empty())
         return entry.technique->report(entry.frameNumber, "there is no shadow. " + why);
@@ -324,20 +337,20 @@ void ShadowBin::askForMarks(const EnlistedTechnique& entry, const GroupLights& f
         if (!otherLens) reportNoReceiver(entry, *getStage());
         return;
     }
-    reportEnclosers(entry, found.lights, casters.drawables(), early, *getStage());
+    reportEnclosers(entry, found.lights, casters, early, *getStage());
     const std::size_t before = _jobs.size(), lateBefore = _lateJobs.size();
     addJobs(entry, found, casters, receiving);
     if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
-    reportUnshadowed(entry, _enlisted, found.lights, casters.drawables(), drawn, *getStage());
+    reportUnshadowed(entry, _enlisted, found.lights, casters, drawn, *getStage());
     double steps = 0.0;
     const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.mark->depthSteps()); };
     std::for_each(_jobs.begin() + before, _jobs.end(), take);
     std::for_each(_lateJobs.begin() + lateBefore, _lateJobs.end(), take);
-    if (steps > 0.0) reportCoarseDepth(entry, found.lights.front(), casters.drawables(), *getStage(), steps);
+    if (steps > 0.0) reportCoarseDepth(entry, found.lights.front(), casters, *getStage(), steps);
 }
 
 /// Asks a technique for its marks: each part of the receivers, and each light.
-void ShadowBin::addJobs(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+void ShadowBin::addJobs(const EnlistedTechnique& entry, const GroupLights& found, const Casters& casters,
                         const Receiving& receiving) {
     const bool named = entry.technique->hasReceiver();
     std::vector<ReceiverPart> parts;

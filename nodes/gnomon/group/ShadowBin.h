@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <gnomon/casters/Casters.h>
 #include <gnomon/group/ComposeBin.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/StageLeaves.h>
 #include <gnomon/group/ViewLights.h>
 
@@ -67,10 +67,12 @@ private:
         std::size_t jobs, lateJobs;
     };
     void askTechniques();
-    std::size_t askTechnique(const EnlistedTechnique& entry, const StageLeaves& drawn, std::deque<FrameCasters>& known);
-    void askForMarks(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+    struct ViewCasters;
+    const Casters& castersOf(const EnlistedTechnique& entry, std::deque<ViewCasters>& known);
+    std::size_t askTechnique(const EnlistedTechnique& entry, const StageLeaves& drawn, std::deque<ViewCasters>& known);
+    void askForMarks(const EnlistedTechnique& entry, const GroupLights& found, const Casters& casters,
                      const StageLeaves& drawn);
-    void addJobs(const EnlistedTechnique& entry, const GroupLights& found, const FrameCasters& casters,
+    void addJobs(const EnlistedTechnique& entry, const GroupLights& found, const Casters& casters,
                  const Receiving& receiving);
     void clearWithStage();
     void saveColorsIfBlended(const StageLeaves& drawn);

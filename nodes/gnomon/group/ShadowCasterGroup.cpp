@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/base/OptimizerGuard.h>
-#include <gnomon/casters/CasterRevisions.h>
+#include <gnomon/casters/CasterTable.h>
 
 #include <osg/Notify>
 
@@ -22,7 +22,7 @@ bool isLightNumber(int number, const char* method) {
 
 } // namespace
 
-ShadowCasterGroup::ShadowCasterGroup() : _revisions(new CasterRevisions) { _revisions->setRule({_opaqueFrom}); }
+ShadowCasterGroup::ShadowCasterGroup() : _table(new CasterTable) { _table->setRule({_opaqueFrom}); }
 
 ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::CopyOp& copyOp)
     : osg::Group(other, copyOp),
@@ -33,8 +33,8 @@ ShadowCasterGroup::ShadowCasterGroup(const ShadowCasterGroup& other, const osg::
       _lights(other._lights),
       _lightUniforms(other._lightUniforms),
       _options(other._options),
-      _revisions(new CasterRevisions) {
-    _revisions->setRule({_opaqueFrom});
+      _table(new CasterTable) {
+    _table->setRule({_opaqueFrom});
     for (const NodeReference& source : other._lightSources) _lightSources.emplace_back(source, other);
 }
 
@@ -44,7 +44,7 @@ bool ShadowCasterGroup::showsAllChildren() const { return typeid(*this) == typei
 
 void ShadowCasterGroup::setCasters(const Selection& casters) {
     _casters = casters;
-    _revisions->clear();
+    _table->clear();
 }
 
 void ShadowCasterGroup::setDark(float factor) {
@@ -64,7 +64,7 @@ void ShadowCasterGroup::setOpaqueFrom(float alpha) {
         return;
     }
     _opaqueFrom = std::clamp(alpha, 0.0f, 1.0f);
-    _revisions->setRule({_opaqueFrom});
+    _table->setRule({_opaqueFrom});
 }
 
 void ShadowCasterGroup::addLight(osg::LightSource* light) {
@@ -123,21 +123,11 @@ void ShadowCasterGroup::removeLights() {
     _lights.clear();
 }
 
-osg::ref_ptr<const CasterLayers> ShadowCasterGroup::casters(const CasterView* view) const {
+osg::ref_ptr<const Casters> ShadowCasterGroup::casters(const CasterView* view) const {
     auto* self = const_cast<ShadowCasterGroup*>(this); // a visitor asks for a mutable node, and changes nothing
-    return _revisions->layers(*self, getCasters(), view);
+    return _table->casters(*self, getCasters(), view);
 }
 
-osg::ref_ptr<const CasterDrawables> ShadowCasterGroup::drawables(const CasterView* view) const {
-    auto* self = const_cast<ShadowCasterGroup*>(this); // as above
-    return _revisions->drawables(*self, getCasters(), view);
-}
-
-osg::ref_ptr<const CasterLayers> ShadowCasterGroup::castersAmong(const CasterDrawables& some,
-                                                                 const CasterLayers& before) const {
-    return _revisions->layersOf(some, before);
-}
-
-unsigned ShadowCasterGroup::revision() const { return _revisions->count(); }
+unsigned ShadowCasterGroup::revision() const { return _table->count(); }
 
 } // namespace gnomon

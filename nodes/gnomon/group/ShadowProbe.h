@@ -14,13 +14,11 @@
 
 namespace gnomon {
 
-struct CasterLayers;
 class ShadowCasterGroup;
 
 /// What a ShadowTechnique needs to answer for one light and one revision of the casters, without a view.
 struct ShadowProbe {
-    const RayScene& casters;    ///< about `origin`.
-    const CasterLayers& layers; ///< the same ones.
+    const RayScene& casters; ///< about `origin`.
     const ShadowCasterGroup& group;
     osg::Vec3d origin; ///< group frame.
     glm::dvec4 light;  ///< about `origin`: w = 0 the way towards a sun, length 1; w = 1 a lamp's position.

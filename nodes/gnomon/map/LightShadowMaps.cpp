@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
-#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/LightShadowMaps.h>
@@ -99,7 +99,7 @@ bool anyIsBetween(const MapCasters& casters, const glm::dvec4& light, const std:
     std::map<std::array<double, 3>, glm::dvec4> halves; // by the way; six at most
     for (const MapLayer* layer : {casters.still.get(), casters.moving.get()})
         for (const MapPart& flat : layer->flats) {
-            const glm::dvec4 half = beyond(flat, light, casters.layers->reach);
+            const glm::dvec4 half = beyond(flat, light, casters.layers.reach);
             glm::dvec4& known = halves.try_emplace(std::array{half.x, half.y, half.z}, half).first->second;
             known.w = std::max(known.w, half.w);
         }
@@ -172,7 +172,7 @@ std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeF
 }
 
 std::vector<glm::dvec4> LightShadowMaps::find(const ViewFrame& view, MapRequest wanted) {
-    const glm::dmat4 eyeFromScene = SceneFrame(wanted.casters->layers->origin).eyeFromScene(view);
+    const glm::dmat4 eyeFromScene = SceneFrame(wanted.casters->layers.origin).eyeFromScene(view);
     Seen seen{toGlm(view.projection) * eyeFromScene, // clip space is the projection of eye space to the last bit
               {view.pixels.x(), view.pixels.y()},
               receiversOf(view, eyeFromScene),
@@ -197,12 +197,12 @@ void LightShadowMaps::setCause(const MapRequest& cause) {
     const MapRequest& old = _cause;
     const bool sameMaps = haveSameMaps(old.settings, cause.settings);
     const auto areSameSides = [&] {
-        const auto frames = framesOf(old.light, old.cone, *cause.casters->layers, old.settings.size);
+        const auto frames = framesOf(old.light, old.cone, cause.casters->layers, old.settings.size);
         return std::equal(_sides.begin(), _sides.end(), frames.begin(), frames.end(),
                           [](const Side& side, const LightFrame& frame) { return areSame(side.frame, frame); });
     };
-    if (old.casters && old.casters->layers->origin == cause.casters->layers->origin && old.flats == cause.flats &&
-        sameMaps && isSame(cause.cone, old.cone) && isSame(cause.light, old.light, cause.casters->layers->widest) &&
+    if (old.casters && old.casters->layers.origin == cause.casters->layers.origin && old.flats == cause.flats &&
+        sameMaps && isSame(cause.cone, old.cone) && isSame(cause.light, old.light, cause.casters->layers.widest) &&
         (old.casters == cause.casters || areSameSides()))
         return takeCasters(*cause.casters);
     if (!sameMaps) _map = nullptr;
@@ -244,7 +244,7 @@ void LightShadowMaps::begin() {
     _splits.clear();
     const int wanted = _cause.settings.cascades, most = 2 * _cause.settings.size <= largestTexture ? mostCascades : 1;
     _cascades = wanted;
-    for (const LightFrame& frame : framesOf(_cause.light, _cause.cone, *_cause.casters->layers, _cause.settings.size)) {
+    for (const LightFrame& frame : framesOf(_cause.light, _cause.cone, _cause.casters->layers, _cause.settings.size)) {
         _sides.push_back({frame, outlinesOf(*_cause.casters->still, frame), {}});
         findBlockers(_sides.back());
     }
@@ -282,7 +282,7 @@ void LightShadowMaps::findBlockers(Side& side) const {
     const auto addFlats = [&](const Outlines& outlines, const MapLayer& layer) {
         for (std::size_t i = 0; i < outlines.flats.size(); ++i)
             if (wide || !(bodies.isBefore(outlines.flats[i]) || isThin(side.frame, outlines.flats[i])))
-                add(outlines.flats[i], {beyond(layer.flats[i], _cause.light, casters.layers->reach)});
+                add(outlines.flats[i], {beyond(layer.flats[i], _cause.light, casters.layers.reach)});
     };
     addFlats(side.still, *casters.still);
     addFlats(moving, *casters.moving);
@@ -410,7 +410,7 @@ double LightShadowMaps::clearance() {
 
 void LightShadowMaps::update(const ViewFrame& view, MapMeshes& meshes) {
     const MapCasters& casters = *_cause.casters;
-    const OwnCasters own(casters.own, SceneFrame(casters.layers->origin).eyeFromScene(view), view.seen);
+    const OwnCasters own(casters.own, SceneFrame(casters.layers.origin).eyeFromScene(view), view.seen);
     resize();
     const bool due = anyDue();
     if (!due && isOfCasters() && _picture->own.areSame(own)) return;
@@ -499,7 +499,7 @@ MapFit LightShadowMaps::fitOf(const Face& face) const {
 glm::dvec3 LightShadowMaps::reachOf(const Face& face) const {
     glm::dvec3 result(0.0);
     for (const glm::dvec4& point : face.held.body()) result = glm::max(result, glm::abs(glm::dvec3(point) / point.w));
-    const CasterLayers& layers = *_cause.casters->layers;
+    const CasterLayers& layers = _cause.casters->layers;
     return glm::min(layers.reach, result + (_cause.flats ? layers.widest : layers.widestBody));
 }
 
@@ -585,7 +585,7 @@ void LightShadowMaps::letGo() {
 
 MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
                          const ShadowMapOptions& settings) {
-    const auto usable = localLight(light.inGroup, SceneFrame(boxes.layers->origin));
+    const auto usable = localLight(light.inGroup, SceneFrame(boxes.layers.origin));
     if (!usable) return {};
     LightShadowMaps maps;
     const auto corners = maps.find(view, {*usable, spotOf(light), &boxes, settings});

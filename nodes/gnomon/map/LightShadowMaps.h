@@ -63,7 +63,7 @@ struct MapRequest {
 /// letGo().
 class LightShadowMaps {
 public:
-    bool areCastersRetired() const { return !_cause.casters || _cause.casters->layers->isRetired(); }
+    bool areCastersRetired() const { return !_cause.casters || _cause.casters->of->isRetired(); }
     /// Finds what is needed now. Starts anew if anything but the casters differs from what the maps are of; they stay as they
     /// lie where those move.
     /// @param wanted  all but `flats`.

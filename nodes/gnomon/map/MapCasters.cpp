@@ -104,10 +104,11 @@ private:
     osg::ref_ptr<osg::DrawElementsUInt> _triangles = noTriangles();
 };
 
-std::vector<OwnCaster> ownCastersOf(const CasterLayers& layers) {
+std::vector<OwnCaster> ownCastersOf(const Casters& casters) {
+    const CasterLayers& layers = casters.layers();
     std::vector<OwnCaster> result;
     const glm::dmat4 sceneFromGroup = glm::translate(glm::dmat4(1.0), -toGlm(layers.origin));
-    for (const auto& drawing : layers.pieces->own) {
+    for (const auto& drawing : casters.own) {
         const osg::BoundingBoxd& bounds = drawing->bounds;
         if (!bounds.valid()) continue;
         result.push_back({drawing,
@@ -260,9 +261,9 @@ bool OwnCasters::areSame(const OwnCasters& other) const {
                       });
 }
 
-MapCasters::MapCasters(const CasterLayers& casters, const osg::ref_ptr<const MapLayer>& standing,
+MapCasters::MapCasters(const Casters& casters, const osg::ref_ptr<const MapLayer>& standing,
                        const osg::ref_ptr<const MapLayer>& others)
-    : layers(&casters), still(standing), moving(others), own(ownCastersOf(casters)) {}
+    : of(&casters), layers(casters.layers()), still(standing), moving(others), own(ownCastersOf(casters)) {}
 
 double MapCasters::clearanceOfMoving(const glm::dvec3& lamp) const {
     double nearest = moving->clearanceOf(lamp);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/casters/CasterDrawable.h>
-#include <gnomon/casters/CasterLayers.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/casters/CullableFaces.h>
 
 #include <glm/mat4x4.hpp>
@@ -137,10 +136,11 @@ struct OwnCasters {
 
 /// What casts below a group in one revision as maps draw it. Never changed once made.
 struct MapCasters : public osg::Referenced {
-    MapCasters(const CasterLayers& casters, const osg::ref_ptr<const MapLayer>& standing,
+    MapCasters(const Casters& casters, const osg::ref_ptr<const MapLayer>& standing,
                const osg::ref_ptr<const MapLayer>& others);
 
-    const osg::ref_ptr<const CasterLayers> layers;
+    const osg::ref_ptr<const Casters> of;
+    const CasterLayers& layers;                       ///< of them.
     const osg::ref_ptr<const MapLayer> still, moving; ///< never null.
     const std::vector<OwnCaster> own;                 ///< those whose bounds are known; drawn with what moves.
 

@@ -3,8 +3,8 @@
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/base/RecentCache.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/LightShadowMaps.h>
 #include <gnomon/map/MapLookup.h>
@@ -45,21 +45,22 @@ public:
     const osg::ref_ptr<MapPrograms> programs{new MapPrograms};
 
     /// The casters as maps draw them; made once for all lights, and for all views of the same levels of detail.
-    osg::ref_ptr<const MapCasters> castersOf(const CasterLayers& layers) {
+    osg::ref_ptr<const MapCasters> castersOf(const Casters& casters) {
+        const CasterLayers& layers = casters.layers();
         Lock lock(_mutex);
-        const auto* known = _casters.find([&](const auto& entry) { return entry->layers == &layers; });
+        const auto* known = _casters.find([&](const auto& entry) { return entry->of == &casters; });
         if (known) return *known;
         const auto still = layerOf(*layers.still), moving = layerOf(*layers.moving);
         dropRetired();
         _casters.dropOldestBeyond(mostCasters - 1);
-        return _casters.add(new MapCasters(layers, still, moving));
+        return _casters.add(new MapCasters(casters, still, moving));
     }
 
     /// @param wanted  all but `flats`. @param lookup  gets its maps.
     /// @return the marks of a light; null if none of its shadow can be seen.
     osg::ref_ptr<Mark> mark(const ViewFrame& view, int lightNumber, const MapRequest& wanted, MapLookup& lookup) {
         const bool forPrograms = lookup.settings.programUnit >= 0;
-        const glm::dmat4 sceneFromEye = glm::inverse(SceneFrame(wanted.casters->layers->origin).eyeFromScene(view));
+        const glm::dmat4 sceneFromEye = glm::inverse(SceneFrame(wanted.casters->layers.origin).eyeFromScene(view));
         Lock lock(_mutex);
         LightShadowMaps& maps = find(view, lightNumber);
         const std::vector<glm::dvec4> corners = maps.find(view, wanted);
@@ -129,7 +130,7 @@ private:
     }
 
     void dropRetired() {
-        _casters.dropIf([](const auto& entry) { return entry->layers->isRetired(); });
+        _casters.dropIf([](const auto& entry) { return entry->of->isRetired(); });
         _meshes.prune();
     }
 
@@ -165,9 +166,9 @@ ShadowMapTechnique::~ShadowMapTechnique() = default;
 unsigned ShadowMapTechnique::passes() const { return _maps->programs->passes; }
 
 std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                            const FrameCasters& casters) const {
-    const osg::ref_ptr<const MapCasters> drawn = _maps->castersOf(casters.layers());
-    const SceneFrame scene(drawn->layers->origin);
+                                                            const Casters& casters) const {
+    const osg::ref_ptr<const MapCasters> drawn = _maps->castersOf(casters);
+    const SceneFrame scene(drawn->layers.origin);
     const auto usable = localLight(light.inGroup, scene);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
@@ -179,7 +180,7 @@ std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& vie
     lookup->settings = _options;
     lookup->clipFromScene = toGlm(view.projection) * scene.eyeFromScene(view);
     lookup->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
-    lookup->rounding = drawn->layers->rounding;
+    lookup->rounding = drawn->layers.rounding;
     if (cone) lookup->coneFromScene = coneFromScene(glm::dvec3(*usable), *cone);
     std::vector<osg::ref_ptr<Mark>> marks;
     if (cone && _options.programUnit < 0 && view.group->getComposite() == ShadowCasterGroup::RELIGHT)

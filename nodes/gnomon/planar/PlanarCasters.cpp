@@ -141,11 +141,11 @@ PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, cons
     }
 }
 
-PlanarCasters::PlanarCasters(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under)
-    : plane(SceneFrame(layers.origin).plane(groupPlane)),
+PlanarCasters::PlanarCasters(const Casters& casters, const glm::dvec4& groupPlane, bool under)
+    : plane(SceneFrame(casters.layers().origin).plane(groupPlane)),
       low(std::numeric_limits<double>::infinity()),
       high(-low),
-      _layers(layers.retired()),
+      _source(casters.retired()),
       _groupPlane(groupPlane),
       _under(under) {}
 
@@ -185,14 +185,14 @@ void PlanarCasters::releaseGLObjects(osg::State* state) const {
 }
 
 /// Joined meshes by their triangles, bodies as wholes. What is under the plane may lie in it: that each triangle tells.
-osg::ref_ptr<PlanarCasters> PlanarCasterCache::make(const CasterLayers& layers, const glm::dvec4& groupPlane,
-                                                    bool under, unsigned frame) {
-    const osg::ref_ptr<PlanarCasters> made = new PlanarCasters(layers, groupPlane, under);
+osg::ref_ptr<PlanarCasters> PlanarCasterCache::make(const Casters& casters, const glm::dvec4& groupPlane, bool under,
+                                                    unsigned frame) {
+    const osg::ref_ptr<PlanarCasters> made = new PlanarCasters(casters, groupPlane, under);
     std::vector<osg::ref_ptr<PlanarCasters>> before;
     for (const auto& entry : _entries)
         if (entry->isOf(groupPlane, under) && entry->plane == made->plane) before.push_back(entry);
-    const SceneFrame scene(layers.origin);
-    for (const PlacedMesh& placed : layers.meshes()) {
+    const SceneFrame scene(casters.layers().origin);
+    for (const PlacedMesh& placed : casters.layers().meshes()) {
         osg::ref_ptr<const PlanarParts> known;
         if (placed.isBody && !under) {
             const osg::ref_ptr<const PlanarMesh> whole = wholeOf(*placed.mesh, frame);
@@ -220,14 +220,14 @@ osg::ref_ptr<const PlanarMesh> PlanarCasterCache::wholeOf(const CasterMesh& mesh
     return known;
 }
 
-osg::ref_ptr<PlanarCasters> PlanarCasterCache::of(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under,
+osg::ref_ptr<PlanarCasters> PlanarCasterCache::of(const Casters& given, const glm::dvec4& groupPlane, bool under,
                                                   unsigned frame, std::size_t most) {
     Lock lock(_mutex);
     osg::ref_ptr<PlanarCasters>* entry =
-        _entries.find([&](const auto& known) { return known->madeFrom(layers, groupPlane, under); });
-    if (entry && (*entry)->seeksSolids(frame)) *entry = make(layers, groupPlane, under, frame);
+        _entries.find([&](const auto& known) { return known->madeFrom(given, groupPlane, under); });
+    if (entry && (*entry)->seeksSolids(frame)) *entry = make(given, groupPlane, under, frame);
     if (!entry) {
-        const osg::ref_ptr<PlanarCasters> made = make(layers, groupPlane, under, frame);
+        const osg::ref_ptr<PlanarCasters> made = make(given, groupPlane, under, frame);
         _entries.dropIf([](const auto& known) { return known->isRetired(); });
         entry = &_entries.add(made);
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/base/RecentCache.h>
-#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/Casters.h>
 
 #include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
@@ -74,16 +74,16 @@ public:
     /// Of no mesh yet.
     /// @param groupPlane  unit normal, group frame.
     /// @param under       keep what lies under the plane, too.
-    PlanarCasters(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under);
+    PlanarCasters(const Casters& casters, const glm::dvec4& groupPlane, bool under);
     /// The next one of the layers' meshes.
     void add(const osg::ref_ptr<const PlanarParts>& more);
 
-    bool madeFrom(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under) const {
-        return _layers == layers.retired() && isOf(groupPlane, under);
+    bool madeFrom(const Casters& casters, const glm::dvec4& groupPlane, bool under) const {
+        return _source == casters.retired() && isOf(groupPlane, under);
     }
     bool isOf(const glm::dvec4& groupPlane, bool under) const { return _groupPlane == groupPlane && _under == under; }
     /// True if no view will ask for these any more.
-    bool isRetired() const { return *_layers; }
+    bool isRetired() const { return *_source; }
     /// True if in another frame than that of their making solids are to be looked for.
     bool seeksSolids(unsigned frame) const;
     /// Of a mesh where it is; null if it is none of these.
@@ -104,7 +104,7 @@ protected:
     ~PlanarCasters() override = default;
 
 private:
-    CasterLayers::Retired _layers;
+    Casters::Retired _source;
     glm::dvec4 _groupPlane;
     bool _under;
     std::vector<osg::ref_ptr<const PlanarParts>> _meshes; ///< in the order of the layers.
@@ -121,14 +121,13 @@ public:
     /// @param groupPlane,under  see PlanarCasters.
     /// @param frame             the frame that asks.
     /// @param most              how many it keeps.
-    osg::ref_ptr<PlanarCasters> of(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under, unsigned frame,
+    osg::ref_ptr<PlanarCasters> of(const Casters& casters, const glm::dvec4& groupPlane, bool under, unsigned frame,
                                    std::size_t most);
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
 private:
-    osg::ref_ptr<PlanarCasters> make(const CasterLayers& layers, const glm::dvec4& groupPlane, bool under,
-                                     unsigned frame);
+    osg::ref_ptr<PlanarCasters> make(const Casters& casters, const glm::dvec4& groupPlane, bool under, unsigned frame);
     osg::ref_ptr<const PlanarMesh> wholeOf(const CasterMesh& mesh, unsigned frame);
 
     mutable OpenThreads::Mutex _mutex;

@@ -3,12 +3,13 @@
 #include <gnomon/PlanarShadow.h>
 #include <gnomon/PlanarShadowNode.h>
 #include <gnomon/Plane.h>
+#include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/ViewFrame.h>
 #include <gnomon/base/Fingerprint.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/DrawnLeaves.h>
 #include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/geometry/ScreenBounds.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
 #include <gnomon/planar/PlanarCasters.h>
@@ -170,7 +171,7 @@ void PlanarShadowNode::addPlane(const osg::Vec4d& plane) { _planes.push_back(pla
 void PlanarShadowNode::setPlanes(const std::vector<osg::Vec4d>& planes) { _planes = planes; }
 
 std::vector<osg::ref_ptr<Mark>> PlanarShadowNode::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                          const FrameCasters& casters) const {
+                                                          const Casters& casters) const {
     std::vector<osg::ref_ptr<Mark>> marks;
     if (_planes.empty()) report(view.frameNumber, "no plane is set, so there is no shadow. Set one with addPlane().");
     for (unsigned i = 0; i < _planes.size(); ++i) {
@@ -179,27 +180,26 @@ std::vector<osg::ref_ptr<Mark>> PlanarShadowNode::prepare(const ViewFrame& view,
             report(view.frameNumber,
                    sentence("the normal of the plane", _planes[i],
                             "is zero or not a number. Give (a, b, c, d) of the plane a x + b y + c z + d = 0."));
-        else if (osg::ref_ptr<Mark> mark = prepareOne(view, light, casters.layers(), i, *plane))
+        else if (osg::ref_ptr<Mark> mark = prepareOne(view, light, casters, i, *plane))
             marks.push_back(mark);
     }
     return marks;
 }
 
-osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light,
-                                                const CasterLayers& layers, unsigned index,
-                                                const glm::dvec4& groupPlane) const {
+osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light, const Casters& given,
+                                                unsigned index, const glm::dvec4& groupPlane) const {
     const auto refuse = [&](const char* start, const osg::Vec4d& what, const char* rest) {
         report(view.frameNumber, sentence(start, what, rest));
         return nullptr;
     };
     const std::size_t most = 4 * _planes.size(); // meshes: of two groups, or of views of different levels of detail
-    const osg::ref_ptr<PlanarCasters> casters = _casters->of(layers, groupPlane, !_cures.clip, view.frameNumber, most);
+    const osg::ref_ptr<PlanarCasters> casters = _casters->of(given, groupPlane, !_cures.clip, view.frameNumber, most);
     if (casters->parts.empty())
         return refuse("no caster is above the plane", _planes[index],
                       "on the side of its normal. Check where the plane lies and which way its normal points.");
     if (!isFinite(toGlm(light.inGroup)))
         return refuse("the light at", light.inGroup, "has a coordinate that is not finite. Set the light's position.");
-    const SceneFrame scene(layers.origin);
+    const SceneFrame scene(given.layers().origin);
     const glm::dvec4 lightHere(glm::dvec3(toGlm(light.inGroup)) - light.inGroup.w() * scene.origin, light.inGroup.w());
     const auto flatten = planarShadowMatrix(casters->plane, lightHere);
     if (!flatten)

@@ -43,14 +43,15 @@ ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& li
     path.erase(path.begin());
     _groupFromTechnique = osg::computeLocalToWorld(path, false);
     _group = &group;
-    _layers = group.casters();
-    const auto usable = localLight(light.inGroup, SceneFrame(_layers->origin));
+    _casters = group.casters();
+    const CasterLayers& layers = _casters->layers();
+    const auto usable = localLight(light.inGroup, SceneFrame(layers.origin));
     if (!usable)
         throw std::invalid_argument(
             "gnomon::ShadowQuery: the light has no finite position or direction. Set its position.");
-    _origin = _layers->origin;
+    _origin = layers.origin;
     _light = *usable;
-    _scene = RaySceneCache().of(*_layers, "ShadowQuery");
+    _scene = RaySceneCache().of(*_casters, "ShadowQuery");
     _answers = technique.answersFor(probe());
 }
 
@@ -58,9 +59,7 @@ ShadowQuery::ShadowQuery(const ShadowQuery& other) = default;
 ShadowQuery& ShadowQuery::operator=(const ShadowQuery& other) = default;
 ShadowQuery::~ShadowQuery() = default;
 
-ShadowProbe ShadowQuery::probe() const {
-    return {*_scene, *_layers, *_group, _origin, _light, _groupFromTechnique, _answers};
-}
+ShadowProbe ShadowQuery::probe() const { return {*_scene, *_group, _origin, _light, _groupFromTechnique, _answers}; }
 
 ShadowQuery ShadowQuery::exact() const {
     ShadowQuery result = *this;

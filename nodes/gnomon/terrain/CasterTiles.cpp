@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/Convert.h>
 #include <gnomon/ProgressLine.h>
-#include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/terrain/CasterTiles.h>
 
@@ -25,7 +24,7 @@ constexpr std::size_t fewEnough = 64; // pieces: others' bounds are compared wit
 /// Of pieces some of which are new.
 class TouchesAny {
 public:
-    explicit TouchesAny(const CasterDrawables::List& pieces) {
+    explicit TouchesAny(const CasterList& pieces) {
         for (const auto& piece : pieces) {
             if (pieces.size() <= fewEnough) _boxes.push_back(piece->bounds);
             _all.expandBy(piece->bounds);
@@ -77,7 +76,7 @@ std::vector<BoxCaster> boxCastersOf(const CasterMesh& mesh) {
 
 /// Of one unit, or of all.
 struct CasterTiles::Found {
-    CasterDrawables::List pieces;
+    CasterList pieces;
     std::vector<HullPart> parts;
     std::vector<BoxCaster> boxes;
 
@@ -85,13 +84,13 @@ struct CasterTiles::Found {
     glm::dvec2 place(std::size_t i) const { return boxes.empty() ? glm::dvec2(parts[i].anchor) : boxes[i].vertices[0]; }
 };
 
-void CasterTiles::take(const CasterDrawables& casters, const std::set<const osg::Drawable*>& terrain) {
+void CasterTiles::take(const Casters& casters, const std::set<const osg::Drawable*>& terrain) {
     if (_casters == &casters && _terrain == terrain) return;
     const std::uint64_t before = _lastRevision;
-    CasterDrawables::List loose = changesTo(casters, terrain);
+    CasterList loose = changesTo(casters, terrain);
     _casters = &casters;
     _terrain = terrain;
-    std::vector<CasterDrawables::List> units = weld(std::move(loose));
+    std::vector<CasterList> units = weld(std::move(loose));
     std::vector<Found> found(units.size());
     ProgressLine progress("gnomon: finding the parts of " + std::to_string(units.size()) + " casters");
     std::atomic<std::size_t> done{0};
@@ -114,10 +113,9 @@ void CasterTiles::take(const CasterDrawables& casters, const std::set<const osg:
 }
 
 /// Takes out what is gone. @return what is new, or has lost what it was connected with.
-CasterDrawables::List CasterTiles::changesTo(const CasterDrawables& casters,
-                                             const std::set<const osg::Drawable*>& terrain) {
+CasterList CasterTiles::changesTo(const Casters& casters, const std::set<const osg::Drawable*>& terrain) {
     const auto& now = casters.list;
-    const CasterDrawables::List none, &before = _casters ? _casters->list : none;
+    const CasterList none, &before = _casters ? _casters->list : none;
     auto from = now.begin(), to = now.end();
     auto fromBefore = before.begin(), toBefore = before.end();
     if (terrain == _terrain) {
@@ -126,7 +124,7 @@ CasterDrawables::List CasterTiles::changesTo(const CasterDrawables& casters,
     }
     for (auto piece = fromBefore; piece != toBefore; ++piece)
         if (const auto place = _places.find(piece->get()); place != _places.end()) --place->second.times;
-    CasterDrawables::List loose;
+    CasterList loose;
     for (auto piece = from; piece != to; ++piece) {
         if (!(*piece)->bounds.valid() || terrain.count((*piece)->drawable.get())) continue;
         const auto [place, isNew] = _places.try_emplace(piece->get(), Place{0, 0});
@@ -141,7 +139,7 @@ CasterDrawables::List CasterTiles::changesTo(const CasterDrawables& casters,
 }
 
 /// Its pieces that are still there become loose.
-void CasterTiles::dissolve(unsigned unit, CasterDrawables::List& loose) {
+void CasterTiles::dissolve(unsigned unit, CasterList& loose) {
     const Unit gone = std::move(_units[unit]);
     _units.erase(unit);
     for (const unsigned index : gone.tiles) {
@@ -164,29 +162,29 @@ void CasterTiles::dissolve(unsigned unit, CasterDrawables::List& loose) {
 }
 
 /// Units of all that is loose; what is connected with it is taken out of its own.
-std::vector<CasterDrawables::List> CasterTiles::weld(CasterDrawables::List loose) {
+std::vector<CasterList> CasterTiles::weld(CasterList loose) {
     if (loose.empty()) return {};
     const TouchesAny touchesLoose(loose);
-    CasterDrawables::List all = loose;
+    CasterList all = loose;
     for (const auto& piece : _casters->list) {
         if (!piece->bounds.valid() || !touchesLoose(piece->bounds)) continue;
         const auto place = _places.find(piece.get());
         if (place != _places.end() && place->second.unit != 0) all.push_back(piece);
     }
-    const std::vector<std::size_t> first = weldedDrawables(all);
-    std::map<std::size_t, CasterDrawables::List> units;
+    const std::vector<std::size_t> first = weldedCasters(all);
+    std::map<std::size_t, CasterList> units;
     for (std::size_t i = 0; i < loose.size(); ++i) units[first[i]].push_back(all[i]);
     for (std::size_t i = loose.size(); i < all.size(); ++i) {
         const auto unit = units.find(first[i]);
         const unsigned own = _places[all[i].get()].unit;
         if (unit != units.end() && own != 0) dissolve(own, unit->second);
     }
-    std::vector<CasterDrawables::List> result;
+    std::vector<CasterList> result;
     for (auto& [root, unit] : units) result.push_back(std::move(unit));
     return result;
 }
 
-CasterTiles::Found CasterTiles::find(CasterDrawables::List pieces) const {
+CasterTiles::Found CasterTiles::find(CasterList pieces) const {
     Found found;
     const osg::ref_ptr<const CasterMesh> mesh = meshOf(pieces);
     const osg::DrawElementsUInt& triangles = *mesh->triangles;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/ground/HullSolids.h>
 
 #include <cstdint>
@@ -40,9 +40,9 @@ public:
     explicit CasterTiles(bool asBoxes) : _asBoxes(asBoxes) {}
 
     /// @param terrain  drawables that do not cast.
-    void take(const CasterDrawables& casters, const std::set<const osg::Drawable*>& terrain);
+    void take(const Casters& casters, const std::set<const osg::Drawable*>& terrain);
     /// True if these were taken last.
-    bool are(const CasterDrawables& casters) const { return _casters == &casters; }
+    bool are(const Casters& casters) const { return _casters == &casters; }
     /// True if no view will ask for those taken last any more.
     bool areRetired() const { return !_casters || _casters->isRetired(); }
     const std::vector<Tile>& tiles() const { return _tiles; }
@@ -53,7 +53,7 @@ public:
 
 private:
     struct Unit {
-        CasterDrawables::List pieces;
+        CasterList pieces;
         std::vector<unsigned> tiles;
     };
     /// Where a piece is, and how often it is among the casters.
@@ -70,10 +70,10 @@ private:
     };
     struct Found; // of a unit, before it is put into tiles
 
-    CasterDrawables::List changesTo(const CasterDrawables& casters, const std::set<const osg::Drawable*>& terrain);
-    void dissolve(unsigned unit, CasterDrawables::List& loose);
-    std::vector<CasterDrawables::List> weld(CasterDrawables::List loose);
-    Found find(CasterDrawables::List pieces) const;
+    CasterList changesTo(const Casters& casters, const std::set<const osg::Drawable*>& terrain);
+    void dissolve(unsigned unit, CasterList& loose);
+    std::vector<CasterList> weld(CasterList loose);
+    Found find(CasterList pieces) const;
     void add(Found found);
     bool isOutgrown(std::size_t size) const;
     std::vector<Found> takeAll();
@@ -83,9 +83,9 @@ private:
     unsigned changed(unsigned tile);
 
     const bool _asBoxes;
-    osg::ref_ptr<const CasterDrawables> _casters;
+    osg::ref_ptr<const Casters> _casters;
     std::set<const osg::Drawable*> _terrain;
-    std::unordered_map<const CasterDrawable*, Place> _places;
+    std::unordered_map<const Caster*, Place> _places;
     std::unordered_map<unsigned, Unit> _units;
     std::vector<Tile> _tiles;
     std::vector<Cut> _cuts; ///< the last one is the root.

@@ -45,7 +45,7 @@ bool TerrainAnswer::holds(const glm::dvec3& place) const {
 
 /// That of these casters; else one whose casters are gone, or that was this view's: it takes little to follow. Null if
 /// there is none.
-TerrainShadowCache::Town* TerrainShadowCache::findTown(const ShadowCasterGroup& group, const CasterDrawables& casters,
+TerrainShadowCache::Town* TerrainShadowCache::findTown(const ShadowCasterGroup& group, const Casters& casters,
                                                        const ViewKey& view, bool asBoxes) {
     const auto find = [&](auto isWanted) {
         const auto* known = _towns.find([&](const auto& town) {
@@ -58,7 +58,7 @@ TerrainShadowCache::Town* TerrainShadowCache::findTown(const ShadowCasterGroup& 
     return find([&](const Town& known) { return known.casters.areRetired(); });
 }
 
-TerrainShadowCache::Town& TerrainShadowCache::townOf(const Asker& asker, const CasterDrawables& casters,
+TerrainShadowCache::Town& TerrainShadowCache::townOf(const Asker& asker, const Casters& casters,
                                                      const Selection& terrain) {
     Town* known = findTown(asker.group, casters, asker.view, asker.asBoxes);
     if (!known) {
@@ -78,7 +78,7 @@ TerrainShadowCache::Town& TerrainShadowCache::townOf(const Asker& asker, const C
     return town;
 }
 
-TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawables& casters, const Selection& terrain,
+TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const Casters& casters, const Selection& terrain,
                                        int number, const glm::dvec4& light, bool asBoxes) {
     TerrainFrame frame;
     runLocked(_mutex, [&] {
@@ -98,9 +98,9 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const CasterDrawab
     return frame;
 }
 
-osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterGroup& group,
-                                                             const CasterDrawables& casters, const Selection& terrain,
-                                                             const glm::dvec4& light, bool asBoxes) {
+osg::ref_ptr<const TerrainAnswer> TerrainShadowCache::answer(const ShadowCasterGroup& group, const Casters& casters,
+                                                             const Selection& terrain, const glm::dvec4& light,
+                                                             bool asBoxes) {
     osg::ref_ptr<TerrainAnswer> answer = new TerrainAnswer;
     runLocked(_mutex, [&] {
         const Town& town = townOf({group, {}, asBoxes, false}, casters, terrain);

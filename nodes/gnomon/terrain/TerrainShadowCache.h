@@ -43,10 +43,10 @@ class TerrainShadowCache {
 public:
     /// @param casters  of the view's group, now.
     /// @param number   the light's.
-    TerrainFrame frame(const ViewFrame& view, const CasterDrawables& casters, const Selection& terrain, int number,
+    TerrainFrame frame(const ViewFrame& view, const Casters& casters, const Selection& terrain, int number,
                        const glm::dvec4& light, bool asBoxes);
     /// Of any light; what is drawn is not touched.
-    osg::ref_ptr<const TerrainAnswer> answer(const ShadowCasterGroup& group, const CasterDrawables& casters,
+    osg::ref_ptr<const TerrainAnswer> answer(const ShadowCasterGroup& group, const Casters& casters,
                                              const Selection& terrain, const glm::dvec4& light, bool asBoxes);
     /// Drops what is of retired casters.
     void letGo();
@@ -71,8 +71,8 @@ private:
         CasterTiles casters;
         std::map<int, HullTiles> lights;
     };
-    Town* findTown(const ShadowCasterGroup& group, const CasterDrawables& casters, const ViewKey& view, bool asBoxes);
-    Town& townOf(const Asker& asker, const CasterDrawables& casters, const Selection& terrain);
+    Town* findTown(const ShadowCasterGroup& group, const Casters& casters, const ViewKey& view, bool asBoxes);
+    Town& townOf(const Asker& asker, const Casters& casters, const Selection& terrain);
 
     mutable OpenThreads::Mutex _mutex;
     RecentCache<std::unique_ptr<Town>> _towns;

@@ -4,9 +4,9 @@
 #include <gnomon/ScreenPass.h>
 #include <gnomon/ShadowCasterGroup.h>
 #include <gnomon/TerrainShadowGeode.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/ShaderProgram.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/group/ShadowProbe.h>
 #include <gnomon/silhouette/StencilBatches.h>
@@ -141,7 +141,7 @@ std::string TerrainShadowGeode::whyUnavailable() const {
 unsigned TerrainShadowGeode::builds() const { return _cache->found(); }
 
 std::vector<osg::ref_ptr<Mark>> TerrainShadowGeode::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                            const FrameCasters& casters) const {
+                                                            const Casters& casters) const {
     const auto refuse = [&](const std::string& cause) {
         report(view.frameNumber, cause);
         return std::vector<osg::ref_ptr<Mark>>();
@@ -149,8 +149,7 @@ std::vector<osg::ref_ptr<Mark>> TerrainShadowGeode::prepare(const ViewFrame& vie
     if (!hasReceiver()) return refuse("no terrain is named, so there is no shadow. Name it with setReceiver().");
     const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) return refuse("the light has no finite position or direction. Set the light's position.");
-    const TerrainFrame frame =
-        _cache->frame(view, casters.drawables(), getReceiver(), light.number, *usable, getMethod() == BOX);
+    const TerrainFrame frame = _cache->frame(view, casters, getReceiver(), light.number, *usable, getMethod() == BOX);
     for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     const TileView seen(view, frame.origin);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;
@@ -173,7 +172,7 @@ std::vector<osg::ref_ptr<Mark>> TerrainShadowGeode::prepare(const ViewFrame& vie
 osg::ref_ptr<const osg::Referenced> TerrainShadowGeode::answersFor(const ShadowProbe& probe) const {
     if (!hasReceiver()) return nullptr;
     const glm::dvec4 light(glm::dvec3(probe.light) + probe.light.w * toGlm(probe.origin), probe.light.w);
-    return _cache->answer(probe.group, *probe.group.drawables(), getReceiver(), light, getMethod() == BOX);
+    return _cache->answer(probe.group, *probe.group.casters(), getReceiver(), light, getMethod() == BOX);
 }
 
 bool TerrainShadowGeode::isLit(const ShadowProbe& probe, const glm::dvec3& point) const {

@@ -6,13 +6,12 @@
 #include <gnomon/TracedShadowTechnique.h>
 #include <gnomon/ViewFrame.h>
 #include <gnomon/base/RecentCache.h>
-#include <gnomon/casters/CasterDrawables.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/casters/RaySceneCache.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/geometry/DrawnError.h>
 #include <gnomon/gl/FrameCopies.h>
 #include <gnomon/gl/SavedFramebuffers.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/rays/DepthBufferShadow.h>
 
@@ -43,8 +42,8 @@ struct TracedFrame {
     ViewKey view;
     int light = 0; ///< number.
     std::shared_ptr<const RayScene> scene;
-    osg::ref_ptr<const CasterDrawables> pieces; ///< of the scene; null if they are not known.
-    osg::Vec3d origin;                          ///< of the scene, group frame.
+    osg::ref_ptr<const Casters> pieces; ///< of the scene; null if they are not known.
+    osg::Vec3d origin;                  ///< of the scene, group frame.
     glm::dmat4 clipFromScene{1.0};
     glm::dvec4 lightInScene{0.0};
     DepthPicture picture; ///< the depths of it.
@@ -79,7 +78,7 @@ private:
     };
     static constexpr std::size_t most = 8;
 
-    static std::shared_ptr<const Pieces> piecesOf(const CasterDrawables* casters);
+    static std::shared_ptr<const Pieces> piecesOf(const Casters* casters);
     static bool addMissing(const Pieces& pieces, const Pieces& others, const osg::Vec3d& origin,
                            std::vector<RayBox>& boxes);
     static std::optional<std::vector<RayBox>> changesBetween(const Known& before, const Pieces* now,
@@ -186,7 +185,7 @@ void drawRuns(osg::State& state, const DepthPicture& part, const std::vector<std
 
 } // namespace
 
-std::shared_ptr<const TracedFrames::Pieces> TracedFrames::piecesOf(const CasterDrawables* casters) {
+std::shared_ptr<const TracedFrames::Pieces> TracedFrames::piecesOf(const Casters* casters) {
     if (!casters) return nullptr;
     auto pieces = std::make_shared<Pieces>();
     pieces->reserve(casters->list.size());
@@ -289,7 +288,7 @@ TracedShadowTechnique::TracedShadowTechnique(const TracedShadowTechnique& other,
 TracedShadowTechnique::~TracedShadowTechnique() = default;
 
 std::vector<osg::ref_ptr<Mark>> TracedShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                               const FrameCasters& casters) const {
+                                                               const Casters& casters) const {
     const CasterLayers& layers = casters.layers();
     const SceneFrame scene(layers.origin);
     const auto usable = localLight(light.inGroup, scene);
@@ -302,7 +301,7 @@ std::vector<osg::ref_ptr<Mark>> TracedShadowTechnique::prepare(const ViewFrame& 
     mark->frame.light = light.number;
     mark->frame.view = view.key;
     mark->frame.origin = layers.origin;
-    mark->frame.pieces = layers.pieces;
+    mark->frame.pieces = &casters;
     mark->frames = _frames;
     mark->resolved = _resolved;
     mark->rounding = layers.largestRounding;
@@ -312,7 +311,7 @@ std::vector<osg::ref_ptr<Mark>> TracedShadowTechnique::prepare(const ViewFrame& 
     if (!bounds) return {}; // out of sight: nothing to say
     mark->screenBounds = *bounds;
     try {
-        mark->frame.scene = _casters->of(layers, describe());
+        mark->frame.scene = _casters->of(casters, describe());
     } catch (const std::exception& failure) {
         report(view.frameNumber, std::string("there is no shadow. ") + failure.what());
         return {};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/ScreenPass.h>
 #include <gnomon/ShadowVolumeTechnique.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/compositor/ShadowJob.h>
 #include <gnomon/gl/GlState.h>
 #include <gnomon/gl/SavedFramebuffers.h>
 #include <gnomon/gl/ShaderProgram.h>
-#include <gnomon/group/FrameCasters.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/volume/VolumeCache.h>
 
@@ -183,7 +183,7 @@ ShadowVolumeTechnique::~ShadowVolumeTechnique() = default;
 unsigned ShadowVolumeTechnique::builds() const { return _cache->builds(); }
 
 std::vector<osg::ref_ptr<Mark>> ShadowVolumeTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
-                                                               const FrameCasters& casters) const {
+                                                               const Casters& casters) const {
     const CasterLayers& layers = casters.layers();
     const SceneFrame scene(layers.origin);
     const auto usable = localLight(light.inGroup, scene);

@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-struct CasterLayers;
+class CasterLayers;
 
 /// A technique's volumes: for each light in each view those found last, and whether they still are.
 ///

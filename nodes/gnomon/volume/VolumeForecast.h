@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ViewFrame.h>
-#include <gnomon/casters/CasterLayers.h>
 #include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/silhouette/SilhouetteMesh.h>
 
 #include <glm/vec3.hpp>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/Convert.h>
 #include <gnomon/base/PlacedBox.h>
-#include <gnomon/casters/CasterDrawable.h>
+#include <gnomon/casters/Caster.h>
 #include <gnomon/casters/CasterVisitor.h>
 #include <gnomon/casters/DrawableTriangles.h>
+#include <gnomon/rays/Placement.h>
 
 #include <algorithm>
 
@@ -41,6 +43,11 @@ bool changesUnseen(const osg::Drawable& drawable) {
 }
 
 } // namespace
+
+bool isBody(const Caster& piece) {
+    return piece.triangles >= fewestOfABody && piece.casting.isWhole() && piece.invalidTriangles == 0 &&
+           isPlacement(toGlm(piece.groupFromLocal));
+}
 
 OwnDrawing::OwnDrawing(const osg::NodePath& path, const osg::Drawable& given, const osg::Matrixd& matrix,
                        const Casting& what)

@@ -2,9 +2,9 @@
 #include "Scene.h"
 
 #include <gnomon/VertexTraverser.h>
-#include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/casters/CasterVisitor.h>
+#include <gnomon/casters/Casters.h>
 
 #include <osg/AlphaFunc>
 #include <osg/CullFace>
@@ -21,7 +21,7 @@
 #include <algorithm>
 #include <limits>
 
-using gnomon::CasterDrawables;
+using gnomon::Casters;
 
 namespace {
 
@@ -37,13 +37,11 @@ struct Row {
             root->addChild(scene::under(osg::Matrixd::translate(10.0 * i, 0, 0), triangle(0.0f)));
     }
     osg::MatrixTransform& place(unsigned i) { return static_cast<osg::MatrixTransform&>(*root->getChild(i)); }
-    osg::ref_ptr<const CasterDrawables> now(const osg::ref_ptr<const CasterDrawables>& known) {
-        return CasterDrawables::of(*root, {}, known);
-    }
+    osg::ref_ptr<const Casters> now(const osg::ref_ptr<const Casters>& known) { return Casters::of(*root, {}, known); }
     osg::ref_ptr<osg::Group> root = new osg::Group;
 };
 
-int shared(const CasterDrawables& a, const CasterDrawables& b) {
+int shared(const Casters& a, const Casters& b) {
     int count = 0;
     for (const auto& piece : a.list) count += std::count(b.list.begin(), b.list.end(), piece) > 0;
     return count;
@@ -63,7 +61,7 @@ public:
 
 } // namespace
 
-TEST(CasterDrawables, AreTheSameAsLongAsNothingChanges) {
+TEST(Casters, AreTheSameAsLongAsNothingChanges) {
     Row row;
     const auto first = row.now(nullptr);
     ASSERT_EQ(first->list.size(), 6u);
@@ -72,7 +70,7 @@ TEST(CasterDrawables, AreTheSameAsLongAsNothingChanges) {
     EXPECT_EQ(row.now(first), first);
 }
 
-TEST(CasterDrawables, OfAChangeAreNewOnlyWhereItIs) {
+TEST(Casters, OfAChangeAreNewOnlyWhereItIs) {
     Row row;
     auto known = row.now(nullptr);
     const auto expect = [&](std::size_t size, int same, const char* what) {
@@ -102,7 +100,7 @@ TEST(CasterDrawables, OfAChangeAreNewOnlyWhereItIs) {
     EXPECT_GE(shared(*row.now(known), *known), 3) << "four less: but for one everything is known again";
 }
 
-TEST(CasterDrawables, NameWhatIsNotUsable) {
+TEST(Casters, NameWhatIsNotUsable) {
     Row row;
     auto& corners = static_cast<osg::Vec3Array&>(*row.place(1).getChild(0)->asGeometry()->getVertexArray());
     corners[1].y() = std::numeric_limits<float>::quiet_NaN();
@@ -116,7 +114,7 @@ TEST(CasterDrawables, NameWhatIsNotUsable) {
 }
 
 // One pane below two parents, of which the second alone has a test: a mesh of pieces knows them apart without the nodes above.
-TEST(CasterDrawables, AreTestedAsTheWayDownToThemSays) {
+TEST(Casters, AreTestedAsTheWayDownToThemSays) {
     const osg::ref_ptr<osg::Geometry> pane = triangle(0.0f);
     pane->setTexCoordArray(0, scene::vec3s({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -124,14 +122,14 @@ TEST(CasterDrawables, AreTestedAsTheWayDownToThemSays) {
     osg::StateSet& set = *root->getChild(1)->getOrCreateStateSet();
     set.setTextureAttributeAndModes(0, new osg::Texture2D);
     set.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.5f));
-    const auto pieces = CasterDrawables::of(*root, {}, nullptr);
+    const auto pieces = Casters::of(*root, {}, nullptr);
     const osg::ref_ptr<gnomon::CasterMesh> mesh = gnomon::meshOf(pieces->list);
     ASSERT_EQ(mesh->cutouts.size(), 1u);
     EXPECT_EQ(mesh->cutouts[0].drawn, 1u);
     EXPECT_EQ(pieces->cutouts, 1u);
     EXPECT_TRUE(pieces->own.empty());
     pane->setTexCoordArray(0, nullptr);
-    const auto unknown = CasterDrawables::of(*root, {}, pieces);
+    const auto unknown = Casters::of(*root, {}, pieces);
     EXPECT_EQ(unknown->cutouts, 1u) << "by the state of what is above it";
     ASSERT_EQ(unknown->own.size(), 1u);
     EXPECT_EQ(unknown->own.front()->groupFromLocal.getTrans().x(), 5.0);
@@ -163,8 +161,8 @@ struct Leaf {
         set.setMode(GL_BLEND, osg::StateAttribute::ON);
         place->addChild(drawable);
     }
-    osg::ref_ptr<const CasterDrawables> pieces(const osg::ref_ptr<const CasterDrawables>& known = nullptr) const {
-        return CasterDrawables::of(*place, {}, known, nullptr, nullptr, nullptr, {0.5f});
+    osg::ref_ptr<const Casters> pieces(const osg::ref_ptr<const Casters>& known = nullptr) const {
+        return Casters::of(*place, {}, known, nullptr, nullptr, {0.5f});
     }
     osg::ref_ptr<osg::Geometry> drawable = triangle(0.0f);
     osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform;
@@ -172,7 +170,7 @@ struct Leaf {
 
 } // namespace
 
-TEST(CasterDrawables, AreClearSolidOrCutOutByTheTexelsThatTheyShow) {
+TEST(Casters, AreClearSolidOrCutOutByTheTexelsThatTheyShow) {
     struct Case {
         osg::Texture::WrapMode wrap;
         float first, end; ///< columns.
@@ -201,7 +199,7 @@ TEST(CasterDrawables, AreClearSolidOrCutOutByTheTexelsThatTheyShow) {
 }
 
 // A linear filter mixes the neighbour in.
-TEST(CasterDrawables, AreCutOutByTexelsThatAFilterReaches) {
+TEST(Casters, AreCutOutByTexelsThatAFilterReaches) {
     const osg::ref_ptr<osg::Texture2D> texture = leftTexture();
     texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
     EXPECT_EQ(Leaf(texture, 0.5f, 2.5f).pieces()->cutouts, 0u);
@@ -210,7 +208,7 @@ TEST(CasterDrawables, AreCutOutByTexelsThatAFilterReaches) {
 }
 
 // osgViewer lets images go once they are drawn.
-TEST(CasterDrawables, KnowAnImageThatIsGone) {
+TEST(Casters, KnowAnImageThatIsGone) {
     const osg::ref_ptr<osg::Texture2D> texture = leftTexture();
     texture->setUnRefImageDataAfterApply(true);
     const Leaf leaf(texture, 0, 3);
@@ -228,7 +226,7 @@ TEST(CasterDrawables, KnowAnImageThatIsGone) {
 }
 
 // Two that are alike in one place, behind one that moves.
-TEST(CasterDrawables, OfEqualOnesStayTheSame) {
+TEST(Casters, OfEqualOnesStayTheSame) {
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<osg::MatrixTransform> mover = new osg::MatrixTransform;
     mover->addChild(triangle(0.0f));
@@ -236,9 +234,9 @@ TEST(CasterDrawables, OfEqualOnesStayTheSame) {
     root->addChild(mover);
     root->addChild(twice);
     root->addChild(twice);
-    const auto before = CasterDrawables::of(*root, {}, nullptr);
+    const auto before = Casters::of(*root, {}, nullptr);
     mover->setMatrix(osg::Matrixd::translate(0.0, 0.0, 1.0));
-    const auto after = CasterDrawables::of(*root, {}, before);
+    const auto after = Casters::of(*root, {}, before);
     ASSERT_EQ(after->list.size(), 3u);
     EXPECT_NE(after->list[0], before->list[0]);
     EXPECT_EQ(after->list[1], before->list[1]);
@@ -246,23 +244,23 @@ TEST(CasterDrawables, OfEqualOnesStayTheSame) {
 }
 
 /// Exactly: 10 + 1 is where the next begins.
-TEST(CasterDrawables, AreWeldedWhereTheyShareACorner) {
+TEST(Casters, AreWeldedWhereTheyShareACorner) {
     Row row;
     row.place(1).setMatrix(osg::Matrixd::translate(1.0, 0.0, 0.0));
     row.place(3).setMatrix(osg::Matrixd::translate(41.0, 0.0, 0.0));
     row.place(5).setMatrix(osg::Matrixd::translate(40.25, 0.0, 0.0)); // meets others' bounds, none of their corners
     const auto pieces = row.now(nullptr);
-    EXPECT_EQ(gnomon::weldedDrawables(pieces->list), (std::vector<std::size_t>{0, 0, 2, 3, 3, 5}));
+    EXPECT_EQ(gnomon::weldedCasters(pieces->list), (std::vector<std::size_t>{0, 0, 2, 3, 3, 5}));
 }
 
-TEST(CasterDrawables, KnowWhatOneSeesThrough) {
+TEST(Casters, KnowWhatOneSeesThrough) {
     using gnomon::Hiding;
     using A = osg::StateAttribute;
     Row row;
     gnomon::CasterView view;
     auto known = row.now(nullptr);
     const auto hidingOf = [&](unsigned i) {
-        known = CasterDrawables::of(*row.root, {}, known, &view);
+        known = Casters::of(*row.root, {}, known, &view);
         return known->list[i]->hiding;
     };
     const auto set = [&](unsigned i) -> osg::StateSet& { return *row.place(i).getOrCreateStateSet(); };

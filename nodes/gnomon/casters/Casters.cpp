@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/base/Fingerprint.h>
-#include <gnomon/casters/CasterBodies.h>
-#include <gnomon/casters/CasterDrawables.h>
 #include <gnomon/casters/CasterExtraction.h>
 #include <gnomon/casters/CasterMesh.h>
 #include <gnomon/casters/CasterVisitor.h>
+#include <gnomon/casters/Casters.h>
 #include <gnomon/casters/DrawableTriangles.h>
+#include <gnomon/casters/KnownCasters.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,6 @@
 
 namespace gnomon {
 namespace {
-
-constexpr std::size_t mostUnseen = 1000000; // triangles of levels that no view has now
 
 /// Where a drawable's triangles are, without them.
 class DrawableBounds : public TriangleDecoder {
@@ -46,7 +44,7 @@ protected:
 /// Reads pieces where they are, without the nodes above them.
 class DrawableReader : public CasterExtraction {
 public:
-    void read(const CasterDrawable& piece) {
+    void read(const Caster& piece) {
         if (piece.kept) return append(*piece.kept);
         _piece = &piece;
         setRootFromVisited(piece.groupFromLocal);
@@ -58,31 +56,29 @@ protected:
     Hiding hiding() const override { return _piece->hiding; }
 
 private:
-    const CasterDrawable* _piece = nullptr;
+    const Caster* _piece = nullptr;
 };
 
 /// Meets casters, and knows those again that it is told of.
 class DrawableVisitor : public CasterVisitor {
 public:
-    DrawableVisitor(const Selection& casters, const CasterDrawables* known, LevelPieces* levels,
-                    const CasterBodies* bodies)
+    DrawableVisitor(const Selection& casters, const Casters* before, const KnownCasters* others)
         : CasterVisitor(casters),
-          _known(known ? known->list : _none),
-          _knownOwn(known ? known->own : CasterDrawables::OwnList()),
-          _knownLeftOut(known ? known->leftOut : std::string()),
-          _levels(levels),
-          _bodies(bodies) {}
+          _known(before ? before->list : _none),
+          _knownOwn(before ? before->own : Casters::OwnList()),
+          _knownLeftOut(before ? before->leftOut : std::string()),
+          _others(others) {}
 
     bool changed() const {
         return _changed || _same != _known.size() || _own != _knownOwn || leftOut() != _knownLeftOut;
     }
     std::uint64_t fingerprint() const { return _fingerprint.value(); }
     /// Those that were met.
-    CasterDrawables::List take() {
+    CasterList take() {
         startOwnList();
         return std::move(_met);
     }
-    CasterDrawables::OwnList takeOwn() { return std::move(_own); }
+    Casters::OwnList takeOwn() { return std::move(_own); }
 
 protected:
     void applyCaster(osg::Drawable& drawable, const Casting& casting) override {
@@ -107,15 +103,15 @@ protected:
     }
 
 private:
-    const CasterDrawable& pieceOf(osg::Drawable& drawable, const Casting& casting, std::uint64_t geometry,
-                                  std::uint64_t value) {
+    const Caster& pieceOf(osg::Drawable& drawable, const Casting& casting, std::uint64_t geometry,
+                          std::uint64_t value) {
         if (!_changed && isAt(_next, value)) {
             ++_same;
             return *_known[_next++];
         }
         startOwnList();
-        osg::ref_ptr<const CasterDrawable> piece = find(value);
-        if (!piece && _levels && isOfLevels()) piece = _levels->find(value);
+        osg::ref_ptr<const Caster> piece = find(value);
+        if (!piece && _others && isOfLevels()) piece = _others->find(value);
         if (!piece) piece = make(drawable, value, geometry, casting);
         _met.push_back(piece);
         return *piece;
@@ -133,7 +129,7 @@ private:
 
     /// In the old order as a rule. One that differs has changed in place, unless the one after it is met: then it is gone. If
     /// two differ, any may be anywhere.
-    const CasterDrawable* find(std::uint64_t value) {
+    const Caster* find(std::uint64_t value) {
         if (!isAt(_next, value) && isAt(_next + 1, value)) ++_next;
         if (!isAt(_next, value)) {
             const std::size_t place = _missed ? placeOf(value) : _known.size();
@@ -155,9 +151,9 @@ private:
         return found == _places.end() ? _known.size() : found->second;
     }
 
-    osg::ref_ptr<const CasterDrawable> make(osg::Drawable& drawable, std::uint64_t fingerprint, std::uint64_t geometry,
-                                            const Casting& casting) {
-        osg::ref_ptr<CasterDrawable> piece = new CasterDrawable;
+    osg::ref_ptr<const Caster> make(osg::Drawable& drawable, std::uint64_t fingerprint, std::uint64_t geometry,
+                                    const Casting& casting) {
+        osg::ref_ptr<Caster> piece = new Caster;
         piece->fingerprint = fingerprint;
         piece->geometry = geometry;
         piece->drawable = &drawable;
@@ -167,8 +163,8 @@ private:
         piece->ofLevels = isOfLevels();
         if (casting.test && casting.test->texture)
             piece->casting.test->alphas = piece->alphas = alphasOf(*casting.test->texture);
-        if (_bodies && casting.clips.empty())
-            piece->bounds = _bodies->boundsOf(geometry, rootFromLocal(), piece->triangles);
+        if (_others && casting.clips.empty())
+            piece->bounds = _others->boundsOf(geometry, rootFromLocal(), piece->triangles);
         const bool isKnown = piece->bounds.valid(); // as a body, which has all its triangles
         if (isKnown) piece->casting.test.reset();
         DrawableBounds found(rootFromLocal());
@@ -189,7 +185,7 @@ private:
     }
 
     /// What is missing of it. Under an LOD it keeps all that is not.
-    void describe(CasterDrawable& piece) const {
+    void describe(Caster& piece) const {
         const osg::ref_ptr<DrawableReader> found = new DrawableReader;
         for (osg::Node* node : getNodePath()) found->pushOntoNodePath(node); // for the names in it
         found->read(piece);
@@ -203,7 +199,7 @@ private:
         piece.bounds.init();
         for (const unsigned index : found->getTriangles()) piece.bounds.expandBy(found->getVertices()[index]);
         if (!piece.cutOut && found->getClearTriangles() == 0) piece.casting.test.reset();
-        if (isOfLevels() && !CasterBodies::isBody(piece)) piece.kept = found;
+        if (isOfLevels() && !isBody(piece)) piece.kept = found;
     }
 
     /// Of a texture once a visit. An image may be let go once it is drawn: then a piece that was made before knows it.
@@ -216,13 +212,12 @@ private:
         return known->second;
     }
 
-    const CasterDrawables::List _none, &_known;
-    const CasterDrawables::OwnList _knownOwn;
+    const CasterList _none, &_known;
+    const Casters::OwnList _knownOwn;
     const std::string _knownLeftOut;
-    CasterDrawables::OwnList _own;
-    LevelPieces* const _levels;
-    const CasterBodies* const _bodies;
-    CasterDrawables::List _met;
+    Casters::OwnList _own;
+    const KnownCasters* const _others;
+    CasterList _met;
     std::unordered_map<std::uint64_t, std::size_t> _places;
     std::unordered_map<const osg::Texture2D*, osg::ref_ptr<const TextureAlpha>> _alphas;
     std::size_t _same = 0, _next = 0;
@@ -233,7 +228,7 @@ private:
 osg::BoundingBoxd common(const osg::BoundingBoxd& a, const osg::BoundingBoxd& b) { return a.intersect(b); }
 
 /// Of each piece the bounds of what it has in common with others' bounds; invalid if that is nothing.
-std::vector<osg::BoundingBoxd> seamsOf(const CasterDrawables::List& pieces) {
+std::vector<osg::BoundingBoxd> seamsOf(const CasterList& pieces) {
     std::vector<std::size_t> order(pieces.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),
@@ -258,8 +253,7 @@ struct Corner {
     bool operator<(const Corner& other) const { return place < other.place; }
 };
 
-void addCorners(const CasterDrawable& piece, const osg::BoundingBoxd& within, std::size_t index,
-                std::vector<Corner>& corners) {
+void addCorners(const Caster& piece, const osg::BoundingBoxd& within, std::size_t index, std::vector<Corner>& corners) {
     CasterExtraction read;
     read.setRootFromVisited(piece.groupFromLocal);
     if (!piece.kept) const_cast<osg::Drawable&>(*piece.drawable).accept(read); // which changes nothing
@@ -278,8 +272,8 @@ std::size_t rootOf(std::vector<std::size_t>& above, std::size_t piece) {
 
 } // namespace
 
-CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, std::uint64_t choiceOfAll,
-                                 OwnList drawings, std::string leftOutOfAll)
+Casters::Casters(CasterList pieces, std::uint64_t fingerprintOfAll, std::uint64_t choiceOfAll, OwnList drawings,
+                 std::string leftOutOfAll)
     : list(std::move(pieces)),
       own(std::move(drawings)),
       fingerprint(fingerprintOfAll),
@@ -294,65 +288,29 @@ CasterDrawables::CasterDrawables(List pieces, std::uint64_t fingerprintOfAll, st
     }
 }
 
-osg::ref_ptr<const CasterDrawables> CasterDrawables::of(osg::Node& root, const Selection& casters,
-                                                        const osg::ref_ptr<const CasterDrawables>& known,
-                                                        const CasterView* view, LevelPieces* levels,
-                                                        const CasterBodies* bodies, const CastingRule& rule) {
-    DrawableVisitor visitor(casters, known.get(), levels, bodies);
+osg::ref_ptr<const Casters> Casters::of(osg::Node& root, const Selection& casters,
+                                        const osg::ref_ptr<const Casters>& before, const CasterView* view,
+                                        KnownCasters* known, const CastingRule& rule) {
+    DrawableVisitor visitor(casters, before.get(), known);
     visitor.setRule(rule);
     if (view) visitor.setView(*view);
-    if (levels) levels->startVisit();
+    if (known) known->startVisit();
     root.accept(visitor);
-    if (known && !visitor.changed()) return known;
-    const osg::ref_ptr<CasterDrawables> met = new CasterDrawables(
-        visitor.take(), visitor.fingerprint(), visitor.choice(), visitor.takeOwn(), visitor.leftOut());
+    if (before && !visitor.changed()) return before;
+    const osg::ref_ptr<Casters> met =
+        new Casters(visitor.take(), visitor.fingerprint(), visitor.choice(), visitor.takeOwn(), visitor.leftOut());
     for (const auto& piece : met->list)
-        if (levels && piece->ofLevels) levels->add(*piece);
+        if (known && piece->ofLevels) known->add(*piece);
     return met;
 }
 
-const CasterDrawable* LevelPieces::find(std::uint64_t fingerprint) {
-    const auto known = _known.find(fingerprint);
-    return known == _known.end() ? nullptr : known->second.piece.get();
-}
-
-void LevelPieces::add(const CasterDrawable& piece) { _known[piece.fingerprint] = {&piece, _visit}; }
-
-void LevelPieces::prune() {
-    std::unordered_map<const osg::Drawable*, int> held; // by pieces
-    std::size_t seen = 0, unseen = 0;
-    for (const auto& [fingerprint, known] : _known) {
-        const CasterDrawable& piece = *known.piece;
-        const int sources =
-            piece.drawable->asGeometry() ? 0 : 1 + (piece.kept ? 1 : 0) + (piece.body ? 1 : 0); // itself
-        held[piece.drawable.get()] += 1 + sources;
-        (known.lastVisit == _visit ? seen : unseen) += known.piece->triangles;
-    }
-    std::vector<std::pair<unsigned, std::uint64_t>> old; // by age
-    for (auto entry = _known.begin(); entry != _known.end();) {
-        const auto& [piece, lastVisit] = entry->second;
-        const bool isGone = lastVisit != _visit && piece->drawable->referenceCount() <= held[piece->drawable.get()];
-        if (isGone) unseen -= piece->triangles;
-        if (!isGone && lastVisit != _visit) old.emplace_back(lastVisit, entry->first);
-        entry = isGone ? _known.erase(entry) : std::next(entry);
-    }
-    const std::size_t most = std::max(3 * seen, mostUnseen);
-    if (unseen <= most) return;
-    std::sort(old.begin(), old.end());
-    for (std::size_t i = 0; i < old.size() && unseen > most; ++i) {
-        const auto entry = _known.find(old[i].second);
-        unseen -= entry->second.piece->triangles;
-        _known.erase(entry);
-    }
-}
-
-osg::ref_ptr<CasterMesh> meshOf(const CasterDrawables::List& pieces, const std::optional<osg::Vec3d>& origin) {
+osg::ref_ptr<CasterMesh> meshOf(const CasterList& pieces, const std::optional<osg::Vec3d>& origin) {
     DrawableReader all;
     for (const auto& piece : pieces) all.read(*piece);
     return new CasterMesh(all, origin);
 }
 
-std::vector<std::size_t> weldedDrawables(const CasterDrawables::List& pieces) {
+std::vector<std::size_t> weldedCasters(const CasterList& pieces) {
     const std::vector<osg::BoundingBoxd> seams = seamsOf(pieces);
     std::vector<Corner> corners;
     for (std::size_t i = 0; i < pieces.size(); ++i)

@@ -20,12 +20,12 @@
 namespace gnomon {
 
 class CasterExtraction;
-struct CasterBody;
+class CasterMesh;
 
-/// A drawable that casts, at one place in the graph, in one revision. A piece never changes.
+/// A drawable that casts, at one place in the graph, in one revision. It never changes.
 ///
-/// A drawable with several parents is one piece for each path to it.
-struct CasterDrawable : public osg::Referenced {
+/// A drawable with several parents is one caster for each path to it.
+struct Caster : public osg::Referenced {
     std::uint64_t fingerprint = 0;              ///< Changes with all that CasterExtraction reads of it.
     std::uint64_t geometry = 0;                 ///< The same, wherever it is.
     osg::ref_ptr<const osg::Drawable> drawable; ///< The drawable itself.
@@ -43,14 +43,19 @@ struct CasterDrawable : public osg::Referenced {
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
     bool ofLevels = false;                                    ///< It is under an LOD: it may go and come back.
     osg::ref_ptr<const CasterExtraction> kept;   ///< Its triangles, if it is under an LOD and no body. Else null.
-    mutable osg::ref_ptr<const CasterBody> body; ///< CasterBodies keeps it here, under its owner's lock.
+    mutable osg::ref_ptr<const CasterMesh> body; ///< KnownCasters keeps it here, under its owner's lock.
 
 protected:
-    ~CasterDrawable() override = default;
+    ~Caster() override = default;
 };
 
+/// Drawables with fewer triangles are joined: to draw them apart would cost more than to make them again.
+constexpr std::size_t fewestOfABody = 256;
+/// True if it can be a body, which moves as a whole: large enough, of all its triangles, and not flattened by its transform.
+bool isBody(const Caster& piece);
+
 /// A caster whose shape, or whose clear parts, only its own code, program or state knows, at one place in the graph. It
-/// never changes. drawsItself() and CasterDrawable::ownDrawn tell which drawables are such.
+/// never changes. drawsItself() and Caster::ownDrawn tell which drawables are such.
 ///
 /// Limits
 /// - It counts as changed by its place, bounds, arrays, state sets and their uniforms. What moves otherwise is DYNAMIC.
@@ -70,7 +75,7 @@ struct OwnDrawing : public osg::Referenced {
     const std::string name;                                ///< Of the drawable, or the nearest named node above it.
     osg::BoundingBoxd bounds;                              ///< Group frame. Invalid if nobody knows them.
     const Casting casting;                                 ///< What its states leave of it.
-    const bool hasPiece;                                   ///< Its triangles are those of a CasterDrawable, too.
+    const bool hasPiece;                                   ///< Its triangles are those of a Caster, too.
     bool byProgram = false;                                ///< A program draws it, which may depend on the view.
     bool mayChange = false;                                ///< It may be another in each frame.
 

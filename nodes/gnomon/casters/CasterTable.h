@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/base/RecentCache.h>
+#include <gnomon/casters/Casters.h>
+#include <gnomon/casters/KnownCasters.h>
+
+#include <OpenThreads/Mutex>
+
+#include <cstdint>
+
+namespace gnomon {
+
+/// The casters of a group, for each choice of levels of detail that a view made lately.
+///
+/// A scene without levels has one choice. Whatever has changed takes the place of what was there before.
+///
+/// Threads
+/// - Any number.
+class CasterTable : public osg::Referenced {
+public:
+    /// The casters below a node. Reads the graph as a cull traversal does.
+    /// @param view  whose levels are taken; null: the finest.
+    osg::ref_ptr<const Casters> casters(osg::Node& root, const Selection& casters, const CasterView* view);
+    /// Makes the layers of casters that have none. Reads the graph as a cull traversal does.
+    /// @param before  has layers; null: those that the view had last, or any that are known.
+    void makeLayers(const Casters& casters, const Casters* before);
+    /// What of the drawables casts. Default: all that is drawn, transparent or not.
+    void setRule(const CastingRule& rule);
+    /// How often there was something that was not known.
+    unsigned count() const;
+    /// Forgets all: others cast.
+    void clear();
+
+protected:
+    ~CasterTable() override = default;
+
+private:
+    /// What casts with one choice of levels.
+    struct Choice {
+        std::uint64_t choice;
+        const void* view = nullptr; ///< that had it last.
+        unsigned lastCall = 0;
+        CurrentCasters casters{};
+        osg::ref_ptr<const Casters> former{}; ///< retired ones, whose layers the next are made from.
+        unsigned formerSince = 0;             ///< call.
+    };
+    Choice& take(const Casters& now, const CasterView* view);
+    void make(const Casters& casters, const Casters* before);
+    osg::ref_ptr<const Casters> knownTo(const CasterView* view) const;
+    osg::ref_ptr<const Casters> layersKnownTo(const void* view) const;
+
+    mutable OpenThreads::Mutex _mutex;
+    RecentCache<Choice> _choices;
+    KnownCasters _known;
+    unsigned _calls = 0, _count = 0;
+    CastingRule _rule;
+};
+
+} // namespace gnomon

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gnomon/Selection.h>
+#include <gnomon/casters/Caster.h>
+#include <gnomon/casters/CasterMesh.h>
+#include <gnomon/casters/Casting.h>
+
+#include <glm/vec3.hpp>
+#include <osg/BoundingBox>
+#include <osg/Referenced>
+#include <osg/Vec3d>
+#include <osg/observer_ptr>
+#include <osg/ref_ptr>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace gnomon {
+
+class Casters;
+class CasterTable;
+class KnownCasters;
+
+/// Casters, one for each drawable and path.
+using CasterList = std::vector<osg::ref_ptr<const Caster>>;
+
+/// Some of a group's casters as meshes. Never changed once made.
+struct CasterLayer : public osg::Referenced {
+    /// Reads the graph as a cull traversal does.
+    /// @param origin  of the scene, group frame.
+    /// @param before  layers whose joined meshes are taken where they would be the same; may be null.
+    CasterLayer(CasterList pieces, const osg::Vec3d& origin, KnownCasters& known,
+                const std::vector<const CasterLayer*>& before);
+
+    const CasterList pieces;        ///< In the order in which a traversal meets them.
+    const osg::Vec3d origin;        ///< Of the scene, group frame.
+    CasterList loosePieces;         ///< Those that are no bodies.
+    osg::ref_ptr<CasterMesh> loose; ///< These, joined, in the scene; null if there are none.
+    std::vector<PlacedMesh> meshes; ///< The joined one, if there is one, and all bodies.
+    std::size_t triangles = 0;      ///< Of all.
+
+protected:
+    ~CasterLayer() override = default;
+
+private:
+    void join(const std::vector<const CasterLayer*>& before);
+};
+
+/// Casters as meshes: in two layers, what stands still, and what moves, so that the first need not be made again where only
+/// the second changes. Never changed once made. Casters::layers() makes it.
+///
+/// Large drawables are bodies, each a mesh in its own frame; see isBody(). All others of a layer are joined in one mesh.
+///
+/// At first all stands still. What changes or comes moves from then on. Where something that stood still has changed or
+/// gone, its layer is made anew, and what has come to rest since is put into it; so it is, too, once all that it would have
+/// saved to do so earlier comes to as much as it costs.
+///
+/// Cost  of a change: a look at the list of pieces, and what moves; a body that moves costs a matrix. All that is joined
+/// is made anew where one of it starts to move.
+/// Threads
+/// - Any number.
+class CasterLayers {
+public:
+    /// Reads the graph as a cull traversal does.
+    /// @param casters  whose they are, and which they are part of.
+    /// @param before   those of the same group before; may be null.
+    /// @param known    gets the bodies that are met.
+    CasterLayers(const Casters& casters, const CasterLayers* before, KnownCasters& known);
+
+    /// Those of both layers.
+    std::vector<PlacedMesh> meshes() const;
+    /// Number of triangles of both layers.
+    std::size_t triangles() const { return still->triangles + moving->triangles; }
+
+    osg::Vec3d origin;              ///< group frame; all positions are about it, and it stays where it is near.
+    osg::BoundingBoxd bounds;       ///< of all, group frame; invalid without any.
+    glm::dvec3 low{0.0}, high{0.0}; ///< bounds of all, about the origin.
+    glm::dvec3 reach{0.0};          ///< half sides of a box about the origin that holds all.
+    double widest = 0.0;            ///< diameter of a drawable. These count casters that draw themselves, too.
+    double widestBody = 0.0;        ///< the same without what is flat and level along two axes.
+    double rounding = 0.0;          ///< of the vertices by their own floats, of most.
+    double largestRounding = 0.0;   ///< see CasterExtraction::getRounding().
+    osg::ref_ptr<const CasterLayer> still, moving; ///< never null.
+
+private:
+    void begin(KnownCasters& known);
+    void follow(const CasterLayers& before, KnownCasters& known);
+    void divideAnew(const CasterLayers& before, KnownCasters& known);
+    void measure();
+    osg::Vec3d middle() const;
+    bool isNear(const osg::Vec3d& place) const;
+    bool isAtRest(const Caster* moving) const;
+
+    const Casters& _casters;
+    unsigned _change = 0;                               ///< which one this is.
+    std::unordered_map<const Caster*, unsigned> _since; ///< of what moves, the change that it came with.
+    std::size_t _wasted = 0;                            ///< triangles that were made again, though they were at rest.
+};
+
+/// What casts below a group as one view's levels of detail show it, in one revision: drawable by drawable, and as meshes
+/// for those who ask. Immutable. ShadowCasterGroup::casters() has it.
+///
+/// After a change, unchanged drawables keep their Caster. Use the list to keep something for each drawable, and layers() to
+/// treat all alike.
+///
+/// Cost
+/// - 600 bytes a drawable. layers() and meshOf() extract the triangles; those under an LOD are kept.
+/// Limits
+/// - VertexTraverser lists what is left out.
+/// Threads
+/// - Any number.
+class Casters : public osg::Referenced {
+public:
+    /// What only its own code or state can draw as it is, one for each drawable and path.
+    using OwnList = std::vector<osg::ref_ptr<const OwnDrawing>>;
+    /// Sums up the pieces.
+    Casters(CasterList pieces, std::uint64_t fingerprint, std::uint64_t choice = 0, OwnList own = {},
+            std::string leftOut = {});
+
+    /// True if there is no triangle.
+    bool empty() const { return !bounds.valid(); }
+    /// As meshes, made by whoever asks first, from those of the group before. The first call reads the graph as a cull
+    /// traversal does.
+    const CasterLayers& layers() const { return _hasLayers ? *_layers : madeLayers(_table, nullptr); }
+    /// The same, but made from those of others, for what is a part of a group's casters.
+    const CasterLayers& layersAfter(const Casters& before) const {
+        return _hasLayers ? *_layers : madeLayers(before._table, &before);
+    }
+    /// True if somebody has asked for them.
+    bool hasLayers() const { return _hasLayers; }
+
+    /// Stands for these in a cache, which then keeps no caster. True once no view will ask for them any more.
+    using Retired = std::shared_ptr<const std::atomic<bool>>;
+    Retired retired() const { return _retired; }
+    /// No view will ask for these any more: caches may let them go.
+    void retire() const { *_retired = true; }
+    bool isRetired() const { return *_retired; }
+
+    const CasterList list;           ///< In traversal order.
+    const OwnList own;               ///< What only its own drawing shows as it is, for maps. Traversal order.
+    const std::uint64_t fingerprint; ///< Changes with any piece.
+    const std::uint64_t choice;      ///< Stands for the drawables under LODs, wherever they are.
+    osg::BoundingBoxd bounds;        ///< Bounds of all triangles, group frame. Invalid without triangles.
+    unsigned invalidTriangles = 0;   ///< Sum over the pieces.
+    std::string invalidNode;         ///< Name of the first drawable with an invalid triangle.
+    unsigned cutouts = 0;            ///< Pieces with triangles that are clear in part: only maps know in which.
+    std::string cutoutNode;          ///< Name of the first of them.
+    std::string leftOut;             ///< See CasterVisitor::leftOut().
+
+    /// Finds the casters below a node. Reads the graph as a cull traversal does.
+    /// @param before  an earlier result, whose unchanged pieces are used again; may be null.
+    /// @param view    whose levels of detail are taken; null: the finest.
+    /// @param known   others that were met before, and gets those that are met now; may be null.
+    /// @param rule    what of them casts.
+    /// @return        `before` itself if nothing changed.
+    ///
+    /// Cost
+    /// - One visit of the nodes, and an extraction of each new piece.
+    static osg::ref_ptr<const Casters> of(osg::Node& root, const Selection& casters,
+                                          const osg::ref_ptr<const Casters>& before, const CasterView* view = nullptr,
+                                          KnownCasters* known = nullptr, const CastingRule& rule = {});
+
+protected:
+    ~Casters() override = default;
+
+private:
+    friend class CasterTable; ///< it makes the layers, under its lock.
+    const CasterLayers& madeLayers(const osg::observer_ptr<CasterTable>& table, const Casters* before) const;
+
+    mutable osg::observer_ptr<CasterTable> _table; ///< whose these are; null: none's.
+    mutable std::unique_ptr<const CasterLayers> _layers;
+    mutable std::atomic<bool> _hasLayers{false};
+    const std::shared_ptr<std::atomic<bool>> _retired = std::make_shared<std::atomic<bool>>(false);
+};
+
+/// Casters that views may ask for. Once these are let go, or replaced, they are retired: caches may let them go, too.
+class CurrentCasters {
+public:
+    CurrentCasters() = default;
+    CurrentCasters(CurrentCasters&& other) noexcept { _casters.swap(other._casters); }
+    CurrentCasters& operator=(CurrentCasters&& other) noexcept {
+        _casters.swap(other._casters);
+        return *this;
+    }
+    ~CurrentCasters() { set(nullptr); }
+
+    void set(const osg::ref_ptr<const Casters>& casters) {
+        if (_casters && _casters != casters) _casters->retire();
+        _casters = casters;
+    }
+    const osg::ref_ptr<const Casters>& get() const { return _casters; }
+
+private:
+    osg::ref_ptr<const Casters> _casters;
+};
+
+/// Joins pieces into one mesh. It reads the graph: call it in the traversal that found the pieces.
+/// @param origin  the mesh's origin, as CasterMesh takes it.
+osg::ref_ptr<CasterMesh> meshOf(const CasterList& pieces, const std::optional<osg::Vec3d>& origin = {});
+
+/// Whether two closed boxes have a point in common.
+inline bool touch(const osg::BoundingBoxd& a, const osg::BoundingBoxd& b) { return a.intersects(b); }
+
+/// For each piece the first of those that it is connected with over vertices at exactly one place, group frame: walls and a
+/// roof of a house that are drawn apart. Reads the graph as a cull traversal does.
+///
+/// Cost  sorts the pieces, and those vertices that are within another piece's bounds.
+std::vector<std::size_t> weldedCasters(const CasterList& pieces);
+
+} // namespace gnomon
