@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <stdexcept>
+#include <tuple>
 
 using gnomon::HeightField;
 using gnomon::HeightPyramid;
@@ -31,6 +32,18 @@ TEST(HeightField, IsWhatItsPostsSayAndNothingBesideThemOrInHoles) {
     EXPECT_THROW(HeightField(1, 3, {}, {1.0, 1.0}, {1, 2, 3}), std::invalid_argument);
     EXPECT_THROW(HeightField(2, 2, {}, {1.0, 1.0}, {1, 2, 3}), std::invalid_argument);
     EXPECT_THROW(HeightField(2, 2, {}, {1.0, 0.0}, {1, 2, 3, 4}), std::invalid_argument);
+}
+
+TEST(HeightPyramid, TellsOfAHoleInAnyRectangleThatHoldsOne) {
+    std::vector<float> heights(9 * 9, 1.0f);
+    heights[9 * 4 + 4] = std::numeric_limits<float>::quiet_NaN(); // the cells of columns and rows 3 and 4
+    const HeightPyramid ground({9, 9, {0.0, 0.0}, {1.0, 1.0}, heights});
+    for (const auto& [low, high, holds] :
+         {std::tuple(0.0, 8.0, true), {2.5, 3.5, true}, {2.5, 5.5, true}, {0.5, 2.5, false}, {5.5, 7.5, false}}) {
+        const auto range = ground.range(glm::dvec2(low), glm::dvec2(high));
+        ASSERT_TRUE(range) << low;
+        EXPECT_EQ(range->holes, holds) << low << " to " << high;
+    }
 }
 
 TEST(HeightPyramid, FindsTheFirstPlaceThatARayMeets) {

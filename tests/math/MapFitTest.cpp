@@ -228,6 +228,14 @@ TEST(MapFit, CoversWhatItWasMadeForAndNothingThatSticksOut) {
     EXPECT_TRUE(fit.covers(needed, 0.009));
     EXPECT_FALSE(fit.covers(outlineOf(frame, {-0.5, 0.0, 0.0}, {8.0, 8.0, 1.0}), 0.0));
     EXPECT_FALSE(fit.covers(outlineOf(frame, {0.0, 0.0, -40.0}, {8.0, 8.0, 1.0}), 0.0));
+    const LightFrame noon = sunFrame({0.0, 0.0, 1.0}); // what sticks out is behind what is in the map, or before it
+    const auto between = [&noon](double low, double high) {
+        return outlineOf(noon, {0.0, 0.0, low}, {8.0, 8.0, high});
+    };
+    const MapFit level = fitMap(noon, between(0.0, 1.0), between(0.0, 1.0), 0.0, 0.01, 0.0);
+    for (const auto& [low, high] : {std::pair(-1.0, 1.0), {0.0, 2.0}})
+        EXPECT_FALSE(level.covers(between(low, high), 0.0)) << low; // an eighth of 1 is to spare
+    EXPECT_TRUE(level.covers(between(-0.1, 1.1), 0.0));
 }
 
 /// By points: whatever of a box is in view lies within the map.

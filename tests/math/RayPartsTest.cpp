@@ -101,6 +101,18 @@ TEST(RayParts, AreMeasuredWhereTheyAre) {
     EXPECT_LE(scene.reach(), 3.0 * 3.0 * std::sqrt(3.0) / 2.0 * 1.01) << "but for the box of a turned box";
 }
 
+// In the plane is what is within 2^-20 of the coordinates: here 2 mm of 2 km.
+TEST(RayParts, OfALargerUnitAreMetByRaysThatEndCloseBehindThem) {
+    Soup soup;
+    soup.triangle({-1.0, -1.0, 0.0}, {3.0, -1.0, 0.0}, {-1.0, 3.0, 0.0});
+    const RayScene scene = placed(soup, {glm::scale(glm::dmat4(1.0), glm::dvec3(4096.0))});
+    const auto isMet = [&](double behind) {
+        return scene.blocked({{2048.0, 2048.0, 5.0}, {0.0, 0.0, -5.0 - behind}, 1.0});
+    };
+    EXPECT_TRUE(isMet(0.1));
+    EXPECT_FALSE(isMet(0.001)) << "it ends on the surface";
+}
+
 TEST(RayParts, OfBadMatricesAreLeftOut) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     glm::dmat4 flat = turned(0.0, {}, {1.0, 1.0, 0.0}), projective(1.0), missing(1.0);

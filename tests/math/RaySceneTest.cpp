@@ -252,6 +252,18 @@ TEST(RayScene, RaysThatAreNoneMeetNothing) {
     }
 }
 
+TEST(RayScene, AsksForTheTrianglesThatWereGivenWhetherTheyAreSolid) {
+    Soup soup;
+    soup.triangle({0.0, 0.0, 9.0}, {1.0, 0.0, 9.0}, {2.0, 0.0, 9.0}); // no area: it is left out
+    soup.triangle({0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {0.0, 4.0, 0.0});
+    soup.triangle({0.0, 0.0, -1.0}, {4.0, 0.0, -1.0}, {0.0, 4.0, -1.0});
+    gnomon::TriangleSoup given = soup.view();
+    given.solidAt = [](unsigned triangle, double u, double) { return triangle == 2 || (triangle == 1 && u > 0.5); };
+    const RayScene scene(given);
+    EXPECT_EQ(scene.closest({{3.0, 0.5, 5.0}, {0.0, 0.0, -1.0}}).triangle, 1u) << "u is x / 4";
+    EXPECT_EQ(scene.closest({{1.0, 0.5, 5.0}, {0.0, 0.0, -1.0}}).triangle, 2u);
+}
+
 TEST(RayScene, TellsHowFarItsBuildingIs) {
     Soup soup;
     soup.town(100);

@@ -169,7 +169,7 @@ TEST(Flicker, APixelWhoseCentreIsOnAnEdgeMayBeEitherWay) {
             for (int k = 0; k < 3; ++k) {
                 FlickerFrame frame = trueFrame({}, true);
                 frame.truth.undecided = Mask(BoxOnGround::width, BoxOnGround::height);
-                frame.truth.undecided.at(x, y) = undecided;
+                frame.truth.undecided.at(x, y) = undecided && k == wrong; // the next frame has no past there
                 if (k == wrong) frame.visibility.at(x, y) = 1.0 - frame.visibility.at(x, y);
                 meter.add(frame);
             }
