@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <osg/Geometry>
 #include <osg/Image>
+#include <osg/Texture2D>
 #include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 
 #include <cmath>
 
@@ -192,6 +195,32 @@ osg::Group { UniqueID 1
     osg::Geode { UniqueID 5 Drawables 1 { osg::ShapeDrawable { UniqueID 6
       Shape TRUE { osg::Box { UniqueID 7 Center 0 0 1 HalfLengths 0.5 0.5 0.5 } } } } } } }
 )";
+
+// As above: a sun at 45° of 0.7, and 0.1.
+TEST_F(Gnomonshot, SetsThePartsOfTheScenesOwnLights) {
+    folder.write("lit.osgt", boxUnderItsLight);
+    const auto image =
+        shoot(Arguments{"lit.osgt", "--shadow", "planar", "--ambient", "0.1", "--diffuse", "0.7"} + fromAbove);
+    EXPECT_EQ(red(*image, 66, 50), 152);
+    EXPECT_NEAR(red(*image, 37, 50), 25.5, 0.6) << "the box's shadow goes from x = -0.5 to -1.5";
+}
+
+/// An image beside a file is found wherever the program runs.
+TEST_F(Gnomonshot, FindsTexturesBesideItsFiles) {
+    std::filesystem::create_directory(folder.path() / "sub");
+    osg::ref_ptr<osg::Image> black = new osg::Image;
+    black->allocateImage(4, 4, 1, GL_RGB, GL_UNSIGNED_BYTE);
+    std::fill_n(black->data(), black->getTotalSizeInBytes(), static_cast<unsigned char>(0));
+    black->setFileName("black.png");
+    ASSERT_TRUE(osgDB::writeImageFile(*black, (folder.path() / "sub/black.png").string()));
+    const osg::ref_ptr<osg::Geometry> square = osg::createTexturedQuadGeometry({-2, -2, 0}, {4, 0, 0}, {0, 4, 0});
+    square->getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::Texture2D(black));
+    for (const char* name : {"sub/square.osgb", "sub/square.osgt"}) {
+        const osg::ref_ptr<osgDB::Options> byName = new osgDB::Options("WriteImageHint=UseExternal");
+        ASSERT_TRUE(osgDB::writeNodeFile(*square, (folder.path() / name).string(), byName));
+        EXPECT_EQ(red(*shoot(Arguments{name, "--shadow", "none", "--ground", "none"} + fromAbove), 50, 50), 0) << name;
+    }
+}
 
 TEST_F(Gnomonshot, LightsItsGroundByTheScenesOwnLights) {
     folder.write("lit.osgt", boxUnderItsLight);

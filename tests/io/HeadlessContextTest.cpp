@@ -192,6 +192,9 @@ TEST(HeadlessContext, GivesAPerspectiveCameraTheAspectOfThePicture) {
     EXPECT_NEAR(aspect, 2.0, 1e-12);
     EXPECT_NEAR(fovy, 40.0, 1e-9);
     EXPECT_EQ(viewer.getThreadingModel(), osgViewer::Viewer::SingleThreaded);
+    context.attach(*viewer.getCamera(), new osg::Viewport(0, 0, 50, 100));
+    ASSERT_TRUE(viewer.getCamera()->getProjectionMatrixAsPerspective(fovy, aspect, zNear, zFar));
+    EXPECT_NEAR(aspect, 0.5, 1e-12) << "of its part";
 }
 
 TEST(HeadlessContext, RefusesSizesAndBitsInOneSentence) {

@@ -89,6 +89,14 @@ TEST_F(Suffix, GoesTogetherWithOthers) {
     EXPECT_NEAR(scene->getBound().radius(), 2.0 * std::sqrt(3.0) / 2.0, 1e-5) << "twice a box of half sides 0.5";
 }
 
+TEST_F(Suffix, HandsOptionsOn) {
+    std::ofstream(folder + "/far.obj") << "v 0 0 1\nv 1 0 1\nv 0 1 1\nf 1 2 3\n";
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options("noRotation");
+    const auto scene = osgDB::Registry::instance()->readNode(folder + "/far.obj.(map).gnomon", options).takeNode();
+    ASSERT_TRUE(scene);
+    EXPECT_NEAR(scene->getBound().center().z(), 1.0, 1e-6) << "without it y becomes z";
+}
+
 TEST_F(Suffix, SaysWhatIsWrongWithIt) {
     const auto message = [&](const std::string& suffix) { return read(suffix).message(); };
     EXPECT_EQ(message(".osgt.(map+sun:elevation=95).gnomon"),

@@ -327,9 +327,13 @@ TEST_P(SceneFile, AsksForTheBitsThatItsShadowsNeedBeforeAWindowIsMade) {
     EXPECT_EQ(settings.getMinimumNumAlphaBits(), 0u) << "smooth edges of one texel are hard";
     map->setFilter(ShadowMapTechnique::BILINEAR);
     settings.setMinimumNumStencilBits(16);
-    test::throughFile(*group, kind());
-    EXPECT_EQ(settings.getMinimumNumStencilBits(), 16u) << "never lowered";
-    EXPECT_EQ(settings.getMinimumNumAlphaBits(), 8u);
+    for (const auto edges : {ShadowMapTechnique::SMOOTH, ShadowMapTechnique::SOFT}) {
+        map->setEdges(edges);
+        settings.setMinimumNumAlphaBits(0);
+        test::throughFile(*group, kind());
+        EXPECT_EQ(settings.getMinimumNumStencilBits(), 16u) << "never lowered";
+        EXPECT_EQ(settings.getMinimumNumAlphaBits(), 8u) << edges;
+    }
     osg::DisplaySettings::instance() = before;
 }
 

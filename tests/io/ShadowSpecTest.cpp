@@ -274,6 +274,17 @@ TEST(AddShadows, AllNodesOfAReceiversNameReceive) {
     EXPECT_EQ(planesOf(*group, "planar:receiver=building").size(), 4u);
 }
 
+TEST(AddShadows, PlanarTakesWhatManySmallReceiversMakeTogether) {
+    osg::ref_ptr<osg::Group> town = new osg::Group;
+    for (int i = 0; i < 20; ++i) { // 20 of 1 at the height of 1, beside one of 400
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd::translate(3 * i, 0, 1));
+        place->addChild(square("ground", 1));
+        town->addChild(place);
+    }
+    town->addChild(square("ground", 20));
+    EXPECT_EQ(planesOf(*groupOf(town), "planar").size(), 2u) << "5 %, where one alone is 0.25 %";
+}
+
 TEST(AddShadows, AMissingReceiverOrOneWithNothingFlatIsRefused) {
     osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
     EXPECT_EQ(refusal(*group, {"traced", "planar"}),
