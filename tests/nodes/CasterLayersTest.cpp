@@ -154,4 +154,17 @@ TEST(CasterLayers, WithoutTrianglesAreNeitherStillNorMoving) {
     EXPECT_EQ(row.casters->still, first->still);
 }
 
+TEST(CasterLayers, AreMadeForThoseWhoAsk) {
+    Row row(5);
+    const auto first = row.table->casters(*row.root, {}, nullptr);
+    EXPECT_FALSE(first->hasLayers()) << "a list is enough for some";
+    const CasterLayers* layers = &first->layers();
+    row.move(0, {0.0, 3.0, 0.0});
+    row.table->casters(*row.root, {}, nullptr); // nobody asks
+    row.move(1, {0.0, 4.0, 0.0});
+    EXPECT_EQ(row.next()->still->triangles, 3u) << "from those that were asked for last";
+    EXPECT_EQ(row.casters->moving->triangles, 2u);
+    EXPECT_EQ(&first->layers(), layers);
+}
+
 } // namespace

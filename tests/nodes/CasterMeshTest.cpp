@@ -10,8 +10,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <future>
+#include <memory>
 #include <random>
+#include <thread>
 
 using namespace scene;
 using gnomon::CasterExtraction;
@@ -126,4 +130,49 @@ TEST(CasterMesh, HoldsTheArraysItWasMadeOfSoThatNoLaterOneTakesTheirPlace) {
     mesh = nullptr;
     EXPECT_FALSE(vertices.valid());
     EXPECT_FALSE(primitives.valid());
+}
+
+TEST(CasterMesh, KeepsWhatIsDerivedAndLendsWhatIsLent) {
+    osg::ref_ptr<CasterMesh> mesh = meshOf(*triangle());
+    int made = 0;
+    const auto make = [&made] { return std::make_shared<const int>(++made); };
+    EXPECT_EQ(mesh->known<int>(), nullptr);
+    EXPECT_EQ(*mesh->lent<int>(make), 1);
+    EXPECT_EQ(mesh->known<int>(), nullptr) << "nobody has it";
+    EXPECT_EQ(*mesh->derived<int>(make), 2);
+    EXPECT_EQ(*mesh->derived<int>(make), 2);
+    EXPECT_EQ(*mesh->lent<int>(make), 2) << "it is there";
+    EXPECT_EQ(*mesh->derived<double>([] { return std::make_shared<const double>(0.5); }), 0.5) << "of another type";
+    const std::weak_ptr<const int> kept = mesh->known<int>();
+    EXPECT_FALSE(kept.expired());
+    mesh = nullptr;
+    EXPECT_TRUE(kept.expired());
+}
+
+// Each of two makers waits until the other has begun. Who asks while one is made gets the same.
+TEST(CasterMesh, MakesTwoAtOnceAndEachOnce) {
+    const osg::ref_ptr<CasterMesh> mesh = meshOf(*triangle()), other = meshOf(*triangle());
+    for (const auto& second : {mesh, other}) {
+        std::promise<void> begun[2];
+        const auto waits = [&begun](int own, double value) {
+            begun[own].set_value();
+            const auto met = begun[1 - own].get_future().wait_for(std::chrono::seconds(20));
+            EXPECT_EQ(met, std::future_status::ready) << own;
+            return value;
+        };
+        const auto ask = [&] {
+            return *mesh->lent<int>([&] { return std::make_shared<const int>(int(waits(0, 3.0))); });
+        };
+        auto first = std::async(std::launch::async, ask);
+        EXPECT_EQ(*second->lent<double>([&] { return std::make_shared<const double>(waits(1, 4.0)); }), 4.0);
+        EXPECT_EQ(first.get(), 3);
+    }
+    int made = 0;
+    const auto slow = [&made] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return std::make_shared<const float>(float(++made));
+    };
+    auto first = std::async(std::launch::async, [&] { return mesh->derived<float>(slow); });
+    EXPECT_EQ(mesh->derived<float>(slow), first.get());
+    EXPECT_EQ(made, 1);
 }

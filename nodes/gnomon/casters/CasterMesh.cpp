@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/casters/CasterMesh.h>
 
+#include <OpenThreads/ScopedLock>
 #include <osg/BufferObject>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <limits>
@@ -83,6 +85,23 @@ CasterMesh::CasterMesh(const CasterExtraction& casters, const std::optional<osg:
         triangles->push_back(places[index]);
     }
     for (const CasterExtraction::Cutout& cutout : casters.getCutouts()) cutouts.push_back(renumbered(cutout, places));
+}
+
+/// Isolated: a thread that waits for others must not take up work of the caller's, which might ask for the same in turn.
+std::shared_ptr<const void> CasterMesh::derived(const std::type_info& type,
+                                                const std::function<std::shared_ptr<const void>()>& make,
+                                                bool keep) const {
+    using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
+    Slot* slot = nullptr;
+    {
+        Lock lock(_mutex);
+        slot = &_slots[type];
+    }
+    Lock lock(slot->mutex);
+    std::shared_ptr<const void> result = slot->made.lock();
+    if (!result && make) slot->made = result = tbb::this_task_arena::isolate(make);
+    if (keep) slot->kept = result;
+    return result;
 }
 
 osg::ref_ptr<osg::Geometry> casterGeometry(const CasterMesh& mesh, osg::DrawElementsUInt* triangles) {

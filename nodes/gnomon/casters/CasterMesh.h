@@ -2,6 +2,7 @@
 #pragma once
 #include <gnomon/casters/CasterExtraction.h>
 
+#include <OpenThreads/Mutex>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <osg/Array>
@@ -11,20 +12,23 @@
 #include <osg/Referenced>
 #include <osg/ref_ptr>
 
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <typeindex>
+#include <typeinfo>
 #include <vector>
 
 namespace gnomon {
 
-class RayScene;
-
-/// Casters as one triangle mesh: one that moves as a whole, in its own frame, or others joined in the group's.
+/// Casters as one triangle mesh: one that moves as a whole, in its own frame, or others joined in the group's. What techniques
+/// derive of the triangles is found once for all, and goes with the mesh.
 ///
 /// CasterLayers has all meshes of a group, and where they are. Use Casters to treat each drawable apart.
 ///
 /// Cost
-/// - 12 bytes a triangle, and 12 bytes a vertex that a triangle uses.
+/// - 12 bytes a triangle, and 12 bytes a vertex that a triangle uses; and what is derived.
 /// Limits
 /// - VertexTraverser lists what is left out.
 /// Threads
@@ -47,11 +51,38 @@ public:
     std::vector<CasterExtraction::Cutout> cutouts; ///< Drawables with clear parts. `firstVertex` indexes `vertices`.
     std::vector<osg::ref_ptr<const osg::Referenced>> sources; ///< See CasterExtraction::getSources().
 
-    /// The tree of rays over this mesh, as long as anyone holds it. RaySceneCache alone uses it, under its lock.
-    mutable std::weak_ptr<const RayScene> tree;
+    /// What is derived of the triangles, one of each type: made by whoever asks first, while others who ask for it wait.
+    /// @param make  makes it, as a shared pointer. It may use several threads, but must not ask for the same type.
+    template <class T, class Make>
+    std::shared_ptr<const T> derived(const Make& make) const {
+        return std::static_pointer_cast<const T>(derived(typeid(T), make, true));
+    }
+    /// The same, but let go as soon as nobody holds it: for what is large and used by few.
+    template <class T, class Make>
+    std::shared_ptr<const T> lent(const Make& make) const {
+        return std::static_pointer_cast<const T>(derived(typeid(T), make, false));
+    }
+
+    /// What is derived, if it is there; null otherwise.
+    template <class T>
+    std::shared_ptr<const T> known() const {
+        return std::static_pointer_cast<const T>(derived(typeid(T), nullptr, false));
+    }
 
 protected:
     ~CasterMesh() override = default;
+
+private:
+    struct Slot {
+        OpenThreads::Mutex mutex;         ///< held while it is made.
+        std::weak_ptr<const void> made;   ///< as long as anyone has it,
+        std::shared_ptr<const void> kept; ///< such as the mesh.
+    };
+    std::shared_ptr<const void> derived(const std::type_info& type,
+                                        const std::function<std::shared_ptr<const void>()>& make, bool keep) const;
+
+    mutable OpenThreads::Mutex _mutex; ///< of the list of slots alone.
+    mutable std::map<std::type_index, Slot> _slots;
 };
 
 /// The mesh's vertices as the maths takes them, as many as `vertices` has.

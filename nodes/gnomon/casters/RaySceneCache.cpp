@@ -3,7 +3,6 @@
 #include <gnomon/casters/RaySceneCache.h>
 
 #include <OpenThreads/ScopedLock>
-#include <tbb/task_arena.h>
 
 #include <vector>
 
@@ -12,64 +11,46 @@ namespace {
 
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 
-/// Isolated: a thread that waits for others must not take up work of the caller's, which might ask for a tree in turn.
-std::shared_ptr<const RayScene> build(const CasterMesh& mesh, const std::string& name) {
-    ProgressLine progress("gnomon: " + name + " builds a tree of " + std::to_string(mesh.triangles->size() / 3) +
-                          " triangles");
-    return tbb::this_task_arena::isolate([&] {
+/// @param wasBuilt  set if it was not there yet.
+std::shared_ptr<const RayScene> treeOf(const CasterMesh& mesh, const std::string& name, bool& wasBuilt) {
+    return mesh.lent<RayScene>([&] {
+        wasBuilt = true;
+        ProgressLine progress("gnomon: " + name + " builds a tree of " + std::to_string(mesh.triangles->size() / 3) +
+                              " triangles");
         return std::make_shared<const RayScene>(soupOf(mesh), [&progress](double share) { progress.show(share); });
     });
-}
-
-struct Found {
-    std::shared_ptr<const RayScene> scene;
-    bool built;
-};
-
-/// Of all meshes.
-OpenThreads::Mutex& treeMutex() {
-    static OpenThreads::Mutex mutex;
-    return mutex;
-}
-
-/// The trees that are there.
-std::vector<std::shared_ptr<const RayScene>> builtOf(const std::vector<PlacedMesh>& meshes) {
-    Lock lock(treeMutex());
-    std::vector<std::shared_ptr<const RayScene>> built;
-    for (const PlacedMesh& placed : meshes) built.push_back(placed.mesh->tree.lock());
-    return built;
-}
-
-/// One at a time, for all who ask.
-Found findOrBuild(const CasterMesh& mesh, const std::string& name) {
-    Lock lock(treeMutex());
-    if (std::shared_ptr<const RayScene> scene = mesh.tree.lock()) return {scene, false};
-    const std::shared_ptr<const RayScene> scene = build(mesh, name);
-    mesh.tree = scene;
-    return {scene, true};
 }
 
 } // namespace
 
 std::shared_ptr<const RayScene> RaySceneCache::of(const Casters& casters, const std::string& name) {
-    Lock lock(_mutex);
-    if (const Entry* known = _entries.find([&](const Entry& entry) { return entry.casters == casters.retired(); }))
-        return known->scene;
+    if (const auto known = find(casters)) return known;
     const std::vector<PlacedMesh> meshes = casters.layers().meshes();
-    const auto there = builtOf(meshes); // held, for others may go before more are built
-    _entries.dropIf([](const Entry& entry) { return entry.casters->load(); });
-    _entries.dropOldestBeyond(most - 1);
+    std::vector<std::shared_ptr<const RayScene>> there; // held, for others may go before more are built
+    for (const PlacedMesh& placed : meshes) there.push_back(placed.mesh->known<RayScene>());
+    dropOld();
     std::vector<PlacedRayScene> parts;
     bool anyBuilt = false;
-    for (const PlacedMesh& placed : meshes) {
-        const Found found = findOrBuild(*placed.mesh, name);
-        anyBuilt = anyBuilt || found.built;
-        parts.push_back({found.scene, placed.sceneFromMesh});
-    }
-    _builds += anyBuilt;
+    for (const PlacedMesh& placed : meshes)
+        parts.push_back({treeOf(*placed.mesh, name, anyBuilt), placed.sceneFromMesh});
     const bool isOne = parts.size() == 1 && parts.front().outerFromInner == glm::dmat4(1.0);
-    return _entries.add({casters.retired(), isOne ? parts.front().scene : std::make_shared<const RayScene>(parts)})
-        .scene;
+    const auto scene = isOne ? parts.front().scene : std::make_shared<const RayScene>(parts);
+    dropOld(); // others may have added theirs
+    Lock lock(_mutex);
+    _builds += anyBuilt;
+    return _entries.add({casters.retired(), scene}).scene;
+}
+
+std::shared_ptr<const RayScene> RaySceneCache::find(const Casters& casters) {
+    Lock lock(_mutex);
+    const Entry* known = _entries.find([&](const Entry& entry) { return entry.casters == casters.retired(); });
+    return known ? known->scene : nullptr;
+}
+
+void RaySceneCache::dropOld() {
+    Lock lock(_mutex);
+    _entries.dropIf([](const Entry& entry) { return entry.casters->load(); });
+    _entries.dropOldestBeyond(most - 1);
 }
 
 unsigned RaySceneCache::builds() const {

@@ -25,7 +25,7 @@ inline TriangleSoup soupOf(const CasterMesh& mesh) {
 /// The trees over casters that a node or a query casts rays at: one a mesh, kept while it is used, and shared by all
 /// nodes and queries that ask for the same mesh. A revision of several meshes has a tree of two levels over them.
 ///
-/// Threads any number.
+/// Threads any number: those who ask for other meshes do not wait while a tree is built.
 class RaySceneCache {
 public:
     /// @param name  of whom it is, for the line of progress.
@@ -39,6 +39,9 @@ private:
         Casters::Retired casters;
         std::shared_ptr<const RayScene> scene;
     };
+
+    std::shared_ptr<const RayScene> find(const Casters& casters);
+    void dropOld();
 
     /// A node under two groups builds neither again, nor do views of different levels of detail.
     static constexpr std::size_t most = 4;

@@ -29,11 +29,23 @@ std::vector<std::uint8_t> kindsOf(const CasterMesh& mesh) {
     return kinds;
 }
 
+/// Found once a mesh, wherever it stands.
 std::shared_ptr<const SilhouetteMesh> edgesOf(const CasterMesh& mesh) {
-    if (mesh.empty()) return std::make_shared<const SilhouetteMesh>();
-    const std::vector<std::uint8_t> kinds = kindsOf(mesh);
-    return std::make_shared<const SilhouetteMesh>(positionsOf(mesh), mesh.vertices->size(), &mesh.triangles->front(),
-                                                  mesh.triangles->size(), kinds.empty() ? nullptr : kinds.data());
+    return mesh.derived<SilhouetteMesh>([&mesh] {
+        if (mesh.empty()) return std::make_shared<const SilhouetteMesh>();
+        const std::vector<std::uint8_t> kinds = kindsOf(mesh);
+        return std::make_shared<const SilhouetteMesh>(positionsOf(mesh), mesh.vertices->size(),
+                                                      &mesh.triangles->front(), mesh.triangles->size(),
+                                                      kinds.empty() ? nullptr : kinds.data());
+    });
+}
+
+std::vector<VolumeCaster> castersOf(const CasterLayers& casters) {
+    std::vector<VolumeCaster> all;
+    for (const auto& layer : {casters.still, casters.moving})
+        for (const PlacedMesh& placed : layer->meshes)
+            all.push_back({edgesOf(*placed.mesh), placed.sceneFromMesh, placed.hiding});
+    return all;
 }
 
 } // namespace
@@ -58,18 +70,6 @@ std::optional<SeenVolumes> VolumeCache::see(const CasterLayers& casters, const V
     return seenVolumes(own.volumes, scene.clipFromScene(view));
 }
 
-std::vector<VolumeCaster> VolumeCache::castersOf(const CasterLayers& casters) {
-    std::vector<VolumeCaster> all;
-    for (const auto& layer : {casters.still, casters.moving})
-        for (const PlacedMesh& placed : layer->meshes) {
-            Edges& edges = _edges[placed.mesh.get()];
-            if (!edges.of) edges = {placed.mesh, edgesOf(*placed.mesh), 0};
-            edges.used = _round;
-            all.push_back({edges.mesh, placed.sceneFromMesh, placed.hiding});
-        }
-    return all;
-}
-
 /// Those of another light give up their memory, unless they are still drawn.
 void VolumeCache::update(osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster& caster, const glm::dvec4& light,
                          const ReceiverBox& receivers) {
@@ -81,12 +81,8 @@ void VolumeCache::update(osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster
 }
 
 void VolumeCache::dropUnused() {
-    const auto drop = [this](auto& owners) {
-        for (auto owner = owners.begin(); owner != owners.end();)
-            owner = _round - owner->second.used > longUnused ? owners.erase(owner) : std::next(owner);
-    };
-    drop(_edges);
-    drop(_entries);
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        entry = _round - entry->second.used > longUnused ? _entries.erase(entry) : std::next(entry);
 }
 
 unsigned VolumeCache::builds() const {

@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -45,21 +44,13 @@ private:
         std::vector<osg::ref_ptr<LightVolumes>> volumes; ///< of each caster.
         unsigned used = 0;                               ///< in which round.
     };
-    /// The edges of a mesh, found once, wherever it stands.
-    struct Edges {
-        osg::ref_ptr<const CasterMesh> of; // held, so that its address cannot be taken by another
-        std::shared_ptr<const SilhouetteMesh> mesh;
-        unsigned used = 0; ///< the same.
-    };
     static constexpr unsigned longUnused = 64; ///< rounds.
 
-    std::vector<VolumeCaster> castersOf(const CasterLayers& casters);
     void update(osg::ref_ptr<LightVolumes>& volumes, const VolumeCaster& caster, const glm::dvec4& light,
                 const ReceiverBox& receivers);
     void dropUnused();
 
     mutable OpenThreads::Mutex _mutex;
-    std::unordered_map<const CasterMesh*, Edges> _edges;
     std::map<std::pair<ViewKey, int>, Entry> _entries; ///< by a view and a light's number.
     unsigned _builds = 0;
     unsigned _round = 0, _frame = 0; ///< a round is a frame.
