@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/casters/Casting.h>
-#include <gnomon/casters/PathState.h>
 
 #include <osg/BoundingBox>
 #include <osg/Drawable>

@@ -3,7 +3,6 @@
 #include <gnomon/Selection.h>
 #include <gnomon/base/Fingerprint.h>
 #include <gnomon/casters/Casting.h>
-#include <gnomon/casters/PathState.h>
 
 #include <osg/CullStack>
 #include <osg/Matrixd>
