@@ -29,5 +29,8 @@ int main(int argc, char** argv) {
     viewer.setCameraManipulator(hand);
     viewer.setLightingMode(osg::View::SKY_LIGHT);
     viewer.getLight()->setPosition(osg::Vec4(1, -1, 2, 0));
-    return viewer.run();
+    viewer.realize();
+    if (viewer.isRealized()) return viewer.run();
+    std::cerr << "addshadows: no window can be opened. Set DISPLAY to an X server with OpenGL.\n";
+    return 1;
 }

@@ -124,10 +124,7 @@ Options ownOptions(Floor& into) {
                  for (std::size_t i = 0; i < 3; ++i) into.corner[i] = {n[3 * i], n[3 * i + 1], n[3 * i + 2]};
              }},
             {"--light", "x,y,z,w", "w = 1: position of the light; w = 0: direction towards it; -1e6 to 1e6 each",
-             "3,-2,6,1", [&into](const std::string& text) {
-                 const std::vector<double> n = readNumbers(text, 4, -1e6, 1e6);
-                 into.light = {n[0], n[1], n[2], n[3]};
-             }}};
+             "3,-2,6,1", [&into](const std::string& text) { into.light = readLight(text, 1e6); }}};
 }
 
 int run(osg::ArgumentParser& arguments) {

@@ -5,6 +5,7 @@
 #include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <dlfcn.h>
@@ -54,7 +55,9 @@ void takeValue(const Option& option, const std::string& value) {
     try {
         option.take(value);
     } catch (const std::invalid_argument& error) {
-        refuse(option.name + " " + value + " cannot be used. " + error.what());
+        const std::string why = error.what();
+        const bool isSaid = why.find(" cannot be used. ") != std::string::npos; // of a part of the value
+        refuse(option.name + " " + value + (isSaid ? ": " : " cannot be used. ") + why);
     }
 }
 
@@ -66,6 +69,22 @@ void takeOne(osg::ArgumentParser& arguments, const Option& option, int position)
 
 } // namespace
 
+std::vector<std::string> valuesApart(const std::vector<std::string>& words) {
+    std::vector<std::string> result;
+    for (const std::string& word : words) {
+        const std::size_t equals = looksLikeOption(word) ? word.find('=') : std::string::npos;
+        result.push_back(word.substr(0, equals));
+        if (equals != std::string::npos) result.push_back(word.substr(equals + 1));
+    }
+    return result;
+}
+
+bool sayVersion(const std::string& program, const std::vector<std::string>& words) {
+    if (std::find(words.begin(), words.end(), "--version") == words.end()) return false;
+    std::cout << program << " " << GNOMON_VERSION << std::endl;
+    return true;
+}
+
 void findOwnPlugins() {
     Dl_info library{};
     if (!dladdr(reinterpret_cast<const void*>(&askForStencilBits), &library)) return;
@@ -75,7 +94,12 @@ void findOwnPlugins() {
 int runProgram(const char* name, int argc, char** argv, int (*run)(osg::ArgumentParser& arguments)) {
     try {
         findOwnPlugins();
-        osg::ArgumentParser arguments(&argc, argv);
+        std::vector<std::string> words = valuesApart({argv, argv + argc});
+        if (sayVersion(name, words)) return 0;
+        std::vector<char*> pointers;
+        for (std::string& word : words) pointers.push_back(word.data());
+        argc = static_cast<int>(pointers.size());
+        osg::ArgumentParser arguments(&argc, pointers.data());
         return run(arguments);
     } catch (const std::exception& error) {
         std::cout << std::flush;
@@ -120,6 +144,7 @@ std::string describeOptions(const Options& table) {
         if (!option.fallback.empty()) out << " (default " << option.fallback << ")";
         out << "\n";
     }
+    out << "  --version\n      print the version\n";
     return out.str();
 }
 

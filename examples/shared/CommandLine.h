@@ -23,6 +23,11 @@ struct Option {
 
 using Options = std::vector<Option>;
 
+/// "--size=8x6" as "--size" and "8x6"; all else as it is.
+std::vector<std::string> valuesApart(const std::vector<std::string>& words);
+/// Prints the program's name and version if --version stands there. @return whether it does.
+bool sayVersion(const std::string& program, const std::vector<std::string>& words);
+
 /// What main() returns: what `run` returns, or 1 after one sentence on standard error if it throws.
 int runProgram(const char* name, int argc, char** argv, int (*run)(osg::ArgumentParser& arguments));
 

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <set>
@@ -150,6 +151,10 @@ std::string damagedSentence(const std::string& file, const FileKind& kind) {
 ReadResult readFile(const std::string& file, const std::string& program, const FileKind& kind) {
     if (osgDB::fileType(file) == osgDB::DIRECTORY)
         throw std::runtime_error(quoted(file) + " is a directory. Give " + kind.article + " file.");
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored) &&
+        !std::filesystem::is_regular_file(file, ignored)) // a pipe is waited for
+        throw std::runtime_error(quoted(file) + " is a device or a pipe. Give " + kind.article + " file.");
     const Listener listener;
     ReadResult result = guarded(file, program + ": " + damagedSentence(file, kind), kind);
     const std::string unknown = listener.unknownClasses();

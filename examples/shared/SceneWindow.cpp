@@ -87,7 +87,8 @@ SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, S
                          osgGA::GUIEventHandler& keys)
     : _usage(new osg::ApplicationUsage) {
     askForStencilBits();
-    askForAlphaBits();                                            // soft edges
+    askForAlphaBits(); // soft edges
+    if (options.samples > 1) osg::DisplaySettings::instance()->setNumMultiSamples(unsigned(options.samples));
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded); // keys change what another thread could be drawing
     _viewer.setLightingMode(osg::View::NO_LIGHT);
     openWindow(names, options);
@@ -107,6 +108,9 @@ void SceneWindow::openWindow(const WindowNames& names, const ViewOptions& option
         throw std::runtime_error("no window can be opened. Set DISPLAY to an X server with OpenGL, or use " +
                                  names.without + ", which needs no window.");
     _viewer.realize();
+    if (!_viewer.isRealized() && options.samples > 1)
+        throw std::runtime_error("this display has no window of " + std::to_string(options.samples) +
+                                 " samples. Try --samples 4, or leave it out.");
     windows.front()->setWindowName(names.program);
 }
 

@@ -12,19 +12,13 @@ using Text = const std::string&;
 constexpr double smallestLength = 1e-9;
 constexpr std::size_t mostLights = 8;
 constexpr int largestSide = 16384;
+constexpr int mostSamples = 16;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
 osg::Vec3d readVec3(Text text, double low = -largestNumber, double high = largestNumber) {
     const std::vector<double> n = readNumbers(text, 3, low, high);
     return {n[0], n[1], n[2]};
-}
-
-osg::Vec4d readLight(Text text) {
-    const std::vector<double> n = readNumbers(text, 4);
-    if (n[0] == 0.0 && n[1] == 0.0 && n[2] == 0.0 && n[3] == 0.0)
-        refuse("Allowed: a direction other than 0,0,0 with w = 0, or a position with w = 1.");
-    return {n[0], n[1], n[2], n[3]};
 }
 
 SunMoment readSun(Text text) {
@@ -89,14 +83,16 @@ void addCameraOptions(Options& table, ViewOptions& into) {
                      [&into](Text t) { into.center = readVec3(t); }});
     table.push_back({"--viewup", "x,y,z", "up direction in the picture", "0,0,1; 0,1,0 when looking along z",
                      [&into](Text t) { into.viewUp = readVec3(t); }});
-    table.push_back({"--fovy", "DEG", "vertical field of view, 1 to 170 degrees", "40",
-                     [&into](Text t) { into.fovy = readNumber(t, 1.0, 170.0); }});
+    table.push_back({"--fovy", "DEG", "vertical field of view, 0.001 to 170 degrees", "40",
+                     [&into](Text t) { into.fovy = readNumber(t, 0.001, 170.0); }});
     table.push_back({"--near", "N", "distance of the near plane, scene's unit, used exactly; needs --far", "computed",
                      [&into](Text t) { into.zNear = readNumber(t, smallestLength, largestNumber); }});
     table.push_back({"--far", "F", "distance of the far plane, scene's unit, used exactly; needs --near", "computed",
                      [&into](Text t) { into.zFar = readNumber(t, smallestLength, largestNumber); }});
     table.push_back({"--background", "r,g,b", "background colour, 0 to 1 each", "0.2,0.2,0.4",
                      [&into](Text t) { into.background = readVec3(t, 0.0, 1.0); }});
+    table.push_back({"--samples", "N", "samples a pixel, 1 to 16: more than 1 smooth all edges", "1",
+                     [&into](Text t) { into.samples = readWhole(t, 1, mostSamples); }});
     addSize(table, into);
 }
 
@@ -117,6 +113,14 @@ void requireDepthRange(const ViewOptions& o) {
 }
 
 } // namespace
+
+osg::Vec4d readLight(Text text, double most) {
+    const std::vector<double> n = readNumbers(text, 4, -most, most);
+    const bool isDirection = n[3] == 0.0 && (n[0] != 0.0 || n[1] != 0.0 || n[2] != 0.0);
+    if (!isDirection && n[3] != 1.0)
+        refuse("Allowed: a direction other than 0,0,0 with w = 0, or a position with w = 1.");
+    return {n[0], n[1], n[2], n[3]};
+}
 
 void addShadowOptions(Options& table, ViewOptions& into) {
     table.push_back({"--shadow", "SPEC", "shadow technique and its keys, see SPEC below", into.usualShadow,

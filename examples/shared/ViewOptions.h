@@ -45,10 +45,14 @@ struct ViewOptions {
     std::optional<double> zFar;
     osg::Vec3d background{0.2, 0.2, 0.4};
     int width = 800, height = 600; ///< of the picture, pixels.
+    int samples = 1;               ///< a pixel.
 };
 
 /// The options of `into`, as a table.
 Options viewOptions(ViewOptions& into);
+
+/// "x,y,z,w", a direction or a place. @param most  magnitude of a number. @throws std::invalid_argument, "allowed: …".
+osg::Vec4d readLight(const std::string& text, double most = largestNumber);
 
 /// Those of shadows, and those of lights, alone.
 void addShadowOptions(Options& table, ViewOptions& into);

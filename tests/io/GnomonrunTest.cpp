@@ -121,6 +121,20 @@ TEST_F(Gnomonrun, OsgviewerHasTheShadowsOfEveryTechniqueOrTheirCauses) {
     EXPECT_NE(ending.err.find(" of it for shadows"), std::string::npos) << ending.err;
 }
 
+/// docs/files-and-viewers.md
+TEST_F(Gnomonrun, TheGuidesFirstExampleShowsShadowsByAuto) {
+    const auto shot = [&](const std::string& more) {
+        const Ending ending =
+            run(more + "--light 1,1,2,0 --frames 5 --out o.png -- osgviewer " GNOMON_DATA "/lab8.osgt.30,0,0.rot");
+        EXPECT_EQ(ending.status, 0) << ending.err;
+        EXPECT_EQ(ending.err.find("gnomonrun: auto: ") != std::string::npos, more.empty()) << ending.err;
+        return picture("o.png");
+    };
+    const osg::ref_ptr<osg::Image> with = shot(""), without = shot("--shadow none ");
+    ASSERT_TRUE(with && without);
+    EXPECT_GT(judged(*without, *with).dark, 300);
+}
+
 TEST_F(Gnomonrun, OneFrameIsComparedInEveryWay) {
     const Ending ending = run("--frames 5 --compare compared -- " + built("scene"));
     ASSERT_EQ(ending.status, 0) << ending.err;

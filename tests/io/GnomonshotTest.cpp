@@ -60,6 +60,18 @@ long countDifferent(const osg::Image& a, const osg::Image& b, float steps = 0.0f
 
 int red(const osg::Image& image, int x, int y) { return int(std::lround(image.getColor(x, y)[0] * 255.0f)); }
 
+/// A box of side 1 that moves 3 a second along x.
+const std::string movingBox = R"(#Ascii Scene
+#Version 161
+#Generator by hand
+osg::MatrixTransform { UniqueID 1
+  UpdateCallback TRUE { osg::AnimationPathCallback { UniqueID 2 AnimationPath TRUE { osg::AnimationPath { UniqueID 3
+    TimeControlPointMap 2 { Time 0 { Position 0 0 0 Rotation 0 0 0 1 Scale 1 1 1 } Time 100 { Position 300 0 0 Rotation 0 0 0 1 Scale 1 1 1 } }
+  } } } }
+  Children 1 { osg::Geode { UniqueID 4 Drawables 1 { osg::ShapeDrawable { UniqueID 5
+    Shape TRUE { osg::Box { UniqueID 6 Center 0 0 0 HalfLengths 0.5 0.5 0.5 } } } } } } }
+)";
+
 /// A square plate of side 1 at height 1 over the origin, in z up or, with y up, turned.
 std::string plate(bool yUp) {
     const char* z = "v -.5 -.5 1\nv .5 -.5 1\nv .5 .5 1\nv -.5 .5 1\n";
@@ -116,6 +128,51 @@ TEST_F(Gnomonshot, DrawsTheSamePictureEveryTime) {
     EXPECT_EQ(countDifferent(*once, *shoot({scene, "--shadow", "planar", "--frames", "5"})), 0);
     EXPECT_EQ(countDifferent(*once, *shoot({scene, "--shadow", "planar", "--frames", "2", "--stats", "s.json"})), 0)
         << "the light is back where it was given";
+}
+
+/// Animated files go by the scene's time, 30 frames a second: a box that moves 3 a second is 0.9 on in the tenth frame.
+TEST_F(Gnomonshot, DrawsWhatMovesWhereTheSceneTimeOfItsFramesPutsIt) {
+    folder.write("moving.osgt", movingBox);
+    const auto at = [&](const char* frames) {
+        const auto image =
+            shoot(Arguments{"moving.osgt", "--shadow", "none", "--ground", "none", "--frames", frames} + fromAbove);
+        double sum = 0.0, count = 0.0;
+        for (int x = 0; x < 100; ++x)
+            if (red(*image, x, 50) != 51) sum += x + 0.5, ++count;
+        return sum / count;
+    };
+    const double unit = 50.0 / (9.5 * std::tan(osg::DegreesToRadians(22.5))); // pixels, at the box's top
+    EXPECT_NEAR(at("1"), 50.0, 0.51);
+    EXPECT_NEAR(at("10"), 50.0 + 0.9 * unit, 0.51);
+}
+
+/// Of four samples a pixel on an edge is a mean of colours on either side; all others stay as they are.
+TEST_F(Gnomonshot, SamplesSmoothEdgesAndNothingElse) {
+    const osg::ref_ptr<osg::Image> one = shoot({scene, "--shadow", "planar"}),
+                                   four = shoot({scene, "--shadow", "planar", "--samples", "4"});
+    long mixed = 0, elsewhere = 0;
+    for (int y = 2; y < one->t() - 2; ++y)
+        for (int x = 2; x < one->s() - 2; ++x) {
+            int least = 255, most = 0;
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    least = std::min(least, red(*one, x + i, y + j));
+                    most = std::max(most, red(*one, x + i, y + j));
+                }
+            const int now = red(*four, x, y);
+            mixed += most - least > 60 && now > least + 10 && now < most - 10;
+            elsewhere += now < least - 1 || now > most + 1;
+        }
+    EXPECT_GT(mixed, 60);
+    EXPECT_EQ(elsewhere, 0) << "beyond what is near in the picture of one sample";
+}
+
+/// A telescope: the square of side 1 at a distance of 9 is 2 atan(0.5 / 9) = 6.36 degrees wide.
+TEST_F(Gnomonshot, LooksThroughATelescope) {
+    folder.write("plate.obj", plate(false));
+    const auto image = shoot({"plate.obj", "-O", "noRotation", "--shadow", "none", "--ground", "none", "--eye",
+                              "0,0,10", "--center", "0,0,0", "--viewup", "0,1,0", "--size", "100x100", "--fovy=0.5"});
+    for (const int at : {0, 50, 99}) EXPECT_NE(red(*image, at, at), 51) << "the plate, no background";
 }
 
 /// Ground lit 0.1 + 0.7 cos 45° = 0.595 of white, shadowed 0.1: 151.7 and 25.5 of 255. A sun at 45° moves the shadow by the

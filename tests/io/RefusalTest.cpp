@@ -11,6 +11,7 @@
 
 #include <set>
 #include <sstream>
+#include <sys/stat.h>
 
 namespace {
 
@@ -36,6 +37,7 @@ const Refused refused[] = {
     {GUS_SHADOW, {"--points", "1,2,3", "--offscreen"}, "Allowed: 9 numbers"},
     {GUS_SHADOW, {"--points", "nan,0,0,1,0,0,0,1,0", "--offscreen"}, "Allowed: 9 numbers"},
     {GUS_SHADOW, {"--light", "1,2,3", "--offscreen"}, "Allowed: 4 numbers"},
+    {GUS_SHADOW, {"--light=1,1,1,2", "--offscreen"}, "or a position with w = 1"},
     {HALOMAGIC, {"--keys", "W", "--offscreen"}, "there is no key W"},
     {LAB8, {"--eye", "1,2", "--offscreen"}, "--eye 1,2 cannot be used. Allowed: 3 numbers"},
     {LAB8, {"--eye", "0,0,0", "--at", "0,0,0", "--offscreen"}, "--eye"},
@@ -46,6 +48,9 @@ const Refused refused[] = {
     {LAB8, {"--out", "o.nothing"}, "o.nothing"},
     {SHAD, {}, "no scene file is given. Usage: shad [OPTION...] FILE..."},
     {SHAD, {"nowhere.osgt", "--offscreen"}, "nowhere.osgt"},
+    {SHAD, {"/dev/null", "--offscreen"}, "\"/dev/null\" is a device or a pipe. Give a scene file."},
+    {SHAD, {"empty.osgt", "--out=o.png"}, "\"empty.osgt\" cannot be read as a scene"},
+    {SHAD, {".", "--offscreen"}, "\".\" is a directory"},
     {SHAD, {shadScene, "--lights", "5", "--offscreen"}, "--lights 5 cannot be used"},
     {SHAD, {shadScene, "--keys", "W", "--offscreen"}, "there is no key W"},
     {ARL_TERRAIN, {"--shadow", "planar", "--out", "o.png"}, "Allowed: none, box, hull."},
@@ -60,10 +65,31 @@ const Refused refused[] = {
     {ARL_TERRAIN, {"missing.tif.gdal", "--out", "o.png"}, "there is no file \"missing.tif.gdal\"", false},
     {ARL_TERRAIN, {"small.asc.gdal", "--out", "o.png"}, "no place for the town: 900 m", false},
     {ARL_TERRAIN, {"--out", "nowhere/o.png"}, "nowhere"},
+    {ARL_TERRAIN, {"/dev/zero", "--out", "o.png"}, "is a device or a pipe. Give an elevation model file."},
+    {ARL_TERRAIN, {"--hour=25", "--out", "o.png"}, "--hour 25 cannot be used"},
     {ARL_TERRAIN, {"--out", "o.nothing"}, "o.nothing"},
     {ARL_TERRAIN, {"--report", "small.asc"}, "small.asc"},
     {GNOMONVIEWER, {scene}, "no window can be opened", false},
     {GNOMONVIEWER, {}, "no scene file"},
+    {GNOMONVIEWER, {"pipe.osgt"}, "\"pipe.osgt\" is a device or a pipe. Give a scene file."},
+    {GNOMONVIEWER, {"empty.osgt"}, "\"empty.osgt\" cannot be read as a scene"},
+    {GNOMONVIEWER, {"small.asc"}, "\"small.asc\" cannot be read as a scene"},
+    {GNOMONVIEWER, {scene, "--samples=0"}, "--samples 0 cannot be used. Allowed: a whole number from 1 to 16."},
+    {GNOMONRUN, {}, "no program is given"},
+    {GNOMONRUN, {"true"}, "\"true\" stands before --."},
+    {GNOMONRUN, {"--frames=0", "--", "true"}, "--frames 0 cannot be used"},
+    {GNOMONRUN, {"--shadow=map:size=3", "--", "true"}, "--shadow map:size=3: size=3 cannot be used."},
+    {GNOMONRUN, {"--out", "o.png", "--", "true"}, "--out needs --frames N."},
+    {GNOMONRUN, {"--frames", "3", "--out", "/dev/null", "--", "true"}, "\"/dev/null\" cannot be written"},
+    {GNOMONRUN, {"--frames", "3", "--compare", "small.asc", "--", "true"}, "--compare small.asc is not a folder."},
+    {GNOMONRUN, {"--size", "3x3", "--", "true"}, "there is no option --size"},
+    {GNOMONCHART, {"nofile", "--out", "c"}, "there is no file \"nofile\"."},
+    {GNOMONCHART, {"/dev/null", "--out", "c"}, "is a device or a pipe"},
+    {GNOMONCHART, {scene, "--technique", "nothing", "--out", "c"}, "no technique's name contains \"nothing\"."},
+    {GNOMONCHART, {"--again", "gone"}, "\"gone\" holds neither results.json nor stability.json."},
+    {GNOMONCHART, {"--again=damaged"}, "\"damaged/results.json\" is damaged"},
+    {ADDSHADOWS, {}, "no scene file can be read."},
+    {ADDSHADOWS, {scene}, "no window can be opened.", false},
     {GNOMONVIEWER, {"/nowhere.osgt"}, "there is no file"},
     {GNOMONVIEWER, {scene, "--shadow", "moon"}, "not a shadow technique"},
     {GNOMONVIEWER, {scene, "--size", "0x5"}, "Allowed: WIDTHxHEIGHT"},
@@ -83,6 +109,10 @@ const Refused refused[] = {
 TEST(Programs, SayInOneSentenceWhatTheyCannotDo) {
     const TemporaryFolder folder;
     folder.write("small.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 10\n7 8 9\n4 5 6\n1 2 3\n");
+    folder.write("empty.osgt", "");
+    mkfifo((folder.path() / "pipe.osgt").c_str(), 0600);
+    std::filesystem::create_directory(folder.path() / "damaged");
+    folder.write("damaged/results.json", "{}");
     for (const Refused& each : refused) {
         const std::string said = refusal(each.program, each.arguments, folder, each.alone);
         EXPECT_NE(said.find(each.says), std::string::npos) << each.program << " says " << said << ", not " << each.says;
@@ -138,6 +168,8 @@ TEST(Programs, HelpNamesOptionsWithDefaultsAndKeys) {
          {"--casting", "--not-casting", "--shadowed", "--ambient", "--truth", "--overlay", "--json", "--contact",
           "--attached", "litCentre", "blockerDistance", "litByDisc", "towardsLight"}},
         {GNOMONSHOT, ofGnomonshot},
+        {GNOMONRUN, {"--compare FOLDER", "--version", "(default auto)"}},
+        {GNOMONCHART, {"--quick", "--version"}},
     };
     const TemporaryFolder folder;
     for (const auto& [program, texts, isExample] : rows) {
@@ -145,6 +177,9 @@ TEST(Programs, HelpNamesOptionsWithDefaultsAndKeys) {
         EXPECT_EQ(ending.status, 0) << program;
         EXPECT_EQ(ending.err, "") << program;
         for (const std::string& text : texts) EXPECT_NE(ending.out.find(text), std::string::npos) << program << text;
+        const Ending version = runProgram(program, {"--version"}, folder.path());
+        EXPECT_EQ(version.status, 0);
+        EXPECT_EQ(version.out, std::filesystem::path(program).filename().string() + " " GNOMON_VERSION "\n");
         for (const std::string& text : isExample ? ofExamples : Arguments())
             EXPECT_NE(ending.out.find(text), std::string::npos) << program << text;
         if (program == std::string(ARL_TERRAIN))
@@ -283,7 +318,9 @@ TEST_F(BadInput, ValuesThatCannotBeUsed) {
         {"--light",
          {"nan,0,1,0", "0,0,inf,0", "0,0,1", "0,0,1,0,0", "a,b,c,d", "0,0,1e300,1", "1,,1,0"},
          "Allowed: 4 numbers from -1e+12 to 1e+12, separated by commas."},
-        {"--light", {"0,0,0,0"}, "Allowed: a direction other than 0,0,0 with w = 0, or a position with w = 1."},
+        {"--light",
+         {"0,0,0,0", "1,1,1,2", "1,1,1,-1"},
+         "Allowed: a direction other than 0,0,0 with w = 0, or a position with w = 1."},
         {"--sun",
          {"noon", "2026-06-21T15:00:00Z", "2026-02-30T15:00:00Z,40,0", "2026-06-21T15:00:00,40,0"},
          "Allowed: a moment in UTC as 2026-06-21T15:00:00Z, a latitude from -90 to 90 and a longitude from -180 to 180 "
@@ -295,11 +332,12 @@ TEST_F(BadInput, ValuesThatCannotBeUsed) {
         {"--eye", {"0,nan,1"}, "Allowed: 3 numbers from -1e+12 to 1e+12, separated by commas."},
         {"--center", {"0,nan,1"}, "Allowed: 3 numbers from -1e+12 to 1e+12, separated by commas."},
         {"--viewup", {"0,nan,1"}, "Allowed: 3 numbers from -1e+12 to 1e+12, separated by commas."},
-        {"--fovy", {"0", "180", "-40", "nan", "wide"}, "Allowed: a number from 1 to 170."},
+        {"--fovy", {"0", "180", "-40", "nan", "wide"}, "Allowed: a number from 0.001 to 170."},
         {"--near", {"0"}, "Allowed: a number from 1e-09 to 1e+12."},
         {"--ambient", {"nan"}, "Allowed: a number from 0 to 10."},
         {"--diffuse", {"-1"}, "Allowed: a number from 0 to 10."},
         {"--background", {"0,0,2"}, "Allowed: 3 numbers from 0 to 1, separated by commas."},
+        {"--samples", {"0", "17", "1.5"}, "Allowed: a whole number from 1 to 16."},
         {"--frames", {"0", "2.5"}, "Allowed: a whole number from 1 to 100000."},
         {"--up", {"x"}, "Allowed: y, z."},
         {"--ground", {"big"}, "Allowed: auto, none, or a side from 1e-09 to 1e+12."},
@@ -307,9 +345,14 @@ TEST_F(BadInput, ValuesThatCannotBeUsed) {
     for (const auto& [option, values, allowed] : rows)
         for (const std::string& value : values) {
             const std::string expected = std::string(option) + " " + value + " cannot be used. " + allowed;
-            EXPECT_EQ(refusal(GNOMONSHOT, {scene, "--out", "o.png", option, value}, folder).substr(0, expected.size()),
-                      expected);
+            for (const Arguments& given : {Arguments{option, value}, Arguments{option + ("=" + value)}}) {
+                Arguments all = {scene, "--out", "o.png"};
+                all.insert(all.end(), given.begin(), given.end());
+                EXPECT_EQ(refusal(GNOMONSHOT, all, folder).substr(0, expected.size()), expected);
+            }
         }
+    EXPECT_EQ(refusal(GNOMONSHOT, {scene, "--out", "o.png", "--shadow", "map:size=3"}, folder),
+              "--shadow map:size=3: size=3 cannot be used. Allowed: 16 to 16384, texels.");
 }
 
 TEST_F(BadInput, OptionsThatDoNotFit) {
@@ -332,6 +375,11 @@ TEST_F(BadInput, OptionsThatDoNotFit) {
         {{"--moon", "full"}, "there is no option --moon. See --help for all options."},
         {{"--size"}, "--size needs a value: WxH."},
         {{"--size", "8x8", "--size", "9x9"}, "--size is given twice. Give it once."},
+        {{"--size=8x8", "--size", "9x9"}, "--size is given twice. Give it once."},
+        {{"--size="}, "--size  cannot be used. Allowed: WIDTHxHEIGHT from 1x1 to 16384x16384 pixels."},
+        {{"--siz=8x8"}, "there is no option --siz. See --help for all options."},
+        {{"--"}, "there is no option --. See --help for all options."},
+        {{""}, "there is no file \"\"."},
         {{"-O"}, "-O needs a value."},
     };
     const std::pair<Arguments, const char*> alone[] = {

@@ -68,7 +68,8 @@ constexpr int stabilityWidth = 160, stabilityHeight = 120;
 constexpr int leastSide = 32; // pixels; smaller pictures have no pixel that is judged
 
 // Every technique is measured, each with its own casters and receivers, under light of the chart's own.
-constexpr std::array<const char*, 5> notOfUse{"--shadow", "--casters", "--ambient", "--diffuse", "--background"};
+constexpr std::array<const char*, 6> notOfUse{"--shadow",  "--casters",    "--ambient",
+                                              "--diffuse", "--background", "--samples"};
 
 using Text = const std::string&;
 
@@ -225,8 +226,8 @@ std::string chartHelp() {
 /// Draws the figures and the page of the results in a folder, and prints what they say: report.py does.
 ///
 /// Needs   python3 with matplotlib and jinja2, when it is called.
-/// @throws std::runtime_error, one sentence, if Python cannot be started or the report fails; it has said why then.
-void writeReport(const std::string& folder) {
+/// @return its status; where that is not 0 it has said why. @throws std::runtime_error, one sentence, if Python cannot be started.
+int report(const std::string& folder) {
     std::cout.flush();
     setenv("GNOMON_RESULTS", folder.c_str(), 1);       // which a shell need not quote
     const auto before = std::signal(SIGPIPE, SIG_IGN); // where Python cannot be started
@@ -236,7 +237,12 @@ void writeReport(const std::string& folder) {
     std::signal(SIGPIPE, before);
     if (status == -1 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
         throw std::runtime_error("the report needs Python, which cannot be started. Install python3.");
-    if (status != 0) throw std::runtime_error("the report could not be made; the results are kept.");
+    return status == 0 ? 0 : 1;
+}
+
+/// The same of what was just measured. @throws std::runtime_error, one sentence, if it fails.
+void writeReport(const std::string& folder) {
+    if (report(folder) != 0) throw std::runtime_error("the report could not be made; the results are kept.");
 }
 
 constexpr const char* program = "gnomonchart";
@@ -463,6 +469,7 @@ ChartPlan planOf(const ChartOptions& options) {
 int chart(const ChartOptions& options, const std::string& command) {
     ChartPlan plan = planOf(options);
     plan.made.insert(plan.made.begin(), {"command", command});
+    entrants(options.techniques, true); // so that no folder is made for names that are none
     requireFolder(options.out);
     if (options.resume) plan.kept = keptOf(loadResults(options.out), plan);
     listenForStop();
@@ -488,7 +495,7 @@ int run(osg::ArgumentParser& arguments) {
     else if (options.list)
         listNames();
     else if (!options.again.empty())
-        writeReport(options.again);
+        return report(options.again);
     else if (options.model)
         judgeModel(options);
     else if (options.random)

@@ -602,10 +602,9 @@ def main():
         file = folder / f"{name}.json"
         if file.is_file():
             try:
-                results = json.loads(file.read_text(encoding="utf-8"), object_hook=with_numbers)
-            except ValueError as damage:
-                sys.exit(f"gnomonchart: \"{file}\" is damaged: {damage}. Measure again without --again.")
-            return report(folder, results)
+                return report(folder, json.loads(file.read_text(encoding="utf-8"), object_hook=with_numbers))
+            except (ValueError, KeyError, TypeError) as damage:
+                sys.exit(f"gnomonchart: \"{file}\" is damaged: {damage!r}. Measure again without --again.")
     sys.exit(f"gnomonchart: \"{folder}\" holds neither results.json nor stability.json. Name the folder of a run of gnomonchart.")
 
 

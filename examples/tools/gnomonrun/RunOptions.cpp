@@ -35,14 +35,13 @@ Options runOptions(RunOptions& into) {
 } // namespace
 
 RunOptions::RunOptions() {
-    view.usualShadow = "map";
     view.ground = "none";
     view.keepLights = true;
 }
 
 RunOptions readRunOptions(const std::vector<std::string>& given) {
     RunOptions options;
-    std::vector<std::string> words = given;
+    std::vector<std::string> words = valuesApart(given);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     int count = static_cast<int>(pointers.size());
@@ -85,7 +84,7 @@ std::string runHelp() {
            "that link OpenSceneGraph statically, or draw with osgUtil::SceneView without a viewer.\n"
            "\nSPEC\n" +
            shadowSpecHelp() + "\nKEYS, as far as the program has no other use for them\n" + keysHelp(shadowKeys()) +
-           "\nExample: gnomonrun --shadow traced --ground auto -- osgviewer cow.osgt\n";
+           "\nExample: gnomonrun --ground auto -- osgviewer cow.osgt.30,0,0.rot\n";
 }
 
 } // namespace gnomon::examples

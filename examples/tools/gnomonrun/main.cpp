@@ -129,6 +129,7 @@ int start(const Words& words) {
     const auto border = std::find(words.begin(), words.end(), "--");
     const Words options(words.begin(), border);
     const Words command(border == words.end() ? border : border + 1, words.end());
+    if (sayVersion("gnomonrun", options)) return 0;
     const RunOptions read = readRunOptions(options);
     if (read.help) {
         std::cout << runHelp();
@@ -137,6 +138,8 @@ int start(const Words& words) {
     if (command.empty())
         throw std::invalid_argument("no program is given. Write gnomonrun OPTION... -- PROGRAM ARGUMENT...");
     if (!read.out.empty()) OutputFile(read.out).requireImage();
+    if (std::filesystem::exists(read.compare) && !std::filesystem::is_directory(read.compare))
+        throw std::invalid_argument("--compare " + read.compare + " is not a folder. Give a folder's name.");
     return run(options, command);
 }
 

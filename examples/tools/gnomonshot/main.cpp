@@ -7,6 +7,7 @@
 #include "ScenePicture.h"
 #include "SceneSetup.h"
 #include "SceneTruth.h"
+#include "TimeLeft.h"
 #include "TruthFile.h"
 
 #include <gnomon/PlanarShadowNode.h>
@@ -148,7 +149,16 @@ public:
 
     /// Draws the frames asked for; nothing is timed.
     void draw() {
-        for (int i = 0; i < _options.frameCount(); ++i) _picture.viewer().frame();
+        TimeLeft progress = progressOf(_options.frameCount());
+        for (int i = 0; i < _options.frameCount(); ++i) {
+            progress.show(i, "frame " + std::to_string(i + 1) + " of " + std::to_string(_options.frameCount()));
+            _picture.frame();
+        }
+    }
+    /// A line for what takes long: at once where a picture is large.
+    TimeLeft progressOf(double work) const {
+        const bool isLarge = double(_options.view.width) * _options.view.height > 1e7;
+        return TimeLeft(work, isLarge ? 0.0 : 1.0);
     }
 
     /// Draws and times frames: still ones, then ones under a moving light, each beside one without shadows.
@@ -159,8 +169,10 @@ public:
         maps[0] = mapsDrawn();
         for (int i = 0; i < warmUpFrames; ++i) timedFrame(true), timedFrame(false);
         std::vector<double> steady, moving, none;
+        TimeLeft progress = progressOf(2.0 * _options.frameCount());
         const auto time = [&](std::vector<double>& into, double turn) {
             for (int i = 0; i < _options.frameCount(); ++i) {
+                progress.show(double(none.size()), turn != 0.0 ? "frames under a moving light" : "still frames");
                 if (turn != 0.0) _setup.lights->turn((i + 1) * turn);
                 into.push_back(timedFrame(true));
                 none.push_back(timedFrame(false));
@@ -186,7 +198,7 @@ public:
                 {"peakMiB", peakMiB()}};
     }
 
-    osg::ref_ptr<osg::Image> picture() const { return _picture.context().image(); }
+    osg::ref_ptr<osg::Image> picture() { return _picture.image(); }
     /// What is true of the picture. @throws std::runtime_error, one sentence, if there is not one light.
     metrics::TruthMaps truth() {
         const std::vector<osg::Vec4d> lights = _setup.lights->places();
@@ -211,7 +223,7 @@ public:
 private:
     double timedFrame(bool shadows) {
         _setup.show(shadows);
-        return timeFrame(_picture.viewer()).wall;
+        return timeFrame(_picture.viewer(), _picture.nextTime()).wall;
     }
 
     /// Drawables of the scene's own draw; OSG counts them, outside the timed frames. Leaves the picture as it is to be
@@ -348,7 +360,11 @@ void shoot(const ShotOptions& options) {
     stats ? void(measured = shot.measure()) : shot.draw();
     for (const std::string& cause : shot.diagnose()) std::cerr << "gnomonshot: note: " << cause << std::endl;
     if (options.recommend) std::cout << recommendation(shot.decisions());
-    if (picture) picture->write(*shot.picture());
+    if (picture) {
+        TimeLeft progress = shot.progressOf(1.0);
+        progress.show(0.0, "writing " + options.out);
+        picture->write(*shot.picture());
+    }
     if (truth) truth->writeData(*truthImage(shot.truth()));
     if (stats) stats->write(measured.dump(2) + "\n");
 }

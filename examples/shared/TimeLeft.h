@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -8,14 +9,14 @@
 
 namespace gnomon::examples {
 
-/// One line on a terminal: what is being done and how long the rest will take, as the work done so far tells. Nothing is
-/// written where standard error is no terminal.
+/// One line on a terminal: what is being done and how long the rest will take, as the work done so far tells. Where standard
+/// error is no terminal, a line a minute.
 class TimeLeft {
 public:
-    /// @param work  all there is to do, in any unit.
-    explicit TimeLeft(double work) : _work(work) {}
+    /// @param work  all there is to do, in any unit. @param after  seconds without a line, on a terminal.
+    explicit TimeLeft(double work, double after = 0.0) : _work(work), _next(_terminal ? after : 60.0) {}
     ~TimeLeft() {
-        if (_terminal) std::cerr << clearLine << std::flush;
+        if (_terminal && _isShown) std::cerr << clearLine << std::flush;
     }
     TimeLeft(const TimeLeft&) = delete;
     TimeLeft& operator=(const TimeLeft&) = delete;
@@ -23,10 +24,13 @@ public:
     /// Since it was made.
     double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - _start).count(); }
     /// @param done  of the work, so far.
-    void show(double done, const std::string& doing) const {
-        if (!_terminal) return;
-        std::cerr << clearLine << std::lround(100.0 * done / _work) << " %, " << text(seconds() * (_work - done) / done)
-                  << " left: " << doing << std::flush;
+    void show(double done, const std::string& doing) {
+        if (!(seconds() >= _next)) return;
+        if (!_terminal) _next = seconds() + 60.0;
+        _isShown = true;
+        std::cerr << (_terminal ? clearLine : program_invocation_short_name + std::string(": "))
+                  << std::lround(100.0 * done / _work) << " %, " << text(seconds() * (_work - done) / done)
+                  << " left: " << doing << (_terminal ? "" : "\n") << std::flush;
     }
 
 private:
@@ -43,6 +47,8 @@ private:
     const std::chrono::steady_clock::time_point _start = std::chrono::steady_clock::now();
     const double _work;
     const bool _terminal = isatty(STDERR_FILENO) != 0;
+    double _next; ///< when a line is written next, seconds.
+    bool _isShown = false;
 };
 
 } // namespace gnomon::examples
