@@ -39,12 +39,14 @@ void darkenBehind(osg::Camera& camera) {
 
 namespace {
 
-constexpr float letterHeight = 16.0f, margin = 10.0f; // pixels
+constexpr float letterHeight = 14.0f, margin = 10.0f; // pixels
 
 osg::ref_ptr<osgText::Text> makeText() {
     osg::ref_ptr<osgText::Text> text = new osgText::Text;
     text->setDataVariance(osg::Object::DYNAMIC);
     text->setCharacterSize(letterHeight);
+    text->setFont(
+        osgText::readRefFontFile("fonts/arial.ttf")); // osgViewer's own overlays'; OSG's default where it is not
     text->setAlignment(osgText::TextBase::LEFT_BOTTOM);
     text->setColor(osg::Vec4(1, 1, 1, 1));
     text->setDrawMode(osgText::Text::TEXT | osgText::Text::FILLEDBOUNDINGBOX);
@@ -79,18 +81,26 @@ Hud::Hud(Lines lines) : _lines(std::move(lines)), _text(makeText()) { _camera = 
 
 void Hud::toggle() { _camera->setNodeMask(_camera->getNodeMask() ? 0u : ~0u); }
 
+void Hud::yieldTo(osg::Camera& help) {
+    _help = &help;
+    _help->setNodeMask(0u); // as osgViewer's handler sets it when the help is switched off
+}
+
 bool Hud::handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) {
     const auto* view = dynamic_cast<osgViewer::View*>(&action);
     if (event.getEventType() != osgGA::GUIEventAdapter::FRAME || !view) return false;
-    if (const osg::Viewport* viewport = view->getCamera()->getViewport()) fit(viewport->width(), viewport->height());
+    _camera->getChild(0)->setNodeMask(_help && _help->getNodeMask() ? 0u : ~0u);
     write();
+    if (const osg::Viewport* viewport = view->getCamera()->getViewport()) fit(viewport->width(), viewport->height());
     return false;
 }
 
 void Hud::fit(double width, double height) {
     _camera->setProjectionMatrixAsOrtho2D(0.0, width, 0.0, height);
-    _text->setPosition(osg::Vec3d(margin, margin, 0.0));
     _text->setMaximumWidth(static_cast<float>(width) - 2.0f * margin);
+    const osg::BoundingBox& box = _text->getBoundingBox(); // with its dark ground, half a margin wider
+    if (box.valid())
+        _text->setPosition(osg::Vec3d(_text->getPosition().x() + width - margin / 2.0f - box.xMax(), margin, 0.0));
 }
 
 void Hud::write() {

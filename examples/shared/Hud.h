@@ -16,7 +16,7 @@ void keepLegible(osg::StateSet& set);
 /// Puts a dark veil before all that is drawn so far and behind what `camera`, of osgViewer's help, draws.
 void darkenBehind(osg::Camera& camera);
 
-/// Lines of text in the window's lower left corner, asked for anew each frame.
+/// Lines of text in the window's lower right corner, where no map's picture is, asked for anew each frame.
 class Hud : public osgGA::GUIEventHandler {
 public:
     using Lines = std::function<std::vector<std::string>()>;
@@ -26,6 +26,8 @@ public:
     osg::Camera* camera() { return _camera; }
     /// Hides or shows it.
     void toggle();
+    /// Hides it while this camera of osgViewer's help, which is off now, draws.
+    void yieldTo(osg::Camera& help);
 
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& action) override;
 
@@ -34,7 +36,7 @@ private:
     void write();
 
     Lines _lines;
-    osg::ref_ptr<osg::Camera> _camera;
+    osg::ref_ptr<osg::Camera> _camera, _help;
     osg::ref_ptr<osgText::Text> _text;
     std::string _written;
 };

@@ -120,10 +120,10 @@ void SceneWindow::addHandlers(const WindowNames& names, Hud& hud, osgGA::GUIEven
     _viewer.addEventHandler(new osgGA::StateSetManipulator(_viewer.getCamera()->getOrCreateStateSet()));
     _viewer.addEventHandler(new osgViewer::WindowSizeHandler);
     _viewer.addEventHandler(makeCapture(names.program));
-    addOverlays(names);
+    addOverlays(names, hud);
 }
 
-void SceneWindow::addOverlays(const WindowNames& names) {
+void SceneWindow::addOverlays(const WindowNames& names, Hud& hud) {
     osg::ref_ptr<osgViewer::StatsHandler> stats = new osgViewer::StatsHandler;
     addShadowStats(*stats);
     keepLegible(*stats->getCamera()->getOrCreateStateSet());
@@ -132,6 +132,7 @@ void SceneWindow::addOverlays(const WindowNames& names) {
     osg::ref_ptr<osgViewer::HelpHandler> help = new osgViewer::HelpHandler(_usage);
     keepLegible(*help->getCamera()->getOrCreateStateSet());
     darkenBehind(*help->getCamera());
+    hud.yieldTo(*help->getCamera());
     _viewer.addEventHandler(help);
 }
 

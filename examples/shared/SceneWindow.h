@@ -35,7 +35,7 @@ public:
 private:
     void openWindow(const WindowNames& names, const ViewOptions& options);
     void addHandlers(const WindowNames& names, Hud& hud, osgGA::GUIEventHandler& keys);
-    void addOverlays(const WindowNames& names);
+    void addOverlays(const WindowNames& names, Hud& hud);
     void placeHands(const ViewOptions& options, const osg::BoundingBoxd& bounds);
 
     osg::ref_ptr<osg::ApplicationUsage> _usage;

@@ -87,8 +87,10 @@ void ShadowControls::toggle(bool PlanarCures::*cure) {
 
 /// Of the technique that is shown.
 void ShadowControls::nextView() {
-    if (_choices[_chosen].front().technique == "volume") {
-        _showsVolumes = !_showsVolumes;
+    if (draws<ShadowVolumeTechnique>()) _showsVolumes = !_showsVolumes;
+    if (!draws<ShadowMapTechnique>()) {
+        if (!draws<ShadowVolumeTechnique>())
+            _refusal = "v shows how maps and volumes lie: press n until map or volume casts";
         return applySwitches();
     }
     using Map = ShadowMapTechnique;
@@ -113,18 +115,28 @@ void ShadowControls::applySwitches() {
 }
 
 std::vector<std::string> ShadowControls::describe() const {
-    const bool blends = _setup.blends();
-    std::vector<std::string> lines = {"shadow: " + techniqueNames(_choices[_chosen]),
-                                      std::string("composite: ") + (blends ? "blend" : "relight"),
-                                      "light: " + describeLight(), "cures: " + describeCures()};
-    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
-        for (const ShadowDecision& decision : technique->lastDecision()) lines.push_back(decision.text());
-        if (_showsReports) lines.push_back(technique->lastReport().text());
-    }
+    std::vector<std::string> lines = {"shadow: " + describeShadow(), "light: " + describeLight()};
+    if (draws<PlanarShadowNode>() || !(_cures.stencil && _cures.offset && _cures.clip))
+        lines.push_back("cures: " + describeCures());
+    if (_showsReports)
+        for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques) {
+            for (const ShadowDecision& decision : technique->lastDecision()) lines.push_back(decision.text());
+            lines.push_back(technique->lastReport().text());
+        }
     lines.push_back("h shows all keys, g hides this text");
     if (!_refusal.empty()) lines.push_back(_refusal);
     for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
     return lines;
+}
+
+/// "auto, which takes volume, relight".
+std::string ShadowControls::describeShadow() const {
+    std::string taken;
+    for (const osg::ref_ptr<ShadowTechnique>& technique : _setup.techniques)
+        for (const ShadowDecision& decision : technique->lastDecision())
+            if (const std::string& spec = decision.chosen.spec; taken.find(spec) == std::string::npos)
+                taken += (taken.empty() ? ", which takes " : " and ") + spec;
+    return techniqueNames(_choices[_chosen]) + taken + ", " + (_setup.blends() ? "blend" : "relight");
 }
 
 std::string ShadowControls::describeLight() const {

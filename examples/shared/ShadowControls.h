@@ -5,6 +5,7 @@
 
 #include <gnomon/PlanarCures.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,13 @@ private:
 
     void cast();
     void applySwitches();
+    /// Whether one of this class is drawn now.
+    template <class Technique>
+    bool draws() const {
+        return std::any_of(_setup.techniques.begin(), _setup.techniques.end(),
+                           [](const auto& each) { return dynamic_cast<const Technique*>(each.get()) != nullptr; });
+    }
+    std::string describeShadow() const;
     std::string describeLight() const;
     std::string describeCures() const;
 
@@ -45,7 +53,7 @@ private:
     std::optional<SunMoment> _sun; ///< now.
     std::vector<Specs> _choices;
     std::size_t _chosen = 0;
-    std::string _refusal; ///< why the chosen technique does not suit the scene.
+    std::string _refusal; ///< why the chosen technique does not suit the scene, or the last key does nothing.
     SceneLights::Direction _moved{0.0, 0.0};
     PlanarCures _cures;
     ShadowMapTechnique::View _view = ShadowMapTechnique::NOTHING;

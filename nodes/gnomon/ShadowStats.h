@@ -27,8 +27,9 @@ inline void addShadowStats(osgViewer::StatsHandler& statistics) {
         constexpr float milliseconds = 1000.0f, unbounded = 0.0f;
         statistics.addUserStatsLine(label, text, bar, taken, milliseconds, true, false, begin, end, unbounded);
     };
-    add("Shadow cull: ", "Shadow cull time taken", "Shadow cull begin time", "Shadow cull end time");
-    add("Shadow draw: ", "Shadow draw time taken", "Shadow draw begin time", "Shadow draw end time");
+    // short: OSG writes the number behind the label, and the bars over what is longer
+    add("Sh. cull", "Shadow cull time taken", "Shadow cull begin time", "Shadow cull end time");
+    add("Sh. draw", "Shadow draw time taken", "Shadow draw begin time", "Shadow draw end time");
 }
 
 } // namespace gnomon

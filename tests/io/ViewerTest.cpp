@@ -25,8 +25,11 @@ constexpr std::uint32_t background = 0x333366u;
 
 bool isGrey(std::uint32_t pixel) { return (pixel & 0xffu) == ((pixel >> 8) & 0xffu) && (pixel & 0xffu) == pixel >> 16; }
 
-/// The text stands on a dark ground, which reaches almost into the lower left corner, where there is else lit ground.
-bool hasText(const Screenshot& p) { return isGrey(p.at(7, p.height - 7)) && p.at(7, p.height - 7) < 0x606060u; }
+/// The text stands on a dark ground, which reaches almost into the lower right corner, where there is else lit ground.
+bool hasText(const Screenshot& p) {
+    const std::uint32_t corner = p.at(p.width - 7, p.height - 7);
+    return isGrey(corner) && corner < 0x606060u;
+}
 
 // The scene of data/lab8.osgt, by rays: a white ground of side 4, a sphere and a cube upon it.
 
@@ -226,9 +229,20 @@ TEST_F(Viewer, GHidesTheTextAndNothingElse) {
     openUnderLamp();
     const Mask text = differing(withText, first);
     EXPECT_GT(count(text), 1000);
-    for (int y = 0; y < height / 2; ++y)
-        for (int x = 0; x < width; ++x) EXPECT_FALSE(text[std::size_t(y * width + x)]) << x << " " << y;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            if (y < height * 3 / 4 || x < height / 3) // a map's picture is a third of the window's height wide
+                EXPECT_FALSE(text[std::size_t(y * width + x)]) << x << " " << y;
     expectAfter("g", withText);
+}
+
+TEST_F(Viewer, TheTextGivesWayToTheHelp) {
+    openUnderLamp();
+    const Screenshot help = pressed("h");
+    desktop->press("h");
+    expectAfter("g", withText);
+    expectAfter("h", help);
+    expectAfter("h", withText);
 }
 
 TEST_F(Viewer, TheTextSaysWhatIsSwitched) {
@@ -237,7 +251,7 @@ TEST_F(Viewer, TheTextSaysWhatIsSwitched) {
     const auto textOf = [](const Screenshot& p) {
         return std::vector<std::uint32_t>(p.pixels.end() - width * 120, p.pixels.end());
     };
-    for (const char* key : {"n", "r", "k", "u", "x", "o", "p"}) {
+    for (const char* key : {"x", "o", "p", "r", "k", "u", "v", "n", "x"}) { // v does nothing, and says so
         const auto before = textOf(desktop->picture());
         desktop->press(key);
         EXPECT_NO_THROW(desktop->pictureWhere(std::string(key) + " shows in the text",
