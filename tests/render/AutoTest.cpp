@@ -9,7 +9,9 @@
 #include <osg/Program>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <utility>
 
 using gnomon::AutoShadowTechnique;
 using gnomon::ShadowDecision;
@@ -386,6 +388,28 @@ TEST(Auto, SeesAtOnceThatAnObjectMovesIntoAShadow) {
     EXPECT_EQ(chosenAt(0.0, -4.0), "planar");
     EXPECT_EQ(chosenAt(0.1, -4.0), "planar");
     EXPECT_TRUE(receivesAll(chosenAt(-2.2, -0.5)));
+}
+
+TEST(Auto, ComparesAnewInTheNextFrameWhereSomethingElseIsAskedFor) {
+    Trial trial({cube, below});
+    Camera camera(trial.scene.root, view());
+    const std::vector<std::pair<const char*, std::function<void()>>> changes = {
+        {"receiver", [&] { trial.technique->setReceiver({test::find(*trial.scene.root, "ground")}); }},
+        {"another receiver", [&] { trial.technique->setReceiver({trial.scene.content}); }},
+        {"its mask",
+         [&] {
+             trial.technique->setReceiver({trial.scene.content, 1u});
+         }},
+        {"composite", [&] { trial.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND); }},
+        {"error", [&] { trial.technique->setError(3.0); }},
+        {"nothing", [] {}}};
+    for (int i = 0; i < 3; ++i) camera.viewer().frame(); // by the second it is known who draws
+    for (const auto& [what, change] : changes) {
+        const unsigned before = trial.decision().decisions;
+        change();
+        for (int i = 0; i < 3; ++i) camera.viewer().frame();
+        EXPECT_EQ(trial.decision().decisions, before + (std::string(what) == "nothing" ? 0u : 1u)) << what;
+    }
 }
 
 TEST(AutoOptions, AreClampedAndZeroedWhereTheyAreNone) {

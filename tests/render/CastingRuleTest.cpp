@@ -257,6 +257,17 @@ TEST(CastingRule, IsTheGroupsAndLive) {
     EXPECT_TRUE(shop.casts());
 }
 
+TEST(CastingRule, IsThatOfACopyToo) {
+    Shop shop(glasses[1]);
+    for (const auto& [opaqueFrom, casts] : {std::pair(0.25f, true), {0.35f, false}}) {
+        shop.group->setOpaqueFrom(opaqueFrom);
+        const osg::ref_ptr<ShadowCasterGroup> original = shop.group;
+        shop.group = osg::clone(original.get(), osg::CopyOp::DEEP_COPY_ALL);
+        EXPECT_EQ(shop.casts(), casts) << opaqueFrom;
+        shop.group = original;
+    }
+}
+
 /// The tower, cut off by z <= 1.
 const osg::Vec4d lowHalf(0.0, 0.0, -1.0, 1.0);
 test::Mesh cutTower() {

@@ -308,3 +308,14 @@ TEST(HaloNode, RefusesWhatIsNoNumberAndKeepsToItsRanges) {
     const osg::ref_ptr<HaloNode> copy = static_cast<HaloNode*>(halo->clone(osg::CopyOp::SHALLOW_COPY));
     EXPECT_EQ(copy->getWidth(), 0);
 }
+
+// 2 s - 1 times the children's: see HaloNode::computeBound().
+TEST(HaloNode, BoundFollowsItsScale) {
+    const osg::ref_ptr<HaloNode> halo = new HaloNode;
+    halo->addChild(node(test::box({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0})));
+    const double own = std::sqrt(3.0);
+    for (const double scale : {1.0, 1.5, 4.0, 2.0}) {
+        halo->setScale(scale);
+        EXPECT_NEAR(halo->getBound().radius(), (2.0 * scale - 1.0) * own, 1e-5);
+    }
+}

@@ -185,6 +185,15 @@ TEST(ShadowQuery, SharesTheTreeOfTheCastersWithWhoeverTraces) {
     EXPECT_EQ(drawnLater->builds(), 1u);
 }
 
+TEST(ShadowQuery, IsOfTheNearestOfTheGroupsAboveItsTechnique) {
+    const osg::ref_ptr<ShadowTechnique> technique = test::planar();
+    test::Scene scene = sceneFor(sun, technique);
+    const osg::ref_ptr<gnomon::ShadowCasterGroup> outer = new gnomon::ShadowCasterGroup;
+    outer->setCasters({test::node(test::box({5.0, 5.0, 1.0}, {6.0, 6.0, 2.0}))});
+    outer->addChild(scene.root);
+    EXPECT_FALSE(ShadowQuery(*technique, {0, sun}).isLit({-2.0 - 2.5 / 1.2, -0.3 * 2.5 / 1.2, 0.0})) << "the sphere";
+}
+
 TEST(ShadowQuery, RefusesWhatCannotBeAsked) {
     const osg::ref_ptr<ShadowTechnique> lonely = new gnomon::TracedShadowTechnique;
     EXPECT_THROW(ShadowQuery(*lonely, {0, sun}), std::invalid_argument);

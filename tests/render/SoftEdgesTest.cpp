@@ -191,6 +191,25 @@ TEST(SoftEdges, BlendDarkensByTheShareOfTheFactor) {
     }
 }
 
+TEST(SoftEdges, BlendMultipliesTheSharesOfSoftAndOfHardEdges) {
+    const Discs shadows{disc(90.0, 75.0, 10.0, 50.0), disc(125.0, 70.0, 30.0, 30.0)};
+    Scene scene = build(1, 0, 0.7f);
+    const Picture lit = render(scene.root, view);
+    for (const auto& shadow : shadows) scene.addShadow(shadow);
+    scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    scene.group->setDark(0.0f);
+    const Picture actual = render(scene.root, view);
+    double largest = 0.0;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            double share = 1.0;
+            for (const auto& shadow : shadows) share *= lit.at(x, y) == 0xff400000u ? 1.0 : shadow->arriving(x, y);
+            for (int i = 0; i < 3; ++i)
+                largest = std::max(largest, std::abs(channel(lit.at(x, y), i) * share - channel(actual.at(x, y), i)));
+        }
+    EXPECT_LE(largest, 2.0);
+}
+
 namespace {
 
 void unlit(Scene& scene) {

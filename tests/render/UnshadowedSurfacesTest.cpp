@@ -270,6 +270,19 @@ TEST(UnshadowedSurfaces, APlaneForTheWallIsTheRemedy) {
     EXPECT_EQ(trial.said(), leavesLit(trial, "wall"));
 }
 
+/// z = 0 of a frame that is turned and moved: the wall's plane.
+TEST(UnshadowedSurfaces, APlaneIsWhereTransformsAboveTheTechniquePutIt) {
+    const Mesh flat = quad({-3.0, -3.0, 0.0}, {0.0, 6.0, 0.0}, {0.0, 0.0, 4.0});
+    Trial trial(node(flat, "wall"));
+    EXPECT_EQ(trial.said(), leavesLit(trial, "wall"));
+    const osg::ref_ptr<osg::MatrixTransform> place =
+        new osg::MatrixTransform(osg::Matrixd::rotate(osg::Vec3d(0.0, 0.0, 1.0), osg::Vec3d(1.0, 0.0, 0.0)) *
+                                 osg::Matrixd::translate(-3.0, 0.0, 0.0));
+    place->addChild(planar());
+    trial.scene.group->addChild(place);
+    EXPECT_EQ(trial.said(), nothing);
+}
+
 TEST(UnshadowedSurfaces, AnotherTechniqueIsTheRemedy) {
     Trial trial(node(wall, "wall"));
     EXPECT_EQ(trial.named().said(), leavesLit(trial, "wall"));

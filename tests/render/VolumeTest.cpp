@@ -289,6 +289,17 @@ Scene underThree(const std::vector<osg::ref_ptr<gnomon::ShadowTechnique>>& techn
     return scene;
 }
 
+TEST(VolumeCompany, OfThreeLightsAtRestEachIsFoundOnce) {
+    const osg::ref_ptr<ShadowVolumeTechnique> technique = new ShadowVolumeTechnique;
+    const Scene scene = underThree({technique});
+    Camera camera(scene.root, view);
+    for (int i = 0; i < 3; ++i) camera.frame();
+    const unsigned before = technique->passes();
+    EXPECT_GT(before, 0u);
+    for (int i = 0; i < 10; ++i) camera.frame();
+    EXPECT_EQ(technique->passes(), before);
+}
+
 /// Of three lights rays and volumes say the same but for edges, and what stands beside volumes takes nothing away.
 TEST(VolumeCompany, ThreeLightsAndOtherTechniquesTakeNothingFromIt) {
     const auto picture = [](const std::vector<osg::ref_ptr<gnomon::ShadowTechnique>>& techniques) {

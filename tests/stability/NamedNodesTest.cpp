@@ -122,6 +122,16 @@ TEST(NamedNodes, BesideTheGroupStayTheSameForACopyOfTheGroupAlone) {
     expectOwnNodes(*graph.root);
 }
 
+TEST(NamedNodes, OfACopyOfACopyAreThoseOfTheGraphThatItComesTo) {
+    Graph graph;
+    name(graph);
+    const osg::ref_ptr<osg::Group> root = osg::clone(graph.root.get(), osg::CopyOp::DEEP_COPY_ALL);
+    const osg::ref_ptr<osg::Group> first = osg::clone(graph.group.get(), osg::CopyOp::DEEP_COPY_ALL),
+                                   second = osg::clone(first.get(), osg::CopyOp::DEEP_COPY_ALL);
+    root->replaceChild(root->getChild(2), second);
+    expectOwnNodes(*root);
+}
+
 TEST(NamedNodes, ThatAreGoneSelectNothing) {
     Graph graph;
     graph.technique->setReceiver({node(square(1.0))});
