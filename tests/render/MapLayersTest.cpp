@@ -424,6 +424,25 @@ TEST(MapLayers, OfASceneInWhichNothingMovesTakeNoMoreTextures) {
     EXPECT_EQ(texturesIn(camera), 0);
 }
 
+TEST(MapLayers, OfALightThatIsGoneAreLetGo) {
+    Stage stage({"sun", inSun(), {aBox()}});
+    Camera camera(stage.scene.root, view);
+    stage.set({osg::Vec3d(-3.0, -3.0, 0.0)});
+    const gnomon::ShadowLight one{0, {1.0, 0.4, 1.2, 0.0}}, other{1, {-0.5, 0.4, 1.2, 0.0}};
+    const auto texturesWith = [&](const std::vector<gnomon::ShadowLight>& lights, int frames) {
+        stage.scene.group->setLights(lights);
+        for (int i = 0; i < frames; ++i) camera.viewer().frame();
+        inContext(camera, [](osg::State& state) {
+            osg::flushAllDeletedGLObjects(state.getContextID());
+            return 0;
+        });
+        return texturesIn(camera);
+    };
+    const int ofOne = texturesWith({one}, 1);
+    EXPECT_GT(texturesWith({one, other}, 1), ofOne);
+    EXPECT_EQ(texturesWith({one}, 62), ofOne);
+}
+
 TEST(MapLayers, LeaveNoErrorInOpenGL) {
     const Play play{"lamp", byLamp(), {aBox(), aFence()}};
     Stage stage(play);

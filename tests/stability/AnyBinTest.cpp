@@ -66,6 +66,16 @@ osg::ref_ptr<osg::Texture2D> halves(unsigned char left, unsigned char right) {
     return texture;
 }
 
+/// On a ground of half side 8.
+void show(osg::Texture2D& texture, osg::Node& ground) {
+    osg::Geometry& geometry = *ground.asGeode()->getDrawable(0)->asGeometry();
+    osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
+    for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray()))
+        places->push_back({vertex.x() / 16.0f + 0.5f, 0.5f});
+    geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
+    ground.getOrCreateStateSet()->setTextureAttributeAndModes(0, &texture);
+}
+
 } // namespace
 
 TEST_P(AnyBin, AWholeSceneInABinAboveTheShadowsReceives) {
@@ -214,12 +224,7 @@ TEST_P(AnyBin, ATextureWhosePixelsAreAllThereOrClearReceivesWhereTheyAreThere) {
     const Trial trial = houseTrial();
     const Change change = [](Scene& scene) {
         osg::Node& ground = *find(*scene.root, "ground");
-        osg::Geometry& geometry = *ground.asGeode()->getDrawable(0)->asGeometry();
-        osg::ref_ptr<osg::Vec2Array> places = new osg::Vec2Array;
-        for (const osg::Vec3& vertex : *static_cast<osg::Vec3Array*>(geometry.getVertexArray()))
-            places->push_back({vertex.x() / 16.0f + 0.5f, 0.5f});
-        geometry.setTexCoordArray(0, places, osg::Array::BIND_PER_VERTEX);
-        ground.getOrCreateStateSet()->setTextureAttributeAndModes(0, halves(0, 255));
+        show(*halves(0, 255), ground);
         blendLate(ground);
     };
     Scene shadowed = trial.buildWithShadow();
@@ -231,6 +236,25 @@ TEST_P(AnyBin, ATextureWhosePixelsAreAllThereOrClearReceivesWhereTheyAreThere) {
             truth.dark.pixels[at] = truth.lit.pixels[at];
         }
     EXPECT_TRUE(shows(render(shadowed.root, trial.view), truth));
+}
+
+TEST_P(AnyBin, ATextureReceivesUntilItIsPaintedClearInParts) {
+    const Trial trial = houseTrial();
+    const osg::ref_ptr<osg::Texture2D> texture = halves(255, 255);
+    const auto build = [&] {
+        Scene scene = trial.build();
+        osg::Node& ground = *find(*scene.root, "ground");
+        show(*texture, ground);
+        blendLate(ground);
+        return scene;
+    };
+    Scene lit = build(), shadowed = build();
+    shadowed.addShadow(castingTechnique(find(*shadowed.root, "ground")));
+    Camera camera(shadowed.root, trial.view);
+    EXPECT_FALSE(same(camera.frame(), render(lit.root, trial.view)));
+    texture->getImage()->data()[3] = 100;
+    texture->getImage()->dirty();
+    EXPECT_TRUE(same(camera.frame(), render(lit.root, trial.view)));
 }
 
 TEST_P(AnyBin, ASceneThatWritesNoDepthIsNamedAsTheCause) {
