@@ -30,7 +30,7 @@ ScenePicture::ScenePicture(const ViewOptions& view, SceneSetup& setup, int stenc
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
     _viewer.setLightingMode(osg::View::NO_LIGHT);
     _context.attach(*_viewer.getCamera());
-    placeCamera(*_viewer.getCamera(), view, setup.bounds);
+    placeCamera(*_viewer.getCamera(), view, setup);
     _viewer.setSceneData(setup.root);
 }
 

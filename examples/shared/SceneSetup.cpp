@@ -3,12 +3,14 @@
 #include "SceneCamera.h"
 
 #include <gnomon/NamedNode.h>
+#include <gnomon/VertexTraverser.h>
 
 #include <osg/MatrixTransform>
 #include <osgUtil/LineSegmentIntersector>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -17,7 +19,8 @@ namespace {
 constexpr double framingMargin = 1.15;    // of the scene's radius
 constexpr double framingAzimuth = 215.0;  // degrees, of the camera as seen from the scene
 constexpr double framingElevation = 30.0; // degrees
-constexpr double floorHeight = 0.005;     // of the scene's radius
+constexpr double fittingMargin = 1.05;
+constexpr double floorHeight = 0.005; // of the scene's radius
 constexpr int raysASide = 6;
 
 osg::ref_ptr<osg::Node> upright(osg::Node& files, bool yUp) {
@@ -58,6 +61,52 @@ double groundSide(const ViewOptions& o, osg::Node& scene, const osg::BoundingBox
     return hasFloor(scene, bounds) ? 0.0 : 4.0 * bounds.radius();
 }
 
+/// Of all that stands above a floor, or above nodes named ground.
+osg::BoundingBoxd castersOf(osg::Node& scene, const osg::BoundingBoxd& bounds, const std::vector<NamedNode>& grounds) {
+    std::vector<osg::Node::NodeMask> masks;
+    for (const NamedNode& ground : grounds) masks.push_back(ground.node->getNodeMask()), ground.node->setNodeMask(0);
+    VertexTraverser traverser;
+    scene.accept(traverser);
+    for (std::size_t i = 0; i < grounds.size(); ++i) grounds[i].node->setNodeMask(masks[i]);
+    osg::BoundingBoxd box;
+    for (const osg::Vec3d& vertex : traverser.getVertices())
+        if (vertex.z() > bounds.zMin() + floorHeight * bounds.radius()) box.expandBy(vertex);
+    if (!box.valid()) return bounds;
+    if (grounds.empty()) box.zMin() = bounds.zMin();
+    return box;
+}
+
+/// Where the light throws a point onto a level ground; the point itself under a light below it.
+osg::Vec3d thrown(const osg::Vec3d& point, const osg::Vec4d& light, double ground) {
+    const osg::Vec3d place(light.x(), light.y(), light.z()), way = place - point * light.w(); // to the light
+    const double height = point.z() - ground;
+    return way.z() > 0.0 && height > 0.0 ? point - way * (height / way.z()) : point;
+}
+
+/// Corners of what casts and of its shadow by the first light, as far as there is ground: within `reach`.
+std::vector<osg::Vec3d> framedBy(osg::Node& scene, const osg::BoundingBoxd& bounds, const SceneLights& lights,
+                                 const osg::BoundingBoxd& reach) {
+    const std::vector<NamedNode> grounds = findAllNamed(scene, "ground");
+    const osg::BoundingBoxd casters = castersOf(scene, bounds, grounds);
+    double ground = bounds.zMin();
+    if (!grounds.empty()) {
+        const osg::BoundingBoxd local = sceneBounds(*grounds.front().node);
+        for (unsigned i = 0; i < 8; ++i)
+            ground = std::max(ground, (local.corner(i) * grounds.front().rootFromParent).z());
+    }
+    const std::vector<osg::Vec4d> places = lights.places();
+    std::vector<osg::Vec3d> points;
+    for (unsigned i = 0; i < 8; ++i) {
+        points.push_back(casters.corner(i));
+        if (places.empty()) continue;
+        osg::Vec3d shadow = thrown(points.back(), places.front(), ground);
+        for (int axis = 0; axis < 2; ++axis)
+            shadow[axis] = std::clamp(shadow[axis], reach._min[axis], reach._max[axis]);
+        points.push_back(shadow);
+    }
+    return points;
+}
+
 Selection selectCasters(const std::string& casters, osg::Node& root) {
     Selection selection;
     if (casters == "all") return selection;
@@ -94,6 +143,30 @@ osg::Vec3d framedEye(const ViewOptions& o, const osg::Vec3d& center, double radi
     const double distance = (radius > 0.0 ? radius : 1.0) * framingMargin / std::sin(half);
     const osg::Vec4d towards = sunAt(framingAzimuth, framingElevation); // where a sun would be
     return center + osg::Vec3d(towards.x(), towards.y(), towards.z()) * distance;
+}
+
+/// The nearest place from which all points are in the picture, looking along `view`: each side of the picture is a plane, and a
+/// point asks that it lie no nearer. @return the eye, and what is straight ahead amid the points.
+Lookout fittedTo(const std::vector<osg::Vec3d>& points, const ViewOptions& o, const osg::Vec3d& view,
+                 const osg::Vec3d& up) {
+    const double halfHeight = std::tan(osg::DegreesToRadians(o.fovy) / 2.0) / fittingMargin;
+    const double slope[] = {halfHeight * aspectOf(o), halfHeight};
+    const osg::Matrixd turn = osg::Matrixd::lookAt(osg::Vec3d(), view, up); // x is right, y is up, z towards the viewer
+    double distance = -std::numeric_limits<double>::infinity(), low[2], high[2], middle = 0.0;
+    for (int axis = 0; axis < 2; ++axis) {
+        low[axis] = std::numeric_limits<double>::infinity(), high[axis] = -low[axis];
+        for (const osg::Vec3d& point : points) {
+            const osg::Vec3d p = point * turn;
+            low[axis] = std::min(low[axis], p[axis] - slope[axis] * p.z());
+            high[axis] = std::max(high[axis], p[axis] + slope[axis] * p.z());
+            middle += p.z() / (2.0 * double(points.size()));
+        }
+        distance = std::max(distance, (high[axis] - low[axis]) / (2.0 * slope[axis]));
+    }
+    const osg::Matrixd back = osg::Matrixd::inverse(turn);
+    const double x = (low[0] + high[0]) / 2.0, y = (low[1] + high[1]) / 2.0;
+    return {osg::Vec3d(x, y, distance) * back,
+            osg::Vec3d(x, y, std::min(middle, distance - 1e-3 * std::abs(distance))) * back, up};
 }
 
 osg::Vec3d chooseUp(const ViewOptions& o, osg::Vec3d view) {
@@ -166,6 +239,7 @@ void SceneSetup::furnish(const ViewOptions& options) {
             "the scene has no floor and no node named ground, so it got a white ground; --ground none leaves it out.";
     lights = std::make_unique<SceneLights>(options, *root, *group);
     if (ground) lights->shineOn(*ground);
+    framed = framedBy(scene, bounds, *lights, ground ? sceneBounds(*group) : bounds);
     group->setCasters(selectCasters(options.casters, *group));
     receiver = options.receiver;
     if (!options.isUsual || !castsByItself(scene)) cast(options.shadows);
@@ -177,15 +251,17 @@ SceneSetup setUpScene(const ViewOptions& options, osg::Node& files) {
     return setup;
 }
 
-Lookout lookout(const ViewOptions& options, const osg::BoundingBoxd& bounds) {
-    const osg::Vec3d center = options.center.value_or(bounds.center());
-    const osg::Vec3d eye = options.eye.value_or(framedEye(options, center, bounds.radius()));
+Lookout lookout(const ViewOptions& options, const SceneSetup& setup) {
+    const osg::Vec3d center = options.center.value_or(setup.bounds.center());
+    const osg::Vec3d eye = options.eye.value_or(framedEye(options, center, setup.bounds.radius()));
     if (eye == center) throw std::invalid_argument("--eye is the scene's centre. Give another --eye, or a --center.");
-    return {eye, center, chooseUp(options, center - eye)};
+    const osg::Vec3d view = center - eye, up = chooseUp(options, view);
+    const bool isFree = !options.eye && !options.center && !setup.framed.empty();
+    return isFree ? fittedTo(setup.framed, options, view, up) : Lookout{eye, center, up};
 }
 
-void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds) {
-    const Lookout place = lookout(options, bounds);
+void placeCamera(osg::Camera& camera, const ViewOptions& options, const SceneSetup& setup) {
+    const Lookout place = lookout(options, setup);
     camera.setViewMatrixAsLookAt(place.eye, place.center, place.up);
     const osg::Vec3d& b = options.background;
     camera.setClearColor(osg::Vec4(osg::Vec3(b), 1.0f));

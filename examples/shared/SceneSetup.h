@@ -23,8 +23,10 @@ struct SceneSetup {
     std::vector<osg::ref_ptr<ShadowTechnique>> techniques;
     std::unique_ptr<SceneLights> lights;
     osg::BoundingBoxd bounds; ///< of the files, without the ground put under them; world.
-    std::string note;         ///< what was added that nobody asked for; empty: nothing.
-    std::string receiver;     ///< for every shadow that names none itself.
+    /// Corners of what casts and of its shadow, which a camera without a place is to show; none: all of `bounds`. World.
+    std::vector<osg::Vec3d> framed;
+    std::string note;     ///< what was added that nobody asked for; empty: nothing.
+    std::string receiver; ///< for every shadow that names none itself.
 
     /// Adds ground, lights and shadows as the options ask, for the scene as it is now. @throws as setUpScene().
     void furnish(const ViewOptions& options);
@@ -52,16 +54,16 @@ SceneSetup groupScene(const ViewOptions& options, osg::Node& files);
 /// @throws std::invalid_argument, one sentence, if a name is not in the scene or a specification does not suit it.
 SceneSetup setUpScene(const ViewOptions& options, osg::Node& files);
 
-/// Places a perspective camera as the options ask; without an eye so that the scene fills the picture, seen from the
-/// south-west and above.
+/// Places a perspective camera as the options ask; without an eye so that what casts and its shadow fill the picture, seen
+/// from the south-west and above.
 /// @throws std::invalid_argument, one sentence.
-void placeCamera(osg::Camera& camera, const ViewOptions& options, const osg::BoundingBoxd& bounds);
+void placeCamera(osg::Camera& camera, const ViewOptions& options, const SceneSetup& setup);
 
 /// Where the camera is to stand and what it looks at.
 struct Lookout {
     osg::Vec3d eye, center, up;
 };
 /// @throws std::invalid_argument, one sentence.
-Lookout lookout(const ViewOptions& options, const osg::BoundingBoxd& bounds);
+Lookout lookout(const ViewOptions& options, const SceneSetup& setup);
 
 } // namespace gnomon::examples

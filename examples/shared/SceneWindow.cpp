@@ -92,11 +92,11 @@ SceneWindow::SceneWindow(const WindowNames& names, const ViewOptions& options, S
     _viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded); // keys change what another thread could be drawing
     _viewer.setLightingMode(osg::View::NO_LIGHT);
     openWindow(names, options);
-    placeCamera(*_viewer.getCamera(), options, setup.bounds);
+    placeCamera(*_viewer.getCamera(), options, setup);
     setup.root->addChild(hud.camera());
     addHandlers(names, hud, keys);
     _viewer.setSceneData(setup.root);
-    placeHands(options, setup.bounds);
+    placeHands(options, setup);
 }
 
 void SceneWindow::openWindow(const WindowNames& names, const ViewOptions& options) {
@@ -136,8 +136,8 @@ void SceneWindow::addOverlays(const WindowNames& names, Hud& hud) {
     _viewer.addEventHandler(help);
 }
 
-void SceneWindow::placeHands(const ViewOptions& options, const osg::BoundingBoxd& bounds) {
-    const Lookout place = lookout(options, bounds);
+void SceneWindow::placeHands(const ViewOptions& options, const SceneSetup& setup) {
+    const Lookout place = lookout(options, setup);
     osg::ref_ptr<osgGA::KeySwitchMatrixManipulator> hands = makeHands();
     hands->setHomePosition(place.eye, place.center, place.up, false);
     _viewer.setCameraManipulator(hands);

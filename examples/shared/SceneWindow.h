@@ -36,7 +36,7 @@ private:
     void openWindow(const WindowNames& names, const ViewOptions& options);
     void addHandlers(const WindowNames& names, Hud& hud, osgGA::GUIEventHandler& keys);
     void addOverlays(const WindowNames& names, Hud& hud);
-    void placeHands(const ViewOptions& options, const osg::BoundingBoxd& bounds);
+    void placeHands(const ViewOptions& options, const SceneSetup& setup);
 
     osg::ref_ptr<osg::ApplicationUsage> _usage;
     osgViewer::Viewer _viewer;

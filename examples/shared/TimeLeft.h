@@ -28,9 +28,10 @@ public:
         if (!(seconds() >= _next)) return;
         if (!_terminal) _next = seconds() + 60.0;
         _isShown = true;
+        const std::string left = text(seconds() * (_work - done) / done);
         std::cerr << (_terminal ? clearLine : program_invocation_short_name + std::string(": "))
-                  << std::lround(100.0 * done / _work) << " %, " << text(seconds() * (_work - done) / done)
-                  << " left: " << doing << (_terminal ? "" : "\n") << std::flush;
+                  << (done > 0.0 ? std::to_string(std::lround(100.0 * done / _work)) + " %, " + left + " left: " : "")
+                  << doing << (_terminal ? "" : "\n") << std::flush;
     }
 
 private:

@@ -77,7 +77,7 @@ void addUpOption(Options& table, ViewOptions& into) {
 }
 
 void addCameraOptions(Options& table, ViewOptions& into) {
-    table.push_back({"--eye", "x,y,z", "camera position, scene's unit", "chosen so that the scene fills the picture",
+    table.push_back({"--eye", "x,y,z", "camera position, scene's unit", "so that casters and their shadows fill the picture",
                      [&into](Text t) { into.eye = readVec3(t); }});
     table.push_back({"--center", "x,y,z", "point that the camera looks at, scene's unit", "the scene's centre",
                      [&into](Text t) { into.center = readVec3(t); }});

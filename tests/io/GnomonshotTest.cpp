@@ -60,6 +60,14 @@ long countDifferent(const osg::Image& a, const osg::Image& b, float steps = 0.0f
 
 int red(const osg::Image& image, int x, int y) { return int(std::lround(image.getColor(x, y)[0] * 255.0f)); }
 
+/// A box of side 1 on nothing.
+const std::string greenBox = R"(#Ascii Scene
+#Version 161
+#Generator by hand
+osg::Geode { UniqueID 1 Drawables 1 { osg::ShapeDrawable { UniqueID 2
+  Shape TRUE { osg::Box { UniqueID 3 Center 0 0 0.5 HalfLengths 0.5 0.5 0.5 } } Color 0 1 0 1 } } }
+)";
+
 /// A box of side 1 that moves 3 a second along x.
 const std::string movingBox = R"(#Ascii Scene
 #Version 161
@@ -167,6 +175,29 @@ TEST_F(Gnomonshot, SamplesSmoothEdgesAndNothingElse) {
     EXPECT_EQ(elsewhere, 0) << "beyond what is near in the picture of one sample";
 }
 
+/// Without an eye the picture is as near as what casts and its shadow allow: 1 / 1.05 of its width or height, by whichever is
+/// narrower, and what else there is may be cut off.
+TEST_F(Gnomonshot, ShowsWhatCastsAndItsShadowAsLargeAsTheyCanBe) {
+    folder.write("box.osgt", greenBox);
+    for (const std::string size : {"160x120", "60x160", "300x70"})
+        for (const std::string light : {"1,-1,1,0", "-1.5,0.7,1.3,0", "3,-3,4,1", "0,0,-1,0"}) {
+            const Arguments all = {"box.osgt", "--size", size, "--light", light};
+            const auto lit = shoot(all + Arguments{"--shadow", "none"}),
+                       shadowed = shoot(all + Arguments{"--shadow", "planar"});
+            osg::BoundingBox seen;
+            for (int y = 0; y < lit->t(); ++y)
+                for (int x = 0; x < lit->s(); ++x)
+                    if (red(*lit, x, y) == 0 || red(*lit, x, y) != red(*shadowed, x, y))
+                        seen.expandBy(float(x), float(y), 0.0f), seen.expandBy(float(x + 1), float(y + 1), 0.0f);
+            const float across = (seen.xMax() - seen.xMin()) / float(lit->s()),
+                        up = (seen.yMax() - seen.yMin()) / float(lit->t());
+            EXPECT_NEAR(std::max(across, up), 1.0 / 1.05, 0.04) << size << " " << light;
+            EXPECT_GT(std::min(seen.xMin(), seen.yMin()), 0.0f) << size << " " << light;
+            EXPECT_LT(seen.xMax(), float(lit->s())) << size << " " << light;
+            EXPECT_LT(seen.yMax(), float(lit->t())) << size << " " << light;
+        }
+}
+
 /// A telescope: the square of side 1 at a distance of 9 is 2 atan(0.5 / 9) = 6.36 degrees wide.
 TEST_F(Gnomonshot, LooksThroughATelescope) {
     folder.write("plate.obj", plate(false));
@@ -221,7 +252,7 @@ osg::Geode { UniqueID 1 Name "mat" Drawables 2 {
 TEST_F(Gnomonshot, LeavesAFloorOfTheModelsOwnWhole) {
     folder.write("floor.osgt", boxOnItsFloor);
     const Arguments flat = {"floor.osgt", "--shadow", "none", "--ambient", "1", "--diffuse", "0"};
-    for (const Arguments& view : {fromAbove, Arguments{"--size", "160x120"}}) {
+    for (const Arguments& view : {fromAbove, Arguments{"--size", "160x120", "--eye", "-9,-13,9"}}) {
         const auto alone = shoot(flat + view), onGround = shoot(flat + view + Arguments{"--ground", "20"});
         int greens = 0;
         for (int y = 0; y < alone->t(); ++y)
@@ -356,7 +387,7 @@ TEST_F(Gnomonshot, WritesStats) {
 }
 
 TEST_F(Gnomonshot, RecommendsTheTechniqueThatAutoDraws) {
-    const Arguments view = {scene, "--size", "80x60", "--light", "1,0,1,0"};
+    const Arguments view = {scene, "--size", "80x60", "--light", "1,0,1,0", "--eye", "-4.8,-6.85,5.08"};
     const auto with = [&view](Arguments more) {
         more.insert(more.begin(), view.begin(), view.end());
         return more;

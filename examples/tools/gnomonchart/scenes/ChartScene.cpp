@@ -53,19 +53,20 @@ osg::Vec4d movedLight(const ChartScene& scene, double step) {
 ChartScene chartSceneOf(osg::Node& files, const ViewOptions& options) {
     ViewOptions plain = options;
     plain.shadows.clear();
-    const SceneSetup setup = setUpScene(plain, files);
+    SceneSetup setup = setUpScene(plain, files);
+    setup.framed.clear(); // charts stay comparable: all of the scene is in their pictures
     ChartScene scene;
     scene.name = scene.title = "scene";
     scene.light = setup.lights->places().front();
     scene.content = contentOf(setup);
     scene.bounds = sceneBounds(*scene.content);
-    scene.center = lookout(plain, setup.bounds).center;
+    scene.center = lookout(plain, setup).center;
     scene.radius = setup.bounds.radius();
     scene.receiver = nameIn(*scene.content, options.receiver.empty() ? "ground" : options.receiver);
     scene.terrain = nameIn(*scene.content, "terrain");
     if (scene.terrain.empty()) scene.terrain = scene.receiver;
     osg::ref_ptr<osg::Camera> camera = new osg::Camera;
-    placeCamera(*camera, plain, setup.bounds);
+    placeCamera(*camera, plain, setup);
     scene.camera = sceneCamera(*camera, options.width, options.height, scene.bounds);
     return scene;
 }
