@@ -3,9 +3,13 @@
 #include "Scene.h"
 
 #include <gnomon/casters/CasterTable.h>
+#include <gnomon/casters/RaySceneCache.h>
+#include <gnomon/planar/PlanarCasters.h>
 
 #include <gtest/gtest.h>
+#include <osg/observer_ptr>
 
+#include <memory>
 #include <vector>
 
 using gnomon::CasterLayers;
@@ -45,6 +49,23 @@ TEST(CasterLayers, AllStandStillAtFirst) {
     EXPECT_EQ(first->origin, osg::Vec3d(20.5, 0.5, 0.0));
     EXPECT_EQ(first->reach, glm::dvec3(20.5, 0.5, 0.0));
     EXPECT_EQ(row.next(), first);
+}
+
+TEST(CasterLayers, ThatAreRetiredLeaveNothingInCaches) {
+    Row row(5);
+    gnomon::RaySceneCache trees;
+    gnomon::PlanarCasterCache flattened;
+    const auto traced = [&] { return trees.of(*row.kept.back(), "a test"); };
+    const auto flat = [&] { return flattened.of(*row.kept.back(), {0.0, 0.0, 1.0, 1.0}, false, 1, 8); };
+    row.next();
+    const std::weak_ptr<const gnomon::RayScene> tree = traced();
+    const osg::observer_ptr<gnomon::PlanarCasters> plane = flat().get();
+    row.move(2, {21.0, 0.0, 3.0});
+    row.next();
+    traced();
+    flat();
+    EXPECT_TRUE(tree.expired());
+    EXPECT_FALSE(plane.valid());
 }
 
 TEST(CasterLayers, WhatMovesIsTakenFromThoseThatStandOnce) {
