@@ -1,6 +1,8 @@
-// What share of a light reaches what is seen in a pixel, by its depth and the light's maps: see ShadowMapTechnique.
+// What share of a light reaches what is seen in a pixel, by its depth and the light's maps: see ShadowMapTechnique. HALVES: it only
+// matters whether that is more than half; SMOOTH: its mean over the pixel; SOFT: disc or penumbra; FINE: texels may be smaller than
+// pixels; CONE: of a spot; INTERLACED, CASCADES, MAPS: see map_lie.frag and map_place.frag. MapPrograms.cpp defines them.
 //
-// For pixels' places see map_place.frag.
+// The last of the texts that it joins: map_place.frag, cone.frag, map_filter.frag, map_soft.frag if SOFT, map_lie.frag, this.
 
 // What a comparison allows for of a slope, the change of depth a texel along either axis: the map has half of the larger one. Of
 // 2 x 2 texels that are compared at once, which reach a texel, all must pass where a part of the light counts; half of them where
@@ -16,174 +18,9 @@ float allowance(vec2 slope) {
 #endif
 }
 
-// wanted: pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0; colour of a pixel that
-//         nothing reaches; 1, if other pixels are between that and white. All others get an alpha of 1.
-
-// INTERLACED: every other pixel along one axis, or both, is of another picture and has nothing to say here.
-#ifdef INTERLACED
-#define ODD
-const int reach = 2; // to the next pixel
-#else
-const int reach = 1;
-#endif
-
-// The way to a pixel so many on; where that is not in view, to one twice as many back, or else as many: as many back may be all that
-// is known of the other side.
-int wayInView(int at, int way, int low, int high) {
-    int on = at + way, back = at - 2 * way;
-    return on >= low && on <= high ? way : back >= low && back <= high ? -2 * way : -way;
-}
-
-// Change of e a pixel along both axes, to pixels so many away.
-vec2 changeOver(inout ivec2 way, float e, ivec2 here) {
-    ivec2 low = ivec2(seenPixels.xy), high = ivec2(seenPixels.zw);
-    way = ivec2(wayInView(here.x, way.x, low.x, high.x), wayInView(here.y, way.y, low.y, high.y));
-    ivec2 to = clamp(here + way, low, high);
-    return (1.0 - e - vec2(seenDepth(ivec2(to.x, here.y)), seenDepth(ivec2(here.x, to.y)))) / vec2(way);
-}
-
-// The same at a pixel from one pixel to the next, across the axis x, or y.
-float changeAcross(ivec2 at, bool isX) {
-    ivec2 low = ivec2(seenPixels.xy), next = reach * (isX ? ivec2(0, at.y > low.y ? -1 : 1) : ivec2(at.x > low.x ? -1 : 1, 0));
-    return (seenDepth(at) - seenDepth(at + next)) / float(next.x + next.y);
-}
-
-// Where a map's axes lead, about a pixel: along both axes of the picture, and in e.
-struct Axes {
-    vec3 x, y, z;
-};
-
-Axes axesOf(int i, vec3 at) {
-    return Axes(pixelFromMapX(i).xyz - at * pixelFromMapX(i).w, pixelFromMapY(i).xyz - at * pixelFromMapY(i).w,
-                pixelFromMapZ(i).xyz - at * pixelFromMapZ(i).w);
-}
-
-// How much nearer to the eye than a surface each of them leads, on which e changes so. Along z it leads away from the light: more
-// than 0 if the surface is turned away from that.
-vec3 nearerAlong(Axes axes, vec2 change) {
-    return vec3(axes.x.z - dot(change, axes.x.xy), axes.y.z - dot(change, axes.y.xy), axes.z.z - dot(change, axes.z.xy));
-}
-
-// How the surface lies that is seen in a pixel.
-struct Lie {
-    vec2 change;  // of e a pixel; of two that differ the smaller, for the other may lead to another surface
-    vec2 steeper; // the same on the steeper of two faces, where they meet in an edge towards the eye; elsewhere as `change`
-    bool turned;  // away from the light
-    bool facing;  // it, or along it: one of the two, unless that is not known
-    bool isAtRim; // of a surface: beside the pixel there is another, or this one bends
-};
-
-// Whether two surfaces that lead so much nearer to the eye, see nearerAlong(), lie as one does about the light: to half a right angle.
-// The second may be off by what `doubt` is along the map's axes.
-bool areAlike(vec2 one, vec2 other, vec2 doubt) {
-    float across = abs(one.x * other.y - one.y * other.x), off = dot(abs(one), doubt.yx) + dot(abs(one), doubt);
-    return across <= dot(one, other) + off;
-}
-
-// It is turned away, or is not, by all that the changes to both sides may mean. Where these do not agree, for the light is in its
-// plane or there are two surfaces, pixels farther and farther off on either side say which of them goes on there, and how it lies
-// to a part of a step of depth.
-//
-// What is turned away by less than some ten degrees, and bends but little on the way to where it faces the light, is of a smooth
-// body, whose facets are not its shape: its map decides. Another surface behind its rim may seem to go on so; but that lies otherwise
-// about the light, as a ground does beside a wall.
-//
-// In one loop for llvmpipe: see mapOf(). steepest: see MapErrors, of a map whose side is 1.
-Lie lieOf(float e, ivec2 here, Axes axes, float steepest) {
-    const float most = 64.0, enough = 16.0;           // pixels: the farthest are so far off; what is known over so many is known
-    const float grazing = 3.5, faces = 2.0 * grazing; // times the steepest: tangents of 10 and 20 degrees
-    bvec2 isSecond = equal(here & 1, ivec2(1));       // of its quad
-    bool isX = abs(axes.z.x) > abs(axes.z.y);         // along the axis that leads nearer to the light
-    float away = isX ? axes.z.x : axes.z.y, ahead = away > 0.0 ? -1.0 : 1.0;
-    float snaps = min(depthError.y, 0.125), doubt = depthError.x * (abs(axes.z.x) + abs(axes.z.y));
-    float over = 1.0, side = 1.0, limit = 0.0, rest = 0.0, last = 0.0, facing = -1e37;
-    vec2 about, after, before, afterOver = vec2(1.0), beforeOver = vec2(1.0);
-    bool asked, unclear = false, smoothly = false;
-    ivec2 way = reach * (2 * ivec2(isSecond) - 1);
-#ifdef ODD
-    ivec2 back = -way;
-    vec2 inQuad = changeOver(back, e, here);
-#else
-    vec2 inQuad = vec2(dFdx(e), dFdy(e));
-#endif
-    Lie lie;
-    float lit = 0.0;
-    do {
-        vec2 change = changeOver(way, e, here);
-        if (over == 1.0) {
-            after = mix(inQuad, change, isSecond);
-            before = mix(change, inQuad, isSecond);
-            bvec2 isAfter = lessThan(abs(after), abs(before));
-            vec2 least = mix(before, after, isAfter), larger = mix(after, before, isAfter);
-            lie.change = least;
-            lie.steeper = mix(least, larger, lessThan(after, before));
 #ifdef SMOOTH
-            lie.isAtRim = any(greaterThan(abs(after - before), 0.75 * abs(larger) + 4.0 * depthError.x));
-#endif
-            vec3 nearer = nearerAlong(axes, least);
-            vec2 other = axes.z.xy * (larger - least);
-            lie.turned = nearer.z - max(other.x, 0.0) - max(other.y, 0.0) > doubt;
-            lie.facing = nearer.z - min(other.x, 0.0) - min(other.y, 0.0) < -doubt;
-            unclear = !lie.turned && !lie.facing;
-            about = nearer.xy;
-            limit = (abs(nearer.x) + abs(nearer.y)) / steepest;
-            smoothly = !lie.facing && nearer.z < grazing * limit;
-            rest = nearer.z + away * (isX ? least.x : least.y);
-            last = isX ? (ahead > 0.0 ? after.x : before.x) : (ahead > 0.0 ? after.y : before.y);
-        } else {
-            bvec2 isAfter = greaterThan(way, ivec2(0));
-            vec2 next = mix(before, after, isAfter), nextOver = mix(beforeOver, afterOver, isAfter);
-            vec2 off = abs(change - next) * over - snaps * abs(next);
-            bvec2 isNext = equal(nextOver, vec2(0.5 * over));
-            bvec2 goesOn = bvec2(off.x <= depthError.x && isNext.x, off.y <= depthError.x && isNext.y);
-            next = mix(next, change, goesOn);
-            nextOver = mix(nextOver, vec2(over), goesOn);
-            after = mix(after, next, isAfter);
-            before = mix(next, before, isAfter);
-            afterOver = mix(afterOver, nextOver, isAfter);
-            beforeOver = mix(nextOver, beforeOver, isAfter);
-            if ((isX ? way.x : way.y) * int(ahead) > 0) {
-                float mean = isX ? change.x : change.y;
-                float outer = 2.0 * mean - last, towards = away * outer - rest; // by so much the outer half faces the light
-                last = mean;
-                smoothly = smoothly && abs(towards) < faces * limit && towards > facing - 4.0 * doubt / over;
-                if (towards > 2.0 * doubt / over) {
-                    lit += 1.0;
-                    facing = towards;
-                    float across = changeAcross(here + (isX ? ivec2(way.x, 0) : ivec2(0, way.y)), isX);
-                    vec2 off = depthError.x * (isX ? vec2(abs(axes.x.y), abs(axes.y.y)) : vec2(abs(axes.x.x), abs(axes.y.x)));
-                    vec3 there = nearerAlong(axes, isX ? vec2(outer, across) : vec2(across, outer));
-                    smoothly = smoothly && areAlike(about, there.xy, 2.0 * off);
-                }
-            }
-        }
-        if (over > 1.0 && unclear && side > 0.0) {
-            side = -1.0;
-        } else {
-            vec2 likely = mix(after, before, lessThan(afterOver, beforeOver));
-            bool goesOn = any(equal(vec4(afterOver, beforeOver), vec4(over)));
-            bool near = over < 2.0 || abs(axes.z.z - dot(likely, axes.z.xy)) * over < 2.0 * doubt;
-            asked = (unclear && goesOn && near && over < most) || (smoothly && lit < 1.5 && over < most);
-            over *= 2.0;
-            side = unclear ? 1.0 : ahead;
-        }
-        way = ivec2(float(reach) * side * over);
-    } while (asked);
-    if (unclear) {
-        bvec2 same = equal(afterOver, beforeOver);
-        vec2 apart = abs(after - before) * afterOver - snaps * (abs(after) + abs(before));
-        bool known = !any(bvec2(same.x && apart.x > 2.0 * depthError.x, same.y && apart.y > 2.0 * depthError.x));
-        if (known) lie.change = mix(mix(after, before, lessThan(afterOver, beforeOver)), 0.5 * (after + before), same);
-        float away = axes.z.z - dot(lie.change, axes.z.xy);
-        lie.turned = known && away > doubt / enough;
-        lie.facing = known && !lie.turned;
-    }
-    lie.turned = lie.turned && !(smoothly && lit > 1.5);
-    return lie;
-}
-
-#ifdef SMOOTH
-mat2 sides = mat2(1.0); // of the pixel, in texels of its map
+const float fewest = 4.0 / 3.0; // texels that the mean over a pixel is of, each way
+mat2 sides = mat2(1.0);         // of the pixel, in texels of its map
 
 // The same of map i, on a surface on which e changes so; where they are more than four times those on one that faces the eye,
 // no longer than these: there other pixels of the quad are often of another surface.
@@ -197,6 +34,25 @@ mat2 sidesIn(int i, vec4 at, vec2 change) {
     float part = longest > 16.0 * facing ? sqrt(facing / longest) : 1.0;
     return along * (part * place(i).z / at.w);
 }
+
+#ifdef BICUBIC
+vec2 notLess(vec2 side) { return side * max(1.0, fewest * inversesqrt(max(dot(side, side), 1e-12))); }
+
+// Mean over a pixel, whose sides are so many texels long, or over a few texels where that is more: SAMPLES comparisons of 2 x 2,
+// 4 or 16, one in each of as many columns and rows. The square of the rows from one column to the next is -1 modulo SAMPLES + 1, so
+// that a quarter turn leaves them where they are.
+float litOverPixel(int i, vec2 p, float depth, vec2 slope, mat2 sides) {
+    mat2 grid = mat2(notLess(sides[0]), notLess(sides[1]));
+    const float up = SAMPLES == 4.0 ? 2.0 : 4.0, middle = (SAMPLES + 1.0) / 2.0;
+    float sum = 0.0;
+    for (float column = 1.0; column <= SAMPLES; column += 1.0) {
+        vec2 way = (vec2(column, mod(up * column, SAMPLES + 1.0)) - middle) / SAMPLES;
+        vec2 at = withinTile(p + grid * way, i);
+        sum += texture(maps, vec3(at * texel, depth + dot(slope, at - p)));
+    }
+    return sum / SAMPLES;
+}
+#endif
 #endif
 
 // The first that holds the pixel; MAPS, if none does. Found by itself, for llvmpipe runs the rest of a loop's body, and both
@@ -343,6 +199,8 @@ float ofPixel(float arrives) {
 }
 #endif
 
+// wanted: pixels that less than this share reaches; 1, if alpha is to be what does not arrive, else 0; colour of a pixel that
+//         nothing reaches; 1, if other pixels are between that and white. All others get an alpha of 1.
 void main() {
     ivec2 here = ivec2(gl_FragCoord.xy);
     float e = 1.0 - seenDepth(here);

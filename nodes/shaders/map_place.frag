@@ -1,4 +1,4 @@
-// Where a pixel is in a light's maps.
+// Where a pixel is in a light's maps. The first of the texts that MapPrograms.cpp joins: it knows of no other.
 //
 // A pixel's place is (x, y, e, 1), x and y in window coordinates, e = 1 - depth: of what is far, where floats are fine.
 // MAPS is how many there are, beside one another in one texture; CASCADES, if the finer of them hold part of what is seen
@@ -7,7 +7,8 @@
 uniform sampler2D seen;       // depths of the frame
 
 // What is the same for all pixels: SHARED vectors, PLACING of them for each map, then EACH for each map. The first FLATS come
-// from the vertices: see quad.vert and MapLookup::setConstants().
+// from the vertices: see quad.vert. Names of single ones, as depthError and place(i), are defined before this text, in the order in
+// which MapLookup::constantsOf() gives their values.
 uniform vec4 constants[CONSTANTS];
 #if FLATS > 0
 flat in vec4 constant[FLATS];
@@ -30,14 +31,12 @@ flat in vec4 constant[FLATS];
 #else
 #define ofMap(i, k) constants[firstOfMap(i) + k]
 #endif
-#define depthError ofAll(0)         // of the frame: in depth, in pixels; of the sample's place in its pixel: x, y
-#define texel ofAll(1).xy           // of the texture, whose sides are 1
-#define rows ofAll(1).zw            // of `seen`: see FrameDepthCopy
-#define wanted ofAll(2)             // see map.frag
-#define seenPixels ofAll(3)         // first and last pixel that `seen` holds: x, y; x, y
-#define drawnError ofAll(4)         // how far off a surface may be drawn, in depth, divided by w: x + e y; in pixels to z times that
-#define border ofAll(4).w           // share of a map's side
-#define coneFromPixel mat4(ofAll(5), ofAll(6), ofAll(7), ofAll(8)) // see cone.frag
+// depthError: of the frame: in depth, in pixels; of the sample's place in its pixel: x, y. wanted: see map.frag. seenPixels: first and
+// last pixel that `seen` holds: x, y; x, y. drawnError: how far off a surface may be drawn, in depth, divided by w: x + e y; in
+// pixels to z times that. coneFromPixel: see cone.frag.
+#define texel texelAndRows.xy // of the texture, whose sides are 1
+#define rows texelAndRows.zw  // of `seen`: see FrameDepthCopy
+#define border drawnError.w   // share of a map's side
 #define mapFromPixel(i) mat4(placing(i, 0), placing(i, 1), placing(i, 2), placing(i, 3))
 // The same of a map that differs from pixel to pixel: a varying of such an index is slower than a uniform.
 #if MAPS == 1
@@ -48,14 +47,9 @@ mat4 matrixAt(int first) { return mat4(constants[first], constants[first + 1], c
 #define mapFromPixelOf(i) matrixAt(SHARED + PLACING * (i))
 #define mapFromPixelZ(i) constants[SHARED + PLACING * (i) + 2]
 #endif
-#define place(i) ofMap(i, 0)         // in the texture: corner, and texels on a side
-#define pixelFromMapX(i) ofMap(i, 1) // columns of the inverse of mapFromPixel
-#define pixelFromMapY(i) ofMap(i, 2)
-#define pixelFromMapZ(i) ofMap(i, 3)
-#define nearestError(i) ofMap(i, 4)  // x, y, z: see MapErrors
-#define farthestError(i) ofMap(i, 5)
-#define penumbra(i) vec2(nearestError(i).w, farthestError(i).w) // see map_filter.frag
-#define discs(i) ofMap(i, 6)         // the same
+// place(i): in the texture: corner, and texels on a side. pixelFromMapX, Y, Z(i): columns of the inverse of mapFromPixel.
+// nearestError(i), farthestError(i): x, y, z: see MapErrors. discs(i): see map_soft.frag.
+#define penumbra(i) vec2(nearestError(i).w, farthestError(i).w) // the same
 
 float seenDepth(ivec2 here) { return texelFetch(seen, ivec2(here.x, int(rows.x + rows.y * float(here.y))), 0).r; }
 
@@ -69,3 +63,6 @@ bool holds(int i, vec4 pixel, out vec4 inMap) {
 #endif
     return inMap.w > 0.0 && !beside;
 }
+
+// A place of the texture that a comparison may be made at for map i.
+vec2 withinTile(vec2 p, int i) { return clamp(p, place(i).xy + 0.5, place(i).xy + place(i).z - 0.5); }

@@ -233,7 +233,7 @@ private:
         ShadowMapOptions options;
         options.cascades = cascades;
         options.size = size;
-        return forecastMaps(_view.frame, _view.light, boxes, options);
+        return forecastMaps(_view.frame, _view.light, boxes, MapSettings(options));
     }
 
     /// One map, and as many as the size asks for, where those are more.
@@ -266,7 +266,7 @@ private:
         map.map.filter = quality.filter;
         map.map.edges = quality.edges;
         map.map.cascades = cascades;
-        const double wish = widestTexel(map.map);
+        const double wish = MapSettings(map.map).widestTexel;
         const int texels = texelsFor(forecast.texels / wish, std::min(size, forecast.most), 0);
         const EdgeWidths& edges = mapped.edges;
         map.error = edges.empty() ? mapError(quality.edge, forecast.texels / texels)

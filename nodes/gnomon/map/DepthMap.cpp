@@ -5,7 +5,6 @@
 #include <gnomon/gl/ShaderProgram.h>
 #include <gnomon/gl/UncomparedSampler.h>
 #include <gnomon/map/DepthMap.h>
-#include <gnomon_shaders.h>
 
 #include <OpenThreads/ScopedLock>
 #include <glm/gtc/matrix_access.hpp>
@@ -23,7 +22,7 @@ namespace {
 using Lock = OpenThreads::ScopedLock<OpenThreads::Mutex>;
 using Parts = std::vector<MapPicture::Part>;
 
-constexpr int levels = 6;                               // blocks.frag and map_filter.frag know it, too
+constexpr int levels = 6;                               // blocks.frag and map_soft.frag know it, too
 constexpr int finest = 8, coarsest = 8 << (levels - 1); // texels on a side of a block
 constexpr GLint oneFloat = 0x822E;                      // GL_R32F
 constexpr GLenum red = 0x1903;                          // GL_RED
@@ -265,39 +264,6 @@ private:
 };
 
 } // namespace
-
-MapPrograms::MapPrograms()
-    : caster(keep("caster", shaderProgram())), // for a clip distance costs a third more a vertex on llvmpipe
-      casterByLamp(keep("caster by lamp", shaderProgram("#define CLIP_NEAR\n"))),
-      cutout(keep("cutout", shaderProgram("#define CLIP_NEAR\n#define CUTOUT\n"))),
-      blocks(keep("blocks", quadProgram("gnomon blocks", "", shaders::blocks_frag))),
-      cone(keep("cone", quadProgram("gnomon cone", "#define CONE\n#define SURROUND\n", shaders::cone_frag))) {}
-
-const osg::StateSet* MapPrograms::keep(const char* what, const osg::ref_ptr<osg::StateSet>& set) {
-    _programs[what] = set;
-    return set.get();
-}
-
-osg::ref_ptr<const osg::StateSet> MapPrograms::program(const std::string& defines, bool debugView) {
-    Lock lock(_mutex);
-    osg::ref_ptr<osg::StateSet>& set = _programs[(debugView ? "view " : "") + defines];
-    if (set) return set;
-    const std::string looksUp = std::string(shaders::cone_frag) + shaders::map_filter_frag + shaders::map_frag;
-    set = quadProgram("gnomon map", defines,
-                      (shaders::map_place_frag + (debugView ? shaders::map_view_frag : looksUp)).c_str());
-    return set;
-}
-
-void MapPrograms::resizeGLObjectBuffers(unsigned maxSize) {
-    Lock lock(_mutex);
-    for (const auto& [what, set] : _programs) set->resizeGLObjectBuffers(maxSize);
-}
-
-void MapPrograms::release(osg::State* state) {
-    seen.release(state);
-    Lock lock(_mutex);
-    for (const auto& [what, set] : _programs) set->releaseGLObjects(state);
-}
 
 glm::dmat4 MapPicture::Tile::clipFromScene() const {
     return glm::scale(glm::translate(glm::dmat4(1.0), glm::dvec3(-1.0)), glm::dvec3(2.0)) * mapFromScene;

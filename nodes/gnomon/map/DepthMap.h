@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <gnomon/gl/FrameCopies.h>
 #include <gnomon/gl/GlState.h>
 #include <gnomon/map/MapCasters.h>
+#include <gnomon/map/MapPrograms.h>
 #include <gnomon/mapfit/MapFit.h>
 
 #include <OpenThreads/Mutex>
@@ -10,39 +10,13 @@
 #include <glm/vec2.hpp>
 #include <osg/RenderInfo>
 #include <osg/State>
-#include <osg/StateSet>
 #include <osg/Texture2D>
 
-#include <atomic>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace gnomon {
-
-/// What a ShadowMapTechnique's maps and marks share: it belongs to the technique, and is released with its other OpenGL objects.
-class MapPrograms : public osg::Referenced {
-    OpenThreads::Mutex _mutex;
-    std::map<std::string, osg::ref_ptr<osg::StateSet>> _programs; ///< by what they are for.
-
-public:
-    MapPrograms();
-
-    const osg::StateSet *const caster, *const casterByLamp, *const cutout, *const blocks, *const cone;
-    FrameDepthCopy seen;
-    std::atomic<unsigned> passes{0}; ///< maps drawn so far.
-
-    /// The program for these defines, see map.frag, or of the debug view, see map_view.frag; made at its first use.
-    osg::ref_ptr<const osg::StateSet> program(const std::string& defines, bool debugView = false);
-    void resizeGLObjectBuffers(unsigned maxSize);
-    void release(osg::State* state);
-
-protected:
-    ~MapPrograms() override = default;
-
-private:
-    const osg::StateSet* keep(const char* what, const osg::ref_ptr<osg::StateSet>& set);
-};
 
 /// What one light's maps are to show. Never changed once made, so that a frame that is still drawn keeps its own.
 struct MapPicture : public osg::Referenced {

@@ -23,14 +23,11 @@ namespace {
 
 constexpr double reserve = 1.0 / 16.0; // of a map's sides
 constexpr double mostWaste = 2.0;      // area of a map to the smallest that would do: edges may be a half coarser
-constexpr double fewestSoft = 256.0;  // texels of soft edges: with fewer, what 128 of them reach would be most of a map
-constexpr double border = 3.0;        // texels: what a comparison reaches over, and one against rounding
-constexpr int largestTexture = 16384; // texels on a side: what OpenGL has in most places
-constexpr double sameLight = 1e-7;    // of the distance: what floats make of a light at rest
-constexpr double sameAmong = 1e-10;   // of what is about a lamp: what doubles do
-constexpr double mostRatio = 1e6;     // of a lamp's distances: what is nearer is at the lamp itself
-constexpr double widestRatio = 64.0;  // the same of what softens edges: by what is nearer they are as wide
-constexpr double widestSpread = 128.0; // texels: as map_filter.frag has it
+constexpr double fewestSoft = 256.0; // texels of soft edges: with fewer, what 128 of them reach would be most of a map
+constexpr double keptClear = 3.0; // texels at a map's sides: what a comparison reaches over, and one against rounding
+constexpr int largestTexture = 16384;  // texels on a side: what OpenGL has in most places
+constexpr double atLamp = 1e6;         // of a lamp's distances: what is nearer is at the lamp itself
+constexpr double widestSpread = 128.0; // texels: as map_soft.frag has it
 
 /// Of a sun one; of a lamp that sees all casters to one side one, else those of a cube, a little larger so that what is
 /// on an edge is in both. Of a spot one about its cone, unless that is nearly flat.
@@ -62,25 +59,7 @@ std::vector<LightFrame> framesOf(const glm::dvec4& light, const std::optional<Sp
 }
 
 bool areSame(const LightFrame& a, const LightFrame& b) {
-    return a.sun == b.sun && a.lightFromScene == b.lightFromScene && a.halfSpaces == b.halfSpaces;
-}
-
-/// @param widest  of the drawables, which a lamp may be within.
-bool isSame(const glm::dvec4& a, const glm::dvec4& b, double widest) {
-    const double off = sameLight * glm::length(glm::dvec3(b)) + (b.w == 0.0 ? 0.0 : sameAmong * widest);
-    return a.w == b.w && glm::distance(a, b) <= off;
-}
-
-bool isSame(const std::optional<SpotCone>& a, const std::optional<SpotCone>& b) {
-    if (!a || !b) return a.has_value() == b.has_value();
-    return a->cutoff == b->cutoff && glm::distance(a->axis, b->axis) <= sameLight;
-}
-
-/// True if the maps are the same, whatever the view and the unit.
-bool haveSameMaps(const ShadowMapOptions& a, const ShadowMapOptions& b) {
-    const auto key = [](const ShadowMapOptions& o) { return std::tie(o.size, o.filter, o.cascades, o.edges); };
-    const auto softness = [](const ShadowMapOptions& o) { return std::tie(o.sunAngle, o.lampSize, o.radius); };
-    return key(a) == key(b) && (a.edges != ShadowMapOptions::SOFT || softness(a) == softness(b));
+    return a.isParallel == b.isParallel && a.lightFromScene == b.lightFromScene && a.halfSpaces == b.halfSpaces;
 }
 
 /// Half-space of what something flat can darken: what is beyond it, seen from the light.
@@ -115,73 +94,18 @@ bool isThin(const LightFrame& frame, const MapOutline& outline) {
     return std::min(size.x, size.y) <= 2e-6 * std::max(size.x, size.y); // fitMap() makes no side less than half of that
 }
 
-/// What a drawable of unknown bounds is taken for: it may be anywhere in the view.
-PlacedBox wholeView(const ViewFrame& view, const glm::dmat4& sceneFromEye) {
-    const glm::dmat4 eyeFromClip = glm::inverse(toGlm(view.projection));
-    PlacedBox box{glm::dvec3(std::numeric_limits<double>::infinity()), {}, sceneFromEye};
-    box.high = -box.low;
-    for (const glm::dvec4& corner : boxCorners(glm::dvec3(-1.0), glm::dvec3(1.0), eyeFromClip)) {
-        box.low = glm::min(box.low, glm::dvec3(corner) / corner.w);
-        box.high = glm::max(box.high, glm::dvec3(corner) / corner.w);
-    }
-    return box;
-}
-
 } // namespace
 
-/// Soft: penumbras of a pixel or two are wider than the filter.
-double widestTexel(const ShadowMapOptions& options) {
-    constexpr double plain = 1.5, fine = 0.7, soft = 0.33;
-    if (options.edges == ShadowMapOptions::SOFT) return soft;
-    return options.edges == ShadowMapOptions::SMOOTH && options.filter == ShadowMapOptions::FINE ? fine : plain;
-}
-
-double MapRequest::lightRadius(const LightFrame& frame) const {
-    if (settings.edges != ShadowMapOptions::SOFT) return 0.0;
-    if (frame.sun && light.w == 0.0) return std::tan(glm::radians(settings.sunAngle / 2.0));
-    return settings.lampSize / 2.0 / (frame.sun ? glm::length(glm::dvec3(light)) : 1.0);
-}
-
-bool MapRequest::isWide(const LightFrame& frame) const {
-    return settings.edges == ShadowMapOptions::SOFT && (lightRadius(frame) > 0.0 || settings.radius > 0.0);
-}
-
-double MapRequest::softness(const LightFrame& frame, MapOutline blocker, double farthest) const {
-    blocker.limitNearest(widestRatio);
-    return softReach(frame, blocker.nearest, farthest, lightRadius(frame), settings.radius);
-}
-
-std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene) {
-    const glm::dmat4 sceneFromEye = glm::inverse(eyeFromScene);
-    std::vector<std::pair<double, PlacedBox>> sized; // by the diagonal, scene
-    const auto add = [&sized](const PlacedBox& box) {
-        sized.emplace_back(glm::length(glm::dvec3(box.sceneFromBox * glm::dvec4(box.high - box.low, 0.0))), box);
-    };
-    bool anywhere = false;
-    for (const osgUtil::RenderLeaf* leaf : view.seen) {
-        const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
-        anywhere = anywhere || !box.valid();
-        if (box.valid())
-            add({toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)), sceneFromEye * toGlm(modelviewOf(*leaf))});
-    }
-    if (anywhere) add(wholeView(view, sceneFromEye));
-    std::sort(sized.begin(), sized.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<PlacedBox> result;
-    for (const auto& [size, box] : sized) result.push_back(box);
-    return result;
-}
-
-std::vector<glm::dvec4> LightShadowMaps::find(const ViewFrame& view, MapRequest wanted) {
-    const glm::dmat4 eyeFromScene = SceneFrame(wanted.casters->layers.origin).eyeFromScene(view);
+std::vector<glm::dvec4> LightShadowMaps::find(const ViewFrame& view, const MapRequest& request) {
+    const glm::dmat4 eyeFromScene = SceneFrame(request.casters->layers.origin).eyeFromScene(view);
     Seen seen{toGlm(view.projection) * eyeFromScene, // clip space is the projection of eye space to the last bit
               {view.pixels.x(), view.pixels.y()},
               receiversOf(view, eyeFromScene),
-              wanted};
-    wanted.flats = anyIsBetween(*wanted.casters, wanted.light, seen.receivers);
-    setCause(wanted);
+              request};
+    setRequest(request, anyIsBetween(*request.casters, request.light, seen.receivers));
     settle(std::move(seen));
     findSplits();
-    if (_sides.front().frame.sun)
+    if (_sides.front().frame.isParallel)
         for (Face& face : _faces)
             face.part <= _splits.size() ? findFace(face, viewPart(_seen.clipFromScene, _splits, face.part))
                                         : face.clear();
@@ -193,30 +117,31 @@ std::vector<glm::dvec4> LightShadowMaps::find(const ViewFrame& view, MapRequest 
     return points;
 }
 
-void LightShadowMaps::setCause(const MapRequest& cause) {
-    const MapRequest& old = _cause;
-    const bool sameMaps = haveSameMaps(old.settings, cause.settings);
+void LightShadowMaps::setRequest(const MapRequest& request, bool flats) {
+    const MapRequest& old = _request;
+    const CasterLayers& layers = request.casters->layers;
     const auto areSameSides = [&] {
-        const auto frames = framesOf(old.light, old.cone, cause.casters->layers, old.settings.size);
+        const auto frames = framesOf(old.light, old.cone, layers, old.settings.size);
         return std::equal(_sides.begin(), _sides.end(), frames.begin(), frames.end(),
                           [](const Side& side, const LightFrame& frame) { return areSame(side.frame, frame); });
     };
-    if (old.casters && old.casters->layers.origin == cause.casters->layers.origin && old.flats == cause.flats &&
-        sameMaps && isSame(cause.cone, old.cone) && isSame(cause.light, old.light, cause.casters->layers.widest) &&
-        (old.casters == cause.casters || areSameSides()))
-        return takeCasters(*cause.casters);
+    const bool sameMaps = old.settings == request.settings;
+    if (old.casters && old.casters->layers.origin == layers.origin && _flats == flats && sameMaps &&
+        isSameLight(request, old, layers.widest) && (old.casters == request.casters || areSameSides()))
+        return takeCasters(*request.casters);
     if (!sameMaps) _map = nullptr;
-    _cause = cause;
+    _request = request;
+    _flats = flats;
     begin();
-    if (!_map) _texels = cause.settings.size;
+    if (!_map) _texels = request.settings.size;
 }
 
 /// As seen from the same light.
 void LightShadowMaps::takeCasters(const MapCasters& casters) {
-    if (_cause.casters == &casters) return;
-    const bool sameStill = _cause.casters->still == casters.still;
+    if (_request.casters == &casters) return;
+    const bool sameStill = _request.casters->still == casters.still;
     if (!sameStill) _clearOfStill = std::nullopt;
-    _cause.casters = &casters;
+    _request.casters = &casters;
     for (Side& side : _sides) {
         if (!sameStill) side.still = outlinesOf(*casters.still, side.frame);
         findBlockers(side);
@@ -227,12 +152,12 @@ void LightShadowMaps::takeCasters(const MapCasters& casters) {
 /// change: what moves in every second frame, say, is not found anew each time.
 void LightShadowMaps::settle(Seen seen) {
     if (!(seen == _seen)) {
-        _rest = _seen.asked.casters ? 0 : fewestAtRest; // a light's first frame has none before
+        _rest = _seen.latest.casters ? 0 : fewestAtRest; // a light's first frame has none before
         _seen = std::move(seen);
     } else if (!isSettled() && ++_rest == fewestAtRest) {
-        _cause.light = _seen.asked.light;
-        _cause.cone = _seen.asked.cone;
-        _texels = _cause.settings.size;
+        _request.light = _seen.latest.light;
+        _request.cone = _seen.latest.cone;
+        _texels = _request.settings.size;
         begin();
     }
 }
@@ -242,14 +167,16 @@ void LightShadowMaps::begin() {
     _faces.clear();
     _sides.clear();
     _splits.clear();
-    const int wanted = _cause.settings.cascades, most = 2 * _cause.settings.size <= largestTexture ? mostCascades : 1;
+    const int wanted = _request.settings.cascades,
+              most = 2 * _request.settings.size <= largestTexture ? mostCascades : 1;
     _cascades = wanted;
-    for (const LightFrame& frame : framesOf(_cause.light, _cause.cone, _cause.casters->layers, _cause.settings.size)) {
-        _sides.push_back({frame, outlinesOf(*_cause.casters->still, frame), {}});
+    for (const LightFrame& frame :
+         framesOf(_request.light, _request.cone, _request.casters->layers, _request.settings.size)) {
+        _sides.push_back({frame, outlinesOf(*_request.casters->still, frame), {}});
         findBlockers(_sides.back());
     }
     for (const Side& side : _sides) {
-        const std::size_t parts = side.frame.sun ? std::size_t(wanted ? wanted : most) : 2;
+        const std::size_t parts = side.frame.isParallel ? std::size_t(wanted ? wanted : most) : 2;
         for (std::size_t part = 0; part < parts; ++part) _faces.emplace_back(side, part);
     }
 }
@@ -257,7 +184,7 @@ void LightShadowMaps::begin() {
 LightShadowMaps::Outlines LightShadowMaps::outlinesOf(const MapLayer& layer, const LightFrame& frame) const {
     Outlines outlines{MapOutline(frame), {}};
     for (const MapPart& body : layer.bodies) outlines.bodies.addBox({body.low, body.high});
-    if (!_cause.flats) return outlines;
+    if (!_flats) return outlines;
     for (const MapPart& flat : layer.flats) {
         outlines.flats.emplace_back(frame);
         outlines.flats.back().addBox({flat.low, flat.high});
@@ -268,12 +195,12 @@ LightShadowMaps::Outlines LightShadowMaps::outlinesOf(const MapLayer& layer, con
 /// Skips what is empty, and what is flat and behind the bodies: it darkens nothing that they may not, but widens edges where it
 /// is far from where they are.
 void LightShadowMaps::findBlockers(Side& side) const {
-    const bool wide = _cause.isWide(side.frame);
+    const bool wide = _request.isWide(side.frame);
     side.blockers.clear();
     const auto add = [&](const MapOutline& outline, const HalfSpaces& halfSpaces) {
         if (!outline.empty()) side.blockers.push_back({outline, halfSpaces});
     };
-    const MapCasters& casters = *_cause.casters;
+    const MapCasters& casters = *_request.casters;
     const Outlines moving = outlinesOf(*casters.moving, side.frame);
     MapOutline bodies = side.still.bodies;
     bodies.merge(moving.bodies);
@@ -282,7 +209,7 @@ void LightShadowMaps::findBlockers(Side& side) const {
     const auto addFlats = [&](const Outlines& outlines, const MapLayer& layer) {
         for (std::size_t i = 0; i < outlines.flats.size(); ++i)
             if (wide || !(bodies.isBefore(outlines.flats[i]) || isThin(side.frame, outlines.flats[i])))
-                add(outlines.flats[i], {beyond(layer.flats[i], _cause.light, casters.layers.reach)});
+                add(outlines.flats[i], {beyond(layer.flats[i], _request.light, casters.layers.reach)});
     };
     addFlats(side.still, *casters.still);
     addFlats(moving, *casters.moving);
@@ -295,7 +222,7 @@ bool LightShadowMaps::areThin(const LightFrame& frame) const {
         outline.addBox({box.low, box.high});
         return outline.empty() || isThin(frame, outline);
     };
-    const MapCasters& casters = *_cause.casters;
+    const MapCasters& casters = *_request.casters;
     const auto &still = casters.still->bodies, &moving = casters.moving->bodies;
     return std::all_of(still.begin(), still.end(), isBoxThin) && std::all_of(moving.begin(), moving.end(), isBoxThin) &&
            std::all_of(casters.own.begin(), casters.own.end(), [&](const auto& own) { return isBoxThin(own.box); });
@@ -303,14 +230,14 @@ bool LightShadowMaps::areThin(const LightFrame& frame) const {
 
 void LightShadowMaps::findSplits() {
     const Side& side = _sides.front();
-    if (!(_faces.size() > 1 && side.frame.sun)) return;
+    if (!(_faces.size() > 1 && side.frame.isParallel)) return;
     SeenRange seen(_seen.clipFromScene);
     for (const Blocker& blocker : side.blockers) {
         const HalfSpaces halfSpaces =
             both(both(viewPart(_seen.clipFromScene, {}, 0), blocker.halfSpaces), blocker.outline.sides());
         for (const PlacedBox& receiver : _seen.receivers) seen.addBox(receiver, halfSpaces);
     }
-    if (!_cause.settings.cascades && !seen.empty())
+    if (!_request.settings.cascades && !seen.empty())
         _cascades = cascadesFor(seen, pixelsATexel(seen.farthest), _cascades);
     _splits = cascadeSplits(seen, std::max(_cascades, 1));
 }
@@ -324,7 +251,7 @@ double LightShadowMaps::pixelsATexel(double distance) const {
     for (const Blocker& blocker : _sides.front().blockers) all.merge(blocker.outline);
     const double most = fitMap(_sides.front().frame, all, all, 0.0, 0.0, 1.0).longer();
     const double covered = std::min(most, std::max({side(0), side(1), distance}));
-    return covered / _cause.settings.size / (side(0) / _seen.pixels.x);
+    return covered / _request.settings.size / (side(0) / _seen.pixels.x);
 }
 
 /// What of a part of the scene is needed.
@@ -334,7 +261,7 @@ void LightShadowMaps::findFace(Face& face, const HalfSpaces& halfSpaces) const {
     for (const Blocker& blocker : face.side->blockers)
         addNeeded(face, blocker, both(halfSpaces, blocker.halfSpaces), pixels);
     face.texel = pixels.side;
-    face.needed.limitNearest(mostRatio);
+    face.needed.limitNearest(atLamp);
     findHeld(face);
 }
 
@@ -361,13 +288,13 @@ void LightShadowMaps::addNeeded(Face& face, const Blocker& blocker, HalfSpaces h
         for (const PlacedBox& receiver : _seen.receivers) to.addBox(receiver, halfSpaces);
     };
     MapOutline dark = blocker.outline, seen(frame);
-    if (_cause.isWide(frame)) {
+    if (_request.isWide(frame)) {
         MapOutline all(frame);
         add(all);
         if (all.empty()) return;
-        dark.grow(_cause.softness(frame, blocker.outline, all.farthest));
+        dark.grow(_request.softness(frame, blocker.outline, all.farthest));
     }
-    if (frame.sun) halfSpaces = both(std::move(halfSpaces), dark.sides()); // a lamp's have sides of their own
+    if (frame.isParallel) halfSpaces = both(std::move(halfSpaces), dark.sides()); // a lamp's have sides of their own
     add(seen);
     seen.cut(dark);
     if (seen.empty()) return;
@@ -384,32 +311,32 @@ void LightShadowMaps::findHeld(Face& face) const {
     MapOutline& held = face.held;
     held = face.needed;
     if (face.needed.empty()) return;
-    if (!_cause.isWide(frame)) {
+    if (!_request.isWide(frame)) {
         // What is beyond all that blocks the light, a sky say, is compared as if it were there.
-        if (frame.sun && _splits.empty())
+        if (frame.isParallel && _splits.empty())
             held.farthest = std::min(held.farthest, std::max(held.nearest, face.reach.farthest));
         return;
     }
     const double most = 1.5 * widestSpread / _texels * face.needed.length(); // a map so much larger has wider texels
     MapOutline blocking = face.reach;
     blocking.nearest = face.nearestBlocker;
-    held.grow(std::min(_cause.softness(frame, blocking, face.needed.farthest), most));
+    held.grow(std::min(_request.softness(frame, blocking, face.needed.farthest), most));
     held.cut(face.reach);
     blocking.farthest = face.needed.farthest;
-    blocking.limitNearest(widestRatio);
+    blocking.limitNearest(MapRequest::widestRatio);
     held.nearest = std::min(held.nearest, blocking.nearest);
 }
 
 /// From a lamp to the nearest caster: nothing that is nearer is dark.
 double LightShadowMaps::clearance() {
-    const MapCasters& casters = *_cause.casters;
-    const glm::dvec3 lamp(_cause.light);
+    const MapCasters& casters = *_request.casters;
+    const glm::dvec3 lamp(_request.light);
     if (!_clearOfStill) _clearOfStill = casters.still->clearanceOf(lamp);
     return std::min(*_clearOfStill, casters.clearanceOfMoving(lamp));
 }
 
 void LightShadowMaps::update(const ViewFrame& view, MapMeshes& meshes) {
-    const MapCasters& casters = *_cause.casters;
+    const MapCasters& casters = *_request.casters;
     const OwnCasters own(casters.own, SceneFrame(casters.layers.origin).eyeFromScene(view), view.seen);
     resize();
     const bool due = anyDue();
@@ -430,8 +357,7 @@ void LightShadowMaps::update(const ViewFrame& view, MapMeshes& meshes) {
     picture->size = _texels;
     const glm::ivec2 size = addTiles(*picture);
     if (!_map || _map->size != size)
-        _map = new DepthMap(size, _cause.settings.filter == ShadowMapOptions::NEAREST ? osg::Texture::NEAREST
-                                                                                      : osg::Texture::LINEAR);
+        _map = new DepthMap(size, _request.settings.blends ? osg::Texture::LINEAR : osg::Texture::NEAREST);
     _picture = picture;
 }
 
@@ -440,9 +366,9 @@ double LightShadowMaps::texelsWanted() const {
     double wanted = 0.0;
     for (const Face& face : _faces) {
         if (face.needed.empty()) continue;
-        if (_cause.isWide(face.side->frame)) wanted = std::max(wanted, fewestSoft);
+        if (_request.isWide(face.side->frame)) wanted = std::max(wanted, fewestSoft);
         const double size = (holds(face) ? *face.fit : fitOf(face)).longer();
-        wanted = std::max(wanted, size / (widestTexel(_cause.settings) * face.texel));
+        wanted = std::max(wanted, size / (_request.settings.widestTexel * face.texel));
     }
     return wanted;
 }
@@ -460,7 +386,7 @@ int LightShadowMaps::mostTexels() const { return largestTexture / std::clamp(map
 /// Takes other texels than before if need be, fewer only where a map is to be drawn anyway: none holds what it must then.
 void LightShadowMaps::resize() {
     constexpr int rounds = 8; // what soft edges reach depends on how wide texels are
-    const int most = std::min(_cause.settings.size, mostTexels());
+    const int most = std::min(_request.settings.size, mostTexels());
     const bool begun = std::none_of(_faces.begin(), _faces.end(), [](const Face& face) { return bool(face.fit); });
     int before = _map && !(begun && isSettled()) ? _texels : 0;
     for (int round = 0; round < rounds; ++round) {
@@ -481,26 +407,26 @@ bool LightShadowMaps::anyDue() const {
 
 /// True if the face's map is not to be drawn again.
 bool LightShadowMaps::holds(const Face& face) const {
-    if (!face.fit || !face.fit->covers(face.held, (border - 1.0) / _texels)) return false;
+    if (!face.fit || !face.fit->covers(face.held, (keptClear - 1.0) / _texels)) return false;
     return face.fit->area() <= mostWaste * fitOf(face).area();
 }
 
 /// What moves will be beside what casters can darken now.
 MapFit LightShadowMaps::fitOf(const Face& face) const {
     MapOutline most = face.reach;
-    if (!isSettled() && !_cause.casters->moving->casters->pieces.empty()) {
+    if (!isSettled() && !_request.casters->moving->casters->pieces.empty()) {
         most.merge(face.held);
         most.grow(reserve * face.held.length());
     }
-    return fitMap(face.side->frame, face.held, most, reserve, border / _texels, glm::length(reachOf(face)) / 64.0);
+    return fitMap(face.side->frame, face.held, most, reserve, keptClear / _texels, glm::length(reachOf(face)) / 64.0);
 }
 
 /// Half sides of a box about the origin that holds what its map draws: no further than the map and the widest drawable.
 glm::dvec3 LightShadowMaps::reachOf(const Face& face) const {
     glm::dvec3 result(0.0);
     for (const glm::dvec4& point : face.held.body()) result = glm::max(result, glm::abs(glm::dvec3(point) / point.w));
-    const CasterLayers& layers = _cause.casters->layers;
-    return glm::min(layers.reach, result + (_cause.flats ? layers.widest : layers.widestBody));
+    const CasterLayers& layers = _request.casters->layers;
+    return glm::min(layers.reach, result + (_flats ? layers.widest : layers.widestBody));
 }
 
 /// Where nothing changes any more, as in a light's first picture: all faces, for where only those turned to the light are drawn,
@@ -511,13 +437,13 @@ MapPicture::Layer LightShadowMaps::drawnOf(const MapLayer& layer, bool again, Ma
         const PlacedMesh& placed = layer.casters->meshes[i];
         const MapBox box = boxOf(placed, layer.casters->origin);
         for (const MapCutout& cutout : layer.meshes[i]->cutouts)
-            if (_cause.flats || !cutout.flat) drawn.cutouts.push_back(cutout);
-        if (placed.ownDrawn || (placed.isBody && isFlat(box) && !_cause.flats)) continue;
-        const bool moving = &layer == _cause.casters->moving;
-        const auto faces = meshes.facesOf(*layer.meshes[i], _cause.flats, again && !isSettled(), moving);
+            if (_flats || !cutout.flat) drawn.cutouts.push_back(cutout);
+        if (placed.ownDrawn || (placed.isBody && isFlat(box) && !_flats)) continue;
+        const bool moving = &layer == _request.casters->moving;
+        const auto faces = meshes.facesOf(*layer.meshes[i], _flats, again && !isSettled(), moving);
         if (!faces) continue;
         CullableFaces::Outside outside{false, false};
-        if (!isSettled()) outside = faces->outside(glm::inverse(placed.sceneFromMesh) * _cause.light);
+        if (!isSettled()) outside = faces->outside(glm::inverse(placed.sceneFromMesh) * _request.light);
         drawn.meshes.push_back({faces, placed.sceneFromMesh, box, outside});
     }
     return drawn;
@@ -546,10 +472,11 @@ MapPicture::Tile LightShadowMaps::tileOf(const Face& face, const glm::ivec2& cor
     constexpr double aside = 8.0;             // of the widest frame: the way to its corner to its distance
     constexpr double least = 1.0 / (1 << 20); // of the coordinates: what rays leave out, too
     const LightFrame& frame = face.side->frame;
-    MapPicture::Tile tile{corner, face.fit->mapFromScene, mapErrors(frame, *face.fit, reachOf(face), _texels),
-                          mapSpread(frame, *face.fit, _cause.lightRadius(frame), _cause.settings.radius, _texels)};
-    const double size = glm::length(glm::dvec3(_cause.light)) + glm::length(reachOf(face));
-    if (!frame.sun) tile.nearest = std::max(std::min(clearance(), size) / aside, least * size);
+    MapPicture::Tile tile{
+        corner, face.fit->mapFromScene, mapErrors(frame, *face.fit, reachOf(face), _texels),
+        mapSpread(frame, *face.fit, _request.lightRadius(frame), _request.settings.blurRadius, _texels)};
+    const double size = glm::length(glm::dvec3(_request.light)) + glm::length(reachOf(face));
+    if (!frame.isParallel) tile.nearest = std::max(std::min(clearance(), size) / aside, least * size);
     tile.movers = moversIn(tile);
     return tile;
 }
@@ -565,10 +492,10 @@ PixelRect LightShadowMaps::moversIn(const MapPicture::Tile& tile) const {
         low = glm::min(low, bounds->low);
         high = glm::max(high, bounds->high);
     };
-    const MapLayer& moving = *_cause.casters->moving;
+    const MapLayer& moving = *_request.casters->moving;
     std::for_each(moving.bodies.begin(), moving.bodies.end(), add);
-    if (_cause.flats) std::for_each(moving.flats.begin(), moving.flats.end(), add);
-    for (const OwnCaster& caster : _cause.casters->own) add(caster.box);
+    if (_flats) std::for_each(moving.flats.begin(), moving.flats.end(), add);
+    for (const OwnCaster& caster : _request.casters->own) add(caster.box);
     if (!(low.x <= high.x && low.y <= high.y)) return {};
     const double more = 1.0 + std::max(tile.errors.nearest.texels, tile.errors.farthest.texels), size = _texels;
     const auto texel = [size](const glm::dvec2& place) { return glm::ivec2(glm::clamp(place, 0.0, size)); };
@@ -584,7 +511,7 @@ void LightShadowMaps::letGo() {
 }
 
 MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
-                         const ShadowMapOptions& settings) {
+                         const MapSettings& settings) {
     const auto usable = localLight(light.inGroup, SceneFrame(boxes.layers.origin));
     if (!usable) return {};
     LightShadowMaps maps;
@@ -603,8 +530,8 @@ MapForecast LightShadowMaps::forecast() const {
         if (face.needed.empty()) continue;
         const MapFit fit = fitOf(face);
         const LightFrame& frame = face.side->frame;
-        result.each.push_back(
-            {fit.mapFromScene, frame.sun ? viewPart(_seen.clipFromScene, _splits, face.part) : frame.halfSpaces});
+        result.each.push_back({fit.mapFromScene, frame.isParallel ? viewPart(_seen.clipFromScene, _splits, face.part)
+                                                                  : frame.halfSpaces});
         result.pixel = std::min(result.pixel, face.texel);
         result.texels = std::max(result.texels, fit.longer() / face.texel);
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/ShadowLight.h>
-#include <gnomon/ShadowMapOptions.h>
 #include <gnomon/ViewFrame.h>
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/map/DepthMap.h>
 #include <gnomon/map/MapCasters.h>
+#include <gnomon/map/MapRequest.h>
 #include <gnomon/mapfit/MapFit.h>
 
 #include <glm/mat4x4.hpp>
@@ -35,40 +35,17 @@ struct MapForecast {
 
 /// Of a light whose maps are not made. @param boxes  see MapLayer.
 MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
-                         const ShadowMapOptions& settings);
-
-/// Pixels on a side of a texel, where it is widest; fewer only with more texels than `size`.
-double widestTexel(const ShadowMapOptions& options);
-
-/// Boxes of what is seen in a view, the largest first.
-std::vector<PlacedBox> receiversOf(const ViewFrame& view, const glm::dmat4& eyeFromScene);
-
-/// What the maps of one light are of.
-struct MapRequest {
-    glm::dvec4 light{0.0};        ///< in the scene about the casters' origin, see localLight().
-    std::optional<SpotCone> cone; ///< of a lamp that is a spot: nothing outside it is marked.
-    osg::ref_ptr<const MapCasters> casters;
-    ShadowMapOptions settings;
-    bool flats = false; ///< those that are flat cast, too.
-
-    /// See softReach().
-    double lightRadius(const LightFrame& frame) const;
-    /// True if edges are wider than the filter makes them.
-    bool isWide(const LightFrame& frame) const;
-    /// How far edges of what blocks the light are spread where it is as far as that from the light.
-    double softness(const LightFrame& frame, MapOutline blocker, double farthest) const;
-};
+                         const MapSettings& settings);
 
 /// The maps of one light in one view: what they must hold, and those drawn last. In each frame call find(), then update() or
 /// letGo().
 class LightShadowMaps {
 public:
-    bool areCastersRetired() const { return !_cause.casters || _cause.casters->of->isRetired(); }
+    bool areCastersRetired() const { return !_request.casters || _request.casters->of->isRetired(); }
     /// Finds what is needed now. Starts anew if anything but the casters differs from what the maps are of; they stay as they
     /// lie where those move.
-    /// @param wanted  all but `flats`.
     /// @return what is needed, corners in clip space: on the screen shadows can fall about them; none if nowhere.
-    std::vector<glm::dvec4> find(const ViewFrame& view, MapRequest wanted);
+    std::vector<glm::dvec4> find(const ViewFrame& view, const MapRequest& request);
     /// Makes the maps anew that do not hold what is needed, or would hold it much better.
     void update(const ViewFrame& view, MapMeshes& meshes);
     /// Where none is needed: forgets those drawn last if they show what has changed since.
@@ -116,9 +93,11 @@ private:
         glm::dmat4 clipFromScene{0.0};
         glm::dvec2 pixels{0.0}; ///< of the view, across and up.
         std::vector<PlacedBox> receivers;
-        MapRequest asked; ///< the settings do not count.
+        MapRequest latest; ///< as it was requested; the settings do not count.
 
-        auto all() const { return std::tie(clipFromScene, pixels, receivers, asked.light, asked.cone, asked.casters); }
+        auto all() const {
+            return std::tie(clipFromScene, pixels, receivers, latest.light, latest.cone, latest.casters);
+        }
         bool operator==(const Seen& other) const { return all() == other.all(); }
     };
 
@@ -127,10 +106,11 @@ private:
     bool isSettled() const { return _rest == fewestAtRest; }
     /// True if the last picture is of the casters as they are now.
     bool isOfCasters() const {
-        return _picture && _picture->still.of == _cause.casters->still && _picture->moving.of == _cause.casters->moving;
+        return _picture && _picture->still.of == _request.casters->still &&
+               _picture->moving.of == _request.casters->moving;
     }
 
-    void setCause(const MapRequest& cause);
+    void setRequest(const MapRequest& request, bool flats);
     void takeCasters(const MapCasters& casters);
     void settle(Seen seen);
     void begin();
@@ -158,9 +138,10 @@ private:
     MapPicture::Tile tileOf(const Face& face, const glm::ivec2& corner);
     PixelRect moversIn(const MapPicture::Tile& tile) const;
 
-    MapRequest _cause;                   ///< what the maps are of.
-    Seen _seen;                          ///< in the last frame.
-    int _rest = 0;                       ///< frames since anything changed; see settle().
+    MapRequest _request; ///< what the maps are of; an older one's light, while the latest is the same but for floats.
+    bool _flats = false; ///< casters that are flat, as grounds are, may shadow what is seen.
+    Seen _seen;          ///< in the last frame.
+    int _rest = 0;       ///< frames since anything changed; see settle().
     std::optional<double> _clearOfStill; ///< see clearance().
     std::vector<Side> _sides;
     std::vector<Face> _faces;                ///< of each side one a part; of a lamp's side two.

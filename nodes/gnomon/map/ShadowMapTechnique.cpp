@@ -7,7 +7,7 @@
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/SceneFrame.h>
 #include <gnomon/map/LightShadowMaps.h>
-#include <gnomon/map/MapLookup.h>
+#include <gnomon/map/MapMarks.h>
 
 #include <OpenThreads/Mutex>
 #include <OpenThreads/ScopedLock>
@@ -56,26 +56,19 @@ public:
         return _casters.add(new MapCasters(casters, still, moving));
     }
 
-    /// @param wanted  all but `flats`. @param lookup  gets its maps.
-    /// @return the marks of a light; null if none of its shadow can be seen.
-    osg::ref_ptr<Mark> mark(const ViewFrame& view, int lightNumber, const MapRequest& wanted, MapLookup& lookup) {
-        const bool forPrograms = lookup.settings.programUnit >= 0;
-        const glm::dmat4 sceneFromEye = glm::inverse(SceneFrame(wanted.casters->layers.origin).eyeFromScene(view));
+    /// Makes the maps of a light anew where they do not show what they must. @return none if none of its shadow can be seen.
+    std::optional<MapsInView> update(const ViewFrame& view, int lightNumber, const MapRequest& request) {
         Lock lock(_mutex);
         LightShadowMaps& maps = find(view, lightNumber);
-        const std::vector<glm::dvec4> corners = maps.find(view, wanted);
+        const std::vector<glm::dvec4> corners = maps.find(view, request);
         const auto bounds = corners.empty() ? std::nullopt : screenBounds(corners);
         if (!bounds) {
             maps.letGo();
-            return forPrograms ? programMaps(lookup, sceneFromEye) : nullptr;
+            return std::nullopt;
         }
         maps.update(view, _meshes);
-        lookup.map = maps.map();
-        lookup.picture = maps.picture();
         const glm::dvec2 rounding = 4.0 / glm::dvec2(view.pixels.x(), view.pixels.y()); // two pixels more
-        lookup.outline = screenOutline(corners, rounding);
-        lookup.screenBounds = *bounds;
-        return forPrograms ? programMaps(lookup, sceneFromEye) : &lookup;
+        return MapsInView{programs, maps.map(), maps.picture(), screenOutline(corners, rounding), *bounds};
     }
 
     /// Drops the maps and meshes of retired casters.
@@ -175,18 +168,23 @@ std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& vie
         return {};
     }
     const std::optional<SpotCone> cone = spotOf(light);
-    const osg::ref_ptr<MapLookup> lookup = new MapLookup;
-    lookup->programs = _maps->programs;
-    lookup->settings = _options;
-    lookup->clipFromScene = toGlm(view.projection) * scene.eyeFromScene(view);
-    lookup->pushedBack = {view.pushedBack.x(), view.pushedBack.y()};
-    lookup->rounding = drawn->layers.rounding;
-    if (cone) lookup->coneFromScene = coneFromScene(glm::dvec3(*usable), *cone);
+    const std::optional<MapsInView> maps =
+        _maps->update(view, light.number, {*usable, cone, drawn, MapSettings(_options)});
+    if (_options.programUnit >= 0)
+        return {programMaps(_options.programUnit, maps, glm::inverse(scene.eyeFromScene(view)))};
+    LookupView places{toGlm(view.projection) * scene.eyeFromScene(view),
+                      std::nullopt,
+                      {view.pushedBack.x(), view.pushedBack.y()},
+                      drawn->layers.rounding};
+    if (cone) places.coneFromScene = coneFromScene(glm::dvec3(*usable), *cone);
+    const Lookup lookup = !_options.fades()                            ? Lookup::Hard
+                          : _options.edges == ShadowMapOptions::SMOOTH ? Lookup::Smooth
+                                                                       : Lookup::Soft;
     std::vector<osg::ref_ptr<Mark>> marks;
-    if (cone && _options.programUnit < 0 && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
-        marks.push_back(spotMark(*lookup));
-    const osg::ref_ptr<Mark> mark = _maps->mark(view, light.number, {*usable, cone, drawn, _options}, *lookup);
-    if (mark) marks.push_back(mark); // else out of sight: nothing to say
+    if (cone && view.group->getComposite() == ShadowCasterGroup::RELIGHT)
+        marks.push_back(spotMark(_maps->programs, places));
+    if (maps) // else out of sight: nothing to say
+        marks.push_back(new MapLookup({lookup, _options.filter, _options.view}, places, *maps));
     return marks;
 }
 

@@ -20,8 +20,7 @@ constexpr double thinnest = 1e-6;              // of a rectangle's sides, the sh
 constexpr double steps = 1.0 / (1 << 19);      // of depth, as tests/render/PlanarBandTest.cpp measured
 constexpr double floatError = 8.0 / (1 << 24); // of a matrix of floats times a vector of floats
 constexpr double edgeOn = 20.0;                // tangent: the cosine of surface and light is 0.05
-constexpr double mostRatio =
-    256.0; // of a lamp's distances in a map: an error of depth is less than a texel of 1024 there
+constexpr double mostInOneMap = 256.0; // of a lamp's distances: an error of depth is less than a texel of 1024 there
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 int leastOf(const glm::dvec3& v) { return v.x <= v.y && v.x <= v.z ? 0 : v.y <= v.z ? 1 : 2; }
@@ -175,7 +174,7 @@ LightFrame lampFrame(const glm::dvec3& lamp, const glm::dvec3& axis, double spre
     const glm::dvec3 right = anyAcross(axis), up = glm::cross(axis, right);
     const auto along = [&lamp](const glm::dvec3& way) { return glm::dvec4(way, -glm::dot(way, lamp)); };
     LightFrame frame;
-    frame.sun = false;
+    frame.isParallel = false;
     frame.lightFromScene =
         glm::transpose(glm::dmat4(along(right), along(up), glm::dvec4(0.0, 0.0, 0.0, -1.0), along(axis)));
     for (const glm::dvec3& side : {right, -right, up, -up}) frame.halfSpaces.push_back(along(spread * axis + side));
@@ -227,11 +226,11 @@ void MapOutline::cut(const MapOutline& other) {
 }
 
 void MapOutline::limitNearest(double ratio) {
-    if (!_frame.sun) nearest = std::max(nearest, ratio * farthest);
+    if (!_frame.isParallel) nearest = std::max(nearest, ratio * farthest);
 }
 
 double MapOutline::split() const {
-    if (_frame.sun || empty() || nearest >= mostRatio * farthest) return 0.0;
+    if (_frame.isParallel || empty() || nearest >= mostInOneMap * farthest) return 0.0;
     return std::exp2(std::round(-std::log2(nearest * farthest) / 2.0)); // both have the same ratio
 }
 
@@ -262,7 +261,7 @@ std::vector<glm::dvec4> MapOutline::body() const {
     std::vector<glm::dvec4> points;
     for (const glm::dvec2& corner : corners)
         for (const double depth : {nearest, farthest}) { // a lamp's in proportion to its distance, so that w is 1
-            const double scale = _frame.sun ? 1.0 : -1.0 / depth;
+            const double scale = _frame.isParallel ? 1.0 : -1.0 / depth;
             points.push_back(sceneFromLight * (scale * glm::dvec4(corner, depth, 1.0)));
         }
     return points;
@@ -289,10 +288,10 @@ MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutli
     rectangle.low -= border;
     rectangle.high += border;
     MapFit fit;
-    const double least = frame.sun ? thick : thick * outline.farthest * outline.farthest; // d(-1/w) is dw/w²
+    const double least = frame.isParallel ? thick : thick * outline.farthest * outline.farthest; // d(-1/w) is dw/w²
     const double more = 0.125 * std::max(outline.farthest - outline.nearest, 4.0 * least);
     fit.nearest = outline.nearest - more;
-    fit.farthest = frame.sun ? outline.farthest + more : std::min(0.0, outline.farthest + more);
+    fit.farthest = frame.isParallel ? outline.farthest + more : std::min(0.0, outline.farthest + more);
     fit.size = rectangle.high - rectangle.low;
     fit.mapFromLight = unitFromLight(rectangle, fit.nearest, fit.farthest);
     fit.mapFromScene = fit.mapFromLight * frame.lightFromScene;
@@ -300,7 +299,7 @@ MapFit fitMap(const LightFrame& frame, const MapOutline& outline, const MapOutli
 }
 
 double softReach(const LightFrame& frame, double nearest, double farthest, double lightRadius, double radius) {
-    const double perUnit = frame.sun ? 1.0 : -nearest;
+    const double perUnit = frame.isParallel ? 1.0 : -nearest;
     return lightRadius * std::max(0.0, farthest - nearest) + radius * perUnit;
 }
 
@@ -308,8 +307,8 @@ MapSpread mapSpread(const LightFrame& frame, const MapFit& fit, double lightRadi
     const glm::dvec2 texelsAUnit = double(texels) / fit.size; // of x/w and y/w
     MapSpread spread;
     spread.penumbra = lightRadius * (fit.farthest - fit.nearest) * texelsAUnit;
-    spread.nearest = radius * (frame.sun ? 1.0 : -fit.nearest) * texelsAUnit;
-    spread.farthest = radius * (frame.sun ? 1.0 : -fit.farthest) * texelsAUnit;
+    spread.nearest = radius * (frame.isParallel ? 1.0 : -fit.nearest) * texelsAUnit;
+    spread.farthest = radius * (frame.isParallel ? 1.0 : -fit.farthest) * texelsAUnit;
     return spread;
 }
 
@@ -320,7 +319,7 @@ MapErrors mapErrors(const LightFrame& frame, const MapFit& fit, const glm::dvec3
     };
     const double range = fit.farthest - fit.nearest, texel = fit.longer() / texels;
     const auto at = [&](double depth) {
-        const double perW = frame.sun ? 1.0 : -depth;
+        const double perW = frame.isParallel ? 1.0 : -depth;
         return MapError{steps + 2.0 * floatError + rounding(2) * perW,
                         texels * std::max(rounding(0), rounding(1)) * perW, edgeOn * texel / range * perW};
     };
@@ -356,7 +355,7 @@ double TexelDensity::stretch(const glm::dvec3& normal, const glm::dvec4& place) 
     if (normal == glm::dvec3(0.0)) return stretchOfBodies;
     const auto axis = [this](int row) { return glm::dvec3(glm::row(_frame.lightFromScene, row)); };
     const glm::dvec4 at = inLight(place);
-    const glm::dvec3 light = _frame.sun ? axis(2) : at.x * axis(0) + at.y * axis(1) + at.w * axis(3);
+    const glm::dvec3 light = _frame.isParallel ? axis(2) : at.x * axis(0) + at.y * axis(1) + at.w * axis(3);
     const double across = glm::length(normal) * glm::length(light);
     return across > 0.0 ? across / std::max(std::abs(glm::dot(normal, light)), across / mostStretch) : mostStretch;
 }

@@ -42,7 +42,7 @@ std::optional<int> flatAxis(const PlacedBox& box);
 /// Of a sun x, y and z are in the scene's unit, w is 1. Of a lamp w is the distance along the axis, and depth -1/w.
 struct LightFrame {
     glm::dmat4 lightFromScene{1.0};
-    bool sun = true;
+    bool isParallel = true;  ///< a sun, or a lamp so far off that its rays are as those of one.
     HalfSpaces halfSpaces{}; ///< what of the scene the frame can hold; none of a sun.
 };
 
