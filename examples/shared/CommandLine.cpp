@@ -128,7 +128,15 @@ void refuseUnknownOptions(osg::ArgumentParser& arguments) {
 void readOsgOptions(osg::ArgumentParser& arguments) {
     for (const char* name : {"-O", "-e", "-l"})
         if (arguments.find(name) == arguments.argc() - 1) refuse(std::string(name) + " needs a value.");
-    osgDB::Registry::instance()->readCommandLine(arguments);
+    osgDB::Registry& registry = *osgDB::Registry::instance();
+    for (const std::string name : {"-e", "-l"}) {
+        const int at = arguments.find(name);
+        const std::string given = at > 0 ? arguments[at + 1] : "";
+        const std::string library = name == "-e" ? registry.createLibraryNameForExtension(given) : given;
+        if (at > 0 && registry.loadLibrary(library) == osgDB::Registry::NOT_LOADED)
+            refuse(name + " " + given + " cannot be used. OpenSceneGraph finds no such plugin.");
+    }
+    registry.readCommandLine(arguments);
 }
 
 std::string osgOptionsHelp() {

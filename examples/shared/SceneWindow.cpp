@@ -104,13 +104,13 @@ void SceneWindow::openWindow(const WindowNames& names, const ViewOptions& option
     if (namesDisplay()) _viewer.setUpViewInWindow(corner, corner, options.width, options.height);
     osgViewer::Viewer::Windows windows;
     _viewer.getWindows(windows);
+    const bool isPlain = options.samples == 1;
+    const std::string kind = isPlain ? "" : " of " + std::to_string(options.samples) + " samples";
     if (windows.empty())
-        throw std::runtime_error("no window can be opened. Set DISPLAY to an X server with OpenGL, or use " +
-                                 names.without + ", which needs no window.");
+        throw std::runtime_error("no window" + kind + " can be opened. " + (isPlain ? "" : "Give fewer --samples. ") +
+                                 "Set DISPLAY to an X server with OpenGL, or use " + names.without +
+                                 ", which needs no window.");
     _viewer.realize();
-    if (!_viewer.isRealized() && options.samples > 1)
-        throw std::runtime_error("this display has no window of " + std::to_string(options.samples) +
-                                 " samples. Try --samples 4, or leave it out.");
     windows.front()->setWindowName(names.program);
 }
 
