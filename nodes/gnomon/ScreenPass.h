@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <gnomon/Export.h>
-#include <gnomon/ScreenRect.h>
 
 #include <osg/RenderInfo>
 #include <osg/Vec3>
 #include <osg/Vec4>
-#include <osg/Viewport>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -24,6 +22,7 @@ struct Channels {
     bool encoded = false; ///< written as sRGB: what is blended is linear.
 };
 
+struct PixelRect;
 struct StencilPattern;
 
 /// A step of the compositor within a CleanState: cut to part of the screen, writing nothing but what is asked for.
@@ -33,8 +32,8 @@ public:
     /// @param written   asked when colours are written: to these channels only.
     /// @param counters  see counters().
     /// @param pattern   nothing is written but in its pixels.
-    ScreenPass(osg::RenderInfo& renderInfo, const osg::Viewport& viewport, const ScreenRect& bounds,
-               std::function<Channels()> written, unsigned counters, const StencilPattern& pattern);
+    ScreenPass(osg::RenderInfo& renderInfo, const PixelRect& pixels, std::function<Channels()> written,
+               unsigned counters, const StencilPattern& pattern);
     ~ScreenPass();
     ScreenPass(const ScreenPass&) = delete;
     ScreenPass& operator=(const ScreenPass&) = delete;

@@ -32,7 +32,7 @@ class Asked : public gnomon::ShadowTechnique {
 public:
     std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
                                                     const gnomon::Casters& casters) const override {
-        const auto usable = gnomon::localLight(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
+        const auto usable = gnomon::lightInScene(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
         surfaces = _chooser.choose({view, light, casters, *usable}, {}, {}).surfaces;
         names.clear();
         for (const osgUtil::RenderLeaf* leaf : *surfaces) names.insert(gnomon::nameOf(*leaf));

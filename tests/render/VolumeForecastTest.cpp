@@ -52,10 +52,10 @@ public:
         const gnomon::CasterLayers& layers = casters.layers();
         const gnomon::SceneFrame scene(layers.origin);
         const auto seen =
-            gnomon::VolumeCache().see(layers, view, light.number, *gnomon::localLight(light.inGroup, scene), scene);
+            gnomon::VolumeCache().see(layers, view, light.number, *gnomon::lightInScene(light.inGroup, scene), scene);
         if (seen) drawn = drawnOf(*seen);
         gnomon::OpenCasters known, unknown;
-        const auto inGroup = gnomon::localLight(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
+        const auto inGroup = gnomon::lightInScene(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
         expected = gnomon::forecastVolumes(view, layers, *inGroup, known);
         estimated = gnomon::forecastVolumes(view, layers, *inGroup, unknown, false);
         again = gnomon::forecastVolumes(view, layers, *inGroup, known, false);
@@ -171,7 +171,7 @@ public:
         const gnomon::SceneFrame scene(layers.origin);
         gnomon::ViewFrame uncounted = view;
         uncounted.frameNumber = 0;
-        _cache.see(layers, uncounted, light.number, *gnomon::localLight(light.inGroup, scene), scene);
+        _cache.see(layers, uncounted, light.number, *gnomon::lightInScene(light.inGroup, scene), scene);
         if (!first.valid()) first = layers.meshes().front().mesh.get();
         return {};
     }

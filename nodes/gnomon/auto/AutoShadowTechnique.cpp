@@ -58,7 +58,7 @@ unsigned AutoShadowTechnique::passes() const { return _chooser->passes(); }
 
 std::vector<osg::ref_ptr<Mark>> AutoShadowTechnique::prepare(const ViewFrame& view, const ShadowLight& light,
                                                              const Casters& casters) const {
-    const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
+    const auto usable = lightInScene(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};

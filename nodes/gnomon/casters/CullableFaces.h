@@ -39,7 +39,7 @@ struct CullableFaces : public osg::Referenced {
         bool operator==(const Outside& other) const { return solids == other.solids && holed == other.holed; }
     };
 
-    /// False where a lamp may be in one, which many drawables may make together. @param light  as localLight().
+    /// False where a lamp may be in one, which many drawables may make together. @param light  as lightInScene().
     Outside outside(const glm::dvec4& light) const;
     /// Needs back faces to be those that are culled.
     /// @param clipFromScene  to the light's clip space, from the group's axes about the mesh's origin.

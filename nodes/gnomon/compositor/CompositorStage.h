@@ -38,8 +38,9 @@ public:
     template <typename Step>
     void pass(const ScreenRect& bounds, Step step) const {
         CleanState cleanState(state, stage.getViewport());
+        const PixelRect pixels = pixelsWithin(bounds, *stage.getViewport());
         ScreenPass screen(
-            renderInfo, *stage.getViewport(), bounds, [this] { return channels(); }, counters, pattern);
+            renderInfo, pixels, [this] { return channels(); }, counters, pattern);
         step(screen);
     }
     void clear(unsigned stencil, const ScreenRect& bounds) const;

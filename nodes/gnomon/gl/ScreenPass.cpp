@@ -31,16 +31,15 @@ PixelRect pixelsWithin(const ScreenRect& bounds, const osg::Viewport& viewport) 
     return {x.first, y.first, x.count, y.count};
 }
 
-ScreenPass::ScreenPass(osg::RenderInfo& renderInfo, const osg::Viewport& viewport, const ScreenRect& bounds,
-                       std::function<Channels()> written, unsigned counters, const StencilPattern& pattern)
+ScreenPass::ScreenPass(osg::RenderInfo& renderInfo, const PixelRect& pixels, std::function<Channels()> written,
+                       unsigned counters, const StencilPattern& pattern)
     : _renderInfo(renderInfo),
       _state(*renderInfo.getState()),
       _written(std::move(written)),
       _counters(counters),
       _pattern(pattern) {
-    const PixelRect cut = pixelsWithin(bounds, viewport);
     glEnable(GL_SCISSOR_TEST);
-    glScissor(cut.x, cut.y, cut.width, cut.height);
+    glScissor(pixels.x, pixels.y, pixels.width, pixels.height);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glDepthMask(GL_FALSE);
     if (_pattern.bit) stencilEqual(0, 0, 0);

@@ -5,6 +5,8 @@
 #include <osg/ContextData>
 #include <osg/GraphicsContext>
 
+#include <glm/vec2.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,14 +32,13 @@ GLenum colorFormat(GLenum attachment) {
     return bits > 8 ? GL_RGBA16 : GL_RGBA8;
 }
 
-void store(const osg::GLExtensions& extensions, GLuint& name, GLenum format, GLint samples, GLsizei width,
-           GLsizei height) {
+void store(const osg::GLExtensions& extensions, GLuint& name, GLenum format, GLint samples, const glm::ivec2& size) {
     if (!name) extensions.glGenRenderbuffers(1, &name);
     extensions.glBindRenderbuffer(GL_RENDERBUFFER_EXT, name);
     if (samples > 0)
-        extensions.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, samples, format, width, height);
+        extensions.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, samples, format, size.x, size.y);
     else
-        extensions.glRenderbufferStorage(GL_RENDERBUFFER_EXT, format, width, height);
+        extensions.glRenderbufferStorage(GL_RENDERBUFFER_EXT, format, size.x, size.y);
 }
 
 /// Of depth and stencil.
@@ -183,12 +184,13 @@ WorkBuffers::Buffers& WorkBuffers::fitting(const osg::GLExtensions& extensions, 
     if (buffers.width >= width && buffers.height == height) return buffers;
     buffers.width = std::max(buffers.width, width);
     buffers.height = height;
-    store(extensions, buffers.color, format.color, format.samples, buffers.width, buffers.height);
+    const glm::ivec2 size(buffers.width, buffers.height);
+    store(extensions, buffers.color, format.color, format.samples, size);
     buffers.depthIsTexture = format.samples == 0 && format.depth == GL_DEPTH24_STENCIL8_EXT;
     if (buffers.depthIsTexture)
         storeTexture(buffers.depth, buffers.width, buffers.height);
     else
-        store(extensions, buffers.depth, format.depth, format.samples, buffers.width, buffers.height);
+        store(extensions, buffers.depth, format.depth, format.samples, size);
     return buffers;
 }
 

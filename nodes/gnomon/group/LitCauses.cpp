@@ -140,7 +140,7 @@ bool holdsForNearlyAll(const std::vector<osg::Vec3d>& points, Test test) {
 bool encloses(const CastingNode& node, const std::vector<osg::Vec3d>& points, const osg::Vec4d& light) {
     const osg::ref_ptr<const CasterMesh> mesh = meshOf(node.pieces);
     const SceneFrame frame(toGlm(mesh->origin));
-    const std::optional<glm::dvec4> local = localLight(light, frame);
+    const std::optional<glm::dvec4> local = lightInScene(light, frame);
     if (!local) return false;
     const RayScene rays(soupOf(*mesh));
     const auto towards = [&](const glm::dvec3& point) {

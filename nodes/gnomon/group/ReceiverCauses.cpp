@@ -21,42 +21,39 @@ void reportNoDepth(const EnlistedTechnique& entry, const std::vector<const osgUt
     const auto shaded =
         std::find_if(receiving.begin(), receiving.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
     if (shaded == receiving.end() || std::any_of(receiving.begin(), receiving.end(), hasDepth)) return;
-    entry.technique->report(entry.frameNumber,
-                            "no receiver in this view writes depth, so there is no shadow; the first is '" +
-                                nameOf(**shaded) + "'. Switch GL_DEPTH_TEST and the mask of osg::Depth on.");
+    entry.report("no receiver in this view writes depth, so there is no shadow; the first is '" + nameOf(**shaded) +
+                 "'. Switch GL_DEPTH_TEST and the mask of osg::Depth on.");
 }
 
 /// What stands behind would need its own shadow and that of what is combined with it.
-void reportSeenThrough(const EnlistedTechnique& entry, const StageLeaves& drawn, osgUtil::RenderStage& stage) {
+void reportSeenThrough(const TechniqueInStage& asked) {
+    const auto& [entry, others, drawn, stage] = asked;
     const auto firstOf = [&](const std::vector<DrawnLeaf>& leaves) {
-        const Leaves all = receivingOf(entry, leaves, stage);
+        const Leaves all = receivingOf(asked.entry, leaves, asked.stage);
         const auto first = std::find_if(all.begin(), all.end(), [](auto* leaf) { return isShaded(leaf->_parent); });
         return first == all.end() ? std::string() : nameOf(**first);
     };
     if (const std::string name = firstOf(drawn.late.combined); !name.empty())
-        entry.technique->report(entry.frameNumber,
-                                "a logic operation combines '" + name +
-                                    "' with what stands behind it, in a bin above 8, so it receives no shadow. Draw it "
-                                    "in a bin below 8, or switch GL_COLOR_LOGIC_OP off.");
+        entry.report("a logic operation combines '" + name +
+                     "' with what stands behind it, in a bin above 8, so it receives no shadow. Draw it "
+                     "in a bin below 8, or switch GL_COLOR_LOGIC_OP off.");
     if (const std::string name = firstOf(drawn.late.torn); !name.empty())
-        entry.technique->report(entry.frameNumber,
-                                "'" + name +
-                                    "' blends by an alpha that is 1 in some parts only, in a bin above 8, so it "
-                                    "receives no shadow. Draw it in a bin below 8, or without GL_BLEND by an "
-                                    "osg::AlphaFunc.");
+        entry.report("'" + name +
+                     "' blends by an alpha that is 1 in some parts only, in a bin above 8, so it "
+                     "receives no shadow. Draw it in a bin below 8, or without GL_BLEND by an "
+                     "osg::AlphaFunc.");
     if (const std::string name = firstOf(drawn.late.clear); !name.empty())
-        entry.technique->report(entry.frameNumber,
-                                "'" + name +
-                                    "' blends with what stands behind it, so it is as bright as without shadows; what "
-                                    "is seen through it has its shadow. Switch GL_BLEND off if it is opaque.");
+        entry.report("'" + name +
+                     "' blends with what stands behind it, so it is as bright as without shadows; what "
+                     "is seen through it has its shadow. Switch GL_BLEND off if it is opaque.");
 }
 
 /// A factor is for what is seen, fog and all.
 void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
     if (entry.group->getComposite() == ShadowCasterGroup::BLEND &&
         (isModeOn(drawn.early, GL_FOG) || isModeOn(drawn.late.leaves, GL_FOG)))
-        entry.technique->report(entry.frameNumber, "fog is on, and BLEND darkens it with the surface behind it. Set "
-                                                   "RELIGHT, or switch GL_FOG off.");
+        entry.report("fog is on, and BLEND darkens it with the surface behind it. Set "
+                     "RELIGHT, or switch GL_FOG off.");
 }
 
 /// What decides on which surfaces a group's techniques shadow.
@@ -113,9 +110,8 @@ std::set<const osg::Drawable*> notCastingBy(const EnlistedTechnique& entry, cons
     return result;
 }
 
-std::string unshadowedCause(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                            const ShadowLight& light, const Casters& casters, const StageLeaves& drawn,
-                            osgUtil::RenderStage& stage) {
+std::string unshadowedCause(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters) {
+    const auto& [entry, all, drawn, stage] = asked;
     Leaves surfaces = surfacesOf(entry, drawn);
     for (const EnlistedTechnique& other : all) {
         if (other.group != entry.group || surfaces.empty()) continue;
@@ -165,80 +161,80 @@ Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>&
     return receiving;
 }
 
-bool reportOtherLens(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                     const StageLeaves& drawn, osgUtil::RenderStage& stage) {
+bool reportOtherLens(const TechniqueInStage& asked) {
+    const EnlistedTechnique& entry = asked.entry;
     const auto isServed = [&](const osgUtil::RenderLeaf& leaf) {
-        return std::any_of(all.begin(), all.end(), [&](const EnlistedTechnique& other) {
+        return std::any_of(asked.all.begin(), asked.all.end(), [&](const EnlistedTechnique& other) {
             return other.technique == entry.technique && isSameLens(projectionOf(leaf), *other.projection);
         });
     };
     std::vector<DrawnLeaf> others;
-    for (const auto* leaves : {&drawn.early, &drawn.late.leaves})
+    for (const auto* leaves : {&asked.drawn.early, &asked.drawn.late.leaves})
         for (const DrawnLeaf& each : *leaves)
             if (!isServed(*each.leaf) && isShaded(each.leaf->_parent) && writesDepth(each.leaf->_parent))
                 others.push_back(each);
     if (others.empty()) return false;
     Selection receiver = entry.technique->getReceiver();
     if (!entry.technique->hasReceiver()) receiver.node = const_cast<ShadowCasterGroup*>(entry.group.get());
-    const LeafSet meant = receiversAmong(others, receiver, *stage.getInitialViewMatrix());
+    const LeafSet meant = receiversAmong(others, receiver, *asked.stage.getInitialViewMatrix());
     const auto first =
         std::find_if(others.begin(), others.end(), [&](auto& each) { return meant.count(each.leaf) > 0; });
     if (first == others.end()) return false;
-    entry.technique->report(entry.frameNumber,
-                            "'" + nameOf(*first->leaf) +
-                                "' is drawn through a projection of its own, so it receives no shadow. Draw it through "
-                                "the camera's, or put it under a ShadowCasterGroup of its own.");
+    entry.report("'" + nameOf(*first->leaf) +
+                 "' is drawn through a projection of its own, so it receives no shadow. Draw it through "
+                 "the camera's, or put it under a ShadowCasterGroup of its own.");
     return true;
 }
 
 void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage) {
     if (entry.technique->isReceiverGone())
-        return entry.technique->report(entry.frameNumber, "the node given to setReceiver() is gone, because nothing "
-                                                          "else kept it. Add the receiver to the scene, and name it "
-                                                          "anew.");
+        return entry.report("the node given to setReceiver() is gone, because nothing "
+                            "else kept it. Add the receiver to the scene, and name it "
+                            "anew.");
     const std::string cause = whyMissing(entry.technique->getReceiver(), "receiver", *entry.group, stage);
-    if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+    if (!cause.empty()) entry.report(cause);
 }
 
-void reportReceiverStates(const EnlistedTechnique& entry, const Receiving& receiving, osgUtil::RenderStage& stage) {
-    const auto& [early, late, drawn] = receiving;
-    drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, early, late);
-    reportSeenThrough(entry, drawn, stage);
+void reportReceiverStates(const TechniqueInStage& asked, const Receiving& receiving) {
+    const EnlistedTechnique& entry = asked.entry;
+    const auto& [early, late] = receiving;
+    asked.drawn.programs.report(entry.technique->reportIn(entry.frameNumber), *entry.group, early, late);
+    reportSeenThrough(asked);
     if (late.empty()) reportNoDepth(entry, early);
-    if (!early.empty() || !late.empty()) reportFog(entry, drawn);
+    if (!early.empty() || !late.empty()) reportFog(entry, asked.drawn);
 }
 
-void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const Casters& casters,
-                     const Leaves& receiving, osgUtil::RenderStage& stage) {
+void reportEnclosers(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters,
+                     const Leaves& receiving) {
+    const EnlistedTechnique& entry = asked.entry;
     for (const ShadowLight& light : lights) {
         const LitView view{*entry.group, light, casters, receiving, entry.eyeFromGroup};
-        const std::string cause =
-            keptBy<RecalledCauses>(stage).causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), view,
-                                                  {receiving.size(), 0}, [&] { return enclosingCause(view); });
-        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+        const std::string cause = keptBy<RecalledCauses>(asked.stage)
+                                      .causeOf(RecalledCauses::Kind::EnclosingNode, entry.group.get(), view,
+                                               {receiving.size(), 0}, [&] { return enclosingCause(view); });
+        if (!cause.empty()) entry.report(cause);
     }
 }
 
-void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                      const std::vector<ShadowLight>& lights, const Casters& casters, const StageLeaves& drawn,
-                      osgUtil::RenderStage& stage) {
+void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters) {
+    const EnlistedTechnique& entry = asked.entry;
     if (entry.technique->surfacesKey() == 0) return;
-    const std::optional<std::uint64_t> seen = drawn.shadedFingerprint();
+    const std::optional<std::uint64_t> seen = asked.drawn.shadedFingerprint();
     if (!seen) return;
-    const RecalledCauses::State state{*seen, settingsOf(*entry.group, all)};
+    const RecalledCauses::State state{*seen, settingsOf(*entry.group, asked.all)};
     const Leaves none;
     for (const ShadowLight& light : lights) {
-        const std::string cause =
-            keptBy<RecalledCauses>(stage).causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(),
-                                                  {*entry.group, light, casters, none, entry.eyeFromGroup}, state, [&] {
-                                                      return unshadowedCause(entry, all, light, casters, drawn, stage);
-                                                  });
-        if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+        const LitView view{*entry.group, light, casters, none, entry.eyeFromGroup};
+        const std::string cause = keptBy<RecalledCauses>(asked.stage)
+                                      .causeOf(RecalledCauses::Kind::UnshadowedSurface, entry.technique.get(), view,
+                                               state, [&] { return unshadowedCause(asked, light, casters); });
+        if (!cause.empty()) entry.report(cause);
     }
 }
 
-void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const Casters& casters,
-                       osgUtil::RenderStage& stage, double steps) {
+void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps) {
+    const EnlistedTechnique& entry = asked.entry;
+    osgUtil::RenderStage& stage = asked.stage;
     const DepthPixels pixels{{stage.getViewport()->width(), stage.getViewport()->height()}, steps};
     const Leaves none;
     const LitView view{*entry.group, light, casters, none, entry.eyeFromGroup};
@@ -254,7 +250,7 @@ void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light,
                    "' falls, because their steps are too long there. Move the near plane out, or "
                    "let OpenSceneGraph compute it.";
         });
-    if (!cause.empty()) entry.technique->report(entry.frameNumber, cause);
+    if (!cause.empty()) entry.report(cause);
 }
 
 } // namespace gnomon

@@ -14,36 +14,39 @@ std::string whyNoPicture(const EnlistedTechnique& entry);
 /// Those of the leaves that receive from a technique, as its lens sees them: its named receiver's, or all.
 Leaves receivingOf(const EnlistedTechnique& entry, const std::vector<DrawnLeaf>& leaves, osgUtil::RenderStage& stage);
 
+/// A technique in the stage that it was met in.
+struct TechniqueInStage {
+    const EnlistedTechnique& entry;
+    const std::vector<EnlistedTechnique>& all; ///< that were met there.
+    const StageLeaves& drawn;
+    osgUtil::RenderStage& stage;
+};
+
 /// Says what a technique's group, or its named receiver, draws through a lens that no technique is asked for.
-/// @param all  techniques of the stage. @return true if it has.
-bool reportOtherLens(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                     const StageLeaves& drawn, osgUtil::RenderStage& stage);
+/// @return true if it has.
+bool reportOtherLens(const TechniqueInStage& asked);
 
 /// Says why a named receiver gets no shadow. One that is out of sight is nothing to report.
 void reportNoReceiver(const EnlistedTechnique& entry, osgUtil::RenderStage& stage);
 
 /// What a technique receives with in one view.
 struct Receiving {
-    const Leaves& early; ///< before the bin.
-    const Leaves& late;
-    const StageLeaves& drawn;
+    Leaves early; ///< before the bin.
+    Leaves late;
 };
 /// Says what of the receivers' states keeps shadows from them, or makes them wrong.
-void reportReceiverStates(const EnlistedTechnique& entry, const Receiving& receiving, osgUtil::RenderStage& stage);
+void reportReceiverStates(const TechniqueInStage& asked, const Receiving& receiving);
 
 /// Says what keeps lights from all that is seen.
-void reportEnclosers(const EnlistedTechnique& entry, const std::vector<ShadowLight>& lights, const Casters& casters,
-                     const Leaves& receiving, osgUtil::RenderStage& stage);
+void reportEnclosers(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters,
+                     const Leaves& receiving);
 
-/// Says which surface stays lit though a shadow can reach it. For techniques that shadow some of what is in view.
-/// @param all  techniques of the stage: that surface may have the shadow of another one of the same group.
-void reportUnshadowed(const EnlistedTechnique& entry, const std::vector<EnlistedTechnique>& all,
-                      const std::vector<ShadowLight>& lights, const Casters& casters, const StageLeaves& drawn,
-                      osgUtil::RenderStage& stage);
+/// Says which surface stays lit though a shadow can reach it, unless it has that of another technique of the same group. For
+/// techniques that shadow some of what is in view.
+void reportUnshadowed(const TechniqueInStage& asked, const std::vector<ShadowLight>& lights, const Casters& casters);
 
 /// Says that the shadows of what is far away cannot be placed by depth. For techniques whose marks depend on it.
 /// @param steps  see Mark::depthSteps(), above 0.
-void reportCoarseDepth(const EnlistedTechnique& entry, const ShadowLight& light, const Casters& casters,
-                       osgUtil::RenderStage& stage, double steps);
+void reportCoarseDepth(const TechniqueInStage& asked, const ShadowLight& light, const Casters& casters, double steps);
 
 } // namespace gnomon

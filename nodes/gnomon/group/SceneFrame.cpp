@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-std::optional<glm::dvec4> localLight(const osg::Vec4d& inGroup, const SceneFrame& scene) {
+std::optional<glm::dvec4> lightInScene(const osg::Vec4d& inGroup, const SceneFrame& scene) {
     const glm::dvec4 given = toGlm(inGroup);
     const glm::dvec4 light = given.w == 0.0 ? glm::dvec4(glm::normalize(glm::dvec3(given)), 0.0)
                                             : glm::dvec4(glm::dvec3(given) / given.w - scene.origin, 1.0);
@@ -61,7 +61,7 @@ ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) 
 
 std::optional<ScreenRect> ViewFrame::boundsBehind(const osg::BoundingBoxd& inGroup, const ShadowLight& light) const {
     const SceneFrame scene(inGroup.center());
-    const auto usable = localLight(light.inGroup, scene);
+    const auto usable = lightInScene(light.inGroup, scene);
     return usable ? gnomon::boundsBehind(inGroup, scene, scene.clipFromScene(*this), *usable) : std::nullopt;
 }
 

@@ -46,7 +46,7 @@ struct SceneFrame {
 };
 
 /// A light in the scene: w is 0 and the direction has length 1, or w is 1. Nullopt if it is nowhere.
-std::optional<glm::dvec4> localLight(const osg::Vec4d& inGroup, const SceneFrame& scene);
+std::optional<glm::dvec4> lightInScene(const osg::Vec4d& inGroup, const SceneFrame& scene);
 
 /// Of a lamp that is a spot; nullopt of all others.
 std::optional<SpotCone> spotOf(const ShadowLight& light);

@@ -33,7 +33,7 @@ const bool registered = [] {
 
 /// Casters without triangles are drawn by their own code, or not at all; clear parts of triangles in maps alone.
 void reportOwnDrawings(const EnlistedTechnique& entry, const Casters& casters) {
-    const auto report = [&entry](const std::string& cause) { entry.technique->report(entry.frameNumber, cause); };
+    const auto report = [&entry](const std::string& cause) { entry.report(cause); };
     const auto& own = casters.own;
     if (entry.technique->drawsCasters()) {
         const auto hasNone = [](const auto& drawing) { return !drawing->bounds.valid(); };
@@ -58,27 +58,24 @@ void reportOwnDrawings(const EnlistedTechnique& entry, const Casters& casters) {
 bool hasCasters(const EnlistedTechnique& entry, const Casters& casters) {
     reportOwnDrawings(entry, casters);
     if (casters.invalidTriangles > 0)
-        entry.technique->report(entry.frameNumber,
-                                "invalid triangles are left out: " + std::to_string(casters.invalidTriangles) +
-                                    ", the first in '" + casters.invalidNode +
-                                    "'. Give every vertex finite coordinates and every index a vertex.");
+        entry.report("invalid triangles are left out: " + std::to_string(casters.invalidTriangles) +
+                     ", the first in '" + casters.invalidNode +
+                     "'. Give every vertex finite coordinates and every index a vertex.");
     if (!casters.empty() || (entry.technique->drawsCasters() && !casters.own.empty())) return true;
     if (entry.group->areCastersGone()) {
-        entry.technique->report(entry.frameNumber, "nothing casts, because the node given to setCasters() of the "
-                                                   "ShadowCasterGroup is gone. Add the casters to the scene, and name "
-                                                   "them anew.");
+        entry.report("nothing casts, because the node given to setCasters() of the "
+                     "ShadowCasterGroup is gone. Add the casters to the scene, and name "
+                     "them anew.");
         return false;
     }
     if (casters.leftOut.empty())
-        entry.technique->report(entry.frameNumber,
-                                "nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
-                                    "' holds no triangles. Add the scene to the group, or check its setCasters().");
+        entry.report("nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
+                     "' holds no triangles. Add the scene to the group, or check its setCasters().");
     else
-        entry.technique->report(entry.frameNumber, "nothing casts, because the ShadowCasterGroup '" +
-                                                       entry.group->getName() +
-                                                       "' holds no triangles that are drawn and opaque. Check the "
-                                                       "states of '" +
-                                                       casters.leftOut + "'.");
+        entry.report("nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
+                     "' holds no triangles that are drawn and opaque. Check the "
+                     "states of '" +
+                     casters.leftOut + "'.");
     return false;
 }
 
@@ -298,7 +295,7 @@ void ShadowBin::askTechniques() {
 std::size_t ShadowBin::askTechnique(const EnlistedTechnique& entry, const StageLeaves& drawn,
                                     std::deque<ViewCasters>& known) {
     if (const std::string cause = whyNoPicture(entry); !cause.empty()) {
-        entry.technique->report(entry.frameNumber, cause);
+        entry.report(cause);
         return 0;
     }
     const Casters& casters = castersOf(entry, known);
@@ -308,7 +305,7 @@ std::size_t ShadowBin::askTechnique(const EnlistedTechnique& entry, const StageL
     }
     _holdsFrame = _holdsFrame || (entry.technique->drawsCasters() && !casters.own.empty());
     const GroupLights found = lightsOf(*entry.group, entry.eyeFromGroup, *getStage());
-    for (const std::string& cause : found.causes) entry.technique->report(entry.frameNumber, cause);
+    for (const std::string& cause : found.causes) entry.report(cause);
     askForMarks(entry, found, casters, drawn);
     return found.lights.size();
 }
@@ -327,35 +324,36 @@ void ShadowBin::saveColorsIfBlended(const StageLeaves& drawn) {
 void ShadowBin::askForMarks(const EnlistedTechnique& entry, const GroupLights& found, const Casters& casters,
                             const StageLeaves& drawn) {
     if (const std::string why = entry.technique->whyUnavailable(); !why.empty())
-        return entry.technique->report(entry.frameNumber, "there is no shadow. " + why);
-    const auto early = receivingOf(entry, drawn.early, *getStage());
-    const auto late = receivingOf(entry, drawn.late.leaves, *getStage());
-    const Receiving receiving{early, late, drawn};
-    reportReceiverStates(entry, receiving, *getStage());
-    const bool otherLens = reportOtherLens(entry, _enlisted, drawn, *getStage());
-    if (entry.technique->hasReceiver() && early.empty() && late.empty()) {
+        return entry.report("there is no shadow. " + why);
+    const TechniqueInStage asked{entry, _enlisted, drawn, *getStage()};
+    const Receiving receiving{receivingOf(entry, drawn.early, *getStage()),
+                              receivingOf(entry, drawn.late.leaves, *getStage())};
+    reportReceiverStates(asked, receiving);
+    const bool otherLens = reportOtherLens(asked);
+    if (entry.technique->hasReceiver() && receiving.early.empty() && receiving.late.empty()) {
         if (!otherLens) reportNoReceiver(entry, *getStage());
         return;
     }
-    reportEnclosers(entry, found.lights, casters, early, *getStage());
+    reportEnclosers(asked, found.lights, casters, receiving.early);
     const std::size_t before = _jobs.size(), lateBefore = _lateJobs.size();
-    addJobs(entry, found, casters, receiving);
+    addJobs(asked, found, casters, receiving);
     if (_jobs.size() == before && _lateJobs.size() == lateBefore) return; // it has said why, or is out of sight
-    reportUnshadowed(entry, _enlisted, found.lights, casters, drawn, *getStage());
+    reportUnshadowed(asked, found.lights, casters);
     double steps = 0.0;
     const auto take = [&steps](const ShadowJob& job) { steps = std::max(steps, job.mark->depthSteps()); };
     std::for_each(_jobs.begin() + before, _jobs.end(), take);
     std::for_each(_lateJobs.begin() + lateBefore, _lateJobs.end(), take);
-    if (steps > 0.0) reportCoarseDepth(entry, found.lights.front(), casters, *getStage(), steps);
+    if (steps > 0.0) reportCoarseDepth(asked, found.lights.front(), casters, steps);
 }
 
 /// Asks a technique for its marks: each part of the receivers, and each light.
-void ShadowBin::addJobs(const EnlistedTechnique& entry, const GroupLights& found, const Casters& casters,
+void ShadowBin::addJobs(const TechniqueInStage& asked, const GroupLights& found, const Casters& casters,
                         const Receiving& receiving) {
+    const EnlistedTechnique& entry = asked.entry;
     const bool named = entry.technique->hasReceiver();
     std::vector<ReceiverPart> parts;
     const auto add = [&](const Leaves& leaves, bool late) {
-        for (ReceiverPart& part : partsOf(leaves, receiving.drawn, late, named)) parts.push_back(std::move(part));
+        for (ReceiverPart& part : partsOf(leaves, asked.drawn, late, named)) parts.push_back(std::move(part));
     };
     if (!receiving.early.empty() || receiving.late.empty()) add(receiving.early, false);
     add(receiving.late, true);

@@ -12,6 +12,7 @@
 namespace gnomon {
 
 struct Receiving;
+struct TechniqueInStage;
 
 /// The compositor: takes each light away from the pixels that techniques mark, in one RenderStage. All groups share it.
 ///
@@ -72,7 +73,7 @@ private:
     std::size_t askTechnique(const EnlistedTechnique& entry, const StageLeaves& drawn, std::deque<ViewCasters>& known);
     void askForMarks(const EnlistedTechnique& entry, const GroupLights& found, const Casters& casters,
                      const StageLeaves& drawn);
-    void addJobs(const EnlistedTechnique& entry, const GroupLights& found, const Casters& casters,
+    void addJobs(const TechniqueInStage& asked, const GroupLights& found, const Casters& casters,
                  const Receiving& receiving);
     void clearWithStage();
     void saveColorsIfBlended(const StageLeaves& drawn);

@@ -18,6 +18,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace gnomon {
@@ -35,6 +36,9 @@ struct EnlistedTechnique {
     const osgUtil::StateGraph* state = nullptr; ///< that it was met in; valid as long as the stage's leaves.
     unsigned frameNumber = 0;
     double frameTime = 0.0; ///< seconds, see timeOf().
+
+    /// A cause for its diagnose().
+    void report(const std::string& cause) const { technique->report(frameNumber, cause); }
 };
 
 /// What a technique's prepare() is told of the view, but for its receivers.

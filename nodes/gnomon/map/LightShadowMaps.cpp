@@ -238,7 +238,7 @@ void LightShadowMaps::letGo() {
 
 MapForecast forecastMaps(const ViewFrame& view, const ShadowLight& light, const MapCasters& boxes,
                          const MapSettings& settings) {
-    const auto usable = localLight(light.inGroup, SceneFrame(boxes.layers.origin));
+    const auto usable = lightInScene(light.inGroup, SceneFrame(boxes.layers.origin));
     if (!usable) return {};
     LightShadowMaps maps;
     const auto corners = maps.find(view, {*usable, spotOf(light), &boxes, settings});

@@ -32,7 +32,7 @@ struct MapSettings {
 
 /// What the maps of one light are of.
 struct MapRequest {
-    glm::dvec4 light{0.0};        ///< in the scene about the casters' origin, see localLight().
+    glm::dvec4 light{0.0};        ///< in the scene about the casters' origin, see lightInScene().
     std::optional<SpotCone> cone; ///< of a lamp that is a spot: nothing outside it is marked.
     osg::ref_ptr<const MapCasters> casters;
     MapSettings settings;

@@ -162,7 +162,7 @@ std::vector<osg::ref_ptr<Mark>> ShadowMapTechnique::prepare(const ViewFrame& vie
                                                             const Casters& casters) const {
     const osg::ref_ptr<const MapCasters> drawn = _maps->castersOf(casters);
     const SceneFrame scene(drawn->layers.origin);
-    const auto usable = localLight(light.inGroup, scene);
+    const auto usable = lightInScene(light.inGroup, scene);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};

@@ -45,7 +45,7 @@ ShadowQuery::ShadowQuery(const ShadowTechnique& technique, const ShadowLight& li
     _group = &group;
     _casters = group.casters();
     const CasterLayers& layers = _casters->layers();
-    const auto usable = localLight(light.inGroup, SceneFrame(layers.origin));
+    const auto usable = lightInScene(light.inGroup, SceneFrame(layers.origin));
     if (!usable)
         throw std::invalid_argument(
             "gnomon::ShadowQuery: the light has no finite position or direction. Set its position.");

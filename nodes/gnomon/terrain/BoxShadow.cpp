@@ -27,7 +27,7 @@ osg::ref_ptr<osg::StateSet> asShadow() {
 } // namespace
 
 osg::ref_ptr<osg::Geometry> boxShadow(const BoxShadowObject& object, const Ground& terrain, const osg::Vec4d& light) {
-    const auto usable = localLight(light, SceneFrame(osg::Vec3d()));
+    const auto usable = lightInScene(light, SceneFrame(osg::Vec3d()));
     if (!object.graphic || !usable || (usable->w == 0.0 && !(usable->z > 0.0))) return nullptr;
     const osg::ref_ptr<osg::MatrixTransform> placed =
         new osg::MatrixTransform(osg::Matrixd::rotate(osg::DegreesToRadians(object.heading), osg::Z_AXIS) *

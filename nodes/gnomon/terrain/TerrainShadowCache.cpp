@@ -79,14 +79,14 @@ TerrainShadowCache::Town& TerrainShadowCache::townOf(const Asker& asker, const C
 }
 
 TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const Casters& casters, const Selection& terrain,
-                                       int number, const glm::dvec4& light, bool asBoxes) {
+                                       const GroundLight& light, bool asBoxes) {
     TerrainFrame frame;
     runLocked(_mutex, [&] {
         const bool isLoose = view.pushedBack.x() > 0.0 || view.pushedBack.y() > 0.0;
         Town& town = townOf({*view.group, view.key, asBoxes, isLoose}, casters, terrain);
-        HullTiles& tiles = town.lights[number];
+        HullTiles& tiles = town.lights[light.number];
         const unsigned before = tiles.found();
-        tiles.update(town.casters, *town.ground, light, TileView(view, town.casters.origin()));
+        tiles.update(town.casters, *town.ground, light.place, TileView(view, town.casters.origin()));
         _found += tiles.found() - before;
         frame = {tiles.shadows(), {}, town.casters.origin(), isFromAbove(view, *town.ground)};
         if (town.casters.size() > 0)

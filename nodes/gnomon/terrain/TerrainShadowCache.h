@@ -36,15 +36,20 @@ protected:
     ~TerrainAnswer() override = default;
 };
 
+/// One of the lights of a view.
+struct GroundLight {
+    int number;
+    glm::dvec4 place; ///< ground's frame: w = 0 the way towards a sun of length 1, w = 1 a lamp's place.
+};
+
 /// The casters that a TerrainShadowGeode met, in tiles, and their shadows, so that nothing is found twice.
 ///
 /// Threads any number; one at a time finds new ones.
 class TerrainShadowCache {
 public:
     /// @param casters  of the view's group, now.
-    /// @param number   the light's.
-    TerrainFrame frame(const ViewFrame& view, const Casters& casters, const Selection& terrain, int number,
-                       const glm::dvec4& light, bool asBoxes);
+    TerrainFrame frame(const ViewFrame& view, const Casters& casters, const Selection& terrain,
+                       const GroundLight& light, bool asBoxes);
     /// Of any light; what is drawn is not touched.
     osg::ref_ptr<const TerrainAnswer> answer(const ShadowCasterGroup& group, const Casters& casters,
                                              const Selection& terrain, const glm::dvec4& light, bool asBoxes);

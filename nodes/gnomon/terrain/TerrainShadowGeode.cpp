@@ -147,9 +147,9 @@ std::vector<osg::ref_ptr<Mark>> TerrainShadowGeode::prepare(const ViewFrame& vie
         return std::vector<osg::ref_ptr<Mark>>();
     };
     if (!hasReceiver()) return refuse("no terrain is named, so there is no shadow. Name it with setReceiver().");
-    const auto usable = localLight(light.inGroup, SceneFrame(osg::Vec3d()));
+    const auto usable = lightInScene(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) return refuse("the light has no finite position or direction. Set the light's position.");
-    const TerrainFrame frame = _cache->frame(view, casters, getReceiver(), light.number, *usable, getMethod() == BOX);
+    const TerrainFrame frame = _cache->frame(view, casters, getReceiver(), {light.number, *usable}, getMethod() == BOX);
     for (const std::string& cause : frame.causes) report(view.frameNumber, cause);
     const TileView seen(view, frame.origin);
     osg::ref_ptr<TerrainMark> mark = new TerrainMark;

@@ -186,7 +186,7 @@ std::vector<osg::ref_ptr<Mark>> ShadowVolumeTechnique::prepare(const ViewFrame& 
                                                                const Casters& casters) const {
     const CasterLayers& layers = casters.layers();
     const SceneFrame scene(layers.origin);
-    const auto usable = localLight(light.inGroup, scene);
+    const auto usable = lightInScene(light.inGroup, scene);
     if (!usable) {
         report(view.frameNumber, notUsable(light.inGroup));
         return {};

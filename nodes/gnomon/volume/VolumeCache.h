@@ -25,7 +25,7 @@ public:
     VolumeCache();
 
     /// What a view sees of the volumes of all casters behind a light, found anew only where something changed.
-    /// @param light  in the scene about the casters' origin, see localLight().
+    /// @param light  in the scene about the casters' origin, see lightInScene().
     /// @return       nullopt if nothing can be seen.
     std::optional<SeenVolumes> see(const CasterLayers& casters, const ViewFrame& view, int lightNumber,
                                    const glm::dvec4& light, const SceneFrame& scene);

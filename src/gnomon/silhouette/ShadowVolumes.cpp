@@ -47,13 +47,13 @@ double sideOf(double x, double y, double z, double d, const glm::dvec4& light) {
     return x * light.x + y * light.y + z * light.z + d * light.w;
 }
 
-void faceLight(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& light, std::size_t first,
-               std::size_t end, std::int8_t* weights) {
+void faceLight(const SilhouetteMesh& mesh, const Part& part, const glm::dvec4& light,
+               const tbb::blocked_range<std::size_t>& triangles, std::int8_t* weights) {
     const Weights of = weightsOf(part, light);
     const double least = toleranceOf(part, light);
     // By pointers of its own: weights are chars, and a write of these might change the mesh's.
     const double *x = mesh.planeX.data(), *y = mesh.planeY.data(), *z = mesh.planeZ.data(), *d = mesh.planeD.data();
-    for (std::size_t i = first; i < end; ++i) {
+    for (std::size_t i = triangles.begin(); i < triangles.end(); ++i) {
         const double side = sideOf(x[i], y[i], z[i], d[i], light);
         weights[i] = side > least ? of.facing : side >= -least ? of.edgeOn : of.turned;
     }
@@ -71,14 +71,13 @@ void faceLight(const SilhouetteMesh& mesh, const glm::dvec4& light, std::vector<
     const auto faceParts = [&](const tbb::blocked_range<std::size_t>& parts) {
         for (std::size_t p = parts.begin(); p < parts.end(); ++p) {
             const Part& part = mesh.parts[p];
-            const std::size_t end = std::size_t(part.firstTriangle) + part.triangles;
-            if (part.triangles <= block) {
-                faceLight(mesh, part, light, part.firstTriangle, end, weights.data());
-                continue;
-            }
-            tbb::parallel_for(tbb::blocked_range<std::size_t>(part.firstTriangle, end, block), [&](const auto& some) {
-                faceLight(mesh, part, light, some.begin(), some.end(), weights.data());
-            });
+            const tbb::blocked_range<std::size_t> all(part.firstTriangle,
+                                                      std::size_t(part.firstTriangle) + part.triangles, block);
+            const auto face = [&](const auto& some) { faceLight(mesh, part, light, some, weights.data()); };
+            if (part.triangles <= block)
+                face(all);
+            else
+                tbb::parallel_for(all, face);
         }
     };
     const std::size_t grain = 1 + mesh.parts.size() * block / (mesh.triangles() + 1);
