@@ -67,7 +67,7 @@ osg::BoundingBoxd castersOf(osg::Node& scene, const osg::BoundingBoxd& bounds, c
     for (const NamedNode& ground : grounds) masks.push_back(ground.node->getNodeMask()), ground.node->setNodeMask(0);
     VertexTraverser traverser;
     scene.accept(traverser);
-    for (std::size_t i = 0; i < grounds.size(); ++i) grounds[i].node->setNodeMask(masks[i]);
+    for (std::size_t i = grounds.size(); i-- > 0;) grounds[i].node->setNodeMask(masks[i]); // one may stand at several places
     osg::BoundingBoxd box;
     for (const osg::Vec3d& vertex : traverser.getVertices())
         if (vertex.z() > bounds.zMin() + floorHeight * bounds.radius()) box.expandBy(vertex);

@@ -90,7 +90,6 @@ public:
     std::vector<osg::ref_ptr<Mark>> prepare(const ViewFrame& view, const ShadowLight& light,
                                             const Casters& casters) const override;
 
-    /// True while it draws by techniques of which this is true.
     /// See ShadowTechnique::letGo().
     void letGo() const override;
     /// Keeps a time. See ShadowTechnique::watch().

@@ -110,6 +110,9 @@ public:
     /// Changes with the planes.
     std::uint64_t surfacesKey() const override;
 
+    /// See ShadowTechnique::letGo().
+    void letGo() const override;
+
     /// Prepares OpenGL objects for more contexts, as osg::Node does.
     void resizeGLObjectBuffers(unsigned maxSize) override;
     /// Releases OpenGL objects, as osg::Node does.

@@ -198,6 +198,26 @@ TEST_F(Gnomonshot, ShowsWhatCastsAndItsShadowAsLargeAsTheyCanBe) {
         }
 }
 
+/// One node named ground at two places, as tiles of a floor are.
+TEST_F(Gnomonshot, ShowsAGroundThatStandsAtTwoPlaces) {
+    folder.write("tiles.osgt", R"(#Ascii Scene
+#Version 161
+#Generator by hand
+osg::Group { UniqueID 1 Children 2 {
+  osg::MatrixTransform { UniqueID 2 Children 1 {
+    osg::Geode { UniqueID 3 Name "ground" Drawables 1 { osg::ShapeDrawable { UniqueID 4
+      Shape TRUE { osg::Box { UniqueID 5 HalfLengths 0.5 0.5 0.01 } } Color 0 1 0 1 } } } }
+    Matrix { 1 0 0 0  0 1 0 0  0 0 1 0  -0.5 0 0 1 } }
+  osg::MatrixTransform { UniqueID 6 Children 1 { osg::Geode { UniqueID 3 } }
+    Matrix { 1 0 0 0  0 1 0 0  0 0 1 0  0.5 0 0 1 } } } }
+)");
+    const auto shown = shoot({"tiles.osgt", "--shadow", "none", "--size", "160x120"});
+    int greens = 0;
+    for (int y = 0; y < shown->t(); ++y)
+        for (int x = 0; x < shown->s(); ++x) greens += red(*shown, x, y) == 0;
+    EXPECT_GT(greens, 1000) << "a third of what it fills from any side above";
+}
+
 /// A telescope: the square of side 1 at a distance of 9 is 2 atan(0.5 / 9) = 6.36 degrees wide.
 TEST_F(Gnomonshot, LooksThroughATelescope) {
     folder.write("plate.obj", plate(false));

@@ -41,6 +41,20 @@ struct Row {
     const CasterLayers* casters = nullptr;         ///< of the last.
 };
 
+/// Enough triangles for a mesh of its own.
+osg::ref_ptr<osg::Geode> body() {
+    const osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+    for (int i = 0; i < 300; ++i)
+        for (const osg::Vec3& corner : {osg::Vec3(0, 0, 0), osg::Vec3(1, 0, 0), osg::Vec3(0, 1, 1)})
+            corners->push_back(corner + osg::Vec3(0, 0, 0.1f * float(i)));
+    const osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setVertexArray(corners);
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 900));
+    const osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(geometry);
+    return geode;
+}
+
 TEST(CasterLayers, AllStandStillAtFirst) {
     Row row(5);
     const auto first = row.next();
@@ -66,6 +80,47 @@ TEST(CasterLayers, ThatAreRetiredLeaveNothingInCaches) {
     flat();
     EXPECT_TRUE(tree.expired());
     EXPECT_FALSE(plane.valid());
+}
+
+/// Where nothing casts any more: planar keeps neither the mesh of a body nor the arrays that it was made of.
+TEST(CasterLayers, OfBodiesThatAreGoneLeaveNothingInPlanarsCache) {
+    Row row(0);
+    row.root->addChild(body());
+    gnomon::PlanarCasterCache flattened;
+    row.next();
+    flattened.of(*row.kept.back(), {0.0, 0.0, 1.0, 1.0}, false, 1, 8);
+    const osg::observer_ptr<const gnomon::CasterMesh> mesh = row.casters->still->meshes.front().mesh.get();
+    row.root->removeChildren(0, 1);
+    row.next();
+    row.kept.clear();
+    EXPECT_TRUE(mesh.valid());
+    flattened.letGo();
+    for (int call = 0; call < 300; ++call) row.table->casters(*row.root, {}, nullptr);
+    EXPECT_FALSE(mesh.valid());
+}
+
+/// As auto parts casters for volumes from those for a map.
+TEST(CasterLayers, OfAPartTakeABodysMeshWhereverItMoves) {
+    Row row(3);
+    row.root->addChild(scene::under(osg::Matrixd::translate(0.0, 30.0, 0.0), body()));
+    row.next();
+    std::vector<osg::ref_ptr<const Casters>> parts;
+    const gnomon::CasterMesh* mesh = nullptr;
+    for (std::uint64_t step = 1; step < 5; ++step) {
+        row.move(3, {double(step), 30.0, 0.0});
+        row.next();
+        const osg::ref_ptr<const Casters> part =
+            new Casters({row.kept.back()->list.front(), row.kept.back()->list.back()}, step);
+        const CasterLayers& layers = part->layersAfter(parts.empty() ? *row.kept.back() : *parts.back());
+        for (const auto& layer : {layers.still, layers.moving})
+            for (const gnomon::PlacedMesh& placed : layer->meshes) {
+                if (placed.mesh->triangles->size() < 900) continue;
+                if (!mesh) mesh = placed.mesh;
+                EXPECT_EQ(placed.mesh, mesh) << step;
+            }
+        parts.push_back(part);
+    }
+    EXPECT_TRUE(mesh);
 }
 
 TEST(CasterLayers, WhatMovesIsTakenFromThoseThatStandOnce) {

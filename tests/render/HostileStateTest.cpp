@@ -147,7 +147,8 @@ TEST(HostileState, DepthThatIsClearedToLessThanOneIsRefusedWithTheReason) {
 // What is always on top is drawn after depths were cleared. Here it is nearest anyway, so that the picture is the same.
 TEST(HostileState, DepthsThatAnEarlyBinClearsLeaveTheShadowsOfWhatIsDrawnBeforeAndAfter) {
     enum class Clears { Nobody, ADrawable, ACallback };
-    const auto picture = [](Clears who, const std::string& spec) {
+    int number = 5;
+    const auto picture = [&number](Clears who, const std::string& spec) {
         Scene scene = boxScene();
         const osg::ref_ptr<osg::Geode> top = node(box({-3.4, -5.4, 3.4}, {-2.8, -4.8, 4.0}), "top"),
                                        plate = node(box({-2.6, -5.3, 4.4}, {-2.2, -4.9, 4.5}), "plate");
@@ -162,7 +163,7 @@ TEST(HostileState, DepthsThatAnEarlyBinClearsLeaveTheShadowsOfWhatIsDrawnBeforeA
             clear->getDrawable(0)->setDrawCallback(new DepthClear::Callback);
         }
         clear->setCullingActive(false);
-        clear->getOrCreateStateSet()->setRenderBinDetails(5, "RenderBin");
+        clear->getOrCreateStateSet()->setRenderBinDetails(number, "RenderBin");
         scene.root->addChild(clear);
         osg::ref_ptr<gnomon::ShadowTechnique> technique;
         if (!spec.empty()) {
@@ -177,6 +178,9 @@ TEST(HostileState, DepthsThatAnEarlyBinClearsLeaveTheShadowsOfWhatIsDrawnBeforeA
     const Picture lit = picture(Clears::Nobody, "");
     for (const Clears who : {Clears::ADrawable, Clears::ACallback}) {
         EXPECT_EQ(changed(picture(who, ""), lit), 0);
+        number = 1; // right after the stage's own leaves
+        EXPECT_EQ(changed(picture(who, "volume"), picture(Clears::Nobody, "volume")), 0);
+        number = 5;
         for (const std::string spec :
              {"planar", "map", "volume", "traced", "planar:composite=blend", "volume:composite=blend"}) {
             const Picture usual = picture(Clears::Nobody, spec);

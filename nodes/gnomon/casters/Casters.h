@@ -114,7 +114,7 @@ private:
 /// Limits
 /// - VertexTraverser lists what is left out.
 /// Threads
-/// - Any number.
+/// - Any number; one at a time asks for the layers of casters of no group.
 class Casters : public osg::Referenced {
 public:
     /// What only its own code or state can draw as it is, one for each drawable and path.
@@ -130,7 +130,8 @@ public:
     const CasterLayers& layers() const { return _hasLayers ? *_layers : madeLayers(_table, nullptr); }
     /// The same, but made from those of others, for what is a part of a group's casters.
     const CasterLayers& layersAfter(const Casters& before) const {
-        return _hasLayers ? *_layers : madeLayers(before._table, &before);
+        if (!_hasLayers) _table = before._table; // whose bodies they are then, and those of the next part
+        return _hasLayers ? *_layers : madeLayers(_table, &before);
     }
     /// True if somebody has asked for them.
     bool hasLayers() const { return _hasLayers; }

@@ -14,7 +14,7 @@ namespace gnomon {
 /// True if a job, alone, is composed without stencil or alpha: it darkens pixels itself. @param leaves  drawn before.
 bool needsNoMarks(const ShadowJob& job, const std::vector<DrawnLeaf>& leaves);
 
-/// What a ShadowBin does in draw: marks, takes light away where marked, and leaves the stencil bits it used at zero.
+/// What a ComposeBin does in draw: marks, takes light away where marked, and leaves the stencil bits it used at zero.
 /// Jobs that fade go to the FadingCompositor.
 class Compositor {
 public:

@@ -68,9 +68,10 @@ ComposeBin& ComposeBin::after(osgUtil::RenderBin& last) {
     const bool drawsBinsBelow = typeid(last) == typeid(osgUtil::RenderBin) || dynamic_cast<ComposeBin*>(&last);
     const bool below = drawsBinsBelow && !last.getStateSet();
     osgUtil::RenderBin& parent = below ? last : *last.getStage();
-    for (int number = below ? lateNumber : last.getBinNum() + 1;; ++number) {
-        auto* bin = dynamic_cast<ComposeBin*>(parent.find_or_insert(number, binName));
-        if (bin) return *bin;
+    const int next = &last == &parent ? 0 : last.getBinNum() + 1; // the stage's bin 0 is drawn after its own leaves
+    for (int number = below ? lateNumber : next;; ++number) {
+        osgUtil::RenderBin* bin = parent.find_or_insert(number, binName);
+        if (typeid(*bin) == typeid(ComposeBin)) return static_cast<ComposeBin&>(*bin);
     }
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/geometry/ScreenBounds.h>
 #include <gnomon/group/SceneFrame.h>
-#include <gnomon/group/StageLeaves.h>
 
 #include <glm/geometric.hpp>
 #include <osg/io_utils>
@@ -44,19 +43,6 @@ std::optional<ScreenRect> boundsBehind(const osg::BoundingBoxd& inGroup, const S
         points.push_back(clipFromScene * glm::dvec4(light.w == 0.0 ? -at : corner - at, 0.0));
     }
     return screenBounds(points);
-}
-
-ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) {
-    ViewFrame view;
-    view.pixels = {viewport.width(), viewport.height()};
-    view.eyeFromGroup = entry.eyeFromGroup;
-    view.groupFromTechnique = entry.groupFromTechnique;
-    view.projection = *entry.projection;
-    view.group = entry.group.get();
-    view.options = entry.group->getCompositorOptions();
-    view.frameNumber = entry.frameNumber;
-    view.frameTime = entry.frameTime;
-    return view;
 }
 
 std::optional<ScreenRect> ViewFrame::boundsBehind(const osg::BoundingBoxd& inGroup, const ShadowLight& light) const {

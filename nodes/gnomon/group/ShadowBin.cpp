@@ -8,8 +8,6 @@
 #include <gnomon/group/StageStats.h>
 #include <gnomon/group/ViewLights.h>
 
-#include <OpenThreads/ScopedLock>
-#include <osg/Notify>
 #include <osgUtil/StateGraph>
 
 #include <algorithm>

@@ -28,6 +28,19 @@ const osgUtil::RenderLeaf* firstCaster(const ShadowCasterGroup& group, const std
 
 } // namespace
 
+ViewFrame viewOf(const EnlistedTechnique& entry, const osg::Viewport& viewport) {
+    ViewFrame view;
+    view.pixels = {viewport.width(), viewport.height()};
+    view.eyeFromGroup = entry.eyeFromGroup;
+    view.groupFromTechnique = entry.groupFromTechnique;
+    view.projection = *entry.projection;
+    view.group = entry.group.get();
+    view.options = entry.group->getCompositorOptions();
+    view.frameNumber = entry.frameNumber;
+    view.frameTime = entry.frameTime;
+    return view;
+}
+
 ProgramCauses::ProgramCauses(osgUtil::RenderStage& stage) : _eyeFromWorld(*stage.getInitialViewMatrix()) {
     std::map<const osgUtil::StateGraph*, ProgramPlaces> known;
     for (const DrawnLeaf& entry : leavesBelow(stage, std::numeric_limits<int>::max())) {

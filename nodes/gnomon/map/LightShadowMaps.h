@@ -14,7 +14,6 @@
 
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace gnomon {

@@ -233,9 +233,20 @@ osg::ref_ptr<PlanarCasters> PlanarCasterCache::of(const Casters& given, const gl
     }
     const osg::ref_ptr<PlanarCasters> casters = *entry;
     _entries.dropOldestBeyond(most);
+    dropUnused();
+    return casters;
+}
+
+void PlanarCasterCache::letGo() {
+    Lock lock(_mutex);
+    _entries.dropIf([](const auto& known) { return known->isRetired(); });
+    dropUnused();
+}
+
+/// Wholes that no entry has.
+void PlanarCasterCache::dropUnused() {
     for (auto whole = _wholes.begin(); whole != _wholes.end();)
         whole = whole->second->referenceCount() == 1 ? _wholes.erase(whole) : std::next(whole);
-    return casters;
 }
 
 void PlanarCasterCache::resizeGLObjectBuffers(unsigned maxSize) {

@@ -123,10 +123,13 @@ public:
     /// @param most              how many it keeps.
     osg::ref_ptr<PlanarCasters> of(const Casters& casters, const glm::dvec4& groupPlane, bool under, unsigned frame,
                                    std::size_t most);
+    /// Drops those that no view will ask for.
+    void letGo();
     void resizeGLObjectBuffers(unsigned maxSize);
     void releaseGLObjects(osg::State* state) const;
 
 private:
+    void dropUnused();
     osg::ref_ptr<PlanarCasters> make(const Casters& casters, const glm::dvec4& groupPlane, bool under, unsigned frame);
     osg::ref_ptr<const PlanarMesh> wholeOf(const CasterMesh& mesh, unsigned frame);
 

@@ -264,6 +264,8 @@ bool PlanarShadowNode::isLit(const ShadowProbe& probe, const glm::dvec3& point) 
     return std::none_of(_planes.begin(), _planes.end(), shadows);
 }
 
+void PlanarShadowNode::letGo() const { _casters->letGo(); }
+
 void PlanarShadowNode::resizeGLObjectBuffers(unsigned maxSize) {
     ShadowTechnique::resizeGLObjectBuffers(maxSize);
     for (const auto& program : {_programs->plain, _programs->clipping}) program->resizeGLObjectBuffers(maxSize);
