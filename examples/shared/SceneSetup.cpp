@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -21,6 +22,7 @@ constexpr double framingAzimuth = 215.0;  // degrees, of the camera as seen from
 constexpr double framingElevation = 30.0; // degrees
 constexpr double fittingMargin = 1.05;
 constexpr double floorHeight = 0.005; // of the scene's radius
+constexpr double floorDepth = 0.06;   // the same: a slab, or what dips into the floor
 constexpr int raysASide = 6;
 
 osg::ref_ptr<osg::Node> upright(osg::Node& files, bool yUp) {
@@ -31,10 +33,9 @@ osg::ref_ptr<osg::Node> upright(osg::Node& files, bool yUp) {
     return turn;
 }
 
-/// Whether the scene stands on a floor of its own: of rays straight down a third meet what lies level at its lowest point.
-bool hasFloor(osg::Node& scene, const osg::BoundingBoxd& bounds) {
-    const double top = bounds.zMin() + floorHeight * bounds.radius();
-    if (!(bounds.zMax() > top)) return false; // a sheet, which has nothing below it
+/// How high the floor is that the scene stands on; nullopt: it has none. Of rays straight down a third meet what lies level, as
+/// the lowest thing that any of them meets; something stands above it, and next to nothing is below.
+std::optional<double> floorOf(osg::Node& scene, const osg::BoundingBoxd& bounds) {
     osg::ref_ptr<osgUtil::IntersectorGroup> rays = new osgUtil::IntersectorGroup;
     const osg::Vec3d size = bounds._max - bounds._min;
     for (int i = 0; i < raysASide * raysASide; ++i) { // off the middle, where triangles meet
@@ -46,33 +47,43 @@ bool hasFloor(osg::Node& scene, const osg::BoundingBoxd& bounds) {
     }
     osgUtil::IntersectionVisitor visitor(rays);
     scene.accept(visitor);
-    const auto meetsFloor = [top](const osg::ref_ptr<osgUtil::Intersector>& each) {
+    std::vector<double> met;
+    for (const osg::ref_ptr<osgUtil::Intersector>& each : rays->getIntersectors()) {
         auto& ray = static_cast<osgUtil::LineSegmentIntersector&>(*each);
-        return ray.containsIntersections() && ray.getFirstIntersection().getWorldIntersectPoint().z() <= top;
-    };
-    const auto& all = rays->getIntersectors();
-    return 3 * std::count_if(all.begin(), all.end(), meetsFloor) > raysASide * raysASide;
+        if (ray.containsIntersections()) met.push_back(ray.getFirstIntersection().getWorldIntersectPoint().z());
+    }
+    if (met.empty()) return std::nullopt;
+    const double lowest = *std::min_element(met.begin(), met.end()), top = lowest + floorHeight * bounds.radius();
+    if (!(bounds.zMax() > top) || lowest > bounds.zMin() + floorDepth * bounds.radius()) return std::nullopt;
+    const auto level = std::count_if(met.begin(), met.end(), [top](double height) { return height <= top; });
+    return 3 * level > raysASide * raysASide ? std::optional<double>(lowest) : std::nullopt;
 }
 
 /// Side of the ground to put under the scene; 0: none.
-double groundSide(const ViewOptions& o, osg::Node& scene, const osg::BoundingBoxd& bounds) {
+double groundSide(const ViewOptions& o, osg::Node& scene, double radius, bool hasFloor) {
     if (o.ground == "none" || findNamed(scene, "ground") || findNamed(scene, o.receiver)) return 0.0;
     if (o.ground != "auto") return std::stod(o.ground);
-    return hasFloor(scene, bounds) ? 0.0 : 4.0 * bounds.radius();
+    return hasFloor ? 0.0 : 4.0 * radius;
 }
 
 /// Of all that stands above a floor, or above nodes named ground.
-osg::BoundingBoxd castersOf(osg::Node& scene, const osg::BoundingBoxd& bounds, const std::vector<NamedNode>& grounds) {
+osg::BoundingBoxd castersOf(osg::Node& scene, const osg::BoundingBoxd& bounds, const std::vector<NamedNode>& grounds,
+                            double floor) {
     std::vector<osg::Node::NodeMask> masks;
     for (const NamedNode& ground : grounds) masks.push_back(ground.node->getNodeMask()), ground.node->setNodeMask(0);
     VertexTraverser traverser;
     scene.accept(traverser);
-    for (std::size_t i = grounds.size(); i-- > 0;) grounds[i].node->setNodeMask(masks[i]); // one may stand at several places
+    for (std::size_t i = grounds.size(); i-- > 0;)
+        grounds[i].node->setNodeMask(masks[i]); // one may stand at several places
     osg::BoundingBoxd box;
-    for (const osg::Vec3d& vertex : traverser.getVertices())
-        if (vertex.z() > bounds.zMin() + floorHeight * bounds.radius()) box.expandBy(vertex);
+    const std::vector<unsigned>& corners = traverser.getTriangles();
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) { // whole triangles: a page may be hinged at the floor
+        osg::BoundingBoxd triangle;
+        for (std::size_t k = i; k < i + 3; ++k) triangle.expandBy(traverser.getVertices()[corners[k]]);
+        if (triangle.zMax() > floor + floorHeight * bounds.radius()) box.expandBy(triangle);
+    }
     if (!box.valid()) return bounds;
-    if (grounds.empty()) box.zMin() = bounds.zMin();
+    if (grounds.empty()) box.zMin() = floor;
     return box;
 }
 
@@ -84,11 +95,12 @@ osg::Vec3d thrown(const osg::Vec3d& point, const osg::Vec4d& light, double groun
 }
 
 /// Corners of what casts and of its shadow by the first light, as far as there is ground: within `reach`.
+/// @param floor  its height, where no node is named ground.
 std::vector<osg::Vec3d> framedBy(osg::Node& scene, const osg::BoundingBoxd& bounds, const SceneLights& lights,
-                                 const osg::BoundingBoxd& reach) {
+                                 const osg::BoundingBoxd& reach, double floor) {
     const std::vector<NamedNode> grounds = findAllNamed(scene, "ground");
-    const osg::BoundingBoxd casters = castersOf(scene, bounds, grounds);
-    double ground = bounds.zMin();
+    const osg::BoundingBoxd casters = castersOf(scene, bounds, grounds, floor);
+    double ground = floor;
     if (!grounds.empty()) {
         const osg::BoundingBoxd local = sceneBounds(*grounds.front().node);
         for (unsigned i = 0; i < 8; ++i)
@@ -231,7 +243,8 @@ SceneSetup groupScene(const ViewOptions& options, osg::Node& files) {
 void SceneSetup::furnish(const ViewOptions& options) {
     osg::Node& scene = *group->getChild(0);
     bounds = sceneBounds(scene);
-    const double side = groundSide(options, scene, bounds);
+    const std::optional<double> floor = floorOf(scene, bounds);
+    const double side = groundSide(options, scene, bounds.radius(), floor.has_value());
     osg::ref_ptr<osg::Node> ground = side > 0.0 ? makeGround(bounds, side) : nullptr;
     if (ground) group->addChild(ground);
     if (ground && options.ground == "auto")
@@ -239,7 +252,7 @@ void SceneSetup::furnish(const ViewOptions& options) {
             "the scene has no floor and no node named ground, so it got a white ground; --ground none leaves it out.";
     lights = std::make_unique<SceneLights>(options, *root, *group);
     if (ground) lights->shineOn(*ground);
-    framed = framedBy(scene, bounds, *lights, ground ? sceneBounds(*group) : bounds);
+    framed = framedBy(scene, bounds, *lights, ground ? sceneBounds(*group) : bounds, floor.value_or(bounds.zMin()));
     group->setCasters(selectCasters(options.casters, *group));
     receiver = options.receiver;
     if (!options.isUsual || !castsByItself(scene)) cast(options.shadows);

@@ -13,6 +13,7 @@
 namespace gnomon {
 
 class PlanarCasterCache;
+class PlanarCasters;
 struct PlanarPrograms;
 
 /// Casts shadows onto planes: floors, walls, table tops. It flattens the casters along the light's rays.
@@ -122,7 +123,7 @@ protected:
     ~PlanarShadowNode() override;
 
 private:
-    osg::ref_ptr<Mark> prepareOne(const ViewFrame& view, const ShadowLight& light, const Casters& casters,
+    osg::ref_ptr<Mark> prepareOne(const ViewFrame& view, const ShadowLight& light, const PlanarCasters& casters,
                                   unsigned index, const glm::dvec4& groupPlane) const;
 
     std::vector<osg::Vec4d> _planes;

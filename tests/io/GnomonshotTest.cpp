@@ -291,6 +291,27 @@ TEST_F(Gnomonshot, LeavesAFloorOfTheModelsOwnWhole) {
     EXPECT_NE(said.find("gnomonshot: note: the scene has no floor"), std::string::npos) << said;
 }
 
+/// Of floors, a slab is one, and what dips into it a little does not matter; a box alone is none, flat as it may be.
+TEST_F(Gnomonshot, KnowsAFloorByWhatStandsOnIt) {
+    const auto sceneOf = [](const std::string& floor, const std::string& box) {
+        return "#Ascii Scene\n#Version 161\n#Generator by hand\nosg::Geode { UniqueID 1 Drawables 2 {\n"
+               "  osg::ShapeDrawable { UniqueID 2 Shape TRUE { osg::Box { UniqueID 3 " +
+               floor + " } } }\n  osg::ShapeDrawable { UniqueID 4 Shape TRUE { osg::Box { UniqueID 5 " + box +
+               " } } } } }\n";
+    };
+    const std::string slab = "Center 0 0 -0.05 HalfLengths 4 4 0.05", flat = "Center 9 0 0.1 HalfLengths 1 1 0.1";
+    const auto hasGround = [&](const std::string& file) {
+        folder.write("scene.osgt", file);
+        return run({"scene.osgt", "--shadow", "none", "--out", "o.png"}).err.find("got a white ground") !=
+               std::string::npos;
+    };
+    EXPECT_FALSE(hasGround(sceneOf(slab, "Center 0 0 0.5 HalfLengths 0.5 0.5 0.5")));
+    EXPECT_FALSE(hasGround(sceneOf(slab, "Center 1 0 0.3 HalfLengths 0.5 0.5 0.6"))) << "0.2 below the slab";
+    EXPECT_TRUE(hasGround(sceneOf("Center 8 0 0.1 HalfLengths 1 1 0.1", flat))) << "two of one height";
+    EXPECT_TRUE(hasGround(sceneOf("Center 0 0 2 HalfLengths 4 4 2", "Center 0 0 5 HalfLengths 1 1 1")))
+        << "a house and its tower";
+}
+
 /// A light of the file's own, from 45°, on for the file's own box only.
 const std::string boxUnderItsLight = R"(#Ascii Scene
 #Version 161

@@ -366,7 +366,8 @@ TEST_F(BadInput, OptionsThatDoNotFit) {
         {{"--shadow", "planar", "--shadow", "planar:composite=blend"},
          "composite=relight and composite=blend cannot be mixed. Give every shadow the same."},
         {{"--shadow", "planar", "--receiver", "roof"},
-         "no node is named \"roof\" to receive the shadow. Names in the scene: lab8, ground, sphere, cube."},
+         "no node is named \"roof\" to receive the shadow. Names in the scene: lab8, ground, sphere, cube. Give one of "
+         "them as receiver=NAME."},
         {{"--casters", "roof"}, "--casters: no node is named \"roof\". Allowed: all, none, or a node's name."},
         {nineLights, "--light is given more than 8 times. Allowed: 1 to 8 lights."},
         {{"--eye", "1,2,3", "--center", "1,2,3"}, "--eye and --center are the same point. Give two different points."},

@@ -189,8 +189,10 @@ TEST(ShadowSpec, IsRefusedWithWhatIsAllowed) {
         {"map:radius=nan", "radius=nan" + cannot + "0 to 1e6, scene's unit."},
         {"auto:error=0", "error=0" + cannot + "auto, 0.01 to 100, pixels."},
         {"auto:time=fast", "time=fast" + cannot + "unlimited, 0.01 to 10000, ms."},
-        {"planar:receiver=roof", "no node is named \"roof\" to receive the shadow. Names in the scene: ground."},
-        {"traced:receiver=roof", "no node is named \"roof\" to receive the shadow. Names in the scene: ground."}};
+        {"planar:receiver=roof", "no node is named \"roof\" to receive the shadow. Names in the scene: ground. Give "
+                                 "one of them as receiver=NAME."},
+        {"traced:receiver=roof", "no node is named \"roof\" to receive the shadow. Names in the scene: ground. Give "
+                                 "one of them as receiver=NAME."}};
     for (const auto& [text, says] : cases) EXPECT_EQ(refusal(text), says);
     for (const std::string value : {"-0.1", "1.01", "nan", "inf", "", "half", "0.5x", "1e99"})
         EXPECT_EQ(refusal("planar:composite=blend,dark=" + value), "dark=" + value + cannot + "0 to 1.");
@@ -287,8 +289,8 @@ TEST(AddShadows, PlanarTakesWhatManySmallReceiversMakeTogether) {
 
 TEST(AddShadows, AMissingReceiverOrOneWithNothingFlatIsRefused) {
     osg::ref_ptr<ShadowCasterGroup> group = groupOf(square("floor", 1));
-    EXPECT_EQ(refusal(*group, {"traced", "planar"}),
-              "no node is named \"ground\" to receive the shadow. Names in the scene: floor.");
+    EXPECT_EQ(refusal(*group, {"traced", "planar"}), "no node is named \"ground\" to receive the shadow. Names in the "
+                                                     "scene: floor. Give one of them as receiver=NAME.");
     EXPECT_EQ(group->getNumChildren(), 1u) << "nothing is added when something is refused";
     osg::ref_ptr<osg::Group> empty = new osg::Group;
     empty->setName("ground");

@@ -85,8 +85,9 @@ Judgement judge(const gnomon::metrics::Picture& visibility, const TruthMaps& tru
     const gnomon::metrics::PixelSets sets = gnomon::metrics::pixelSets(truth, visibility);
     Judgement result;
     result.dropped = sets.droppedShare;
+    const double close = 1e-6 * std::max(1.0, std::abs(level.value_or(0.0))); // heights are floats: 6e-8 of their size
     for (std::size_t i = 0; i < visibility.cells.size(); ++i) {
-        if (!sets.facing.cells[i] || (level && std::abs(truth.position.cells[i].z - *level) > 1e-6)) continue;
+        if (!sets.facing.cells[i] || (level && std::abs(truth.position.cells[i].z - *level) > close)) continue;
         const bool lit = truth.lit.cells[i] >= 0.5;
         ++result.pixels;
         result.shadowed += !lit;

@@ -296,6 +296,33 @@ TEST(Diagnose, TellsOfLightsBeyondTheThreeThatCanBeRelit) {
     EXPECT_EQ(site.causes(), Causes());
 }
 
+TEST(Diagnose, TellsOfANamedLightThatIsOff) {
+    Site site;
+    osg::StateSet& state = *site.scene.root->getOrCreateStateSet();
+    site.scene.group->addLight({1, {1.0, 0.5, 2.0, 0.0}});
+    const auto isOff = [&] {
+        return says(site.causes(), "light 1 was named by addLight(), but GL_LIGHT1 is off in this view",
+                    "Switch that mode on above the scene");
+    };
+    EXPECT_TRUE(isOff());
+    state.setMode(GL_LIGHT1, osg::StateAttribute::ON);
+    EXPECT_EQ(site.causes(), Causes());
+    state.removeMode(GL_LIGHT1);
+    site.scene.group->addLightUniform({1, "sunColor"});
+    EXPECT_EQ(site.causes(), Causes()) << "a program may light";
+    site.scene.group->setLightUniforms({});
+    site.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
+    EXPECT_EQ(site.causes(), Causes()) << "a factor is taken whatever shines";
+}
+
+TEST(Diagnose, SaysNothingOfPlanesBesideOneThatHasAShadow) {
+    Site site;
+    site.technique->addPlane({0.0, 0.0, -1.0, -0.1}); // the underside of a slab
+    EXPECT_EQ(site.causes(), Causes());
+    site.technique->setPlanes({{0.0, 0.0, -1.0, -0.1}});
+    EXPECT_TRUE(says(site.causes(), "no caster is above the plane", "which way its normal points"));
+}
+
 TEST(Diagnose, TellsWhenEachLightIsBlack) {
     Site site;
     addLights(site.scene, 2);

@@ -82,9 +82,10 @@ FadingCompositor::Lights FadingCompositor::lightsOf(const Jobs& wanted) const {
         }
     }
     for (; lights.size() > mostRelitLights; lights.pop_back())
-        report(jobsOf(Lights{lights.back()}), "light " + std::to_string(lights.back().number) +
-                                                  " casts no shadow, because at most 3 lights can be relit in this "
-                                                  "view. Set BLEND, which takes any number of lights.");
+        report(jobsOf(Lights{lights.back()}),
+               "light " + std::to_string(lights.back().number) + " casts no shadow, because at most " +
+                   std::to_string(mostRelitLights) +
+                   " lights can be relit in this view. Set BLEND, which takes any number of lights.");
     std::vector<unsigned> unused = _lightBits;
     lights.erase(std::remove_if(lights.begin(), lights.end(), [&](Light& light) { return !assignBits(light, unused); }),
                  lights.end());

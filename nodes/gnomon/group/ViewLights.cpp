@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gnomon/compositor/DrawnLeaves.h>
+#include <gnomon/compositor/ResolvedState.h>
 #include <gnomon/group/ViewLights.h>
 
 #include <osg/ClipPlane>
 #include <osg/Light>
+#include <osg/Program>
 #include <osgUtil/PositionalStateContainer>
 
 #include <algorithm>
@@ -134,6 +136,23 @@ std::string whyAllIsDark(const ShadowCasterGroup& group, const std::map<int, Sta
     return "each light in this view is black, so there is no shadow to be seen. Give it a diffuse or specular colour.";
 }
 
+/// RELIGHT takes nothing away where a named light is off, and its shadow is none. Programs may light without OpenGL's switch.
+void findSwitchedOff(const ShadowCasterGroup& group, osgUtil::RenderStage& stage, GroupLights& result) {
+    if (group.getComposite() != ShadowCasterGroup::RELIGHT) return;
+    const std::vector<DrawnLeaf> leaves = leavesBelow(stage, std::numeric_limits<int>::max());
+    const auto hasProgram = [](const DrawnLeaf& entry) {
+        return resolved<osg::Program>(entry.leaf->_parent, osg::StateAttribute::PROGRAM) != nullptr;
+    };
+    if (!isModeOn(leaves, GL_LIGHTING) || std::any_of(leaves.begin(), leaves.end(), hasProgram)) return;
+    for (const ShadowLight& light : result.lights) {
+        const bool isKnown = light.number >= 0 && light.number <= 7 && !hasUniform(group, light.number);
+        if (!isKnown || isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(light.number))) continue;
+        const std::string name = std::to_string(light.number);
+        result.causes.push_back("light " + name + " was named by addLight(), but GL_LIGHT" + name +
+                                " is off in this view, so it has no shadow. Switch that mode on above the scene.");
+    }
+}
+
 } // namespace
 
 std::vector<NumberedPlane> clipPlanesOf(osgUtil::RenderStage& stage, const osg::Matrixd& eyeFromGroup) {
@@ -168,6 +187,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
         addSetLights(group, inStage, groupFromEye, result);
         addStrengths(group, inStage, result);
         addCause(whyAllIsDark(group, inStage, result.lights));
+        findSwitchedOff(group, stage, result);
         return result;
     }
     const std::vector<DrawnLeaf> leaves = leavesBelow(stage, std::numeric_limits<int>::max());

@@ -142,7 +142,8 @@ PlanarParts::PlanarParts(const PlacedMesh& placed, const glm::dvec4& plane, cons
 }
 
 PlanarCasters::PlanarCasters(const Casters& casters, const glm::dvec4& groupPlane, bool under)
-    : plane(SceneFrame(casters.layers().origin).plane(groupPlane)),
+    : origin(casters.layers().origin),
+      plane(SceneFrame(origin).plane(groupPlane)),
       low(std::numeric_limits<double>::infinity()),
       high(-low),
       _source(casters.retired()),

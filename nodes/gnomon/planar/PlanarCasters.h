@@ -95,6 +95,7 @@ public:
     void releaseGLObjects(osg::State* state) const;
 
     std::vector<PlanarPart> parts;
+    osg::Vec3d origin;    ///< of the scene, group frame.
     glm::dvec4 plane;     ///< in the scene.
     glm::dvec3 low, high; ///< bounds of all parts, in the scene.
     bool crosses = false; ///< some part crosses the plane.

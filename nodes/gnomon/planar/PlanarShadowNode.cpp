@@ -173,59 +173,67 @@ void PlanarShadowNode::setPlanes(const std::vector<osg::Vec4d>& planes) { _plane
 std::vector<osg::ref_ptr<Mark>> PlanarShadowNode::prepare(const ViewFrame& view, const ShadowLight& light,
                                                           const Casters& casters) const {
     std::vector<osg::ref_ptr<Mark>> marks;
+    std::vector<osg::Vec4d> idle;                // planes that no caster is above
+    const std::size_t most = 4 * _planes.size(); // meshes: of two groups, or of views of different levels of detail
     if (_planes.empty()) report(view.frameNumber, "no plane is set, so there is no shadow. Set one with addPlane().");
     for (unsigned i = 0; i < _planes.size(); ++i) {
         const auto plane = transformedPlane(toGlm(view.groupFromTechnique), toGlm(_planes[i]));
-        if (!plane)
+        if (!plane) {
             report(view.frameNumber,
                    sentence("the normal of the plane", _planes[i],
                             "is zero or not a number. Give (a, b, c, d) of the plane a x + b y + c z + d = 0."));
-        else if (osg::ref_ptr<Mark> mark = prepareOne(view, light, casters, i, *plane))
+            continue;
+        }
+        const osg::ref_ptr<PlanarCasters> above = _casters->of(casters, *plane, !_cures.clip, view.frameNumber, most);
+        if (above->parts.empty())
+            idle.push_back(_planes[i]);
+        else if (osg::ref_ptr<Mark> mark = prepareOne(view, light, *above, i, *plane))
             marks.push_back(mark);
     }
+    if (idle.size() < _planes.size()) return marks; // as of the sides of a floor that is a box
+    for (const osg::Vec4d& plane : idle)
+        report(view.frameNumber, sentence("no caster is above the plane", plane,
+                                          "on the side of its normal. Check where the plane lies and which way its "
+                                          "normal points."));
     return marks;
 }
 
-osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light, const Casters& given,
-                                                unsigned index, const glm::dvec4& groupPlane) const {
+osg::ref_ptr<Mark> PlanarShadowNode::prepareOne(const ViewFrame& view, const ShadowLight& light,
+                                                const PlanarCasters& casters, unsigned index,
+                                                const glm::dvec4& groupPlane) const {
     const auto refuse = [&](const char* start, const osg::Vec4d& what, const char* rest) {
         report(view.frameNumber, sentence(start, what, rest));
         return nullptr;
     };
-    const std::size_t most = 4 * _planes.size(); // meshes: of two groups, or of views of different levels of detail
-    const osg::ref_ptr<PlanarCasters> casters = _casters->of(given, groupPlane, !_cures.clip, view.frameNumber, most);
-    if (casters->parts.empty())
-        return refuse("no caster is above the plane", _planes[index],
-                      "on the side of its normal. Check where the plane lies and which way its normal points.");
     if (!isFinite(toGlm(light.inGroup)))
         return refuse("the light at", light.inGroup, "has a coordinate that is not finite. Set the light's position.");
-    const SceneFrame scene(given.layers().origin);
+    const SceneFrame scene(casters.origin);
     const glm::dvec4 lightHere(glm::dvec3(toGlm(light.inGroup)) - light.inGroup.w() * scene.origin, light.inGroup.w());
-    const auto flatten = planarShadowMatrix(casters->plane, lightHere);
+    const auto flatten = planarShadowMatrix(casters.plane, lightHere);
     if (!flatten)
         return refuse("the light at", light.inGroup,
                       "lies in the plane or behind it, so there is no shadow. Move the light to the side that the "
                       "plane's normal points to.");
     const glm::dmat4 clipFromScene = scene.clipFromScene(view);
-    if (!(glm::dot(casters->plane, eyeIn(clipFromScene)) > 0.0))
+    if (!(glm::dot(casters.plane, eyeIn(clipFromScene)) > 0.0))
         return refuse("the camera is behind the plane", _planes[index],
                       "and sees the side that the light does not reach. If that side is the lit one, reverse the "
                       "plane's normal.");
 
     osg::ref_ptr<PlanarMark> mark = new PlanarMark;
-    const PlanarClipPlanes clip = planarClipPlanes(casters->plane, lightHere);
-    mark->casters = casters;
+    const PlanarClipPlanes clip = planarClipPlanes(casters.plane, lightHere);
+    mark->casters = &casters;
     mark->programs = _programs;
     mark->clipFromScene = clipFromScene * *flatten;
     mark->abovePlane = clip.abovePlane;
     mark->belowLight = clip.belowLight;
-    mark->reachesLight = heightLimit(clip, casters->plane) < casters->highest;
+    mark->reachesLight = heightLimit(clip, casters.plane) < casters.highest;
     mark->mirrored = isMirrored(view);
     mark->cures = _cures;
     mark->dark = view.group->getDark();
     const auto eyePlane = transformedPlane(toGlm(view.eyeFromGroup), groupPlane);
     const auto bounds = boundsOf(*mark);
-    const auto depth = depthOnScreen(casters->plane, clipFromScene);
+    const auto depth = depthOnScreen(casters.plane, clipFromScene);
     if (!bounds || !depth || !eyePlane) return nullptr; // out of sight: nothing to say
     mark->eyePlane = *eyePlane;
     mark->cutToPlane = !_cures.stencil || !receiverLiesIn(view, *eyePlane);

@@ -122,8 +122,8 @@ Receivers requireReceivers(osg::Node& root, const std::string& name) {
     const Receivers found = findAllNamed(root, name);
     if (!found.empty()) return found;
     const std::string names = listed(nodeNames(root));
-    refuse("no node is named \"" + name +
-           "\" to receive the shadow. Names in the scene: " + (names.empty() ? "none" : names) + ".");
+    refuse("no node is named \"" + name + "\" to receive the shadow. Names in the scene: " +
+           (names.empty() ? "none." : names + ". Give one of them as receiver=NAME."));
 }
 
 osg::ref_ptr<ShadowTechnique> makeTechnique(ShadowCasterGroup& group, const ShadowSpec& spec) {
