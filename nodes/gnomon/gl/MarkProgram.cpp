@@ -28,19 +28,6 @@ void main() {
 }
 )";
 
-/// Fragments of pixels that less than `x` of the light reaches; y: their alpha is what does not arrive; z: what is left of a
-/// colour where nothing arrives; w: 0.
-glm::dvec4 wantedOf(const ScreenPass& pass) {
-    using Want = ScreenPass::Want;
-    constexpr double half = 0.5, allOfIt = 511.0 / 512.0, any = 2.0; // less than all is a step of eight bits
-    const Want want = pass.wanted();
-    const bool touched = want == Want::Touched || want == Want::Factor;
-    return {want == Want::Blocked ? half
-            : touched             ? allOfIt
-                                  : any,
-            want == Want::Blocking ? 1.0 : 0.0, pass.factor(), 0.0};
-}
-
 } // namespace
 
 struct MarkProgram::Parts {
@@ -69,7 +56,7 @@ std::string MarkProgram::draw(ScreenPass& pass, const osg::Matrixd& clipFromFram
     state.applyTextureAttribute(0, copy.texture);
     setUniform(state, "gnomon_seen", 0);
     setUniform(state, "gnomon_rows", copy.rows);
-    setUniform(state, "gnomon_wanted", wantedOf(pass));
+    setUniform(state, "gnomon_wanted", wantedOf(pass, true));
     setUniform(state, "gnomon_frameFromPixel", glm::inverse(toGlm(clipFromFrame)) * clipFromPixel(viewport));
     pass.drawQuad();
     state.apply();

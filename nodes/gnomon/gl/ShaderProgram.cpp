@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gnomon/ScreenPass.h>
 #include <gnomon/gl/ShaderProgram.h>
 
 #include <gnomon_shaders.h>
@@ -116,6 +117,18 @@ void setUniform(const osg::State& state, const char* name, const glm::dvec4& val
 void setUniform(const osg::State& state, const char* name, const glm::dmat4& value) {
     const glm::mat4 rounded(value);
     state.get<osg::GLExtensions>()->glUniformMatrix4fv(placeOf(state, name), 1, GL_FALSE, glm::value_ptr(rounded));
+}
+
+/// Less than all of the light is a step of eight bits.
+glm::dvec4 wantedOf(const ScreenPass& pass, bool fades) {
+    using Want = ScreenPass::Want;
+    constexpr double half = 0.5, allOfIt = 511.0 / 512.0, any = 2.0;
+    const Want want = pass.wanted();
+    const double below = want == Want::Blocked   ? half
+                         : want == Want::Touched ? allOfIt
+                         : want == Want::Factor  ? (fades ? allOfIt : half)
+                                                 : any;
+    return {below, want == Want::Blocking ? 1.0 : 0.0, pass.factor(), fades ? 1.0 : 0.0};
 }
 
 void setUniform(const osg::State& state, const char* name, const glm::dvec2& value) {

@@ -11,6 +11,8 @@
 
 namespace gnomon {
 
+class ScreenPass;
+
 /// State that draws geometry as marks: a program that takes each vertex to clip space by the uniform clipFromVertex alone,
 /// made in double. GLSL 1.30. It belongs to a node, so that it is released with the node's other OpenGL objects.
 /// @param defines  "#define CLIP\n": it writes clip distances to the uniform planes abovePlane and belowLight, too.
@@ -25,6 +27,10 @@ osg::ref_ptr<osg::StateSet> quadProgram(const char* name, const std::string& def
 bool hasProgram(const osg::State& state);
 constexpr const char* noProgram =
     "the shader program cannot be built in this context. Use OpenGL 3.0 with GLSL 1.30, or later.";
+
+/// What a pass wants of a mark's program, as a uniform. x: fragments of pixels that less of the light than this reaches; y: 1 if
+/// their alpha is what does not arrive, else 0; z: what is left of a colour where nothing arrives; w: 1 if the mark fades.
+glm::dvec4 wantedOf(const ScreenPass& pass, bool fades);
 
 /// Uniforms of the program that was applied last.
 void setUniform(const osg::State& state, const char* name, const glm::dvec4& value);

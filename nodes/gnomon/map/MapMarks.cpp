@@ -135,7 +135,7 @@ std::string MapLookup::draw(ScreenPass& pass) const {
     marking.penumbra = penumbra && lack.empty();
     marking.odd = isOdd(pixels);
     marking.interlaced = pass.isInterlaced();
-    const MapConstants constants = constantsOf(state, copy, wantedBy(pass), pixels);
+    const MapConstants constants = constantsOf(state, copy, wantedOf(pass, kind() == Kind::Fades), pixels);
     state.apply(_maps.programs->program(marking, constants).get());
     if (!hasProgram(state)) return noProgram;
     _maps.map->bind(state, mapUnit); // after the program: osg::State takes textures away that are in none of its sets
@@ -158,19 +158,6 @@ std::string MapLookup::draw(ScreenPass& pass) const {
     raw.reset();
     state.apply();
     return lack;
-}
-
-/// See map.frag: less than all of the light is a step of eight bits.
-glm::dvec4 MapLookup::wantedBy(const ScreenPass& pass) const {
-    using Want = ScreenPass::Want;
-    constexpr double half = 0.5, allOfIt = 511.0 / 512.0, any = 2.0;
-    const bool fades = kind() == Kind::Fades;
-    const double below = pass.wanted() == Want::Blocked   ? half
-                         : pass.wanted() == Want::Touched ? allOfIt
-                         : pass.wanted() == Want::Factor  ? (fades ? allOfIt : half)
-                                                          : any;
-    return {below, pass.wanted() == Want::Blocking ? 1.0 : 0.0, pass.wanted() == Want::Factor ? pass.factor() : 1.0f,
-            fades ? 1.0 : 0.0};
 }
 
 MapUse MapLookup::use() const {

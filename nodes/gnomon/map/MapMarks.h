@@ -64,7 +64,6 @@ private:
     MapUse use() const;
     MapConstants constantsOf(const osg::State& state, const FrameDepthCopy::Copy& copy, const glm::dvec4& wanted,
                              const PixelRect& pixels) const;
-    glm::dvec4 wantedBy(const ScreenPass& pass) const;
     glm::dvec4 drawnErrorOf(const osg::State& state, const glm::dmat4& sceneFromPixel) const;
     void drawPicture(osg::State& state, ScreenPass& pass, int before) const;
 
