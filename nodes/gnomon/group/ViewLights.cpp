@@ -143,11 +143,14 @@ void findSwitchedOff(const ShadowCasterGroup& group, osgUtil::RenderStage& stage
     const auto hasProgram = [](const DrawnLeaf& entry) {
         return resolved<osg::Program>(entry.leaf->_parent, osg::StateAttribute::PROGRAM) != nullptr;
     };
-    if (!isModeOn(leaves, GL_LIGHTING) || std::any_of(leaves.begin(), leaves.end(), hasProgram)) return;
-    for (const ShadowLight& light : result.lights) {
-        const bool isKnown = light.number >= 0 && light.number <= 7 && !hasUniform(group, light.number);
-        if (!isKnown || isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(light.number))) continue;
-        const std::string name = std::to_string(light.number);
+    std::vector<int> off; // mostly none, which the first leaf tells
+    for (const ShadowLight& light : result.lights)
+        if (light.number >= 0 && light.number <= 7 && !hasUniform(group, light.number) &&
+            !isModeOn(leaves, GL_LIGHT0 + static_cast<unsigned>(light.number)))
+            off.push_back(light.number);
+    if (off.empty() || !isModeOn(leaves, GL_LIGHTING) || std::any_of(leaves.begin(), leaves.end(), hasProgram)) return;
+    for (const int number : off) {
+        const std::string name = std::to_string(number);
         result.causes.push_back("light " + name + " was named by addLight(), but GL_LIGHT" + name +
                                 " is off in this view, so it has no shadow. Switch that mode on above the scene.");
     }
