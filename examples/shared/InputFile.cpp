@@ -98,7 +98,7 @@ private:
             const std::string text = message;
             if (text.rfind(start, 0) == 0)
                 unknown.insert(text.substr(start.size(), text.find_last_not_of('\n') + 1 - start.size()));
-            else if (said.insert(text).second)
+            else if (said.insert(text).second && before)
                 before->notify(severity, message);
         }
         osg::ref_ptr<osg::NotifyHandler> before = osg::getNotifyHandler();

@@ -59,11 +59,9 @@ std::optional<double> floorOf(osg::Node& scene, const osg::BoundingBoxd& bounds)
     return 3 * level > raysASide * raysASide ? std::optional<double>(lowest) : std::nullopt;
 }
 
-/// Side of the ground to put under the scene; 0: none.
-double groundSide(const ViewOptions& o, osg::Node& scene, double radius, bool hasFloor) {
-    if (o.ground == "none" || findNamed(scene, "ground") || findNamed(scene, o.receiver)) return 0.0;
-    if (o.ground != "auto") return std::stod(o.ground);
-    return hasFloor ? 0.0 : 4.0 * radius;
+/// Whether a ground is asked for, if there is no floor.
+bool asksForGround(const ViewOptions& o, osg::Node& scene) {
+    return o.ground != "none" && !findNamed(scene, "ground") && !findNamed(scene, o.receiver);
 }
 
 /// Of all that stands above a floor, or above nodes named ground.
@@ -243,16 +241,20 @@ SceneSetup groupScene(const ViewOptions& options, osg::Node& files) {
 void SceneSetup::furnish(const ViewOptions& options) {
     osg::Node& scene = *group->getChild(0);
     bounds = sceneBounds(scene);
-    const std::optional<double> floor = floorOf(scene, bounds);
-    const double side = groundSide(options, scene, bounds.radius(), floor.has_value());
+    const bool asks = asksForGround(options, scene), isAuto = options.ground == "auto";
+    const bool isFramed = !options.eye && !options.center;
+    std::optional<double> floor;
+    if ((asks && isAuto) || isFramed) floor = floorOf(scene, bounds);
+    const double side = !asks ? 0.0 : !isAuto ? std::stod(options.ground) : floor ? 0.0 : 4.0 * bounds.radius();
     osg::ref_ptr<osg::Node> ground = side > 0.0 ? makeGround(bounds, side) : nullptr;
     if (ground) group->addChild(ground);
-    if (ground && options.ground == "auto")
+    if (ground && isAuto)
         note =
             "the scene has no floor and no node named ground, so it got a white ground; --ground none leaves it out.";
     lights = std::make_unique<SceneLights>(options, *root, *group);
     if (ground) lights->shineOn(*ground);
-    framed = framedBy(scene, bounds, *lights, ground ? sceneBounds(*group) : bounds, floor.value_or(bounds.zMin()));
+    if (isFramed)
+        framed = framedBy(scene, bounds, *lights, ground ? sceneBounds(*group) : bounds, floor.value_or(bounds.zMin()));
     group->setCasters(selectCasters(options.casters, *group));
     receiver = options.receiver;
     if (!options.isUsual || !castsByItself(scene)) cast(options.shadows);
@@ -269,8 +271,7 @@ Lookout lookout(const ViewOptions& options, const SceneSetup& setup) {
     const osg::Vec3d eye = options.eye.value_or(framedEye(options, center, setup.bounds.radius()));
     if (eye == center) throw std::invalid_argument("--eye is the scene's centre. Give another --eye, or a --center.");
     const osg::Vec3d view = center - eye, up = chooseUp(options, view);
-    const bool isFree = !options.eye && !options.center && !setup.framed.empty();
-    return isFree ? fittedTo(setup.framed, options, view, up) : Lookout{eye, center, up};
+    return setup.framed.empty() ? Lookout{eye, center, up} : fittedTo(setup.framed, options, view, up);
 }
 
 void placeCamera(osg::Camera& camera, const ViewOptions& options, const SceneSetup& setup) {
