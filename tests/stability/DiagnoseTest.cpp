@@ -210,7 +210,7 @@ TEST(Diagnose, TellsOfAGroupWithoutTriangles) {
     site.scene.group->setName("town");
     site.scene.group->setCasters({site.scene.light});
     EXPECT_TRUE(says(site.causes(), "nothing casts, because the ShadowCasterGroup 'town' holds no triangles",
-                     "Add the scene to the group, or check its setCasters()"));
+                     "Add the scene to the group, or check its setCasters() (--casters)"));
     site.scene.group->setCasters({});
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -244,8 +244,8 @@ TEST(Diagnose, TellsOfALightSourceThatIsNotInTheView) {
 TEST(Diagnose, TellsWhenNoLightIsOn) {
     Site site;
     site.scene.root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::OFF);
-    EXPECT_TRUE(
-        says(site.causes(), "no light is on in this view", "or set a light with ShadowCasterGroup::addLight()"));
+    EXPECT_TRUE(says(site.causes(), "no light is on in this view",
+                     "or set a light with ShadowCasterGroup::addLight() (--light)"));
     site.scene.root->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -291,7 +291,7 @@ TEST(Diagnose, TellsOfLightsBeyondTheThreeThatCanBeRelit) {
     Site site;
     addLights(site.scene, 4);
     EXPECT_TRUE(says(site.causes(), "light 3 casts no shadow, because at most 3 lights can be relit",
-                     "Set BLEND, which takes any number of lights"));
+                     "Set BLEND (composite=blend), which takes any number of lights"));
     site.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
     EXPECT_EQ(site.causes(), Causes());
 }
@@ -351,7 +351,8 @@ TEST(Diagnose, TellsOfFogThatBlendDarkens) {
     site.scene.root->getOrCreateStateSet()->setAttributeAndModes(new osg::Fog);
     EXPECT_EQ(site.causes(), Causes());
     site.scene.group->setComposite(gnomon::ShadowCasterGroup::BLEND);
-    EXPECT_TRUE(says(site.causes(), "fog is on, and BLEND darkens it", "Set RELIGHT, or switch GL_FOG off"));
+    EXPECT_TRUE(says(site.causes(), "fog is on, and BLEND darkens it",
+                     "Set RELIGHT (composite=relight), or switch GL_FOG off"));
     site.scene.root->getStateSet()->removeAttribute(osg::StateAttribute::FOG);
     site.scene.root->getStateSet()->removeMode(GL_FOG);
     EXPECT_EQ(site.causes(), Causes());

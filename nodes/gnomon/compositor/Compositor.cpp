@@ -103,12 +103,12 @@ void Compositor::relightAny(const Jobs& jobs, std::map<float, Jobs>& blended) {
     if (isModeOn(_draw.leaves, GL_STENCIL_TEST))
         blendInstead(jobs, blended,
                      "an opaque object in this view has a stencil test of its own, so the shadow blends "
-                     "instead of relighting. Draw that object in a bin above 8, or set BLEND.");
+                     "instead of relighting. Draw that object in a bin above 8, or set BLEND (composite=blend).");
     else if (!fading && !isBackgroundKnown() && readsBack(_draw.leaves))
         blendInstead(jobs, blended,
                      "an opaque object in this view blends over colours that the camera does not clear, in a "
                      "multisampled framebuffer object, so the shadow blends instead of relighting. Draw that object in "
-                     "a bin above 8, or set BLEND.");
+                     "a bin above 8, or set BLEND (composite=blend).");
     else if (fading)
         FadingCompositor(_draw).relight(jobs);
     else
@@ -196,9 +196,9 @@ std::map<int, unsigned> Compositor::assignBits(const Jobs& jobs) const {
         if (used < _lightBits.size())
             bitOf[job->light] = _lightBits[used];
         else
-            job->report("light " + std::to_string(job->light) + " casts no shadow, because at most " +
-                        std::to_string(used) +
-                        " lights can be relit in this view. Set BLEND, which takes any number of lights.");
+            job->report(
+                "light " + std::to_string(job->light) + " casts no shadow, because at most " + std::to_string(used) +
+                " lights can be relit in this view. Set BLEND (composite=blend), which takes any number of lights.");
     }
     return bitOf;
 }
@@ -241,7 +241,7 @@ void Compositor::replay(const std::vector<ReplayedLeaf>& leaves, LeafReplay::Ove
                 job->report(
                     "no light can be taken from '" + nameOf(*leaf) +
                     "', because it is unlit or its program does not read gl_LightSource. Its colour is multiplied "
-                    "by setDark() instead. Light it with OpenGL, name the uniform of its light with "
+                    "by setDark() (dark=) instead. Light it with OpenGL, name the uniform of its light with "
                     "ShadowCasterGroup::addLightUniform(), or leave it out of the receiver.");
 }
 

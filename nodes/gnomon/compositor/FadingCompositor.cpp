@@ -85,7 +85,7 @@ FadingCompositor::Lights FadingCompositor::lightsOf(const Jobs& wanted) const {
         report(jobsOf(Lights{lights.back()}),
                "light " + std::to_string(lights.back().number) + " casts no shadow, because at most " +
                    std::to_string(mostRelitLights) +
-                   " lights can be relit in this view. Set BLEND, which takes any number of lights.");
+                   " lights can be relit in this view. Set BLEND (composite=blend), which takes any number of lights.");
     std::vector<unsigned> unused = _lightBits;
     lights.erase(std::remove_if(lights.begin(), lights.end(), [&](Light& light) { return !assignBits(light, unused); }),
                  lights.end());
@@ -95,10 +95,10 @@ FadingCompositor::Lights FadingCompositor::lightsOf(const Jobs& wanted) const {
 bool FadingCompositor::assignBits(Light& light, std::vector<unsigned>& unused) const {
     const std::size_t needed = (light.hard.empty() ? 0u : 1u) + (light.fading ? 1u : 0u);
     if (unused.size() < needed) {
-        report(jobsOf(Lights{light}),
-               "light " + std::to_string(light.number) +
-                   " casts no shadow, because too few stencil bits are left. Leave more out of "
-                   "CompositorOptions::reservedStencilBits, or set BLEND, which takes any number of lights.");
+        report(jobsOf(Lights{light}), "light " + std::to_string(light.number) +
+                                          " casts no shadow, because too few stencil bits are left. Leave more out of "
+                                          "CompositorOptions::reservedStencilBits, or set BLEND (composite=blend), "
+                                          "which takes any number of lights.");
         return false;
     }
     const auto take = [&unused] {
@@ -154,7 +154,8 @@ void FadingCompositor::darkenAside(const Leaves& aside, const Lights& lights, co
         report(jobs,
                "no part of a light can be taken from '" + nameOf(*leaf.entry.leaf) +
                    "', because it is unlit, blends, writes no depth or its program does not read gl_LightSource. Its "
-                   "colour is multiplied by setDark() instead. Light it with OpenGL, or leave it out of the receiver.");
+                   "colour is multiplied by setDark() (dark=) instead. Light it with OpenGL, or leave it out of the "
+                   "receiver.");
 }
 
 void FadingCompositor::multiplyByFactor(const Lights& lights, float factor, const ScreenRect& bounds) const {

@@ -164,9 +164,8 @@ std::string findEnclosing(const LitView& view) {
         return {};
     return "nearly all that light " + std::to_string(view.light.number) +
            " could reach in this view is in the shadow of '" + nameOf(*node.node) +
-           "', which stands around it. Take that node out of setCasters() by its node mask, or draw it at the far "
-           "plane, "
-           "as skies are.";
+           "', which stands around it. Take that node out of the casters (setCasters(), --casters), or draw it "
+           "at the far plane, as skies are.";
 }
 
 } // namespace

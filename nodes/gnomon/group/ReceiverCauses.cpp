@@ -53,7 +53,7 @@ void reportFog(const EnlistedTechnique& entry, const StageLeaves& drawn) {
     if (entry.group->getComposite() == ShadowCasterGroup::BLEND &&
         (isModeOn(drawn.early, GL_FOG) || isModeOn(drawn.late.leaves, GL_FOG)))
         entry.report("fog is on, and BLEND darkens it with the surface behind it. Set "
-                     "RELIGHT, or switch GL_FOG off.");
+                     "RELIGHT (composite=relight), or switch GL_FOG off.");
 }
 
 /// What decides on which surfaces a group's techniques shadow.

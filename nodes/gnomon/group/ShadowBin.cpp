@@ -67,13 +67,11 @@ bool hasCasters(const EnlistedTechnique& entry, const Casters& casters) {
         return false;
     }
     if (casters.leftOut.empty())
-        entry.report("nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
-                     "' holds no triangles. Add the scene to the group, or check its setCasters().");
+        entry.report("nothing casts, because the " + described(*entry.group) +
+                     " holds no triangles. Add the scene to the group, or check its setCasters() (--casters).");
     else
-        entry.report("nothing casts, because the ShadowCasterGroup '" + entry.group->getName() +
-                     "' holds no triangles that are drawn and opaque. Check the "
-                     "states of '" +
-                     casters.leftOut + "'.");
+        entry.report("nothing casts, because the " + described(*entry.group) +
+                     " holds no triangles that are drawn and opaque. Check the states of '" + casters.leftOut + "'.");
     return false;
 }
 

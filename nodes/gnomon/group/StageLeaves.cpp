@@ -70,8 +70,8 @@ void ProgramCauses::report(const FrameReport& report, const ShadowCasterGroup& g
     const osgUtil::RenderLeaf* moved = _moving.empty() ? nullptr : firstCaster(group, _moving, _eyeFromWorld);
     if (moved)
         report("the program of '" + nameOf(*moved) +
-               "' moves its vertices, but it casts where its arrays stand. Take it out of setCasters() by its node "
-               "mask, and let a node that is never drawn cast in its place.");
+               "' moves its vertices, but it casts where its arrays stand. Take it out of the casters (setCasters(), "
+               "--casters), and let a node that is never drawn cast in its place.");
 }
 
 } // namespace gnomon

@@ -202,7 +202,7 @@ GroupLights lightsOf(const ShadowCasterGroup& group, const osg::Matrixd& eyeFrom
     addStrengths(group, inStage, result);
     if (result.lights.empty() && (inStage.empty() || !leaves.empty())) // with nothing in sight, nobody can tell
         result.causes.push_back("no light is on in this view. Add an osg::LightSource and switch its mode on, or set a "
-                                "light with ShadowCasterGroup::addLight().");
+                                "light with ShadowCasterGroup::addLight() (--light).");
     addCause(whyAllIsDark(group, inStage, result.lights));
     return result;
 }

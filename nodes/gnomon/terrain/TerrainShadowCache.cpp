@@ -93,7 +93,7 @@ TerrainFrame TerrainShadowCache::frame(const ViewFrame& view, const Casters& cas
             frame.causes = tiles.causes();
         else
             frame.causes = {"every caster is part of the receiver, so nothing casts on it. Name the terrain alone with "
-                            "setReceiver()."};
+                            "setReceiver() (receiver=NAME)."};
     });
     return frame;
 }

@@ -146,7 +146,8 @@ std::vector<osg::ref_ptr<Mark>> TerrainShadowGeode::prepare(const ViewFrame& vie
         report(view.frameNumber, cause);
         return std::vector<osg::ref_ptr<Mark>>();
     };
-    if (!hasReceiver()) return refuse("no terrain is named, so there is no shadow. Name it with setReceiver().");
+    if (!hasReceiver())
+        return refuse("no terrain is named, so there is no shadow. Name it with setReceiver() (receiver=NAME).");
     const auto usable = lightInScene(light.inGroup, SceneFrame(osg::Vec3d()));
     if (!usable) return refuse("the light has no finite position or direction. Set the light's position.");
     const TerrainFrame frame = _cache->frame(view, casters, getReceiver(), {light.number, *usable}, getMethod() == BOX);
