@@ -139,10 +139,17 @@ bool isThere(const std::string& file) {
     return !osgDB::findDataFile(file).empty() || (shorter != file && isThere(shorter));
 }
 
-/// That the file cannot be read as what it is to hold.
+/// That the file cannot be read as what it is to hold, and how an elevation model is read.
 std::string damagedSentence(const std::string& file, const FileKind& kind) {
-    return quoted(file) + " cannot be read as " + kind.article +
-           ": it is damaged, or it does not match its name. Allowed: " + kind.formats + ".";
+    const std::string start = quoted(file) + " cannot be read as " + kind.article + ": ";
+    const std::string ending = osgDB::getLowerCaseFileExtension(file);
+    const std::string byGdal = ending == "gdal" ? file : file + ".gdal";
+    if (&kind == &elevation && ending != "gdal")
+        return start + "its name does not say that GDAL is to read it. Give " + quoted(byGdal) + ".";
+    for (const char* each : {"asc", "dem", "gdal", "hgt", "vrt"})
+        if (&kind == &scene && ending == each)
+            return start + "by its name it is an elevation model. Use arl_terrain " + quoted(byGdal) + ".";
+    return start + "it is damaged, or it does not match its name. Allowed: " + kind.formats + ".";
 }
 
 /// Reads an object, of whatever class, -O options included. A reader that crashes on a damaged file ends the program with the

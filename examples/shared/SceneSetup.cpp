@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 namespace gnomon::examples {
@@ -23,6 +24,7 @@ constexpr double framingElevation = 30.0; // degrees
 constexpr double fittingMargin = 1.05;
 constexpr double floorHeight = 0.005; // of the scene's radius
 constexpr double floorDepth = 0.06;   // the same: a slab, or what dips into the floor
+constexpr double widestPart = 2.0;    // of the radius of what stands on it: such a floor is a part of the model
 constexpr int raysASide = 6;
 
 osg::ref_ptr<osg::Node> upright(osg::Node& files, bool yUp) {
@@ -64,9 +66,12 @@ bool asksForGround(const ViewOptions& o, osg::Node& scene) {
     return o.ground != "none" && !findNamed(scene, "ground") && !findNamed(scene, o.receiver);
 }
 
-/// Of all that stands above a floor, or above nodes named ground.
+/// Of all that stands above a floor, or above nodes named ground; of all there is without either, and where the floor is not
+/// much wider than what stands on it, as the page of a book is.
 osg::BoundingBoxd castersOf(osg::Node& scene, const osg::BoundingBoxd& bounds, const std::vector<NamedNode>& grounds,
-                            double floor) {
+                            const std::optional<double>& floor) {
+    if (grounds.empty() && !floor) return bounds;
+    const double foot = floor.value_or(bounds.zMin());
     std::vector<osg::Node::NodeMask> masks;
     for (const NamedNode& ground : grounds) masks.push_back(ground.node->getNodeMask()), ground.node->setNodeMask(0);
     VertexTraverser traverser;
@@ -78,11 +83,18 @@ osg::BoundingBoxd castersOf(osg::Node& scene, const osg::BoundingBoxd& bounds, c
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) { // whole triangles: a page may be hinged at the floor
         osg::BoundingBoxd triangle;
         for (std::size_t k = i; k < i + 3; ++k) triangle.expandBy(traverser.getVertices()[corners[k]]);
-        if (triangle.zMax() > floor + floorHeight * bounds.radius()) box.expandBy(triangle);
+        if (triangle.zMax() > foot + floorHeight * bounds.radius()) box.expandBy(triangle);
     }
-    if (!box.valid()) return bounds;
-    if (grounds.empty()) box.zMin() = floor;
+    if (!box.valid() || (grounds.empty() && bounds.radius() < widestPart * box.radius())) return bounds;
+    if (grounds.empty()) box.zMin() = foot;
     return box;
+}
+
+osg::BoundingBoxd worldBounds(const NamedNode& named) {
+    const osg::BoundingBoxd local = sceneBounds(*named.node);
+    osg::BoundingBoxd bounds;
+    for (unsigned i = 0; local.valid() && i < 8; ++i) bounds.expandBy(local.corner(i) * named.rootFromParent);
+    return bounds;
 }
 
 /// Where the light throws a point onto a level ground; the point itself under a light below it.
@@ -95,15 +107,11 @@ osg::Vec3d thrown(const osg::Vec3d& point, const osg::Vec4d& light, double groun
 /// Corners of what casts and of its shadow by the first light, as far as there is ground: within `reach`.
 /// @param floor  its height, where no node is named ground.
 std::vector<osg::Vec3d> framedBy(osg::Node& scene, const osg::BoundingBoxd& bounds, const SceneLights& lights,
-                                 const osg::BoundingBoxd& reach, double floor) {
+                                 const osg::BoundingBoxd& reach, const std::optional<double>& floor) {
     const std::vector<NamedNode> grounds = findAllNamed(scene, "ground");
     const osg::BoundingBoxd casters = castersOf(scene, bounds, grounds, floor);
-    double ground = floor;
-    if (!grounds.empty()) {
-        const osg::BoundingBoxd local = sceneBounds(*grounds.front().node);
-        for (unsigned i = 0; i < 8; ++i)
-            ground = std::max(ground, (local.corner(i) * grounds.front().rootFromParent).z());
-    }
+    const double foot = floor.value_or(bounds.zMin());
+    const double ground = grounds.empty() ? foot : std::max(foot, worldBounds(grounds.front()).zMax());
     const std::vector<osg::Vec4d> places = lights.places();
     std::vector<osg::Vec3d> points;
     for (unsigned i = 0; i < 8; ++i) {
@@ -117,6 +125,23 @@ std::vector<osg::Vec3d> framedBy(osg::Node& scene, const osg::BoundingBoxd& boun
     return points;
 }
 
+/// The lowest of what is named ground, or of a floor without such a name.
+std::optional<double> lowestGround(osg::Node& root, const std::optional<double>& floor) {
+    osg::BoundingBoxd all;
+    for (const NamedNode& ground : findAllNamed(root, "ground")) all.expandBy(worldBounds(ground));
+    return all.valid() ? all.zMin() : floor;
+}
+
+/// "lab8, ground, sphere, cube"; of many the first, and how many more.
+std::string namesIn(osg::Node& root) {
+    constexpr std::size_t few = 10, most = 1000;
+    const std::vector<std::string> names = nodeNames(root, most);
+    std::string text;
+    for (std::size_t i = 0; i < std::min(few, names.size()); ++i) text += (i ? ", " : "") + names[i];
+    if (names.size() <= few) return text;
+    return text + " and " + (names.size() < most ? "" : "at least ") + std::to_string(names.size() - few) + " more";
+}
+
 Selection selectCasters(const std::string& casters, osg::Node& root) {
     Selection selection;
     if (casters == "all") return selection;
@@ -125,10 +150,10 @@ Selection selectCasters(const std::string& casters, osg::Node& root) {
         return selection;
     }
     selection = selectionOf(findAllNamed(root, casters));
-    if (!selection.node)
-        throw std::invalid_argument("--casters: no node is named \"" + casters +
-                                    "\". Allowed: all, none, or a node's name.");
-    return selection;
+    if (selection.node) return selection;
+    const std::string names = namesIn(root);
+    throw std::invalid_argument("--casters: no node is named \"" + casters + "\". Allowed: all, none" +
+                                (names.empty() ? "; no node here has a name." : ", or a node's name: " + names + "."));
 }
 
 /// Whether a scene casts shadows by techniques of its own.
@@ -208,7 +233,34 @@ std::vector<std::string> diagnoses(const std::vector<osg::ref_ptr<ShadowTechniqu
     return causes;
 }
 
-std::vector<std::string> SceneSetup::diagnose() const { return diagnoses(techniques); }
+bool SceneSetup::mayCast() const { return group->getCasters().mask != 0 || group->areCastersGone(); }
+
+std::vector<std::string> SceneSetup::diagnose() const {
+    const std::vector<std::string> causes = diagnoses(techniques);
+    return mayCast() ? causes : std::vector<std::string>();
+}
+
+std::string SceneSetup::lowLight() const {
+    if (!ground || techniques.empty() || !mayCast()) return "";
+    for (const osg::Vec4d& place : lights->places()) {
+        const bool isLamp = place.w() != 0.0;
+        const double least = isLamp ? *ground : 0.0;
+        if ((isLamp ? place.z() / place.w() : place.z()) > least) continue;
+        std::ostringstream text;
+        text << "the light " << place.x() << "," << place.y() << "," << place.z() << "," << place.w()
+             << " does not stand above the ground, so no shadow falls there; give --light x,y,z," << place.w()
+             << " with z above " << least << ".";
+        return text.str();
+    }
+    return "";
+}
+
+std::vector<std::string> SceneSetup::notes() const {
+    std::vector<std::string> all;
+    for (const std::string& each : {note, lowLight()})
+        if (!each.empty()) all.push_back(each);
+    return all;
+}
 
 void SceneSetup::cast(std::vector<ShadowSpec> specs) {
     for (const osg::ref_ptr<ShadowTechnique>& technique : techniques) group->removeChild(technique);
@@ -246,15 +298,15 @@ void SceneSetup::furnish(const ViewOptions& options) {
     std::optional<double> floor;
     if ((asks && isAuto) || isFramed) floor = floorOf(scene, bounds);
     const double side = !asks ? 0.0 : !isAuto ? std::stod(options.ground) : floor ? 0.0 : 4.0 * bounds.radius();
-    osg::ref_ptr<osg::Node> ground = side > 0.0 ? makeGround(bounds, side) : nullptr;
-    if (ground) group->addChild(ground);
-    if (ground && isAuto)
+    const osg::ref_ptr<osg::Node> added = side > 0.0 ? makeGround(bounds, side) : nullptr;
+    if (added) group->addChild(added);
+    if (added && isAuto)
         note =
             "the scene has no floor and no node named ground, so it got a white ground; --ground none leaves it out.";
     lights = std::make_unique<SceneLights>(options, *root, *group);
-    if (ground) lights->shineOn(*ground);
-    if (isFramed)
-        framed = framedBy(scene, bounds, *lights, ground ? sceneBounds(*group) : bounds, floor.value_or(bounds.zMin()));
+    if (added) lights->shineOn(*added);
+    ground = lowestGround(*group, floor);
+    if (isFramed) framed = framedBy(scene, bounds, *lights, added ? sceneBounds(*group) : bounds, floor);
     group->setCasters(selectCasters(options.casters, *group));
     receiver = options.receiver;
     if (!options.isUsual || !castsByItself(scene)) cast(options.shadows);

@@ -25,8 +25,9 @@ struct SceneSetup {
     osg::BoundingBoxd bounds; ///< of the files, without the ground put under them; world.
     /// Corners of what casts and of its shadow, which a camera without a place is to show; none: all of `bounds`. World.
     std::vector<osg::Vec3d> framed;
-    std::string note;     ///< what was added that nobody asked for; empty: nothing.
-    std::string receiver; ///< for every shadow that names none itself.
+    std::optional<double> ground; ///< its lowest height; nullopt: there is none, or nobody asked for a floor. World.
+    std::string note;             ///< what was added that nobody asked for; empty: nothing.
+    std::string receiver;         ///< for every shadow that names none itself.
 
     /// Adds ground, lights and shadows as the options ask, for the scene as it is now. @throws as setUpScene().
     void furnish(const ViewOptions& options);
@@ -41,7 +42,13 @@ struct SceneSetup {
 
     /// Switches all shadows on or off.
     void show(bool shadows);
-    /// Why shadows were missing in the last frame, all techniques.
+    /// What was added that nobody asked for, and what lowLight() says.
+    std::vector<std::string> notes() const;
+    /// That a light is where no shadow can fall on the ground; empty: all stand above it, or nothing casts.
+    std::string lowLight() const;
+    /// Whether anything was to cast a shadow.
+    bool mayCast() const;
+    /// Why shadows were missing in the last frame, all techniques; nothing where none was to cast.
     std::vector<std::string> diagnose() const;
 };
 

@@ -125,6 +125,7 @@ std::vector<std::string> ShadowControls::describe() const {
         }
     lines.push_back("h shows all keys, g hides this text");
     if (!_refusal.empty()) lines.push_back(_refusal);
+    if (const std::string low = _setup.lowLight(); !low.empty()) lines.push_back(low);
     for (const std::string& cause : _setup.diagnose()) lines.push_back(cause);
     return lines;
 }

@@ -11,6 +11,7 @@
 #include <osgDB/WriteFile>
 
 #include <cmath>
+#include <regex>
 
 namespace {
 
@@ -310,6 +311,56 @@ TEST_F(Gnomonshot, KnowsAFloorByWhatStandsOnIt) {
     EXPECT_TRUE(hasGround(sceneOf("Center 8 0 0.1 HalfLengths 1 1 0.1", flat))) << "two of one height";
     EXPECT_TRUE(hasGround(sceneOf("Center 0 0 2 HalfLengths 4 4 2", "Center 0 0 5 HalfLengths 1 1 1")))
         << "a house and its tower";
+}
+
+/// Two pages of a book, 30 long together, of which one lies: so little of it that it is no floor, or half.
+TEST_F(Gnomonshot, FramesAllOfAModelWhoseFloorIsAPartOfIt) {
+    for (const std::string lies : {"10", "15"}) {
+        const std::string pages = "v 0 0 0\nv L 0 0\nv L 6 0\nv 0 6 0\nv 30 0 6\nv 30 6 6\n"
+                                  "f 1 2 3\nf 1 3 4\nf 2 5 6\nf 2 6 3\n";
+        folder.write("book.obj", std::regex_replace(pages, std::regex("L"), lies));
+        const auto image = shoot({"book.obj", "-O", "noRotation", "--ground", "none", "--shadow", "none"});
+        int drawn = 0;
+        for (int y = 0; y < image->t(); ++y)
+            for (int x = 0; x < image->s(); ++x) {
+                const bool isAtRim = x == 0 || y == 0 || x == image->s() - 1 || y == image->t() - 1;
+                drawn += red(*image, x, y) != 51;
+                if (isAtRim) EXPECT_EQ(red(*image, x, y), 51) << lies << ": " << x << " " << y;
+            }
+        EXPECT_GT(drawn, 1000);
+    }
+}
+
+TEST_F(Gnomonshot, SaysThatALightBelowTheGroundThrowsNoShadowOnIt) {
+    const auto saidOf = [this](const std::string& light, const Arguments& more = {}) {
+        return run(Arguments{scene, "--size", "80x60", "--out", "o.png", "--light", light} + more).err;
+    };
+    const std::string start = "gnomonshot: note: the light ", says = " does not stand above the ground, so no shadow ";
+    EXPECT_EQ(saidOf("0,0,-1,0"), start + "0,0,-1,0" + says + "falls there; give --light x,y,z,0 with z above 0.\n");
+    EXPECT_EQ(saidOf("1,2,0,0"), start + "1,2,0,0" + says + "falls there; give --light x,y,z,0 with z above 0.\n");
+    EXPECT_EQ(saidOf("1,2,-3,1"), start + "1,2,-3,1" + says + "falls there; give --light x,y,z,1 with z above 0.\n")
+        << "the ground of lab8 lies at 0";
+    for (const std::string above : {"0,0,1,0", "1,2,3,1"}) EXPECT_EQ(saidOf(above), "");
+    for (const std::string name : {"--casters", "--shadow"}) EXPECT_EQ(saidOf("0,0,-1,0", {name, "none"}), "");
+    folder.write("plate.obj", plate(false));
+    const Arguments groundless = {"plate.obj", "--ground", "none", "--light", "0,0,-1,0", "--out", "o.png"};
+    EXPECT_EQ(run(groundless).err.find("note"), std::string::npos);
+}
+
+TEST_F(Gnomonshot, SaysNothingOfCastersThatAreNotToBe) {
+    EXPECT_EQ(run({scene, "--casters", "none", "--out", "o.png"}).err, "");
+    folder.write("line.obj", "v 0 0 0\nv 1 0 1\nl 1 2\n");
+    const std::string said = run({"line.obj", "--ground", "none", "--shadow", "volume", "--out", "o.png"}).err;
+    EXPECT_NE(said.find("because the ShadowCasterGroup holds no triangles"), std::string::npos) << said;
+}
+
+/// Three lights at most are relit.
+TEST_F(Gnomonshot, SaysCuresInTheWordsOfItsOptions) {
+    Arguments lights = {scene, "--shadow", "volume", "--out", "o.png"};
+    for (const char* light : {"0,0,1,0", "1,0,1,0", "0,1,1,0", "-1,0,1,0"})
+        lights = lights + Arguments{"--light", light};
+    const std::string said = run(lights).err;
+    EXPECT_NE(said.find("Set BLEND (composite=blend), which takes any number of lights."), std::string::npos) << said;
 }
 
 /// A light of the file's own, from 45°, on for the file's own box only.

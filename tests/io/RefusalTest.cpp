@@ -64,6 +64,9 @@ const Refused refused[] = {
     {ARL_TERRAIN, {"--out"}, "--out needs a value"},
     {ARL_TERRAIN, {"--out", "o.png", "--report", "r"}, "--out and --report exclude each other. Give one of them."},
     {ARL_TERRAIN, {"a.gdal", "b.gdal", "--out", "o.png"}, "\"b.gdal\" is a second elevation model"},
+    {ARL_TERRAIN,
+     {GNOMON_DATA "/jacksboro.vrt", "--out", "o.png"},
+     "jacksboro.vrt\" cannot be read as an elevation model: its name does not say that GDAL is to read it. Give \""},
     {ARL_TERRAIN, {"missing.tif.gdal", "--out", "o.png"}, "there is no file \"missing.tif.gdal\"", false},
     {ARL_TERRAIN, {"small.asc.gdal", "--out", "o.png"}, "no place for the town: 900 m", false},
     {ARL_TERRAIN, {"--out", "nowhere/o.png"}, "nowhere"},
@@ -76,7 +79,12 @@ const Refused refused[] = {
     {GNOMONVIEWER, {}, "no scene file"},
     {GNOMONVIEWER, {"pipe.osgt"}, "\"pipe.osgt\" is a device or a pipe. Give a scene file."},
     {GNOMONVIEWER, {"empty.osgt"}, "\"empty.osgt\" cannot be read as a scene"},
-    {GNOMONVIEWER, {"small.asc"}, "\"small.asc\" cannot be read as a scene"},
+    {GNOMONVIEWER,
+     {"small.asc"},
+     "\"small.asc\" cannot be read as a scene: by its name it is an elevation model. Use arl_terrain "
+     "\"small.asc.gdal\"."},
+    {GNOMONVIEWER, {GNOMON_DATA "/jacksboro.vrt"}, "/jacksboro.vrt.gdal\"."},
+    {GNOMONVIEWER, {GNOMON_DATA "/jacksboro.vrt.gdal"}, "/jacksboro.vrt.gdal\".", false},
     {GNOMONVIEWER, {scene, "--samples=0"}, "--samples 0 cannot be used. Allowed: a whole number from 1 to 16."},
     {GNOMONRUN, {}, "no program is given"},
     {GNOMONRUN, {"true"}, "\"true\" stands before --."},
@@ -122,6 +130,12 @@ TEST(Programs, SayInOneSentenceWhatTheyCannotDo) {
     }
     for (const std::string display : {"nonsense", ":9999"})
         EXPECT_EQ(runProgram("env", {"DISPLAY=" + display, GNOMONVIEWER, scene}, folder.path()).status, 1) << display;
+}
+
+TEST(Programs, SayBeforeTheyOpenAWindowThatALightIsBelowTheGround) {
+    const TemporaryFolder folder;
+    const Ending ending = runProgram("env", {"DISPLAY=", GNOMONVIEWER, scene, "--light", "0,0,-1,0"}, folder.path());
+    EXPECT_EQ(ending.err.find("gnomonviewer: note: the light 0,0,-1,0 does not stand above the ground"), 0u);
 }
 
 TEST(Programs, HelpNamesOptionsWithDefaultsAndKeys) {
@@ -368,7 +382,8 @@ TEST_F(BadInput, OptionsThatDoNotFit) {
         {{"--shadow", "planar", "--receiver", "roof"},
          "no node is named \"roof\" to receive the shadow. Names in the scene: lab8, ground, sphere, cube. Give one of "
          "them as receiver=NAME."},
-        {{"--casters", "roof"}, "--casters: no node is named \"roof\". Allowed: all, none, or a node's name."},
+        {{"--casters", "roof"},
+         "--casters: no node is named \"roof\". Allowed: all, none, or a node's name: lab8, ground, sphere, cube."},
         {nineLights, "--light is given more than 8 times. Allowed: 1 to 8 lights."},
         {{"--eye", "1,2,3", "--center", "1,2,3"}, "--eye and --center are the same point. Give two different points."},
         {{"--viewup", "0,0,0"}, "--viewup 0,0,0 is not a direction. Give any other vector."},
@@ -413,6 +428,25 @@ TEST_F(BadInput, OptionsThatDoNotFit) {
         EXPECT_EQ(refusal(GNOMONSHOT, arguments, folder), says);
     }
     for (const auto& [arguments, says] : alone) EXPECT_EQ(refusal(GNOMONSHOT, arguments, folder), says);
+}
+
+/// A scene of so many spheres, each with a name; and one without any.
+TEST_F(BadInput, NamesAFewOfManyNodesAndCountsTheOthers) {
+    const auto refusalOfCasters = [this](int spheres) {
+        osg::ref_ptr<osg::Group> all = new osg::Group;
+        for (int i = 0; i < std::max(spheres, 1); ++i) {
+            osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+            geode->addDrawable(new osg::ShapeDrawable(new osg::Sphere(osg::Vec3(), 1.0f)));
+            if (spheres > 0) geode->setName("s" + std::to_string(i));
+            all->addChild(geode);
+        }
+        osgDB::writeNodeFile(*all, (folder.path() / "many.osgt").string());
+        return refusal(GNOMONSHOT, {"many.osgt", "--casters", "roof", "--ground", "none", "--out", "o.png"}, folder);
+    };
+    const std::string start = "--casters: no node is named \"roof\". Allowed: all, none";
+    EXPECT_EQ(refusalOfCasters(0), start + "; no node here has a name.");
+    EXPECT_EQ(refusalOfCasters(13), start + ", or a node's name: s0, s1, s2, s3, s4, s5, s6, s7, s8, s9 and 3 more.");
+    EXPECT_NE(refusalOfCasters(1500).find("s9 and at least 990 more."), std::string::npos);
 }
 
 TEST_F(BadInput, LeavesAFileThatIsThereAsItIs) {

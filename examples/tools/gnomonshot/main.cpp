@@ -211,7 +211,7 @@ public:
     }
 
     std::vector<std::string> diagnose() const { return _setup.diagnose(); }
-    const std::string& note() const { return _setup.note; }
+    std::vector<std::string> notes() const { return _setup.notes(); }
     /// What each light's shadow was drawn by, where that is chosen automatically.
     std::vector<ShadowDecision> decisions() const {
         std::vector<ShadowDecision> result;
@@ -355,7 +355,7 @@ void shoot(const ShotOptions& options) {
     if (!options.stats.empty()) stats.emplace(options.stats);
     if (!options.truth.empty()) truth.emplace(options.truth).requireData();
     Shot shot(options, *readScene(options.view.files, "gnomonshot"));
-    if (!shot.note().empty()) std::cerr << "gnomonshot: note: " << shot.note() << std::endl;
+    for (const std::string& note : shot.notes()) std::cerr << "gnomonshot: note: " << note << std::endl;
     nlohmann::json measured;
     stats ? void(measured = shot.measure()) : shot.draw();
     for (const std::string& cause : shot.diagnose()) std::cerr << "gnomonshot: note: " << cause << std::endl;

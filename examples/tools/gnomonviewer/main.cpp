@@ -48,7 +48,7 @@ std::string viewerHelp() {
 int show(const ViewerOptions& asked) {
     const ViewOptions& options = asked.view;
     SceneSetup setup = setUpScene(options, *readScene(options.files, "gnomonviewer"));
-    if (!setup.note.empty()) std::cerr << "gnomonviewer: note: " << setup.note << std::endl;
+    for (const std::string& note : setup.notes()) std::cerr << "gnomonviewer: note: " << note << std::endl;
     ShadowControls controls(options, setup);
     const osg::ref_ptr<Hud> hud = new Hud([&] { return controls.describe(); });
     const osg::ref_ptr<osgGA::GUIEventHandler> keys = new KeyHandler<ShadowControls>(shadowKeys(), controls, *hud);
