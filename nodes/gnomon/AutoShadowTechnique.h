@@ -20,7 +20,6 @@ class AutoChooser;
 ///
 /// Candidates
 /// - No shadow at all, if none could be seen, or if RELIGHT would change no channel by 2/255.
-/// - PlanarShadowNode, if only flat receivers get shadow.
 /// - TerrainShadowGeode with HULL, if a terrain is named as receiver and does not shadow itself.
 /// - ShadowMapTechnique, with all sizes, numbers of cascades, filters, and hard or smooth edges.
 /// - ShadowVolumeTechnique and TracedShadowTechnique, if no caster is clear in part.

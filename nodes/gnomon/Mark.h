@@ -9,7 +9,6 @@
 #include <osgUtil/RenderLeaf>
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <unordered_set>
 
@@ -25,12 +24,6 @@ class GNOMON_EXPORT Mark : public osg::Referenced {
 public:
     /// Where marks can fall; everything the compositor does is cut to it.
     ScreenRect screenBounds = wholeScreen;
-
-    /// Leaves on which all of the shadow falls, and in whose surfaces no other leaf has any; null: none are known.
-    /// The compositor then cuts the marks to them, and relighting draws them alone.
-    std::shared_ptr<const LeafSet> surfaces;
-    /// True if that cut is enough: the mark need not find out what one sees.
-    bool cutBySurfaces = false;
 
     /// What its fragments say of the pixels that they cover.
     enum class Kind {

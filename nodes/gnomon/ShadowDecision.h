@@ -31,7 +31,7 @@ struct GNOMON_EXPORT ShadowDecision {
     /// in a transparent bin. The shadow on them is drawn apart, by a choice of its own.
     std::string receivers;
     ShadowCandidate chosen; ///< What is drawn.
-    /// Which row of the rule fired: "the cheapest that keeps 1 px: all of the shadow falls on one flat receiver".
+    /// Which row of the rule fired: "the cheapest that keeps 1 px: its volumes have some 16 sides".
     std::string reason;
     bool keepsBudget = true; ///< False if no candidate keeps the error that is asked for.
     unsigned decisions = 0;  ///< How often the candidates have been compared so far, for this light and view.

@@ -27,25 +27,6 @@ const Mesh cube = box({-1.0, -1.0, 0.0}, {1.0, 1.0, 2.0});
 
 View viewFrom(double x) { return perspective({x, -9.0, 7.0}, {-0.5, -0.5, 0.0}, 160, 120); }
 
-/// Chooses as AutoShadowTechnique does, and draws nothing.
-class Asked : public gnomon::ShadowTechnique {
-public:
-    std::vector<osg::ref_ptr<gnomon::Mark>> prepare(const gnomon::ViewFrame& view, const gnomon::ShadowLight& light,
-                                                    const gnomon::Casters& casters) const override {
-        const auto usable = gnomon::lightInScene(light.inGroup, gnomon::SceneFrame(osg::Vec3d()));
-        surfaces = _chooser.choose({view, light, casters, *usable}, {}, {}).surfaces;
-        names.clear();
-        for (const osgUtil::RenderLeaf* leaf : *surfaces) names.insert(gnomon::nameOf(*leaf));
-        return {};
-    }
-
-    mutable std::shared_ptr<const gnomon::LeafSet> surfaces; ///< of the last frame.
-    mutable std::multiset<std::string> names;                ///< of these.
-
-private:
-    mutable gnomon::AutoChooser _chooser;
-};
-
 constexpr int frames = 600;
 constexpr double budget = 1.0; // pixels, of the edge
 constexpr int width = 160, height = 120;
@@ -143,31 +124,7 @@ void fly(const Flight& flight) {
 
 } // namespace
 
-// Each frame would look at all casters and all receivers for them.
-TEST(AutoDecisions, FindTheReceiversOfPlanarOnceWhileNothingMoves) {
-    Scene scene = groundScene({cube}, 8.0, sun);
-    const osg::ref_ptr<Asked> asked = new Asked;
-    scene.addShadow(asked);
-    Camera camera(scene.root, viewFrom(-7.0));
-    const auto found = [&] {
-        camera.frame();
-        return asked->surfaces;
-    };
-    const auto first = found();
-    EXPECT_EQ(asked->names, std::multiset<std::string>{"ground"});
-    EXPECT_EQ(found(), first);
-    EXPECT_EQ(found(), first);
-    camera.setView(viewFrom(-6.0));
-    const auto moved = found();
-    EXPECT_NE(moved, first) << "another view may see other drawables";
-    EXPECT_EQ(asked->names, std::multiset<std::string>{"ground"});
-    EXPECT_EQ(found(), moved);
-    scene.content->addChild(node(test::moved(square(2.0), {-4.0, 4.0, 0.0}), "carpet"));
-    EXPECT_NE(found(), moved);
-    EXPECT_EQ(asked->names, (std::multiset<std::string>{"carpet", "ground"}));
-}
-
-// The box that is drawn late gets no shadow, and its decision would hide the other.
+// The decision for what is drawn late would hide the other.
 TEST(AutoDecisions, AreToldOfAllKindsOfReceiversAndTheUsualOnesFirst) {
     AutoTrial trial({cube});
     const gnomon::AutoShadowTechnique& technique = *trial.technique;
@@ -185,8 +142,8 @@ TEST(AutoDecisions, AreToldOfAllKindsOfReceiversAndTheUsualOnesFirst) {
             all.push_back(each.subject() + ": " + each.chosen.spec);
         return all;
     };
-    EXPECT_EQ(told(), (std::vector<std::string>{"light 0: planar", "light 0, receivers drawn late: none"}));
-    EXPECT_EQ(technique.lastDecision().back().text().rfind("light 0, receivers drawn late: none, predicted", 0), 0u);
+    EXPECT_EQ(told(), (std::vector<std::string>{"light 0: volume", "light 0, receivers drawn late: volume"}));
+    EXPECT_EQ(technique.lastDecision().back().text().rfind("light 0, receivers drawn late: volume, predicted", 0), 0u);
     add(moved(square(0.5), {-2.5, -1.0, 0.001}))
         ->setAttributeAndModes(new osg::PolygonOffset(1.0f, 1.0f), osg::StateAttribute::ON);
     camera.frame();
@@ -196,7 +153,7 @@ TEST(AutoDecisions, AreToldOfAllKindsOfReceiversAndTheUsualOnesFirst) {
     EXPECT_EQ(technique.lastDecision()[2].receivers, "drawn late");
     trial.scene.content->removeChildren(2, 2); // the box and the carpet
     camera.frame();
-    EXPECT_EQ(told(), std::vector<std::string>{"light 0: planar"}) << "the others are of earlier frames";
+    EXPECT_EQ(told(), std::vector<std::string>{"light 0: volume"}) << "the others are of earlier frames";
 }
 
 TEST(AutoCandidate, OfMapsAloneAMovingViewChangesWhatWasDrawn) {

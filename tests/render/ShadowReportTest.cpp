@@ -125,7 +125,7 @@ TEST(ShadowReport, TellsWhatWasChosenAndWhyAShadowIsMissing) {
     Trial trial(new gnomon::AutoShadowTechnique);
     const ShadowReport report = trial.frame();
     ASSERT_EQ(report.decisions.size(), 1u);
-    EXPECT_EQ(report.decisions.front().chosen.spec, "planar");
+    EXPECT_EQ(report.decisions.front().chosen.spec, "volume");
     EXPECT_EQ(report.technique, "AutoShadowTechnique");
     EXPECT_EQ(report.causes, std::vector<std::string>());
     trial.scene.group->removeChild(trial.scene.content);

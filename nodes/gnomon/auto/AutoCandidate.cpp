@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gnomon/PlanarShadowNode.h>
 #include <gnomon/ShadowMapTechnique.h>
 #include <gnomon/ShadowVolumeTechnique.h>
 #include <gnomon/TerrainShadowGeode.h>
@@ -49,22 +48,15 @@ osg::ref_ptr<ShadowTechnique> make(const AutoCandidate& candidate) {
         terrain->setMethod(TerrainShadowOptions::HULL);
         return terrain;
     }
-    if (candidate.kind == Kind::Map) {
-        osg::ref_ptr<ShadowMapTechnique> map = new ShadowMapTechnique;
-        map->setOptions(candidate.map);
-        return map;
-    }
-    osg::ref_ptr<PlanarShadowNode> planar = new PlanarShadowNode;
-    planar->setPlanes(candidate.planes);
-    return planar;
+    osg::ref_ptr<ShadowMapTechnique> map = new ShadowMapTechnique;
+    map->setOptions(candidate.map);
+    return map;
 }
 
 } // namespace
 
 std::string AutoCandidate::spec() const {
     switch (kind) {
-    case Kind::Planar:
-        return "planar";
     case Kind::Terrain:
         return "hull";
     case Kind::Map:
@@ -105,10 +97,8 @@ ShadowCandidate AutoCandidate::judged(const CostRates& rates, const AutoMotion& 
 osg::ref_ptr<const ShadowTechnique> InnerTechniques::of(const AutoCandidate& candidate, const Selection& receiver,
                                                         unsigned round) {
     if (candidate.kind == Kind::Nothing) return nullptr;
-    Made* made = _made.find([&](const Made& entry) {
-        return entry.candidate.isSame(candidate) && entry.candidate.planes == candidate.planes &&
-               entry.receiver == receiver;
-    });
+    Made* made =
+        _made.find([&](const Made& entry) { return entry.candidate.isSame(candidate) && entry.receiver == receiver; });
     if (!made) {
         made = &_made.add({candidate, receiver, make(candidate), round});
         made->technique->setReceiver(receiver);

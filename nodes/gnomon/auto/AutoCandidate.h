@@ -7,8 +7,6 @@
 #include <gnomon/base/RecentCache.h>
 #include <gnomon/choice/CandidateChoice.h>
 
-#include <osg/Vec4d>
-
 #include <functional>
 #include <string>
 #include <vector>
@@ -24,22 +22,21 @@ struct AutoMotion {
 /// A way to draw a shadow, with what it is expected to come to.
 struct AutoCandidate {
     /// Mixed: simple casters by volume, the others by map, see CasterSplit.
-    enum class Kind { Nothing, Planar, Terrain, Map, Volume, Traced, Mixed };
+    enum class Kind { Nothing, Terrain, Map, Volume, Traced, Mixed };
 
     Kind kind = Kind::Nothing;
     ShadowMapOptions map = {};
-    std::vector<osg::Vec4d> planes = {}; ///< group frame.
-    double error = 0.0;                  ///< pixels.
-    ShadowWork still = {};               ///< in every frame.
-    ShadowWork change = {};              ///< besides, in a frame in which the light or a caster moves.
-    std::string why = {};                ///< the facts that it suits, in a few words.
-    std::string obstacle = {};           ///< why it cannot be used.
+    double error = 0.0;        ///< pixels.
+    ShadowWork still = {};     ///< in every frame.
+    ShadowWork change = {};    ///< besides, in a frame in which the light or a caster moves.
+    std::string why = {};      ///< the facts that it suits, in a few words.
+    std::string obstacle = {}; ///< why it cannot be used.
 
     /// True if it has a map, and with it ShadowMapOptions.
     bool hasMap() const { return kind == Kind::Map || kind == Kind::Mixed; }
     /// Specification string without composite and receiver. "volume+", and that of the map, where both are drawn.
     std::string spec() const;
-    /// True if it is drawn alike, wherever the planes are.
+    /// True if it is drawn alike.
     bool isSame(const AutoCandidate& other) const;
     /// Milliseconds a frame, over many frames.
     double time(const CostRates& rates, const AutoMotion& motion) const;

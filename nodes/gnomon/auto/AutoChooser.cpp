@@ -185,12 +185,11 @@ AutoChooser::Drawn AutoChooser::choose(const AutoView& view, const Selection& re
     Lock lock(_mutex);
     Choice& choice = find(view);
     _idleCulls = 0;
-    _known.flat.reset();
     TimeKeeper* keeper = options.time > 0.0 ? &keeperOf(view.frame.key.stage, options) : nullptr;
     const Seen now = seenIn(view, receiver, keeper ? keeper->error() : usualError(options));
     if (isDue(choice, now, view, receiver) || isOld(choice, now)) decide(choice, now, view, receiver);
     if (choice.candidate.kind != AutoCandidate::Kind::Mixed) _known.splits.forgetOthersThan(view.casters);
-    Drawn drawn{sharesOf(choice.candidate, view, receiver), {}, surfacesOf(choice, now, view), choice.flat.whole};
+    Drawn drawn{sharesOf(choice.candidate, view, receiver), {}};
     for (const std::string& cause : {choice.cause, keeper ? keeper->whyNot() : ""})
         if (!cause.empty()) drawn.causes.push_back(cause);
     return drawn;
@@ -206,19 +205,6 @@ std::vector<AutoChooser::Drawn::Share> AutoChooser::sharesOf(const AutoCandidate
     map.kind = AutoCandidate::Kind::Map;
     return {{_inner.of(volume, receiver, _round), split.simple(view.casters)},
             {_inner.of(map, receiver, _round), split.dense(view.casters)}};
-}
-
-std::shared_ptr<const LeafSet> AutoChooser::surfacesOf(Choice& choice, const Seen& now, const AutoView& view) {
-    if (choice.candidate.kind != AutoCandidate::Kind::Planar) {
-        choice.flatIn.reset();
-        return nullptr;
-    }
-    if (!choice.flatIn || !(now == *choice.flatIn)) {
-        const FlatReceivers& flat = _known.flatIn(view);
-        choice.flat = isRelitAlone(view, flat) ? FlatLeaves(view.frame.seen, flat) : FlatLeaves();
-        choice.flatIn = now;
-    }
-    return choice.flat.in(view.frame.seen);
 }
 
 TimeKeeper& AutoChooser::keeperOf(const void* stage, const AutoShadowOptions& options) {

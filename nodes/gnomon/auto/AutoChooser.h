@@ -29,10 +29,8 @@ public:
             osg::ref_ptr<const ShadowTechnique> technique;
             osg::ref_ptr<const Casters> casters;
         };
-        std::vector<Share> shares;               ///< empty: no shadow is drawn.
-        std::vector<std::string> causes;         ///< for ShadowTechnique::report(): the budget cannot be kept.
-        std::shared_ptr<const LeafSet> surfaces; ///< see Mark::surfaces.
-        bool cutBySurfaces = false;              ///< see Mark.
+        std::vector<Share> shares;       ///< empty: no shadow is drawn.
+        std::vector<std::string> causes; ///< for ShadowTechnique::report(): the budget cannot be kept.
     };
     Drawn choose(const AutoView& view, const Selection& receiver, const AutoShadowOptions& options);
 
@@ -71,19 +69,16 @@ private:
         std::string cause;      ///< see Drawn.
         double triangles = 0.0; ///< of the casters, when the candidates were compared.
         unsigned lastRound = 0;
-        unsigned frames = 0;        ///< since the candidates were compared.
-        unsigned seen = 0;          ///< frames that could be held against one before.
-        unsigned since = 0;         ///< frames since things began to move after a rest.
-        AutoMotion moving;          ///< of the recent frames.
-        AutoMotion movingThen;      ///< when the candidates were compared.
-        FlatLeaves flat;            ///< that relighting draws alone,
-        std::optional<Seen> flatIn; ///< and what they were found for.
+        unsigned frames = 0;   ///< since the candidates were compared.
+        unsigned seen = 0;     ///< frames that could be held against one before.
+        unsigned since = 0;    ///< frames since things began to move after a rest.
+        AutoMotion moving;     ///< of the recent frames.
+        AutoMotion movingThen; ///< when the candidates were compared.
     };
     Choice& find(const AutoView& view);
     Seen seenIn(const AutoView& view, const Selection& receiver, double error) const;
     TimeKeeper& keeperOf(const void* stage, const AutoShadowOptions& options);
     std::vector<Drawn::Share> sharesOf(const AutoCandidate& candidate, const AutoView& view, const Selection& receiver);
-    std::shared_ptr<const LeafSet> surfacesOf(Choice& choice, const Seen& now, const AutoView& view);
     bool isDue(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);
     bool isOld(const Choice& choice, const Seen& now) const;
     void decide(Choice& choice, const Seen& now, const AutoView& view, const Selection& receiver);

@@ -65,17 +65,11 @@ std::vector<osg::ref_ptr<Mark>> AutoShadowTechnique::prepare(const ViewFrame& vi
     }
     const AutoChooser::Drawn drawn = _chooser->choose({view, light, casters, *usable}, getReceiver(), _options);
     for (const std::string& cause : drawn.causes) report(view.frameNumber, cause);
-    ViewFrame here = view;
-    here.groupFromTechnique = osg::Matrixd(); // planes are the group's
     std::vector<osg::ref_ptr<Mark>> marks;
     for (const auto& [technique, part] : drawn.shares) {
         technique->beginFrame(view.frameNumber, view.frameTime, view.key.stage);
-        for (const osg::ref_ptr<Mark>& mark : technique->prepare(here, light, *part)) marks.push_back(mark);
+        for (const osg::ref_ptr<Mark>& mark : technique->prepare(view, light, *part)) marks.push_back(mark);
         for (const std::string& cause : causesOf(*technique)) report(view.frameNumber, cause);
-    }
-    for (const osg::ref_ptr<Mark>& mark : marks) {
-        mark->surfaces = drawn.surfaces;
-        mark->cutBySurfaces = drawn.surfaces && drawn.cutBySurfaces;
     }
     return marks;
 }

@@ -86,13 +86,14 @@ bool isMoreThanWhite(const osg::Material& material) {
     return false;
 }
 
-} // namespace
-
+/// True if what is drawn so shows no more of a light than the light gives: by OpenGL's own lighting.
 bool isShadedByOpenGl(const osgUtil::StateGraph* graph) {
     if (!isOn(graph, GL_LIGHTING) || resolvedAttribute(graph, osg::StateAttribute::PROGRAM)) return false;
     const auto* material = resolved<osg::Material>(graph, osg::StateAttribute::MATERIAL);
     return !material || !isMoreThanWhite(*material);
 }
+
+} // namespace
 
 /// Shadows of lights that are fainter may fall on the same place, and are left out, too.
 bool isFaint(const AutoView& view) {
@@ -108,10 +109,10 @@ bool isFaint(const AutoView& view) {
                        [](const osgUtil::RenderLeaf* leaf) { return isShadedByOpenGl(leaf->_parent); });
 }
 
-std::string whyCoarse(const AutoView& view, double steps) {
+std::string whyCoarse(const AutoView& view) {
     const std::vector<const osgUtil::RenderLeaf*> none;
     const LitView lit{*view.frame.group, view.light, view.casters, none, view.frame.eyeFromGroup};
-    const DepthPixels pixels{view.frame.pixels, steps};
+    const DepthPixels pixels{view.frame.pixels, 1.0};
     if (!reachesCoarseDepth(lit, view.frame.projection, pixels)) return {};
     const std::string name = coarselyPlaced(lit, view.frame.projection, pixels);
     return name.empty() ? "" : "depths are too coarse at '" + name + "'";

@@ -33,11 +33,8 @@ constexpr double leastContrast = 2.0 / 255.0;
 /// steps of any channel.
 bool isFaint(const AutoView& view);
 
-/// True if what is drawn so shows no more of a light than the light gives: by OpenGL's own lighting.
-bool isShadedByOpenGl(const osgUtil::StateGraph* graph);
-
-/// Why depths do not tell where casters' shadows fall; empty if they do. @param steps  see Mark::depthSteps().
-std::string whyCoarse(const AutoView& view, double steps);
+/// Why depths do not tell where casters' shadows fall; empty if they do.
+std::string whyCoarse(const AutoView& view);
 
 /// Why casters need a technique that knows their textures; empty if they do not.
 std::string whyCutOut(const Casters& casters);

@@ -18,12 +18,6 @@
 #include <optional>
 
 namespace gnomon {
-
-const FlatReceivers& AutoKnowledge::flatIn(const AutoView& view) {
-    if (!flat) flat = findFlatReceivers(view, shapes);
-    return *flat;
-}
-
 namespace {
 
 using Map = ShadowMapOptions;
@@ -64,12 +58,12 @@ std::string whyNotTraced(const Casters& casters) {
     return hasPart(OptionalPart::Traced) ? whyCutOut(casters) : "this build has no Embree";
 }
 
-/// True if it finds the place of a shadow by the depths of what is seen. FlatReceivers asks for itself.
-bool needsDepths(Kind kind) { return kind != Kind::Nothing && kind != Kind::Planar && kind != Kind::Traced; }
+/// True if it finds the place of a shadow by the depths of what is seen.
+bool needsDepths(Kind kind) { return kind != Kind::Nothing && kind != Kind::Traced; }
 
 /// Why rays alone tell where shadows fall; empty if others do, too, or if rays cannot be had.
 std::string whyOnlyRays(const AutoView& view) {
-    return whyNotTraced(view.casters).empty() && view.casters.own.empty() ? whyCoarse(view, 1.0) : "";
+    return whyNotTraced(view.casters).empty() && view.casters.own.empty() ? whyCoarse(view) : "";
 }
 
 /// Of meshes whose parts are no boxes: each triangle may be on an outline.
@@ -134,16 +128,10 @@ public:
         _one = forecast(*_boxes, 1, sizes[0]);
         _result.nothing = whyNothing();
         if (!_result.nothing.empty()) return only();
-        const FlatReceivers& flat = _known.flatIn(_view);
-        if (flat.nothing()) {
-            _result.nothing = "no receiver in sight gets any shadow";
-            return only();
-        }
         measure();
         const MapEdges edges(_view, *_boxes, _one);
         _widths = edges.in(_one);
         _sampled = _widths->empty() ? sampledEdge : _widths->usual(usualShare, sampledError);
-        addPlanar(flat);
         addTerrain();
         addMaps(edges);
         addVolume();
@@ -188,30 +176,6 @@ private:
         _compose.filled += relitAnew * _pixels;
         _compose.relit = trianglesWithin(_view.frame.seen, *_one.bounds);
         _compose.calls += callsALeaf * double(_view.frame.seen.size());
-    }
-
-    /// What is left of measure() if these leaves alone are drawn again; see Mark::surfaces.
-    void relightAlone(const LeafSet& leaves, ShadowWork& work) const {
-        work.relit = trianglesWithin({leaves.begin(), leaves.end()}, *_one.bounds);
-        work.calls -= callsToRelight + callsALeaf * double(_view.frame.seen.size() - leaves.size());
-        work.filled -= relitAnew * _pixels;
-    }
-
-    void addPlanar(const FlatReceivers& flat) {
-        AutoCandidate planar;
-        planar.kind = Kind::Planar;
-        planar.planes = flat.planes;
-        planar.obstacle = flat.obstacle;
-        planar.why = flat.planes.size() == 1 ? "all of the shadow falls on one flat receiver"
-                                             : "all of the shadow falls on flat receivers";
-        planar.error = _sampled;
-        const double planes = std::max(1.0, double(flat.planes.size()));
-        planar.still = _compose;
-        if (isRelitAlone(_view, flat)) relightAlone(flat.leaves, planar.still);
-        planar.still.calls += 2.0 * planes;
-        planar.still.triangles = planes * _casters;
-        planar.still.texels = _pixels; // stencil and depth alone, as in a map
-        _result.all.push_back(planar);
     }
 
     void addTerrain() {
@@ -386,10 +350,7 @@ std::string whyWrong(const AutoCandidate& candidate, const AutoView& view, const
     if (candidate.kind == Kind::Mixed && !known.splits.of(view.casters).isDivided())
         return "all casters are of one kind";
     if (candidate.kind == Kind::Volume || candidate.kind == Kind::Traced) return whyCutOut(view.casters);
-    if (candidate.kind != Kind::Planar) return {};
-    const FlatReceivers& flat = known.flatIn(view);
-    if (!flat.obstacle.empty()) return flat.obstacle;
-    return flat.planes == candidate.planes ? "" : "other flat receivers are in sight";
+    return {};
 }
 
 } // namespace gnomon

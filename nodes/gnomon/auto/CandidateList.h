@@ -2,10 +2,8 @@
 #pragma once
 #include <gnomon/auto/AutoCandidate.h>
 #include <gnomon/auto/CandidateFacts.h>
-#include <gnomon/auto/FlatReceivers.h>
 #include <gnomon/volume/VolumeForecast.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,14 +11,9 @@ namespace gnomon {
 
 /// What is known of a group's casters and receivers, from earlier decisions.
 struct AutoKnowledge {
-    CasterShapes shapes;
     TerrainKnowledge terrain;
     CasterSplits splits;
     OpenCasters open;
-    std::optional<FlatReceivers> flat; ///< of the view that is asked about now; nullopt: nobody has looked for them.
-
-    /// Looks for them unless that was done.
-    const FlatReceivers& flatIn(const AutoView& view);
 };
 
 /// All that could draw one light's shadow in a view.

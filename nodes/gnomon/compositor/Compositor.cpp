@@ -5,7 +5,6 @@
 #include <gnomon/compositor/PrepassBin.h>
 
 #include <algorithm>
-#include <deque>
 
 namespace gnomon {
 namespace {
@@ -19,13 +18,6 @@ std::vector<Jobs> byView(const Jobs& jobs) {
         (view == views.end() ? views.emplace_back() : *view).push_back(job);
     }
     return views;
-}
-
-/// A job that knows where its shadow falls, as if those leaves were its named receiver.
-ShadowJob onItsSurfaces(ShadowJob job) {
-    job.receiverNamed = true;
-    job.receivers = job.mark->surfaces;
-    return job;
 }
 
 } // namespace
@@ -52,11 +44,8 @@ void Compositor::compose(const std::vector<ShadowJob>& jobs, const std::vector<o
     };
     Jobs relit;
     std::map<float, Jobs> blended;
-    std::deque<ShadowJob> onSurfaces;
-    for (const ShadowJob& given : jobs) {
-        if (given.programMark()) continue;
-        const bool cut = given.mark->surfaces && !given.receiverNamed;
-        const ShadowJob& job = cut ? onSurfaces.emplace_back(onItsSurfaces(given)) : given;
+    for (const ShadowJob& job : jobs) {
+        if (job.programMark()) continue;
         if (job.relight)
             relit.push_back(&job);
         else if (job.dark < 1.0f) // a factor of 1 changes nothing
@@ -142,12 +131,12 @@ void Compositor::blendInstead(const Jobs& jobs, std::map<float, Jobs>& blended, 
 bool Compositor::composeDirectly(const Jobs& wanted) {
     const ShadowJob& job = *wanted.front();
     if (wanted.size() > 1 || !job.receiverNamed) return false;
-    const bool relit = job.relight, apart = job.mark->surfaces != nullptr;
+    const bool relit = job.relight;
     const ScreenRect& bounds = job.mark->screenBounds;
     std::vector<ReplayedLeaf> leaves = leavesToReplay(_draw, wanted, bounds);
     PlainTest plain;
     const auto other = [&job](const ReplayedLeaf& leaf) { return !job.isNamed(leaf.entry.leaf); };
-    const auto unfit = [&](const ReplayedLeaf& leaf) { return (other(leaf) && !apart) || !plain(*leaf.entry.leaf); };
+    const auto unfit = [&](const ReplayedLeaf& leaf) { return other(leaf) || !plain(*leaf.entry.leaf); };
     if (relit && std::any_of(leaves.begin(), leaves.end(), unfit)) return false;
     if (!relit && (isModeOn(_draw.leaves, GL_COLOR_LOGIC_OP) || !notOfView(job, _draw.leaves).empty())) return false;
     leaves.erase(std::remove_if(leaves.begin(), leaves.end(), other), leaves.end());

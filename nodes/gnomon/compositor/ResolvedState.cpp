@@ -99,11 +99,6 @@ osg::Vec2d polygonOffsetOf(const osgUtil::StateGraph* graph) {
     return {offset->getFactor(), offset->getUnits()};
 }
 
-bool isPulledForward(const osgUtil::StateGraph* graph) {
-    const osg::Vec2d offset = polygonOffsetOf(graph);
-    return offset.x() < 0.0 || offset.y() < 0.0;
-}
-
 DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph) {
     DepthPlacement placement;
     if (const auto* depth = resolved<osg::Depth>(graph, osg::StateAttribute::DEPTH)) {

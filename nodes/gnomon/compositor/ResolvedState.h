@@ -56,7 +56,4 @@ DepthPlacement depthPlacementOf(const osgUtil::StateGraph* graph);
 /// positive. Zeros where none is on.
 osg::Vec2d polygonOffsetOf(const osgUtil::StateGraph* graph);
 
-/// True if a polygon offset brings what is drawn so nearer to the eye.
-bool isPulledForward(const osgUtil::StateGraph* graph);
-
 } // namespace gnomon

@@ -46,7 +46,7 @@ struct ShadowJob {
     float dark = 1.0f;
     osg::ref_ptr<const osg::RefMatrix> projection; ///< of the technique's view.
     bool receiverNamed = false;                    ///< only `receivers` lose the light.
-    std::shared_ptr<const LeafSet> receivers;      ///< see ViewFrame, or Mark::surfaces.
+    std::shared_ptr<const LeafSet> receivers;      ///< see ViewFrame.
     bool hidingOnly = false; ///< a receiver loses the light only where it hides what is behind, see LateReceivers.
     std::vector<LightUniform> lightUniforms; ///< of the group.
 

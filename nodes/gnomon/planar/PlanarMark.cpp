@@ -46,7 +46,7 @@ bool PlanarMark::canReach(const osgUtil::RenderLeaf& leaf) const {
 std::string PlanarMark::draw(ScreenPass& pass) const {
     if (!cures.offset) fightReceiver();
     const bool drawn = drawParts(pass.renderInfo());
-    if (cutToPlane && !cutBySurfaces) cut(pass);
+    if (cutToPlane) cut(pass);
     if (!cures.stencil) darkenEach(pass);
     return drawn ? "" : noProgram;
 }

@@ -49,11 +49,6 @@ const std::vector<ShadowCandidate>& Forecasts::candidates(const Way& way) {
     return known->second;
 }
 
-/// Where planar could draw all of the shadow.
-bool Forecasts::isAllOnPlanes(bool blends) {
-    return candidateOf(candidates({blends, Receives::EVERYTHING}), parseShadowSpec("planar")) != nullptr;
-}
-
 std::optional<ChartPrediction> Forecasts::of(const Contender& contender) {
     const std::string* text = specOf(contender);
     if (!text) return std::nullopt;
@@ -62,7 +57,7 @@ std::optional<ChartPrediction> Forecasts::of(const Contender& contender) {
     const ShadowCandidate* found = candidateOf(candidates({blends, contender.receives}), spec);
     if (!found) return std::nullopt;
     ChartPrediction result{found->spec, std::nullopt, {found->spec, found->flying}, {found->spec, found->moving}};
-    if (contender.receives == Receives::EVERYTHING || isAllOnPlanes(blends)) result.error = found->error;
+    if (contender.receives == Receives::EVERYTHING) result.error = found->error;
     return result;
 }
 

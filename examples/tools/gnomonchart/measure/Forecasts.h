@@ -16,8 +16,7 @@ namespace gnomon::examples {
 /// What auto's model expects of fixed settings in one scene: auto draws it with the same composite and receiver, and its
 /// candidates are asked for.
 ///
-/// The chart measures the shadow on everything. So an error is expected of a setting that names its receiver only if nothing
-/// else gets shadow, as far as auto can tell.
+/// The chart measures the shadow on everything. So no error is expected of a setting that names its receiver.
 ///
 /// Cost  a fresh viewer and two frames for each composite and receiver; the first ever measures the renderer besides.
 class Forecasts {
@@ -30,7 +29,6 @@ public:
 private:
     using Way = std::pair<bool, Receives>; ///< whether it blends, and what receives.
     const std::vector<ShadowCandidate>& candidates(const Way& way);
-    bool isAllOnPlanes(bool blends);
 
     const ChartScene& _scene;
     std::map<Way, std::vector<ShadowCandidate>> _candidates;
