@@ -181,6 +181,31 @@ TEST_F(Gnomoncompare, TooMuchDroppedIsSaid) {
     EXPECT_EQ(numbers()["pixels"]["sound"], false);
 }
 
+/// Two halves of the ground are of two greys, and A is drawn from a place d px aside: of 128 columns d are brighter than in B.
+/// Then a truth without the ground of as many columns that are in shadow in A.
+TEST_F(Gnomoncompare, PicturesOfAnotherViewAreToldWhereTheyCanBe) {
+    const auto saidFrom = [&](int aside) {
+        saveAll(perfect());
+        const auto drawn = [](int edge) { return [edge](int x, int) { return x < edge ? 1.0 : 0.5; }; };
+        save(*floats(gnomon::test::picture(128, 96, drawn(90 + aside))), "a.tif");
+        save(*floats(gnomon::test::picture(128, 96, drawn(90))), "b.tif");
+        return run({"--shadowed", "s.tif"}).err;
+    };
+    const std::string start =
+                          "gnomoncompare: note: these numbers mean nothing, because A is brighter than B, or differs "
+                          "from it where the truth has no surface, at ",
+                      ending = " % of the pixels; draw A, B and the truth with one camera and light.\n";
+    EXPECT_EQ(saidFrom(0), "");
+    EXPECT_EQ(saidFrom(1), "") << "0.8 % of the pixels";
+    EXPECT_EQ(saidFrom(8), start + "6" + ending);
+    EXPECT_EQ(saidFrom(-8), "") << "darker, as in a false shadow: nobody can tell";
+    TruthMaps holed = BoxOnGround().truth();
+    for (int x = 40; x < 70; ++x)
+        for (int y = 32; y < 64; ++y) holed.receiver.at(x, y) = 0;
+    saveAll(perfect(), holed); // 30 * 32 of 128 * 96 pixels
+    EXPECT_NE(run({"--shadowed", "s.tif"}).err.find(start + "8" + ending), std::string::npos);
+}
+
 TEST_F(Gnomoncompare, WhatIsTurnedAwayFromTheLightIsDarkAndNotWithoutANumber) {
     TruthMaps truth = BoxOnGround().truth();
     truth.facing.at(110, 80) = -0.5;
@@ -203,6 +228,7 @@ TEST_F(Gnomoncompare, JudgesPicturesOfGnomonshotByTheTruthThatGnomonshotWrites) 
     };
     shoot({"1,-1,2,0", "--shadow", "traced", "--out", "a.tif", "--truth", "t.osgb"});
     shoot({"1,-1,2,0", "--casters", "none", "--shadow", "traced", "--out", "b.tif"});
+    EXPECT_EQ(run({}).err, "");
     const json right = numbers();
     EXPECT_LE(right["awayFromEdges"]["misclassified"].get<double>(), 1e-4);
     EXPECT_GT(right["awayFromEdges"]["pixels"].get<int>(), 20000);
@@ -210,6 +236,14 @@ TEST_F(Gnomoncompare, JudgesPicturesOfGnomonshotByTheTruthThatGnomonshotWrites) 
     EXPECT_TRUE(right["pixels"]["sound"]);
     shoot({"1,-1,1.6,0", "--shadow", "traced", "--out", "a.tif"});
     EXPECT_GT(numbers()["boundaryPixels"]["p95"].get<double>(), 2.0) << "under another light";
+    EXPECT_NE(run({}).err.find("these numbers mean nothing"), std::string::npos) << "A's sides are brighter than B's";
+    const Ending elsewhere =
+        runProgram(GNOMONSHOT,
+                   {GNOMON_DATA "/lab8.osgt", "--ambient", "0", "--size", "400x300", "--eye", "-1,-3.2,2.0", "--center",
+                    "-0.15,0.1,0.1", "--light", "1,-1,2,0", "--out", "a.tif"},
+                   folder.path());
+    EXPECT_EQ(elsewhere.status, 0) << elsewhere.err;
+    EXPECT_NE(run({}).err.find("these numbers mean nothing"), std::string::npos);
 }
 
 TEST_F(Gnomoncompare, RefusesFilesThatAreMissingOrDamagedOrOfOtherSizes) {

@@ -8,6 +8,7 @@
 
 #include <metrics/CauseSplit.h>
 
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -110,6 +111,10 @@ std::string compareHelp() {
            "to the light). Optional: drawn (id), litByDisc, blocker (id), edgeLength (metres), x, y, z (metres), and "
            "the\n"
            "user values towardsLight and up.\n\n"
+           "LIMITS\nPictures and truth must be of one view of one scene in one light. It is told where they cannot "
+           "be:\n"
+           "where A is brighter than B, or differs from it where the truth has no surface. Another view of the same\n"
+           "even ground cannot be told from wrong shadows.\n\n"
            "Example: gnomoncompare --casting on.tif --not-casting off.tif --truth t.osgb --overlay errors.png\n";
 }
 
@@ -128,15 +133,35 @@ void requireSize(const metrics::Picture& first, const CompareOptions& options, c
                              " px. Give files of one size.");
 }
 
-metrics::Visibility readVisibility(const CompareOptions& options) {
-    const metrics::Picture casting = readGrey(options.casting, program);
-    const metrics::Picture notCasting = readGrey(options.notCasting, program);
-    requireSize(casting, options, notCasting, options.notCasting);
-    metrics::Picture shadowed(casting.width, casting.height, options.ambient);
-    if (!options.shadowed.empty()) shadowed = readGrey(options.shadowed, program);
-    requireSize(casting, options, shadowed, options.shadowed);
-    return metrics::visibility(casting, notCasting, shadowed);
+/// A, B and S, of one size.
+struct Pictures {
+    metrics::Picture casting, notCasting, shadowed;
+};
+
+Pictures readPictures(const CompareOptions& options) {
+    Pictures result;
+    result.casting = readGrey(options.casting, program);
+    result.notCasting = readGrey(options.notCasting, program);
+    requireSize(result.casting, options, result.notCasting, options.notCasting);
+    result.shadowed = metrics::Picture(result.casting.width, result.casting.height, options.ambient);
+    if (!options.shadowed.empty()) result.shadowed = readGrey(options.shadowed, program);
+    requireSize(result.casting, options, result.shadowed, options.shadowed);
+    return result;
 }
+
+/// Share of the pixels where no shadow can be what A and B differ by: A is brighter, or the truth has no surface there.
+double strangeShare(const Pictures& pictures, const metrics::TruthMaps& truth) {
+    std::size_t strange = 0;
+    for (std::size_t i = 0; i < truth.receiver.cells.size(); ++i) {
+        const double brighter = pictures.casting.cells[i] - pictures.notCasting.cells[i];
+        strange += brighter > metrics::leastContrast ||
+                   (truth.receiver.cells[i] == 0 && std::abs(brighter) > metrics::leastContrast);
+    }
+    return double(strange) / double(truth.receiver.cells.size());
+}
+
+/// Pictures of one view have next to none; a view from elsewhere has some percent.
+constexpr double mostStrange = 0.01;
 
 metrics::ShadowMetrics measure(const metrics::Visibility& visibility, const metrics::TruthMaps& truth,
                                const CompareOptions& options) {
@@ -152,10 +177,16 @@ void compare(const CompareOptions& options) {
     std::optional<OutputFile> overlay, json;
     if (!options.overlay.empty()) overlay.emplace(options.overlay).requireImage();
     if (!options.json.empty()) json.emplace(options.json);
-    const metrics::Visibility visibility = readVisibility(options);
+    const Pictures pictures = readPictures(options);
+    const metrics::Visibility visibility =
+        metrics::visibility(pictures.casting, pictures.notCasting, pictures.shadowed);
     const metrics::TruthMaps truth = readTruth(options.truth, program);
     const metrics::ShadowMetrics result = measure(visibility, truth, options);
     std::cout << reportText(result);
+    if (const double strange = strangeShare(pictures, truth); strange > mostStrange)
+        std::cerr << program << ": note: these numbers mean nothing, because A is brighter than B, or differs from it "
+                  << "where the truth has no surface, at " << std::lround(100.0 * strange)
+                  << " % of the pixels; draw A, B and the truth with one camera and light." << std::endl;
     if (!result.sound)
         std::cerr << program << ": note: more than 5 % of the surface is dropped. Do not trust these numbers."
                   << std::endl;
