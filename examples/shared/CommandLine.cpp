@@ -67,8 +67,6 @@ void takeOne(osg::ArgumentParser& arguments, const Option& option, int position)
     option.take("");
 }
 
-} // namespace
-
 std::vector<std::string> valuesApart(const std::vector<std::string>& words) {
     std::vector<std::string> result;
     for (const std::string& word : words) {
@@ -79,11 +77,19 @@ std::vector<std::string> valuesApart(const std::vector<std::string>& words) {
     return result;
 }
 
-bool sayVersion(const std::string& program, const std::vector<std::string>& words) {
-    if (std::find(words.begin(), words.end(), "--version") == words.end()) return false;
-    std::cout << program << " " << GNOMON_VERSION << std::endl;
-    return true;
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    return pointers;
 }
+
+} // namespace
+
+CommandWords::CommandWords(const std::vector<std::string>& given)
+    : _words(valuesApart(given)),
+      _pointers(pointersTo(_words)),
+      _count(static_cast<int>(_words.size())),
+      _arguments(&_count, _pointers.data()) {}
 
 void findOwnPlugins() {
     Dl_info library{};
@@ -91,16 +97,14 @@ void findOwnPlugins() {
     osgDB::Registry::instance()->getLibraryFilePathList().push_front(osgDB::getFilePath(library.dli_fname));
 }
 
-int runProgram(const char* name, int argc, char** argv, int (*run)(osg::ArgumentParser& arguments)) {
+int runProgram(const char* name, const std::vector<std::string>& given,
+               const std::function<int(osg::ArgumentParser& arguments)>& run) {
     try {
         findOwnPlugins();
-        std::vector<std::string> words = valuesApart({argv, argv + argc});
-        if (sayVersion(name, words)) return 0;
-        std::vector<char*> pointers;
-        for (std::string& word : words) pointers.push_back(word.data());
-        argc = static_cast<int>(pointers.size());
-        osg::ArgumentParser arguments(&argc, pointers.data());
-        return run(arguments);
+        CommandWords words(given);
+        if (words.arguments().find("--version") < 0) return run(words.arguments());
+        std::cout << name << " " << GNOMON_VERSION << std::endl;
+        return 0;
     } catch (const std::exception& error) {
         std::cout << std::flush;
         std::cerr << name << ": " << error.what() << std::endl;

@@ -23,13 +23,30 @@ struct Option {
 
 using Options = std::vector<Option>;
 
-/// "--size=8x6" as "--size" and "8x6"; all else as it is.
-std::vector<std::string> valuesApart(const std::vector<std::string>& words);
-/// Prints the program's name and version if --version stands there. @return whether it does.
-bool sayVersion(const std::string& program, const std::vector<std::string>& words);
+/// Words of a command line, the program's name first, for OpenSceneGraph's parser: "--size=8x6" as "--size" and "8x6".
+class CommandWords {
+public:
+    explicit CommandWords(const std::vector<std::string>& given);
+    CommandWords(const CommandWords&) = delete;
+    CommandWords& operator=(const CommandWords&) = delete;
 
-/// What main() returns: what `run` returns, or 1 after one sentence on standard error if it throws.
-int runProgram(const char* name, int argc, char** argv, int (*run)(osg::ArgumentParser& arguments));
+    /// What is left of them.
+    osg::ArgumentParser& arguments() { return _arguments; }
+
+private:
+    std::vector<std::string> _words;
+    std::vector<char*> _pointers; ///< into _words.
+    int _count;
+    osg::ArgumentParser _arguments; ///< of the pointers and their count.
+};
+
+/// What main() returns: what `run` returns, or 1 after one sentence on standard error if it throws. Prints the version instead
+/// if that is asked for.
+int runProgram(const char* name, const std::vector<std::string>& words,
+               const std::function<int(osg::ArgumentParser& arguments)>& run);
+inline int runProgram(const char* name, int argc, char** argv, int (*run)(osg::ArgumentParser& arguments)) {
+    return runProgram(name, {argv, argv + argc}, run);
+}
 
 /// Has OpenSceneGraph find Gnomon's plugins beside Gnomon's library, wherever that is installed. runProgram() calls it.
 void findOwnPlugins();

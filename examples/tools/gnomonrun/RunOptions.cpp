@@ -39,13 +39,8 @@ RunOptions::RunOptions() {
     view.keepLights = true;
 }
 
-RunOptions readRunOptions(const std::vector<std::string>& given) {
+RunOptions readRunOptions(osg::ArgumentParser& arguments) {
     RunOptions options;
-    std::vector<std::string> words = valuesApart(given);
-    std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
-    int count = static_cast<int>(pointers.size());
-    osg::ArgumentParser arguments(&count, pointers.data());
     readOptions(arguments, runOptions(options));
     refuseUnknownOptions(arguments);
     if (options.help) return options;

@@ -34,7 +34,7 @@ constexpr const char* metScene = "scene";
 constexpr const char* metFrame = "frame";
 
 /// @throws std::invalid_argument, one sentence that names what is wrong and what is allowed.
-RunOptions readRunOptions(const std::vector<std::string>& arguments);
+RunOptions readRunOptions(osg::ArgumentParser& arguments);
 
 /// Options as one text, and back.
 std::string joined(const std::vector<std::string>& arguments);

@@ -86,7 +86,7 @@ void preload() {
 }
 
 /// @return its exit status; `signalled` + signal if one ended it.
-int runProgram(const Words& command, const Words& options, const ReportFile& report) {
+int runWithLibrary(const Words& command, const Words& options, const ReportFile& report) {
     preload();
     const pid_t id = fork();
     if (id < 0) throw std::runtime_error(std::string("no process can be started: ") + std::strerror(errno) + ".");
@@ -119,18 +119,14 @@ std::string whyUnreached(const std::string& program, int status, const std::set<
 
 int run(const Words& options, const Words& command) {
     const ReportFile report;
-    const int status = runProgram(command, options, report);
+    const int status = runWithLibrary(command, options, report);
     const std::string cause = status == notStarted ? "" : whyUnreached(command.front(), status, report.lines());
     if (!cause.empty()) std::cerr << "gnomonrun: " << cause << std::endl;
     return status == 0 && !cause.empty() ? 1 : status;
 }
 
-int start(const Words& words) {
-    const auto border = std::find(words.begin(), words.end(), "--");
-    const Words options(words.begin(), border);
-    const Words command(border == words.end() ? border : border + 1, words.end());
-    if (sayVersion("gnomonrun", options)) return 0;
-    const RunOptions read = readRunOptions(options);
+int start(osg::ArgumentParser& arguments, const Words& options, const Words& command) {
+    const RunOptions read = readRunOptions(arguments);
     if (read.help) {
         std::cout << runHelp();
         return 0;
@@ -146,10 +142,9 @@ int start(const Words& words) {
 } // namespace
 
 int main(int argc, char** argv) {
-    try {
-        return start(Words(argv, argv + argc));
-    } catch (const std::exception& error) {
-        std::cerr << "gnomonrun: " << error.what() << std::endl;
-        return 1;
-    }
+    const Words words(argv, argv + argc);
+    const auto border = std::find(words.begin(), words.end(), "--");
+    const Words options(words.begin(), border), command(border == words.end() ? border : border + 1, words.end());
+    const auto run = [&](osg::ArgumentParser& arguments) { return start(arguments, options, command); };
+    return gnomon::examples::runProgram("gnomonrun", options, run);
 }

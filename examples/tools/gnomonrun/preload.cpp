@@ -104,7 +104,9 @@ public:
         static ProgramRun* const run = []() -> ProgramRun* {
             const char* options = std::getenv(optionsVariable);
             // never deleted: viewers may outlive what is static
-            return options ? new ProgramRun(readRunOptions(separated(options))) : nullptr;
+            if (!options) return nullptr;
+            CommandWords words(separated(options));
+            return new ProgramRun(readRunOptions(words.arguments()));
         }();
         return run;
     }
